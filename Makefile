@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+# The two commands to know: `make demo` and `make test`. JOBS=N sets how many compilers run at once.
+JOBS ?= $(shell nproc)
+HALLWAY := build/release/bin/hallway
+
+.PHONY: demo test test-long check bench renders format lint clean build-release deps
+.DEFAULT_GOAL := demo
+
+deps:
+	@scripts/install-deps.sh
+
+build-release: deps
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS)
+
+## packages, build, the two demonstration runs, their pictures and tables
+demo: build-release
+	scripts/demo.sh $(HALLWAY)
+
+## packages, release build, every test that is not labelled `long`
+test: build-release
+	ctest --preset release
+
+## every test, at full size
+test-long: build-release
+	ctest --test-dir build/release --output-on-failure
+
+## g++, clang, address+undefined and thread sanitizers: build and tests of each
+check: deps
+	for preset in release clang asan tsan; do \
+	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && ctest --preset $$preset || exit 1; \
+	done
+
+## benchmarks: ratios against references measured in the same run, and a plot
+bench: build-release
+	bench/run.sh build/release
+
+## make the gallery's pictures again
+renders: build-release
+	renders/make.sh $(HALLWAY)
+
+format:
+	git ls-files '*.cpp' '*.hpp' '*.h' '*.c' | xargs clang-format -i
+
+lint: deps
+	cmake --preset clang
+	git ls-files 'engine/*.cpp' 'cli/*.cpp' 'plugins/*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy -p build/clang --quiet
+
+clean:
+	rm -rf build out

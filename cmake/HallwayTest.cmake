@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# hallway_add_test(<name> SOURCES a.cpp … [LIBS …] [LABELS …] [ENV NAME=value …])
+#
+# One GoogleTest executable, registered as one ctest test per executable. The label `threads` marks what runs under
+# the thread sanitizer. A test at the size that only `make test-long` runs is registered with hallway_add_long_test.
+find_package(GTest REQUIRED)
+
+set(HALLWAY_TEST_ENVIRONMENT
+    "HALLWAY_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+    "HALLWAY_BINARY_DIR=${PROJECT_BINARY_DIR}"
+    "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1"
+    "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/sanitizers/lsan.supp:print_suppressions=0"
+    "UBSAN_OPTIONS=print_stacktrace=1"
+    "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/sanitizers/tsan.supp:halt_on_error=1")
+
+function(hallway_add_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBS;LABELS;ENV" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(test_${name} PRIVATE ${arg_LIBS} GTest::gtest GTest::gtest_main)
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND test_${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900
+                       ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT};${arg_ENV}")
+endfunction()
+
+# hallway_add_long_test(<name> OF <test> [FILTER <gtest filter>] [LABELS …]): the same executable at the sizes that are
+# too long for every day (HALLWAY_TEST_LONG=1), labelled `long`.
+function(hallway_add_long_test name)
+  cmake_parse_arguments(arg "" "OF;FILTER" "LABELS" ${ARGN})
+  set(filter)
+  if(arg_FILTER)
+    set(filter --gtest_filter=${arg_FILTER})
+  endif()
+  add_test(NAME ${name} COMMAND test_${arg_OF} ${filter})
+  set_tests_properties(${name} PROPERTIES LABELS "long;${arg_LABELS}" TIMEOUT 3600
+                       ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT};HALLWAY_TEST_LONG=1")
+endfunction()

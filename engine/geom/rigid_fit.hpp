@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "geom/pose.hpp"
+
+namespace hallway {
+
+/// The rigid motion without scale that brings `from` nearest to `to` in the sum of squared distances, points paired by
+/// index: T_to_from. Both spans have the same length.
+///
+/// Collinear or coincident points leave part of the rotation open; the answer is then one of the best fits, the same on
+/// every call. Empty for no points. O(n). Umeyama 1991 without scale (Kabsch 1976).
+std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to);
+
+}  // namespace hallway

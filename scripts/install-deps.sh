@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs the Debian packages that building, running and testing Hallway needs. The one list of them.
+# Does nothing, and needs neither network nor root, when all are there.
+set -euo pipefail
+
+packages=(
+  # build
+  cmake g++ clang libclang-rt-14-dev make ninja-build pkg-config
+  # libraries
+  libeigen3-dev libembree-dev libosmesa6-dev libtbb-dev libcli11-dev libfmt-dev libtomlplusplus-dev
+  nlohmann-json3-dev libpng-dev libstb-dev libxxhash-dev fonts-dejavu-core
+  # tests and benchmarks
+  libgtest-dev libbenchmark-dev python3 python3-numpy binutils
+  # make format, make lint
+  clang-format clang-tidy
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
+  [[ $status == ii* || $status == hi* ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+
+echo "installing: ${missing[*]}" >&2
+root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install-deps: these packages are missing and neither root nor sudo is there to install them: ${missing[*]}" >&2
+    exit 3
+  fi
+  root=(sudo)
+fi
+"${root[@]}" apt-get update -qq
+"${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
