@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "eval/evaluator.hpp"
+
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "eval/point_error.hpp"
+#include "eval/time_summary.hpp"
+
+namespace hallway::eval {
+namespace {
+
+using log::LandmarkId;
+using log::LandmarkStatus;
+using log::MapLandmark;
+using OwnerMap = std::map<LandmarkId, LandmarkId>;
+using PositionMap = std::unordered_map<LandmarkId, Vec3>;
+
+/// Landmarks of a map beside the true ones that own them.
+struct LandmarkPairs {
+  std::vector<Vec3> truth;     ///< world
+  std::vector<Vec3> estimate;  ///< map frame
+};
+
+PositionMap positions_by_id(const std::vector<log::Landmark>& landmarks) {
+  PositionMap positions;
+  for (const log::Landmark& landmark : landmarks) {
+    positions.emplace(landmark.id, Vec3(landmark.position_m.data()));
+  }
+  return positions;
+}
+
+/// In the order of `map`; its mapped landmarks without an owner, and those whose owner's place is unknown, are left out.
+LandmarkPairs pair_landmarks(std::span<const MapLandmark> map, const OwnerMap& owner,
+                             const PositionMap& truth) {
+  LandmarkPairs pairs;
+  for (const MapLandmark& landmark : map) {
+    const auto owned = owner.find(landmark.id);
+    if (landmark.status != LandmarkStatus::kMapped || owned == owner.end()) continue;
+    const auto position = truth.find(owned->second);
+    if (position == truth.end()) continue;
+    pairs.truth.push_back(position->second);
+    pairs.estimate.emplace_back(landmark.position_m.data());
+  }
+  return pairs;
+}
+
+/// Counts the mapped landmarks by owner.
+void count_landmarks(std::span<const MapLandmark> map, const OwnerMap& owner, std::size_t observed,
+                     Metrics& metrics) {
+  std::set<LandmarkId> owners;
+  std::uint64_t owned = 0;
+  std::uint64_t unmatched = 0;
+  for (const MapLandmark& landmark : map) {
+    if (landmark.status != LandmarkStatus::kMapped) continue;
+    const auto found = owner.find(landmark.id);
+    if (found == owner.end()) {
+      ++unmatched;
+    } else {
+      ++owned;
+      owners.insert(found->second);
+    }
+  }
+  metrics.landmarks_true = observed;
+  metrics.landmarks_duplicated = owned - owners.size();
+  metrics.landmarks_missed = observed - owners.size();
+  metrics.landmarks_unmatched = unmatched;
+}
+
+std::uint64_t count_mapped(std::span<const MapLandmark> map) {
+  std::uint64_t count = 0;
+  for (const MapLandmark& landmark : map) count += landmark.status == LandmarkStatus::kMapped ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+void Evaluator::add(const Iteration& iteration) {
+  ++iterations_;
+  if (!iteration.T_map_body) ++lost_;
+  if (iteration.T_world_body && iteration.T_map_body) {
+    if (iteration.orientation_known) {
+      trajectory_.add(*iteration.T_world_body, *iteration.T_map_body);
+    } else {
+      trajectory_.add_position(iteration.T_world_body->t, *iteration.T_map_body);
+    }
+  }
+  if (truth_.has_identities) {
+    associations_.add(iteration.associations, iteration.identities);
+  } else {
+    associations_.add(iteration.associations);
+  }
+  if (iteration.wall_ms) wall_ms_.push_back(*iteration.wall_ms);
+  if (iteration.cpu_ms) cpu_ms_.push_back(*iteration.cpu_ms);
+}
+
+Metrics Evaluator::metrics(std::span<const MapLandmark> online,
+                           const std::optional<std::vector<MapLandmark>>& refined) const {
+  Metrics metrics;
+  metrics.iterations = iterations_;
+  metrics.observations = associations_.observations();
+  metrics.lost_iterations = lost_;
+  metrics.landmarks_mapped = count_mapped(online);
+  metrics.associations_none = associations_.none();
+  if (truth_.has_identities) score_landmarks(online, refined, metrics);
+  metrics.position_pairs = trajectory_.pairs();
+  metrics.position_rmse_m = trajectory_.position_rmse_m();
+  metrics.position_final_m = trajectory_.position_final_m();
+  metrics.rotation_rmse_deg = trajectory_.rotation_rmse_deg();
+  metrics.iteration_ms = summarize(wall_ms_);
+  metrics.iteration_cpu_ms = summarize(cpu_ms_);
+  return metrics;
+}
+
+void Evaluator::score_landmarks(std::span<const MapLandmark> online,
+                                const std::optional<std::vector<MapLandmark>>& refined,
+                                Metrics& metrics) const {
+  const AssociationScore::Ownership ownership = associations_.ownership();
+  metrics.association_errors = ownership.errors;
+  count_landmarks(online, ownership.owner, associations_.true_landmarks(), metrics);
+  if (!truth_.landmarks) return;
+  const PositionMap truth = positions_by_id(*truth_.landmarks);
+  const LandmarkPairs pairs = pair_landmarks(online, ownership.owner, truth);
+  metrics.landmark_pairs = pairs.truth.size();
+  if (const auto T_world_map = trajectory_.first_pose_frame()) {
+    metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *T_world_map);
+  }
+  metrics.landmark_rmse_m.aligned = aligned_rmse(pairs.truth, pairs.estimate);
+  if (!refined) return;
+  const LandmarkPairs final_pairs = pair_landmarks(*refined, ownership.owner, truth);
+  metrics.landmark_rmse_final_aligned_m = aligned_rmse(final_pairs.truth, final_pairs.estimate);
+}
+
+}  // namespace hallway::eval

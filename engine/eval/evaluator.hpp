@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "eval/association_score.hpp"
+#include "eval/metrics.hpp"
+#include "eval/trajectory_score.hpp"
+#include "geom/pose.hpp"
+#include "log/landmarks.hpp"
+#include "log/map_landmarks.hpp"
+
+namespace hallway::eval {
+
+/// One iteration of a run, as the evaluator needs it. The spans are read during the call alone.
+struct Iteration {
+  std::optional<Pose> T_world_body;  ///< the truth, where known
+  bool orientation_known = true;     ///< false: of the truth only the position is meant
+  std::optional<Pose> T_map_body;    ///< the plugin's estimate; empty where it gave none (lost)
+  /// By observation: the landmark that the plugin took it for, kNoLandmark for none.
+  std::span<const log::LandmarkId> associations;
+  /// By observation: the true landmark, kNoLandmark for none. As long as `associations`; empty where the input has no
+  /// identities.
+  std::span<const log::LandmarkId> identities;
+  std::optional<double> wall_ms;  ///< what the plugins took
+  std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
+};
+
+/// What is known about the world beside the iterations.
+struct Truth {
+  bool has_identities = false;                          ///< the observations name their true landmarks
+  std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
+};
+
+/// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
+/// true landmark) that observations have joined, not with the observations; O(1) per observation.
+class Evaluator {
+ public:
+  explicit Evaluator(Truth truth) : truth_(std::move(truth)) {}
+
+  /// Adds the next iteration. Throws Error{kInternal} if the truth has identities and the two spans differ in length.
+  void add(const Iteration& iteration);
+
+  /// Whether observations name their true landmarks.
+  bool has_identities() const { return truth_.has_identities; }
+  /// Which true landmark's observations were given to which landmark of the map.
+  const AssociationScore& associations() const { return associations_; }
+
+  /// The metrics of everything added so far.
+  ///
+  /// @param online   the map as the plugin left it after the last iteration, each id once
+  /// @param refined  the map as re-solved at the end under the same ids; empty where the plugin does not do so
+  Metrics metrics(std::span<const log::MapLandmark> online,
+                  const std::optional<std::vector<log::MapLandmark>>& refined) const;
+
+ private:
+  void score_landmarks(std::span<const log::MapLandmark> online,
+                       const std::optional<std::vector<log::MapLandmark>>& refined, Metrics& metrics) const;
+
+  Truth truth_;
+  std::uint64_t iterations_ = 0;
+  std::uint64_t lost_ = 0;
+  AssociationScore associations_;
+  TrajectoryScore trajectory_;
+  std::vector<double> wall_ms_;
+  std::vector<double> cpu_ms_;
+};
+
+}  // namespace hallway::eval

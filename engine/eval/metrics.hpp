@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace hallway::eval {
+
+/// A root mean square error, with the map put into the world in two ways. Empty where it cannot be computed.
+struct AlignedRmse {
+  /// The map stands so that the first estimate coincides with the true pose of its iteration.
+  std::optional<double> first_pose;
+  /// After the best fit to the truth; what fits what is said at each use.
+  std::optional<double> aligned;
+};
+
+/// What one iteration took, over all iterations; milliseconds. Percentiles by nearest rank: the p-th is the smallest value
+/// that at least p % of the values do not exceed.
+struct TimeSummary {
+  double mean = 0.0;
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+/// How well a run was estimated; docs/metrics.md defines each member. What cannot be computed is empty, never zero.
+struct Metrics {
+  std::uint64_t iterations = 0;
+  std::uint64_t observations = 0;
+  std::uint64_t lost_iterations = 0;  ///< iterations without an estimated pose
+
+  std::optional<std::uint64_t> landmarks_true;        ///< different true landmarks among the observations
+  std::uint64_t landmarks_mapped = 0;                 ///< landmarks of the online map with the status mapped
+  std::optional<std::uint64_t> landmarks_duplicated;  ///< mapped ones beyond the first of each true landmark
+  std::optional<std::uint64_t> landmarks_missed;  ///< observed true landmarks that no mapped one belongs to
+  std::optional<std::uint64_t> landmarks_unmatched;  ///< mapped ones that belong to no true landmark
+
+  std::optional<std::uint64_t>
+      association_errors;               ///< observations given to another true landmark's landmark
+  std::uint64_t associations_none = 0;  ///< observations that the plugin gave to no landmark
+
+  std::uint64_t landmark_pairs = 0;  ///< what landmark_rmse_m is taken over
+  AlignedRmse landmark_rmse_m;       ///< online map; aligned: landmarks fitted rigidly
+  std::optional<double>
+      landmark_rmse_final_aligned_m;  ///< map as re-solved at the end, landmarks fitted rigidly
+
+  std::uint64_t position_pairs = 0;        ///< iterations with both a true and an estimated pose
+  AlignedRmse position_rmse_m;             ///< aligned: positions fitted rigidly (ATE)
+  std::optional<double> position_final_m;  ///< error of the last estimate, in the frame of first_pose
+  AlignedRmse rotation_rmse_deg;           ///< aligned: orientations fitted by one rotation
+
+  std::optional<TimeSummary> iteration_ms;      ///< wall clock
+  std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time
+};
+
+}  // namespace hallway::eval

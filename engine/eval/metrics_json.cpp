@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "eval/metrics_json.hpp"
+
+#include <cmath>
+
+namespace hallway::eval {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json number(const std::optional<std::uint64_t>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json aligned(const AlignedRmse& rmse) {
+  return {{"first_pose", number(rmse.first_pose)}, {"aligned", number(rmse.aligned)}};
+}
+
+Json summary(const std::optional<TimeSummary>& times) {
+  if (!times) return nullptr;
+  return {{"mean", times->mean}, {"p50", times->p50}, {"p99", times->p99}, {"max", times->max}};
+}
+
+}  // namespace
+
+Json to_json(const Metrics& metrics) {
+  Json landmark_rmse = aligned(metrics.landmark_rmse_m);
+  landmark_rmse["final_aligned"] = number(metrics.landmark_rmse_final_aligned_m);
+  Json document;
+  document["schema"] = "hallway.metrics/1";
+  document["iterations"] = metrics.iterations;
+  document["lost_iterations"] = metrics.lost_iterations;
+  document["observations"] = metrics.observations;
+  document["associations_none"] = metrics.associations_none;
+  document["association_errors"] = number(metrics.association_errors);
+  document["landmarks_true"] = number(metrics.landmarks_true);
+  document["landmarks_mapped"] = metrics.landmarks_mapped;
+  document["landmarks_duplicated"] = number(metrics.landmarks_duplicated);
+  document["landmarks_missed"] = number(metrics.landmarks_missed);
+  document["landmarks_unmatched"] = number(metrics.landmarks_unmatched);
+  document["landmark_pairs"] = metrics.landmark_pairs;
+  document["landmark_rmse_m"] = std::move(landmark_rmse);
+  document["position_pairs"] = metrics.position_pairs;
+  document["position_rmse_m"] = aligned(metrics.position_rmse_m);
+  document["position_final_m"] = number(metrics.position_final_m);
+  document["rotation_rmse_deg"] = aligned(metrics.rotation_rmse_deg);
+  document["iteration_ms"] = summary(metrics.iteration_ms);
+  document["iteration_cpu_ms"] = summary(metrics.iteration_cpu_ms);
+  return document;
+}
+
+Json without_clock(Json document) {
+  document.erase("iteration_ms");
+  document.erase("iteration_cpu_ms");
+  return document;
+}
+
+}  // namespace hallway::eval

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "eval/metrics.hpp"
+#include "geom/pose.hpp"
+
+namespace hallway::eval {
+
+/// Compares true and estimated poses, paired by iteration.
+class TrajectoryScore {
+ public:
+  /// Adds an iteration that has both poses.
+  void add(const Pose& T_world_body, const Pose& T_map_body);
+
+  /// Adds an iteration whose true orientation is not known: from then on there are neither rotation errors nor a frame of
+  /// the first pose.
+  void add_position(const Vec3& true_position, const Pose& T_map_body);
+
+  std::size_t pairs() const { return truth_.size(); }
+  /// T_world_map that lets the first estimate coincide with the truth; empty without pairs or without orientations.
+  std::optional<Pose> first_pose_frame() const;
+  /// Position errors, metres; `aligned` (from three pairs on) is the absolute trajectory error.
+  AlignedRmse position_rmse_m() const;
+  /// Rotation errors, degrees; `aligned`: after the one rotation of the map that leaves the least sum of squared chordal
+  /// distances between true and estimated orientations (Hartley et al. 2013, section 5.3).
+  AlignedRmse rotation_rmse_deg() const;
+  /// Position error of the last pair in first_pose_frame(), metres.
+  std::optional<double> position_final_m() const;
+
+ private:
+  bool orientations_known_ = true;
+  std::vector<Vec3> truth_;
+  std::vector<Vec3> estimate_;
+  std::vector<Quat> truth_q_;
+  std::vector<Quat> estimate_q_;
+};
+
+}  // namespace hallway::eval

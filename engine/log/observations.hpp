@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "log/landmark_id.hpp"
+
+namespace hallway::log {
+
+/// The highest iteration number that a log may name. Higher ones are damage, such as a time stamp in the wrong column.
+inline constexpr std::uint32_t kMaxIteration = 99'999'999;
+
+/// One observed point.
+struct Observation {
+  LandmarkId landmark =
+      kNoLandmark;                ///< the true landmark, for scoring only; kNoLandmark where it is not known
+  std::array<double, 3> point{};  ///< sensor frame (x forward, y left, z up), metres
+};
+
+/// The observations of a run, frame by frame; a frame's observations keep their order. Memory grows with the observations,
+/// not with the iteration numbers.
+class ObservationLog {
+ public:
+  /// @param has_identities  whether the observations name their true landmarks
+  explicit ObservationLog(bool has_identities = false) : has_identities_(has_identities) {}
+
+  bool has_identities() const { return has_identities_; }
+  /// One more than the last iteration that was added, 0 before the first.
+  std::uint32_t iterations() const { return iterations_; }
+  /// All observations, in the order of the frames.
+  std::span<const Observation> observations() const { return observations_; }
+  /// The iterations that have observations, increasing.
+  std::span<const std::uint32_t> filled_iterations() const { return filled_; }
+  /// The observations of an iteration; empty where nothing was seen and after the end. O(log iterations).
+  std::span<const Observation> frame(std::uint32_t iteration) const;
+  /// Adds the next frame, which may be empty. Iterations left out are empty frames. Throws Error{kInternal} if
+  /// `iteration` is not above all earlier ones or is above kMaxIteration.
+  void add_frame(std::uint32_t iteration, std::span<const Observation> observations);
+
+ private:
+  bool has_identities_;
+  std::uint32_t iterations_ = 0;
+  std::vector<Observation> observations_;
+  std::vector<std::uint32_t> filled_;
+  std::vector<std::size_t> begin_;  ///< by place in filled_: where its observations begin
+};
+
+/// Where reading stopped before the end of a file.
+struct Damage {
+  int line = 0;       ///< 1-based line of the first thing that was not read
+  std::string cause;  ///< what is wrong there
+};
+
+/// What could be read of a log.
+struct ReadLog {
+  ObservationLog log;
+  std::optional<Damage> damage;  ///< empty where the file was read to its end
+};
+
+/// Reads observations from CSV: a header with the columns `iteration`, `x`, `y`, `z` and perhaps `landmark_id` in any
+/// order, then rows of non-decreasing iterations (docs/formats.md).
+///
+/// A bad row ends the reading: the rows before it are kept and the damage is told. Throws Error{kBadInput} with the line if
+/// the header is wrong or the first row is already bad. O(length).
+///
+/// @param text  the file's content
+/// @param file  its name, for messages
+ReadLog parse_observations(std::string_view text, const std::string& file);
+
+/// parse_observations() of a file. Throws Error{kIo} if it cannot be read.
+ReadLog read_observations(const std::filesystem::path& path);
+
+/// "file:line: cause; kept 1200 observations of iterations 0 to 99": for people.
+std::string describe(const Damage& damage, const ObservationLog& kept, const std::string& file);
+
+/// The text that parse_observations() reads back to the same log. Throws Error{kInternal} for a number that is not finite.
+std::string print_observations(const ObservationLog& log);
+
+/// print_observations() to a file, atomically. Throws Error{kIo}.
+void write_observations(const std::filesystem::path& path, const ObservationLog& log);
+
+}  // namespace hallway::log

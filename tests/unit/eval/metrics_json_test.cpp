@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "eval/metrics_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace hallway::eval {
+namespace {
+
+Metrics full() {
+  Metrics metrics;
+  metrics.iterations = 3800;
+  metrics.observations = 410484;
+  metrics.lost_iterations = 1;
+  metrics.landmarks_true = 1145;
+  metrics.landmarks_mapped = 1146;
+  metrics.landmarks_duplicated = 1;
+  metrics.landmarks_missed = 0;
+  metrics.landmarks_unmatched = 2;
+  metrics.association_errors = 7;
+  metrics.associations_none = 8;
+  metrics.landmark_pairs = 1144;
+  metrics.landmark_rmse_m = {0.5, 0.25};
+  metrics.landmark_rmse_final_aligned_m = 0.125;
+  metrics.position_pairs = 3799;
+  metrics.position_rmse_m = {0.75, 0.0625};
+  metrics.position_final_m = 1.5;
+  metrics.rotation_rmse_deg = {2.5, 3.5};
+  metrics.iteration_ms = TimeSummary{1, 2, 3, 4};
+  metrics.iteration_cpu_ms = TimeSummary{5, 6, 7, 8};
+  return metrics;
+}
+
+TEST(MetricsJson, IsTheDocumentedDocument) {
+  EXPECT_EQ(
+      to_json(full()).dump(),
+      R"({"schema":"hallway.metrics/1","iterations":3800,"lost_iterations":1,"observations":410484,)"
+      R"("associations_none":8,"association_errors":7,"landmarks_true":1145,"landmarks_mapped":1146,)"
+      R"("landmarks_duplicated":1,"landmarks_missed":0,"landmarks_unmatched":2,"landmark_pairs":1144,)"
+      R"("landmark_rmse_m":{"first_pose":0.5,"aligned":0.25,"final_aligned":0.125},"position_pairs":3799,)"
+      R"("position_rmse_m":{"first_pose":0.75,"aligned":0.0625},"position_final_m":1.5,)"
+      R"("rotation_rmse_deg":{"first_pose":2.5,"aligned":3.5},)"
+      R"("iteration_ms":{"mean":1.0,"p50":2.0,"p99":3.0,"max":4.0},)"
+      R"("iteration_cpu_ms":{"mean":5.0,"p50":6.0,"p99":7.0,"max":8.0}})");
+}
+
+TEST(MetricsJson, WhatIsUnknownIsNull) {
+  const auto document = to_json(Metrics{});
+  for (const std::string key :
+       {"association_errors", "landmarks_true", "landmarks_duplicated", "landmarks_missed",
+        "landmarks_unmatched", "position_final_m", "iteration_ms", "iteration_cpu_ms"}) {
+    EXPECT_TRUE(document.at(key).is_null()) << key;
+  }
+  for (const std::string key : {"landmark_rmse_m", "position_rmse_m", "rotation_rmse_deg"}) {
+    for (const auto& [frame, value] : document.at(key).items())
+      EXPECT_TRUE(value.is_null()) << key << '.' << frame;
+  }
+}
+
+TEST(MetricsJson, WhatOverflowedIsNull) {
+  Metrics metrics;
+  metrics.position_final_m = std::numeric_limits<double>::infinity();
+  metrics.landmark_rmse_m.aligned = std::numeric_limits<double>::quiet_NaN();
+  const auto document = to_json(metrics);
+  EXPECT_TRUE(document.at("position_final_m").is_null());
+  EXPECT_TRUE(document.at("landmark_rmse_m").at("aligned").is_null());
+}
+
+TEST(MetricsJson, WithoutClockTakesTheTimesAlone) {
+  const auto document = to_json(full());
+  const auto rest = without_clock(document);
+  EXPECT_EQ(rest.size(), document.size() - 2);
+  EXPECT_FALSE(rest.contains("iteration_ms"));
+  EXPECT_FALSE(rest.contains("iteration_cpu_ms"));
+  Metrics slower = full();
+  slower.iteration_ms->mean = 99.0;
+  slower.iteration_cpu_ms = std::nullopt;
+  EXPECT_EQ(without_clock(to_json(slower)), rest);
+}
+
+}  // namespace
+}  // namespace hallway::eval

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// The small tables: poses, true landmarks, pairs of ids, times.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "base/random.hpp"
+#include "log/id_pairs.hpp"
+#include "log/landmarks.hpp"
+#include "log/map_landmarks.hpp"
+#include "log/poses.hpp"
+#include "log/timing.hpp"
+#include "support/data.hpp"
+#include "support/errors.hpp"
+#include "support/random_doubles.hpp"
+#include "support/temp_folder.hpp"
+
+namespace hallway::log {
+namespace {
+
+using test::error_of;
+using test::same_bits;
+
+template <std::size_t N>
+bool same(const std::array<double, N>& a, const std::array<double, N>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), same_bits);
+}
+
+/// A unit quaternion with full mantissas.
+std::array<double, 4> random_orientation(std::uint32_t step) {
+  const Random random(7, stream_id("test.orientation"));
+  std::array<double, 4> q{random.normal(step, 0), random.normal(step, 1), random.normal(step, 2),
+                          random.normal(step, 3)};
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (double& value : q) value /= norm;
+  return q;
+}
+
+TEST(Poses, ReadBackToTheSameBits) {
+  const std::vector<double> values = test::random_doubles(900, 2);
+  std::vector<IterationPose> poses;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    poses.push_back({i * i, {values[3 * i], values[3 * i + 1], values[3 * i + 2]}, random_orientation(i)});
+  }
+  const std::vector<IterationPose> back = parse_poses(print_poses(poses), "poses.csv");
+  ASSERT_EQ(back.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(back[i].iteration, poses[i].iteration);
+    EXPECT_TRUE(same(back[i].position_m, poses[i].position_m)) << i;
+    EXPECT_TRUE(same(back[i].orientation, poses[i].orientation)) << i;
+  }
+}
+
+TEST(Poses, ArePrintedInTheDocumentedForm) {
+  const std::vector<IterationPose> poses = {{3, {1, 2.5, -3}, {0.6, 0, 0, -0.8}}};
+  EXPECT_EQ(print_poses(poses), "iteration,x,y,z,qw,qx,qy,qz\n3,1,2.5,-3,0.6,0,0,-0.8\n");
+}
+
+TEST(Poses, ColumnsMayStandInAnyOrder) {
+  const auto poses = parse_poses("qz,qy,qx,qw,z,y,x,iteration\n-0.8,0,0,0.6,3,2,1,9\n", "poses.csv");
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_EQ(poses[0].iteration, 9u);
+  EXPECT_TRUE(same(poses[0].position_m, {1, 2, 3}));
+  EXPECT_TRUE(same(poses[0].orientation, {0.6, 0, 0, -0.8}));
+}
+
+TEST(Poses, MayBePositionsAlone) {
+  const std::string text = "iteration,x,y,z\n2,1,2.5,-3\n";
+  const auto poses = parse_poses(text, "poses.csv");
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_FALSE(poses[0].orientation_known);
+  EXPECT_TRUE(same(poses[0].position_m, {1, 2.5, -3}));
+  EXPECT_EQ(print_poses(poses), text);
+}
+
+TEST(IdPairs, ReadBackToTheSameValues) {
+  const std::vector<IdPair> pairs = {{3, 9}, {3, kNoLandmark - 1}, {0, 9}};
+  const std::string text = print_id_pairs(pairs, kSubmapColumns);
+  EXPECT_EQ(text, "submap_id,landmark_id\n3,9\n3,18446744073709551614\n0,9\n");
+  EXPECT_EQ(print_id_pairs(parse_id_pairs(text, "submaps.csv", kSubmapColumns), kSubmapColumns), text);
+}
+
+TEST(IdPairs, RefuseATableOfOtherColumns) {
+  const std::string text = print_id_pairs({}, kMatchColumns);
+  EXPECT_EQ(text, "landmark_id,true_landmark_id\n");
+  EXPECT_TRUE(error_of([&] { parse_id_pairs(text, "submaps.csv", kSubmapColumns); }));
+}
+
+TEST(Landmarks, ReadBackToTheSameBits) {
+  const std::vector<double> values = test::random_doubles(900, 3);
+  std::vector<Landmark> landmarks;
+  for (std::size_t i = 0; i < 300; ++i) {
+    landmarks.push_back({kNoLandmark - 1 - i, {values[3 * i], values[3 * i + 1], values[3 * i + 2]}});
+  }
+  const std::vector<Landmark> back = parse_landmarks(print_landmarks(landmarks), "landmarks.csv");
+  ASSERT_EQ(back.size(), landmarks.size());
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    EXPECT_EQ(back[i].id, landmarks[i].id);
+    EXPECT_TRUE(same(back[i].position_m, landmarks[i].position_m)) << i;
+  }
+}
+
+TEST(Landmarks, ArePrintedInTheDocumentedForm) {
+  EXPECT_EQ(print_landmarks(std::vector<Landmark>{{5, {1, 2, 0.1}}}), "landmark_id,x,y,z\n5,1,2,0.1\n");
+}
+
+TEST(Timing, ReadsBackToTheSameBits) {
+  std::vector<IterationTime> times;
+  const std::vector<double> values = test::random_doubles(600, 4);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    times.push_back({i, std::abs(values[2 * i]), std::abs(values[2 * i + 1])});
+  }
+  const std::vector<IterationTime> back = parse_timing(print_timing(times), "timing.csv");
+  ASSERT_EQ(back.size(), times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_EQ(back[i].iteration, times[i].iteration);
+    EXPECT_TRUE(same_bits(back[i].wall_ms, times[i].wall_ms));
+    EXPECT_TRUE(same_bits(back[i].cpu_ms, times[i].cpu_ms));
+  }
+}
+
+TEST(Timing, IsPrintedInTheDocumentedForm) {
+  EXPECT_EQ(print_timing(std::vector<IterationTime>{{2, 0.25, 0.125}}),
+            "iteration,wall_ms,cpu_ms\n2,0.25,0.125\n");
+}
+
+TEST(Tables, GoThroughFiles) {
+  const test::TempFolder folder;
+  write_poses(folder / "poses.csv", std::vector<IterationPose>{{1, {1, 2, 3}, {1, 0, 0, 0}}});
+  write_landmarks(folder / "landmarks.csv", std::vector<Landmark>{{4, {1, 2, 3}}});
+  write_timing(folder / "timing.csv", std::vector<IterationTime>{{6, 1.5, 0.5}});
+  EXPECT_EQ(read_poses(folder / "poses.csv").at(0).iteration, 1u);
+  EXPECT_EQ(read_landmarks(folder / "landmarks.csv").at(0).id, 4u);
+  EXPECT_EQ(read_timing(folder / "timing.csv").at(0).wall_ms, 1.5);
+}
+
+TEST(Tables, ReadTheTruthOfARecordedLog) {
+  HALLWAY_DATA_OR_SKIP(folder, "landmark_logs/figure8_d25");
+  EXPECT_EQ(read_poses(folder / "gt_poses.csv").size(), 7600u);
+  EXPECT_EQ(read_landmarks(folder / "gt_landmarks.csv").size(), 286u);
+}
+
+struct BadTable {
+  std::string name;
+  std::function<void(const std::string&)> parse;
+  std::string text;
+  std::string message;  ///< the whole of what()
+};
+
+class BadTables : public testing::TestWithParam<BadTable> {};
+
+TEST_P(BadTables, GiveFileLineAndCause) {
+  const auto error = error_of([] { GetParam().parse(GetParam().text); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_STREQ(error->what(), GetParam().message.c_str());
+}
+
+void poses(const std::string& text) {
+  parse_poses(text, "t.csv");
+}
+void landmarks(const std::string& text) {
+  parse_landmarks(text, "t.csv");
+}
+void map_landmarks(const std::string& text) {
+  parse_map_landmarks(text, "t.csv");
+}
+void timing(const std::string& text) {
+  parse_timing(text, "t.csv");
+}
+
+const std::string kPoses = "iteration,x,y,z,qw,qx,qy,qz\n4,0,0,0,1,0,0,0\n";
+const std::string kLandmarks = "landmark_id,x,y,z\n4,0,0,0\n";
+const std::string kMap = "id,x,y,z,observations,status\n4,0,0,0,9,mapped\n";
+const std::string kTiming = "iteration,wall_ms,cpu_ms\n4,1,1\n";
+const std::string kCutOff = "t.csv:3: the last line has no line end: the file seems to be cut off here";
+
+INSTANTIATE_TEST_SUITE_P(
+    Tables, BadTables,
+    testing::Values(
+        BadTable{"pose_missing_column", poses, "iteration,x,y\n",
+                 "t.csv:1: the header has no column \"z\"; needed: iteration,x,y,z,qw,qx,qy,qz; it is: "
+                 "iteration,x,y"},
+        BadTable{"pose_part_of_quaternion", poses, "iteration,x,y,z,qw,qx,qy\n",
+                 "t.csv:1: the header has a part of the columns qw,qx,qy,qz; give all or none"},
+        BadTable{"pose_repeated", poses, kPoses + "4,0,0,0,1,0,0,0\n",
+                 "t.csv:3: column iteration: an iteration above 4 is needed, \"4\" found"},
+        BadTable{"pose_backwards", poses, kPoses + "3,0,0,0,1,0,0,0\n",
+                 "t.csv:3: column iteration: an iteration above 4 is needed, \"3\" found"},
+        BadTable{"pose_zero_quaternion", poses, kPoses + "5,0,0,0,0,0,0,0\n",
+                 "t.csv:3: the quaternion qw,qx,qy,qz does not have unit length"},
+        BadTable{"pose_long_quaternion", poses, kPoses + "5,0,0,0,1,0,0,0.2\n",
+                 "t.csv:3: the quaternion qw,qx,qy,qz does not have unit length"},
+        BadTable{"pose_huge_quaternion", poses, kPoses + "5,0,0,0,1e308,1e308,1e308,1e308\n",
+                 "t.csv:3: the quaternion qw,qx,qy,qz does not have unit length"},
+        BadTable{"pose_nan", poses, kPoses + "5,0,nan,0,1,0,0,0\n",
+                 "t.csv:3: column y: a finite number is needed, \"nan\" found"},
+        BadTable{"pose_cut_off", poses, kPoses + "5,0,0,0,1,0,0,0", kCutOff},
+        BadTable{"landmark_twice", landmarks, kLandmarks + "4,1,1,1\n",
+                 "t.csv:3: landmark 4 stands here for the second time"},
+        BadTable{"landmark_negative", landmarks, kLandmarks + "-1,1,1,1\n",
+                 "t.csv:3: column landmark_id: a whole number from 0 to 18446744073709551614 is needed, "
+                 "\"-1\" found"},
+        BadTable{"landmark_infinite", landmarks, kLandmarks + "5,1,1,inf\n",
+                 "t.csv:3: column z: a finite number is needed, \"inf\" found"},
+        BadTable{"landmark_cut_off", landmarks, kLandmarks + "5,1,1,1", kCutOff},
+        BadTable{"map_given_as_truth", landmarks, kMap,
+                 "t.csv:1: the header has no column \"landmark_id\"; needed: landmark_id,x,y,z; it is: "
+                 "id,x,y,z,observations,status"},
+        BadTable{"map_twice", map_landmarks, kMap + "4,1,1,1,1,mapped\n",
+                 "t.csv:3: landmark 4 stands here for the second time"},
+        BadTable{
+            "map_status", map_landmarks, kMap + "5,1,1,1,1,maped\n",
+            "t.csv:3: column status: \"temporary\", \"mapped\" or \"dynamic\" is needed, \"maped\" found"},
+        BadTable{"map_observations", map_landmarks, kMap + "5,1,1,1,-1,mapped\n",
+                 "t.csv:3: column observations: a whole number from 0 to 18446744073709551615 is needed, "
+                 "\"-1\" found"},
+        BadTable{"map_cut_off", map_landmarks, kMap + "5,1,1,1,1,mapped", kCutOff},
+        BadTable{"time_negative", timing, kTiming + "5,-1,1\n",
+                 "t.csv:3: column wall_ms: a time from 0 on is needed, \"-1\" found"},
+        BadTable{"time_repeated", timing, kTiming + "4,1,1\n",
+                 "t.csv:3: column iteration: an iteration above 4 is needed, \"4\" found"},
+        BadTable{"time_cut_off", timing, kTiming + "5,1,1", kCutOff}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace hallway::log
