@@ -55,6 +55,14 @@ void write_all(int fd, std::string_view content, const std::filesystem::path& pa
   }
 }
 
+/// A rename would put a file in the place of a device or a pipe.
+void refuse_special_target(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) return;
+  throw Error(ErrorCode::kIo, S_ISDIR(info.st_mode) ? "is a folder, not a file" : "is not a regular file",
+              {.file = printable(path.string())});
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
@@ -87,6 +95,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  refuse_special_target(path);
   const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(::getpid());
   try {
     Descriptor fd(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));

@@ -16,7 +16,8 @@ inline constexpr std::uint64_t kMaxFileBytes = 2ull << 30;
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = kMaxFileBytes);
 
 /// Writes a file so that at every moment either the old content or the new one stands there: written beside, synced,
-/// renamed, folder synced. Throws Error{kIo} naming the path and the cause; the old content then stays.
+/// renamed, folder synced. A folder, pipe or device under that name is refused. Throws Error{kIo} naming the path and the
+/// cause; the old content then stays.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// Makes a folder and its parents where missing. Throws Error{kIo} if that cannot be done or `path` is a file.

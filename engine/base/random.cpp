@@ -11,8 +11,16 @@ constexpr std::uint32_t kMultiplier1 = 0xCD9E8D57u;
 constexpr std::uint32_t kWeyl0 = 0x9E3779B9u;
 constexpr std::uint32_t kWeyl1 = 0xBB67AE85u;
 
-std::uint32_t high(std::uint64_t product) { return static_cast<std::uint32_t>(product >> 32); }
-std::uint32_t low(std::uint64_t product) { return static_cast<std::uint32_t>(product); }
+std::uint32_t high(std::uint64_t product) {
+  return static_cast<std::uint32_t>(product >> 32);
+}
+std::uint32_t low(std::uint64_t product) {
+  return static_cast<std::uint32_t>(product);
+}
+
+std::uint64_t first_half(const std::array<std::uint32_t, 4>& words) {
+  return (std::uint64_t{words[0]} << 32) | words[1];
+}
 
 /// Natural logarithm from additions, multiplications and divisions alone: ln(m 2^e) = e ln 2 + 2 artanh((m-1)/(m+1)).
 /// The library's log() is not bound to give the same last bit on every machine.
@@ -37,10 +45,9 @@ double polynomial(const std::array<double, N>& coefficients, double x) {
   return value;
 }
 
-constexpr std::array<double, 8> kCentreTop{3.3871328727963666080e0, 1.3314166789178437745e+2,
-                                           1.9715909503065514427e+3, 1.3731693765509461125e+4,
-                                           4.5921953931549871457e+4, 6.7265770927008700853e+4,
-                                           3.3430575583588128105e+4, 2.5090809287301226727e+3};
+constexpr std::array<double, 8> kCentreTop{
+    3.3871328727963666080e0,  1.3314166789178437745e+2, 1.9715909503065514427e+3, 1.3731693765509461125e+4,
+    4.5921953931549871457e+4, 6.7265770927008700853e+4, 3.3430575583588128105e+4, 2.5090809287301226727e+3};
 constexpr std::array<double, 8> kCentreBottom{1.0,
                                               4.2313330701600911252e+1,
                                               6.8718700749205790830e+2,
@@ -49,9 +56,9 @@ constexpr std::array<double, 8> kCentreBottom{1.0,
                                               3.9307895800092710610e+4,
                                               2.8729085735721942674e+4,
                                               5.2264952788528545610e+3};
-constexpr std::array<double, 8> kMiddleTop{1.42343711074968357734e0, 4.63033784615654529590e0,
-                                           5.76949722146069140550e0, 3.64784832476320460504e0,
-                                           1.27045825245236838258e0, 2.41780725177450611770e-1,
+constexpr std::array<double, 8> kMiddleTop{1.42343711074968357734e0,  4.63033784615654529590e0,
+                                           5.76949722146069140550e0,  3.64784832476320460504e0,
+                                           1.27045825245236838258e0,  2.41780725177450611770e-1,
                                            2.27238449892691845833e-2, 7.74545014278341407640e-4};
 constexpr std::array<double, 8> kMiddleBottom{1.0,
                                               2.05319162663775882187e0,
@@ -83,7 +90,8 @@ std::array<std::uint32_t, 4> Random::bits(std::uint32_t step, std::uint64_t inde
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t product0 = std::uint64_t{kMultiplier0} * counter[0];
     const std::uint64_t product1 = std::uint64_t{kMultiplier1} * counter[2];
-    counter = {high(product1) ^ counter[1] ^ key0, low(product1), high(product0) ^ counter[3] ^ key1, low(product0)};
+    counter = {high(product1) ^ counter[1] ^ key0, low(product1), high(product0) ^ counter[3] ^ key1,
+               low(product0)};
     key0 += kWeyl0;
     key1 += kWeyl1;
   }
@@ -91,17 +99,18 @@ std::array<std::uint32_t, 4> Random::bits(std::uint32_t step, std::uint64_t inde
 }
 
 double Random::uniform(std::uint32_t step, std::uint64_t index) const {
-  const auto word = bits(step, index);
-  const std::uint64_t wide = (std::uint64_t{word[0]} << 32) | word[1];
-  return static_cast<double>(wide >> 11) * 0x1.0p-53;
+  return static_cast<double>(first_half(bits(step, index)) >> 11) * 0x1.0p-53;
 }
 
 double Random::uniform(std::uint32_t step, std::uint64_t index, double low_end, double high_end) const {
-  return low_end + (high_end - low_end) * uniform(step, index);
+  const double value = low_end + (high_end - low_end) * uniform(step, index);
+  return value < high_end ? value : std::nextafter(high_end, low_end);  // the sum may have been rounded up
 }
 
 double Random::normal(std::uint32_t step, std::uint64_t index) const {
-  return inverse_normal_cdf(uniform(step, index) + 0x1.0p-54);  // the middle of the cell: never 0, never 1
+  // The middle of one of 2^52 cells: an odd multiple of 2^-53, which is exact, and never 0 or 1.
+  const auto cell = static_cast<double>(first_half(bits(step, index)) >> 12);
+  return inverse_normal_cdf(cell * 0x1.0p-52 + 0x1.0p-53);
 }
 
 double inverse_normal_cdf(double p) {

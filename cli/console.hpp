@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hallway::cli {
+
+/// What a failed command prints: one line on standard error, or with `json` one document on standard output.
+/// @return the exit status that belongs to the failure
+int report_failure(const std::exception& failure, bool json);
+
+/// Prints a result on standard output. Throws Error{kIo} if it cannot be written; a reader that went away is no failure.
+void print_result(const std::string& text);
+
+/// Prints a JSON document and a line end on standard output, as print_result() does.
+void print_json(const nlohmann::ordered_json& document);
+
+/// Prints "hallway: warning: …" on standard error.
+void print_warning(const std::string& text);
+
+/// Makes sure that descriptors 0, 1 and 2 are open, so that no file of ours takes their place, and that a reader that goes
+/// away is an error of write() and not the end of the program.
+void prepare_standard_streams();
+
+/// From now on Ctrl-C and SIGTERM set a flag instead of ending the program at once; the second one ends it.
+void catch_interrupts();
+/// Whether one came.
+bool interrupted();
+/// 130 after Ctrl-C, 143 after SIGTERM.
+int interrupt_status();
+
+/// A bar with rate and time left on standard error; shown only when that is a terminal.
+class Progress {
+ public:
+  /// @param total  number of steps
+  /// @param quiet  show nothing
+  Progress(std::string what, std::uint64_t total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Called after each step; draws ten times a second at most.
+  void update(std::uint64_t done);
+
+ private:
+  void draw(std::uint64_t done, std::int64_t now_ns);
+
+  std::string what_;
+  std::uint64_t total_;
+  bool shown_;
+  std::int64_t start_ns_;
+  std::int64_t drawn_ns_ = 0;
+};
+
+}  // namespace hallway::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "base/error.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "run/manifest.hpp"
+
+namespace {
+
+constexpr const char* kAbout =
+    "Headless simulator and plugin host for robot mapping algorithms: drive a simulated robot through a map, load an\n"
+    "algorithm as a shared object, measure what it mapped against the truth, and look at pictures of it.";
+
+constexpr const char* kFooter =
+    "Exit status: 0 done; 1 ran, and the answer is no; 2 usage; 3 bad input or I/O; 4 plugin not loadable;\n"
+    "5 plugin misbehaved; 6 a bug in Hallway; 130 interrupted.";
+
+bool asks_for_json(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--json") == 0) return true;
+  }
+  return false;
+}
+
+/// Help and version end a parse too, and are no failure.
+int report_parse(const CLI::App& app, const CLI::ParseError& stop, bool json) {
+  if (stop.get_exit_code() == 0) return app.exit(stop);
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const int status =
+      hallway::cli::report_failure(hallway::Error(hallway::ErrorCode::kUsage, stop.what()), json);
+  fmt::print(stderr, "Try `{}{} --help`.\n", command == &app ? "" : "hallway ", command->get_name());
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hallway::cli::prepare_standard_streams();
+  const bool json = asks_for_json(argc, argv);
+  try {
+    CLI::App app(kAbout, "hallway");
+    app.footer(kFooter);
+    app.set_version_flag("--version", "hallway " + hallway::run::version());
+    app.require_subcommand(1);
+    hallway::cli::Action chosen;
+    hallway::cli::add_run_command(app, chosen);
+    hallway::cli::add_replay_command(app, chosen);
+    hallway::cli::add_render_command(app, chosen);
+    hallway::cli::add_plugin_command(app, chosen);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& stop) {
+      return report_parse(app, stop, json);
+    }
+    return chosen();
+  } catch (const std::exception& failure) {
+    return hallway::cli::report_failure(failure, json);
+  }
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "host/search.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct ListOptions {
+  std::vector<std::string> plugin_path;
+  bool json = false;
+};
+
+Json describe(const host::Listed& listed) {
+  Json plugins = Json::array();
+  for (const host::PluginInfo& info : listed.plugins) {
+    Json inputs = Json::array();
+    for (const std::uint32_t kind : info.inputs) inputs.push_back(host::sample_kind_name(kind));
+    Json outputs = Json::array();
+    for (const std::uint32_t kind : info.outputs) outputs.push_back(host::output_kind_name(kind));
+    plugins.push_back({{"id", info.id},
+                       {"name", info.name},
+                       {"version", info.version},
+                       {"vendor", info.vendor},
+                       {"description", info.description},
+                       {"inputs", inputs},
+                       {"outputs", outputs}});
+  }
+  Json entry{{"file", printable(listed.file.string(), 4096)}, {"plugins", plugins}};
+  if (!listed.problem.empty()) entry["problem"] = listed.problem;
+  return entry;
+}
+
+std::string table(const std::vector<host::Listed>& files, const std::vector<fs::path>& folders) {
+  std::string text;
+  for (const host::Listed& listed : files) {
+    for (const host::PluginInfo& info : listed.plugins) {
+      text += fmt::format("{:<20} {:<10} {}\n{:<31} {}\n", info.id, info.version, info.description, "",
+                          printable(listed.file.string(), 4096));
+    }
+    if (!listed.problem.empty()) text += fmt::format("{:<20} {:<10} {}\n", "(not loadable)", "", listed.problem);
+  }
+  if (!text.empty()) return text;
+  text = "no plugins found; searched:\n";
+  for (const fs::path& folder : folders) text += "  " + printable(folder.string(), 4096) + "\n";
+  return text;
+}
+
+int list(const ListOptions& options) {
+  const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
+  const std::vector<host::Listed> files = host::list_plugins(folders);
+  if (!options.json) {
+    print_result(table(files, folders));
+    return 0;
+  }
+  Json searched = Json::array();
+  for (const fs::path& folder : folders) searched.push_back(printable(folder.string(), 4096));
+  Json entries = Json::array();
+  for (const host::Listed& listed : files) entries.push_back(describe(listed));
+  print_json({{"schema", "hallway.plugins/1"}, {"searched", searched}, {"files", entries}});
+  return 0;
+}
+
+}  // namespace
+
+void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders) {
+  command
+      .add_option("--plugin-path", folders,
+                  "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may be given "
+                  "several times")
+      ->type_name("DIR")
+      ->take_all()
+      ->expected(1);
+}
+
+std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
+  std::vector<fs::path> folders(given.begin(), given.end());
+  if (const char* from_environment = std::getenv("HALLWAY_PLUGIN_PATH")) {
+    for (const std::string_view folder : split(from_environment, ':')) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  folders.push_back(host::default_plugin_folder());
+  return folders;
+}
+
+void add_plugin_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("plugin", "Look at the plugins that are there");
+  command->require_subcommand(1);
+  CLI::App* listing = command->add_subcommand("list", "List the plugins on the search path, with what they take and give");
+  const auto options = std::make_shared<ListOptions>();
+  add_plugin_path_option(*listing, options->plugin_path);
+  listing->add_flag("--json", options->json, "Print one JSON document");
+  listing->callback([&chosen, options] { chosen = [options] { return list(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "base/text.hpp"
+#include "console.hpp"
+#include "eval/metrics_json.hpp"
+
+namespace hallway::cli {
+namespace {
+
+using eval::Metrics;
+
+/// Builds "label   value" lines.
+class Table {
+ public:
+  void row(const std::string& label, const std::string& value) {
+    text_ += fmt::format("  {:<28} {}\n", label, value);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string metres(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f} m", *value) : std::string("unknown");
+}
+
+void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
+  if (!metrics.landmarks_true) {
+    table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
+    return;
+  }
+  table.row("landmarks mapped",
+            fmt::format("{} of {} in {} submaps; {} duplicated, {} missed", metrics.landmarks_mapped,
+                        *metrics.landmarks_true, submaps, metrics.landmarks_duplicated.value_or(0),
+                        metrics.landmarks_missed.value_or(0)));
+}
+
+void add_associations(Table& table, const Metrics& metrics) {
+  if (!metrics.association_errors) {
+    table.row("observations", fmt::format("{}, {} given to no landmark", metrics.observations, metrics.associations_none));
+    return;
+  }
+  const double share = metrics.observations == 0
+                           ? 0.0
+                           : 100.0 * static_cast<double>(*metrics.association_errors) /
+                                 static_cast<double>(metrics.observations);
+  table.row("observations", fmt::format("{}, {} given to no landmark, {} to a wrong one ({:.4f} %)",
+                                        metrics.observations, metrics.associations_none, *metrics.association_errors,
+                                        share));
+}
+
+void add_errors(Table& table, const Metrics& metrics) {
+  if (metrics.landmark_rmse_m.aligned) {
+    table.row("landmark RMSE, aligned", fmt::format("{} online, {} as re-solved at the end",
+                                                    metres(metrics.landmark_rmse_m.aligned),
+                                                    metres(metrics.landmark_rmse_final_aligned_m)));
+    table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose));
+  }
+  if (metrics.position_rmse_m.aligned) {
+    table.row("position RMSE, aligned", metres(metrics.position_rmse_m.aligned));
+  }
+  if (metrics.position_rmse_m.first_pose) {
+    table.row("position RMSE, first pose", fmt::format("{}, {} at the end", metres(metrics.position_rmse_m.first_pose),
+                                                       metres(metrics.position_final_m)));
+  }
+}
+
+void add_times(Table& table, const char* label, const std::optional<eval::TimeSummary>& times) {
+  if (!times) return;
+  table.row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean, times->p50,
+                               times->p99, times->max));
+}
+
+/// What is printed of a run that has ended.
+struct Outcome {
+  const Report& report;
+  std::vector<std::string> plugins;
+  std::filesystem::path folder;
+  const run::RunResult& result;
+};
+
+std::string table_of(const Outcome& outcome) {
+  const run::RunResult& result = outcome.result;
+  const Metrics& metrics = result.metrics;
+  Table table;
+  table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
+  add_associations(table, metrics);
+  add_landmarks(table, metrics, result.submaps);
+  add_errors(table, metrics);
+  add_times(table, "iteration, wall clock", metrics.iteration_ms);
+  add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
+  table.row("written to", printable(outcome.folder.string(), 4096));
+  for (const auto& picture : result.pictures) table.row("picture", printable(picture.string(), 4096));
+  return fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
+                     result.stopped ? " (stopped early)" : "") +
+         table.text();
+}
+
+/// "slam_point 0.1.0" for each plugin of the pipeline.
+std::vector<std::string> plugin_names(host::Pipeline& pipeline) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < pipeline.size(); ++i) {
+    names.push_back(pipeline.stage(i).info().id + " " + pipeline.stage(i).info().version);
+  }
+  return names;
+}
+
+nlohmann::ordered_json document_of(const Outcome& outcome) {
+  nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
+  for (const auto& picture : outcome.result.pictures) pictures.push_back(printable(picture.string(), 4096));
+  return {{"schema", "hallway.result/1"},
+          {"status", outcome.result.stopped ? interrupt_status() : 0},
+          {"name", outcome.report.name},
+          {"plugins", outcome.plugins},
+          {"folder", printable(outcome.folder.string(), 4096)},
+          {"pictures", pictures},
+          {"warnings", outcome.report.warnings},
+          {"submaps", outcome.result.submaps},
+          {"metrics", eval::to_json(outcome.result.metrics)}};
+}
+
+}  // namespace
+
+void print_plugin_log(const std::string& plugin, std::uint32_t level, const std::string& message) {
+  if (level >= HW_LOG_WARNING) fmt::print(stderr, "hallway: {}: {}\n", plugin, message);
+}
+
+int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan, const Report& report,
+                       const OutputStyle& style) {
+  catch_interrupts();
+  run::RunResult result;
+  {
+    Progress progress(report.name, source.iterations(), style.quiet);
+    result = run::execute(source, pipeline, plan,
+                          {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
+  }
+  const Outcome outcome{report, plugin_names(pipeline), plan.folder, result};
+  if (style.json) {
+    print_json(document_of(outcome));
+  } else if (!style.quiet) {
+    print_result(table_of(outcome));
+  }
+  return result.stopped ? interrupt_status() : 0;
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/pipeline.hpp"
+#include "run/run.hpp"
+
+namespace hallway::cli {
+
+/// What `run` and `replay` say at their end.
+struct Report {
+  std::string name;                   ///< of the scenario or log
+  std::vector<std::string> warnings;  ///< already shown on standard error
+};
+
+/// Prints on standard error what a plugin logs as a warning or an error.
+void print_plugin_log(const std::string& plugin, std::uint32_t level, const std::string& message);
+
+/// How results are printed.
+struct OutputStyle {
+  bool json = false;   ///< one document with all metrics instead of the table
+  bool quiet = false;  ///< no progress and no table
+};
+
+/// Runs a plan with a progress bar, ended in good order by Ctrl-C or SIGTERM, and prints the short table or the document.
+/// @return the exit status
+int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan, const Report& report,
+                       const OutputStyle& style);
+
+}  // namespace hallway::cli

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "report.hpp"
+#include "run/manifest.hpp"
+#include "run/record.hpp"
+#include "run/simulated_source.hpp"
+#include "sim/simulator.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::string scenario;
+  std::string out;
+  std::vector<std::string> settings;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::uint32_t> steps;
+  std::string plugin;
+  std::vector<std::string> plugin_path;
+  unsigned threads = hardware_threads();
+  bool strict = false;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+sim::Override parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Error(ErrorCode::kUsage, fmt::format("--set takes key=value, not \"{}\"", printable(text)));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::vector<sim::Override> overrides_of(const RunOptions& options) {
+  std::vector<sim::Override> overrides;
+  if (!options.plugin.empty()) overrides.push_back({"plugin", options.plugin});
+  for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
+  if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
+  if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
+  return overrides;
+}
+
+/// Where a plugin's parameter was set, by the scenario's own record of its settings.
+std::string origin_of(const sim::Scenario& scenario, const std::string& key) {
+  for (const sim::Setting& setting : scenario.settings) {
+    if (setting.key == key) return setting.origin;
+  }
+  return {};
+}
+
+/// The stages to build and, for the record, where their parameters come from.
+struct Stages {
+  std::vector<host::StageSpec> specs;
+  std::vector<run::ParameterOrigin> origins;
+};
+
+Stages stages_of(const sim::Scenario& scenario) {
+  Stages stages;
+  for (const sim::PluginSpec& plugin : scenario.pipeline) {
+    host::StageSpec spec{.plugin = plugin.name, .parameters = {}};
+    const std::string id = sim::short_plugin_name(plugin.name);
+    for (const sim::PluginParameter& parameter : plugin.params) {
+      spec.parameters.push_back({parameter.name, parameter.value, parameter.where});
+      stages.origins.push_back({id, parameter.name, origin_of(scenario, id + "." + parameter.name)});
+    }
+    stages.specs.push_back(std::move(spec));
+  }
+  return stages;
+}
+
+/// What the user should know of the map; with --strict the first of it ends the run.
+std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {
+  std::vector<std::string> warnings;
+  for (const Error& problem : simulator.problems()) {
+    if (strict) throw problem;
+    warnings.emplace_back(problem.what());
+    print_warning(warnings.back());
+  }
+  return warnings;
+}
+
+int run_scenario(const RunOptions& options) {
+  const sim::Scenario scenario = sim::load_scenario(options.scenario, overrides_of(options));
+  const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
+  const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
+  run::SimulatedSource source(simulator);
+  const Stages stages = stages_of(scenario);
+  const std::vector<host::SensorInfo> sensors{source.sensor()};
+  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log);
+
+  const std::string name = fs::path(scenario.file).stem().string();
+  run::ManifestFacts facts{.command = "run", .name = name, .settings = scenario.settings,
+                           .parameters = stages.origins, .warnings = warnings, .period_ns = scenario.period_ns,
+                           .threads = options.threads};
+  facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+                  {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
+  run::RunPlan plan{.folder = options.out.empty() ? fs::path("out") / name : fs::path(options.out),
+                    .replace = options.force,
+                    .manifest = run::make_manifest(facts, pipeline),
+                    .attachments = {{run::files::kScenario, facts.inputs[0].content},
+                                    {run::files::kMap, facts.inputs[1].content}},
+                    .pictures = scenario.pictures,
+                    .write_observations = true};
+  return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
+                            {.json = options.json, .quiet = options.quiet});
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "run", "Drive a simulated robot through a map, feed what it sees to a plugin, and measure what it maps");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("scenario", options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
+      ->required()
+      ->type_name("SCENARIO");
+  command->add_option("--out", options->out, "Folder to write [out/<scenario>]")->type_name("DIR");
+  command->add_option("--seed", options->seed, "Seed of all random numbers, instead of the scenario's")
+      ->type_name("N");
+  command->add_option("--steps", options->steps, "Number of iterations, instead of the scenario's")->type_name("N");
+  command
+      ->add_option("--set", options->settings,
+                   "Set a scenario value (sensor.eyes.noise_m=0.1) or a plugin's parameter (slam_point.noise_m=0.1); "
+                   "may be given several times")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--plugin", options->plugin, "Run this plugin instead of the scenario's: an id or a .so file")
+      ->type_name("NAME|FILE");
+  add_plugin_path_option(*command, options->plugin_path);
+  command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
+  command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
+  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
+  command->footer("Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
+  command->callback([&chosen, options] { chosen = [options] { return run_scenario(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/sample.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace hallway::host {
+
+/// Builds frames in memory that is used again for the next one.
+class FrameBuilder {
+ public:
+  FrameBuilder();
+  ~FrameBuilder();
+  FrameBuilder(const FrameBuilder&) = delete;
+  FrameBuilder& operator=(const FrameBuilder&) = delete;
+
+  /// Begins a frame; what finish() gave before is no longer valid.
+  /// @param sequence  counts the frames from 0
+  /// @param t_ns      time of the frame; must not decrease
+  void begin(std::uint64_t sequence, std::int64_t t_ns);
+
+  /// Adds an instantaneous reading of points at the frame's time; sequence number of the reading is that of
+  /// the frame.
+  /// @return the empty list to be filled with points in the sensor's frame, metres; valid until the next call
+  std::vector<hw_point3_t>& add_points(std::uint32_t sensor_id);
+
+  /// The frame, as the ABI has it; valid until the next begin().
+  const hw_frame_t& finish();
+
+ private:
+  struct Points;
+  std::vector<std::unique_ptr<Points>> points_;  ///< the first n_points_ count; the others keep their memory
+  std::size_t n_points_ = 0;
+  std::vector<const hw_sample_t*> samples_;
+  hw_frame_t frame_{};
+};
+
+}  // namespace hallway::host

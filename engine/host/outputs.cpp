@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "host/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <limits>
+
+#include "host/plugin_info.hpp"
+
+namespace hallway::host {
+namespace {
+
+// More than this is taken for a wild number. A landmark takes 40 bytes.
+constexpr std::uint64_t kMaxElements = 1ull << 26;
+constexpr std::size_t kMaxCounterName = 64;
+constexpr double kUnitTolerance = 1e-6;
+
+struct Malformed {
+  std::string text;
+};
+
+void demand(bool condition, const char* text) {
+  if (!condition) throw Malformed{text};
+}
+
+bool is_finite(const double (&numbers)[3]) {
+  return std::isfinite(numbers[0]) && std::isfinite(numbers[1]) && std::isfinite(numbers[2]);
+}
+
+/// What is wrong with a pose, null if nothing.
+const char* pose_problem(const hw_pose_t& pose) {
+  if (!is_finite(pose.position)) return "a position that is not finite";
+  double squared = 0;
+  for (const double q : pose.orientation) squared += q * q;
+  if (!std::isfinite(squared)) return "a quaternion that is not finite";
+  if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return "a quaternion that is not of unit length";
+  return nullptr;
+}
+
+/// A list as a plugin hands it over: `count` elements of type T, `stride` bytes apart.
+template <typename T>
+class Strided {
+ public:
+  Strided(const void* first, std::uint64_t count, std::uint64_t stride)
+      : first_(static_cast<const char*>(first)), count_(count), stride_(stride) {
+    if (count > kMaxElements) {
+      throw Malformed{fmt::format("a list of {} elements, more than {}", count, kMaxElements)};
+    }
+    if (stride % 8 != 0 || stride < sizeof(T)) {
+      throw Malformed{fmt::format("a list with a stride of {} bytes", stride)};
+    }
+    demand(first != nullptr || count == 0, "a list that is null");
+  }
+  std::size_t size() const { return count_; }
+  T operator[](std::size_t i) const {
+    T value;
+    std::memcpy(&value, first_ + i * stride_, sizeof value);
+    return value;
+  }
+
+ private:
+  const char* first_;
+  std::size_t count_;
+  std::size_t stride_;
+};
+
+template <typename Payload>
+const Payload& payload_of(const hw_output_t& output) {
+  return *static_cast<const Payload*>(output.payload);
+}
+
+}  // namespace
+
+std::optional<std::span<const std::uint64_t>> Outputs::associations(std::uint32_t sample) const {
+  for (const AssociationRange& range : association_ranges_) {
+    if (range.sample == sample) return std::span(association_ids_).subspan(range.first, range.count);
+  }
+  return std::nullopt;
+}
+
+std::span<const std::uint64_t> Outputs::members(const hw_submap_t& submap) const {
+  return std::span(submap_members_).subspan(submap.first_member, submap.n_members);
+}
+
+void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32_t> sample_indices) {
+  frame_ = frame;
+  sample_indices_ = sample_indices;
+  fault_.clear();
+  outputs_.pose_.reset();
+  outputs_.landmarks_.clear();
+  outputs_.association_ranges_.clear();
+  outputs_.association_ids_.clear();
+  outputs_.submaps_.clear();
+  outputs_.submap_members_.clear();
+  outputs_.n_counters_ = 0;
+  open_ = true;
+}
+
+hw_status_t OutputCollector::put(const hw_output_t* output) noexcept {
+  try {
+    if (!open_) return HW_ERROR_STATE;
+    if (!fault_.empty()) return HW_ERROR_DATA;
+    if (output == nullptr || !HW_HAS(output, hw_output_t, payload) || output->payload == nullptr) {
+      return fault(HW_ERROR_ARGUMENT, "an output without a payload");
+    }
+    try {
+      return copy(*output);
+    } catch (const Malformed& malformed) {
+      return fault(HW_ERROR_DATA, fmt::format("{}: {}", output_kind_name(output->kind), malformed.text));
+    }
+  } catch (const std::exception&) {
+    return HW_ERROR_MEMORY;
+  }
+}
+
+hw_status_t OutputCollector::copy(const hw_output_t& output) {
+  switch (output.kind) {
+    case HW_OUTPUT_POSE:
+      return copy_pose(payload_of<hw_pose_output_t>(output));
+    case HW_OUTPUT_LANDMARKS:
+      return copy_landmarks(payload_of<hw_landmarks_t>(output));
+    case HW_OUTPUT_ASSOCIATIONS:
+      return copy_associations(payload_of<hw_associations_t>(output));
+    case HW_OUTPUT_SUBMAPS:
+      return copy_submaps(payload_of<hw_submaps_t>(output));
+    case HW_OUTPUT_COUNTERS:
+      return copy_counters(payload_of<hw_counters_t>(output));
+    default:
+      return HW_OK;
+  }
+}
+
+hw_status_t OutputCollector::copy_pose(const hw_pose_output_t& pose) {
+  demand(HW_HAS(&pose, hw_pose_output_t, T_map_body), "a payload that is too small");
+  demand(!outputs_.pose_, "a second one in one call");
+  PoseOutput copy;
+  copy.T_map_body.orientation[0] = 1.0;
+  if (pose.status == HW_POSE_VALID) {
+    if (const char* problem = pose_problem(pose.T_map_body)) throw Malformed{problem};
+    copy = {true, pose.T_map_body};
+  } else {
+    demand(pose.status == HW_POSE_LOST, "an unknown status");
+  }
+  outputs_.pose_ = copy;
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_landmarks(const hw_landmarks_t& landmarks) {
+  demand(HW_HAS(&landmarks, hw_landmarks_t, landmarks), "a payload that is too small");
+  const Strided<hw_landmark_t> list(landmarks.landmarks, landmarks.count, landmarks.stride);
+  demand(outputs_.landmarks_.size() + list.size() <= kMaxElements, "too many in one call");
+  outputs_.landmarks_.reserve(outputs_.landmarks_.size() + list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const hw_landmark_t landmark = list[i];
+    demand(landmark.id != HW_NO_LANDMARK, "an id that stands for no landmark");
+    if (!is_finite(landmark.position)) {
+      throw Malformed{fmt::format("landmark {} has a position that is not finite", landmark.id)};
+    }
+    if (landmark.status > HW_LANDMARK_DYNAMIC) {
+      throw Malformed{fmt::format("landmark {} has the unknown status {}", landmark.id, landmark.status)};
+    }
+    outputs_.landmarks_.push_back(landmark);
+  }
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_associations(const hw_associations_t& associations) {
+  demand(HW_HAS(&associations, hw_associations_t, landmark_ids), "a payload that is too small");
+  demand(frame_ != nullptr, "they belong to a frame, and this call has none");
+  if (associations.sample >= frame_->n_samples) {
+    throw Malformed{fmt::format("sample {} of a frame of {}", associations.sample, frame_->n_samples)};
+  }
+  const hw_sample_t& sample = *frame_->samples[associations.sample];
+  demand(sample.kind == HW_SAMPLE_POINTS, "for a sample that has no elements");
+  const std::uint64_t expected = static_cast<const hw_points_t*>(sample.payload)->count;
+  if (associations.count != expected) {
+    throw Malformed{fmt::format("{} for a sample of {} points", associations.count, expected)};
+  }
+  const std::uint32_t index = sample_indices_[associations.sample];
+  demand(!outputs_.associations(index), "a second time for one sample");
+  const Strided<std::uint64_t> ids(associations.landmark_ids, associations.count, sizeof(std::uint64_t));
+  const std::size_t first = outputs_.association_ids_.size();
+  outputs_.association_ids_.resize(first + ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) outputs_.association_ids_[first + i] = ids[i];
+  outputs_.association_ranges_.push_back({index, first, ids.size()});
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_submaps(const hw_submaps_t& submaps) {
+  demand(HW_HAS(&submaps, hw_submaps_t, members), "a payload that is too small");
+  const Strided<hw_submap_t> list(submaps.submaps, submaps.count, submaps.stride);
+  const Strided<std::uint64_t> members(submaps.members, submaps.n_members, sizeof(std::uint64_t));
+  const std::size_t first_member = outputs_.submap_members_.size();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    hw_submap_t submap = list[i];
+    if (const char* problem = pose_problem(submap.T_map_submap)) {
+      throw Malformed{fmt::format("submap {} has {}", submap.id, problem)};
+    }
+    if (submap.first_member > members.size() || submap.n_members > members.size() - submap.first_member) {
+      throw Malformed{fmt::format("submap {} has members beyond the list of members", submap.id)};
+    }
+    submap.first_member += first_member;
+    outputs_.submaps_.push_back(submap);
+  }
+  for (std::size_t i = 0; i < members.size(); ++i) outputs_.submap_members_.push_back(members[i]);
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_counters(const hw_counters_t& counters) {
+  demand(HW_HAS(&counters, hw_counters_t, counters), "a payload that is too small");
+  const Strided<hw_counter_t> list(counters.counters, counters.count, counters.stride);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const hw_counter_t counter = list[i];
+    demand(counter.name != nullptr, "a name that is null");
+    const std::size_t length = strnlen(counter.name, kMaxCounterName + 1);
+    const bool plain = std::all_of(counter.name, counter.name + length, [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    demand(length >= 1 && length <= kMaxCounterName && plain,
+           "a name that is not 1 to 64 letters a-z, digits and _");
+    if (!std::isfinite(counter.value)) throw Malformed{fmt::format("{} is not finite", counter.name)};
+    if (outputs_.n_counters_ == outputs_.counters_.size()) outputs_.counters_.emplace_back();
+    Counter& copy = outputs_.counters_[outputs_.n_counters_++];
+    copy.name.assign(counter.name, length);
+    copy.value = counter.value;
+  }
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::fault(hw_status_t status, std::string text) {
+  fault_ = std::move(text);
+  return status;
+}
+
+std::string OutputCollector::finish() {
+  open_ = false;
+  if (fault_.empty()) check_distinct_landmarks();
+  return fault_;
+}
+
+void OutputCollector::check_distinct_landmarks() {
+  sorted_ids_.clear();
+  for (const hw_landmark_t& landmark : outputs_.landmarks_) sorted_ids_.push_back(landmark.id);
+  std::sort(sorted_ids_.begin(), sorted_ids_.end());
+  const auto twice = std::adjacent_find(sorted_ids_.begin(), sorted_ids_.end());
+  if (twice != sorted_ids_.end()) fault_ = fmt::format("landmarks: two of them have the id {}", *twice);
+}
+
+}  // namespace hallway::host

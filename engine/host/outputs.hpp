@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/output.h>
+#include <hallway/sample.h>
+#include <hallway/status.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hallway::host {
+
+/// The pose that a plugin put.
+struct PoseOutput {
+  bool valid = false;      ///< false: the plugin says that it is lost, T_map_body is the identity
+  hw_pose_t T_map_body{};  ///< finite, unit quaternion
+};
+
+/// A counter that a plugin put.
+struct Counter {
+  std::string name;
+  double value = 0;
+};
+
+/// What one call of a plugin put, checked and copied into buffers that are used again for the next call.
+class Outputs {
+ public:
+  /// The pose, if one was put.
+  const std::optional<PoseOutput>& pose() const { return pose_; }
+  /// The landmarks, ids distinct, in the order put.
+  std::span<const hw_landmark_t> landmarks() const { return landmarks_; }
+  /// Per element of that sample of the frame, the landmark it was taken for, or HW_NO_LANDMARK; nothing if
+  /// not put.
+  std::optional<std::span<const std::uint64_t>> associations(std::uint32_t sample) const;
+  /// The submaps, in the order put.
+  std::span<const hw_submap_t> submaps() const { return submaps_; }
+  /// The landmarks of a submap of this object.
+  std::span<const std::uint64_t> members(const hw_submap_t& submap) const;
+  /// The counters, in the order put.
+  std::span<const Counter> counters() const { return std::span(counters_).first(n_counters_); }
+
+ private:
+  friend class OutputCollector;
+  struct AssociationRange {
+    std::uint32_t sample;
+    std::size_t first, count;
+  };
+
+  std::optional<PoseOutput> pose_;
+  std::vector<hw_landmark_t> landmarks_;
+  std::vector<AssociationRange> association_ranges_;
+  std::vector<std::uint64_t> association_ids_;
+  std::vector<hw_submap_t> submaps_;
+  std::vector<std::uint64_t> submap_members_;
+  std::vector<Counter> counters_;  ///< the first n_counters_ count; the others keep their memory
+  std::size_t n_counters_ = 0;
+};
+
+/// Receives the outputs of one call and checks them. The first output that is not as output.h says is the
+/// call's fault, however the call itself ends.
+class OutputCollector {
+ public:
+  /// Begins a call: forgets what was there. `frame` is null in report(); it must live until finish().
+  /// `sample_indices` gives for each sample of `frame` the index under which Outputs shall know it.
+  void begin(const hw_frame_t* frame, std::span<const std::uint32_t> sample_indices);
+  /// Takes one output. Never throws: HW_OK also for kinds that are not known, else what the plugin shall
+  /// return.
+  hw_status_t put(const hw_output_t* output) noexcept;
+  /// Ends a call. @return what was wrong with its outputs, empty if nothing
+  std::string finish();
+
+  const Outputs& outputs() const { return outputs_; }
+
+ private:
+  hw_status_t copy(const hw_output_t& output);
+  hw_status_t copy_pose(const hw_pose_output_t& pose);
+  hw_status_t copy_landmarks(const hw_landmarks_t& landmarks);
+  hw_status_t copy_associations(const hw_associations_t& associations);
+  hw_status_t copy_submaps(const hw_submaps_t& submaps);
+  hw_status_t copy_counters(const hw_counters_t& counters);
+  hw_status_t fault(hw_status_t status, std::string text);
+  void check_distinct_landmarks();
+
+  Outputs outputs_;
+  const hw_frame_t* frame_ = nullptr;
+  std::span<const std::uint32_t> sample_indices_;
+  bool open_ = false;
+  std::string fault_;
+  std::vector<std::uint64_t> sorted_ids_;
+};
+
+}  // namespace hallway::host

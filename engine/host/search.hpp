@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/library.hpp"
+
+namespace hallway::host {
+
+/// Where the plugins that belong to the running program stand: ../lib/hallway/plugins seen from the folder of
+/// the executable, in the build tree as well as installed.
+std::filesystem::path default_plugin_folder();
+
+/// A plugin that was found.
+struct Found {
+  std::shared_ptr<const Library> library;
+  const PluginInfo* info;  ///< within `library`
+};
+
+/// Finds a plugin. `wanted` is a file (it contains a "/" or ends in ".so"; "FILE.so:ID" names one of several
+/// plugins in it) or an id, which is looked for as <folder>/<id>.so in the order of the folders, then in
+/// every other .so of the folders. Throws Error{kPluginLoad}; its message lists the reason, the id wanted,
+/// the folders searched, the ids found and the files that could not be loaded.
+Found find_plugin(std::string_view wanted, std::span<const std::filesystem::path> folders);
+
+/// One library file of a folder.
+struct Listed {
+  std::filesystem::path file;
+  std::vector<PluginInfo> plugins;  ///< empty where it could not be loaded
+  std::string problem;              ///< why it could not be loaded; else empty
+};
+
+/// All .so files of the folders, in the order of the folders and of their names. A folder that does not exist
+/// has none.
+std::vector<Listed> list_plugins(std::span<const std::filesystem::path> folders);
+
+}  // namespace hallway::host

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "map/entities.hpp"
+
+#include <set>
+
+#include "base/text.hpp"
+#include "map/entity_keys.hpp"
+
+namespace hallway::map {
+namespace {
+
+constexpr double kMaxPointsPerM2 = 1e6;
+constexpr double kMaxPointsPer100m = 1e6;
+constexpr double kMaxCloudReach_m = 1e5;
+
+}  // namespace
+
+std::optional<RobotStart> find_robot_start(const Document& document) {
+  std::optional<RobotStart> start;
+  for (const Entity& entity : document.entities) {
+    if (entity.classname() != "hw_robot_start") continue;
+    const EntityKeys keys(document, entity);
+    if (start) throw keys.error("a second robot start; the first is at line " + std::to_string(start->line));
+    keys.refuse_unknown({});
+    start =
+        RobotStart{{from_yaw_pitch_roll(keys.angle(), 0.0, 0.0), keys.origin_m()}, keys.index(), entity.line};
+  }
+  return start;
+}
+
+std::vector<LandmarkCloud> landmark_clouds(const Document& document) {
+  std::vector<LandmarkCloud> clouds;
+  std::set<std::string> names;
+  for (const Entity& entity : document.entities) {
+    if (entity.classname() != "hw_landmark_cloud") continue;
+    const EntityKeys keys(document, entity);
+    keys.refuse_unknown({"name", "path", "per_100m", "sideways_m", "height_m", "seed"});
+    LandmarkCloud cloud;
+    cloud.name = keys.text("name");
+    cloud.path = keys.text("path");
+    cloud.per_100m = keys.number("per_100m", 0.0, kMaxPointsPer100m);
+    cloud.sideways_m = keys.number("sideways_m", 0.0, kMaxCloudReach_m);
+    cloud.height_m = keys.number("height_m", 0.0, kMaxCloudReach_m);
+    cloud.seed = keys.seed_or("seed", 0);
+    cloud.entity = keys.index();
+    cloud.line = entity.line;
+    if (!names.insert(cloud.name).second) {
+      throw keys.error("a second landmark cloud named `" + printable(cloud.name, 60) + "`", "name");
+    }
+    clouds.push_back(std::move(cloud));
+  }
+  return clouds;
+}
+
+FacePoints face_points(const Document& document) {
+  const Entity* world = document.worldspawn();
+  if (!world) return {};
+  const EntityKeys keys(document, *world);
+  return {keys.number_or("_points_per_m2", 0.0, 0.0, kMaxPointsPerM2), keys.seed_or("_point_seed", 0)};
+}
+
+}  // namespace hallway::map

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "map/document.hpp"
+
+namespace hallway::map {
+
+/// Entity `hw_robot_start`: where a robot stands at first.
+struct RobotStart {
+  Pose T_world_body;  ///< level, turned by `angle` about z
+  int entity = 0;     ///< index in Document::entities
+  int line = 0;
+};
+
+/// Entity `hw_landmark_cloud`: points scattered along a path.
+struct LandmarkCloud {
+  std::string name;
+  std::string path;         ///< name of the hw_path
+  double per_100m = 0.0;    ///< points on 100 m of path
+  double sideways_m = 0.0;  ///< largest distance to either side of the path, level
+  double height_m = 0.0;    ///< largest distance above and below the path
+  std::uint64_t seed = 0;
+  int entity = 0;
+  int line = 0;
+};
+
+/// Keys `_points_per_m2` and `_point_seed` of worldspawn: points scattered on the brushes' faces.
+struct FacePoints {
+  double per_m2 = 0.0;  ///< 0 where the map has none
+  std::uint64_t seed = 0;
+};
+
+/// The robot's start, if the map has one. Throws Error{kBadInput} for two, or a bad key.
+std::optional<RobotStart> find_robot_start(const Document& document);
+
+/// All clouds in the order of the file. Throws Error{kBadInput} for a bad key or two clouds of one name; whether the path
+/// exists is find_path()'s to say.
+std::vector<LandmarkCloud> landmark_clouds(const Document& document);
+
+/// Throws Error{kBadInput} for a value that is negative or no number.
+FacePoints face_points(const Document& document);
+
+}  // namespace hallway::map

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "map/lemniscate.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace hallway::map {
+namespace {
+
+constexpr int kCells = 128;
+constexpr double kPi = std::numbers::pi;
+
+/// Point and derivative of the ground plan with a = 1 at the angle parameter w in [0, 2 pi], the crossing at 0 and pi:
+/// x = cos t / (1 + sin^2 t), y = sin t x, t = w - pi / 2.
+struct PlanPoint {
+  Vec2 position;
+  Vec2 derivative;
+};
+
+PlanPoint plan_at(double w) {
+  const double c = std::sin(w);
+  const double s = -std::cos(w);
+  const double q = 1.0 + s * s;
+  return {Vec2(c, c * s) / q, Vec2(-s * (3.0 - s * s), 1.0 - 3.0 * s * s) / (q * q)};
+}
+
+double plan_speed(double w) {
+  const double s = std::cos(w);
+  return 1.0 / std::sqrt(1.0 + s * s);
+}
+
+ArcLength curve_in_space(double ground_length, double rise) {
+  const auto speed = [=](double u) {
+    return std::hypot(ground_length, rise * kPi * std::sin(2.0 * kPi * u));
+  };
+  return ArcLength(speed, 0.0, 1.0, kCells);
+}
+
+/// The length of the ground plan with which the curve in space has the length wanted. The climb lengthens the curve less
+/// than the plan does, so that adding what is missing converges.
+double solve_ground_length(double length, double rise) {
+  double ground = length;
+  constexpr int kSteps = 200;
+  for (int i = 0; i < kSteps; ++i) {
+    const double missing = length - curve_in_space(ground, rise).total();
+    ground += missing;
+    if (std::abs(missing) <= 1e-15 * length) break;
+  }
+  return ground;
+}
+
+}  // namespace
+
+Lemniscate::Lemniscate(const LemniscateSpec& spec)
+    : spec_(spec),
+      ground_length_(solve_ground_length(spec.length_m, spec.rise_m)),
+      ground_(plan_speed, 0.0, 2.0 * kPi, kCells),
+      in_space_(curve_in_space(ground_length_, spec.rise_m)) {}
+
+Pose Lemniscate::at(double distance_m) const {
+  double distance = std::fmod(distance_m, spec_.length_m);
+  if (distance < 0.0) distance += spec_.length_m;
+  const double u = in_space_.parameter_at(distance);
+  const PlanPoint plan = plan_at(ground_.parameter_at(u * ground_.total()));
+  const double a = ground_length_ / ground_.total();
+  // The plan leaves the crossing at -45 degrees.
+  const Eigen::Rotation2Dd turn(spec_.heading + kPi / 4.0);
+  const Vec2 position = turn * (a * plan.position);
+  const Vec2 direction = turn * (ground_length_ * plan.derivative.normalized());
+  const double climb = std::sin(kPi * u);
+  const double height = spec_.rise_m * climb * climb;
+  const double slope = spec_.rise_m * kPi * std::sin(2.0 * kPi * u);
+  return look_along(spec_.crossing + Vec3(position.x(), position.y(), height),
+                    Vec3(direction.x(), direction.y(), slope));
+}
+
+}  // namespace hallway::map

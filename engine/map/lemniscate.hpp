@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "geom/pose.hpp"
+#include "map/arc_length.hpp"
+
+namespace hallway::map {
+
+/// What a lemniscate path is made from.
+struct LemniscateSpec {
+  Vec3 crossing = Vec3::Zero();  ///< world, metres
+  double heading = 0.0;          ///< at the start, radians about z
+  double length_m = 0.0;         ///< of the whole curve in space
+  double rise_m = 0.0;           ///< height of the second passage of the crossing above the first
+};
+
+/// A figure eight: Bernoulli's lemniscate, r^2 = a^2 cos 2 theta, which starts at the crossing, goes round its first loop to
+/// the left and its second to the right. Its height is rise_m sin^2(pi u), u the part of the way on the ground plan: level
+/// at the start, `rise_m` when the crossing is passed for the second time, back at the end, smooth throughout.
+class Lemniscate {
+ public:
+  /// Needs length_m > 0 and |rise_m| < length_m / 4.
+  explicit Lemniscate(const LemniscateSpec& spec);
+
+  double length_m() const { return spec_.length_m; }
+  bool closed() const { return true; }
+  /// T_world_body; the distance is taken modulo the length. Arc length is right to 1e-9 of the length.
+  Pose at(double distance_m) const;
+
+ private:
+  LemniscateSpec spec_;
+  double ground_length_;  ///< length of the ground plan, metres
+  ArcLength ground_;      ///< of the ground plan with a = 1, over its angle parameter
+  ArcLength in_space_;    ///< of the curve, over the part of the ground plan's length
+};
+
+}  // namespace hallway::map

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "geom/pose.hpp"
+#include "map/document.hpp"
+#include "map/lemniscate.hpp"
+#include "map/rounded_polyline.hpp"
+
+namespace hallway::map {
+
+/// A way through the world, parametrised by the distance travelled.
+class Path {
+ public:
+  explicit Path(RoundedPolyline curve) : curve_(std::move(curve)) {}
+  explicit Path(Lemniscate curve) : curve_(std::move(curve)) {}
+
+  /// Length of the whole path, of one round where it is closed; metres.
+  double length_m() const;
+  bool closed() const;
+  /// T_world_body after `distance_m` metres: x forward along the path including its incline, y level. Beyond the ends a
+  /// closed path goes on round, an open one stands at its end. O(log of the number of pieces).
+  Pose at(double distance_m) const;
+
+ private:
+  std::variant<RoundedPolyline, Lemniscate> curve_;
+};
+
+/// The path that the entity `hw_path` of that name describes (entities and keys: docs/formats.md).
+/// Throws Error{kBadInput}: no such path (naming those that exist), two of one name, a key missing or out of range, too few
+/// waypoints, a corner that leaves its arc no room.
+Path find_path(const Document& document, std::string_view name);
+
+}  // namespace hallway::map

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/pose.hpp"
+
+namespace hallway::map {
+
+/// Straight lines between waypoints whose corners are arcs of a circle, so that the direction never jumps.
+class RoundedPolyline {
+ public:
+  /// A waypoint at which no path can be made, and why.
+  struct Fault {
+    std::size_t waypoint;
+    std::string message;
+  };
+
+  /// Says what is wrong with the waypoints, if anything: too few (2, or 3 if closed), two at one place, a turn straight
+  /// back, a vertical line, a corner whose arc needs more of its lines than there is.
+  static std::optional<Fault> check(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
+
+  /// @param waypoints        world, metres; must pass check()
+  /// @param corner_radius_m  greater than 0
+  RoundedPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
+
+  double length_m() const { return length_m_; }
+  bool closed() const { return closed_; }
+  /// T_world_body. Distance 0 is the first waypoint; where a closed path has a corner there, the end of that corner's arc.
+  Pose at(double distance_m) const;
+
+ private:
+  /// A straight line, or an arc where `radius_m` is positive.
+  struct Piece {
+    double begin_m = 0.0;  ///< distance from the start of the path
+    double length_m = 0.0;
+    Vec3 start = Vec3::Zero();
+    Vec3 direction = Vec3::UnitX();  ///< at its start
+    Vec3 inward = Vec3::Zero();      ///< from the start towards the arc's centre, unit length
+    double radius_m = 0.0;
+  };
+
+  void append(Piece piece);
+
+  std::vector<Piece> pieces_;
+  double length_m_ = 0.0;
+  bool closed_;
+};
+
+}  // namespace hallway::map

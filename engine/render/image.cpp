@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "render/image.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace hallway::render {
+
+void check_image_size(std::int64_t width_px, std::int64_t height_px) {
+  const auto side_ok = [](std::int64_t side) { return side >= 1 && side <= kMaxImageSide_px; };
+  if (side_ok(width_px) && side_ok(height_px) && width_px * height_px <= kMaxImagePixels) return;
+  throw Error(
+      ErrorCode::kBadInput,
+      fmt::format(
+          "a picture of {}x{} pixels cannot be drawn: each side must be 1 to {} and the whole at most "
+          "{} pixels",
+          width_px, height_px, kMaxImageSide_px, kMaxImagePixels));
+}
+
+}  // namespace hallway::render

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "run/manifest.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <fstream>
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/text.hpp"
+
+namespace hallway::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(info, line)) {
+    const std::size_t colon = line.find(':');
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      return printable(trim(std::string_view(line).substr(colon + 1)));
+    }
+  }
+  return "unknown";
+}
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#else
+  return "g++ " __VERSION__;
+#endif
+}
+
+Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
+  Json files = Json::array();
+  for (std::size_t i = 0; i < pipeline.size(); ++i) files.push_back(printable(pipeline.stage(i).file().string(), 4096));
+  return {{"cpu", cpu_name()},
+          {"threads", facts.threads},
+          {"trace", trace::backend_description(facts.trace)},
+          {"compiler", compiler_name()},
+          {"plugin_files", files},
+          {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+}
+
+std::string origin_of(const ManifestFacts& facts, const std::string& plugin, const std::string& parameter) {
+  std::string origin = "default";
+  for (const ParameterOrigin& known : facts.parameters) {
+    if (known.plugin == plugin && known.name == parameter) origin = known.origin;  // the last one counts
+  }
+  return origin;
+}
+
+Json describe_plugin(const ManifestFacts& facts, host::Plugin& plugin) {
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
+    const host::Parameter& parameter = plugin.parameters()[i];
+    parameters.push_back({{"name", parameter.name},
+                          {"value", plugin.parameter_text(i)},
+                          {"unit", parameter.unit},
+                          {"origin", origin_of(facts, plugin.info().id, parameter.name)}});
+  }
+  return {{"id", plugin.info().id},
+          {"version", plugin.info().version},
+          {"hash", content_hash(read_file(plugin.file()))},
+          {"parameters", parameters}};
+}
+
+}  // namespace
+
+std::string version() { return HALLWAY_VERSION; }
+
+Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
+  Json inputs = Json::array();
+  for (const Attachment& input : facts.inputs) {
+    inputs.push_back({{"file", printable(input.name)}, {"hash", content_hash(input.content)}});
+  }
+  Json settings = Json::array();
+  for (const sim::Setting& setting : facts.settings) {
+    settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
+  }
+  Json plugins = Json::array();
+  for (std::size_t i = 0; i < pipeline.size(); ++i) plugins.push_back(describe_plugin(facts, pipeline.stage(i)));
+  return {{"schema", "hallway.run/1"}, {"hallway", version()},        {"command", facts.command},
+          {"name", facts.name},        {"inputs", inputs},            {"period_ns", facts.period_ns},
+          {"settings", settings},      {"plugins", plugins},          {"warnings", facts.warnings},
+          {"host", describe_host(facts, pipeline)}};
+}
+
+}  // namespace hallway::run

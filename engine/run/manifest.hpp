@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/pipeline.hpp"
+#include "run/run.hpp"
+#include "sim/setting.hpp"
+#include "trace/scene.hpp"
+
+namespace hallway::run {
+
+/// This program's version, e.g. "0.1.0".
+std::string version();
+
+/// Where a plugin's parameter got its value, when it was not left at its default.
+struct ParameterOrigin {
+  std::string plugin;  ///< id
+  std::string name;
+  std::string origin;  ///< "office.toml:12", "command line", "run.json"
+};
+
+/// What a command knows of a run before it begins.
+struct ManifestFacts {
+  std::string command;                        ///< "run" or "replay"
+  std::string name;                           ///< a short name for titles, e.g. the scenario's
+  std::vector<Attachment> inputs{};             ///< files read; their names and hashes are recorded
+  std::vector<sim::Setting> settings{};         ///< with their origins
+  std::vector<ParameterOrigin> parameters{};    ///< of the plugins
+  std::vector<std::string> warnings{};          ///< what the user was told
+  std::int64_t period_ns = 0;                 ///< from frame to frame
+  unsigned threads = 1;                       ///< a fact of the machine: no result depends on it
+  trace::Backend trace = trace::Backend::kEmbree;
+};
+
+/// run.json, schema "hallway.run/1", as far as it is known before the first iteration (docs/formats.md). Everything that
+/// may differ between two runs of the same input stands under `host`.
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline);
+
+}  // namespace hallway::run

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "run/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "base/text.hpp"
+#include "geom/box.hpp"
+#include "render/colour.hpp"
+#include "render/draw.hpp"
+#include "render/map_surfaces.hpp"
+#include "render/png.hpp"
+#include "run/sensor_json.hpp"
+
+namespace hallway::run {
+namespace {
+
+using LandmarkPlaces = std::unordered_map<log::LandmarkId, Vec3>;
+
+Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+Pose pose_of(const log::StampedPose& pose) {
+  const auto& q = pose.orientation;
+  return {Quat(q[0], q[1], q[2], q[3]).normalized(), vector_of(pose.position_m)};
+}
+
+/// The mapped landmarks where the fit puts them.
+LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map) {
+  LandmarkPlaces places;
+  for (const log::MapLandmark& landmark : record.landmarks) {
+    if (landmark.status == log::LandmarkStatus::kMapped) {
+      places[landmark.id] = T_world_map * vector_of(landmark.position_m);
+    }
+  }
+  return places;
+}
+
+/// From the true to the mapped place of every matched landmark.
+std::vector<std::array<Vec3, 2>> error_lines(const Record& record, const LandmarkPlaces& mapped) {
+  LandmarkPlaces truth;
+  for (const log::Landmark& landmark : record.true_landmarks) truth[landmark.id] = vector_of(landmark.position_m);
+  std::vector<std::array<Vec3, 2>> lines;
+  for (const log::IdPair& match : record.matches) {
+    const auto estimate = mapped.find(match.first);
+    const auto true_place = truth.find(match.second);
+    if (estimate != mapped.end() && true_place != truth.end()) lines.push_back({true_place->second, estimate->second});
+  }
+  return lines;
+}
+
+/// Makes the lines longer by a power of ten if they would be too short to be seen in a picture of this extent.
+/// @return the power of ten
+double lengthen(std::vector<std::array<Vec3, 2>>& lines, double extent_m) {
+  double sum = 0.0;
+  for (const auto& line : lines) sum += (line[1] - line[0]).squaredNorm();
+  const double rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(lines.size(), 1)));
+  constexpr double kVisibleShare = 0.006;  // of the extent: some 7 px in a picture of 1200
+  double scale = 1.0;
+  while (rms > 0.0 && rms * scale * 3.0 < kVisibleShare * extent_m && scale < 1e6) scale *= 10.0;
+  for (auto& line : lines) line[1] = line[0] + scale * (line[1] - line[0]);
+  return scale;
+}
+
+/// The positions as a line, broken where poses are missing.
+std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose& T_world_frame) {
+  double period_s = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < poses.size(); ++i) period_s = std::min(period_s, poses[i].t_s - poses[i - 1].t_s);
+  std::vector<Vec3> line;
+  line.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool gap = i > 0 && poses[i].t_s - poses[i - 1].t_s > 1.5 * period_s;
+    if (gap) line.push_back(Vec3::Constant(std::nan("")));
+    line.push_back(T_world_frame * vector_of(poses[i].position_m));
+  }
+  return line;
+}
+
+void add_submaps(render::Picture& picture, const Record& record, const LandmarkPlaces& mapped) {
+  std::map<std::uint64_t, std::vector<Vec3>> members;
+  for (const log::IdPair& member : record.submaps) {
+    const auto place = mapped.find(member.second);
+    if (place != mapped.end()) members[member.first].push_back(place->second);
+  }
+  for (const auto& [submap, places] : members) {
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& place : places) centre += place / static_cast<double>(places.size());
+    render::Segments links{.pairs = {}, .colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22,
+                           .label = {}};
+    for (const Vec3& place : places) links.pairs.push_back({centre, place});
+    picture.segments.push_back(std::move(links));
+  }
+}
+
+void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+                   const Pose& T_world_map) {
+  const LandmarkPlaces mapped = mapped_places(record, T_world_map);
+  Box extent;
+  render::Markers estimates{.positions = {}, .shape = render::MarkerShape::kDot, .colour = render::palette::kEstimate,
+                            .size_px = 4.0, .label = "mapped landmarks"};
+  for (const log::MapLandmark& landmark : record.landmarks) {  // in the file's order, so that the picture is the same
+    const auto place = mapped.find(landmark.id);
+    if (place == mapped.end()) continue;
+    estimates.positions.push_back(place->second);
+    extent.extend(place->second);
+  }
+  std::unordered_set<log::LandmarkId> mapped_truths;
+  for (const log::IdPair& match : record.matches) mapped_truths.insert(match.second);
+  render::Markers truth{.positions = {}, .shape = render::MarkerShape::kRing, .colour = render::palette::kTruth,
+                        .size_px = 7.0, .label = "true landmarks"};
+  render::Markers others{.positions = {}, .shape = render::MarkerShape::kDot, .colour = render::palette::kMutedInk,
+                         .size_px = 1.8, .label = "not mapped"};
+  for (const log::Landmark& landmark : record.true_landmarks) {
+    auto& markers = mapped_truths.contains(landmark.id) ? truth : others;
+    markers.positions.push_back(vector_of(landmark.position_m));
+    extent.extend(markers.positions.back());
+  }
+  if (spec.shows(sim::PictureLayer::kSubmaps)) add_submaps(picture, record, mapped);
+  if (spec.shows(sim::PictureLayer::kErrors) && !extent.isEmpty()) {
+    render::Segments errors{.pairs = error_lines(record, mapped), .colour = render::palette::kError, .width_px = 1.4,
+                            .opacity = 0.9, .label = {}};
+    const double scale = lengthen(errors.pairs, extent.diagonal().norm());
+    errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";
+    if (!errors.pairs.empty()) picture.segments.push_back(std::move(errors));
+  }
+  if (spec.shows(sim::PictureLayer::kTruth)) {
+    for (render::Markers* markers : {&others, &truth}) {
+      if (!markers->positions.empty()) picture.markers.push_back(std::move(*markers));
+    }
+  }
+  if (spec.shows(sim::PictureLayer::kLandmarks) && !estimates.positions.empty()) picture.markers.push_back(std::move(estimates));
+}
+
+void add_paths(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+               const Pose& T_world_map) {
+  if (spec.shows(sim::PictureLayer::kTruth) && !record.truth.empty()) {
+    picture.polylines.push_back({.points = line_of(record.truth, Pose()), .colour = render::palette::kTruth,
+                                 .width_px = 5.0, .dashed = false, .label = "true path"});
+  }
+  if (spec.shows(sim::PictureLayer::kEstimate) && !record.trajectory.empty()) {
+    picture.polylines.push_back({.points = line_of(record.trajectory, T_world_map),
+                                 .colour = render::palette::kEstimate, .width_px = 1.8, .dashed = false,
+                                 .label = "estimated path"});
+    picture.labels.push_back({.position = T_world_map * vector_of(record.trajectory.front().position_m), .text = "start"});
+  }
+}
+
+/// The sensor at the last pose that is known.
+void add_frustum(render::Picture& picture, const Record& record, const Pose& T_world_map) {
+  const auto sensors = record.run.find("sensors");
+  if (sensors == record.run.end() || !sensors->is_array() || sensors->empty()) return;
+  const auto& sensor = sensors->front();
+  const auto number = [&](const char* key) {
+    const auto value = sensor.find(key);
+    return value != sensor.end() && value->is_number() ? value->template get<double>() : std::nan("");
+  };
+  render::FrustumMark mark;
+  mark.horizontal_fov = number("horizontal_fov_rad");
+  mark.vertical_fov = number("vertical_fov_rad");
+  mark.range_m = number("max_range_m");
+  mark.label = "field of view at the end";
+  if (!(mark.horizontal_fov > 0.0) || !(mark.vertical_fov > 0.0) || !(mark.range_m > 0.0)) return;
+  Pose T_body_sensor;
+  const auto mount = sensor.find("T_body_sensor");
+  if (mount != sensor.end()) T_body_sensor = read_pose(*mount);
+  if (!record.truth.empty()) {
+    mark.T_world_sensor = pose_of(record.truth.back()) * T_body_sensor;
+  } else if (!record.trajectory.empty()) {
+    mark.T_world_sensor = T_world_map * pose_of(record.trajectory.back()) * T_body_sensor;
+  } else {
+    return;
+  }
+  picture.frustum = mark;
+}
+
+std::string number_text(const nlohmann::ordered_json& value, const char* format) {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : std::string("unknown");
+}
+
+std::string subtitle_of(const Record& record) {
+  const auto& metrics = record.metrics;
+  std::string text = fmt::format("{} iterations", metrics.value("iterations", 0));
+  const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
+  if (mapped.is_number()) text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
+  const auto rmse = metrics.find("landmark_rmse_m");
+  if (rmse != metrics.end() && rmse->is_object() && rmse->contains("final_aligned") &&
+      (*rmse)["final_aligned"].is_number()) {
+    text += ", landmark RMSE " + number_text((*rmse)["final_aligned"], "{:.4f}") + " m";
+  }
+  const auto positions = metrics.find("position_rmse_m");
+  if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number()) {
+    text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
+  }
+  return text;
+}
+
+/// The view that is asked for. A closed building seen from above is a roof: it is opened unless a height is given.
+render::View view_of(const sim::PictureSpec& spec, const std::vector<render::Surface>& surfaces) {
+  render::View view;
+  view.kind = spec.view == sim::PictureView::kTop ? render::ViewKind::kTop : render::ViewKind::kPerspective;
+  view.cut_z_m = spec.cut_z_m ? spec.cut_z_m : render::plan_cut_height(surfaces);
+  view.eye = spec.eye_m;
+  view.target = spec.target_m;
+  return view;
+}
+
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec) {
+  return render::encode_png(
+      render::draw(picture, view_of(spec, picture.surfaces), spec.width_px, spec.height_px));
+}
+
+}  // namespace
+
+render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec) {
+  render::Picture picture;
+  picture.title = printable(record.run.value("name", "run"));
+  picture.subtitle = subtitle_of(record);
+  if (spec.shows(sim::PictureLayer::kMap) && record.world) picture.surfaces = render::map_surfaces(*record.world);
+  const Pose T_world_path = align_path(record).value_or(Pose());
+  const Pose T_world_map = align_landmarks(record).value_or(T_world_path);
+  if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
+  add_landmarks(picture, record, spec, T_world_map);
+  add_paths(picture, record, spec, T_world_path);
+  return picture;
+}
+
+render::Picture compose_map_picture(const map::World& world, const std::string& title) {
+  render::Picture picture;
+  picture.title = printable(title);
+  picture.surfaces = render::map_surfaces(world);
+  return picture;
+}
+
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec) {
+  return draw_png(compose_picture(record, spec), spec);
+}
+
+std::string draw_map_picture(const map::World& world, const std::string& title, const sim::PictureSpec& spec) {
+  return draw_png(compose_map_picture(world, title), spec);
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "run/record.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "geom/rigid_fit.hpp"
+#include "map/reader.hpp"
+
+namespace hallway::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRunSchema = "hallway.run/1";
+/// Fewer pairs leave a rotation open.
+constexpr std::size_t kPairsForFit = 3;
+
+nlohmann::ordered_json read_json(const fs::path& path) {
+  const std::string text = read_file(path);
+  try {
+    return nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::json::exception& failure) {
+    throw Error(ErrorCode::kBadInput, printable(failure.what()), {.file = printable(path.string())});
+  }
+}
+
+template <typename Read>
+auto read_if_there(const fs::path& path, Read read) -> decltype(read(path)) {
+  std::error_code code;
+  if (!fs::exists(path, code)) return {};
+  return read(path);
+}
+
+Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+bool is_run_folder(const fs::path& folder) {
+  std::error_code code;
+  return fs::is_regular_file(folder / files::kRun, code);
+}
+
+nlohmann::ordered_json read_manifest(const fs::path& folder) {
+  const fs::path path = folder / files::kRun;
+  nlohmann::ordered_json manifest = read_json(path);
+  if (!manifest.is_object() || manifest.value("schema", "") != kRunSchema) {
+    throw Error(ErrorCode::kBadInput, "has not \"schema\": \"hallway.run/1\"",
+                {.file = printable(path.string())});
+  }
+  return manifest;
+}
+
+Record read_record(const fs::path& folder) {
+  Record record;
+  record.run = read_manifest(folder);
+  record.metrics = read_json(folder / files::kMetrics);
+  record.trajectory = log::read_tum(folder / files::kTrajectory);
+  record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
+  record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
+  record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);
+  record.matches = read_if_there(
+      folder / files::kMatches, [](const fs::path& path) { return log::read_id_pairs(path, log::kMatchColumns); });
+  record.submaps = read_if_there(
+      folder / files::kSubmaps, [](const fs::path& path) { return log::read_id_pairs(path, log::kSubmapColumns); });
+  record.world = read_if_there(folder / files::kMap, [](const fs::path& path) {
+    return std::optional<map::World>(map::build_world(map::load(path)));
+  });
+  return record;
+}
+
+std::optional<Pose> align_landmarks(const Record& record) {
+  std::unordered_map<log::LandmarkId, Vec3> truth;
+  for (const log::Landmark& landmark : record.true_landmarks) truth[landmark.id] = vector_of(landmark.position_m);
+  std::unordered_map<log::LandmarkId, log::LandmarkId> owner;
+  for (const log::IdPair& match : record.matches) owner[match.first] = match.second;
+  std::vector<Vec3> from;
+  std::vector<Vec3> to;
+  for (const log::MapLandmark& landmark : record.landmarks) {
+    const auto match = owner.find(landmark.id);
+    if (landmark.status != log::LandmarkStatus::kMapped || match == owner.end()) continue;
+    const auto true_position = truth.find(match->second);
+    if (true_position == truth.end()) continue;
+    from.push_back(vector_of(landmark.position_m));
+    to.push_back(true_position->second);
+  }
+  if (from.size() < kPairsForFit) return std::nullopt;
+  return rigid_fit(from, to);
+}
+
+std::optional<Pose> align_path(const Record& record) {
+  std::vector<Vec3> from;
+  std::vector<Vec3> to;
+  auto estimate = record.trajectory.begin();
+  for (const log::StampedPose& pose : record.truth) {
+    while (estimate != record.trajectory.end() && estimate->t_s < pose.t_s) ++estimate;
+    if (estimate == record.trajectory.end()) break;
+    if (estimate->t_s != pose.t_s) continue;
+    from.push_back(vector_of(estimate->position_m));
+    to.push_back(vector_of(pose.position_m));
+  }
+  if (from.size() < kPairsForFit) return std::nullopt;
+  return rigid_fit(from, to);
+}
+
+}  // namespace hallway::run

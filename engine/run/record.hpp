@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "log/id_pairs.hpp"
+#include "log/landmarks.hpp"
+#include "log/map_landmarks.hpp"
+#include "log/tum.hpp"
+#include "map/world.hpp"
+
+namespace hallway::run {
+
+/// The names of the files of a run folder.
+namespace files {
+inline constexpr const char* kRun = "run.json";
+inline constexpr const char* kMetrics = "metrics.json";
+inline constexpr const char* kScenario = "scenario.toml";
+inline constexpr const char* kMap = "map.map";
+inline constexpr const char* kObservations = "observations.csv";
+inline constexpr const char* kTruePoses = "truth_poses.csv";
+inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
+inline constexpr const char* kTrueTrajectory = "truth.tum";
+inline constexpr const char* kTrajectory = "trajectory.tum";
+inline constexpr const char* kLandmarks = "landmarks.csv";
+inline constexpr const char* kLandmarksPly = "landmarks.ply";
+inline constexpr const char* kMatches = "matches.csv";
+inline constexpr const char* kSubmaps = "submaps.csv";
+inline constexpr const char* kTiming = "timing.csv";
+}  // namespace files
+
+/// What a run folder holds, read back; empty where the run had none.
+struct Record {
+  nlohmann::ordered_json run;                 ///< run.json
+  nlohmann::ordered_json metrics;             ///< metrics.json
+  std::optional<map::World> world;            ///< of map.map
+  std::vector<log::StampedPose> truth;        ///< T_world_body
+  std::vector<log::StampedPose> trajectory;   ///< T_map_body
+  std::vector<log::Landmark> true_landmarks;  ///< world
+  std::vector<log::MapLandmark> landmarks;    ///< map frame
+  std::vector<log::IdPair> matches;           ///< landmark, true landmark
+  std::vector<log::IdPair> submaps;           ///< submap, landmark
+};
+
+/// Whether a folder is one that a run has written.
+bool is_run_folder(const std::filesystem::path& folder);
+
+/// Reads run.json of a run folder. Throws Error{kBadInput} if it is not one of ours, Error{kIo} if it cannot be read.
+nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
+
+/// Reads a run folder back. Throws Error{kBadInput, kIo} naming the file that is wrong or missing.
+Record read_record(const std::filesystem::path& folder);
+
+/// T_world_map by the best rigid fit of the mapped landmarks to their true counterparts; empty if fewer than three pairs
+/// are known.
+std::optional<Pose> align_landmarks(const Record& record);
+
+/// T_world_map by the best rigid fit of the estimated positions to the true ones of the same time; empty if fewer than
+/// three pairs are known.
+std::optional<Pose> align_path(const Record& record);
+
+}  // namespace hallway::run

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "run/run.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "eval/evaluator.hpp"
+#include "eval/metrics_json.hpp"
+#include "host/frame_builder.hpp"
+#include "log/poses.hpp"
+#include "log/timing.hpp"
+#include "run/output_folder.hpp"
+#include "run/pictures.hpp"
+#include "run/record.hpp"
+#include "run/sensor_json.hpp"
+
+namespace hallway::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kSensorId = 0;
+constexpr double kMillisecondsPerNanosecond = 1e-6;
+
+/// Everything that is collected while a run goes on and written at its end.
+struct Collected {
+  log::ObservationLog observations{true};
+  std::vector<log::IterationPose> true_poses;
+  std::vector<log::StampedPose> truth;
+  std::vector<log::StampedPose> trajectory;
+  std::vector<log::IterationTime> times;
+};
+
+/// The pipeline's map, copied out of buffers that the next call uses again.
+struct FinalMap {
+  std::vector<log::MapLandmark> landmarks;
+  std::vector<log::IdPair> submap_members;
+  std::uint64_t submaps = 0;
+};
+
+log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
+  return {.t_s = static_cast<double>(t_ns) / 1e9,
+          .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
+          .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+}
+
+std::optional<Pose> estimate_of(const host::Outputs& outputs) {
+  if (!outputs.pose() || !outputs.pose()->valid) return std::nullopt;
+  return pose_of(outputs.pose()->T_map_body);
+}
+
+log::LandmarkStatus status_of(std::uint32_t status) {
+  switch (status) {
+    case HW_LANDMARK_MAPPED: return log::LandmarkStatus::kMapped;
+    case HW_LANDMARK_DYNAMIC: return log::LandmarkStatus::kDynamic;
+    default: return log::LandmarkStatus::kTemporary;
+  }
+}
+
+FinalMap copy_map(const host::Outputs& outputs) {
+  FinalMap map;
+  for (const hw_landmark_t& landmark : outputs.landmarks()) {
+    map.landmarks.push_back({.id = landmark.id,
+                             .position_m = {landmark.position[0], landmark.position[1], landmark.position[2]},
+                             .observations = landmark.observations,
+                             .status = status_of(landmark.status)});
+  }
+  for (const hw_submap_t& submap : outputs.submaps()) {
+    for (const std::uint64_t member : outputs.members(submap)) map.submap_members.push_back({submap.id, member});
+  }
+  map.submaps = outputs.submaps().size();
+  return map;
+}
+
+/// Feeds frames to the pipeline and takes down what comes back.
+class Driver {
+ public:
+  Driver(Source& source, host::Pipeline& pipeline, bool keep_observations)
+      : source_(source), pipeline_(pipeline), keep_observations_(keep_observations),
+        evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
+
+  void run_iteration(std::uint32_t iteration) {
+    source_.read(iteration, frame_);
+    const host::Outputs& outputs = pipeline_.process(build_frame(iteration));
+    const host::CallTime time = pipeline_.last_call();
+    const double wall_ms = static_cast<double>(time.wall_ns) * kMillisecondsPerNanosecond;
+    const double cpu_ms = static_cast<double>(time.cpu_ns) * kMillisecondsPerNanosecond;
+    const std::optional<Pose> estimate = estimate_of(outputs);
+    evaluator_.add({.T_world_body = frame_.T_world_body,
+                    .orientation_known = frame_.orientation_known,
+                    .T_map_body = estimate,
+                    .associations = associations(outputs),
+                    .identities = identities_,
+                    .wall_ms = wall_ms,
+                    .cpu_ms = cpu_ms});
+    collected_.times.push_back({.iteration = iteration, .wall_ms = wall_ms, .cpu_ms = cpu_ms});
+    if (estimate) collected_.trajectory.push_back(stamped(frame_.t_ns, *estimate));
+    keep_truth(iteration);
+  }
+
+  const eval::Evaluator& evaluator() const { return evaluator_; }
+  const Collected& collected() const { return collected_; }
+
+ private:
+  const hw_frame_t& build_frame(std::uint32_t iteration) {
+    builder_.begin(iteration, frame_.t_ns);
+    std::vector<hw_point3_t>& points = builder_.add_points(kSensorId);
+    identities_.clear();
+    for (const log::Observation& seen : frame_.observations) {
+      points.push_back({seen.point[0], seen.point[1], seen.point[2]});
+      if (source_.has_identities()) identities_.push_back(seen.landmark);
+    }
+    return builder_.finish();
+  }
+
+  std::span<const log::LandmarkId> associations(const host::Outputs& outputs) {
+    if (const auto given = outputs.associations(0)) return *given;
+    none_.assign(frame_.observations.size(), log::kNoLandmark);
+    return none_;
+  }
+
+  void keep_truth(std::uint32_t iteration) {
+    if (keep_observations_) collected_.observations.add_frame(iteration, frame_.observations);
+    if (!frame_.T_world_body) return;
+    const log::StampedPose pose = stamped(frame_.t_ns, *frame_.T_world_body);
+    collected_.truth.push_back(pose);
+    collected_.true_poses.push_back(
+        {.iteration = iteration, .position_m = pose.position_m, .orientation = pose.orientation,
+         .orientation_known = frame_.orientation_known});
+  }
+
+  Source& source_;
+  host::Pipeline& pipeline_;
+  bool keep_observations_;
+  eval::Evaluator evaluator_;
+  host::FrameBuilder builder_;
+  SourceFrame frame_;
+  std::vector<log::LandmarkId> identities_;
+  std::vector<log::LandmarkId> none_;
+  Collected collected_;
+};
+
+void write_json(const fs::path& path, const nlohmann::ordered_json& document) {
+  write_file_atomically(path, document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void write_input(const fs::path& folder, const RunPlan& plan, const Source& source, const Collected& collected) {
+  for (const Attachment& attachment : plan.attachments) {
+    write_file_atomically(folder / attachment.name, attachment.content);
+  }
+  if (!collected.truth.empty()) {
+    log::write_tum(folder / files::kTrueTrajectory, collected.truth);
+    log::write_poses(folder / files::kTruePoses, collected.true_poses);
+  }
+  if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
+  if (plan.write_observations) log::write_observations(folder / files::kObservations, collected.observations);
+}
+
+void write_map(const fs::path& folder, const FinalMap& map, const eval::Evaluator& evaluator) {
+  log::write_map_landmarks(folder / files::kLandmarks, map.landmarks);
+  log::write_landmarks_ply(folder / files::kLandmarksPly, map.landmarks);
+  log::write_id_pairs(folder / files::kSubmaps, map.submap_members, log::kSubmapColumns);
+  std::vector<log::IdPair> matches;
+  for (const auto& [landmark, truth] : evaluator.associations().ownership().owner) {
+    matches.push_back({.first = landmark, .second = truth});
+  }
+  if (evaluator.has_identities()) log::write_id_pairs(folder / files::kMatches, matches, log::kMatchColumns);
+}
+
+nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, bool stopped,
+                                         std::uint32_t done) {
+  nlohmann::ordered_json manifest = plan.manifest;
+  manifest["sensors"] = nlohmann::ordered_json::array({print_sensor(source.sensor())});
+  manifest["iterations"] = done;
+  manifest["stopped_early"] = stopped;
+  return manifest;
+}
+
+}  // namespace
+
+RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
+  OutputFolder output(plan.folder, plan.replace);
+  const fs::path& folder = output.working_path();
+  Driver driver(source, pipeline, plan.write_observations);
+  RunResult result;
+  std::uint32_t done = 0;
+  while (done < source.iterations() && !result.stopped) {
+    driver.run_iteration(done++);
+    if (hooks.progress) hooks.progress(done);
+    result.stopped = hooks.stop && hooks.stop();
+  }
+  const FinalMap online = copy_map(pipeline.report(false));
+  const FinalMap refined = copy_map(pipeline.report(true));
+  result.metrics = driver.evaluator().metrics(online.landmarks, refined.landmarks);
+  result.submaps = refined.submaps;
+
+  write_input(folder, plan, source, driver.collected());
+  log::write_tum(folder / files::kTrajectory, driver.collected().trajectory);
+  write_map(folder, refined, driver.evaluator());
+  log::write_timing(folder / files::kTiming, driver.collected().times);
+  write_json(folder / files::kMetrics, eval::to_json(result.metrics));
+  write_json(folder / files::kRun, complete_manifest(plan, source, result.stopped, done));
+  if (!plan.pictures.empty()) {
+    const Record record = read_record(folder);
+    for (const sim::PictureSpec& picture : plan.pictures) {
+      write_file_atomically(folder / picture.file, draw_run_picture(record, picture));
+      result.pictures.push_back(output.path() / picture.file);
+    }
+  }
+  output.commit();
+  return result;
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "eval/metrics.hpp"
+#include "host/pipeline.hpp"
+#include "run/source.hpp"
+#include "sim/scenario.hpp"
+
+namespace hallway::run {
+
+/// A file that is kept in the run folder as it was read, so that the folder says all of what was run.
+struct Attachment {
+  std::string name;
+  std::string content;
+};
+
+/// What a run leaves behind, and where.
+struct RunPlan {
+  std::filesystem::path folder;  ///< final name of the run folder
+  bool replace = false;          ///< an earlier run of that name may be replaced
+  /// What run.json says beside what the run itself knows: command, settings with their origins, versions, warnings.
+  nlohmann::ordered_json manifest;
+  std::vector<Attachment> attachments;
+  std::vector<sim::PictureSpec> pictures;
+  bool write_observations = false;  ///< also the input, in the form that replay reads
+};
+
+/// What the caller is told and asked while a run goes on.
+struct RunHooks {
+  std::function<void(std::uint32_t done)> progress;  ///< after each iteration
+  std::function<bool()> stop;                        ///< true ends the run after the iterations so far, in good order
+};
+
+/// How a run went.
+struct RunResult {
+  eval::Metrics metrics;
+  std::uint64_t submaps = 0;                    ///< of the map at the end
+  std::vector<std::filesystem::path> pictures;  ///< under their final names
+  bool stopped = false;                         ///< by RunHooks::stop
+};
+
+/// Feeds every frame of the source to the pipeline, scores what it answers and writes the run folder (docs/formats.md).
+///
+/// The folder appears whole or not at all. Same source, pipeline and plan give the same bytes, but for timing.csv,
+/// metrics.json: iteration_ms, iteration_cpu_ms and run.json: host.
+/// Throws Error{kIo} if the folder cannot be written, which is checked first, and Error{kPluginFault} if a plugin fails.
+RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks);
+
+}  // namespace hallway::run

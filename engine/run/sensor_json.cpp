@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "run/sensor_json.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace hallway::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double number_or_unknown(const Json& value) {
+  return value.is_null() ? host::SensorInfo::kUnknown : value.get<double>();
+}
+
+/// Turns what the JSON library says of a wrong member into an error of ours.
+template <typename Read>
+auto read_checked(const char* element, Read read) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& failure) {
+    throw Error(ErrorCode::kBadInput, printable(failure.what()), {.file = "run.json", .element = element});
+  }
+}
+
+}  // namespace
+
+hw_pose_t abi_pose(const Pose& pose) {
+  return {{pose.t.x(), pose.t.y(), pose.t.z()}, {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+}
+
+Pose pose_of(const hw_pose_t& pose) {
+  const auto& q = pose.orientation;
+  const auto& t = pose.position;
+  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+}
+
+Json print_pose(const Pose& pose) {
+  return {{"position_m", {pose.t.x(), pose.t.y(), pose.t.z()}},
+          {"orientation_wxyz", {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}}};
+}
+
+Pose read_pose(const Json& json) {
+  return read_checked("pose", [&] {
+    const auto t = json.at("position_m").get<std::array<double, 3>>();
+    const auto q = json.at("orientation_wxyz").get<std::array<double, 4>>();
+    return Pose{Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+  });
+}
+
+Json print_sensor(const host::SensorInfo& sensor) {
+  return {{"name", sensor.name},
+          {"kind", "points"},
+          {"T_body_sensor", print_pose(pose_of(sensor.T_body_sensor))},
+          {"horizontal_fov_rad", known(sensor.horizontal_fov)},
+          {"vertical_fov_rad", known(sensor.vertical_fov)},
+          {"min_range_m", known(sensor.min_range_m)},
+          {"max_range_m", known(sensor.max_range_m)},
+          {"noise_m", {known(sensor.noise_m[0]), known(sensor.noise_m[1]), known(sensor.noise_m[2])}}};
+}
+
+host::SensorInfo read_sensor(const Json& json) {
+  return read_checked("sensor", [&] {
+    host::SensorInfo sensor;
+    sensor.name = json.at("name").get<std::string>();
+    sensor.T_body_sensor = abi_pose(read_pose(json.at("T_body_sensor")));
+    sensor.horizontal_fov = number_or_unknown(json.at("horizontal_fov_rad"));
+    sensor.vertical_fov = number_or_unknown(json.at("vertical_fov_rad"));
+    sensor.min_range_m = number_or_unknown(json.at("min_range_m"));
+    sensor.max_range_m = number_or_unknown(json.at("max_range_m"));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sensor.noise_m[axis] = number_or_unknown(json.at("noise_m").at(axis));
+    }
+    return sensor;
+  });
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "run/source.hpp"
+#include "sim/simulator.hpp"
+
+namespace hallway::run {
+
+/// The frames of a simulated robot.
+class SimulatedSource : public Source {
+ public:
+  /// Keeps a reference to the simulator. Throws Error{kBadInput} unless the scenario has exactly one sensor.
+  explicit SimulatedSource(const sim::Simulator& simulator);
+
+  std::uint32_t iterations() const override { return simulator_.scenario().steps; }
+  void read(std::uint32_t iteration, SourceFrame& frame) override;
+  const host::SensorInfo& sensor() const override { return sensor_; }
+  bool has_identities() const override { return true; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return landmarks_; }
+
+ private:
+  const sim::Simulator& simulator_;
+  host::SensorInfo sensor_;
+  std::optional<std::vector<log::Landmark>> landmarks_;
+};
+
+}  // namespace hallway::run

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "host/plugin.hpp"
+#include "log/landmarks.hpp"
+#include "log/observations.hpp"
+
+namespace hallway::run {
+
+/// One iteration of input: what the sensor saw and, for the evaluator alone, what is true.
+struct SourceFrame {
+  std::int64_t t_ns = 0;
+  std::vector<log::Observation> observations;  ///< sensor frame; identities are never shown to a plugin
+  std::optional<Pose> T_world_body;            ///< where known
+  bool orientation_known = true;               ///< false: only the position of T_world_body is meant
+};
+
+/// Where a run's input comes from: a simulator or a log. A frame is a pure function of its number.
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  /// How many frames there are.
+  virtual std::uint32_t iterations() const = 0;
+  /// Replaces `frame` by frame `iteration`, below iterations().
+  virtual void read(std::uint32_t iteration, SourceFrame& frame) = 0;
+  /// The one sensor.
+  virtual const host::SensorInfo& sensor() const = 0;
+  /// Whether the observations name their true landmarks.
+  virtual bool has_identities() const = 0;
+  /// Where the true landmarks are (world), if that is known.
+  virtual const std::optional<std::vector<log::Landmark>>& true_landmarks() const = 0;
+};
+
+}  // namespace hallway::run

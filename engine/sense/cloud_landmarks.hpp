@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "map/document.hpp"
+
+namespace hallway::sense {
+
+/// Appends the points of the map's `hw_landmark_cloud` entities, in the order of the document: for each cloud
+/// round(path length * per_100m / 100) points, each beside a place of the path drawn uniformly by distance,
+/// level sideways by up to `sideways_m` and up or down by up to `height_m`, uniformly. Solids are not looked
+/// at: a point inside one is never seen.
+///
+/// The random numbers are keyed by the cloud's seed and name and the point's number in the cloud. Throws
+/// Error{kBadInput} for a bad key, a path that does not exist, or more than kMaxLandmarks in all.
+void add_cloud_landmarks(const map::Document& document, std::vector<Vec3>& landmarks);
+
+}  // namespace hallway::sense

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geom/pose.hpp"
+#include "sense/point_sensor.hpp"
+#include "sim/setting.hpp"
+
+namespace hallway::sim {
+
+/// How the robot moves: along a path of the map. Exactly one of `speed_m_s` and `loop_steps` is set.
+struct RobotSpec {
+  std::string path;                   ///< name of an `hw_path` entity
+  std::optional<double> speed_m_s{};  ///< metres of path in a second
+  std::optional<std::uint32_t>
+      loop_steps{};  ///< steps for one round of a closed path, for the whole of an open one
+};
+
+/// A value for a plugin's parameter. Whether there is such a parameter is for the plugin to say.
+struct PluginParameter {
+  std::string name;
+  std::string value;  ///< numbers as shortest round-trip decimals, truth values as "true" and "false"
+  Where where;        ///< where it was said, for messages about it
+};
+
+/// One plugin of the pipeline with what it is told at its start.
+struct PluginSpec {
+  std::string name;  ///< a name on the plugin search path, or a file usable from the current folder
+  std::vector<PluginParameter> params{};  ///< in the order of the scenario
+};
+
+/// The name under which `--set NAME.parameter=value` finds a plugin: of a file ("x/slam.so", "x/some.so:slam") that of the
+/// plugin in it, without folder and `.so`.
+std::string short_plugin_name(const std::string& plugin);
+
+enum class PictureView { kTop, kPerspective };
+
+/// What a picture can show.
+enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum };
+
+/// The names of the layers, in the order of PictureLayer.
+const std::vector<std::string>& picture_layer_names();
+
+/// A picture that is wanted of a run.
+struct PictureSpec {
+  std::string file;  ///< a plain name ending in .png, for the run's folder
+  PictureView view = PictureView::kTop;
+  int width_px = 1280;
+  int height_px = 800;
+  std::optional<double>
+      cut_z_m{};  ///< what stands above this height is cut away, metres; unset: up to the renderer
+  std::optional<Vec3> eye_m{};       ///< perspective: viewpoint, world, metres; set together with `target_m`
+  std::optional<Vec3> target_m{};    ///< perspective: looked at, world, metres
+  std::vector<PictureLayer> show{};  ///< without repetition
+
+  bool shows(PictureLayer layer) const;
+};
+
+/// What is to be run: a map, a robot in it with its sensors, and the plugins that get what it senses. A value; where each
+/// part of it came from stands in `settings`.
+struct Scenario {
+  std::string file;                ///< path as the user gave it
+  std::filesystem::path map_file;  ///< usable from the current folder
+  std::uint64_t seed = 1;
+  std::uint32_t steps = 1;               ///< number of frames
+  std::int64_t period_ns = 100'000'000;  ///< from frame to frame
+  RobotSpec robot;
+  std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file
+  std::vector<PluginSpec> pipeline;             ///< in the order of the file
+  std::vector<PictureSpec> pictures;
+  std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order
+
+  double period_s() const { return static_cast<double>(period_ns) / 1e9; }
+};
+
+/// Largest scenario file that is read, in bytes.
+inline constexpr std::uint64_t kMaxScenarioBytes = 1u << 20;
+
+/// Reads a scenario file (format: docs/formats.md) and sets `overrides` above it, the later of two of one key counting.
+/// The map is not opened.
+/// Throws Error{kIo} if the file cannot be read; Error{kBadInput} with file, line and key for what is no TOML, unknown and
+/// duplicate keys (with a suggestion), missing ones, wrong types and numbers out of range; Error{kUsage} for an override
+/// whose key is unknown or whose value is wrong.
+Scenario load_scenario(const std::filesystem::path& file, std::span<const Override> overrides = {});
+
+}  // namespace hallway::sim

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hallway::sim {
+
+/// The keys of a scenario's tables. What they mean stands in docs/formats.md.
+inline const std::vector<std::string> kTopKeys{"schema", "map",    "seed",   "steps",  "period_s",
+                                               "robot",  "sensor", "plugin", "picture"};
+inline const std::vector<std::string> kRobotKeys{"path", "speed_m_s", "loop_steps"};
+inline const std::vector<std::string> kSensorKeys{
+    "kind",    "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
+    "noise_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};
+inline const std::vector<std::string> kPluginKeys{"name", "params"};
+inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",
+                                                   "cut_z_m", "eye_m", "target_m", "show"};
+
+/// Those at the top that the command line may set as they are.
+inline const std::vector<std::string> kTopOverrideKeys{"map", "seed", "steps", "period_s"};
+
+}  // namespace hallway::sim

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geom/pose.hpp"
+#include "map/document.hpp"
+#include "map/path.hpp"
+#include "map/world.hpp"
+#include "sense/point_sensor.hpp"
+#include "sim/scenario.hpp"
+#include "trace/scene.hpp"
+
+namespace hallway::sim {
+
+/// What one sensor sees in one frame.
+struct Reading {
+  std::size_t sensor = 0;  ///< index in Scenario::sensors
+  std::vector<sense::PointObservation> observations;
+};
+
+/// One moment of a run.
+struct Frame {
+  std::uint32_t step = 0;
+  std::int64_t t_ns = 0;          ///< step times period, exactly
+  Pose T_world_body;              ///< the truth
+  std::vector<Reading> readings;  ///< one for each sensor, in their order
+};
+
+/// A robot driven along a path of a map at constant speed, with sensors that see the map's landmarks. The first frame
+/// stands at the path's start.
+class Simulator {
+ public:
+  /// Loads the map and builds everything that frames need.
+  /// @param threads  for the work of one frame, at least 1; no result depends on it
+  /// Throws Error for a map that cannot be read, a path that it does not have, two robot starts. Brushes that are no bodies
+  /// are left out and stand in problems().
+  Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend);
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  /// Frame `index`, 0 <= index < Scenario::steps: a pure function of scenario and index, so that frames may be asked for in
+  /// any order. Throws Error{kInternal} beyond the last one.
+  Frame step(std::uint32_t index) const;
+  /// The true pose in that frame, without sensing.
+  Pose pose_at(std::uint32_t index) const;
+
+  /// What a user should know but a run can stand: brushes left out, a robot start inside a solid, a path that begins
+  /// inside one or runs into one. In a fixed order.
+  const std::vector<Error>& problems() const { return problems_; }
+
+  const Scenario& scenario() const { return scenario_; }
+  const map::Document& document() const { return document_; }
+  const map::World& world() const { return world_; }
+  const map::Path& path() const { return path_; }
+  const trace::Scene& scene() const { return scene_; }
+  /// Every point that a sensor can see, world metres; the index is the landmark's number.
+  const std::vector<Vec3>& landmarks() const { return landmarks_; }
+  /// Metres of path from frame to frame.
+  double step_length_m() const { return step_length_m_; }
+
+ private:
+  Scenario scenario_;
+  unsigned threads_;
+  map::Document document_;
+  map::World world_;
+  map::Path path_;
+  double step_length_m_;
+  trace::Scene scene_;
+  std::vector<Vec3> landmarks_;
+  std::vector<sense::PointSensor> sensors_;
+  std::vector<Error> problems_;
+};
+
+}  // namespace hallway::sim

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "sim/table_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+#include <variant>
+
+#include "base/text.hpp"
+
+namespace hallway::sim {
+namespace {
+
+std::string describe(const Range& range) {
+  return (range.above_low ? "above " : "at least ") + format_double(range.low) + " and at most " +
+         format_double(range.high);
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+std::string origin_of(const std::string& file, int line) {
+  if (line == 0) return "command line";
+  // The name alone: a run's record must not depend on the folder from which the run was started.
+  return printable(std::filesystem::path(file).filename().string()) + ":" + std::to_string(line);
+}
+
+std::string format_vector(const Vec3& vector) {
+  return "[" + format_double(vector.x()) + ", " + format_double(vector.y()) + ", " +
+         format_double(vector.z()) + "]";
+}
+
+TableReader::TableReader(std::string file, std::string prefix, const TomlTable& table, int line,
+                         const std::vector<std::string>& known, std::vector<Setting>& settings)
+    : file_(std::move(file)), prefix_(std::move(prefix)), table_(table), line_(line), settings_(settings) {
+  for (const TomlEntry& entry : table_) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      throw error(entry.key, "unknown key" + suggestion(entry.key, known));
+    }
+  }
+}
+
+std::string TableReader::full_key(std::string_view key) const {
+  return prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key);
+}
+
+int TableReader::line(std::string_view key) const {
+  const TomlNode* node = find(table_, key);
+  return node != nullptr ? node->line : line_;
+}
+
+std::string TableReader::origin(std::string_view key) const {
+  const TomlNode* node = find(table_, key);
+  return node != nullptr ? origin_of(file_, node->line) : "default";
+}
+
+Error TableReader::error(std::string_view key, const std::string& message) const {
+  const TomlNode* node = find(table_, key);
+  const bool from_command_line = node != nullptr && node->line == 0;
+  Where where{.element = "key `" + printable(full_key(key)) + "`"};
+  where.file = from_command_line ? "command line" : printable(file_);
+  where.line = line(key);
+  return Error(from_command_line ? ErrorCode::kUsage : ErrorCode::kBadInput, message, where);
+}
+
+const TomlNode* TableReader::require(std::string_view key, bool has_fallback) const {
+  const TomlNode* node = find(table_, key);
+  if (node == nullptr && !has_fallback) throw error(key, "is missing");
+  return node;
+}
+
+void TableReader::note(std::string_view key, std::string value) {
+  settings_.push_back({full_key(key), std::move(value), origin(key)});
+}
+
+std::string TableReader::text(std::string_view key, const std::optional<std::string>& fallback) {
+  const TomlNode* node = require(key, fallback.has_value());
+  if (node != nullptr && !std::holds_alternative<std::string>(node->value)) {
+    throw error(key, std::string("must be a text, not ") + kind_name(*node));
+  }
+  const std::string value = node != nullptr ? std::get<std::string>(node->value) : *fallback;
+  if (value.empty()) throw error(key, "must not be empty");
+  if (value.find('\0') != std::string::npos) throw error(key, "must not hold a zero byte");
+  note(key, value);
+  return value;
+}
+
+std::size_t TableReader::choice(std::string_view key, const std::vector<std::string>& choices,
+                                const std::optional<std::size_t>& fallback) {
+  const std::string value = text(key, fallback ? std::optional(choices[*fallback]) : std::nullopt);
+  const auto found = std::find(choices.begin(), choices.end(), value);
+  if (found == choices.end()) {
+    throw error(key,
+                "\"" + printable(value) + "\" is none of: " + list_of(choices) + suggestion(value, choices));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::vector<std::size_t> TableReader::choices(std::string_view key, const std::vector<std::string>& choices) {
+  std::vector<std::size_t> chosen;
+  const TomlNode* node = find(table_, key);
+  if (node == nullptr) {
+    for (std::size_t i = 0; i < choices.size(); ++i) chosen.push_back(i);
+  } else {
+    const auto* items = std::get_if<TomlArray>(&node->value);
+    if (items == nullptr) throw error(key, std::string("must be a list of texts, not ") + kind_name(*node));
+    for (const TomlNode& item : *items) {
+      const auto* name = std::get_if<std::string>(&item.value);
+      if (name == nullptr)
+        throw error(key, std::string("must be a list of texts; it holds ") + kind_name(item));
+      const auto found = std::find(choices.begin(), choices.end(), *name);
+      if (found == choices.end()) {
+        throw error(
+            key, "\"" + printable(*name) + "\" is none of: " + list_of(choices) + suggestion(*name, choices));
+      }
+      const auto index = static_cast<std::size_t>(found - choices.begin());
+      if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
+        throw error(key, "\"" + *name + "\" stands twice");
+      chosen.push_back(index);
+    }
+  }
+  std::vector<std::string> names;
+  for (const std::size_t index : chosen) names.push_back(choices[index]);
+  note(key, "[" + list_of(names) + "]");
+  return chosen;
+}
+
+double TableReader::number_of(std::string_view key, const TomlNode& node, const Range& range) const {
+  double value = 0.0;
+  if (const auto* whole_number = std::get_if<std::int64_t>(&node.value)) {
+    value = static_cast<double>(*whole_number);
+  } else if (const auto* number = std::get_if<double>(&node.value)) {
+    value = *number;
+  } else {
+    throw error(key, std::string("must be a number, not ") + kind_name(node));
+  }
+  // Written so that NaN fails.
+  const bool inside = value <= range.high && (range.above_low ? value > range.low : value >= range.low);
+  if (!inside) throw error(key, format_double(value) + " is out of range: must be " + describe(range));
+  return value;
+}
+
+double TableReader::number(std::string_view key, const Range& range, const std::optional<double>& fallback) {
+  const TomlNode* node = require(key, fallback.has_value());
+  const double value = node != nullptr ? number_of(key, *node, range) : *fallback;
+  note(key, format_double(value));
+  return value;
+}
+
+std::int64_t TableReader::whole(std::string_view key, std::int64_t low, std::int64_t high,
+                                const std::optional<std::int64_t>& fallback) {
+  const TomlNode* node = require(key, fallback.has_value());
+  if (node != nullptr && !std::holds_alternative<std::int64_t>(node->value)) {
+    throw error(key, std::string("must be a whole number, not ") + kind_name(*node));
+  }
+  const std::int64_t value = node != nullptr ? std::get<std::int64_t>(node->value) : *fallback;
+  if (value < low || value > high) {
+    throw error(key, std::to_string(value) + " is out of range: must be at least " + std::to_string(low) +
+                         " and at most " + std::to_string(high));
+  }
+  note(key, std::to_string(value));
+  return value;
+}
+
+Vec3 TableReader::vector_of(std::string_view key, const TomlNode& node, const Range& range) const {
+  const auto* items = std::get_if<TomlArray>(&node.value);
+  if (items == nullptr)
+    throw error(key, std::string("must be a list of three numbers, not ") + kind_name(node));
+  if (items->size() != 3) {
+    throw error(key, "must be a list of three numbers; it has " + std::to_string(items->size()));
+  }
+  return {number_of(key, (*items)[0], range), number_of(key, (*items)[1], range),
+          number_of(key, (*items)[2], range)};
+}
+
+Vec3 TableReader::vector(std::string_view key, const Range& range, const std::optional<Vec3>& fallback) {
+  const TomlNode* node = require(key, fallback.has_value());
+  const Vec3 value = node != nullptr ? vector_of(key, *node, range) : *fallback;
+  note(key, format_vector(value));
+  return value;
+}
+
+Vec3 TableReader::vector_or_one(std::string_view key, const Range& range, const Vec3& fallback) {
+  const TomlNode* node = find(table_, key);
+  Vec3 value = fallback;
+  if (node != nullptr) {
+    value = std::holds_alternative<TomlArray>(node->value) ? vector_of(key, *node, range)
+                                                           : Vec3::Constant(number_of(key, *node, range));
+  }
+  const bool all_equal = value.x() == value.y() && value.y() == value.z();
+  note(key, all_equal ? format_double(value.x()) : format_vector(value));
+  return value;
+}
+
+const TomlTable& TableReader::table(std::string_view key) const {
+  static const TomlTable kEmpty;
+  const TomlNode* node = find(table_, key);
+  if (node == nullptr) return kEmpty;
+  const auto* inner = std::get_if<TomlTable>(&node->value);
+  if (inner == nullptr) throw error(key, std::string("must be a table, not ") + kind_name(*node));
+  return *inner;
+}
+
+}  // namespace hallway::sim

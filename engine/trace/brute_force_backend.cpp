@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include <utility>
+
+#include "trace/query_backend.hpp"
+
+namespace hallway::trace {
+namespace {
+
+class BruteForceBackend final : public QueryBackend {
+ public:
+  explicit BruteForceBackend(TriangleSet triangles) : triangles_(std::move(triangles)) {}
+
+  std::optional<Hit> first_hit(const SightLine& line) const override {
+    std::optional<Hit> nearest;
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      const auto distance = triangles_.hit(i, line);
+      if (distance && (!nearest || *distance < nearest->distance)) nearest = Hit{*distance, i};
+    }
+    return nearest;
+  }
+
+  bool any_hit(const SightLine& line) const override {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      if (triangles_.hit(i, line)) return true;
+    }
+    return false;
+  }
+
+ private:
+  TriangleSet triangles_;
+};
+
+}  // namespace
+
+std::unique_ptr<const QueryBackend> make_brute_force_backend(TriangleSet triangles) {
+  return std::make_unique<BruteForceBackend>(std::move(triangles));
+}
+
+}  // namespace hallway::trace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/submap_graph.hpp"
+
+namespace hallway::slam_point {
+
+/// The submap that is being filled: finds its members near a place, and keeps the frames it was filled from until it
+/// closes, so that they can be aligned again to what they became together.
+class ActiveSubmap {
+ public:
+  /// `reach_m`: the largest distance that visit_members_near() is asked for [m].
+  explicit ActiveSubmap(double reach_m) : grid_(reach_m) {}
+
+  /// Takes up `submap` of `graph`, new or old, and makes it the graph's active one.
+  void open(SubmapGraph& graph, Index submap);
+
+  /// Begins a frame; T_submap_sensor is where it was aligned.
+  void begin_frame(const Pose& T_submap_sensor);
+
+  /// Adds a new member for `landmark`, seen at `point` by the frame begun last. `first` says that this frame starts the submap.
+  void join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first, std::uint64_t activation);
+
+  /// Averages an observation of the frame begun last into a member.
+  void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation);
+
+  /// Aligns each kept frame to the members' means again and averages anew, `sweeps` times; what the submap knew when it
+  /// was opened counts as it did. `min_spread_m2`: see Alignment::solve; a frame below it keeps its alignment.
+  void realign(SubmapGraph& graph, int sweeps, bool planar, double min_spread_m2);
+
+  /// Calls visit(member) for each member near p (submap frame) and some farther ones.
+  template <typename Visit>
+  void visit_members_near(const Vec3& p, Visit&& visit) const {
+    grid_.visit_near(p, visit);
+  }
+
+  std::size_t frames() const { return frames_.size(); }
+
+  void clear();
+
+ private:
+  struct Frame {
+    Pose T_submap_sensor;
+    std::size_t first_sighting = 0;
+  };
+  struct Sighting {
+    Index member = kNone;
+    Vec3 point = Vec3::Zero();  // sensor frame
+  };
+  struct Prior {
+    Vec3 mean = Vec3::Zero();
+    std::uint32_t count = 0;
+  };
+
+  void average(SubmapGraph& graph) const;
+
+  HashGrid grid_;  // of members' means
+  std::vector<Frame> frames_;
+  std::vector<Sighting> sightings_;
+  std::vector<Prior> prior_;  // by member: what was known at open()
+};
+
+}  // namespace hallway::slam_point

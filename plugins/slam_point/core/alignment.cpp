@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/alignment.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr int kMaxNewtonSteps = 30;
+constexpr double kSettled_rad = 1e-8;  // Newton doubles the digits: the step after this one is below rounding
+
+}  // namespace
+
+Eigen::Quaterniond rotation_exp(const Vec3& v) {
+  const double angle = v.norm();
+  const double half = 0.5 * angle;
+  const double scale = angle > 1e-8 ? std::sin(half) / angle : 0.5;
+  return Eigen::Quaterniond(std::cos(half), scale * v.x(), scale * v.y(), scale * v.z()).normalized();
+}
+
+Vec3 rotation_log(const Eigen::Quaterniond& q) {
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * sign * q.vec();
+  return (2.0 * sign * std::atan2(sine, sign * q.w()) / sine) * q.vec();
+}
+
+bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
+  if (!(weight_ > 0.0)) return false;
+  const Vec3 mean_a = sum_a_ / weight_;
+  const Vec3 mean_b = sum_b_ / weight_;
+  const Mat3 cross = cross_ - mean_a * sum_b_.transpose();  // sum w a b^T about the means
+
+  Eigen::Quaterniond q = guess_.q;
+  Mat3 curvature;
+  for (int step = 0;; ++step) {
+    if (step == kMaxNewtonSteps) return false;
+    // Maximise tr(R^T cross): with N = cross R^T the gradient is the vector of N - N^T, the curvature tr(N) I - sym(N).
+    const Mat3 n = cross * q.toRotationMatrix().transpose();
+    curvature = n.trace() * Mat3::Identity() - 0.5 * (n + n.transpose());
+    const Vec3 gradient(n(2, 1) - n(1, 2), n(0, 2) - n(2, 0), n(1, 0) - n(0, 1));
+    Vec3 turn;
+    if (planar) {
+      if (!(curvature(2, 2) >= min_spread_m2)) return false;
+      turn = Vec3(0.0, 0.0, gradient.z() / curvature(2, 2));
+    } else {
+      // One closed-form inverse: the matrix is 3x3, and its smallest eigenvalue is checked below.
+      const double determinant = curvature.determinant();
+      if (!(determinant > 0.0) || !(curvature.trace() > 0.0)) return false;
+      turn = curvature.inverse() * gradient;
+    }
+    const double size = turn.norm();
+    if (!std::isfinite(size)) return false;
+    if (size > 0.5) turn *= 0.5 / size;
+    q = (rotation_exp(turn) * q).normalized();
+    if (size < kSettled_rad) break;
+  }
+  if (!planar) {
+    Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+    eigen.computeDirect(curvature, Eigen::EigenvaluesOnly);
+    if (!(eigen.eigenvalues()(0) >= min_spread_m2)) return false;
+  }
+  T_a_b.q = q;
+  T_a_b.t = guess_.t + mean_a - q * mean_b;
+  return true;
+}
+
+}  // namespace hallway::slam_point

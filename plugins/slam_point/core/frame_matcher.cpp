@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/frame_matcher.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "slam_point/core/alignment.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr double kAgreementNoises = 6.0;  // a correct match farther off than this: 1 in 10^7
+constexpr double kInlierNoises = 4.0;     // beyond this a residual loses weight
+constexpr double kMaxRotationSigma_rad = 0.1;
+constexpr int kMaxMatchPasses = 4;
+constexpr int kMaxTurnsEachWay = 60;
+
+double trust(std::uint32_t count) {
+  const double n = static_cast<double>(count);
+  return n / (n + 1.0);
+}
+
+}  // namespace
+
+FrameMatcher::FrameMatcher(const Options& options)
+    : options_(options), agreement_(kAgreementNoises * options.noise_m) {}
+
+FitRules FrameMatcher::rules(bool planar) const {
+  // A rotation about an axis is known to noise / sqrt(sum of squared distances from the axis).
+  const double spread = options_.noise_m / kMaxRotationSigma_rad;
+  return {planar, spread * spread, kInlierNoises * options_.noise_m};
+}
+
+void FrameMatcher::begin(const SubmapGraph& graph) {
+  for (const Index landmark : taken_list_) taken_[landmark] = 0;
+  taken_list_.clear();
+  taken_.resize(graph.landmarks.size(), 0);
+}
+
+void FrameMatcher::mark(const SubmapGraph& graph, const std::vector<Observation>& frame) {
+  begin(graph);
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    taken_[observation.landmark] = 1;
+    taken_list_.push_back(observation.landmark);
+  }
+}
+
+void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.d2, a.observation, a.landmark) < std::tie(b.d2, b.observation, b.landmark);
+  });
+  for (const Candidate& candidate : candidates_) {
+    Observation& observation = frame[candidate.observation];
+    if (observation.landmark != kNone || taken_[candidate.landmark] != 0) continue;
+    observation.landmark = candidate.landmark;
+    taken_[candidate.landmark] = 1;
+    taken_list_.push_back(candidate.landmark);
+  }
+}
+
+void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T,
+                                 double bound, std::vector<Observation>& frame) {
+  const std::vector<Member>& members = graph.submaps[graph.active()].members;
+  const Mat3 rotation = T.q.toRotationMatrix();
+  const double bound2 = bound * bound;
+  candidates_.clear();
+  for (Index o = 0; o < frame.size(); ++o) {
+    if (frame[o].landmark != kNone) continue;
+    const Vec3 p = rotation * frame[o].point + T.t;
+    active.visit_members_near(p, [&](Index m) {
+      const double d2 = (members[m].mean - p).squaredNorm();
+      if (d2 <= bound2 && taken_[members[m].landmark] == 0)
+        candidates_.push_back({d2, o, members[m].landmark});
+    });
+  }
+  take_nearest_first(frame);
+}
+
+bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
+                              Pose& T) {
+  return fit_submap(graph, graph.active(), frame, planar, T);
+}
+
+int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame) {
+  const std::vector<Member>& members = graph.submaps[graph.active()].members;
+  const Mat3 rotation = T.q.toRotationMatrix();
+  int dropped = 0;
+  for (Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const Member& member = members[graph.landmarks[observation.landmark].active_member];
+    const double bound2 = agreement_ * agreement_ / trust(member.count);
+    if ((rotation * observation.point + T.t - member.mean).squaredNorm() <= bound2) continue;
+    taken_[observation.landmark] = 0;
+    observation.landmark = kNone;
+    ++dropped;
+  }
+  return dropped;
+}
+
+FrameMatcher::Fit FrameMatcher::match_active(const SubmapGraph& graph, const ActiveSubmap& active,
+                                             const Pose& predicted, bool planar,
+                                             std::vector<Observation>& frame) {
+  Fit fit;
+  fit.T_submap_sensor = predicted;
+  for (int pass = 0; pass < kMaxMatchPasses; ++pass) {
+    begin(graph);
+    for (Observation& observation : frame) observation.landmark = kNone;
+    match_members(graph, active, fit.T_submap_sensor, options_.match_bound(), frame);
+    const int matched = static_cast<int>(taken_list_.size());
+    fit.solved = fit_active(graph, frame, planar, fit.T_submap_sensor);
+    if (!fit.solved) break;
+    const int dropped = drop_disagreeing(graph, fit.T_submap_sensor, frame);
+    fit.agreeing = matched - dropped;
+    if (10 * dropped <= matched) break;
+  }
+  if (!fit.solved) {
+    begin(graph);
+    for (Observation& observation : frame) observation.landmark = kNone;
+    fit.agreeing = 0;
+    return fit;
+  }
+  // What the prediction put too far from its member, or on another one, may agree now.
+  const std::size_t before = taken_list_.size();
+  match_members(graph, active, fit.T_submap_sensor, agreement_, frame);
+  fit.agreeing += static_cast<int>(taken_list_.size() - before);
+  return fit;
+}
+
+double FrameMatcher::score(const SubmapGraph& graph, const Pose& T_map_sensor,
+                           const std::vector<Observation>& frame) const {
+  const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
+  const double bound2 = options_.match_bound() * options_.match_bound();
+  double sum = 0.0;
+  for (const Observation& observation : frame) {
+    const Vec3 p = rotation * observation.point + T_map_sensor.t;
+    double nearest2 = bound2;
+    graph.visit_landmarks_near(
+        p, [&](Index l) { nearest2 = std::min(nearest2, (graph.landmarks[l].position - p).squaredNorm()); });
+    sum += 1.0 - nearest2 / bound2;
+  }
+  return sum;
+}
+
+double FrameMatcher::turn_step(const std::vector<Observation>& frame, double max_turn_rad) {
+  ranges_.clear();
+  for (const Observation& observation : frame) ranges_.push_back(observation.point.norm());
+  const auto middle = ranges_.begin() + static_cast<std::ptrdiff_t>(ranges_.size() / 2);
+  std::nth_element(ranges_.begin(), middle, ranges_.end());
+  // Half a bound of arc at the middle range.
+  return std::max(0.5 * options_.match_bound() / std::max(*middle, options_.match_bound()),
+                  max_turn_rad / kMaxTurnsEachWay);
+}
+
+int FrameMatcher::search_turn(const SubmapGraph& graph, const std::vector<Pose>& bases, double max_turn_rad,
+                              bool planar, const std::vector<Observation>& frame, Pose& T_map_sensor) {
+  struct Hypothesis {
+    double score = 0.0;
+    Pose T;
+  };
+  if (frame.empty()) return 0;
+  std::array<Hypothesis, 4> best;  // by falling score
+  const double step = turn_step(frame, max_turn_rad);
+  const int turns = static_cast<int>(max_turn_rad / step);
+  for (const Pose& base : bases) {
+    for (int turn = -turns; turn <= turns; ++turn) {
+      const Pose T{(base.q * rotation_exp(Vec3(0.0, 0.0, step * turn))).normalized(), base.t};
+      Hypothesis hypothesis{score(graph, T, frame), T};
+      for (Hypothesis& kept : best) {
+        if (hypothesis.score > kept.score) std::swap(hypothesis, kept);
+      }
+    }
+  }
+  int most = 0;
+  for (const Hypothesis& hypothesis : best) {
+    Pose T = hypothesis.T;
+    int agreeing = 0;
+    for (int pass = 0; pass < kMaxMatchPasses; ++pass) {
+      trial_ = frame;
+      for (Observation& observation : trial_) observation.landmark = kNone;
+      begin(graph);
+      match_map(graph, T, 0, options_.match_bound(), trial_);
+      if (!fit_map(graph, trial_, planar, T)) break;
+      agreeing = count_agreeing(graph, trial_, T);
+    }
+    if (agreeing > most) {
+      most = agreeing;
+      T_map_sensor = T;
+    }
+  }
+  return most;
+}
+
+void FrameMatcher::match_map(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
+                             double local_bound_m, std::vector<Observation>& frame) {
+  const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
+  const double local2 = local_bound_m * local_bound_m;
+  const double old2 = options_.map_bound() * options_.map_bound();
+  candidates_.clear();
+  for (Index o = 0; o < frame.size(); ++o) {
+    if (frame[o].landmark != kNone) continue;
+    const Vec3 p = rotation * frame[o].point + T_map_sensor.t;
+    graph.visit_landmarks_near(p, [&](Index l) {
+      const LandmarkRecord& landmark = graph.landmarks[l];
+      const double bound2 = landmark.last_activation >= local_since ? local2 : old2;
+      const double d2 = (landmark.position - p).squaredNorm();
+      if (d2 <= bound2 && taken_[l] == 0) candidates_.push_back({d2, o, l});
+    });
+  }
+  take_nearest_first(frame);
+}
+
+bool FrameMatcher::fit_map(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
+                           Pose& T_map_sensor) {
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const LandmarkRecord& landmark = graph.landmarks[observation.landmark];
+    if (landmark.count == 0) continue;
+    pairs_.push_back({landmark.position, observation.point, trust(landmark.count)});
+  }
+  return robust_fit(pairs_, rules(planar), T_map_sensor);
+}
+
+bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std::vector<Observation>& frame,
+                              bool planar, Pose& T_submap_sensor) {
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    for (const Membership& at : graph.landmarks[observation.landmark].memberships) {
+      if (at.submap != submap) continue;
+      const Member& member = graph.submaps[submap].members[at.member];
+      pairs_.push_back({member.mean, observation.point, trust(member.count)});
+    }
+  }
+  return robust_fit(pairs_, rules(planar), T_submap_sensor);
+}
+
+int FrameMatcher::count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
+                                 const Pose& T_map_sensor) const {
+  int agreeing = 0;
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const Vec3 residual = T_map_sensor * observation.point - graph.landmarks[observation.landmark].position;
+    if (residual.squaredNorm() <= agreement_ * agreement_) ++agreeing;
+  }
+  return agreeing;
+}
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam_point/core/active_submap.hpp"
+#include "slam_point/core/options.hpp"
+#include "slam_point/core/robust_fit.hpp"
+#include "slam_point/core/submap_graph.hpp"
+
+namespace hallway::slam_point {
+
+/// A usable point of the current frame and what it was taken for.
+struct Observation {
+  Vec3 point = Vec3::Zero();  ///< sensor frame [m]
+  std::size_t given = 0;      ///< its place among the points given
+  Index landmark = kNone;
+};
+
+/// Finds which landmark each point of a frame is (thesis 6.2.5 and 6.5.1). Matching is one-to-one: of all pairs within
+/// the bound the nearest is taken first, so the order of the points does not matter.
+class FrameMatcher {
+ public:
+  explicit FrameMatcher(const Options& options);
+
+  /// How a frame fits the active submap.
+  struct Fit {
+    bool solved = false;
+    int agreeing = 0;  ///< points that lie on their member up to noise
+    Pose T_submap_sensor;
+  };
+
+  /// Matches to the active submap's members, from the predicted T_submap_sensor, and fits. What does not agree after the fit is
+  /// left unmatched.
+  Fit match_active(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
+                   std::vector<Observation>& frame);
+
+  /// Where the frame fits the map best, of all turns of each of `bases` (T_map_sensor) about the sensor's z axis by up to
+  /// `max_turn_rad`: for when the prediction failed. Matches within the match bound. Returns how many points agree with the map
+  /// there, and puts the pose into `T_map_sensor` when that is not 0. The frame's own matches are not touched.
+  int search_turn(const SubmapGraph& graph, const std::vector<Pose>& bases, double max_turn_rad, bool planar,
+                  const std::vector<Observation>& frame, Pose& T_map_sensor);
+
+  /// Makes the landmarks of `frame` the ones taken, for is_marked().
+  void mark(const SubmapGraph& graph, const std::vector<Observation>& frame);
+
+  /// Whether a landmark is taken.
+  bool is_marked(Index landmark) const { return landmark < taken_.size() && taken_[landmark] != 0; }
+
+  /// Matches what is left of a frame to the map, from T_map_sensor. Landmarks seen from activation `local_since` on lie where the
+  /// recent submaps put them, so they are matched within `local_bound_m`; older ones within the map bound.
+  void match_map(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
+                 double local_bound_m, std::vector<Observation>& frame);
+
+  /// Fits the frame to its landmarks' positions, from the guess `T_map_sensor`. False when they do not determine it.
+  bool fit_map(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
+               Pose& T_map_sensor);
+
+  /// Fits the frame to those of its landmarks that are members of `submap`, likewise.
+  bool fit_submap(const SubmapGraph& graph, Index submap, const std::vector<Observation>& frame, bool planar,
+                  Pose& T_submap_sensor);
+
+  /// Points within agreement() of their landmark's position.
+  int count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
+                     const Pose& T_map_sensor) const;
+
+  /// A residual up to here is noise [m].
+  double agreement() const { return agreement_; }
+
+  FitRules rules(bool planar) const;
+
+ private:
+  struct Candidate {
+    double d2 = 0.0;
+    Index observation = kNone;
+    Index landmark = kNone;
+  };
+
+  void begin(const SubmapGraph& graph);
+  void take_nearest_first(std::vector<Observation>& frame);
+  void match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T, double bound,
+                     std::vector<Observation>& frame);
+  bool fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar, Pose& T);
+  int drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame);
+  double score(const SubmapGraph& graph, const Pose& T_map_sensor,
+               const std::vector<Observation>& frame) const;
+  double turn_step(const std::vector<Observation>& frame, double max_turn_rad);
+
+  Options options_;
+  double agreement_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::uint8_t> taken_;  // landmark -> matched in this frame
+  std::vector<Index> taken_list_;
+  std::vector<Pair> pairs_;
+  std::vector<double> ranges_;
+  std::vector<Observation> trial_;
+};
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "slam_point/core/active_submap.hpp"
+#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/submap_solver.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr double kMaxCoordinate_m = 1e6;
+constexpr int kMaxDeadReckonedFrames = 25;
+constexpr int kMaxGlobalSteps = 20;
+constexpr double kSureShare = 0.5;   // of the comparable points, below which a better pose is searched
+constexpr int kSurePoints = 6;       // or all there are, likewise
+constexpr double kLeastShare = 0.4;  // below which there is no pose
+constexpr double kWorthwhileGain =
+    0.01;  // fall of the cost for which a step over the whole map is repeated soon
+constexpr double kWorkPerClose = 6e5;  // multiplications: those that factorise a window of 20 submaps
+constexpr int kMaxSettlePeriod = 1 << 20;
+
+const Options& checked(const Options& options) {
+  options.validate();
+  return options;
+}
+
+}  // namespace
+
+class Mapper::State {
+ public:
+  explicit State(const Options& options)
+      : options_(checked(options)),
+        matcher_(options),
+        graph_(std::max(
+            {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
+        active_(std::max(options.match_bound(), matcher_.agreement())),
+        settle_period_(options.global_period) {}
+
+  const Answer& process(std::span<const Vec3> points);
+  Map map(const std::vector<Pose>& poses) const;
+  const SubmapGraph& graph() const { return graph_; }
+  bool planar() const { return planar_; }
+  const Options& options() const { return options_; }
+
+ private:
+  struct Motion {
+    Vec3 turn = Vec3::Zero();
+    Vec3 travel = Vec3::Zero();
+  };
+
+  void take_points(std::span<const Vec3> points);
+  bool can_start() const;
+  void start_map();
+  void predict();
+  void match_active_submap();
+  void match_map();
+  bool fit_pose();
+  void search_turn();
+  bool is_placed() const;
+  std::size_t comparable_points() const;
+  void lose_pose();
+  bool start_over();
+  void learn_motion();
+  void add_landmarks();
+  double overlap_with_active() const;
+  void change_submap();
+  void close_submap();
+  void settle_whole_map();
+  void merge_landmarks(Index closed);
+  Index best_old_submap();
+  bool reopen(Index submap);
+  void open_new_submap();
+  void integrate();
+  const Answer& answer();
+
+  Options options_;
+  FrameMatcher matcher_;
+  SubmapGraph graph_;
+  ActiveSubmap active_;
+  SubmapSolver solver_;
+
+  std::vector<Observation> frame_;
+  FrameMatcher::Fit fit_;
+  Pose predicted_;             // T_submap_sensor
+  Pose last_T_submap_sensor_;  // of the last frame with a pose
+  Pose T_map_sensor_;
+  Motion motion_;  // of one frame, in the frame of the earlier sensor pose
+  bool has_motion_ = false;
+  int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
+  std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
+  bool searched_ = false;
+  bool started_ = false;
+  bool planar_ = true;
+  bool has_pose_ = false;
+  bool first_of_submap_ = false;
+  int frames_without_pose_ = 0;
+  std::uint64_t placed_frames_ = 0;
+  std::uint64_t activation_ = 0;
+  std::vector<Index> window_;  // the last submaps closed, newest last
+  std::vector<Pose> search_bases_;
+  std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
+  std::vector<Index> shared_submaps_;
+  bool loop_closed_ = false;  // since the last step over the whole map
+  int closes_since_settled_ = 0;
+  double settled_submaps_ = 0.0;  // how many the last step over the whole map placed
+  int settle_period_;             // closes between steps over the whole map, as they have proved worth it
+  LandmarkId first_id_ = 0;       // id of landmark 0
+  Answer answer_;
+};
+
+const Answer& Mapper::State::process(std::span<const Vec3> points) {
+  take_points(points);
+  if (!started_) {
+    has_pose_ = can_start();
+    if (has_pose_) start_map();
+    return answer();
+  }
+  predict();
+  match_active_submap();
+  match_map();
+  if (!fit_pose()) search_turn();
+  has_pose_ = is_placed();
+  if (!has_pose_) {
+    lose_pose();
+    has_pose_ = start_over();
+    return answer();
+  }
+  learn_motion();
+  add_landmarks();
+  if (overlap_with_active() < options_.overlap ||
+      active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
+    change_submap();
+  }
+  integrate();
+  return answer();
+}
+
+void Mapper::State::take_points(std::span<const Vec3> points) {
+  frame_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // Written so that NaN fails.
+    if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
+    if (points[i].z() != 0.0) planar_ = false;
+    frame_.push_back({points[i], i, kNone});
+  }
+  answer_.associations.assign(points.size(), kNoLandmark);
+  ++answer_.counters.iterations;
+}
+
+bool Mapper::State::can_start() const {
+  Alignment own(Pose{});
+  for (const Observation& observation : frame_) own.add(observation.point, observation.point, 1.0);
+  const FitRules rules = matcher_.rules(planar_);
+  Pose unused;
+  return own.pairs() >= (planar_ ? 2 : 3) && own.solve(planar_, rules.min_spread_m2, unused);
+}
+
+void Mapper::State::start_map() {
+  started_ = true;
+  frames_without_pose_ = 0;
+  T_map_sensor_ = Pose{};
+  add_landmarks();
+  open_new_submap();
+  integrate();
+}
+
+void Mapper::State::predict() {
+  predicted_ = last_T_submap_sensor_;
+  const int frames = std::min(frames_without_pose_, kMaxDeadReckonedFrames) + 1;
+  for (int f = 0; f < frames; ++f) predicted_ = predicted_ * Pose{rotation_exp(motion_.turn), motion_.travel};
+}
+
+void Mapper::State::match_active_submap() {
+  fit_ = matcher_.match_active(graph_, active_, predicted_, planar_, frame_);
+}
+
+void Mapper::State::match_map() {
+  const std::uint64_t window = static_cast<std::uint64_t>(options_.window);
+  const std::uint64_t local_since = activation_ > window ? activation_ - window : 0;
+  // Where the active submap gave no fit, the prediction alone says where to look.
+  const double local_bound = fit_.solved ? matcher_.agreement() : options_.match_bound();
+  T_map_sensor_ = graph_.poses[graph_.active()] * fit_.T_submap_sensor;
+  matcher_.match_map(graph_, T_map_sensor_, local_since, local_bound, frame_);
+}
+
+bool Mapper::State::fit_pose() {
+  agreeing_ = 0;
+  if (matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_)) {
+    agreeing_ = matcher_.count_agreeing(graph_, frame_, T_map_sensor_);
+  }
+  if (!fit_.solved) fit_.T_submap_sensor = graph_.poses[graph_.active()].inverse() * T_map_sensor_;
+  searched_ = false;
+  // A few points can agree by chance, so of few nearly all must.
+  const auto comparable = static_cast<int>(comparable_points());
+  return agreeing_ >= std::min(comparable, kSurePoints) && agreeing_ >= kSureShare * comparable;
+}
+
+void Mapper::State::search_turn() {
+  if (options_.max_turn_rad <= 0.0) return;
+  ++answer_.counters.searches;
+  const Pose& T_map_submap = graph_.poses[graph_.active()];
+  search_bases_.assign({T_map_submap * predicted_, T_map_submap * last_T_submap_sensor_});
+  const double reach = std::min(options_.max_turn_rad * (1.0 + frames_without_pose_), std::numbers::pi);
+  Pose found;
+  if (matcher_.search_turn(graph_, search_bases_, reach, planar_, frame_, found) <= agreeing_) return;
+  predicted_ = T_map_submap.inverse() * found;
+  match_active_submap();
+  match_map();
+  fit_pose();
+  searched_ = true;
+}
+
+bool Mapper::State::is_placed() const {
+  return agreeing_ >= (planar_ ? 2 : 3) &&
+         static_cast<double>(agreeing_) >= kLeastShare * static_cast<double>(comparable_points());
+}
+
+std::size_t Mapper::State::comparable_points() const {
+  // A view that opens shows much that is new, one that closes little of what was seen: the smaller of both must agree.
+  return std::min(frame_.size(), last_seen_);
+}
+
+void Mapper::State::lose_pose() {
+  for (Observation& observation : frame_) observation.landmark = kNone;
+  ++frames_without_pose_;
+}
+
+bool Mapper::State::start_over() {
+  // A map of one frame that the next frames do not find again is a false start: it knows nothing to keep.
+  if (placed_frames_ > 1) return false;
+  if (!can_start()) return false;
+  first_id_ += graph_.landmarks.size();
+  placed_frames_ = 0;
+  graph_.clear();
+  active_.clear();
+  solver_ = SubmapSolver();
+  start_map();
+  return true;
+}
+
+void Mapper::State::learn_motion() {
+  const Pose moved = last_T_submap_sensor_.inverse() * fit_.T_submap_sensor;
+  const double frames = static_cast<double>(frames_without_pose_ + 1);
+  const Vec3 turn = rotation_log(moved.q) / frames;
+  const Vec3 travel = moved.t / frames;
+  // After a sudden motion the old average says nothing.
+  const double share = has_motion_ && !searched_ ? options_.smoothing : 1.0;
+  motion_.turn += share * (turn - motion_.turn);
+  motion_.travel += share * (travel - motion_.travel);
+  has_motion_ = true;
+  frames_without_pose_ = 0;
+  last_T_submap_sensor_ = fit_.T_submap_sensor;
+}
+
+void Mapper::State::add_landmarks() {
+  const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
+  const double separation2 = options_.separation() * options_.separation();
+  for (Observation& observation : frame_) {
+    if (observation.landmark != kNone) continue;
+    const Vec3 p = rotation * observation.point + T_map_sensor_.t;
+    bool alone = true;
+    graph_.visit_landmarks_near(p, [&](Index l) {
+      if ((graph_.landmarks[l].position - p).squaredNorm() < separation2) alone = false;
+    });
+    if (alone) observation.landmark = graph_.add_landmark(p, activation_);
+  }
+}
+
+double Mapper::State::overlap_with_active() const {
+  const SubmapRecord& submap = graph_.submaps[graph_.active()];
+  std::size_t seen = 0;
+  std::size_t shared = 0;
+  for (const Observation& observation : frame_) {
+    if (observation.landmark == kNone) continue;
+    ++seen;
+    const Index member = graph_.landmarks[observation.landmark].active_member;
+    if (member != kNone && submap.members[member].in_first_frame) ++shared;
+  }
+  return static_cast<double>(shared) / static_cast<double>(seen + submap.first_frame_size - shared);
+}
+
+void Mapper::State::change_submap() {
+  close_submap();
+  // Submaps have moved, and with them what the frame was fitted to.
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  const Index old = best_old_submap();
+  if (old == kNone || !reopen(old)) open_new_submap();
+}
+
+void Mapper::State::close_submap() {
+  const Index closed = graph_.active();
+  active_.realign(graph_, options_.sweeps, planar_, matcher_.rules(planar_).min_spread_m2);
+  graph_.deactivate();
+  std::erase(window_, closed);
+  if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
+  window_.push_back(closed);
+  const SubmapSolver::Step step = solver_.step_dense(graph_, window_, planar_, graph_.poses);
+  if (step.cost_after < step.cost_before) {
+    for (const Index landmark : solver_.touched()) graph_.resum(landmark);
+  }
+  settle_whole_map();
+  merge_landmarks(closed);
+  ++answer_.counters.closes;
+}
+
+void Mapper::State::settle_whole_map() {
+  ++closes_since_settled_;
+  // So far apart that its work for one close stays the same in a map of any size. Its work grows with at most the cube.
+  const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
+  const double work = solver_.sparse_work() * growth * growth * growth;
+  const double rest = std::max(static_cast<double>(settle_period_), work / kWorkPerClose);
+  if (options_.global_period == 0 || !loop_closed_ || static_cast<double>(closes_since_settled_) < rest)
+    return;
+  std::vector<Index> all(graph_.submaps.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  const SubmapSolver::Step step = solver_.step_sparse(graph_, all, planar_, graph_.poses);
+  for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
+  ++answer_.counters.global_steps;
+  settled_submaps_ = static_cast<double>(graph_.submaps.size());
+  loop_closed_ = false;
+  closes_since_settled_ = 0;
+  const bool worth_it = step.cost_before - step.cost_after > kWorthwhileGain * step.cost_before;
+  settle_period_ = worth_it ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
+}
+
+void Mapper::State::merge_landmarks(Index closed) {
+  const double separation2 = options_.separation() * options_.separation();
+  matcher_.mark(graph_, frame_);
+  for (const Member& member : graph_.submaps[closed].members) {
+    const Index landmark = member.landmark;
+    if (member.count == 0) continue;
+    Index twin = kNone;
+    double nearest2 = separation2;
+    graph_.visit_landmarks_near(graph_.landmarks[landmark].position, [&](Index other) {
+      const double d2 =
+          (graph_.landmarks[other].position - graph_.landmarks[landmark].position).squaredNorm();
+      // Seen together, they are two. The order of visits is no reason to choose: ties go to the older one.
+      const bool together = matcher_.is_marked(other) && matcher_.is_marked(landmark);
+      if (other == landmark || together || graph_.landmarks[other].count == 0) return;
+      if (d2 < nearest2 || (d2 == nearest2 && other < twin)) {
+        nearest2 = d2;
+        twin = other;
+      }
+    });
+    if (twin == kNone) continue;
+    const Index into = std::min(landmark, twin);
+    const Index from = std::max(landmark, twin);
+    graph_.merge(into, from);
+    for (Observation& observation : frame_) {
+      if (observation.landmark == from) observation.landmark = into;
+    }
+    matcher_.mark(graph_, frame_);
+    ++answer_.counters.merged;
+  }
+}
+
+Index Mapper::State::best_old_submap() {
+  shared_.resize(graph_.submaps.size(), 0);
+  shared_submaps_.clear();
+  std::uint32_t seen = 0;
+  for (const Observation& observation : frame_) {
+    if (observation.landmark == kNone) continue;
+    ++seen;
+    for (const Membership& at : graph_.landmarks[observation.landmark].memberships) {
+      if (!graph_.submaps[at.submap].members[at.member].in_first_frame) continue;
+      if (shared_[at.submap]++ == 0) shared_submaps_.push_back(at.submap);
+    }
+  }
+  Index best = kNone;
+  double best_overlap = options_.overlap;
+  for (const Index submap : shared_submaps_) {
+    const std::uint32_t shared = shared_[submap];
+    shared_[submap] = 0;
+    const double overlap = static_cast<double>(shared) /
+                           static_cast<double>(seen + graph_.submaps[submap].first_frame_size - shared);
+    if (overlap > best_overlap || (overlap == best_overlap && submap < best)) {
+      best = submap;
+      best_overlap = overlap;
+    }
+  }
+  return best;
+}
+
+bool Mapper::State::reopen(Index submap) {
+  Pose T = graph_.poses[submap].inverse() * T_map_sensor_;
+  if (!matcher_.fit_submap(graph_, submap, frame_, planar_, T)) return false;
+  ++activation_;
+  ++answer_.counters.reopened;
+  active_.open(graph_, submap);
+  fit_.T_submap_sensor = T;
+  last_T_submap_sensor_ = T;
+  return true;
+}
+
+void Mapper::State::open_new_submap() {
+  ++activation_;
+  active_.open(graph_, graph_.add_submap(T_map_sensor_));
+  first_of_submap_ = true;
+  fit_.T_submap_sensor = Pose{};
+  last_T_submap_sensor_ = Pose{};
+}
+
+void Mapper::State::integrate() {
+  ++placed_frames_;
+  last_seen_ = 0;
+  active_.begin_frame(fit_.T_submap_sensor);
+  for (const Observation& observation : frame_) {
+    if (observation.landmark == kNone) continue;
+    const LandmarkRecord& landmark = graph_.landmarks[observation.landmark];
+    if (landmark.last_activation + static_cast<std::uint64_t>(options_.window) < activation_)
+      loop_closed_ = true;
+    const Index member = landmark.active_member;
+    ++last_seen_;
+    if (member == kNone) {
+      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_);
+    } else {
+      active_.observe(graph_, member, observation.point, activation_);
+    }
+  }
+  first_of_submap_ = false;
+}
+
+const Answer& Mapper::State::answer() {
+  answer_.has_pose = has_pose_;
+  if (has_pose_) {
+    answer_.T_map_sensor.t = T_map_sensor_.t + Vec3::Zero();  // no negative zeros
+    answer_.T_map_sensor.q.coeffs() = T_map_sensor_.q.coeffs() + Eigen::Vector4d::Zero();
+  } else {
+    ++answer_.counters.lost;
+  }
+  for (const Observation& observation : frame_) {
+    if (observation.landmark != kNone)
+      answer_.associations[observation.given] = first_id_ + observation.landmark;
+  }
+  answer_.counters.landmarks = graph_.landmarks.size() - answer_.counters.merged;
+  answer_.counters.submaps = graph_.submaps.size();
+  return answer_;
+}
+
+Map Mapper::State::map(const std::vector<Pose>& poses) const {
+  Map map;
+  for (Index l = 0; l < graph_.landmarks.size(); ++l) {
+    const LandmarkRecord& record = graph_.landmarks[l];
+    if (record.merged_into != kNone) continue;
+    Landmark landmark;
+    landmark.id = first_id_ + l;
+    landmark.observations = record.count;
+    if (record.count >= static_cast<std::uint32_t>(options_.min_observations))
+      landmark.status = LandmarkStatus::mapped;
+    Vec3 sum = Vec3::Zero();
+    for (const Membership& at : record.memberships) {
+      const Member& member = graph_.submaps[at.submap].members[at.member];
+      sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+    }
+    landmark.position = sum / static_cast<double>(record.count);
+    map.landmarks.push_back(landmark);
+  }
+  for (Index s = 0; s < graph_.submaps.size(); ++s) {
+    Submap submap;
+    submap.id = s;
+    submap.T_map_submap = poses[s];
+    for (const Member& member : graph_.submaps[s].members) {
+      if (member.count > 0) submap.members.push_back(first_id_ + member.landmark);
+    }
+    map.submaps.push_back(std::move(submap));
+  }
+  return map;
+}
+
+Mapper::Mapper(const Options& options) : state_(std::make_unique<State>(options)) {}
+Mapper::~Mapper() = default;
+Mapper::Mapper(Mapper&&) noexcept = default;
+Mapper& Mapper::operator=(Mapper&&) noexcept = default;
+
+const Answer& Mapper::process(std::span<const Vec3> points) {
+  return state_->process(points);
+}
+
+Map Mapper::map() const {
+  return state_->map(state_->graph().poses);
+}
+
+Map Mapper::refined_map() const {
+  std::vector<Pose> poses = state_->graph().poses;
+  SubmapSolver solver;
+  solver.solve_all(state_->graph(), state_->planar(), kMaxGlobalSteps, poses);
+  return state_->map(poses);
+}
+
+void Mapper::reset() {
+  state_ = std::make_unique<State>(Options(state_->options()));
+}
+
+const Options& Mapper::options() const {
+  return state_->options();
+}
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "slam_point/core/options.hpp"
+#include "slam_point/core/types.hpp"
+
+namespace hallway::slam_point {
+
+/// Maps points seen by a moving sensor, without odometry and without identities (thesis chapter 6).
+///
+/// Deterministic: the same frames give the same bits. Not thread-safe; separate mappers are independent.
+class Mapper {
+ public:
+  /// Throws std::invalid_argument when an option is out of range.
+  explicit Mapper(const Options& options);
+  ~Mapper();
+  Mapper(Mapper&&) noexcept;
+  Mapper& operator=(Mapper&&) noexcept;
+
+  /// Takes one frame: points in the sensor frame [m], x forward, y left, z up, any number, in any order.
+  ///
+  /// A point that is not finite, or farther than 1e6 m, is skipped and belongs to no landmark.
+  ///
+  /// The first frame whose points determine a pose starts the map and has the identity pose. A later frame has a
+  /// pose when the points matched to the map determine one: at least three (two while every z so far was exactly 0:
+  /// planar data), spread so that the rotation's standard deviation is below 0.1 rad; and when enough of them agree
+  /// with the map: at least two fifths of the points in view, or of those the last placed frame saw if fewer.
+  ///
+  /// A frame without a pose leaves the map unchanged, and the prediction goes on; but while only one frame is placed,
+  /// a frame that does not fit it starts the map over if it can, with new landmark ids.
+  ///
+  /// Cost: proportional to the points in view, independent of the size of the map, but for a windowed step over the
+  /// last submaps when a submap closes. The answer lives until the next call.
+  const Answer& process(std::span<const Vec3> points);
+
+  /// The map as it stands. O(map).
+  Map map() const;
+
+  /// The map with all submaps re-placed together by least squares. The online state is not changed. O(map).
+  Map refined_map() const;
+
+  /// Forgets everything but the options.
+  void reset();
+
+  const Options& options() const;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/options.hpp"
+
+#include <array>
+#include <sstream>
+#include <stdexcept>
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr std::array<Parameter, 12> kParameters{{
+    {"noise_m", "m", 1e-4, 10.0,
+     "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
+     &Options::noise_m, nullptr},
+    {"match_bound_m", "m", 0.0, 100.0,
+     "Farthest a point may lie from where the motion prediction puts it; 0 means 12 noise_m.",
+     &Options::match_bound_m, nullptr},
+    {"map_bound_m", "m", 0.0, 100.0,
+     "The same against what was mapped earlier, as when a loop closes; 0 means 16 noise_m.",
+     &Options::map_bound_m, nullptr},
+    {"separation_m", "m", 0.0, 100.0,
+     "Nothing becomes a new landmark closer than this to another; 0 means 5 noise_m.", &Options::separation_m,
+     nullptr},
+    {"overlap", "1", 0.05, 0.99,
+     "A submap closes when the landmarks in view and those of its first frame overlap (Jaccard) less than "
+     "this.",
+     &Options::overlap, nullptr},
+    {"max_submap_frames", "frames", 2, 100000,
+     "A submap closes, and may be taken up again, after so many frames.", nullptr,
+     &Options::max_submap_frames},
+    {"window", "submaps", 1, 200, "How many of the last submaps are placed together at each close.", nullptr,
+     &Options::window},
+    {"global_period", "closes", 0, 100000,
+     "Closes between steps over the whole map once a loop has closed, but at least a tenth of the submaps; "
+     "0: none.",
+     nullptr, &Options::global_period},
+    {"sweeps", "sweeps", 0, 20, "How often a submap's own frames are aligned again at its close.", nullptr,
+     &Options::sweeps},
+    {"min_observations", "observations", 1, 1000000,
+     "A landmark with fewer observations is temporary: it may be clutter.", nullptr,
+     &Options::min_observations},
+    {"smoothing", "1", 0.01, 1.0, "Share of the newest relative motion in the motion prediction.",
+     &Options::smoothing, nullptr},
+    {"max_turn_rad", "rad", 0.0, 3.15,
+     "How far about the sensor's z axis a turn is searched when the prediction fails; 0 means no search.",
+     &Options::max_turn_rad, nullptr},
+}};
+
+}  // namespace
+
+double Parameter::get(const Options& options) const {
+  return real != nullptr ? options.*real : static_cast<double>(options.*whole);
+}
+
+void Parameter::set(Options& options, double value) const {
+  if (real != nullptr) {
+    options.*real = value;
+  } else {
+    options.*whole = static_cast<int>(value);
+  }
+}
+
+std::span<const Parameter> parameters() {
+  return kParameters;
+}
+
+const Parameter* find_parameter(std::string_view name) {
+  for (const Parameter& parameter : kParameters) {
+    if (name == parameter.name) return &parameter;
+  }
+  return nullptr;
+}
+
+void Options::validate() const {
+  for (const Parameter& parameter : kParameters) {
+    const double value = parameter.get(*this);
+    if (value >= parameter.min && value <= parameter.max) continue;
+    std::ostringstream text;
+    text << parameter.name << " is " << value << ' ' << parameter.unit << "; it must be between "
+         << parameter.min << " and " << parameter.max;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace hallway::slam_point {
+
+/// Every tunable. `noise_m` is the one to choose; the bounds follow from it where they are 0.
+struct Options {
+  double noise_m = 0.05;  ///< standard deviation of one coordinate of an observation [m]
+  double match_bound_m =
+      0.0;  ///< farthest a point may lie from where the prediction puts it [m]; 0: 12 noise_m
+  double map_bound_m =
+      0.0;  ///< the same against everything mapped earlier, after the pose fit [m]; 0: 16 noise_m
+  double separation_m =
+      0.0;               ///< closer than this to a landmark nothing becomes a new landmark [m]; 0: 5 noise_m
+  double overlap = 0.8;  ///< a submap closes when what is seen overlaps its first frame less [1]
+  int max_submap_frames = 200;  ///< a submap is closed, and may be re-opened, after this many frames
+  int window = 20;              ///< submaps re-placed together at each close
+  int global_period = 5;  ///< closes between steps over the whole map once a loop has closed; 0: never online
+  int sweeps = 2;         ///< re-alignments of a submap's own frames at its close
+  int min_observations = 5;  ///< observations that make a landmark `mapped`
+  double smoothing = 0.5;    ///< share of the newest relative motion in the prediction [1]
+  double max_turn_rad =
+      0.35;  ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
+
+  /// Throws std::invalid_argument that names the parameter, its value and its range.
+  void validate() const;
+
+  /// The three bounds with their derived values filled in [m].
+  double match_bound() const { return match_bound_m > 0.0 ? match_bound_m : 12.0 * noise_m; }
+  double map_bound() const { return map_bound_m > 0.0 ? map_bound_m : 16.0 * noise_m; }
+  double separation() const { return separation_m > 0.0 ? separation_m : 5.0 * noise_m; }
+};
+
+/// One row of the table that describes Options to a host. Exactly one of `real` and `whole` is set.
+struct Parameter {
+  const char* name;
+  const char* unit;  ///< "m", "rad", "1" (a ratio), "frames", "submaps", "observations", "sweeps"
+  double min;        ///< smallest value allowed
+  double max;        ///< largest value allowed
+  const char* help;  ///< one sentence
+  double Options::*real;
+  int Options::*whole;
+
+  /// The value that `options` holds.
+  double get(const Options& options) const;
+  /// Stores `value` unchecked (whole ones are truncated); Options::validate() checks.
+  void set(Options& options, double value) const;
+};
+
+/// All parameters, in the order of Options. Defaults are those of a default-made Options.
+std::span<const Parameter> parameters();
+
+/// The row of that name, or null.
+const Parameter* find_parameter(std::string_view name);
+
+}  // namespace hallway::slam_point

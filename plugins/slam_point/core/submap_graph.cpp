@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/submap_graph.hpp"
+
+#include <algorithm>
+
+namespace hallway::slam_point {
+
+Index SubmapGraph::add_submap(const Pose& T_map_submap) {
+  submaps.emplace_back();
+  poses.push_back(T_map_submap);
+  return static_cast<Index>(submaps.size() - 1);
+}
+
+Index SubmapGraph::add_landmark(const Vec3& position, std::uint64_t activation) {
+  LandmarkRecord record;
+  record.position = position;
+  record.last_activation = activation;
+  landmarks.push_back(std::move(record));
+  grid_.add(position);
+  return static_cast<Index>(landmarks.size() - 1);
+}
+
+Index SubmapGraph::join(Index submap, Index landmark, const Vec3& mean, bool in_first_frame) {
+  SubmapRecord& record = submaps[submap];
+  const auto member = static_cast<Index>(record.members.size());
+  record.members.push_back({landmark, 0, in_first_frame, mean});
+  if (in_first_frame) ++record.first_frame_size;
+  landmarks[landmark].memberships.push_back({submap, member});
+  if (submap == active_) landmarks[landmark].active_member = member;
+  return member;
+}
+
+void SubmapGraph::activate(Index submap) {
+  active_ = submap;
+  active_rotation_ = poses[submap].q.toRotationMatrix();
+  const std::vector<Member>& members = submaps[submap].members;
+  for (Index m = 0; m < members.size(); ++m) {
+    if (members[m].count == 0) continue;  // emptied by a merge
+    landmarks[members[m].landmark].active_member = m;
+    resum(members[m].landmark);
+  }
+}
+
+void SubmapGraph::deactivate() {
+  const Index submap = active_;
+  active_ = kNone;
+  for (const Member& member : submaps[submap].members) {
+    landmarks[member.landmark].active_member = kNone;
+    resum(member.landmark);
+  }
+}
+
+void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation) {
+  Member& m = submaps[active_].members[member];
+  LandmarkRecord& landmark = landmarks[m.landmark];
+  ++m.count;
+  m.mean += (p - m.mean) / static_cast<double>(m.count);
+  landmark.count = landmark.settled_count + m.count;
+  const Vec3 here = active_rotation_ * m.mean + poses[active_].t;
+  landmark.position =
+      (landmark.settled_sum + static_cast<double>(m.count) * here) / static_cast<double>(landmark.count);
+  landmark.last_activation = activation;
+  grid_.move(m.landmark, landmark.position);
+}
+
+void SubmapGraph::resum(Index index) {
+  LandmarkRecord& landmark = landmarks[index];
+  landmark.settled_sum.setZero();
+  landmark.settled_count = 0;
+  Vec3 active_sum = Vec3::Zero();
+  std::uint32_t active_count = 0;
+  for (const Membership& at : landmark.memberships) {
+    const Member& member = submaps[at.submap].members[at.member];
+    const Vec3 weighted = static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+    if (at.submap == active_) {
+      active_sum = weighted;
+      active_count = member.count;
+    } else {
+      landmark.settled_sum += weighted;
+      landmark.settled_count += member.count;
+    }
+  }
+  landmark.count = landmark.settled_count + active_count;
+  if (landmark.count == 0) return;
+  landmark.position = (landmark.settled_sum + active_sum) / static_cast<double>(landmark.count);
+  grid_.move(index, landmark.position);
+}
+
+void SubmapGraph::merge(Index into, Index from) {
+  LandmarkRecord& kept = landmarks[into];
+  LandmarkRecord& given = landmarks[from];
+  for (const Membership& at : given.memberships) {
+    std::vector<Member>& members = submaps[at.submap].members;
+    Member& member = members[at.member];
+    member.landmark = into;
+    const auto same = std::find_if(kept.memberships.begin(), kept.memberships.end(),
+                                   [&](const Membership& m) { return m.submap == at.submap; });
+    if (same == kept.memberships.end()) {
+      kept.memberships.push_back(at);
+      continue;
+    }
+    // A submap that knew both: one member takes all, the other stays as an empty place so that no number changes.
+    Member& whole = members[same->member];
+    const std::uint32_t count = whole.count + member.count;
+    if (count > 0)
+      whole.mean +=
+          (member.mean - whole.mean) * (static_cast<double>(member.count) / static_cast<double>(count));
+    whole.count = count;
+    if (member.in_first_frame && whole.in_first_frame) --submaps[at.submap].first_frame_size;
+    whole.in_first_frame = whole.in_first_frame || member.in_first_frame;
+    member.in_first_frame = false;
+    member.count = 0;
+  }
+  kept.last_activation = std::max(kept.last_activation, given.last_activation);
+  given.memberships.clear();
+  given.count = 0;
+  given.settled_count = 0;
+  given.merged_into = into;
+  grid_.remove(from);
+  resum(into);
+}
+
+void SubmapGraph::clear() {
+  landmarks.clear();
+  submaps.clear();
+  poses.clear();
+  grid_.clear();
+  active_ = kNone;
+}
+
+}  // namespace hallway::slam_point

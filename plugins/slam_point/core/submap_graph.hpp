@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/types.hpp"
+
+namespace hallway::slam_point {
+
+/// Index of a landmark or of a submap; also its public id.
+using Index = std::uint32_t;
+inline constexpr Index kNone = 0xffffffffu;
+
+/// What one submap knows of one landmark: evidence from its own frames only, never from the map.
+struct Member {
+  Index landmark = kNone;
+  std::uint32_t count = 0;      ///< observations averaged; 0: emptied by a merge
+  bool in_first_frame = false;  ///< seen by the frame that started the submap
+  Vec3 mean = Vec3::Zero();     ///< submap frame [m]
+};
+
+/// Where a landmark stands in a submap.
+struct Membership {
+  Index submap = kNone;
+  Index member = kNone;
+};
+
+/// One submap's evidence.
+struct SubmapRecord {
+  std::vector<Member> members;
+  std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
+};
+
+/// One landmark: the count-weighted mean of its places in all submaps.
+struct LandmarkRecord {
+  Vec3 position = Vec3::Zero();       ///< map frame [m]
+  std::uint32_t count = 0;            ///< observations in all submaps
+  std::uint64_t last_activation = 0;  ///< which activation of a submap saw it last
+  Vec3 settled_sum = Vec3::Zero();    ///< count-weighted sum of positions over all submaps but the active one
+  std::uint32_t settled_count = 0;
+  Index active_member = kNone;          ///< its place in the active submap
+  Index merged_into = kNone;            ///< set when it turned out to be another landmark
+  std::vector<Membership> memberships;  ///< in the order of joining
+};
+
+/// Submaps, the landmarks that link them, and where both lie in the map.
+class SubmapGraph {
+ public:
+  /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m].
+  explicit SubmapGraph(double reach_m) : grid_(reach_m) {}
+
+  Index add_submap(const Pose& T_map_submap);
+  /// A landmark that no submap holds yet, at `position` in the map frame [m].
+  Index add_landmark(const Vec3& position, std::uint64_t activation);
+  /// Makes the landmark a member of the submap with no evidence yet, at `mean` in the submap frame. Returns the member's index.
+  Index join(Index submap, Index landmark, const Vec3& mean, bool in_first_frame);
+
+  /// Makes `submap` the active one: its share in its landmarks changes with every frame.
+  void activate(Index submap);
+  /// Ends that: the active submap's means are final for now.
+  void deactivate();
+  Index active() const { return active_; }
+
+  /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
+  void observe(Index member, const Vec3& p, std::uint64_t activation);
+
+  /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
+  void resum(Index landmark);
+
+  /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
+  /// Not while a submap is active.
+  void merge(Index into, Index from);
+
+  /// Calls visit(landmark) for each landmark near p and some farther ones; see HashGrid::visit_near.
+  template <typename Visit>
+  void visit_landmarks_near(const Vec3& p, Visit&& visit) const {
+    grid_.visit_near(p, visit);
+  }
+
+  void clear();
+
+  std::vector<LandmarkRecord> landmarks;
+  std::vector<SubmapRecord> submaps;
+  std::vector<Pose> poses;  ///< T_map_submap of each submap
+
+ private:
+  HashGrid grid_;
+  Index active_ = kNone;
+  Mat3 active_rotation_ = Mat3::Identity();
+};
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+namespace hallway::slam_point {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// A rigid transform: `T_a_b * p_b` is the point in frame a. Metres; q is a unit quaternion.
+struct Pose {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< rotation
+  Vec3 t = Vec3::Zero();                                  ///< translation [m]
+
+  Vec3 operator*(const Vec3& p) const { return q * p + t; }
+  Pose operator*(const Pose& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
+  Pose inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
+};
+
+/// Names one landmark for the life of a mapper; numbered from 0 in the order of first observation.
+using LandmarkId = std::uint64_t;
+/// "This observation belongs to no landmark."
+inline constexpr LandmarkId kNoLandmark = ~std::uint64_t{0};
+
+/// How far a landmark is trusted. `dynamic` is reserved: nothing is classified as moving.
+enum class LandmarkStatus { temporary, mapped, dynamic };
+
+/// One point of the map.
+struct Landmark {
+  LandmarkId id = kNoLandmark;
+  Vec3 position = Vec3::Zero();                       ///< map frame [m]
+  std::uint32_t observations = 0;                     ///< how many observations its position averages
+  LandmarkStatus status = LandmarkStatus::temporary;  ///< mapped from Options::min_observations on
+};
+
+/// One submap: what was seen from about one place.
+struct Submap {
+  std::uint64_t id = 0;             ///< numbered from 0 in the order of creation
+  Pose T_map_submap;                ///< the sensor pose of its first frame, as the map now has it
+  std::vector<LandmarkId> members;  ///< in the order in which they joined
+};
+
+/// The whole map. Its frame is the sensor frame of the frame that started the map.
+struct Map {
+  std::vector<Landmark> landmarks;  ///< by id
+  std::vector<Submap> submaps;      ///< by id
+};
+
+/// Totals since the mapper was made or reset.
+struct Counters {
+  std::uint64_t iterations = 0;    ///< calls of process()
+  std::uint64_t lost = 0;          ///< iterations without a pose
+  std::uint64_t landmarks = 0;     ///< landmarks in the map, temporary ones included
+  std::uint64_t submaps = 0;       ///< submaps in the map
+  std::uint64_t closes = 0;        ///< times a submap was closed
+  std::uint64_t reopened = 0;      ///< times an old submap was taken up again
+  std::uint64_t global_steps = 0;  ///< times all submaps were re-placed together online
+  std::uint64_t merged = 0;        ///< landmarks that turned out to be another one
+  std::uint64_t searches = 0;      ///< times the motion prediction failed and turns were tried
+};
+
+/// What one frame gave.
+struct Answer {
+  bool has_pose = false;                 ///< see Mapper::process for the rule
+  Pose T_map_sensor;                     ///< defined when has_pose
+  std::vector<LandmarkId> associations;  ///< one per point given, in their order; kNoLandmark for none
+  Counters counters;
+};
+
+}  // namespace hallway::slam_point

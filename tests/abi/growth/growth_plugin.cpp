@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// Tells through counters what it read of every struct that may grow. Built against today's headers and against grown ones.
+
+#include <hallway/plugin.hpp>
+#include <vector>
+
+namespace {
+
+template <typename T>
+double has_grown([[maybe_unused]] const T* p) {
+#ifdef HW_TEST_GROWN
+  return HW_HAS(p, T, grown_counts) ? 1 : 0;
+#else
+  return 0;
+#endif
+}
+
+class GrowthPlugin final : public hallway::sdk::Plugin {
+ public:
+  static const hw_plugin_info_t* info() {
+    static constexpr std::uint32_t kInputs[] = {HW_SAMPLE_POINTS};
+    static constexpr std::uint32_t kOutputs[] = {HW_OUTPUT_POSE};
+    static constexpr hw_plugin_info_t kInfo = hallway::sdk::plugin_info(
+        "growth", "Growth", "1", "Hallway", "Tells what it read.", kInputs, kOutputs);
+    return &kInfo;
+  }
+
+  explicit GrowthPlugin(const hw_host_t* host) : Plugin(host), host_has_grown_(has_grown(host)) {
+    parameters().add("first", &first_, 0, 10, "", "The first of two.");
+    parameters().add("second_m", &second_, 0.0, 10.0, "m", "The second of two.");
+  }
+
+  void activate(const hw_activation_t& activation) override {
+    if (first_ == 9) throw std::runtime_error("nine is refused");
+    activation_has_grown_ = has_grown(&activation);
+    for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
+      const hw_sensor_info_t& sensor = *activation.sensors[i];
+      sensor_sum_ = 100 * sensor_sum_ + sensor.id;
+      last_noise_ = sensor.noise_m[2];
+      sensor_has_grown_ = has_grown(&sensor);
+    }
+  }
+
+  void reset() override {}
+
+  void process(const hw_frame_t& frame) override {
+    double sample_sum = 0, x_sum = 0, sample_has_grown = 0, points_have_grown = 0;
+    std::vector<std::uint64_t> ids;
+    for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
+      const hw_sample_t& sample = *frame.samples[k];
+      const auto& points = *static_cast<const hw_points_t*>(sample.payload);
+      sample_sum = 100 * sample_sum + sample.sensor_id;
+      sample_has_grown = has_grown(&sample);
+      points_have_grown = has_grown(&points);
+      ids.assign(points.count, k);
+      for (std::uint64_t i = 0; i < points.count; ++i) x_sum += hw_point_at(&points, i)->x;
+      host().put_associations(k, ids);
+    }
+    host().put_pose({{x_sum, 0, 0}, {1, 0, 0, 0}});
+    const hw_counter_t counters[] = {
+        {"sensor_sum", sensor_sum_},
+        {"last_noise", last_noise_},
+        {"sample_sum", sample_sum},
+        {"x_sum", x_sum},
+        {"first", static_cast<double>(first_)},
+        {"second", second_},
+        {"grown_structs", host_has_grown_ + activation_has_grown_ + sensor_has_grown_ + has_grown(&frame) +
+                              sample_has_grown + points_have_grown}};
+    host().put_counters(counters);
+  }
+
+  void report(bool) override {
+    host().put_landmarks({{7, {1, 2, 3}, 4, HW_LANDMARK_MAPPED}, {8, {5, 6, 7}, 8, HW_LANDMARK_TEMPORARY}});
+    host().put_submaps({{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}}, {7, 8});
+  }
+
+ private:
+  int first_ = 1;
+  double second_ = 2;
+  double host_has_grown_ = 0, activation_has_grown_ = 0, sensor_has_grown_ = 0;
+  double sensor_sum_ = 0, last_noise_ = 0;
+};
+
+}  // namespace
+
+HALLWAY_PLUGINS(GrowthPlugin);

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// Built twice: with a host of today's headers and with one of grown headers. Each loads a plugin of today's headers and one of
+// grown headers.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "host/frame_builder.hpp"
+#include "host/plugin.hpp"
+#include "support/errors.hpp"
+
+namespace hallway::host {
+namespace {
+
+#ifdef HW_TEST_GROWN
+constexpr bool kHostHasGrown = true;
+#else
+constexpr bool kHostHasGrown = false;
+#endif
+
+struct Build {
+  const char* name;
+  const char* file;
+  bool has_grown;
+};
+
+class Growth : public testing::TestWithParam<Build> {
+ protected:
+  Growth() : plugin_(find_plugin(GetParam().file, {})) {}
+
+  static std::vector<SensorInfo> three_sensors() {
+    std::vector<SensorInfo> sensors(3);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      sensors[i].id = i + 11;
+      sensors[i].name = "sensor";
+      sensors[i].noise_m[2] = 0.25 * (i + 1);
+    }
+    return sensors;
+  }
+
+  const Outputs& process_three_samples() {
+    builder_.begin(5, 1000);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      auto& points = builder_.add_points(i + 11);
+      for (std::uint32_t j = 0; j <= i; ++j) points.push_back({1.0 + i, 0, 0});
+    }
+    return plugin_.process(builder_.finish());
+  }
+
+  std::map<std::string, double> counters_of_a_frame() {
+    plugin_.activate(three_sensors());
+    std::map<std::string, double> counters;
+    for (const Counter& counter : process_three_samples().counters()) counters[counter.name] = counter.value;
+    return counters;
+  }
+
+  FrameBuilder builder_;
+  Plugin plugin_;
+};
+
+TEST_P(Growth, SensorInfosAreReadThroughTheArrayOfPointers) {
+  const auto counters = counters_of_a_frame();
+  EXPECT_EQ(counters.at("sensor_sum"), 111213);
+  EXPECT_EQ(counters.at("last_noise"), 0.75);
+}
+
+TEST_P(Growth, SamplesAreReadThroughTheArrayOfPointers) {
+  const auto counters = counters_of_a_frame();
+  EXPECT_EQ(counters.at("sample_sum"), 111213);
+  EXPECT_EQ(counters.at("x_sum"), 1 + 2 * 2 + 3 * 3);
+}
+
+TEST_P(Growth, AMemberIsSeenOnlyWhereBothSidesHaveIt) {
+  const bool both = GetParam().has_grown && kHostHasGrown;
+  EXPECT_EQ(counters_of_a_frame().at("grown_structs"), both ? 6 : 0);
+}
+
+TEST_P(Growth, OutputsOfAFrameArrive) {
+  plugin_.activate(three_sensors());
+  const Outputs& outputs = process_three_samples();
+  ASSERT_TRUE(outputs.pose());
+  EXPECT_EQ(outputs.pose()->T_map_body.position[0], 14);
+  const auto ids = outputs.associations(2);
+  ASSERT_TRUE(ids);
+  EXPECT_EQ(std::vector<std::uint64_t>(ids->begin(), ids->end()), std::vector<std::uint64_t>({2, 2, 2}));
+}
+
+TEST_P(Growth, TheMapArrives) {
+  plugin_.activate(three_sensors());
+  const Outputs& map = plugin_.report(true);
+  ASSERT_EQ(map.landmarks().size(), 2u);
+  EXPECT_EQ(map.landmarks()[1].id, 8u);
+  EXPECT_EQ(map.landmarks()[1].position[2], 7);
+  ASSERT_EQ(map.submaps().size(), 1u);
+  EXPECT_EQ(map.members(map.submaps()[0]).size(), 2u);
+}
+
+TEST_P(Growth, ParametersAreDescribedAndSet) {
+  ASSERT_EQ(plugin_.parameters().size(), 2u);
+  EXPECT_EQ(plugin_.parameters()[1].unit, "m");
+  plugin_.set_parameter("first", "3");
+  plugin_.set_parameter("second_m", "4.5");
+  const auto counters = counters_of_a_frame();
+  EXPECT_EQ(counters.at("first"), 3);
+  EXPECT_EQ(counters.at("second"), 4.5);
+}
+
+TEST_P(Growth, ReasonsOfFailuresArrive) {
+  plugin_.set_parameter("first", "9");
+  const auto error = test::error_of([&] { plugin_.activate(three_sensors()); });
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->message().find("nine is refused"), std::string::npos) << error->what();
+}
+
+INSTANTIATE_TEST_SUITE_P(Plugins, Growth,
+                         testing::Values(Build{"OfToday", GROWTH_PLUGIN_TODAY, false},
+                                         Build{"Grown", GROWTH_PLUGIN_GROWN, true}),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace hallway::host

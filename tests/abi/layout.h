@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Sizes and offsets of the ABI on 64-bit targets, as the compiler sees them. Included by one C and one C++ file: a change
+// that breaks plugins does not compile.
+
+#include <assert.h>
+#include <hallway/hallway.h>
+#include <stddef.h>
+
+#define SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type)
+#define AT(type, member, bytes) static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(hw_version_t, 8);
+AT(hw_version_t, abi_major, 0);
+AT(hw_version_t, abi_minor, 4);
+
+SIZE(hw_error_t, 1008);
+AT(hw_error_t, size, 0);
+AT(hw_error_t, status, 4);
+AT(hw_error_t, message, 8);
+
+SIZE(hw_pose_t, 56);
+AT(hw_pose_t, position, 0);
+AT(hw_pose_t, orientation, 24);
+
+SIZE(hw_sample_t, 48);
+AT(hw_sample_t, size, 0);
+AT(hw_sample_t, kind, 4);
+AT(hw_sample_t, flags, 8);
+AT(hw_sample_t, sensor_id, 12);
+AT(hw_sample_t, sequence, 16);
+AT(hw_sample_t, t_begin_ns, 24);
+AT(hw_sample_t, t_end_ns, 32);
+AT(hw_sample_t, payload, 40);
+
+SIZE(hw_point3_t, 24);
+AT(hw_point3_t, x, 0);
+AT(hw_point3_t, y, 8);
+AT(hw_point3_t, z, 16);
+
+SIZE(hw_points_t, 32);
+AT(hw_points_t, size, 0);
+AT(hw_points_t, stride, 4);
+AT(hw_points_t, count, 8);
+AT(hw_points_t, points, 16);
+AT(hw_points_t, track, 24);
+
+SIZE(hw_frame_t, 32);
+AT(hw_frame_t, size, 0);
+AT(hw_frame_t, n_samples, 4);
+AT(hw_frame_t, sequence, 8);
+AT(hw_frame_t, t_ns, 16);
+AT(hw_frame_t, samples, 24);
+
+SIZE(hw_output_t, 24);
+AT(hw_output_t, size, 0);
+AT(hw_output_t, kind, 4);
+AT(hw_output_t, flags, 8);
+AT(hw_output_t, reserved, 12);
+AT(hw_output_t, payload, 16);
+
+SIZE(hw_pose_output_t, 64);
+AT(hw_pose_output_t, size, 0);
+AT(hw_pose_output_t, status, 4);
+AT(hw_pose_output_t, T_map_body, 8);
+
+SIZE(hw_landmark_t, 40);
+AT(hw_landmark_t, id, 0);
+AT(hw_landmark_t, position, 8);
+AT(hw_landmark_t, observations, 32);
+AT(hw_landmark_t, status, 36);
+
+SIZE(hw_landmarks_t, 24);
+AT(hw_landmarks_t, size, 0);
+AT(hw_landmarks_t, stride, 4);
+AT(hw_landmarks_t, count, 8);
+AT(hw_landmarks_t, landmarks, 16);
+
+SIZE(hw_associations_t, 24);
+AT(hw_associations_t, size, 0);
+AT(hw_associations_t, sample, 4);
+AT(hw_associations_t, count, 8);
+AT(hw_associations_t, landmark_ids, 16);
+
+SIZE(hw_submap_t, 80);
+AT(hw_submap_t, id, 0);
+AT(hw_submap_t, T_map_submap, 8);
+AT(hw_submap_t, first_member, 64);
+AT(hw_submap_t, n_members, 72);
+
+SIZE(hw_submaps_t, 40);
+AT(hw_submaps_t, size, 0);
+AT(hw_submaps_t, stride, 4);
+AT(hw_submaps_t, count, 8);
+AT(hw_submaps_t, submaps, 16);
+AT(hw_submaps_t, n_members, 24);
+AT(hw_submaps_t, members, 32);
+
+SIZE(hw_counter_t, 16);
+AT(hw_counter_t, name, 0);
+AT(hw_counter_t, value, 8);
+
+SIZE(hw_counters_t, 24);
+AT(hw_counters_t, size, 0);
+AT(hw_counters_t, stride, 4);
+AT(hw_counters_t, count, 8);
+AT(hw_counters_t, counters, 16);
+
+SIZE(hw_sensor_info_t, 136);
+AT(hw_sensor_info_t, size, 0);
+AT(hw_sensor_info_t, id, 4);
+AT(hw_sensor_info_t, kind, 8);
+AT(hw_sensor_info_t, reserved, 12);
+AT(hw_sensor_info_t, name, 16);
+AT(hw_sensor_info_t, T_body_sensor, 24);
+AT(hw_sensor_info_t, horizontal_fov, 80);
+AT(hw_sensor_info_t, vertical_fov, 88);
+AT(hw_sensor_info_t, min_range_m, 96);
+AT(hw_sensor_info_t, max_range_m, 104);
+AT(hw_sensor_info_t, noise_m, 112);
+
+SIZE(hw_activation_t, 16);
+AT(hw_activation_t, size, 0);
+AT(hw_activation_t, n_sensors, 4);
+AT(hw_activation_t, sensors, 8);
+
+SIZE(hw_host_vtable_t, 16);
+AT(hw_host_vtable_t, put, 0);
+AT(hw_host_vtable_t, get_extension, 8);
+
+SIZE(hw_host_t, 48);
+AT(hw_host_t, size, 0);
+AT(hw_host_t, reserved, 4);
+AT(hw_host_t, abi, 8);
+AT(hw_host_t, vtable, 16);
+AT(hw_host_t, self, 24);
+AT(hw_host_t, name, 32);
+AT(hw_host_t, version, 40);
+
+SIZE(hw_report_request_t, 8);
+AT(hw_report_request_t, size, 0);
+AT(hw_report_request_t, flags, 4);
+
+SIZE(hw_plugin_vtable_t, 56);
+AT(hw_plugin_vtable_t, activate, 0);
+AT(hw_plugin_vtable_t, deactivate, 8);
+AT(hw_plugin_vtable_t, reset, 16);
+AT(hw_plugin_vtable_t, process, 24);
+AT(hw_plugin_vtable_t, report, 32);
+AT(hw_plugin_vtable_t, get_extension, 40);
+AT(hw_plugin_vtable_t, destroy, 48);
+
+SIZE(hw_plugin_t, 16);
+AT(hw_plugin_t, vtable, 0);
+AT(hw_plugin_t, self, 8);
+
+SIZE(hw_plugin_info_t, 72);
+AT(hw_plugin_info_t, size, 0);
+AT(hw_plugin_info_t, n_inputs, 4);
+AT(hw_plugin_info_t, id, 8);
+AT(hw_plugin_info_t, name, 16);
+AT(hw_plugin_info_t, version, 24);
+AT(hw_plugin_info_t, vendor, 32);
+AT(hw_plugin_info_t, description, 40);
+AT(hw_plugin_info_t, inputs, 48);
+AT(hw_plugin_info_t, outputs, 56);
+AT(hw_plugin_info_t, n_outputs, 64);
+AT(hw_plugin_info_t, reserved, 68);
+
+SIZE(hw_plugin_factory_t, 24);
+AT(hw_plugin_factory_t, count, 0);
+AT(hw_plugin_factory_t, describe, 8);
+AT(hw_plugin_factory_t, create, 16);
+
+SIZE(hw_entry_t, 32);
+AT(hw_entry_t, abi, 0);
+AT(hw_entry_t, init, 8);
+AT(hw_entry_t, deinit, 16);
+AT(hw_entry_t, get_factory, 24);
+
+SIZE(hw_param_value_t, 16);
+AT(hw_param_value_t, type, 0);
+AT(hw_param_value_t, reserved, 4);
+AT(hw_param_value_t, as, 8);
+
+SIZE(hw_param_info_t, 96);
+AT(hw_param_info_t, size, 0);
+AT(hw_param_info_t, type, 4);
+AT(hw_param_info_t, name, 8);
+AT(hw_param_info_t, unit, 16);
+AT(hw_param_info_t, help, 24);
+AT(hw_param_info_t, default_value, 32);
+AT(hw_param_info_t, minimum, 48);
+AT(hw_param_info_t, maximum, 64);
+AT(hw_param_info_t, choices, 80);
+AT(hw_param_info_t, n_choices, 88);
+AT(hw_param_info_t, reserved, 92);
+
+SIZE(hw_params_t, 32);
+AT(hw_params_t, count, 0);
+AT(hw_params_t, describe, 8);
+AT(hw_params_t, get, 16);
+AT(hw_params_t, set, 24);
+
+SIZE(hw_log_t, 8);
+AT(hw_log_t, write, 0);
+
+// Numbers are never given a second meaning.
+static_assert(HW_OK == 0 && HW_ERROR_ARGUMENT == 1 && HW_ERROR_STATE == 2 && HW_ERROR_NOT_FOUND == 3,
+              "status");
+static_assert(HW_ERROR_RANGE == 4 && HW_ERROR_UNSUPPORTED == 5 && HW_ERROR_MEMORY == 6, "status");
+static_assert(HW_ERROR_IO == 7 && HW_ERROR_DATA == 8 && HW_ERROR_INTERNAL == 9, "status");
+static_assert(HW_SAMPLE_POINTS == 1 && HW_SAMPLE_PLANES == 2 && HW_SAMPLE_SEGMENTS == 3, "samples");
+static_assert(HW_SAMPLE_RANGE_SCAN == 4 && HW_SAMPLE_BUMP == 5 && HW_SAMPLE_ENCODER == 6, "samples");
+static_assert(HW_SAMPLE_ODOMETRY == 7 && HW_SAMPLE_IMAGE == 8 && HW_SAMPLE_DEPTH == 9, "samples");
+static_assert(HW_OUTPUT_POSE == 1 && HW_OUTPUT_LANDMARKS == 2 && HW_OUTPUT_ASSOCIATIONS == 3, "outputs");
+static_assert(HW_OUTPUT_SUBMAPS == 4 && HW_OUTPUT_COUNTERS == 5 && HW_OUTPUT_PLANES == 6, "outputs");
+static_assert(HW_OUTPUT_SEGMENTS == 7 && HW_OUTPUT_TOPOLOGY == 8 && HW_OUTPUT_DRIVE_COMMAND == 9, "outputs");
+static_assert(HW_OUTPUT_DRAWING == 10, "outputs");
+static_assert(HW_POSE_LOST == 0 && HW_POSE_VALID == 1, "pose status");
+static_assert(HW_LANDMARK_TEMPORARY == 0 && HW_LANDMARK_MAPPED == 1 && HW_LANDMARK_DYNAMIC == 2,
+              "landmark status");
+static_assert(HW_PARAM_BOOL == 1 && HW_PARAM_INT == 2 && HW_PARAM_DOUBLE == 3 && HW_PARAM_CHOICE == 4,
+              "parameters");
+static_assert(HW_LOG_DEBUG == 0 && HW_LOG_INFO == 1 && HW_LOG_WARNING == 2 && HW_LOG_ERROR == 3,
+              "log levels");
+static_assert(HW_SAMPLE_TRACKED == 1u && HW_REPORT_REFINE == 1u && HW_NO_LANDMARK == UINT64_MAX, "flags");
+
+#undef SIZE
+#undef AT

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A run that is asked to stop ends in good order.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/small_world.hpp"
+
+namespace hallway::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Starts a run far too long for the test, waits until it is under way, and sends it a signal.
+Ended stop_long_run(const SmallWorld& world, int signal) {
+  Process process({hallway_program(), "run", world.scenario(), "--out", world.out(), "--steps", "10000000", "--quiet"});
+  const fs::path working = world.out() + ".part-" + std::to_string(process.pid());
+  for (int i = 0; i < 3000 && !fs::exists(working); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(fs::exists(working)) << "the run did not begin within 30 s";
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ::kill(process.pid(), signal);
+  return process.wait();
+}
+
+TEST(Interrupt, CtrlCKeepsWhatWasDone) {
+  const SmallWorld world;
+  EXPECT_EQ(stop_long_run(world, SIGINT).status, 130);
+  const auto manifest = nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json"));
+  EXPECT_EQ(manifest.at("stopped_early"), true);
+  EXPECT_GT(manifest.at("iterations").get<int>(), 0);
+}
+
+TEST(Interrupt, TerminationHasItsOwnStatus) {
+  const SmallWorld world;
+  EXPECT_EQ(stop_long_run(world, SIGTERM).status, 143);
+  EXPECT_TRUE(fs::exists(fs::path(world.out()) / "metrics.json"));
+}
+
+}  // namespace
+}  // namespace hallway::test

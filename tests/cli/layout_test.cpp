@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The link rules of docs/architecture.md, read off the include lines.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "base/file.hpp"
+#include "support/data.hpp"
+
+namespace hallway {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What each folder may include besides itself and the standard library.
+const std::map<std::string, std::set<std::string>> kAllowed{
+    {"engine/base", {}},
+    {"engine/geom", {"base"}},
+    {"engine/map", {"base", "geom"}},
+    {"engine/trace", {"base", "geom"}},
+    {"engine/sense", {"base", "geom", "map", "trace"}},
+    {"engine/sim", {"base", "geom", "map", "trace", "sense"}},
+    {"engine/host", {"base", "hallway"}},
+    {"engine/log", {"base"}},
+    {"engine/eval", {"base", "geom", "log"}},
+    {"engine/render", {"base", "geom", "map"}},
+    {"engine/run", {"base", "geom", "map", "trace", "sense", "sim", "host", "log", "eval", "render", "hallway"}},
+    {"plugins/slam_point/core", {"slam_point"}},
+};
+
+const std::set<std::string> kLibraries{"base", "geom", "map",  "trace", "sense",   "sim",       "host",
+                                       "log",  "eval", "render", "run", "hallway", "slam_point"};
+
+struct Include {
+  fs::path file;
+  std::string target;
+};
+
+std::vector<Include> includes_of(const fs::path& folder) {
+  static const std::regex kLine("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".hpp" && extension != ".cpp" && extension != ".h" && extension != ".c") continue;
+    std::istringstream text(read_file(entry.path()));
+    std::string line;
+    std::smatch match;
+    while (std::getline(text, line)) {
+      if (std::regex_search(line, match, kLine)) includes.push_back({entry.path(), match[1]});
+    }
+  }
+  return includes;
+}
+
+TEST(Layout, NoFolderIncludesWhatStandsToItsRight) {
+  for (const auto& [folder, allowed] : kAllowed) {
+    const auto includes = includes_of(test::source_folder() / folder);
+    EXPECT_FALSE(includes.empty()) << folder;
+    const std::string own = fs::path(folder).filename().string();
+    for (const Include& include : includes) {
+      const std::string library = include.target.substr(0, include.target.find('/'));
+      if (library == own || !kLibraries.contains(library) || include.target.find('/') == std::string::npos) continue;
+      EXPECT_TRUE(allowed.contains(library)) << include.file.string() << " includes " << include.target;
+    }
+  }
+}
+
+TEST(Layout, EachHeavyLibraryIsIncludedByOneSourceFile) {
+  std::map<std::string, std::set<std::string>> users;
+  for (const char* folder : {"engine", "cli", "plugins", "sdk"}) {
+    for (const Include& include : includes_of(test::source_folder() / folder)) {
+      if (include.target.starts_with("embree3/")) users["Embree"].insert(include.file.string());
+      if (include.target == "GL/osmesa.h") users["OSMesa"].insert(include.file.string());
+      if (include.target.starts_with("toml++/")) users["toml++"].insert(include.file.string());
+    }
+  }
+  for (const char* library : {"Embree", "OSMesa", "toml++"}) {
+    EXPECT_EQ(users[library].size(), 1u) << library;
+    for (const std::string& file : users[library]) EXPECT_TRUE(file.ends_with(".cpp")) << file;
+  }
+}
+
+TEST(Layout, PluginsIncludeNothingOfTheEngine) {
+  for (const Include& include : includes_of(test::source_folder() / "plugins")) {
+    const std::string library = include.target.substr(0, include.target.find('/'));
+    EXPECT_FALSE(fs::exists(test::source_folder() / "engine" / include.target))
+        << include.file.string() << " includes " << include.target;
+    EXPECT_NE(library, "base") << include.file.string();
+  }
+}
+
+TEST(Layout, EveryLibraryHasAShortReadme) {
+  for (const auto& entry : fs::directory_iterator(test::source_folder() / "engine")) {
+    if (!entry.is_directory()) continue;
+    const fs::path readme = entry.path() / "README.md";
+    ASSERT_TRUE(fs::exists(readme)) << readme;
+    const std::string text = read_file(readme);
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 40) << readme;
+  }
+}
+
+TEST(Layout, EverySourceFileNamesItsLicence) {
+  for (const char* folder : {"engine", "cli", "plugins", "sdk", "tests", "bench"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(test::source_folder() / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".cpp" && extension != ".h" && extension != ".c") continue;
+      EXPECT_TRUE(read_file(entry.path()).starts_with("// SPDX-License-Identifier: MIT\n")) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hallway

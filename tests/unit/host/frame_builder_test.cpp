@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "host/frame_builder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hallway::host {
+namespace {
+
+TEST(FrameBuilder, AFrameWithoutSamples) {
+  FrameBuilder builder;
+  builder.begin(7, 700);
+  const hw_frame_t& frame = builder.finish();
+  EXPECT_EQ(frame.size, sizeof(hw_frame_t));
+  EXPECT_EQ(frame.sequence, 7u);
+  EXPECT_EQ(frame.t_ns, 700);
+  EXPECT_EQ(frame.n_samples, 0u);
+}
+
+TEST(FrameBuilder, ASampleSaysWhatItIs) {
+  FrameBuilder builder;
+  builder.begin(7, 700);
+  builder.add_points(3) = {{1, 2, 3}};
+  const hw_sample_t& sample = *builder.finish().samples[0];
+  EXPECT_EQ(sample.size, sizeof(hw_sample_t));
+  EXPECT_EQ(sample.kind, static_cast<std::uint32_t>(HW_SAMPLE_POINTS));
+  EXPECT_EQ(sample.flags, 0u);
+  EXPECT_EQ(sample.sensor_id, 3u);
+  EXPECT_EQ(sample.sequence, 7u);
+  EXPECT_EQ(sample.t_begin_ns, 700);
+  EXPECT_EQ(sample.t_end_ns, 700);
+}
+
+TEST(FrameBuilder, PointsArriveInOrder) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  builder.add_points(0) = {{1, 2, 3}, {4, 5, 6}};
+  const auto& points = *static_cast<const hw_points_t*>(builder.finish().samples[0]->payload);
+  ASSERT_EQ(points.count, 2u);
+  EXPECT_EQ(points.track, nullptr);
+  EXPECT_EQ(hw_point_at(&points, 0)->y, 2);
+  EXPECT_EQ(hw_point_at(&points, 1)->z, 6);
+}
+
+TEST(FrameBuilder, EarlierSamplesSurviveLaterOnes) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  for (std::uint32_t i = 0; i < 50; ++i) builder.add_points(i).push_back({static_cast<double>(i), 0, 0});
+  const hw_frame_t& frame = builder.finish();
+  ASSERT_EQ(frame.n_samples, 50u);
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    EXPECT_EQ(frame.samples[i]->sensor_id, i);
+    EXPECT_EQ(hw_point_at(static_cast<const hw_points_t*>(frame.samples[i]->payload), 0)->x, i);
+  }
+}
+
+TEST(FrameBuilder, ANewFrameHasNothingOfTheOldOne) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  builder.add_points(0) = {{1, 2, 3}, {4, 5, 6}};
+  builder.add_points(1) = {{7, 8, 9}};
+  builder.finish();
+  builder.begin(1, 1);
+  EXPECT_TRUE(builder.add_points(5).empty());
+  const hw_frame_t& frame = builder.finish();
+  EXPECT_EQ(frame.n_samples, 1u);
+  EXPECT_EQ(frame.samples[0]->sensor_id, 5u);
+}
+
+}  // namespace
+}  // namespace hallway::host

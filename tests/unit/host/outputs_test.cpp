@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "host/outputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "host/frame_builder.hpp"
+
+namespace hallway::host {
+namespace {
+
+template <typename Payload>
+hw_status_t put(OutputCollector& collector, std::uint32_t kind, Payload payload) {
+  payload.size = sizeof payload;
+  const hw_output_t output{sizeof output, kind, 0, 0, &payload};
+  return collector.put(&output);
+}
+
+hw_status_t put_associations(OutputCollector& collector, std::uint32_t sample,
+                             const std::vector<std::uint64_t>& ids) {
+  hw_associations_t payload{};
+  payload.sample = sample;
+  payload.count = ids.size();
+  payload.landmark_ids = ids.data();
+  return put(collector, HW_OUTPUT_ASSOCIATIONS, payload);
+}
+
+/// Landmarks as a later version might have them, with a member more.
+struct LongerLandmark {
+  hw_landmark_t landmark;
+  double more;
+};
+
+TEST(Outputs, AreEmptyWhereNothingWasPut) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  EXPECT_EQ(collector.finish(), "");
+  EXPECT_FALSE(collector.outputs().pose());
+  EXPECT_TRUE(collector.outputs().landmarks().empty());
+  EXPECT_FALSE(collector.outputs().associations(0));
+}
+
+TEST(Outputs, AreForgottenWithTheNextCall) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  hw_pose_output_t pose{};
+  put(collector, HW_OUTPUT_POSE, pose);
+  collector.finish();
+  collector.begin(nullptr, {});
+  collector.finish();
+  EXPECT_FALSE(collector.outputs().pose());
+}
+
+TEST(Outputs, ALostPoseIsTheIdentityWhateverStandsInIt) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  hw_pose_output_t pose{};
+  pose.T_map_body.position[0] = 7;
+  EXPECT_EQ(put(collector, HW_OUTPUT_POSE, pose), HW_OK);
+  EXPECT_FALSE(collector.outputs().pose()->valid);
+  EXPECT_EQ(collector.outputs().pose()->T_map_body.position[0], 0);
+  EXPECT_EQ(collector.outputs().pose()->T_map_body.orientation[0], 1);
+}
+
+TEST(Outputs, LandmarksAreReadByTheirStride) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  const std::vector<LongerLandmark> list = {{{1, {1, 2, 3}, 4, HW_LANDMARK_MAPPED}, -1},
+                                            {{2, {5, 6, 7}, 8, HW_LANDMARK_DYNAMIC}, -1}};
+  hw_landmarks_t payload{};
+  payload.stride = sizeof(LongerLandmark);
+  payload.count = list.size();
+  payload.landmarks = list.data();
+  EXPECT_EQ(put(collector, HW_OUTPUT_LANDMARKS, payload), HW_OK);
+  ASSERT_EQ(collector.outputs().landmarks().size(), 2u);
+  EXPECT_EQ(collector.outputs().landmarks()[1].id, 2u);
+  EXPECT_EQ(collector.outputs().landmarks()[1].position[2], 7);
+}
+
+TEST(Outputs, AssociationsAreKnownByTheIndexInTheWholeFrame) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  builder.add_points(0) = {{0, 0, 0}};
+  builder.add_points(1) = {{0, 0, 0}, {1, 1, 1}};
+  const std::vector<std::uint32_t> indices = {4, 9};
+  OutputCollector collector;
+  collector.begin(&builder.finish(), indices);
+  EXPECT_EQ(put_associations(collector, 1, {5, HW_NO_LANDMARK}), HW_OK);
+  EXPECT_EQ(collector.finish(), "");
+  EXPECT_FALSE(collector.outputs().associations(1));
+  ASSERT_TRUE(collector.outputs().associations(9));
+  EXPECT_EQ((*collector.outputs().associations(9))[0], 5u);
+  EXPECT_EQ((*collector.outputs().associations(9))[1], HW_NO_LANDMARK);
+}
+
+TEST(Outputs, AssociationsBelongToAFrame) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  EXPECT_EQ(put_associations(collector, 0, {}), HW_ERROR_DATA);
+  EXPECT_NE(collector.finish(), "");
+}
+
+TEST(Outputs, MembersOfSeveralListsOfSubmapsAreKeptApart) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  for (std::uint64_t id = 0; id < 2; ++id) {
+    const hw_submap_t submap{id, {{0, 0, 0}, {1, 0, 0, 0}}, 1, 1};
+    const std::vector<std::uint64_t> members = {10 * id, 10 * id + 1};
+    hw_submaps_t payload{};
+    payload.stride = sizeof submap;
+    payload.count = 1;
+    payload.submaps = &submap;
+    payload.n_members = 2;
+    payload.members = members.data();
+    EXPECT_EQ(put(collector, HW_OUTPUT_SUBMAPS, payload), HW_OK);
+  }
+  const Outputs& outputs = collector.outputs();
+  ASSERT_EQ(outputs.submaps().size(), 2u);
+  EXPECT_EQ(outputs.members(outputs.submaps()[0])[0], 1u);
+  EXPECT_EQ(outputs.members(outputs.submaps()[1])[0], 11u);
+}
+
+TEST(Outputs, TheFirstFaultStands) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  hw_pose_output_t pose{};
+  pose.status = 5;
+  EXPECT_EQ(put(collector, HW_OUTPUT_POSE, pose), HW_ERROR_DATA);
+  pose.status = HW_POSE_LOST;
+  EXPECT_EQ(put(collector, HW_OUTPUT_POSE, pose), HW_ERROR_DATA) << "what follows a fault is not taken";
+  EXPECT_EQ(collector.finish(), "pose: an unknown status");
+}
+
+TEST(Outputs, ANullOutputIsRefused) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  EXPECT_EQ(collector.put(nullptr), HW_ERROR_ARGUMENT);
+}
+
+TEST(Outputs, OutsideOfACallNothingIsTaken) {
+  OutputCollector collector;
+  EXPECT_EQ(put(collector, HW_OUTPUT_POSE, hw_pose_output_t{}), HW_ERROR_STATE);
+}
+
+}  // namespace
+}  // namespace hallway::host

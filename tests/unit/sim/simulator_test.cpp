@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "sim/simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "support/errors.hpp"
+#include "support/temp_folder.hpp"
+#include "unit/sim/small_world.hpp"
+
+namespace hallway::sim {
+namespace {
+
+const char* const kEyes = "[sensor.eyes]\nkind = 'points'\nmax_range_m = 8\nnoise_m = 0.02\n";
+const char* const kTwoEyes =
+    "[sensor.eyes]\nkind = 'points'\nmax_range_m = 8\nnoise_m = 0.02\n"
+    "[sensor.back]\nkind = 'points'\nmax_range_m = 8\nyaw_deg = 180\nposition_m = [-0.2, 0, 0.5]\n";
+
+/// A scenario with its map in a folder of its own.
+class World {
+ public:
+  World(const std::string& scenario, const std::string& map) {
+    folder_.write("small.map", map);
+    scenario_ = load_scenario(folder_.write("s.toml", scenario));
+  }
+  explicit World(const std::string& scenario) : World(scenario, test::map_text(test::pillars())) {}
+
+  Scenario& scenario() { return scenario_; }
+
+ private:
+  test::TempFolder folder_;
+  Scenario scenario_;
+};
+
+/// Everything in a frame, bit by bit, as text.
+std::string bytes_of(const Frame& frame) {
+  std::string bytes;
+  const auto add = [&](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  add(&frame.step, sizeof(frame.step));
+  add(&frame.t_ns, sizeof(frame.t_ns));
+  add(frame.T_world_body.t.data(), 3 * sizeof(double));
+  add(frame.T_world_body.q.coeffs().data(), 4 * sizeof(double));
+  for (const Reading& reading : frame.readings) {
+    add(&reading.sensor, sizeof(reading.sensor));
+    for (const sense::PointObservation& seen : reading.observations) {
+      add(&seen.landmark, sizeof(seen.landmark));
+      add(seen.point.data(), 3 * sizeof(double));
+    }
+  }
+  return bytes;
+}
+
+std::string bytes_of_run(const Scenario& scenario, unsigned threads, trace::Backend backend) {
+  const Simulator simulator(scenario, threads, backend);
+  std::string bytes;
+  for (std::uint32_t i = 0; i < scenario.steps; ++i) bytes += bytes_of(simulator.step(i));
+  return bytes;
+}
+
+TEST(Simulator, StartsAtTheBeginningOfThePath) {
+  World world(test::scenario_text());
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  const Frame frame = simulator.step(0);
+  EXPECT_EQ(frame.step, 0u);
+  EXPECT_EQ(frame.t_ns, 0);
+  EXPECT_EQ(frame.T_world_body.t, simulator.path().at(0.0).t);
+}
+
+TEST(Simulator, CountsTimeInWholeNanoseconds) {
+  World world(test::scenario_text());
+  world.scenario().steps = 10'000'000;
+  world.scenario().period_ns = 33'333'333;
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_EQ(simulator.step(9'999'999).t_ns, std::int64_t{9'999'999} * 33'333'333);
+}
+
+TEST(Simulator, MovesAtTheGivenSpeed) {
+  World world(test::scenario_text());
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 0.5};
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_DOUBLE_EQ(simulator.step_length_m(), 0.05);
+  EXPECT_LT((simulator.step(30).T_world_body.t - Vec3(1.5, 3, 0)).norm(), 1e-12);
+}
+
+TEST(Simulator, StandsAtTheEndOfAnOpenPath) {
+  World world(test::scenario_text());
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 100.0};
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_LT((simulator.step(39).T_world_body.t - Vec3(4, 3, 0)).norm(), 1e-12);
+}
+
+TEST(Simulator, GoesOnceRoundInLoopSteps) {
+  World world(test::scenario_text());  // loop_steps = 20, steps = 40
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Pose first = simulator.step(i).T_world_body;
+    const Pose second = simulator.step(i + 20).T_world_body;
+    EXPECT_LT((first.t - second.t).norm(), 1e-9);
+    EXPECT_LT(angle_between(first.q, second.q), 1e-9);
+  }
+  EXPECT_GT((simulator.step(10).T_world_body.t - simulator.step(0).T_world_body.t).norm(), 1.0);
+}
+
+TEST(Simulator, AStandingRobotStands) {
+  World world(test::scenario_text());
+  world.scenario().robot = {.path = "round", .speed_m_s = 0.0};
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_EQ(simulator.step(39).T_world_body.t, simulator.step(0).T_world_body.t);
+  EXPECT_TRUE(simulator.problems().empty());
+}
+
+TEST(Simulator, SeesLandmarksWhereTheyAre) {
+  World world(test::scenario_text(kEyes));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  std::size_t seen = 0;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const Frame frame = simulator.step(i);
+    ASSERT_EQ(frame.readings.size(), 1u);
+    for (const sense::PointObservation& observation : frame.readings[0].observations) {
+      ASSERT_LT(observation.landmark, simulator.landmarks().size());
+      const Vec3 truth = simulator.landmarks()[observation.landmark];
+      EXPECT_LT((frame.T_world_body * observation.point - truth).norm(), 6 * std::sqrt(3.0) * 0.02);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 40u);
+}
+
+TEST(Simulator, MountsEachSensorOnTheRobot) {
+  World world(test::scenario_text(kTwoEyes));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  std::set<std::size_t> with_observations;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Frame frame = simulator.step(i);
+    ASSERT_EQ(frame.readings.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(frame.readings[k].sensor, k);
+      const Pose T_world_sensor = frame.T_world_body * world.scenario().sensors[k].T_body_sensor;
+      for (const sense::PointObservation& observation : frame.readings[k].observations) {
+        const Vec3 truth = simulator.landmarks()[observation.landmark];
+        EXPECT_LT((T_world_sensor * observation.point - truth).norm(), 0.25);
+        EXPECT_GT((T_world_sensor.inverse() * truth).x(), 0.0);
+        with_observations.insert(k);
+      }
+    }
+  }
+  EXPECT_EQ(with_observations.size(), 2u);
+}
+
+TEST(Simulator, GivesTheSameBytesOnAnyNumberOfThreads) {
+  World world(test::scenario_text(kTwoEyes));
+  const std::string alone = bytes_of_run(world.scenario(), 1, trace::Backend::kBruteForce);
+  for (const unsigned threads : {2u, 4u, 8u}) {
+    EXPECT_EQ(bytes_of_run(world.scenario(), threads, trace::Backend::kBruteForce), alone) << threads;
+  }
+}
+
+TEST(Simulator, GivesAFrameAskedForAloneAsInOrder) {
+  World world(test::scenario_text(kTwoEyes));
+  const Simulator in_order(world.scenario(), 1, trace::Backend::kBruteForce);
+  const Simulator backwards(world.scenario(), 1, trace::Backend::kBruteForce);
+  std::vector<std::string> frames;
+  for (std::uint32_t i = 0; i < 40; ++i) frames.push_back(bytes_of(in_order.step(i)));
+  for (std::uint32_t i = 40; i-- > 0;) EXPECT_EQ(bytes_of(backwards.step(i)), frames[i]) << i;
+}
+
+TEST(Simulator, DrawsOtherNoiseForAnotherSeed) {
+  World world(test::scenario_text(kEyes));
+  const std::string before = bytes_of_run(world.scenario(), 1, trace::Backend::kBruteForce);
+  ++world.scenario().seed;
+  EXPECT_NE(bytes_of_run(world.scenario(), 1, trace::Backend::kBruteForce), before);
+}
+
+TEST(Simulator, RefusesAFrameBeyondTheLast) {
+  World world(test::scenario_text());
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_TRUE(test::error_of([&] { simulator.step(40); }).has_value());
+}
+
+TEST(Simulator, NamesThePathsThatExist) {
+  World world(test::scenario_text());
+  world.scenario().robot.path = "rund";
+  const auto error = test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_NE(std::string(error->what()).find("round"), std::string::npos);
+}
+
+TEST(Simulator, NamesAMapThatIsMissing) {
+  World world(test::scenario_text());
+  world.scenario().map_file = "nowhere/none.map";
+  const auto error = test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code(), ErrorCode::kIo);
+  EXPECT_EQ(error->where().file, "nowhere/none.map");
+}
+
+/// The one problem that a simulator of this world reports.
+Error only_problem(World& world) {
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  if (simulator.problems().size() == 1) return simulator.problems()[0];
+  ADD_FAILURE() << simulator.problems().size() << " problems";
+  return Error(ErrorCode::kInternal, "");
+}
+
+TEST(Simulator, HasNoProblemsWithAGoodMap) {
+  World world(test::scenario_text());
+  EXPECT_TRUE(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).problems().empty());
+}
+
+TEST(Simulator, LeavesOutABadBrushAndSaysSo) {
+  std::string flat = test::block(500, 500, 0, 510, 510, 10);
+  flat.resize(flat.rfind("\n( ") + 1);  // one face less: the block is open
+  World world(test::scenario_text(), test::map_text(test::pillars() + flat + "}\n"));
+  const Error problem = only_problem(world);
+  EXPECT_GT(problem.where().line, 0);
+  EXPECT_NE(problem.where().element.find("brush 4"), std::string::npos) << problem.what();
+  EXPECT_EQ(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).world().solids.size(), 4u);
+}
+
+TEST(Simulator, SaysWhereThePathRunsIntoASolid) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0};
+  const Error problem = only_problem(world);
+  EXPECT_NE(problem.message().find("entity 0, brush 0 after 2 m"), std::string::npos) << problem.what();
+  EXPECT_NE(problem.where().element.find("ahead"), std::string::npos);
+}
+
+TEST(Simulator, DoesNotMindASolidBeyondTheWayThatIsTaken) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 0.1};
+  EXPECT_TRUE(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).problems().empty());
+}
+
+TEST(Simulator, SaysThatThePathBeginsInsideASolid) {
+  World world(test::scenario_text(), test::map_text(test::block(-50, 250, -50, 50, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 0.1};
+  EXPECT_NE(only_problem(world).message().find("begins inside"), std::string::npos);
+}
+
+TEST(Simulator, SaysThatTheRobotStartIsInsideASolid) {
+  const std::string start = "{\n\"classname\" \"hw_robot_start\"\n\"origin\" \"310 0 0\"\n}\n";
+  World world(test::scenario_text(), test::map_text(test::pillars(), start));
+  EXPECT_NE(only_problem(world).message().find("stands inside"), std::string::npos);
+}
+
+TEST(Simulator, RefusesTwoRobotStarts) {
+  const std::string start = "{\n\"classname\" \"hw_robot_start\"\n\"origin\" \"0 0 0\"\n}\n";
+  World world(test::scenario_text(), test::map_text(test::pillars(), start + start));
+  EXPECT_TRUE(
+      test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); }).has_value());
+}
+
+TEST(Simulator, RunsInAnEmptyWorld) {
+  World world(test::scenario_text(kEyes), test::map_text(""));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_EQ(simulator.landmarks().size(), 16u);  // 400 on 100 m of a path of 4 m
+  EXPECT_EQ(simulator.step(3).readings.size(), 1u);
+}
+
+}  // namespace
+}  // namespace hallway::sim

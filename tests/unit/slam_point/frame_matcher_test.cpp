@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/frame_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scenes.hpp"
+#include "slam_point/core/alignment.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+/// Nearest pair first among all pairs: the oracle.
+std::vector<Index> nearest_first(const std::vector<Vec3>& points, const std::vector<Vec3>& landmarks,
+                                 double bound) {
+  std::vector<Index> match(points.size(), kNone);
+  std::vector<bool> taken(landmarks.size(), false);
+  for (;;) {
+    double best = bound;
+    std::size_t point = points.size();
+    std::size_t landmark = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      if (match[p] != kNone) continue;
+      for (std::size_t l = 0; l < landmarks.size(); ++l) {
+        const double d = (points[p] - landmarks[l]).norm();
+        if (!taken[l] && d <= best) {
+          best = d;
+          point = p;
+          landmark = l;
+        }
+      }
+    }
+    if (point == points.size()) return match;
+    match[point] = static_cast<Index>(landmark);
+    taken[landmark] = true;
+  }
+}
+
+TEST(FrameMatcher, MatchesAsLookingAtAllPairsDoes) {
+  Options options;
+  options.noise_m = 0.05;  // map bound 0.8 m
+  scenes::Random random(1);
+  const auto place = [&] { return Vec3(random.uniform(0, 8), random.uniform(0, 8), random.uniform(0, 2)); };
+  SubmapGraph graph(options.map_bound());
+  std::vector<Vec3> landmarks;
+  for (int i = 0; i < 150; ++i) {
+    landmarks.push_back(place());
+    graph.add_landmark(landmarks.back(), 0);
+  }
+  FrameMatcher matcher(options);
+  std::vector<Vec3> points;
+  std::vector<Observation> frame;
+  for (std::size_t i = 0; i < 120; ++i) {
+    points.push_back(place());
+    frame.push_back({points.back(), i, kNone});
+  }
+  matcher.mark(graph, frame);
+  // "Local since activation 1" makes all of them old: the map bound holds.
+  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  const std::vector<Index> expected = nearest_first(points, landmarks, options.map_bound());
+  for (std::size_t i = 0; i < frame.size(); ++i) EXPECT_EQ(frame[i].landmark, expected[i]) << "point " << i;
+}
+
+TEST(FrameMatcher, LocalLandmarksAreMatchedWithinTheLocalBoundOnly) {
+  const Options options;
+  SubmapGraph graph(options.map_bound());
+  graph.add_landmark(Vec3(0.0, 0.0, 0.0), 5);
+  graph.add_landmark(Vec3(10.0, 0.0, 0.0), 1);
+  FrameMatcher matcher(options);
+  std::vector<Observation> frame{{Vec3(0.5, 0.0, 0.0), 0, kNone}, {Vec3(10.5, 0.0, 0.0), 1, kNone}};
+  matcher.mark(graph, frame);
+  matcher.match_map(graph, Pose{}, 3, 0.3, frame);
+  EXPECT_EQ(frame[0].landmark, kNone);
+  EXPECT_EQ(frame[1].landmark, 1u);
+}
+
+TEST(FrameMatcher, FindsATurnThatThePredictionMissed) {
+  Options options;
+  options.noise_m = 0.02;
+  scenes::Random random(2);
+  SubmapGraph graph(options.map_bound());
+  const Pose truth{rotation_exp(Vec3(0.0, 0.0, 0.3)), Vec3(0.1, 0.0, 0.0)};
+  std::vector<Observation> frame;
+  const Index submap = graph.add_submap(Pose{});
+  graph.activate(submap);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const Vec3 p(random.uniform(2, 9), random.uniform(-6, 6), random.uniform(-1, 1.5));
+    const Index landmark = graph.add_landmark(p, 1);
+    graph.observe(graph.join(submap, landmark, p, true), p, 1);
+    frame.push_back({truth.inverse() * p, i, kNone});
+  }
+  FrameMatcher matcher(options);
+  Pose found;
+  EXPECT_EQ(matcher.search_turn(graph, {Pose{}}, 0.4, false, frame, found), 40);
+  EXPECT_LT((found.t - truth.t).norm(), 1e-9);
+  EXPECT_LT(rotation_log(found.q * truth.q.conjugate()).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace hallway::slam_point

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "scenes.hpp"
+#include "slam_point/core/mapper.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+std::vector<Vec3> cloud(int count, std::uint64_t seed, const Vec3& shift = Vec3::Zero()) {
+  scenes::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    points.push_back(Vec3(random.uniform(5, 40), random.uniform(-20, 20), random.uniform(-5, 5)) + shift);
+  }
+  return points;
+}
+
+TEST(MapperDegenerate, NoPointsBeforeTheMapStarts) {
+  Mapper mapper{Options()};
+  EXPECT_FALSE(mapper.process({}).has_pose);
+  EXPECT_TRUE(mapper.map().landmarks.empty());
+  EXPECT_TRUE(mapper.refined_map().submaps.empty());
+  const Answer& answer = mapper.process(cloud(10, 1));
+  EXPECT_TRUE(answer.has_pose);
+  EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
+}
+
+TEST(MapperDegenerate, OneTwoOrCollinearPointsStartNoMap) {
+  Mapper mapper{Options()};
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 1, 1}}).has_pose);
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 1, 1}, {9, 3, 2}}).has_pose);
+  std::vector<Vec3> line;
+  for (int i = 1; i < 20; ++i) line.push_back(Vec3(i, 2.0 * i, 0.5 * i));
+  EXPECT_FALSE(mapper.process(line).has_pose);
+  EXPECT_TRUE(mapper.map().landmarks.empty());
+}
+
+TEST(MapperDegenerate, CollinearPointsAloneGiveNoPose) {
+  std::vector<Vec3> points = cloud(10, 1);
+  std::vector<Vec3> line;
+  for (int i = 0; i < 6; ++i) line.push_back(Vec3(10.0 + 3.0 * i, 1.0 + i, 0.5 * i));
+  points.insert(points.end(), line.begin(), line.end());
+  Mapper mapper{Options()};
+  mapper.process(points);
+  mapper.process(points);
+  EXPECT_FALSE(mapper.process(line).has_pose);
+  EXPECT_TRUE(mapper.process(points).has_pose);
+}
+
+TEST(MapperDegenerate, PointsThatAreNotFiniteOrTooFarAreSkipped) {
+  std::vector<Vec3> points = cloud(10, 2);
+  const std::size_t good = points.size();
+  for (const double bad : {kNan, kInf, -kInf, 1e7, 1e300}) {
+    points.push_back(Vec3(bad, 0, 0));
+    points.push_back(Vec3(0, bad, 0));
+    points.push_back(Vec3(0, 0, bad));
+  }
+  Mapper mapper{Options()};
+  for (int frame = 0; frame < 3; ++frame) {
+    const Answer& answer = mapper.process(points);
+    ASSERT_TRUE(answer.has_pose);
+    ASSERT_EQ(answer.associations.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_EQ(answer.associations[i] != kNoLandmark, i < good);
+  }
+  EXPECT_EQ(mapper.map().landmarks.size(), good);
+}
+
+TEST(MapperDegenerate, ADuplicatePointMakesNoSecondLandmark) {
+  std::vector<Vec3> points = cloud(10, 3);
+  points.push_back(points.front());
+  Mapper mapper{Options()};
+  for (int frame = 0; frame < 3; ++frame) mapper.process(points);
+  EXPECT_EQ(mapper.map().landmarks.size(), 10u);
+}
+
+TEST(MapperDegenerate, AFrameThatMatchesNothingLeavesTheMapAlone) {
+  const std::vector<Vec3> points = cloud(30, 4);
+  Mapper mapper{Options()};
+  for (int frame = 0; frame < 3; ++frame) mapper.process(points);
+  const std::size_t landmarks = mapper.map().landmarks.size();
+  for (int frame = 0; frame < 5; ++frame) {
+    const Answer& answer = mapper.process(cloud(30, 5, Vec3(500.0, 0.0, 0.0)));
+    EXPECT_FALSE(answer.has_pose);
+    for (const LandmarkId id : answer.associations) EXPECT_EQ(id, kNoLandmark);
+  }
+  EXPECT_EQ(mapper.map().landmarks.size(), landmarks);
+  const Answer& back = mapper.process(points);
+  ASSERT_TRUE(back.has_pose);
+  EXPECT_LT(back.T_map_sensor.t.norm(), 1e-9);
+  EXPECT_EQ(back.counters.lost, 5u);
+}
+
+TEST(MapperDegenerate, ThePoseComesBackWithThePoints) {
+  scenes::Log log = scenes::figure_eight(120, 100, 1);
+  Mapper mapper{Options()};
+  for (std::size_t f = 0; f < log.frames.size(); ++f) {
+    std::vector<Vec3> points;
+    for (const scenes::Seen& seen : log.frames[f]) points.push_back(seen.point);
+    const bool dark = f >= 60 && f < 70;
+    EXPECT_EQ(mapper.process(dark ? std::vector<Vec3>{} : points).has_pose, !dark) << "frame " << f;
+  }
+}
+
+TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
+  Mapper mapper{Options()};
+  EXPECT_TRUE(mapper.process(cloud(5, 6)).has_pose);
+  const Answer answer = mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0)));
+  EXPECT_TRUE(answer.has_pose);
+  EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
+  for (const LandmarkId id : answer.associations) EXPECT_GE(id, 5u);  // names are not used twice
+  EXPECT_EQ(mapper.map().landmarks.size(), 20u);
+  EXPECT_TRUE(mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0))).has_pose);
+}
+
+TEST(MapperDegenerate, TwoPlanarPointsAreEnough) {
+  Mapper mapper{Options()};
+  EXPECT_TRUE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
+  const Answer& answer = mapper.process(std::vector<Vec3>{{4.9, 3, 0}, {11.9, -4, 0}});
+  ASSERT_TRUE(answer.has_pose);
+  EXPECT_LT((answer.T_map_sensor.t - Vec3(0.1, 0.0, 0.0)).norm(), 1e-9);
+}
+
+TEST(MapperDegenerate, RandomFramesNeverCrash) {
+  scenes::Random random(8);
+  Mapper mapper{Options()};
+  for (int frame = 0; frame < 100; ++frame) {
+    std::vector<Vec3> points;
+    const int count = static_cast<int>(random.uniform(0.0, 30.0));
+    const bool flat = random.uniform(0.0, 1.0) < 0.3;
+    for (int i = 0; i < count; ++i) {
+      points.push_back(
+          Vec3(random.uniform(-3, 3), random.uniform(-3, 3), flat ? 0.0 : random.uniform(-1, 1)));
+    }
+    const Answer& answer = mapper.process(points);
+    EXPECT_EQ(answer.associations.size(), points.size());
+    if (answer.has_pose) {
+      EXPECT_TRUE(answer.T_map_sensor.t.allFinite());
+    }
+  }
+  for (const Landmark& landmark : mapper.refined_map().landmarks) EXPECT_TRUE(landmark.position.allFinite());
+}
+
+TEST(MapperDegenerate, StandingStillKeepsOneSubmap) {
+  const std::vector<Vec3> points = cloud(20, 9);
+  Mapper mapper{Options()};
+  for (int frame = 0; frame < 1000; ++frame) mapper.process(points);
+  EXPECT_EQ(mapper.map().submaps.size(), 1u);
+  EXPECT_EQ(mapper.map().landmarks.front().observations, 1000u);
+}
+
+}  // namespace
+}  // namespace hallway::slam_point

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// Embree's tree and the brute-force oracle give the same answer to every ray, bit by bit: also to those
+// through edges and vertices, beside them, along faces, and from inside of solids.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/long_mode.hpp"
+#include "trace/scene.hpp"
+#include "unit/trace/shapes.hpp"
+
+namespace hallway::trace {
+namespace {
+
+struct Place {
+  const char* name;
+  double size;  ///< metres
+  Vec3 centre;
+};
+
+class Agreement : public testing::TestWithParam<Place> {
+ protected:
+  Agreement() {
+    // A floor and two long thin walls along the axes, then prisms of all kinds.
+    const double s = size();
+    const Vec3 c = GetParam().centre;
+    bodies_ = test::clutter(draw_, 60, s, c);
+    bodies_.push_back(test::box(c + Vec3(-s, -s, -0.3 * s), c + Vec3(s, s, -0.299 * s)));
+    bodies_.push_back(test::box(c + Vec3(-s, 0.1 * s, -s), c + Vec3(s, 0.1 * s + 0.002, s)));
+    bodies_.push_back(test::box(c + Vec3(-0.2 * s, -s, -s), c + Vec3(-0.2 * s + 0.002, s, s)));
+    mesh_ = test::mesh_of(bodies_);
+    embree_.emplace(mesh_, Backend::kEmbree);
+    oracle_.emplace(mesh_, Backend::kBruteForce);
+  }
+
+  double size() const { return GetParam().size; }
+  Vec3 anywhere() { return GetParam().centre + draw_.point(1.3 * size()); }
+  std::array<Vec3, 3> any_triangle() {
+    const auto& corner = mesh_.triangles[draw_.index(mesh_.triangles.size())];
+    return {mesh_.vertices[corner[0]], mesh_.vertices[corner[1]], mesh_.vertices[corner[2]]};
+  }
+  /// A point of an edge of the mesh; every third is one of its ends.
+  Vec3 any_edge_point() {
+    const auto v = any_triangle();
+    const std::size_t i = draw_.index(3);
+    return v[i] + (draw_.index(3) == 0 ? 0.0 : draw_.uniform(0.0, 1.0)) * (v[(i + 1) % 3] - v[i]);
+  }
+
+  void expect_same(const Ray& ray, const std::string& what) {
+    const auto expected = oracle_->first_hit(ray);
+    const auto got = embree_->first_hit(ray);
+    ASSERT_EQ(got.has_value(), expected.has_value()) << what;
+    hits_ += expected ? 1 : 0;
+    if (!expected) return;
+    ASSERT_EQ(got->triangle, expected->triangle) << what;
+    ASSERT_EQ(got->distance, expected->distance) << what;
+  }
+  void expect_same(const Vec3& from, const Vec3& to, const std::string& what) {
+    ASSERT_EQ(embree_->occluded(from, to), oracle_->occluded(from, to)) << what;
+  }
+
+  test::Draw draw_{21};
+  std::vector<test::Body> bodies_;
+  TriangleMesh mesh_;
+  std::optional<Scene> embree_;
+  std::optional<Scene> oracle_;
+  int hits_ = 0;
+};
+
+TEST_P(Agreement, OnRandomRays) {
+  const int rays = test::sized(25000, 300000);
+  for (int i = 0; i < rays; ++i) {
+    expect_same({anywhere(), draw_.direction(), draw_.uniform(0.1, 4.0) * size()},
+                "ray " + std::to_string(i));
+    expect_same(anywhere(), anywhere(), "segment " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(hits_, rays / 4);
+  EXPECT_LT(hits_, rays);
+}
+
+TEST_P(Agreement, OnRaysThroughEdgesAndVertices) {
+  const int rays = test::sized(5000, 100000);
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 origin = anywhere();
+    const Vec3 target = any_edge_point();
+    expect_same({origin, target - origin, 4.0 * size()}, "ray " + std::to_string(i));
+    expect_same(origin, origin + 1.5 * (target - origin), "segment " + std::to_string(i));
+    expect_same(origin, target, "segment that ends there " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Agreement, OnRaysJustBesideEdges) {
+  const int rays = test::sized(5000, 100000);
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 origin = anywhere();
+    const Vec3 target = any_edge_point() + draw_.direction() * draw_.uniform(0.00005, 0.0002);
+    expect_same({origin, target - origin, 4.0 * size()}, "ray " + std::to_string(i));
+    expect_same(origin, origin + 1.5 * (target - origin), "segment " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Agreement, OnRaysAlongFacesAndEdges) {
+  const int rays = test::sized(5000, 100000);
+  for (int i = 0; i < rays; ++i) {
+    const auto v = any_triangle();
+    const Vec3 from =
+        v[0] + draw_.uniform(-1.0, 2.0) * (v[1] - v[0]) + draw_.uniform(-1.0, 2.0) * (v[2] - v[0]);
+    const Vec3 to = v[draw_.index(3)] + draw_.direction() * (draw_.index(2) == 0 ? 0.0 : 1e-6 * size());
+    expect_same({from, to - from, 4.0 * size()}, "ray " + std::to_string(i));
+    expect_same(from, to, "segment " + std::to_string(i));
+    const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(draw_.index(3)));
+    expect_same({v[0], axis, 4.0 * size()}, "ray along an axis " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Agreement, OnRaysFromFarOutside) {
+  const int rays = test::sized(3000, 50000);
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 away = draw_.direction() * size() * draw_.uniform(2.0, 5000.0);
+    const Vec3 target = draw_.index(2) == 0 ? any_edge_point() : anywhere();
+    const Vec3 origin = target + away;
+    expect_same({origin, target - origin, 1e9}, "ray " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, Agreement,
+                         testing::Values(Place{"Room", 10.0, Vec3(0.0, 0.0, 0.0)},
+                                         Place{"RoomFarAway", 10.0, Vec3(1e4, -1e4, 9e3)},
+                                         Place{"Desk", 0.3, Vec3(100.0, 20.0, 0.0)},
+                                         Place{"Landscape", 1e4, Vec3(0.0, 0.0, 0.0)}),
+                         [](const auto& place) { return std::string(place.param.name); });
+
+}  // namespace
+}  // namespace hallway::trace
