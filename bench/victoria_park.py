@@ -108,7 +108,10 @@ def study(hallway, folder, out):
     print(f"{folder.name}: {metrics['iterations']} scans, {metrics['lost_iterations']} without a pose, about {length:.0f} m")
     print(f"  trees mapped                 {len(landmarks)}, nearest two {nearest_pair(landmarks):.2f} m apart")
     print(f"  observations of no tree      {metrics['associations_none']} of {metrics['observations']}")
+    near = plain <= 3.0 * np.median(plain)
     print(f"  path against GPS             RMSE {rms(plain):.2f} m, median {np.median(plain):.2f} m ({len(used)} scans with a fix)")
+    print(f"  without what jumps           RMSE {rms(residuals(path[near], headings[near], fixes[near], False)[0]):.2f} m "
+          f"({near.sum()} fixes within 3 medians)")
     print(f"  with the antenna's place fitted  RMSE {rms(fitted):.2f} m, median {np.median(fitted):.2f} m "
           f"(antenna {arm[0]:+.2f} m ahead, {arm[1]:+.2f} m left of the laser)")
     print(f"  iteration                    {metrics['iteration_ms']['mean']:.4f} ms mean, {metrics['iteration_ms']['max']:.3f} worst "

@@ -20,7 +20,9 @@ namespace {
 
 volatile std::sig_atomic_t caught_signal = 0;
 
-void on_signal(int number) { caught_signal = number; }
+void on_signal(int number) {
+  caught_signal = number;
+}
 
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -78,7 +80,9 @@ void print_json(const nlohmann::ordered_json& document) {
   print_result(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-void print_warning(const std::string& text) { fmt::print(stderr, "hallway: warning: {}\n", text); }
+void print_warning(const std::string& text) {
+  fmt::print(stderr, "hallway: warning: {}\n", text);
+}
 
 void prepare_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd) {
@@ -97,12 +101,18 @@ void catch_interrupts() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interrupted() { return caught_signal != 0; }
+bool interrupted() {
+  return caught_signal != 0;
+}
 
-int interrupt_status() { return 128 + static_cast<int>(caught_signal); }
+int interrupt_status() {
+  return 128 + static_cast<int>(caught_signal);
+}
 
 Progress::Progress(std::string what, std::uint64_t total, bool quiet)
-    : what_(std::move(what)), total_(std::max<std::uint64_t>(total, 1)), shown_(!quiet && ::isatty(2) == 1),
+    : what_(std::move(what)),
+      total_(std::max<std::uint64_t>(total, 1)),
+      shown_(!quiet && ::isatty(2) == 1),
       start_ns_(now_ns()) {}
 
 Progress::~Progress() {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "run/manifest.hpp"
@@ -11,7 +13,8 @@
 namespace {
 
 constexpr const char* kAbout =
-    "Headless simulator and plugin host for robot mapping algorithms: drive a simulated robot through a map, load an\n"
+    "Headless simulator and plugin host for robot mapping algorithms: drive a simulated robot through a map, "
+    "load an\n"
     "algorithm as a shared object, measure what it mapped against the truth, and look at pictures of it.";
 
 constexpr const char* kFooter =
@@ -23,6 +26,18 @@ bool asks_for_json(int argc, char** argv) {
     if (std::strcmp(argv[i], "--json") == 0) return true;
   }
   return false;
+}
+
+/// The first word is the command; the parser would only say that one is required.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::string wanted = argv[1];
+  if (std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  throw hallway::Error(hallway::ErrorCode::kUsage,
+                       fmt::format("there is no command \"{}\"{}; there are: {}", hallway::printable(wanted),
+                                   hallway::suggestion(wanted, names), fmt::join(names, ", ")));
 }
 
 /// Help and version end a parse too, and are no failure.
@@ -51,6 +66,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_replay_command(app, chosen);
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);
+    check_command(app, argc, argv);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

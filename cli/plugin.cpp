@@ -47,7 +47,8 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
       text += fmt::format("{:<20} {:<10} {}\n{:<31} {}\n", info.id, info.version, info.description, "",
                           printable(listed.file.string(), 4096));
     }
-    if (!listed.problem.empty()) text += fmt::format("{:<20} {:<10} {}\n", "(not loadable)", "", listed.problem);
+    if (!listed.problem.empty())
+      text += fmt::format("{:<20} {:<10} {}\n", "(not loadable)", "", listed.problem);
   }
   if (!text.empty()) return text;
   text = "no plugins found; searched:\n";
@@ -75,7 +76,8 @@ int list(const ListOptions& options) {
 void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders) {
   command
       .add_option("--plugin-path", folders,
-                  "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may be given "
+                  "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may "
+                  "be given "
                   "several times")
       ->type_name("DIR")
       ->take_all()
@@ -96,7 +98,8 @@ std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
 void add_plugin_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("plugin", "Look at the plugins that are there");
   command->require_subcommand(1);
-  CLI::App* listing = command->add_subcommand("list", "List the plugins on the search path, with what they take and give");
+  CLI::App* listing =
+      command->add_subcommand("list", "List the plugins on the search path, with what they take and give");
   const auto options = std::make_shared<ListOptions>();
   add_plugin_path_option(*listing, options->plugin_path);
   listing->add_flag("--json", options->json, "Print one JSON document");

@@ -32,7 +32,9 @@ struct RenderOptions {
   bool json = false;
 };
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::kUsage, message); }
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::kUsage, message);
+}
 
 void parse_size(const std::string& text, sim::PictureSpec& spec) {
   const auto parts = split(text, 'x');
@@ -69,7 +71,8 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   spec.eye_m = parse_place("--eye", options.eye);
   spec.target_m = parse_place("--target", options.target);
   if (spec.eye_m.has_value() != spec.target_m.has_value()) refuse("--eye and --target are given together");
-  if (spec.eye_m && spec.view == sim::PictureView::kTop) refuse("--eye and --target belong to --view perspective");
+  if (spec.eye_m && spec.view == sim::PictureView::kTop)
+    refuse("--eye and --target belong to --view perspective");
   const std::vector<std::string>& layers = sim::picture_layer_names();
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const bool wanted = options.show.empty() ||
@@ -130,8 +133,9 @@ void add_render_command(CLI::App& app, Action& chosen) {
   command->add_option("--size", options->size, "Width and height in pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  command->add_option("--cut", options->cut_z_m,
-                      "Cut away what stands above this height (metres) [what opens a closed building]")
+  command
+      ->add_option("--cut", options->cut_z_m,
+                   "Cut away what stands above this height (metres) [what opens a closed building]")
       ->type_name("Z");
   command->add_option("--eye", options->eye, "perspective: viewpoint in metres [what shows everything]")
       ->type_name("X,Y,Z");
@@ -142,7 +146,8 @@ void add_render_command(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember(sim::picture_layer_names()));
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer("Example: hallway render out/office --view perspective --out office.png --show map,truth,estimate");
+  command->footer(
+      "Example: hallway render out/office --view perspective --out office.png --show map,truth,estimate");
   command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
 }
 

@@ -145,10 +145,12 @@ Stages stages_of(const ReplayOptions& options, const Input& input) {
   try {
     if (input.manifest) add_recorded(stages, *input.manifest, options.plugin);
   } catch (const nlohmann::json::exception& failure) {
-    throw Error(ErrorCode::kBadInput, printable(failure.what()), {.file = run::files::kRun, .element = "plugins"});
+    throw Error(ErrorCode::kBadInput, printable(failure.what()),
+                {.file = run::files::kRun, .element = "plugins"});
   }
   if (stages.specs.empty() && options.plugin.empty()) {
-    throw Error(ErrorCode::kUsage, "--plugin is needed: the log does not stand in a run folder that names one");
+    throw Error(ErrorCode::kUsage,
+                "--plugin is needed: the log does not stand in a run folder that names one");
   }
   if (stages.specs.empty()) stages.specs.push_back({.plugin = options.plugin, .parameters = {}});
   for (const std::string& setting : options.settings) add_setting(stages, setting);
@@ -169,22 +171,24 @@ int replay(const ReplayOptions& options) {
     print_warning(facts.warnings.back());
   }
   run::LogTruth truth;
-  if (input.true_poses) truth.poses = log::parse_poses(read_input(*input.true_poses), input.true_poses->string());
+  if (input.true_poses)
+    truth.poses = log::parse_poses(read_input(*input.true_poses), input.true_poses->string());
   if (input.true_landmarks) {
     truth.landmarks = log::parse_landmarks(read_input(*input.true_landmarks), input.true_landmarks->string());
   }
-  run::LogSource source(std::move(read.log), std::move(truth), sensor_of(input), facts.period_ns, options.steps);
+  run::LogSource source(std::move(read.log), std::move(truth), sensor_of(input), facts.period_ns,
+                        options.steps);
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log);
   facts.parameters = std::move(stages.origins);
-  const run::RunPlan plan{.folder = options.out.empty() ? fs::path("out") / ("replay-" + input.name)
-                                                        : fs::path(options.out),
-                          .replace = options.force,
-                          .manifest = run::make_manifest(facts, pipeline),
-                          .attachments = {},
-                          .pictures = {},
-                          .write_observations = false};
+  const run::RunPlan plan{
+      .folder = options.out.empty() ? fs::path("out") / ("replay-" + input.name) : fs::path(options.out),
+      .replace = options.force,
+      .manifest = run::make_manifest(facts, pipeline),
+      .attachments = {},
+      .pictures = {},
+      .write_observations = false};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = facts.warnings},
                             {.json = options.json, .quiet = options.quiet});
 }
@@ -196,15 +200,18 @@ void add_replay_command(CLI::App& app, Action& chosen) {
       app.add_subcommand("replay", "Feed recorded observations to a plugin, and measure what it maps");
   const auto options = std::make_shared<ReplayOptions>();
   command
-      ->add_option("observations", options->observations,
-                   "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or a run "
-                   "folder; a log in a run folder brings the run's plugin, parameters and truth with it")
+      ->add_option(
+          "observations", options->observations,
+          "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or a run "
+          "folder; a log in a run folder brings the run's plugin, parameters and truth with it")
       ->required()
       ->type_name("OBSERVATIONS");
-  command->add_option("--plugin", options->plugin, "Plugin to run: an id or a .so file")->type_name("NAME|FILE");
+  command->add_option("--plugin", options->plugin, "Plugin to run: an id or a .so file")
+      ->type_name("NAME|FILE");
   command
-      ->add_option("--set", options->settings,
-                   "Set a plugin's parameter (noise_m=0.1, or slam_point.noise_m=0.1); may be given several times")
+      ->add_option(
+          "--set", options->settings,
+          "Set a plugin's parameter (noise_m=0.1, or slam_point.noise_m=0.1); may be given several times")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
@@ -215,7 +222,9 @@ void add_replay_command(CLI::App& app, Action& chosen) {
       ->add_option("--truth-poses", options->true_poses,
                    "CSV file with the columns iteration,x,y,z and perhaps qw,qx,qy,qz")
       ->type_name("FILE");
-  command->add_option("--truth-landmarks", options->true_landmarks, "CSV file with the columns landmark_id,x,y,z")
+  command
+      ->add_option("--truth-landmarks", options->true_landmarks,
+                   "CSV file with the columns landmark_id,x,y,z")
       ->type_name("FILE");
   command->add_option("--period", options->period_s, "Seconds from frame to frame [the run's, else 0.1]")
       ->type_name("S")

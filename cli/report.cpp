@@ -43,38 +43,39 @@ void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) 
 
 void add_associations(Table& table, const Metrics& metrics) {
   if (!metrics.association_errors) {
-    table.row("observations", fmt::format("{}, {} given to no landmark", metrics.observations, metrics.associations_none));
+    table.row("observations",
+              fmt::format("{}, {} given to no landmark", metrics.observations, metrics.associations_none));
     return;
   }
-  const double share = metrics.observations == 0
-                           ? 0.0
-                           : 100.0 * static_cast<double>(*metrics.association_errors) /
-                                 static_cast<double>(metrics.observations);
-  table.row("observations", fmt::format("{}, {} given to no landmark, {} to a wrong one ({:.4f} %)",
-                                        metrics.observations, metrics.associations_none, *metrics.association_errors,
-                                        share));
+  const double share = metrics.observations == 0 ? 0.0
+                                                 : 100.0 * static_cast<double>(*metrics.association_errors) /
+                                                       static_cast<double>(metrics.observations);
+  table.row("observations",
+            fmt::format("{}, {} given to no landmark, {} to a wrong one ({:.4f} %)", metrics.observations,
+                        metrics.associations_none, *metrics.association_errors, share));
 }
 
 void add_errors(Table& table, const Metrics& metrics) {
   if (metrics.landmark_rmse_m.aligned) {
-    table.row("landmark RMSE, aligned", fmt::format("{} online, {} as re-solved at the end",
-                                                    metres(metrics.landmark_rmse_m.aligned),
-                                                    metres(metrics.landmark_rmse_final_aligned_m)));
+    table.row("landmark RMSE, aligned",
+              fmt::format("{} online, {} as re-solved at the end", metres(metrics.landmark_rmse_m.aligned),
+                          metres(metrics.landmark_rmse_final_aligned_m)));
     table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose));
   }
   if (metrics.position_rmse_m.aligned) {
     table.row("position RMSE, aligned", metres(metrics.position_rmse_m.aligned));
   }
   if (metrics.position_rmse_m.first_pose) {
-    table.row("position RMSE, first pose", fmt::format("{}, {} at the end", metres(metrics.position_rmse_m.first_pose),
-                                                       metres(metrics.position_final_m)));
+    table.row("position RMSE, first pose",
+              fmt::format("{}, {} at the end", metres(metrics.position_rmse_m.first_pose),
+                          metres(metrics.position_final_m)));
   }
 }
 
 void add_times(Table& table, const char* label, const std::optional<eval::TimeSummary>& times) {
   if (!times) return;
-  table.row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean, times->p50,
-                               times->p99, times->max));
+  table.row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean,
+                               times->p50, times->p99, times->max));
 }
 
 /// What is printed of a run that has ended.
@@ -131,14 +132,15 @@ void print_plugin_log(const std::string& plugin, std::uint32_t level, const std:
   if (level >= HW_LOG_WARNING) fmt::print(stderr, "hallway: {}: {}\n", plugin, message);
 }
 
-int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan, const Report& report,
-                       const OutputStyle& style) {
+int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
+                       const Report& report, const OutputStyle& style) {
   catch_interrupts();
   run::RunResult result;
   {
     Progress progress(report.name, source.iterations(), style.quiet);
-    result = run::execute(source, pipeline, plan,
-                          {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
+    result =
+        run::execute(source, pipeline, plan,
+                     {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
   const Outcome outcome{report, plugin_names(pipeline), plan.folder, result};
   if (style.json) {

@@ -27,7 +27,7 @@ struct OutputStyle {
 
 /// Runs a plan with a progress bar, ended in good order by Ctrl-C or SIGTERM, and prints the short table or the document.
 /// @return the exit status
-int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan, const Report& report,
-                       const OutputStyle& style);
+int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
+                       const Report& report, const OutputStyle& style);
 
 }  // namespace hallway::cli

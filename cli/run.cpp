@@ -104,8 +104,12 @@ int run_scenario(const RunOptions& options) {
   host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log);
 
   const std::string name = fs::path(scenario.file).stem().string();
-  run::ManifestFacts facts{.command = "run", .name = name, .settings = scenario.settings,
-                           .parameters = stages.origins, .warnings = warnings, .period_ns = scenario.period_ns,
+  run::ManifestFacts facts{.command = "run",
+                           .name = name,
+                           .settings = scenario.settings,
+                           .parameters = stages.origins,
+                           .warnings = warnings,
+                           .period_ns = scenario.period_ns,
                            .threads = options.threads};
   facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
                   {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
@@ -124,7 +128,8 @@ int run_scenario(const RunOptions& options) {
 
 void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "run", "Drive a simulated robot through a map, feed what it sees to a plugin, and measure what it maps");
+      "run",
+      "Drive a simulated robot through a map, feed what it sees to a plugin, and measure what it maps");
   const auto options = std::make_shared<RunOptions>();
   command->add_option("scenario", options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
       ->required()
@@ -132,15 +137,19 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", options->out, "Folder to write [out/<scenario>]")->type_name("DIR");
   command->add_option("--seed", options->seed, "Seed of all random numbers, instead of the scenario's")
       ->type_name("N");
-  command->add_option("--steps", options->steps, "Number of iterations, instead of the scenario's")->type_name("N");
+  command->add_option("--steps", options->steps, "Number of iterations, instead of the scenario's")
+      ->type_name("N");
   command
-      ->add_option("--set", options->settings,
-                   "Set a scenario value (sensor.eyes.noise_m=0.1) or a plugin's parameter (slam_point.noise_m=0.1); "
-                   "may be given several times")
+      ->add_option(
+          "--set", options->settings,
+          "Set a scenario value (sensor.eyes.noise_m=0.1) or a plugin's parameter (slam_point.noise_m=0.1); "
+          "may be given several times")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
-  command->add_option("--plugin", options->plugin, "Run this plugin instead of the scenario's: an id or a .so file")
+  command
+      ->add_option("--plugin", options->plugin,
+                   "Run this plugin instead of the scenario's: an id or a .so file")
       ->type_name("NAME|FILE");
   add_plugin_path_option(*command, options->plugin_path);
   command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
@@ -150,7 +159,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer("Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
+  command->footer(
+      "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
   command->callback([&chosen, options] { chosen = [options] { return run_scenario(*options); }; });
 }
 

@@ -21,26 +21,39 @@ Error::Error(ErrorCode code, std::string message, Where where)
 
 const char* error_code_name(ErrorCode code) noexcept {
   switch (code) {
-    case ErrorCode::kUsage: return "usage";
-    case ErrorCode::kBadInput: return "bad_input";
-    case ErrorCode::kIo: return "io";
-    case ErrorCode::kPluginLoad: return "plugin_load";
-    case ErrorCode::kPluginFault: return "plugin_fault";
-    case ErrorCode::kInterrupted: return "interrupted";
-    case ErrorCode::kInternal: return "internal";
+    case ErrorCode::kUsage:
+      return "usage";
+    case ErrorCode::kBadInput:
+      return "bad_input";
+    case ErrorCode::kIo:
+      return "io";
+    case ErrorCode::kPluginLoad:
+      return "plugin_load";
+    case ErrorCode::kPluginFault:
+      return "plugin_fault";
+    case ErrorCode::kInterrupted:
+      return "interrupted";
+    case ErrorCode::kInternal:
+      return "internal";
   }
   return "internal";
 }
 
 int exit_status(ErrorCode code) noexcept {
   switch (code) {
-    case ErrorCode::kUsage: return 2;
+    case ErrorCode::kUsage:
+      return 2;
     case ErrorCode::kBadInput:
-    case ErrorCode::kIo: return 3;
-    case ErrorCode::kPluginLoad: return 4;
-    case ErrorCode::kPluginFault: return 5;
-    case ErrorCode::kInterrupted: return 130;
-    case ErrorCode::kInternal: return 6;
+    case ErrorCode::kIo:
+      return 3;
+    case ErrorCode::kPluginLoad:
+      return 4;
+    case ErrorCode::kPluginFault:
+      return 5;
+    case ErrorCode::kInterrupted:
+      return 130;
+    case ErrorCode::kInternal:
+      return 6;
   }
   return 6;
 }

@@ -8,19 +8,19 @@ namespace hallway {
 
 /// What kind of failure an Error is; each kind has one exit status (see exit_status()).
 enum class ErrorCode {
-  kUsage,           ///< the command line is wrong
-  kBadInput,        ///< a file's content is not what it should be
-  kIo,              ///< a file cannot be read or written
-  kPluginLoad,      ///< a plugin was not found or cannot be loaded
-  kPluginFault,     ///< a loaded plugin misbehaved
-  kInterrupted,     ///< a signal asked the program to stop
-  kInternal,        ///< a bug in Hallway
+  kUsage,        ///< the command line is wrong
+  kBadInput,     ///< a file's content is not what it should be
+  kIo,           ///< a file cannot be read or written
+  kPluginLoad,   ///< a plugin was not found or cannot be loaded
+  kPluginFault,  ///< a loaded plugin misbehaved
+  kInterrupted,  ///< a signal asked the program to stop
+  kInternal,     ///< a bug in Hallway
 };
 
 /// Where a failure stands in the input. Members that do not apply are empty or zero.
 struct Where {
-  std::string file{};   ///< path as the user gave it
-  int line = 0;         ///< 1-based line, 0 where there is none
+  std::string file{};     ///< path as the user gave it
+  int line = 0;           ///< 1-based line, 0 where there is none
   std::string element{};  ///< e.g. "entity 3, brush 7", "key `noise_m`"
 };
 

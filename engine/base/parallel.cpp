@@ -52,7 +52,8 @@ class Pool {
   void serve() {
     std::unique_lock lock(mutex_);
     for (;;) {
-      wake_.wait(lock, [&] { return stop_ || (job_ != nullptr && job_->helpers_wanted > 0 && has_chunks(*job_)); });
+      wake_.wait(lock,
+                 [&] { return stop_ || (job_ != nullptr && job_->helpers_wanted > 0 && has_chunks(*job_)); });
       if (stop_) return;
       --job_->helpers_wanted;
       take_chunks(*job_, lock);
@@ -117,7 +118,11 @@ void parallel_for(std::size_t count, std::size_t grain, unsigned threads,
     const InsideChunk inside;
     work(begin, end);
   };
-  Job job{.count = count, .grain = grain, .chunks = chunks, .work = &guarded, .open_chunks = chunks,
+  Job job{.count = count,
+          .grain = grain,
+          .chunks = chunks,
+          .work = &guarded,
+          .open_chunks = chunks,
           .helpers_wanted = static_cast<unsigned>(std::min<std::size_t>(std::max(threads, 1u), chunks)) - 1,
           .failure = nullptr};
   if (inside_chunk || job.helpers_wanted == 0) {
@@ -135,6 +140,8 @@ void parallel_for(std::size_t count, std::size_t grain, unsigned threads,
   if (job.failure) std::rethrow_exception(job.failure);
 }
 
-unsigned hardware_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+unsigned hardware_threads() {
+  return std::max(1u, std::thread::hardware_concurrency());
+}
 
 }  // namespace hallway

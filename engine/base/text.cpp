@@ -77,8 +77,12 @@ std::optional<double> parse_double(std::string_view text) {
   return value;
 }
 
-std::optional<std::int64_t> parse_int(std::string_view text) { return parse_whole<std::int64_t>(text); }
-std::optional<std::uint64_t> parse_uint(std::string_view text) { return parse_whole<std::uint64_t>(text); }
+std::optional<std::int64_t> parse_int(std::string_view text) {
+  return parse_whole<std::int64_t>(text);
+}
+std::optional<std::uint64_t> parse_uint(std::string_view text) {
+  return parse_whole<std::uint64_t>(text);
+}
 
 std::string printable(std::string_view text, std::size_t max_bytes) {
   std::string safe;
@@ -98,7 +102,8 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
 }
 
 std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestName = 64;  // a longer text is no misspelt name, and the distance is quadratic
+  constexpr std::size_t kLongestName =
+      64;  // a longer text is no misspelt name, and the distance is quadratic
   if (name.size() > kLongestName) return std::nullopt;
   std::optional<std::string> nearest;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;

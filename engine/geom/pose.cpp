@@ -5,7 +5,9 @@
 
 namespace hallway {
 
-Pose Pose::operator*(const Pose& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
+Pose Pose::operator*(const Pose& other) const {
+  return {(q * other.q).normalized(), q * other.t + t};
+}
 
 Pose Pose::inverse() const {
   const Quat back = q.conjugate();
@@ -15,7 +17,8 @@ Pose Pose::inverse() const {
 Pose look_along(const Vec3& position, const Vec3& forward) {
   const Vec3 x = forward.normalized();
   Vec3 y = Vec3::UnitZ().cross(x);
-  constexpr double kVertical = 1e-9;  // sine of the angle to the vertical below which the heading is lost in rounding
+  constexpr double kVertical =
+      1e-9;  // sine of the angle to the vertical below which the heading is lost in rounding
   if (y.norm() < kVertical) y = Vec3::UnitY();
   y.normalize();
   Eigen::Matrix3d rotation;

@@ -14,15 +14,17 @@ enum Column : std::size_t { kIteration, kX, kY, kZ, kQw, kQx, kQy, kQz };
 /// Whether the table has orientations. Throws for a header with a part of a quaternion.
 bool has_orientations(const CsvReader& row) {
   const int parts = row.has(kQw) + row.has(kQx) + row.has(kQy) + row.has(kQz);
-  if (parts != 0 && parts != 4) throw row.error("the header has a part of the columns qw,qx,qy,qz; give all or none");
+  if (parts != 0 && parts != 4)
+    throw row.error("the header has a part of the columns qw,qx,qy,qz; give all or none");
   return parts == 4;
 }
 
 }  // namespace
 
 std::vector<IterationPose> parse_poses(std::string_view text, const std::string& file) {
-  CsvReader row(text, file, {{"iteration"}, {"x"}, {"y"}, {"z"}, {"qw", false}, {"qx", false},
-                             {"qy", false}, {"qz", false}});
+  CsvReader row(
+      text, file,
+      {{"iteration"}, {"x"}, {"y"}, {"z"}, {"qw", false}, {"qx", false}, {"qy", false}, {"qz", false}});
   const bool orientations = has_orientations(row);
   std::vector<IterationPose> poses;
   std::int64_t previous = -1;

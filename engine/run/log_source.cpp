@@ -8,8 +8,11 @@ namespace hallway::run {
 
 LogSource::LogSource(log::ObservationLog observations, LogTruth truth, host::SensorInfo sensor,
                      std::int64_t period_ns, std::uint32_t steps)
-    : observations_(std::move(observations)), truth_(std::move(truth)), sensor_(std::move(sensor)),
-      period_ns_(period_ns), iterations_(observations_.iterations()) {
+    : observations_(std::move(observations)),
+      truth_(std::move(truth)),
+      sensor_(std::move(sensor)),
+      period_ns_(period_ns),
+      iterations_(observations_.iterations()) {
   // A robot may have seen nothing at the end: the frames of its poses were there all the same.
   if (truth_.poses && !truth_.poses->empty()) {
     iterations_ = std::max(iterations_, truth_.poses->back().iteration + 1);
@@ -23,8 +26,9 @@ void LogSource::read(std::uint32_t iteration, SourceFrame& frame) {
   frame.observations.assign(seen.begin(), seen.end());
   frame.T_world_body.reset();
   if (!truth_.poses) return;
-  const auto pose = std::lower_bound(truth_.poses->begin(), truth_.poses->end(), iteration,
-                                     [](const log::IterationPose& a, std::uint32_t b) { return a.iteration < b; });
+  const auto pose =
+      std::lower_bound(truth_.poses->begin(), truth_.poses->end(), iteration,
+                       [](const log::IterationPose& a, std::uint32_t b) { return a.iteration < b; });
   if (pose == truth_.poses->end() || pose->iteration != iteration) return;
   const auto& q = pose->orientation;
   const auto& t = pose->position_m;

@@ -8,8 +8,8 @@ namespace hallway::run {
 
 /// What is known about a recorded log beside its observations.
 struct LogTruth {
-  std::optional<std::vector<log::IterationPose>> poses;   ///< T_world_body
-  std::optional<std::vector<log::Landmark>> landmarks;    ///< world
+  std::optional<std::vector<log::IterationPose>> poses;  ///< T_world_body
+  std::optional<std::vector<log::Landmark>> landmarks;   ///< world
 };
 
 /// The frames of a recorded log.
@@ -24,7 +24,9 @@ class LogSource : public Source {
   void read(std::uint32_t iteration, SourceFrame& frame) override;
   const host::SensorInfo& sensor() const override { return sensor_; }
   bool has_identities() const override { return observations_.has_identities(); }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return truth_.landmarks; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
+    return truth_.landmarks;
+  }
 
  private:
   log::ObservationLog observations_;

@@ -38,7 +38,8 @@ std::string compiler_name() {
 
 Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
   Json files = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i) files.push_back(printable(pipeline.stage(i).file().string(), 4096));
+  for (std::size_t i = 0; i < pipeline.size(); ++i)
+    files.push_back(printable(pipeline.stage(i).file().string(), 4096));
   return {{"cpu", cpu_name()},
           {"threads", facts.threads},
           {"trace", trace::backend_description(facts.trace)},
@@ -72,7 +73,9 @@ Json describe_plugin(const ManifestFacts& facts, host::Plugin& plugin) {
 
 }  // namespace
 
-std::string version() { return HALLWAY_VERSION; }
+std::string version() {
+  return HALLWAY_VERSION;
+}
 
 Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   Json inputs = Json::array();
@@ -84,11 +87,13 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
   Json plugins = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i) plugins.push_back(describe_plugin(facts, pipeline.stage(i)));
-  return {{"schema", "hallway.run/1"}, {"hallway", version()},        {"command", facts.command},
-          {"name", facts.name},        {"inputs", inputs},            {"period_ns", facts.period_ns},
-          {"settings", settings},      {"plugins", plugins},          {"warnings", facts.warnings},
-          {"host", describe_host(facts, pipeline)}};
+  for (std::size_t i = 0; i < pipeline.size(); ++i)
+    plugins.push_back(describe_plugin(facts, pipeline.stage(i)));
+  return {{"schema", "hallway.run/1"},  {"hallway", version()},
+          {"command", facts.command},   {"name", facts.name},
+          {"inputs", inputs},           {"period_ns", facts.period_ns},
+          {"settings", settings},       {"plugins", plugins},
+          {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
 }
 
 }  // namespace hallway::run

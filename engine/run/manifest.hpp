@@ -28,10 +28,10 @@ struct ParameterOrigin {
 struct ManifestFacts {
   std::string command;                        ///< "run" or "replay"
   std::string name;                           ///< a short name for titles, e.g. the scenario's
-  std::vector<Attachment> inputs{};             ///< files read; their names and hashes are recorded
-  std::vector<sim::Setting> settings{};         ///< with their origins
-  std::vector<ParameterOrigin> parameters{};    ///< of the plugins
-  std::vector<std::string> warnings{};          ///< what the user was told
+  std::vector<Attachment> inputs{};           ///< files read; their names and hashes are recorded
+  std::vector<sim::Setting> settings{};       ///< with their origins
+  std::vector<ParameterOrigin> parameters{};  ///< of the plugins
+  std::vector<std::string> warnings{};        ///< what the user was told
   std::int64_t period_ns = 0;                 ///< from frame to frame
   unsigned threads = 1;                       ///< a fact of the machine: no result depends on it
   trace::Backend trace = trace::Backend::kEmbree;

@@ -32,7 +32,8 @@ void check_free(const fs::path& path, bool replace) {
   if (status.type() != fs::file_type::directory) fail(path, "is there already and is not a folder");
   if (fs::is_empty(path, code)) return;
   if (!replace) fail(path, "is there already; --force replaces an earlier run");
-  if (!fs::exists(path / "run.json", code)) fail(path, "is not a run folder (it has no run.json); not replaced");
+  if (!fs::exists(path / "run.json", code))
+    fail(path, "is not a run folder (it has no run.json); not replaced");
 }
 
 }  // namespace

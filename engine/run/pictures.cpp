@@ -24,7 +24,9 @@ namespace {
 
 using LandmarkPlaces = std::unordered_map<log::LandmarkId, Vec3>;
 
-Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+Vec3 vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
 Pose pose_of(const log::StampedPose& pose) {
   const auto& q = pose.orientation;
@@ -45,12 +47,14 @@ LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map) {
 /// From the true to the mapped place of every matched landmark.
 std::vector<std::array<Vec3, 2>> error_lines(const Record& record, const LandmarkPlaces& mapped) {
   LandmarkPlaces truth;
-  for (const log::Landmark& landmark : record.true_landmarks) truth[landmark.id] = vector_of(landmark.position_m);
+  for (const log::Landmark& landmark : record.true_landmarks)
+    truth[landmark.id] = vector_of(landmark.position_m);
   std::vector<std::array<Vec3, 2>> lines;
   for (const log::IdPair& match : record.matches) {
     const auto estimate = mapped.find(match.first);
     const auto true_place = truth.find(match.second);
-    if (estimate != mapped.end() && true_place != truth.end()) lines.push_back({true_place->second, estimate->second});
+    if (estimate != mapped.end() && true_place != truth.end())
+      lines.push_back({true_place->second, estimate->second});
   }
   return lines;
 }
@@ -71,7 +75,8 @@ double lengthen(std::vector<std::array<Vec3, 2>>& lines, double extent_m) {
 /// The positions as a line, broken where poses are missing.
 std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose& T_world_frame) {
   double period_s = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < poses.size(); ++i) period_s = std::min(period_s, poses[i].t_s - poses[i - 1].t_s);
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    period_s = std::min(period_s, poses[i].t_s - poses[i - 1].t_s);
   std::vector<Vec3> line;
   line.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -91,8 +96,8 @@ void add_submaps(render::Picture& picture, const Record& record, const LandmarkP
   for (const auto& [submap, places] : members) {
     Vec3 centre = Vec3::Zero();
     for (const Vec3& place : places) centre += place / static_cast<double>(places.size());
-    render::Segments links{.pairs = {}, .colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22,
-                           .label = {}};
+    render::Segments links{
+        .pairs = {}, .colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22, .label = {}};
     for (const Vec3& place : places) links.pairs.push_back({centre, place});
     picture.segments.push_back(std::move(links));
   }
@@ -102,9 +107,13 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
                    const Pose& T_world_map) {
   const LandmarkPlaces mapped = mapped_places(record, T_world_map);
   Box extent;
-  render::Markers estimates{.positions = {}, .shape = render::MarkerShape::kDot, .colour = render::palette::kEstimate,
-                            .size_px = 4.0, .label = "mapped landmarks"};
-  for (const log::MapLandmark& landmark : record.landmarks) {  // in the file's order, so that the picture is the same
+  render::Markers estimates{.positions = {},
+                            .shape = render::MarkerShape::kDot,
+                            .colour = render::palette::kEstimate,
+                            .size_px = 4.0,
+                            .label = "mapped landmarks"};
+  for (const log::MapLandmark& landmark :
+       record.landmarks) {  // in the file's order, so that the picture is the same
     const auto place = mapped.find(landmark.id);
     if (place == mapped.end()) continue;
     estimates.positions.push_back(place->second);
@@ -112,10 +121,16 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   }
   std::unordered_set<log::LandmarkId> mapped_truths;
   for (const log::IdPair& match : record.matches) mapped_truths.insert(match.second);
-  render::Markers truth{.positions = {}, .shape = render::MarkerShape::kRing, .colour = render::palette::kTruth,
-                        .size_px = 7.0, .label = "true landmarks"};
-  render::Markers others{.positions = {}, .shape = render::MarkerShape::kDot, .colour = render::palette::kMutedInk,
-                         .size_px = 1.8, .label = "not mapped"};
+  render::Markers truth{.positions = {},
+                        .shape = render::MarkerShape::kRing,
+                        .colour = render::palette::kTruth,
+                        .size_px = 7.0,
+                        .label = "true landmarks"};
+  render::Markers others{.positions = {},
+                         .shape = render::MarkerShape::kDot,
+                         .colour = render::palette::kMutedInk,
+                         .size_px = 1.8,
+                         .label = "not mapped"};
   for (const log::Landmark& landmark : record.true_landmarks) {
     auto& markers = mapped_truths.contains(landmark.id) ? truth : others;
     markers.positions.push_back(vector_of(landmark.position_m));
@@ -123,8 +138,11 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   }
   if (spec.shows(sim::PictureLayer::kSubmaps)) add_submaps(picture, record, mapped);
   if (spec.shows(sim::PictureLayer::kErrors) && !extent.isEmpty()) {
-    render::Segments errors{.pairs = error_lines(record, mapped), .colour = render::palette::kError, .width_px = 1.4,
-                            .opacity = 0.9, .label = {}};
+    render::Segments errors{.pairs = error_lines(record, mapped),
+                            .colour = render::palette::kError,
+                            .width_px = 1.4,
+                            .opacity = 0.9,
+                            .label = {}};
     const double scale = lengthen(errors.pairs, extent.diagonal().norm());
     errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";
     if (!errors.pairs.empty()) picture.segments.push_back(std::move(errors));
@@ -134,20 +152,27 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
       if (!markers->positions.empty()) picture.markers.push_back(std::move(*markers));
     }
   }
-  if (spec.shows(sim::PictureLayer::kLandmarks) && !estimates.positions.empty()) picture.markers.push_back(std::move(estimates));
+  if (spec.shows(sim::PictureLayer::kLandmarks) && !estimates.positions.empty())
+    picture.markers.push_back(std::move(estimates));
 }
 
 void add_paths(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
                const Pose& T_world_map) {
   if (spec.shows(sim::PictureLayer::kTruth) && !record.truth.empty()) {
-    picture.polylines.push_back({.points = line_of(record.truth, Pose()), .colour = render::palette::kTruth,
-                                 .width_px = 5.0, .dashed = false, .label = "true path"});
+    picture.polylines.push_back({.points = line_of(record.truth, Pose()),
+                                 .colour = render::palette::kTruth,
+                                 .width_px = 5.0,
+                                 .dashed = false,
+                                 .label = "true path"});
   }
   if (spec.shows(sim::PictureLayer::kEstimate) && !record.trajectory.empty()) {
     picture.polylines.push_back({.points = line_of(record.trajectory, T_world_map),
-                                 .colour = render::palette::kEstimate, .width_px = 1.8, .dashed = false,
+                                 .colour = render::palette::kEstimate,
+                                 .width_px = 1.8,
+                                 .dashed = false,
                                  .label = "estimated path"});
-    picture.labels.push_back({.position = T_world_map * vector_of(record.trajectory.front().position_m), .text = "start"});
+    picture.labels.push_back(
+        {.position = T_world_map * vector_of(record.trajectory.front().position_m), .text = "start"});
   }
 }
 
@@ -221,7 +246,8 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   render::Picture picture;
   picture.title = printable(record.run.value("name", "run"));
   picture.subtitle = subtitle_of(record);
-  if (spec.shows(sim::PictureLayer::kMap) && record.world) picture.surfaces = render::map_surfaces(*record.world);
+  if (spec.shows(sim::PictureLayer::kMap) && record.world)
+    picture.surfaces = render::map_surfaces(*record.world);
   const Pose T_world_path = align_path(record).value_or(Pose());
   const Pose T_world_map = align_landmarks(record).value_or(T_world_path);
   if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
@@ -241,7 +267,8 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec)
   return draw_png(compose_picture(record, spec), spec);
 }
 
-std::string draw_map_picture(const map::World& world, const std::string& title, const sim::PictureSpec& spec) {
+std::string draw_map_picture(const map::World& world, const std::string& title,
+                             const sim::PictureSpec& spec) {
   return draw_png(compose_map_picture(world, title), spec);
 }
 

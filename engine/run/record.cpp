@@ -35,7 +35,9 @@ auto read_if_there(const fs::path& path, Read read) -> decltype(read(path)) {
   return read(path);
 }
 
-Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+Vec3 vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
 }  // namespace
 
@@ -62,10 +64,12 @@ Record read_record(const fs::path& folder) {
   record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
   record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
   record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);
-  record.matches = read_if_there(
-      folder / files::kMatches, [](const fs::path& path) { return log::read_id_pairs(path, log::kMatchColumns); });
-  record.submaps = read_if_there(
-      folder / files::kSubmaps, [](const fs::path& path) { return log::read_id_pairs(path, log::kSubmapColumns); });
+  record.matches = read_if_there(folder / files::kMatches, [](const fs::path& path) {
+    return log::read_id_pairs(path, log::kMatchColumns);
+  });
+  record.submaps = read_if_there(folder / files::kSubmaps, [](const fs::path& path) {
+    return log::read_id_pairs(path, log::kSubmapColumns);
+  });
   record.world = read_if_there(folder / files::kMap, [](const fs::path& path) {
     return std::optional<map::World>(map::build_world(map::load(path)));
   });
@@ -74,7 +78,8 @@ Record read_record(const fs::path& folder) {
 
 std::optional<Pose> align_landmarks(const Record& record) {
   std::unordered_map<log::LandmarkId, Vec3> truth;
-  for (const log::Landmark& landmark : record.true_landmarks) truth[landmark.id] = vector_of(landmark.position_m);
+  for (const log::Landmark& landmark : record.true_landmarks)
+    truth[landmark.id] = vector_of(landmark.position_m);
   std::unordered_map<log::LandmarkId, log::LandmarkId> owner;
   for (const log::IdPair& match : record.matches) owner[match.first] = match.second;
   std::vector<Vec3> from;

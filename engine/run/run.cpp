@@ -52,9 +52,12 @@ std::optional<Pose> estimate_of(const host::Outputs& outputs) {
 
 log::LandmarkStatus status_of(std::uint32_t status) {
   switch (status) {
-    case HW_LANDMARK_MAPPED: return log::LandmarkStatus::kMapped;
-    case HW_LANDMARK_DYNAMIC: return log::LandmarkStatus::kDynamic;
-    default: return log::LandmarkStatus::kTemporary;
+    case HW_LANDMARK_MAPPED:
+      return log::LandmarkStatus::kMapped;
+    case HW_LANDMARK_DYNAMIC:
+      return log::LandmarkStatus::kDynamic;
+    default:
+      return log::LandmarkStatus::kTemporary;
   }
 }
 
@@ -67,7 +70,8 @@ FinalMap copy_map(const host::Outputs& outputs) {
                              .status = status_of(landmark.status)});
   }
   for (const hw_submap_t& submap : outputs.submaps()) {
-    for (const std::uint64_t member : outputs.members(submap)) map.submap_members.push_back({submap.id, member});
+    for (const std::uint64_t member : outputs.members(submap))
+      map.submap_members.push_back({submap.id, member});
   }
   map.submaps = outputs.submaps().size();
   return map;
@@ -77,7 +81,9 @@ FinalMap copy_map(const host::Outputs& outputs) {
 class Driver {
  public:
   Driver(Source& source, host::Pipeline& pipeline, bool keep_observations)
-      : source_(source), pipeline_(pipeline), keep_observations_(keep_observations),
+      : source_(source),
+        pipeline_(pipeline),
+        keep_observations_(keep_observations),
         evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
 
   void run_iteration(std::uint32_t iteration) {
@@ -125,9 +131,10 @@ class Driver {
     if (!frame_.T_world_body) return;
     const log::StampedPose pose = stamped(frame_.t_ns, *frame_.T_world_body);
     collected_.truth.push_back(pose);
-    collected_.true_poses.push_back(
-        {.iteration = iteration, .position_m = pose.position_m, .orientation = pose.orientation,
-         .orientation_known = frame_.orientation_known});
+    collected_.true_poses.push_back({.iteration = iteration,
+                                     .position_m = pose.position_m,
+                                     .orientation = pose.orientation,
+                                     .orientation_known = frame_.orientation_known});
   }
 
   Source& source_;
@@ -145,7 +152,8 @@ void write_json(const fs::path& path, const nlohmann::ordered_json& document) {
   write_file_atomically(path, document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-void write_input(const fs::path& folder, const RunPlan& plan, const Source& source, const Collected& collected) {
+void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
+                 const Collected& collected) {
   for (const Attachment& attachment : plan.attachments) {
     write_file_atomically(folder / attachment.name, attachment.content);
   }

@@ -34,7 +34,7 @@ struct RunPlan {
 /// What the caller is told and asked while a run goes on.
 struct RunHooks {
   std::function<void(std::uint32_t done)> progress;  ///< after each iteration
-  std::function<bool()> stop;                        ///< true ends the run after the iterations so far, in good order
+  std::function<bool()> stop;  ///< true ends the run after the iterations so far, in good order
 };
 
 /// How a run went.

@@ -12,7 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json known(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 double number_or_unknown(const Json& value) {
   return value.is_null() ? host::SensorInfo::kUnknown : value.get<double>();

@@ -12,18 +12,29 @@ namespace {
 void expect_failure(const Ended& ended, int status, const std::vector<std::string>& parts) {
   EXPECT_EQ(ended.status, status) << ended.err;
   EXPECT_EQ(ended.out, "");
-  for (const std::string& part : parts) EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
 }
 
-TEST(Usage, NothingAsked) { expect_failure(hallway({}), 2, {"subcommand"}); }
+TEST(Usage, NothingAsked) {
+  expect_failure(hallway({}), 2, {"subcommand"});
+}
 
-TEST(Usage, UnknownSubcommand) { expect_failure(hallway({"rum"}), 2, {"rum"}); }
+TEST(Usage, UnknownSubcommand) {
+  expect_failure(hallway({"rum"}), 2, {"rum", "did you mean \"run\""});
+}
 
-TEST(Usage, UnknownOption) { expect_failure(hallway({"run", "x.toml", "--sead", "3"}), 2, {"--sead"}); }
+TEST(Usage, UnknownOption) {
+  expect_failure(hallway({"run", "x.toml", "--sead", "3"}), 2, {"--sead"});
+}
 
-TEST(Usage, MissingScenario) { expect_failure(hallway({"run"}), 2, {"scenario"}); }
+TEST(Usage, MissingScenario) {
+  expect_failure(hallway({"run"}), 2, {"scenario"});
+}
 
-TEST(Usage, NumberThatIsNone) { expect_failure(hallway({"run", "x.toml", "--seed", "many"}), 2, {"--seed"}); }
+TEST(Usage, NumberThatIsNone) {
+  expect_failure(hallway({"run", "x.toml", "--seed", "many"}), 2, {"--seed"});
+}
 
 TEST(Usage, SettingWithoutValue) {
   const SmallWorld world;
@@ -35,7 +46,9 @@ TEST(Usage, UnknownSetting) {
   expect_failure(world.run({"--set", "robot.sped_m_s=2"}), 2, {"robot.sped_m_s", "speed_m_s"});
 }
 
-TEST(Scenario, Missing) { expect_failure(hallway({"run", "no-such.toml"}), 3, {"no-such.toml"}); }
+TEST(Scenario, Missing) {
+  expect_failure(hallway({"run", "no-such.toml"}), 3, {"no-such.toml"});
+}
 
 TEST(Scenario, IsAFolder) {
   const SmallWorld world;
@@ -71,14 +84,17 @@ TEST(Map, FaceWithABadNumberNamesItsLine) {
   expect_failure(world.run(), 3, {"small.map:7", "nan"});
 }
 
-std::string map_with_flat_brush() { return replaced(small_map(), "( 100 500 0 ) ( 100 500 100 ) ( 100 700 0 )", "( 0 500 0 ) ( 0 500 100 ) ( 0 700 0 )"); }
+std::string map_with_flat_brush() {
+  return replaced(small_map(), "( 100 500 0 ) ( 100 500 100 ) ( 100 700 0 )",
+                  "( 0 500 0 ) ( 0 500 100 ) ( 0 700 0 )");
+}
 
 TEST(Map, BrushThatIsNoSolidIsReportedAndLeftOut) {
   const SmallWorld world;
   world.folder().write("small.map", map_with_flat_brush());
   const Ended ended = world.run({"--quiet"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.err.find("small.map:5"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("small.map:7"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("warning"), std::string::npos) << ended.err;
   const auto manifest = nlohmann::json::parse(read_file(std::filesystem::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("warnings").size(), 1u);
@@ -87,7 +103,7 @@ TEST(Map, BrushThatIsNoSolidIsReportedAndLeftOut) {
 TEST(Map, BrushThatIsNoSolidIsRefusedWhenStrict) {
   const SmallWorld world;
   world.folder().write("small.map", map_with_flat_brush());
-  expect_failure(world.run({"--strict"}), 3, {"small.map:5"});
+  expect_failure(world.run({"--strict"}), 3, {"small.map:7"});
   EXPECT_FALSE(std::filesystem::exists(world.out()));
 }
 
@@ -117,7 +133,8 @@ TEST(Replay, NeedsAPlugin) {
 TEST(Replay, HeaderWithoutAColumn) {
   const SmallWorld world;
   const auto log = world.folder().write("obs.csv", "iteration,x,y\n0,1,2\n");
-  expect_failure(hallway({"replay", log, "--plugin", "slam_point", "--out", world.out()}), 3, {"obs.csv:1", "\"z\""});
+  expect_failure(hallway({"replay", log, "--plugin", "slam_point", "--out", world.out()}), 3,
+                 {"obs.csv:1", "\"z\""});
 }
 
 TEST(Replay, DamagedLogIsReadUpToTheDamage) {
@@ -125,7 +142,8 @@ TEST(Replay, DamagedLogIsReadUpToTheDamage) {
   ASSERT_EQ(world.run({"--quiet"}).status, 0);
   std::string text = read_file(std::filesystem::path(world.out()) / "observations.csv");
   const auto log = world.folder().write("cut.csv", text.substr(0, text.size() / 2));
-  const Ended ended = hallway({"replay", log, "--plugin", "slam_point", "--out", world.out("cut"), "--quiet"});
+  const Ended ended =
+      hallway({"replay", log, "--plugin", "slam_point", "--out", world.out("cut"), "--quiet"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.err.find("kept"), std::string::npos) << ended.err;
 }
@@ -133,8 +151,9 @@ TEST(Replay, DamagedLogIsReadUpToTheDamage) {
 TEST(Replay, UnknownParameterIsNamedWithTheNearest) {
   const SmallWorld world;
   const auto log = world.folder().write("obs.csv", "iteration,x,y,z\n0,1,2,3\n");
-  expect_failure(hallway({"replay", log, "--plugin", "slam_point", "--set", "noize_m=1", "--out", world.out()}), 3,
-                 {"noize_m", "noise_m"});
+  expect_failure(
+      hallway({"replay", log, "--plugin", "slam_point", "--set", "noize_m=1", "--out", world.out()}), 3,
+      {"noize_m", "noise_m"});
 }
 
 TEST(Text, EscapesFromFilesAreNotEchoed) {

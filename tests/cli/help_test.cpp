@@ -10,7 +10,8 @@ void expect_help(const std::vector<std::string>& arguments, const std::vector<st
   const Ended ended = hallway(arguments);
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.err, "");
-  for (const std::string& part : parts) EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  for (const std::string& part : parts)
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }
 
 TEST(Help, OfTheProgramListsCommandsAndStatuses) {
@@ -18,8 +19,8 @@ TEST(Help, OfTheProgramListsCommandsAndStatuses) {
 }
 
 TEST(Help, OfRun) {
-  expect_help({"run", "--help"}, {"--out", "--seed", "--steps", "--set", "--plugin", "--threads", "--force", "--json",
-                                  "--quiet", "Example"});
+  expect_help({"run", "--help"}, {"--out", "--seed", "--steps", "--set", "--plugin", "--threads", "--force",
+                                  "--json", "--quiet", "Example"});
 }
 
 TEST(Help, OfReplay) {
@@ -27,11 +28,17 @@ TEST(Help, OfReplay) {
               {"--plugin", "--steps", "--truth-poses", "--truth-landmarks", "--out", "--json", "Example"});
 }
 
-TEST(Help, OfRender) { expect_help({"render", "--help"}, {"--view", "--out", "--size", "--cut", "--eye", "Example"}); }
+TEST(Help, OfRender) {
+  expect_help({"render", "--help"}, {"--view", "--out", "--size", "--cut", "--eye", "Example"});
+}
 
-TEST(Help, OfPluginList) { expect_help({"plugin", "list", "--help"}, {"--plugin-path", "--json"}); }
+TEST(Help, OfPluginList) {
+  expect_help({"plugin", "list", "--help"}, {"--plugin-path", "--json"});
+}
 
-TEST(Help, VersionIsOneLine) { EXPECT_EQ(hallway({"--version"}).out, "hallway 0.1.0\n"); }
+TEST(Help, VersionIsOneLine) {
+  EXPECT_EQ(hallway({"--version"}).out, "hallway 0.1.0\n");
+}
 
 }  // namespace
 }  // namespace hallway::test

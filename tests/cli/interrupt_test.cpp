@@ -2,8 +2,8 @@
 // A run that is asked to stop ends in good order.
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -16,9 +16,11 @@ namespace fs = std::filesystem;
 
 /// Starts a run far too long for the test, waits until it is under way, and sends it a signal.
 Ended stop_long_run(const SmallWorld& world, int signal) {
-  Process process({hallway_program(), "run", world.scenario(), "--out", world.out(), "--steps", "10000000", "--quiet"});
+  Process process(
+      {hallway_program(), "run", world.scenario(), "--out", world.out(), "--steps", "10000000", "--quiet"});
   const fs::path working = world.out() + ".part-" + std::to_string(process.pid());
-  for (int i = 0; i < 3000 && !fs::exists(working); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 3000 && !fs::exists(working); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(fs::exists(working)) << "the run did not begin within 30 s";
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   ::kill(process.pid(), signal);

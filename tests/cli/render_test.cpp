@@ -37,8 +37,9 @@ TEST(Render, MapInTheSizeAskedFor) {
 
 TEST(Render, RunFromItsFolderIsThePictureTheRunMade) {
   const SmallWorld world;
-  world.folder().write("small.toml", small_scenario() + "\n[[picture]]\nfile = \"top.png\"\nview = \"top\"\n"
-                                                        "width_px = 320\nheight_px = 200\n");
+  world.folder().write("small.toml", small_scenario() +
+                                         "\n[[picture]]\nfile = \"top.png\"\nview = \"top\"\n"
+                                         "width_px = 320\nheight_px = 200\n");
   ASSERT_EQ(world.run({"--quiet"}).status, 0);
   const Ended ended = render(world, world.out(), {"--view", "top", "--size", "320x200"});
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -47,8 +48,9 @@ TEST(Render, RunFromItsFolderIsThePictureTheRunMade) {
 
 TEST(Render, PerspectiveFromAViewpoint) {
   const SmallWorld world;
-  const Ended ended = render(world, world.folder() / "small.map",
-                             {"--view", "perspective", "--eye=-5,0,3", "--target=0,5,0", "--size", "200x120", "--json"});
+  const Ended ended =
+      render(world, world.folder() / "small.map",
+             {"--view", "perspective", "--eye=-5,0,3", "--target=0,5,0", "--size", "200x120", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(nlohmann::json::parse(ended.out).at("width_px"), 200);
 }
@@ -69,7 +71,8 @@ TEST(Render, SizeThatIsTooLargeIsRefusedBeforeAllocation) {
 
 TEST(Render, UnwritablePictureKeepsNothing) {
   const SmallWorld world;
-  const Ended ended = hallway({"render", world.folder() / "small.map", "--out", world.folder() / "no/such/folder.png"});
+  const Ended ended =
+      hallway({"render", world.folder() / "small.map", "--out", world.folder() / "no/such/folder.png"});
   EXPECT_EQ(ended.status, 3);
   EXPECT_NE(ended.err.find("folder.png"), std::string::npos);
 }

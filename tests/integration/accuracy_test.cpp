@@ -23,7 +23,8 @@ json metrics_of(const Ended& ended) {
 /// What holds for every log with truth: a pose in each iteration, closed loops, hardly a wrong association.
 void expect_sound(const json& metrics) {
   EXPECT_EQ(metrics.at("lost_iterations"), 0);
-  EXPECT_LT(metrics.at("landmarks_duplicated").get<double>(), 0.02 * metrics.at("landmarks_true").get<double>());
+  EXPECT_LT(metrics.at("landmarks_duplicated").get<double>(),
+            0.02 * metrics.at("landmarks_true").get<double>());
   EXPECT_LT(metrics.at("association_errors").get<double>(), 0.001 * metrics.at("observations").get<double>());
   EXPECT_LE(metrics.at("landmark_rmse_m").at("aligned").get<double>(), 0.05);
 }
@@ -37,20 +38,21 @@ TEST(FigureEight, LoopClosesAndTheMapIsRight) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     EXPECT_EQ(metrics.at("iterations"), 3800);
     expect_sound(metrics);
-    EXPECT_GE(metrics.at("landmarks_mapped").get<double>(), 0.98 * metrics.at("landmarks_true").get<double>());
+    EXPECT_GE(metrics.at("landmarks_mapped").get<double>(),
+              0.98 * metrics.at("landmarks_true").get<double>());
   }
 }
 
 TEST(Office, IsMappedWithoutABreak) {
   const TempFolder folder;
-  const json metrics =
-      metrics_of(hallway({"run", source_folder() / "maps" / "office.toml", "--json", "--out", folder / "run"}));
+  const json metrics = metrics_of(
+      hallway({"run", source_folder() / "maps" / "office.toml", "--json", "--out", folder / "run"}));
   expect_sound(metrics);
 }
 
 struct RecordedLog {
   const char* folder;
-  int steps;           ///< 0 for all
+  int steps;            ///< 0 for all
   double ml_aligned_m;  ///< landmark RMSE of the batch maximum likelihood, as the data's README states
 };
 
@@ -60,11 +62,16 @@ TEST_P(Logs, AreMappedNearlyAsWellAsTheyAllow) {
   const RecordedLog& log = GetParam();
   HALLWAY_DATA_OR_SKIP(data, fs::path("landmark_logs") / log.folder);
   const TempFolder folder;
-  std::vector<std::string> arguments{"replay",           data / "obs.csv",
-                                     "--plugin",         "slam_point",
-                                     "--truth-poses",    data / "gt_poses.csv",
-                                     "--truth-landmarks", data / "gt_landmarks.csv",
-                                     "--json",           "--out",
+  std::vector<std::string> arguments{"replay",
+                                     data / "obs.csv",
+                                     "--plugin",
+                                     "slam_point",
+                                     "--truth-poses",
+                                     data / "gt_poses.csv",
+                                     "--truth-landmarks",
+                                     data / "gt_landmarks.csv",
+                                     "--json",
+                                     "--out",
                                      folder / "run"};
   if (log.steps > 0) arguments.insert(arguments.end(), {"--steps", std::to_string(log.steps)});
   const json metrics = metrics_of(hallway(arguments));

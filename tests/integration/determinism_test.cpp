@@ -63,15 +63,17 @@ TEST_P(Maps, SameBytesTwiceAndWithFourThreads) {
 TEST_P(Maps, AnotherSeedGivesOtherObservations) {
   ASSERT_EQ(run("a", {}).status, 0);
   ASSERT_EQ(run("b", {"--seed", "77"}).status, 0);
-  EXPECT_NE(read_file(fs::path(out("a")) / "observations.csv"), read_file(fs::path(out("b")) / "observations.csv"));
+  EXPECT_NE(read_file(fs::path(out("a")) / "observations.csv"),
+            read_file(fs::path(out("b")) / "observations.csv"));
 }
 
 TEST_P(Maps, ReplayOfTheRunsOwnFilesGivesTheSameMapAndPath) {
   ASSERT_EQ(run("a", {}).status, 0);
-  const Ended ended = hallway({"replay", fs::path(out("a")) / "observations.csv", "--quiet", "--out", out("again")});
+  const Ended ended =
+      hallway({"replay", fs::path(out("a")) / "observations.csv", "--quiet", "--out", out("again")});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  for (const char* name : {"trajectory.tum", "landmarks.csv", "landmarks.ply", "submaps.csv", "matches.csv", "truth.tum",
-                           "metrics.json"}) {
+  for (const char* name : {"trajectory.tum", "landmarks.csv", "landmarks.ply", "submaps.csv", "matches.csv",
+                           "truth.tum", "metrics.json"}) {
     EXPECT_EQ(comparable(fs::path(out("a")) / name), comparable(fs::path(out("again")) / name)) << name;
   }
 }
@@ -79,20 +81,24 @@ TEST_P(Maps, ReplayOfTheRunsOwnFilesGivesTheSameMapAndPath) {
 TEST_P(Maps, ReplayElsewhereWithThePluginNamedAndTheRunsFolderUnknown) {
   ASSERT_EQ(run("a", {}).status, 0);
   fs::copy(fs::path(out("a")) / "observations.csv", out("moved.csv"));
-  ASSERT_EQ(hallway({"replay", out("moved.csv"), "--plugin", "slam_point", "--quiet", "--out", out("again")}).status, 0);
+  ASSERT_EQ(hallway({"replay", out("moved.csv"), "--plugin", "slam_point", "--quiet", "--out", out("again")})
+                .status,
+            0);
   const auto manifest = nlohmann::json::parse(read_file(fs::path(out("a")) / "run.json"));
   for (const auto& parameter : manifest.at("plugins").at(0).at("parameters")) {
-    if (parameter.at("origin") != "default") GTEST_SKIP() << "this scenario sets parameters, which a bare log lacks";
+    if (parameter.at("origin") != "default")
+      GTEST_SKIP() << "this scenario sets parameters, which a bare log lacks";
   }
-  EXPECT_EQ(read_file(fs::path(out("a")) / "landmarks.csv"), read_file(fs::path(out("again")) / "landmarks.csv"));
+  EXPECT_EQ(read_file(fs::path(out("a")) / "landmarks.csv"),
+            read_file(fs::path(out("again")) / "landmarks.csv"));
 }
 
 TEST_P(Maps, PlaceLocaleAndHomeDoNotMatter) {
   ASSERT_EQ(run("a", {}).status, 0);
   const fs::path elsewhere = folder_ / "a folder with spaces";
   fs::create_directories(elsewhere);
-  const Ended ended = hallway({"run", scenario(), "--quiet", "--steps", "400", "--out", "run here"}, elsewhere,
-                              {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TERM=dumb"});
+  const Ended ended = hallway({"run", scenario(), "--quiet", "--steps", "400", "--out", "run here"},
+                              elsewhere, {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TERM=dumb"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   expect_same_runs(out("a"), elsewhere / "run here");
 }

@@ -32,7 +32,8 @@ class Process {
   /// @param environment  "NAME=value" entries that replace the test's environment; empty to keep it
   /// @param out_file     where its standard output goes; empty: captured
   explicit Process(const std::vector<std::string>& arguments, const std::filesystem::path& folder = {},
-                   const std::vector<std::string>& environment = {}, const std::filesystem::path& out_file = {})
+                   const std::vector<std::string>& environment = {},
+                   const std::filesystem::path& out_file = {})
       : out_file_(out_file.empty() ? captured_.path() / "out" : out_file), capture_(out_file.empty()) {
     std::vector<std::string> texts = arguments;
     std::vector<char*> argv;
@@ -79,12 +80,15 @@ class Process {
 /// The folder of what was built: the environment variable HALLWAY_BINARY_DIR, which ctest sets.
 inline std::filesystem::path binary_folder() {
   const char* folder = std::getenv("HALLWAY_BINARY_DIR");
-  if (folder == nullptr || *folder == '\0') throw std::runtime_error("HALLWAY_BINARY_DIR is not set; run the tests by ctest");
+  if (folder == nullptr || *folder == '\0')
+    throw std::runtime_error("HALLWAY_BINARY_DIR is not set; run the tests by ctest");
   return folder;
 }
 
 /// The `hallway` program.
-inline std::string hallway_program() { return binary_folder() / "bin" / "hallway"; }
+inline std::string hallway_program() {
+  return binary_folder() / "bin" / "hallway";
+}
 
 /// Runs `hallway` with these arguments to its end.
 inline Ended hallway(std::vector<std::string> arguments, const std::filesystem::path& folder = {},

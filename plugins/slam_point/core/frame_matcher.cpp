@@ -15,6 +15,7 @@ constexpr double kAgreementNoises = 6.0;  // a correct match farther off than th
 constexpr double kInlierNoises = 4.0;     // beyond this a residual loses weight
 constexpr double kMaxRotationSigma_rad = 0.1;
 constexpr int kMaxMatchPasses = 4;
+constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same way are drift, not neighbours
 constexpr int kMaxTurnsEachWay = 60;
 
 double trust(std::uint32_t count) {
@@ -238,15 +239,41 @@ bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std:
   return robust_fit(pairs_, rules(planar), T_submap_sensor);
 }
 
+bool FrameMatcher::agrees(const SubmapGraph& graph, const Pose& T_map_sensor,
+                          const Observation& observation) const {
+  const Vec3 residual = T_map_sensor * observation.point - graph.landmarks[observation.landmark].position;
+  return residual.squaredNorm() <= agreement_ * agreement_;
+}
+
 int FrameMatcher::count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
                                  const Pose& T_map_sensor) const {
   int agreeing = 0;
   for (const Observation& observation : frame) {
-    if (observation.landmark == kNone) continue;
-    const Vec3 residual = T_map_sensor * observation.point - graph.landmarks[observation.landmark].position;
-    if (residual.squaredNorm() <= agreement_ * agreement_) ++agreeing;
+    if (observation.landmark != kNone && agrees(graph, T_map_sensor, observation)) ++agreeing;
   }
   return agreeing;
+}
+
+void FrameMatcher::drop_strays(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
+                               std::vector<Observation>& frame) {
+  strays_.clear();
+  std::size_t agreeing = 0;
+  for (Index o = 0; o < frame.size(); ++o) {
+    if (frame[o].landmark == kNone || graph.landmarks[frame[o].landmark].last_activation >= local_since)
+      continue;
+    if (agrees(graph, T_map_sensor, frame[o])) {
+      ++agreeing;
+    } else {
+      strays_.push_back(o);
+    }
+  }
+  const bool drifted = agreeing < strays_.size();
+  if (drifted && strays_.size() >= kLeastDrifted) return;
+  for (const Index o : strays_) {
+    taken_[frame[o].landmark] = 0;
+    frame[o].landmark = kNone;
+    frame[o].withheld = drifted;
+  }
 }
 
 }  // namespace hallway::slam_point

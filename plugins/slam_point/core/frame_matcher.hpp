@@ -16,6 +16,7 @@ struct Observation {
   Vec3 point = Vec3::Zero();  ///< sensor frame [m]
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
+  bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
 };
 
 /// Finds which landmark each point of a frame is (thesis 6.2.5 and 6.5.1). Matching is one-to-one: of all pairs within
@@ -61,6 +62,13 @@ class FrameMatcher {
   bool fit_submap(const SubmapGraph& graph, Index submap, const std::vector<Observation>& frame, bool planar,
                   Pose& T_submap_sensor);
 
+  /// Judges the points that were matched to landmarks not seen since activation `local_since` and do not agree with them.
+  /// Where most such matches agree, the map has not drifted: the others are neighbours of what they were taken for, e.g. on
+  /// the other side of a thin wall, and are unmatched. Where too few are there to tell drift from neighbours, they are
+  /// withheld.
+  void drop_strays(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
+                   std::vector<Observation>& frame);
+
   /// Points within agreement() of their landmark's position.
   int count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
                      const Pose& T_map_sensor) const;
@@ -77,6 +85,7 @@ class FrameMatcher {
     Index landmark = kNone;
   };
 
+  bool agrees(const SubmapGraph& graph, const Pose& T_map_sensor, const Observation& observation) const;
   void begin(const SubmapGraph& graph);
   void take_nearest_first(std::vector<Observation>& frame);
   void match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T, double bound,
@@ -92,6 +101,7 @@ class FrameMatcher {
   std::vector<Candidate> candidates_;
   std::vector<std::uint8_t> taken_;  // landmark -> matched in this frame
   std::vector<Index> taken_list_;
+  std::vector<Index> strays_;
   std::vector<Pair> pairs_;
   std::vector<double> ranges_;
   std::vector<Observation> trial_;

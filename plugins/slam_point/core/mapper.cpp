@@ -61,6 +61,7 @@ class Mapper::State {
   void start_map();
   void predict();
   void match_active_submap();
+  std::uint64_t local_since() const;
   void match_map();
   bool fit_pose();
   void search_turn();
@@ -133,6 +134,7 @@ const Answer& Mapper::State::process(std::span<const Vec3> points) {
     has_pose_ = start_over();
     return answer();
   }
+  matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
   add_landmarks();
   if (overlap_with_active() < options_.overlap ||
@@ -149,7 +151,7 @@ void Mapper::State::take_points(std::span<const Vec3> points) {
     // Written so that NaN fails.
     if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
     if (points[i].z() != 0.0) planar_ = false;
-    frame_.push_back({points[i], i, kNone});
+    frame_.push_back({points[i], i});
   }
   answer_.associations.assign(points.size(), kNoLandmark);
   ++answer_.counters.iterations;
@@ -182,13 +184,17 @@ void Mapper::State::match_active_submap() {
   fit_ = matcher_.match_active(graph_, active_, predicted_, planar_, frame_);
 }
 
-void Mapper::State::match_map() {
+/// The activation from which on landmarks lie where the recent submaps put them.
+std::uint64_t Mapper::State::local_since() const {
   const std::uint64_t window = static_cast<std::uint64_t>(options_.window);
-  const std::uint64_t local_since = activation_ > window ? activation_ - window : 0;
+  return activation_ > window ? activation_ - window : 0;
+}
+
+void Mapper::State::match_map() {
   // Where the active submap gave no fit, the prediction alone says where to look.
   const double local_bound = fit_.solved ? matcher_.agreement() : options_.match_bound();
   T_map_sensor_ = graph_.poses[graph_.active()] * fit_.T_submap_sensor;
-  matcher_.match_map(graph_, T_map_sensor_, local_since, local_bound, frame_);
+  matcher_.match_map(graph_, T_map_sensor_, local_since(), local_bound, frame_);
 }
 
 bool Mapper::State::fit_pose() {
@@ -264,7 +270,7 @@ void Mapper::State::add_landmarks() {
   const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
-    if (observation.landmark != kNone) continue;
+    if (observation.landmark != kNone || observation.withheld) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {

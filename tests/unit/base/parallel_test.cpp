@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <set>
@@ -41,19 +42,19 @@ std::vector<double> work_result(unsigned threads) {
   return values;
 }
 
-/// Runs work in which the chunks beginning at 30 and 70 of 100 fail, the later one first; gives the message that arrives.
-std::string first_failure(unsigned threads) {
-  std::atomic<bool> later_failed{false};
+/// Runs work of which the chunks beginning at 30 and 70 of 100 fail; gives the message that arrives. Where there are
+/// threads to do so, the chunk that begins at `late` fails after the other one.
+std::string first_failure(unsigned threads, std::size_t late) {
+  std::atomic<bool> other_fails{false};
   try {
     parallel_for(100, 10, threads, [&](std::size_t begin, std::size_t) {
-      if (begin == 30) {
-        for (int i = 0; i < 1000 && threads > 1 && !later_failed; ++i) std::this_thread::yield();
-        throw std::runtime_error("chunk 30");
+      if (begin != 30 && begin != 70) return;
+      if (begin == late) {
+        for (int i = 0; i < 100'000 && threads > 1 && !other_fails; ++i) std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
       }
-      if (begin == 70) {
-        later_failed = true;
-        throw std::runtime_error("chunk 70");
-      }
+      other_fails = true;
+      throw std::runtime_error("chunk " + std::to_string(begin));
     });
   } catch (const std::runtime_error& error) {
     return error.what();
@@ -100,7 +101,10 @@ TEST(ParallelFor, TakesAGrainBeyondTheCount) {
 }
 
 TEST(ParallelFor, ThrowsTheFirstFailureInOrder) {
-  for (const unsigned threads : {1u, 2u, 4u, 8u}) EXPECT_EQ(first_failure(threads), "chunk 30") << threads;
+  for (const unsigned threads : {1u, 2u, 4u, 8u}) {
+    EXPECT_EQ(first_failure(threads, 30), "chunk 30") << threads;
+    EXPECT_EQ(first_failure(threads, 70), "chunk 30") << threads;
+  }
 }
 
 TEST(ParallelFor, FinishesTheOtherChunksWhenOneFails) {

@@ -90,7 +90,8 @@ TEST(RunPicture, EstimatesStandWhereTheFitPutsThem) {
 TEST(RunPicture, ASubmapIsLinkedToItsLandmarks) {
   const render::Picture picture = compose_picture(square_record(0.0), everything());
   std::size_t links = 0;
-  for (const render::Segments& segments : picture.segments) links += segments.label.empty() ? segments.pairs.size() : 0;
+  for (const render::Segments& segments : picture.segments)
+    links += segments.label.empty() ? segments.pairs.size() : 0;
   EXPECT_EQ(links, 4u);
 }
 

@@ -20,7 +20,9 @@ Vec3 random_point(std::uint64_t i) {
   return {random.normal(0, 3 * i), random.normal(0, 3 * i + 1), random.normal(0, 3 * i + 2)};
 }
 
-std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+std::array<double, 3> array_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 TEST(AlignLandmarks, FindsTheMotionFromMatchedLandmarks) {
   Record record;
@@ -58,7 +60,8 @@ TEST(AlignLandmarks, NeedsThreePairs) {
 TEST(AlignPath, PairsPosesOfOneTime) {
   Record record;
   for (std::uint64_t i = 0; i < 20; ++i) {
-    record.truth.push_back({.t_s = 0.1 * static_cast<double>(i), .position_m = array_of(kMotion * random_point(i))});
+    record.truth.push_back(
+        {.t_s = 0.1 * static_cast<double>(i), .position_m = array_of(kMotion * random_point(i))});
     if (i % 3 != 1) {
       record.trajectory.push_back({.t_s = record.truth.back().t_s, .position_m = array_of(random_point(i))});
     }
@@ -81,7 +84,8 @@ TEST(SensorJson, KeepsEveryBitAndWhatIsUnknown) {
   EXPECT_EQ(back.noise_m[0], 0.1);
   EXPECT_TRUE(std::isnan(back.noise_m[2]));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(back.T_body_sensor.position[i], sensor.T_body_sensor.position[i]);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(back.T_body_sensor.orientation[i], sensor.T_body_sensor.orientation[i]);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(back.T_body_sensor.orientation[i], sensor.T_body_sensor.orientation[i]);
 }
 
 TEST(SensorJson, WrongMemberIsBadInput) {

@@ -76,6 +76,40 @@ TEST(FrameMatcher, LocalLandmarksAreMatchedWithinTheLocalBoundOnly) {
   EXPECT_EQ(frame[1].landmark, 1u);
 }
 
+/// Ten old landmarks in a row, and a frame that sees each `off[i]` metres beside its place, matched to them.
+struct OldGround {
+  explicit OldGround(const std::vector<double>& off) {
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      const Vec3 place(static_cast<double>(2 * i), 0.0, 0.0);
+      frame.push_back({place + Vec3(0.0, off[i], 0.0), i, graph.add_landmark(place, 0)});
+    }
+    matcher.mark(graph, frame);
+    matcher.drop_strays(graph, Pose{}, 1, frame);
+  }
+  Options options{};  // noise 0.05 m: up to 0.3 m is noise
+  SubmapGraph graph{options.map_bound()};
+  FrameMatcher matcher{options};
+  std::vector<Observation> frame{};
+};
+
+TEST(FrameMatcher, ANeighbourOfAnOldLandmarkIsNotTakenForIt) {
+  const OldGround seen({0.0, 0.1, -0.1, 0.5});
+  EXPECT_EQ(seen.frame[3].landmark, kNone);
+  EXPECT_FALSE(seen.frame[3].withheld) << "it is a new landmark";
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(seen.frame[i].landmark, kNone) << i;
+}
+
+TEST(FrameMatcher, OldGroundThatHasDriftedAsAWholeIsStillKnown) {
+  const OldGround seen({0.5, 0.5, 0.5, 0.5});
+  for (const Observation& observation : seen.frame) EXPECT_NE(observation.landmark, kNone);
+}
+
+TEST(FrameMatcher, ALoneStrayIsWithheldUntilMoreIsSeen) {
+  const OldGround seen({0.5});
+  EXPECT_EQ(seen.frame[0].landmark, kNone);
+  EXPECT_TRUE(seen.frame[0].withheld);
+}
+
 TEST(FrameMatcher, FindsATurnThatThePredictionMissed) {
   Options options;
   options.noise_m = 0.02;
