@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run.sh BUILD: every benchmark of the build folder. Figures are ratios to references measured in the same run.
+# run.sh BUILD: every benchmark of the build folder; files go to BUILD/bench-out. Speeds are ratios to references that are
+# measured in the same run.
 set -euo pipefail
 build=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
-python3 "$here/flat.py" "$build/bin/hallway" "$build/bench-out"
+out=$build/bench-out
+/usr/bin/python3 "$here/flat.py" "$build/bin/hallway" "$out"
+echo
+/usr/bin/python3 "$here/victoria_park.py" "$build/bin/hallway" "$out/victoria_park"
+echo
+/usr/bin/python3 "$here/accuracy.py" "$build/bin/hallway" "$out/accuracy"
+echo
 "$build/bin/bench_trace" --benchmark_min_time=0.2
