@@ -33,6 +33,35 @@ TEST(PluginOption, FileThatIsNotElf) {
   EXPECT_NE(ended.err.find("ELF"), std::string::npos) << ended.err;
 }
 
+/// A plugin of tests/abi/fixtures.
+std::string fixture(const std::string& name) {
+  return binary_folder() / "tests/abi/fixtures" / (name + ".so");
+}
+
+TEST(PluginOption, FileOfAnotherAbiMajor) {
+  const SmallWorld world;
+  const Ended ended = world.run({"--plugin", fixture("other_abi_major")});
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_NE(ended.err.find("ABI"), std::string::npos) << ended.err;
+}
+
+TEST(PluginFault, ExceptionInAnIterationNamesThePluginAndItsReason) {
+  const SmallWorld world;
+  const Ended ended =
+      world.run({"--plugin", fixture("misbehaves") + ":misbehaves", "--set", "misbehaves.fault=throws"});
+  EXPECT_EQ(ended.status, 5);
+  EXPECT_NE(ended.err.find("misbehaves"), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(world.out()));
+}
+
+TEST(PluginFault, PoseThatIsNoNumber) {
+  const SmallWorld world;
+  const Ended ended = world.run(
+      {"--plugin", fixture("misbehaves") + ":misbehaves", "--set", "misbehaves.fault=nan_position"});
+  EXPECT_EQ(ended.status, 5);
+  EXPECT_NE(ended.err.find("finite"), std::string::npos) << ended.err;
+}
+
 TEST(PluginOption, ByFileIsTheSameAsById) {
   const SmallWorld world;
   ASSERT_EQ(world.run({"--quiet"}, "by-id").status, 0);

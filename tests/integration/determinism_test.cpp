@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/data.hpp"
+#include "support/long_mode.hpp"
 #include "support/process.hpp"
 
 namespace hallway::test {
@@ -45,10 +46,12 @@ class Maps : public testing::TestWithParam<const char*> {
   std::string out(const std::string& name) const { return folder_ / name; }
 
   Ended run(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"run", scenario(), "--quiet", "--steps", "400", "--out", out(name)};
+    std::vector<std::string> arguments{"run", scenario(), "--quiet", "--steps", steps(), "--out", out(name)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return hallway(arguments);
   }
+  /// Up to a whole loop of the figure eight in long mode, which is more than the office has.
+  static std::string steps() { return std::to_string(sized(400, 3800)); }
   TempFolder folder_;
 };
 
@@ -97,7 +100,7 @@ TEST_P(Maps, PlaceLocaleAndHomeDoNotMatter) {
   ASSERT_EQ(run("a", {}).status, 0);
   const fs::path elsewhere = folder_ / "a folder with spaces";
   fs::create_directories(elsewhere);
-  const Ended ended = hallway({"run", scenario(), "--quiet", "--steps", "400", "--out", "run here"},
+  const Ended ended = hallway({"run", scenario(), "--quiet", "--steps", steps(), "--out", "run here"},
                               elsewhere, {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TERM=dumb"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   expect_same_runs(out("a"), elsewhere / "run here");
