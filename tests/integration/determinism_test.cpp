@@ -100,8 +100,9 @@ TEST_P(Maps, PlaceLocaleAndHomeDoNotMatter) {
   ASSERT_EQ(run("a", {}).status, 0);
   const fs::path elsewhere = folder_ / "a folder with spaces";
   fs::create_directories(elsewhere);
-  const Ended ended = hallway({"run", scenario(), "--quiet", "--steps", steps(), "--out", "run here"},
-                              elsewhere, {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TERM=dumb"});
+  const Ended ended =
+      hallway({"run", scenario(), "--quiet", "--steps", steps(), "--out", "run here"}, elsewhere,
+              with_sanitizer_options({"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TERM=dumb"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   expect_same_runs(out("a"), elsewhere / "run here");
 }

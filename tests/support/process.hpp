@@ -77,6 +77,15 @@ class Process {
   pid_t pid_ = 0;
 };
 
+/// `variables` and those of the test's own environment that instruct the sanitizers, so that a program that is started with an
+/// environment of its own still knows the suppressions.
+inline std::vector<std::string> with_sanitizer_options(std::vector<std::string> variables) {
+  for (const char* name : {"ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) variables.push_back(std::string(name) + "=" + value);
+  }
+  return variables;
+}
+
 /// The folder of what was built: the environment variable HALLWAY_BINARY_DIR, which ctest sets.
 inline std::filesystem::path binary_folder() {
   const char* folder = std::getenv("HALLWAY_BINARY_DIR");
