@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "run/log_source.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hallway::run {
+namespace {
+
+/// Iterations 0 and 2 saw a point each, 1 saw nothing.
+log::ObservationLog three_frames() {
+  log::ObservationLog log(true);
+  const log::Observation first{.landmark = 7, .point = {1, 2, 3}};
+  const log::Observation last{.landmark = 8, .point = {4, 5, 6}};
+  log.add_frame(0, {&first, 1});
+  log.add_frame(2, {&last, 1});
+  return log;
+}
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+TEST(LogSource, GivesEachIterationItsObservationsAndItsTime) {
+  LogSource source(three_frames(), {}, {}, kPeriod_ns, 0);
+  ASSERT_EQ(source.iterations(), 3u);
+  SourceFrame frame;
+  source.read(2, frame);
+  EXPECT_EQ(frame.t_ns, 2 * kPeriod_ns);
+  ASSERT_EQ(frame.observations.size(), 1u);
+  EXPECT_EQ(frame.observations[0].landmark, 8u);
+  source.read(1, frame);
+  EXPECT_TRUE(frame.observations.empty());
+  EXPECT_FALSE(frame.T_world_body);
+}
+
+TEST(LogSource, GoesOnAsLongAsThereAreTruePoses) {
+  LogTruth truth;
+  truth.poses.emplace({log::IterationPose{.iteration = 1, .position_m = {1, 0, 0}},
+                       log::IterationPose{.iteration = 5, .position_m = {5, 0, 0}}});
+  LogSource source(three_frames(), truth, {}, kPeriod_ns, 0);
+  EXPECT_EQ(source.iterations(), 6u);
+  SourceFrame frame;
+  source.read(5, frame);
+  ASSERT_TRUE(frame.T_world_body);
+  EXPECT_EQ(frame.T_world_body->t.x(), 5.0);
+  source.read(4, frame);
+  EXPECT_FALSE(frame.T_world_body) << "no pose is known there";
+}
+
+TEST(LogSource, EndsAtTheStepsAskedFor) {
+  EXPECT_EQ(LogSource(three_frames(), {}, {}, kPeriod_ns, 2).iterations(), 2u);
+  EXPECT_EQ(LogSource(three_frames(), {}, {}, kPeriod_ns, 9).iterations(), 3u);
+}
+
+TEST(LogSource, SaysWhenOnlyPositionsAreKnown) {
+  LogTruth truth;
+  truth.poses.emplace({log::IterationPose{.iteration = 0, .orientation_known = false}});
+  LogSource source(three_frames(), truth, {}, kPeriod_ns, 0);
+  SourceFrame frame;
+  source.read(0, frame);
+  EXPECT_FALSE(frame.orientation_known);
+}
+
+}  // namespace
+}  // namespace hallway::run
