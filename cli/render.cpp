@@ -84,6 +84,10 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
 
 std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec) {
   const map::Document document = map::load(options.input);
+  if (document.worldspawn() == nullptr) {
+    throw Error(ErrorCode::kBadInput, "holds no map: it has no entity of class worldspawn",
+                {.file = printable(options.input)});
+  }
   const map::World world = map::build_world(document);
   for (const map::Problem& problem : world.problems) {
     const Error error(ErrorCode::kBadInput, problem.message,

@@ -84,6 +84,14 @@ TEST(Render, FolderThatIsNoRun) {
   EXPECT_NE(ended.err.find("run.json"), std::string::npos) << ended.err;
 }
 
+TEST(Render, EmptyFileIsNoMap) {
+  const SmallWorld world;
+  const Ended ended = render(world, world.folder().write("empty.map", ""));
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("worldspawn"), std::string::npos) << ended.err;
+  EXPECT_FALSE(fs::exists(world.folder() / "picture.png"));
+}
+
 TEST(Render, UnknownLayerIsUsage) {
   const SmallWorld world;
   EXPECT_EQ(render(world, world.folder() / "small.map", {"--show", "truth,ghosts"}).status, 2);
