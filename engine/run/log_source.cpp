@@ -33,7 +33,8 @@ void LogSource::read(std::uint32_t iteration, SourceFrame& frame) {
   const auto& q = pose->orientation;
   const auto& t = pose->position_m;
   frame.orientation_known = pose->orientation_known;
-  frame.T_world_body = Pose{Quat(q[0], q[1], q[2], q[3]).normalized(), Vec3(t[0], t[1], t[2])};
+  // As it was read: normalised again it might differ in its last bit, and be written as another pose.
+  frame.T_world_body = Pose{Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
 }
 
 }  // namespace hallway::run

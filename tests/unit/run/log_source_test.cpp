@@ -50,6 +50,20 @@ TEST(LogSource, EndsAtTheStepsAskedFor) {
   EXPECT_EQ(LogSource(three_frames(), {}, {}, kPeriod_ns, 9).iterations(), 3u);
 }
 
+TEST(LogSource, KeepsEveryBitOfAnOrientation) {
+  // Of unit length up to rounding; normalised again, its last bits change.
+  const std::array<double, 4> q{-0.18472260313412858, 0.00953442583807561, 0.0017921514471043562,
+                                0.982742816208025};
+  LogTruth truth;
+  truth.poses.emplace({log::IterationPose{.iteration = 0, .orientation = q}});
+  LogSource source(three_frames(), truth, {}, kPeriod_ns, 0);
+  SourceFrame frame;
+  source.read(0, frame);
+  const Quat& kept = frame.T_world_body->q;
+  EXPECT_EQ((std::array<double, 4>{kept.w(), kept.x(), kept.y(), kept.z()}), q);
+  EXPECT_NE(kept.normalized().w(), q[0]) << "this quaternion would not show the difference";
+}
+
 TEST(LogSource, SaysWhenOnlyPositionsAreKnown) {
   LogTruth truth;
   truth.poses.emplace({log::IterationPose{.iteration = 0, .orientation_known = false}});
