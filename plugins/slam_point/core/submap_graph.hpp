@@ -59,7 +59,7 @@ class SubmapGraph {
 
   /// Makes `submap` the active one: its share in its landmarks changes with every frame.
   void activate(Index submap);
-  /// Ends that: the active submap's means are final for now.
+  /// Ends that: the active submap's means stay as they are until it is opened again.
   void deactivate();
   Index active() const { return active_; }
 
