@@ -67,9 +67,15 @@ TEST(Plugin, MayBeDestroyedAtAnyPointOfItsLife) {
     active.activate(point_sensors());
   }
   FrameBuilder builder;
-  Plugin fed(find_plugin(EXAMPLE, {}));
-  fed.activate(point_sensors());
-  fed.process(frame_of(builder, 0, {{1, 2, 3}}));
+  {
+    Plugin fed(find_plugin(EXAMPLE, {}));
+    fed.activate(point_sensors());
+    fed.process(frame_of(builder, 0, {{1, 2, 3}}));
+  }
+  Plugin next(find_plugin(EXAMPLE, {}));
+  next.activate(point_sensors());
+  const Outputs& outputs = next.process(frame_of(builder, 0, {{1, 2, 3}}));
+  EXPECT_TRUE(outputs.pose()) << "those before it must not have taken anything away";
 }
 
 TEST(Plugin, ACallIsTimedByBothClocks) {
