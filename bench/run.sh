@@ -13,3 +13,16 @@ echo
 /usr/bin/python3 "$here/accuracy.py" "$build/bin/hallway" "$out/accuracy"
 echo
 "$build/bin/bench_trace" --benchmark_min_time=0.2
+echo
+"$build/bin/bench_visibility"
+echo
+"$build/bin/bench_bsp"
+echo
+maps=${HALLWAY_DATA:-$here/../../shared/data}/maps
+if [[ -d $maps/id1 ]]; then
+  "$build/bin/bench_compile" $(for map in e1m1 e1m7 dm2 dm5 end; do echo "$maps/id1/$map.map=$maps/id1_bsp/$map.bsp"; done)
+  echo
+  "$build/bin/bench_visibility" "$maps/id1/e1m1.map"
+else
+  echo "no maps at $maps: nothing to compile"
+fi

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What the exact answers of trace::Scene cost: occlusion queries in a hall of boxes by our two backends, and by Embree
-// alone with its own triangles in single precision (which decides rays near edges differently).
+// What the exact answers of trace::Scene cost: occlusion queries in a hall of boxes by our two backends, one by one and many
+// from one point, and by Embree alone with its own triangles in single precision (which decides rays near edges
+// differently).
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -74,6 +77,39 @@ void occluded(benchmark::State& state, trace::Backend backend) {
   }
 }
 
+/// Points within 12 m of one eye after the other; neighbours follow each other, or they come as drawn.
+void occluded_from(benchmark::State& state, bool neighbours_follow) {
+  constexpr std::size_t kPoints = 1024;
+  const trace::Scene scene(hall(state.range(0)), trace::Backend::kEmbree);
+  const Random random(3, stream_id("views"));
+  std::vector<Vec3> eyes;
+  std::vector<std::vector<Vec3>> views;
+  for (std::uint32_t i = 0; i < 32; ++i) {
+    eyes.push_back({random.uniform(i, 0, -40.0, 40.0), random.uniform(i, 1, -40.0, 40.0), 1.2});
+    auto& points = views.emplace_back();
+    for (std::uint64_t k = 1; k <= kPoints; ++k) {
+      points.push_back(eyes.back() + Vec3(random.uniform(i, 3 * k, -12.0, 12.0),
+                                          random.uniform(i, 3 * k + 1, -12.0, 12.0),
+                                          random.uniform(i, 3 * k + 2, -1.1, 1.5)));
+    }
+    if (!neighbours_follow) continue;
+    std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+      const auto cell = [&](const Vec3& p) {
+        return std::pair(std::floor((p.x() - eyes.back().x()) / 3.0), p.y());
+      };
+      return cell(a) < cell(b);
+    });
+  }
+  std::vector<std::uint8_t> hidden(kPoints);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const std::size_t i = next++ % eyes.size();
+    scene.occluded_from(eyes[i], views[i], hidden);
+    benchmark::DoNotOptimize(hidden.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kPoints));
+}
+
 void first_hit(benchmark::State& state, trace::Backend backend) {
   const trace::Scene scene(hall(state.range(0)), backend);
   const auto pairs = segments();
@@ -127,6 +163,8 @@ void embree_alone(benchmark::State& state) {
 
 BENCHMARK_CAPTURE(occluded, embree_tree, trace::Backend::kEmbree)->Arg(100)->Arg(2000)->Arg(20000);
 BENCHMARK(embree_alone)->Name("occluded/embree_alone")->Arg(100)->Arg(2000)->Arg(20000);
+BENCHMARK_CAPTURE(occluded_from, neighbours, true)->Arg(100)->Arg(2000)->Arg(20000);
+BENCHMARK_CAPTURE(occluded_from, as_drawn, false)->Arg(100)->Arg(2000)->Arg(20000);
 BENCHMARK_CAPTURE(occluded, brute_force, trace::Backend::kBruteForce)->Arg(100)->Arg(2000);
 BENCHMARK_CAPTURE(first_hit, embree_tree, trace::Backend::kEmbree)->Arg(100)->Arg(2000)->Arg(20000);
 

@@ -17,6 +17,9 @@ void add_run_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
 void add_render_command(CLI::App& app, Action& chosen);
 void add_plugin_command(CLI::App& app, Action& chosen);
+void add_import_command(CLI::App& app, Action& chosen);
+void add_compile_command(CLI::App& app, Action& chosen);
+void add_map_command(CLI::App& app, Action& chosen);
 
 /// Adds `--plugin-path DIR`, which may stand several times.
 void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders);

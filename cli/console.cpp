@@ -54,7 +54,8 @@ std::string clock_text(double seconds) {
 
 int report_failure(const std::exception& failure, bool json) {
   const auto* known = dynamic_cast<const Error*>(&failure);
-  const int status = exit_status(known ? known->code() : ErrorCode::kInternal);
+  int status = exit_status(known ? known->code() : ErrorCode::kInternal);
+  if (known && known->code() == ErrorCode::kInterrupted && interrupted()) status = interrupt_status();
   const std::string text = known ? failure.what() : fmt::format("internal error: {}", failure.what());
   if (json) {
     // What cannot be printed has still its exit status.

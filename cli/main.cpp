@@ -28,16 +28,24 @@ bool asks_for_json(int argc, char** argv) {
   return false;
 }
 
-/// The first word is the command; the parser would only say that one is required.
+/// The first words are the command; the parser would only say that one is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::string wanted = argv[1];
-  if (std::find(names.begin(), names.end(), wanted) != names.end()) return;
-  throw hallway::Error(hallway::ErrorCode::kUsage,
-                       fmt::format("there is no command \"{}\"{}; there are: {}", hallway::printable(wanted),
-                                   hallway::suggestion(wanted, names), fmt::join(names, ", ")));
+  const CLI::App* group = &app;
+  std::string path;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : group->get_subcommands({})) names.push_back(command->get_name());
+    if (names.empty()) return;
+    const std::string wanted = argv[i];
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) {
+      throw hallway::Error(
+          hallway::ErrorCode::kUsage,
+          fmt::format("there is no command \"{}{}\"{}; there are: {}", path, hallway::printable(wanted),
+                      hallway::suggestion(wanted, names), fmt::join(names, ", ")));
+    }
+    group = group->get_subcommand(wanted);
+    path += wanted + " ";
+  }
 }
 
 /// Help and version end a parse too, and are no failure.
@@ -47,7 +55,11 @@ int report_parse(const CLI::App& app, const CLI::ParseError& stop, bool json) {
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
   const int status =
       hallway::cli::report_failure(hallway::Error(hallway::ErrorCode::kUsage, stop.what()), json);
-  fmt::print(stderr, "Try `{}{} --help`.\n", command == &app ? "" : "hallway ", command->get_name());
+  std::string name = command->get_name();
+  for (const CLI::App* group = command->get_parent(); group != nullptr; group = group->get_parent()) {
+    name = group->get_name() + " " + name;
+  }
+  fmt::print(stderr, "Try `{} --help`.\n", name);
   return status;
 }
 
@@ -66,6 +78,9 @@ int main(int argc, char** argv) {
     hallway::cli::add_replay_command(app, chosen);
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);
+    hallway::cli::add_import_command(app, chosen);
+    hallway::cli::add_compile_command(app, chosen);
+    hallway::cli::add_map_command(app, chosen);
     check_command(app, argc, argv);
     try {
       app.parse(argc, argv);

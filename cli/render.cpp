@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
+#include "compiled_map.hpp"
 #include "console.hpp"
-#include "map/reader.hpp"
-#include "map/world.hpp"
+#include "mesh/load.hpp"
+#include "mesh/placement.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
+#include "show_list.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -48,18 +50,9 @@ void parse_size(const std::string& text, sim::PictureSpec& spec) {
   spec.height_px = static_cast<int>(*height);
 }
 
-std::optional<Vec3> parse_place(const char* option, const std::string& text) {
+std::optional<Vec3> optional_place(const char* option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  const auto parts = split(text, ',');
-  Vec3 place = Vec3::Zero();
-  bool good = parts.size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const auto number = parse_double(trim(parts[i]));
-    good = number.has_value();
-    if (good) place[static_cast<Eigen::Index>(i)] = *number;
-  }
-  if (!good) refuse(fmt::format("{} takes X,Y,Z in metres, not \"{}\"", option, printable(text)));
-  return place;
+  return parse_place(option, text);
 }
 
 sim::PictureSpec spec_of(const RenderOptions& options) {
@@ -68,47 +61,56 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   spec.view = options.view == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
   parse_size(options.size, spec);
   spec.cut_z_m = options.cut_z_m;
-  spec.eye_m = parse_place("--eye", options.eye);
-  spec.target_m = parse_place("--target", options.target);
+  spec.eye_m = optional_place("--eye", options.eye);
+  spec.target_m = optional_place("--target", options.target);
   if (spec.eye_m.has_value() != spec.target_m.has_value()) refuse("--eye and --target are given together");
   if (spec.eye_m && spec.view == sim::PictureView::kTop)
     refuse("--eye and --target belong to --view perspective");
-  const std::vector<std::string>& layers = sim::picture_layer_names();
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const bool wanted = options.show.empty() ||
-                        std::find(options.show.begin(), options.show.end(), layers[i]) != options.show.end();
-    if (wanted) spec.show.push_back(static_cast<sim::PictureLayer>(i));
-  }
   return spec;
 }
 
-std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec) {
-  const map::Document document = map::load(options.input);
-  if (document.worldspawn() == nullptr) {
-    throw Error(ErrorCode::kBadInput, "holds no map: it has no entity of class worldspawn",
-                {.file = printable(options.input)});
+/// The models that stand in a map, as faces; one that cannot be read is a warning.
+std::vector<render::Surface> mesh_faces(const CompiledMap& compiled, bool strict) {
+  std::vector<Error> faults;
+  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
+  std::vector<render::Surface> faces = run::model_faces(compiled.document, folder, faults);
+  for (const Error& fault : faults) {
+    if (strict) throw fault;
+    print_warning(std::string(fault.what()) + "; left out");
   }
-  const map::World world = map::build_world(document);
-  for (const map::Problem& problem : world.problems) {
-    const Error error(ErrorCode::kBadInput, problem.message,
-                      {.file = printable(options.input),
-                       .line = problem.line,
-                       .element = map::brush_name(problem.entity, problem.brush)});
-    if (options.strict) throw error;
-    print_warning(std::string(error.what()) + "; left out");
+  return faces;
+}
+
+std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
+  MapRequest request{.file = options.input, .strict = options.strict};
+  if (show.map.pvs_from_m) request.level = pvs::Level::kFull;
+  const CompiledMap compiled = compile_map(request);
+  const run::MapSubject subject{.world = compiled.world,
+                                .title = fs::path(options.input).stem().string(),
+                                .meshes = mesh_faces(compiled, options.strict)};
+  return run::draw_map_picture(subject, spec, show.map);
+}
+
+std::string draw_run(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
+  run::Record record = run::read_record(options.input);
+  if (show.map.anything() && !record.world) {
+    throw Error(ErrorCode::kBadInput, "has no map to show", {.file = printable(options.input, 4096)});
   }
-  return run::draw_map_picture(world, fs::path(options.input).stem().string(), spec);
+  if (show.map.pvs_from_m) {
+    const std::string map = (fs::path(options.input) / run::files::kMap).string();
+    record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
+  }
+  return run::draw_run_picture(record, spec, show.map);
 }
 
 int render(const RenderOptions& options) {
-  const sim::PictureSpec spec = spec_of(options);
+  const ShowList show = parse_show(options.show);
+  sim::PictureSpec spec = spec_of(options);
+  spec.show = show.run;
+  check_output_file(options.out);
   std::error_code code;
-  if (fs::exists(options.out, code) && !fs::is_regular_file(options.out, code)) {
-    throw Error(ErrorCode::kIo, "is not a file that can be replaced", {.file = printable(options.out)});
-  }
-  const std::string png = fs::is_directory(options.input, code)
-                              ? run::draw_run_picture(run::read_record(options.input), spec)
-                              : draw_map(options, spec);
+  const std::string png =
+      fs::is_directory(options.input, code) ? draw_run(options, spec, show) : draw_map(options, spec, show);
   write_file_atomically(options.out, png);
   if (options.json) {
     print_json({{"schema", "hallway.picture/1"},
@@ -144,14 +146,18 @@ void add_render_command(CLI::App& app, Action& chosen) {
   command->add_option("--eye", options->eye, "perspective: viewpoint in metres [what shows everything]")
       ->type_name("X,Y,Z");
   command->add_option("--target", options->target, "perspective: the place looked at")->type_name("X,Y,Z");
-  command->add_option("--show", options->show, "What to show of a run [all]")
-      ->delimiter(',')
+  command
+      ->add_option(
+          "--show", options->show,
+          "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
       ->type_name("LAYER,...")
-      ->check(CLI::IsMember(sim::picture_layer_names()));
+      ->take_all()
+      ->expected(1);
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
-      "Example: hallway render out/office --view perspective --out office.png --show map,truth,estimate");
+      "Examples: hallway render out/office --view perspective --out office.png --show map,truth,estimate\n"
+      "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
   command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
 }
 

@@ -94,6 +94,17 @@ std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool str
   return warnings;
 }
 
+/// The files of the map's models, named as the map names them.
+std::vector<run::Attachment> model_files(const sim::Simulator& simulator) {
+  const fs::path folder = simulator.scenario().map_file.parent_path();
+  std::vector<run::Attachment> files;
+  for (const fs::path& file : simulator.models().files) {
+    files.push_back(
+        {file.lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string(), read_file(file)});
+  }
+  return files;
+}
+
 int run_scenario(const RunOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario, overrides_of(options));
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
@@ -113,6 +124,8 @@ int run_scenario(const RunOptions& options) {
                            .threads = options.threads};
   facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
                   {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
+  const std::vector<run::Attachment> models = model_files(simulator);
+  facts.inputs.insert(facts.inputs.end(), models.begin(), models.end());
   run::RunPlan plan{.folder = options.out.empty() ? fs::path("out") / name : fs::path(options.out),
                     .replace = options.force,
                     .manifest = run::make_manifest(facts, pipeline),
@@ -120,6 +133,7 @@ int run_scenario(const RunOptions& options) {
                                     {run::files::kMap, facts.inputs[1].content}},
                     .pictures = scenario.pictures,
                     .write_observations = true};
+  for (const run::Attachment& model : models) plan.attachments.push_back(model);
   return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
                             {.json = options.json, .quiet = options.quiet});
 }

@@ -119,7 +119,7 @@ std::optional<std::string> nearest_name(std::string_view name, const std::vector
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   const auto nearest = nearest_name(name, candidates);
-  return nearest ? " (did you mean \"" + *nearest + "\"?)" : std::string();
+  return nearest ? " (did you mean \"" + printable(*nearest) + "\"?)" : std::string();
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

@@ -41,6 +41,8 @@ struct Face {
   double u_scale = 1.0;  ///< map units per texture pixel
   double v_scale = 1.0;
   std::optional<SurfaceFlags> surface_flags{};
+  /// The texture's place by the two rows of a brush primitive (`brushDef`); kept, not interpreted.
+  std::optional<std::array<double, 6>> texture_matrix{};
   int line = 0;
 };
 
@@ -48,6 +50,9 @@ struct Face {
 struct Brush {
   std::vector<std::string> comments{};
   std::vector<Face> faces{};
+  /// A shape that is kept and not understood, such as a patch: its text as in the file, from its keyword to its closing
+  /// brace. Empty in brushes of faces.
+  std::string unread{};
   std::vector<std::string> closing_comments{};  ///< those before its closing brace
   int line = 0;                                 ///< of its opening brace
 };

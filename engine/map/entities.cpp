@@ -21,7 +21,7 @@ std::optional<RobotStart> find_robot_start(const Document& document) {
     if (entity.classname() != "hw_robot_start") continue;
     const EntityKeys keys(document, entity);
     if (start) throw keys.error("a second robot start; the first is at line " + std::to_string(start->line));
-    keys.refuse_unknown({});
+    keys.refuse_unknown();
     start =
         RobotStart{{from_yaw_pitch_roll(keys.angle(), 0.0, 0.0), keys.origin_m()}, keys.index(), entity.line};
   }
@@ -34,7 +34,7 @@ std::vector<LandmarkCloud> landmark_clouds(const Document& document) {
   for (const Entity& entity : document.entities) {
     if (entity.classname() != "hw_landmark_cloud") continue;
     const EntityKeys keys(document, entity);
-    keys.refuse_unknown({"name", "path", "per_100m", "sideways_m", "height_m", "seed"});
+    keys.refuse_unknown();
     LandmarkCloud cloud;
     cloud.name = keys.text("name");
     cloud.path = keys.text("path");

@@ -2,7 +2,6 @@
 #include "map/entity_keys.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,9 +12,6 @@
 
 namespace hallway::map {
 namespace {
-
-constexpr std::array<std::string_view, 6> kCommonKeys{"classname",  "origin", "angle",
-                                                      "targetname", "target", "spawnflags"};
 
 std::string quote(std::string_view text) {
   return "`" + printable(text, 60) + "`";
@@ -46,6 +42,11 @@ const KeyValue* EntityKeys::find_once(std::string_view key) const {
     found = &pair;
   }
   return found;
+}
+
+bool EntityKeys::is_doubled(std::string_view key) const {
+  return std::count_if(entity_.keys.begin(), entity_.keys.end(),
+                       [&](const KeyValue& pair) { return pair.key == key; }) > 1;
 }
 
 const KeyValue& EntityKeys::require(std::string_view key) const {
@@ -108,23 +109,41 @@ bool EntityKeys::flag_or(std::string_view key, bool fallback) const {
   return pair->value == "1";
 }
 
-Vec3 EntityKeys::origin_m() const {
-  const KeyValue& pair = require("origin");
+std::vector<double> EntityKeys::numbers_from(const KeyValue& pair) const {
+  constexpr std::size_t kMost = 4;  // one more than any key has: enough to see that there are too many
   std::vector<double> numbers;
   for (const std::string_view part : split(pair.value, ' ')) {
     if (part.empty()) continue;
     const auto value = parse_double(part);
-    if (!value) throw error("key `origin`: " + quote(part) + " is no finite decimal number", "origin");
-    if (std::abs(*value) > kMaxCoordinate) {
-      throw error("key `origin`: " + quote(part) + " lies beyond " + format_double(kMaxCoordinate) + " units",
-                  "origin");
-    }
+    if (!value)
+      throw error("key " + quote(pair.key) + ": " + quote(part) + " is no finite decimal number", pair.key);
     numbers.push_back(*value);
-    if (numbers.size() > 3) break;
+    if (numbers.size() == kMost) break;
   }
+  return numbers;
+}
+
+Vec3 EntityKeys::vector(std::string_view key) const {
+  const KeyValue& pair = require(key);
+  const std::vector<double> numbers = numbers_from(pair);
   if (numbers.size() != 3)
-    throw error("key `origin`: " + quote(pair.value) + " is not three numbers", "origin");
-  return Vec3(numbers[0], numbers[1], numbers[2]) * document_.metres_per_unit();
+    throw error("key " + quote(key) + ": " + quote(pair.value) + " is not three numbers", key);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Vec3 EntityKeys::point(std::string_view key) const {
+  const Vec3 point = vector(key);
+  for (const double coordinate : point) {
+    if (std::abs(coordinate) <= kMaxCoordinate) continue;
+    throw error("key " + quote(key) + ": `" + format_double(coordinate) + "` lies beyond " +
+                    format_double(kMaxCoordinate) + " units",
+                key);
+  }
+  return point;
+}
+
+Vec3 EntityKeys::origin_m() const {
+  return point("origin") * document_.metres_per_unit();
 }
 
 double EntityKeys::angle() const {
@@ -132,13 +151,82 @@ double EntityKeys::angle() const {
   return number_or("angle", 0.0, -kLargest_deg, kLargest_deg) * std::numbers::pi / 180.0;
 }
 
-void EntityKeys::refuse_unknown(std::initializer_list<std::string_view> known) const {
-  std::vector<std::string> names(kCommonKeys.begin(), kCommonKeys.end());
-  names.insert(names.end(), known.begin(), known.end());
+std::vector<Error> EntityKeys::unknown_keys() const {
+  const EntitySpec* spec = find_entity_spec(entity_.classname());
+  if (!spec || spec->open) return {};
+  std::vector<std::string> names(common_keys().begin(), common_keys().end());
+  const std::string_view variant = variant_of(*spec, entity_);
+  for (const KeySpec& key : spec->keys) {
+    if (belongs(key, variant)) names.emplace_back(key.name);
+  }
+  constexpr std::size_t kMost = 20;  // of one entity; each takes a walk over all of its keys
+  std::vector<Error> unknown;
   for (const KeyValue& pair : entity_.keys) {
+    if (unknown.size() == kMost) break;
     if (pair.key.starts_with('_') || pair.key.starts_with("//")) continue;
     if (std::find(names.begin(), names.end(), pair.key) != names.end()) continue;
-    throw error("unknown key " + quote(pair.key) + suggestion(pair.key, names), pair.key);
+    unknown.push_back(error("unknown key " + quote(pair.key) + suggestion(pair.key, names), pair.key));
+  }
+  return unknown;
+}
+
+void EntityKeys::refuse_unknown() const {
+  const std::vector<Error> unknown = unknown_keys();
+  if (!unknown.empty()) throw unknown.front();
+}
+
+void EntityKeys::check_scale(std::string_view key) const {
+  const KeyValue& pair = require(key);
+  const std::vector<double> numbers = numbers_from(pair);
+  const bool in_range = std::all_of(numbers.begin(), numbers.end(),
+                                    [](double n) { return std::abs(n) >= 1e-6 && std::abs(n) <= 1e6; });
+  if ((numbers.size() == 1 || numbers.size() == 3) && in_range) return;
+  throw error("key " + quote(key) + ": " + quote(pair.value) +
+                  " is not one number or three, each of 1e-6 to 1e6 or its negative",
+              key);
+}
+
+void EntityKeys::check_choice(const KeySpec& key) const {
+  const std::string value = text(key.name);
+  std::vector<std::string> choices;
+  for (const std::string_view choice : split(key.choices, ' ')) choices.emplace_back(choice);
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+  std::string message =
+      "unknown " + std::string(key.name) + " " + quote(value) + suggestion(value, choices) + "; there are";
+  for (const std::string& choice : choices) message += " `" + choice + "`";
+  throw error(message, key.name);
+}
+
+void EntityKeys::check_value(const KeySpec& key) const {
+  switch (key.kind) {
+    case KeyKind::kText:
+    case KeyKind::kName:
+      text(key.name);
+      break;
+    case KeyKind::kNumber:
+      number(key.name, key.low, key.high);
+      break;
+    case KeyKind::kWhole:
+      integer(key.name);
+      break;
+    case KeyKind::kSeed:
+      seed_or(key.name, 0);
+      break;
+    case KeyKind::kFlag:
+      flag_or(key.name, false);
+      break;
+    case KeyKind::kChoice:
+      check_choice(key);
+      break;
+    case KeyKind::kPoint:
+      point(key.name);
+      break;
+    case KeyKind::kVector:
+      vector(key.name);
+      break;
+    case KeyKind::kScale:
+      check_scale(key.name);
+      break;
   }
 }
 

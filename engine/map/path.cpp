@@ -2,6 +2,7 @@
 #include "map/path.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,10 @@ const Entity& path_entity(const Document& document, std::string_view name) {
   if (first == names.end()) {
     std::string message = "the map has no path `" + printable(name, 60) + "`" + suggestion(name, names);
     message += names.empty() ? "; it has no hw_path at all" : "; it has";
-    for (std::size_t i = 0; i < names.size(); ++i)
+    constexpr std::size_t kMostListed = 20;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
       message += (i ? ", `" : " `") + printable(names[i], 60) + "`";
+    if (names.size() > kMostListed) message += " and " + std::to_string(names.size() - kMostListed) + " more";
     throw Error(ErrorCode::kBadInput, message, {document.file, 0, {}});
   }
   const auto second = std::find(std::next(first), names.end(), name);
@@ -59,13 +62,14 @@ const Entity& path_entity(const Document& document, std::string_view name) {
 /// In the order of their keys `index`. Looks at all waypoints of the map, so that one with a misspelt path is not lost.
 std::vector<Waypoint> waypoints_of(const Document& document, std::string_view name) {
   const std::vector<std::string> names = path_names(document);
+  const std::set<std::string_view> known(names.begin(), names.end());
   std::vector<Waypoint> waypoints;
   for (const Entity& entity : document.entities) {
     if (entity.classname() != "hw_waypoint") continue;
     const EntityKeys keys(document, entity);
-    keys.refuse_unknown({"path", "index"});
+    keys.refuse_unknown();
     const std::string path = keys.text("path");
-    if (std::find(names.begin(), names.end(), path) == names.end()) {
+    if (!known.contains(path)) {
       throw keys.error("the map has no path `" + printable(path, 60) + "`" + suggestion(path, names), "path");
     }
     if (path == name) waypoints.push_back({keys.integer("index"), keys.origin_m(), &entity});
@@ -84,7 +88,7 @@ std::vector<Waypoint> waypoints_of(const Document& document, std::string_view na
 }
 
 Path waypoint_path(const Document& document, const EntityKeys& keys, std::string_view name) {
-  keys.refuse_unknown({"name", "shape", "closed", "corner_radius_m"});
+  keys.refuse_unknown();
   const bool closed = keys.flag_or("closed", false);
   const double radius = keys.number_or("corner_radius_m", kDefaultCornerRadius_m, kMinLength_m, kMaxLength_m);
   const std::vector<Waypoint> waypoints = waypoints_of(document, name);
@@ -101,7 +105,7 @@ Path waypoint_path(const Document& document, const EntityKeys& keys, std::string
 }
 
 Path lemniscate_path(const EntityKeys& keys) {
-  keys.refuse_unknown({"name", "shape", "length_m", "rise_m"});
+  keys.refuse_unknown();
   LemniscateSpec spec;
   spec.crossing = keys.origin_m();
   spec.heading = keys.angle();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "map/reader.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "map/texture_axes.hpp"
 #include "map/tokenizer.hpp"
 #include "map/world.hpp"
 
@@ -46,6 +48,7 @@ class Reader {
       } else if (next == '{') {
         read_brush(entity);
       } else {
+        if (next == '(') refuse_loose_face();
         fail_unclosed("the entity", entity.line, "a quoted key, `{` or `}`");
       }
     }
@@ -71,20 +74,52 @@ class Reader {
     Brush& brush = entity.brushes.emplace_back();
     brush.line = tokens_.line();
     brush.comments = tokens_.take_comments();
-    while (!tokens_.accept('}')) {
-      const char next = tokens_.peek();
-      if (next == '(') {
-        brush.faces.push_back(read_face());
-      } else {
-        refuse_other_shapes(next);
-        fail_unclosed("the brush", brush.line, "`(` of a face or `}`");
-      }
+    const char first = tokens_.peek();
+    if (first == '(' || first == '}') {
+      read_faces(brush, FaceForm::kAxes);
+    } else {
+      read_other_shape(brush);
+      if (!tokens_.accept('}')) fail_unclosed("the brush", brush.line, "`}`");
     }
     brush.closing_comments = tokens_.take_comments();
     in_brush_ = false;
   }
 
-  Face read_face() {
+  /// How the faces of a brush say where the texture lies.
+  enum class FaceForm { kAxes, kMatrix };
+
+  /// Up to and with the closing brace.
+  void read_faces(Brush& brush, FaceForm form) {
+    while (!tokens_.accept('}')) {
+      if (tokens_.peek() != '(') {
+        refuse_other_shapes();
+        fail_unclosed("the brush", brush.line, "`(` of a face or `}`");
+      }
+      brush.faces.push_back(read_face(form));
+    }
+  }
+
+  /// What begins with a word: brush primitives are read, and patches and the like kept as they stand.
+  void read_other_shape(Brush& brush) {
+    const std::string word = tokens_.describe_next();
+    if (word == "`brushDef`") {
+      tokens_.take_word();
+      tokens_.expect('{', "after `brushDef`");
+      read_faces(brush, FaceForm::kMatrix);
+    } else if (is_shape(word)) {
+      for (std::string& comment : tokens_.take_comments()) brush.comments.push_back(std::move(comment));
+      brush.unread = tokens_.block();
+    } else {
+      refuse_other_shapes();
+      fail_unclosed("the brush", brush.line, "`(` of a face or `}`");
+    }
+  }
+
+  static bool is_shape(std::string_view quoted_word) {
+    return quoted_word.starts_with("`brushDef") || quoted_word.starts_with("`patchDef");
+  }
+
+  Face read_face(FaceForm form) {
     Face face;
     face.comments = tokens_.take_comments();
     face.line = tokens_.line();
@@ -93,20 +128,56 @@ class Reader {
       for (double& coordinate : point) coordinate = tokens_.number("a coordinate of the face");
       tokens_.expect(')', "after the three coordinates of a point");
     }
+    if (form == FaceForm::kMatrix) face.texture_matrix = read_matrix();
     face.material = tokens_.material();
-    if (tokens_.number_follows()) {
-      throw SyntaxFault{
-          face.line,
-          "the face is in the Standard format, where numbers follow the material; only Valve 220 "
-          "(`[ x y z offset ]` twice) is read"};
+    if (form == FaceForm::kMatrix) {
+      set_standard_axes(face);
+    } else if (tokens_.number_follows()) {
+      read_standard_texture(face);
+    } else {
+      read_valve_texture(face);
     }
+    if (tokens_.number_follows() && !is_shape(tokens_.describe_next())) face.surface_flags = read_flags();
+    return face;
+  }
+
+  std::array<double, 6> read_matrix() {
+    std::array<double, 6> matrix{};
+    tokens_.expect('(', "to begin the texture's matrix");
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+      if (i % 3 == 0) tokens_.expect('(', "to begin a row of the texture's matrix");
+      matrix[i] = tokens_.number("the texture's matrix");
+      if (i % 3 == 2) tokens_.expect(')', "after the three numbers of a row");
+    }
+    tokens_.expect(')', "after the texture's matrix");
+    return matrix;
+  }
+
+  void read_standard_texture(Face& face) {
+    face.u_offset = tokens_.number("the texture's offset");
+    face.v_offset = tokens_.number("the texture's offset");
+    read_rotation_and_scale(face);
+    if (face.u_scale == 0.0) face.u_scale = 1.0;  // as Quake's compilers do
+    if (face.v_scale == 0.0) face.v_scale = 1.0;
+    set_standard_axes(face);
+  }
+
+  static void set_standard_axes(Face& face) {
+    const TextureAxes axes = standard_axes(face.points, face.rotation_deg);
+    face.u_axis = axes.u;
+    face.v_axis = axes.v;
+  }
+
+  void read_valve_texture(Face& face) {
     read_axis(face.u_axis, face.u_offset);
     read_axis(face.v_axis, face.v_offset);
+    read_rotation_and_scale(face);
+  }
+
+  void read_rotation_and_scale(Face& face) {
     face.rotation_deg = tokens_.number("the texture's rotation");
     face.u_scale = tokens_.number("the texture's scale");
     face.v_scale = tokens_.number("the texture's scale");
-    if (tokens_.number_follows()) face.surface_flags = read_flags();
-    return face;
   }
 
   void read_axis(Vec3& axis, double& offset) {
@@ -119,6 +190,12 @@ class Reader {
   SurfaceFlags read_flags() {
     SurfaceFlags flags;
     flags.contents = whole(tokens_.number("the surface's contents"));
+    if (!tokens_.number_follows()) {
+      throw SyntaxFault{
+          tokens_.line(),
+          "one number after the texture's scale, as Hexen II has it, is not read; three (contents, flags, "
+          "value) or none are"};
+    }
     flags.flags = whole(tokens_.number("the surface's flags"));
     flags.value = tokens_.number("the surface's value");
     return flags;
@@ -132,12 +209,21 @@ class Reader {
     return static_cast<std::int64_t>(value);
   }
 
-  void refuse_other_shapes(char next) {
-    if (next == '{') throw SyntaxFault{tokens_.line(), "`{` inside a brush: a brush holds faces only"};
-    const std::string word = tokens_.describe_next();
-    if (word.starts_with("`brushDef") || word.starts_with("`patchDef")) {
-      throw SyntaxFault{tokens_.line(), word + " is not read; only brushes of Valve 220 faces are"};
+  void refuse_other_shapes() {
+    if (tokens_.peek() == '{') {
+      throw SyntaxFault{tokens_.line(), "`{` inside a brush: a brush holds faces only"};
     }
+    const std::string word = tokens_.describe_next();
+    if (is_shape(word)) {
+      throw SyntaxFault{tokens_.line(), word + " after faces: a brush holds faces or one such shape"};
+    }
+  }
+
+  [[noreturn]] void refuse_loose_face() {
+    throw SyntaxFault{
+        tokens_.line(),
+        "a face that is in no brush; faces stand within the braces of a brush, and brushes within those "
+        "of an entity (a brush that was copied from an editor has none)"};
   }
 
   [[noreturn]] void fail_unclosed(const std::string& what, int begun, const std::string& wanted) {

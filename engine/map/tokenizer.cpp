@@ -106,6 +106,18 @@ std::string_view Tokenizer::bare_token() {
   return text_.substr(begin, at_ - begin);
 }
 
+void Tokenizer::take_word() {
+  skip_blanks();
+  bare_token();
+}
+
+/// What stands before the next blank.
+std::string_view Tokenizer::blank_token() {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+  return text_.substr(begin, at_ - begin);
+}
+
 double Tokenizer::number(std::string_view purpose) {
   const char next = peek();
   if (next == '\0' || kSymbols.find(next) != std::string_view::npos) {
@@ -150,8 +162,7 @@ std::string Tokenizer::material() {
   skip_whitespace();
   if (at_ < text_.size() && text_[at_] == '"') return quoted(Quoted::kName, "the material");
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
-  const std::string_view token = text_.substr(begin, at_ - begin);
+  const std::string_view token = blank_token();
   const bool symbol = token.size() == 1 && kSymbols.find(token[0]) != std::string_view::npos;
   if (token.empty() || symbol || token.starts_with("//")) {
     at_ = begin;
@@ -161,6 +172,44 @@ std::string Tokenizer::material() {
     fail("the material's name is longer than " + std::to_string(kMaxKeyBytes) + " bytes");
   }
   return std::string(token);
+}
+
+/// The next word of a block; a comment or a quoted text as a word of its own, empty at the end of the text.
+std::string_view Tokenizer::raw_token() {
+  skip_whitespace();
+  const std::string_view rest = text_.substr(at_);
+  if (rest.starts_with("//") || rest.starts_with(';')) {
+    at_ += std::min(rest.find('\n'), rest.size());
+    return "//";
+  }
+  if (!rest.starts_with('"')) return blank_token();
+  at_ += std::min(rest.find_first_of("\"\n", 1), rest.size());
+  if (at_ < text_.size() && text_[at_] == '"') ++at_;
+  return "\"\"";
+}
+
+std::string Tokenizer::block() {
+  skip_whitespace();
+  const std::size_t begin = at_;
+  const int begun = line_;
+  const std::string word = "`" + printable(blank_token(), 60) + "`";
+  std::string_view token;
+  do token = raw_token();
+  while (token == "//");
+  if (token != "{") {
+    const std::string found = token.empty() ? "the end of the file" : "`" + printable(token, 60) + "`";
+    fail("expected `{` after " + word + ", found " + found);
+  }
+  for (std::size_t depth = 1; depth > 0;) {
+    token = raw_token();
+    if (token == "{") ++depth;
+    if (token == "}") --depth;
+    if (token.empty()) {
+      fail("expected the closing brace of " + word + ", found the end of the file (it begins at line " +
+           std::to_string(begun) + ")");
+    }
+  }
+  return std::string(text_.substr(begin, at_ - begin));
 }
 
 std::string Tokenizer::describe_next() {

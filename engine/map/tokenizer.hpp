@@ -39,6 +39,11 @@ class Tokenizer {
   std::string quoted(Quoted kind, std::string_view purpose);
   /// A name of anything but blanks, or a quoted one.
   std::string material();
+  /// Skips blanks and comments, and takes what is up to the next blank or symbol.
+  void take_word();
+  /// Takes a word and the braces that follow it with all that is between, as it stands in the text. Braces are those
+  /// that stand between blanks; what is quoted or a comment does not count.
+  std::string block();
   /// What stands next, for a message.
   std::string describe_next();
 
@@ -50,6 +55,8 @@ class Tokenizer {
   void skip_blanks();
   void read_comment(std::size_t marker_length);
   std::string_view bare_token();
+  std::string_view blank_token();
+  std::string_view raw_token();
   [[noreturn]] void fail(std::string message) const;
 
   std::string_view text_;

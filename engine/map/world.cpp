@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "base/text.hpp"
+#include "map/content.hpp"
 #include "map/convex_body.hpp"
+#include "map/entity_keys.hpp"
 
 namespace hallway::map {
 namespace {
@@ -79,14 +84,20 @@ LocalPlanes local_planes(const Brush& brush) {
   return local;
 }
 
-std::optional<Cause> find_duplicates(const Brush& brush, const LocalPlanes& local) {
+/// A pair of faces on one plane.
+struct Duplicate {
+  std::size_t first;
+  std::size_t second;
+};
+
+std::optional<Duplicate> find_duplicate(const LocalPlanes& local) {
   for (std::size_t i = 0; i < local.planes.size(); ++i) {
     for (std::size_t j = i + 1; j < local.planes.size(); ++j) {
       const Plane& a = local.planes[i];
       const Plane& b = local.planes[j];
       if ((a.normal - b.normal).norm() > kSameNormal || std::abs(a.offset - b.offset) > local.tolerance)
         continue;
-      return Cause{brush.faces[j].line, lines_of(brush.faces[i], brush.faces[j]) + " lie on the same plane"};
+      return Duplicate{i, j};
     }
   }
   return std::nullopt;
@@ -138,6 +149,8 @@ Solid to_metres(const ConvexBody& body, const LocalPlanes& local, const Brush& b
     SolidFace face;
     face.material = brush.faces[side.plane].material;
     face.line = brush.faces[side.plane].line;
+    face.points = brush.faces[side.plane].points;
+    face.drawn = is_drawn(face.material);
     face.polygon.plane = {plane.normal, (plane.offset + plane.normal.dot(local.origin)) * scale};
     for (const std::uint32_t v : side.loop) face.polygon.vertices.push_back(vertices[v]);
     solid.planes.push_back(face.polygon.plane);
@@ -147,18 +160,115 @@ Solid to_metres(const ConvexBody& body, const LocalPlanes& local, const Brush& b
   return solid;
 }
 
-std::variant<Solid, Cause> build_solid(const Brush& brush, double scale) {
-  if (auto cause = check_faces(brush)) return *cause;
-  const LocalPlanes local = local_planes(brush);
-  if (auto cause = find_duplicates(brush, local)) return *cause;
-  const auto body = intersect_half_spaces(local.planes, kReach, local.tolerance);
-  if (const auto* fault = std::get_if<ConvexFault>(&body)) return explain(*fault, brush, local);
-  return to_metres(std::get<ConvexBody>(body), local, brush, scale);
+Cause explain_unread(const Brush& brush) {
+  const std::string word = brush.unread.substr(0, brush.unread.find_first_of(" \t\r\n\v\f{"));
+  const bool patch = word.starts_with("patchDef");
+  return {brush.line, "`" + printable(word, 60) + "`: " +
+                          (patch ? "patches are not read" : "this form of brush is not read; `brushDef` is")};
 }
 
-bool is_world_class(std::string_view classname) {
-  return classname == "worldspawn" || classname == "func_group";
+/// A body, or why there is none; and what is odd about a brush that is one all the same.
+struct BuiltSolid {
+  std::variant<Solid, Cause> solid;
+  std::optional<Cause> note{};
+};
+
+BuiltSolid build_solid(const Brush& brush, double scale) {
+  if (!brush.unread.empty()) return {explain_unread(brush)};
+  if (auto cause = check_faces(brush)) return {*cause};
+  const LocalPlanes local = local_planes(brush);
+  if (const auto duplicate = find_duplicate(local)) {
+    // The first of the two is enough: the half-spaces are the same.
+    const Face& second = brush.faces[duplicate->second];
+    const std::string message = lines_of(brush.faces[duplicate->first], second) + " lie on the same plane";
+    Brush rest = brush;
+    rest.faces.erase(rest.faces.begin() + static_cast<std::ptrdiff_t>(duplicate->second));
+    BuiltSolid built = build_solid(rest, scale);
+    built.note = Cause{second.line, message};
+    return built;
+  }
+  const auto body = intersect_half_spaces(local.planes, kReach, local.tolerance);
+  if (const auto* fault = std::get_if<ConvexFault>(&body)) return {explain(*fault, brush, local)};
+  return {to_metres(std::get<ConvexBody>(body), local, brush, scale)};
 }
+
+/// What is wrong with a brush, if anything.
+std::optional<Problem> problem_of(const BuiltSolid& built, int entity, int brush) {
+  if (const auto* cause = std::get_if<Cause>(&built.solid))
+    return Problem{entity, brush, cause->line, cause->message, true};
+  if (built.note) return Problem{entity, brush, built.note->line, built.note->message, false};
+  return std::nullopt;
+}
+
+class WorldBuilder {
+ public:
+  explicit WorldBuilder(const Document& document) : document_(document) {
+    world_.metres_per_unit = document.metres_per_unit();
+  }
+
+  World build() {
+    for (std::size_t i = 0; i < document_.entities.size(); ++i) add_entity(i);
+    std::stable_sort(ordered_.begin(), ordered_.end(),
+                     [](const Ordered& a, const Ordered& b) { return a.order < b.order; });
+    for (Ordered& next : ordered_) world_.solids.push_back(std::move(next.solid));
+    for (const auto& [reason, brushes] : left_out_) world_.left_out.push_back({reason, brushes});
+    return std::move(world_);
+  }
+
+ private:
+  struct Ordered {
+    std::int64_t order;
+    Solid solid;
+  };
+
+  void add_entity(std::size_t index) {
+    const Entity& entity = document_.entities[index];
+    const std::int64_t order = order_of(entity);
+    for (std::size_t i = 0; i < entity.brushes.size(); ++i) {
+      const Brush& brush = entity.brushes[i];
+      const BrushContent content = brush_content(entity, brush);
+      if (!content.role) {
+        ++left_out_[content.left_out];
+        continue;
+      }
+      auto solid = solid_from(brush, static_cast<int>(index), static_cast<int>(i));
+      if (!solid) continue;
+      solid->role = *content.role;
+      if (is_material(solid->role)) world_.bounds.extend(solid->box);
+      if (content.ordered) {
+        ordered_.push_back({order, *std::move(solid)});
+      } else {
+        world_.solids.push_back(*std::move(solid));
+      }
+    }
+  }
+
+  /// Key `order` of the classes that have it; also refuses keys that those classes do not have.
+  std::int64_t order_of(const Entity& entity) const {
+    const EntityKeys keys(document_, entity);
+    const std::string_view name = entity.classname();
+    const bool ordered = name == "hw_add" || name == "hw_subtract" || name == "hw_detail";
+    if (ordered) keys.refuse_unknown();
+    return ordered && keys.has("order") ? keys.integer("order") : 0;
+  }
+
+  std::optional<Solid> solid_from(const Brush& brush, int entity_index, int brush_index) {
+    BuiltSolid built = build_solid(brush, world_.metres_per_unit);
+    if (auto problem = problem_of(built, entity_index, brush_index))
+      world_.problems.push_back(*std::move(problem));
+    if (!std::holds_alternative<Solid>(built.solid)) return std::nullopt;
+    Solid solid = std::get<Solid>(std::move(built.solid));
+    solid.entity = entity_index;
+    solid.brush = brush_index;
+    solid.line = brush.line;
+    return solid;
+  }
+
+  const Document& document_;
+  World world_;
+  std::vector<Ordered> ordered_;
+  std::map<LeftOut, std::size_t> left_out_;
+};
 
 }  // namespace
 
@@ -168,28 +278,25 @@ bool Solid::contains(const Vec3& point, double inset_m) const {
 }
 
 World build_world(const Document& document) {
-  const double scale = document.metres_per_unit();
-  World world;
+  return WorldBuilder(document).build();
+}
+
+std::vector<Problem> brush_problems(const Document& document) {
+  std::vector<Problem> problems;
   for (std::size_t e = 0; e < document.entities.size(); ++e) {
     const Entity& entity = document.entities[e];
-    if (!is_world_class(entity.classname())) continue;
     for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
-      auto result = build_solid(entity.brushes[b], scale);
-      const int entity_index = static_cast<int>(e);
-      const int brush_index = static_cast<int>(b);
-      if (const auto* cause = std::get_if<Cause>(&result)) {
-        world.problems.push_back({entity_index, brush_index, cause->line, cause->message});
-        continue;
-      }
-      Solid solid = std::get<Solid>(std::move(result));
-      solid.entity = entity_index;
-      solid.brush = brush_index;
-      solid.line = entity.brushes[b].line;
-      world.bounds.extend(solid.box);
-      world.solids.push_back(std::move(solid));
+      if (!brush_content(entity, entity.brushes[b]).role) continue;
+      const BuiltSolid built = build_solid(entity.brushes[b], kQuakeMetresPerUnit);
+      if (auto problem = problem_of(built, static_cast<int>(e), static_cast<int>(b)))
+        problems.push_back(*std::move(problem));
     }
   }
-  return world;
+  return problems;
+}
+
+std::string problem_text(const Problem& problem) {
+  return problem.message + (problem.left_out ? "; the brush is left out" : "; the first of them counts");
 }
 
 std::string brush_name(int entity, int brush) {

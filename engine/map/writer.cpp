@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "map/writer.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "map/reader.hpp"
+#include "map/tokenizer.hpp"
 #include "map/world.hpp"
 
 namespace hallway::map {
@@ -50,31 +53,76 @@ class Writer {
   void write_brush(const Brush& brush) {
     write_comments(brush.comments);
     out_ += "{\n";
-    for (const Face& face : brush.faces) write_face(face);
+    if (!brush.unread.empty()) {
+      write_unread(brush);
+    } else if (is_primitive(brush)) {
+      out_ += "brushDef\n{\n";
+      for (const Face& face : brush.faces) write_face(face, FaceForm::kMatrix);
+      out_ += "}\n";
+    } else {
+      for (const Face& face : brush.faces) write_face(face, FaceForm::kAxes);
+    }
     write_comments(brush.closing_comments);
     out_ += "}\n";
   }
 
-  void write_face(const Face& face) {
+  enum class FaceForm { kAxes, kMatrix };
+
+  static bool is_primitive(const Brush& brush) {
+    return !brush.faces.empty() && std::all_of(brush.faces.begin(), brush.faces.end(), [](const Face& face) {
+      return face.texture_matrix.has_value();
+    });
+  }
+
+  void write_unread(const Brush& brush) {
+    if (!brush.faces.empty()) fail("a brush of faces and another shape cannot be written");
+    if (!is_block(brush.unread)) fail("a shape whose text is no word and block in braces cannot be written");
+    out_ += brush.unread;
+    out_ += '\n';
+  }
+
+  static bool is_block(const std::string& text) {
+    if (!text.starts_with("brushDef") && !text.starts_with("patchDef")) return false;
+    try {
+      return Tokenizer(text).describe_next() != "`brushDef`" && Tokenizer(text).block() == text;
+    } catch (const SyntaxFault&) {
+      return false;
+    }
+  }
+
+  void write_face(const Face& face, FaceForm form) {
     write_comments(face.comments);
     for (const Vec3& point : face.points) {
       out_ += "( ";
       write_vector(point);
       out_ += ") ";
     }
+    if (form == FaceForm::kMatrix) write_matrix(*face.texture_matrix);
     write_material(face.material);
-    write_axis(face.u_axis, face.u_offset);
-    write_axis(face.v_axis, face.v_offset);
-    for (const double number : {face.rotation_deg, face.u_scale, face.v_scale}) {
-      out_ += ' ';
-      write_number(number);
-    }
+    if (form == FaceForm::kAxes) write_axes(face);
     if (face.surface_flags) {
       out_ += ' ' + std::to_string(face.surface_flags->contents) + ' ' +
               std::to_string(face.surface_flags->flags) + ' ';
       write_number(face.surface_flags->value);
     }
     out_ += '\n';
+  }
+
+  void write_matrix(const std::array<double, 6>& matrix) {
+    out_ += "( ( ";
+    write_vector({matrix[0], matrix[1], matrix[2]});
+    out_ += ") ( ";
+    write_vector({matrix[3], matrix[4], matrix[5]});
+    out_ += ") ) ";
+  }
+
+  void write_axes(const Face& face) {
+    write_axis(face.u_axis, face.u_offset);
+    write_axis(face.v_axis, face.v_offset);
+    for (const double number : {face.rotation_deg, face.u_scale, face.v_scale}) {
+      out_ += ' ';
+      write_number(number);
+    }
   }
 
   void write_axis(const Vec3& axis, double offset) {

@@ -43,6 +43,11 @@ std::vector<Vec3> line_and_mark_points(const Picture& picture) {
   for (const Markers& markers : picture.markers) {
     for (const Vec3& point : markers.positions) add_drawable(points, point);
   }
+  for (const Patches& patches : picture.patches) {
+    for (const auto& polygon : patches.polygons) {
+      for (const Vec3& corner : polygon) add_drawable(points, corner);
+    }
+  }
   for (const Label& label : picture.labels) add_drawable(points, label.position);
   if (picture.frustum) add_drawable(points, picture.frustum->T_world_sensor.t);
   return points;
@@ -97,6 +102,37 @@ std::optional<ScreenSegment> project_segment(const Camera& camera, const Vec3& a
     if (to.z() < kNear) to = to + (kNear - to.z()) / (from.z() - to.z()) * (from - to);
   }
   return ScreenSegment{camera.from_camera(from), camera.from_camera(to)};
+}
+
+/// The part of a convex polygon that is not above a height.
+std::vector<Vec3> below(const std::vector<Vec3>& polygon, double height_m) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3& from = polygon[i];
+    const Vec3& to = polygon[(i + 1) % polygon.size()];
+    if (from.z() <= height_m) out.push_back(from);
+    if ((from.z() <= height_m) != (to.z() <= height_m)) {
+      out.push_back(from + (height_m - from.z()) / (to.z() - from.z()) * (to - from));
+    }
+  }
+  return out;
+}
+
+/// The part of a flat convex polygon that is before the camera, in the picture; empty where there is none.
+std::vector<ScreenPoint> project_polygon(const Camera& camera, const std::vector<Vec3>& polygon) {
+  constexpr double kNear = Camera::near_m();
+  std::vector<ScreenPoint> out;
+  if (!std::all_of(polygon.begin(), polygon.end(), drawable)) return out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 from = camera.to_camera(polygon[i]);
+    const Vec3 to = camera.to_camera(polygon[(i + 1) % polygon.size()]);
+    const bool clipped = camera.kind() == ViewKind::kPerspective;
+    if (!clipped || from.z() >= kNear) out.push_back(camera.from_camera(from));
+    if (clipped && (from.z() < kNear) != (to.z() < kNear)) {
+      out.push_back(camera.from_camera(from + (kNear - from.z()) / (to.z() - from.z()) * (to - from)));
+    }
+  }
+  return out;
 }
 
 std::vector<ScreenSegment> project_line(const Camera& camera, const std::vector<Vec3>& points) {
@@ -163,6 +199,7 @@ class Drawing {
     canvas.set_clip(layout_.map);
     const double grid_m = paint_grid(canvas);
     paint_surfaces(image, canvas);
+    paint_patches(canvas);
     paint_frustum(canvas);
     paint_lines(canvas);
     paint_marks(canvas);
@@ -242,6 +279,22 @@ class Drawing {
       for (Vec3& point : points) point.z() = std::isfinite(point.z()) ? ground : point.z();
       canvas.stroke(project_line(camera_, points),
                     {mix(palette::kPaper, palette::kMutedInk, 0.3), std::min(2.0, line.width_px)});
+    }
+  }
+
+  void paint_patches(Canvas& canvas) const {
+    for (const Patches& patches : picture_.patches) {
+      std::vector<ScreenSegment> rims;
+      for (const auto& polygon : patches.polygons) {
+        const std::vector<Vec3> shown = view_.cut_z_m ? below(polygon, *view_.cut_z_m) : polygon;
+        canvas.fill_convex(project_polygon(camera_, shown), patches.colour,
+                           std::clamp(patches.opacity, 0.0, 1.0));
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+          const auto rim = project_segment(camera_, shown[i], shown[(i + 1) % shown.size()]);
+          if (rim) rims.push_back(*rim);
+        }
+      }
+      if (patches.outline_px > 0.0) canvas.stroke(rims, {patches.colour, patches.outline_px, 0.85, 0.0});
     }
   }
 

@@ -23,13 +23,14 @@ constexpr double kRow = 24.0;
 constexpr double kScaleBarRoom = 230.0;
 constexpr double kScaleBarMost = 150.0;
 constexpr double kSymbol = 28.0;
+constexpr double kScaleSymbol = 130.0;
 constexpr double kSymbolGap = 8.0;
 constexpr double kEntryGap = 26.0;
 constexpr std::size_t kMostEntries = 16;
 
 void add_entry(std::vector<LegendEntry>& entries, LegendEntry entry, const std::string& label) {
   if (label.empty() || entries.size() >= kMostEntries) return;
-  entry.text = printable(label, 80);
+  entry.text = printable(label, 120);
   const bool known = std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& other) {
     return other.text == entry.text && other.kind == entry.kind;
   });
@@ -39,6 +40,17 @@ void add_entry(std::vector<LegendEntry>& entries, LegendEntry entry, const std::
 std::vector<LegendEntry> legend_entries(const Picture& picture) {
   using Kind = LegendEntry::Kind;
   std::vector<LegendEntry> out;
+  for (const Swatch& swatch : picture.swatches) add_entry(out, {Kind::kArea, swatch.colour}, swatch.label);
+  if (!picture.scale.colours.empty()) {
+    LegendEntry entry{Kind::kScale, {}};
+    entry.colours = picture.scale.colours;
+    add_entry(out, std::move(entry), picture.scale.label);
+  }
+  for (const Patches& patches : picture.patches) {
+    LegendEntry entry{Kind::kArea, patches.colour, patches.outline_px};
+    entry.opacity = std::max(0.25, patches.opacity);
+    add_entry(out, std::move(entry), patches.label);
+  }
   for (const Polyline& line : picture.polylines) {
     LegendEntry entry{line.dashed ? Kind::kDashedLine : Kind::kLine, line.colour, line.width_px};
     add_entry(out, entry, line.label);
@@ -56,13 +68,17 @@ std::vector<LegendEntry> legend_entries(const Picture& picture) {
   return out;
 }
 
+double symbol_width(const LegendEntry& entry) {
+  return entry.kind == LegendEntry::Kind::kScale ? kScaleSymbol : kSymbol;
+}
+
 /// Gives each entry its place, row after row; returns the number of rows.
 int place_legend(std::vector<LegendEntry>& entries, double unit, double text_px, double left, double right,
                  const Font& font) {
   int row = 0;
   double x = left;
   for (LegendEntry& entry : entries) {
-    const double before_text = unit * (kSymbol + kSymbolGap);
+    const double before_text = unit * (symbol_width(entry) + kSymbolGap);
     entry.text = font.shortened(entry.text, text_px, right - left - before_text);
     const double width = before_text + font.width_px(entry.text, text_px);
     if (x > left && x + width > right) {
@@ -94,9 +110,33 @@ void fill_box(Canvas& canvas, double left, double top, double right, double bott
   canvas.fill_convex(corners, colour, 1.0);
 }
 
+/// A field of a colour with a rim: as it stands in the picture where it is opaque, else with its own colour around it.
+void paint_area(Canvas& canvas, const LegendEntry& entry, double length, double half_height) {
+  const Rgb rim = entry.opacity < 1.0 ? entry.colour : mix(entry.colour, palette::kInk, 0.45);
+  const double left = entry.at_px.x() + 0.15 * length;
+  const double right = entry.at_px.x() + 0.85 * length;
+  const double top = entry.at_px.y() - half_height;
+  const double bottom = entry.at_px.y() + half_height;
+  fill_box(canvas, left, top, right, bottom, mix(palette::kPaper, entry.colour, entry.opacity));
+  const std::array<ScreenSegment, 4> sides{
+      flat(px(left, top), px(right, top)), flat(px(right, top), px(right, bottom)),
+      flat(px(right, bottom), px(left, bottom)), flat(px(left, bottom), px(left, top))};
+  canvas.stroke(sides, {rim, 1.2});
+}
+
+void paint_colours(Canvas& canvas, const LegendEntry& entry, double length, double half_height) {
+  const double step = length / static_cast<double>(entry.colours.size());
+  for (std::size_t i = 0; i < entry.colours.size(); ++i) {
+    const double left = std::round(entry.at_px.x() + step * static_cast<double>(i));
+    const double right = std::round(entry.at_px.x() + step * static_cast<double>(i + 1));
+    fill_box(canvas, left, entry.at_px.y() - half_height, right, entry.at_px.y() + half_height,
+             entry.colours[i]);
+  }
+}
+
 void paint_entry(Canvas& canvas, const LegendEntry& entry, const Layout& layout, const Fonts& fonts) {
   using Kind = LegendEntry::Kind;
-  const double length = layout.unit * kSymbol;
+  const double length = layout.unit * symbol_width(entry);
   const Vec2& at = entry.at_px;
   const Vec2 end = at + px(length, 0.0);
   switch (entry.kind) {
@@ -125,6 +165,12 @@ void paint_entry(Canvas& canvas, const LegendEntry& entry, const Layout& layout,
       canvas.stroke(rays, {entry.colour, 1.2});
       break;
     }
+    case Kind::kArea:
+      paint_area(canvas, entry, length, 6.5 * layout.unit);
+      break;
+    case Kind::kScale:
+      paint_colours(canvas, entry, length, 6.5 * layout.unit);
+      break;
   }
   canvas.text(fonts.regular, entry.text, layout.text_px,
               at + px(length + layout.unit * kSymbolGap, 0.36 * layout.text_px), palette::kInk);

@@ -19,14 +19,16 @@ struct Fonts {
 
 /// One line of the legend and where it stands.
 struct LegendEntry {
-  enum class Kind { kLine, kDashedLine, kThinLine, kMark, kField };
+  enum class Kind { kLine, kDashedLine, kThinLine, kMark, kField, kArea, kScale };
   Kind kind = Kind::kLine;
   Rgb colour{};
   double width_px = 2.0;  ///< of a line
   double size_px = 5.0;   ///< of a mark
   MarkerShape shape = MarkerShape::kDot;
   std::string text{};
-  Vec2 at_px = Vec2::Zero();  ///< left end, middle of the line's height
+  double opacity = 1.0;        ///< of an area
+  std::vector<Rgb> colours{};  ///< of a scale, from left to right
+  Vec2 at_px = Vec2::Zero();   ///< left end, middle of the line's height
 };
 
 /// How a picture is divided: title above, map area, scale bar and legend below. Pictures too small for texts are all map.

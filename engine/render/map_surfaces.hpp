@@ -1,19 +1,50 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "bsp/compile.hpp"
 #include "map/world.hpp"
+#include "mesh/model.hpp"
+#include "mesh/placement.hpp"
 #include "render/picture.hpp"
 
 namespace hallway::render {
 
-/// The faces of a world's solids, coloured by material_colour().
-std::vector<Surface> map_surfaces(const map::World& world);
+/// Which faces of a world are shown.
+enum class Faces {
+  kAll,     ///< the whole boundary: closed, so that it can be cut
+  kInside,  ///< what bounds empty leaves: of a sealed world the rooms without their outer shell, which from above have no ceilings
+};
 
-/// A height for View::cut_z_m that opens a building as a plan does: `above_floor_m` above the lowest floor that has a
-/// ceiling. Empty where nothing stands higher than that, so that there is nothing to open.
-std::optional<double> plan_cut_height(const std::vector<Surface>& surfaces, double above_floor_m = 1.2);
+/// The boundary of a world's solid, coloured by material_colour(). Faces that are not drawn are there as kUnseen.
+std::vector<Surface> map_surfaces(const map::World& world, const bsp::Compiled& compiled, Faces faces);
+
+/// The colour of what of a face lies in an empty leaf, given the colour of its material.
+using LeafColour = std::function<Rgb(std::uint32_t leaf, Rgb material)>;
+
+/// The same with colours by leaf: faces are divided where leaves of different colour meet. What bounds no empty leaf keeps the colour
+/// of its material.
+std::vector<Surface> map_surfaces(const map::World& world, const bsp::Compiled& compiled, Faces faces,
+                                  const LeafColour& colour);
+
+/// A model's triangles, each in one colour: its material's, times the mean of its picture over the triangle.
+std::vector<Surface> mesh_surfaces(const mesh::Model& model, const mesh::PlacedMesh& placed);
+
+/// How a picture shows the inside of a building.
+struct Plan {
+  Faces faces = Faces::kAll;
+  std::optional<double> cut_z_m{};  ///< for View::cut_z_m
+};
+
+/// A plan cut `above_floor_m` above the floor where that opens the most rooms, if these are most of the building's floor: storeys
+/// at other heights would stay closed. Of a sealed world of many heights the inside without a cut, else the best cut. No cut where
+/// nothing has a ceiling. O(n^2) in the number of level faces.
+/// @param focus  a place that the picture is about: of an unsealed world the cut opens the storey that it stands in
+Plan plan_of(const bsp::Compiled& compiled, const std::optional<Vec3>& focus = {},
+             double above_floor_m = 1.2);
 
 }  // namespace hallway::render

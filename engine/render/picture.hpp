@@ -12,10 +12,39 @@
 
 namespace hallway::render {
 
-/// One face of a closed solid, seen from the side that its normal points to.
+/// What a face is part of.
+enum class SurfaceKind {
+  kSolid,  ///< the boundary of something closed; seen from the side that its normal points to, filled where it is cut
+  kUnseen,  ///< the same, but not shown: it only closes what is cut
+  kSheet,   ///< nothing closed; seen from both sides
+};
+
+/// One flat face.
 struct Surface {
-  Polygon polygon{};  ///< world, metres
+  Polygon polygon{};  ///< world, metres; convex
   Rgb colour{};
+  SurfaceKind kind = SurfaceKind::kSolid;
+};
+
+/// Flat areas that let through what lies behind them, e.g. portals. View::cut_z_m cuts them as it does surfaces.
+struct Patches {
+  std::vector<std::vector<Vec3>> polygons{};  ///< world, metres; each convex and in one plane
+  Rgb colour{};
+  double opacity = 0.2;     ///< 0 to 1, of each; what lies behind several is covered more
+  double outline_px = 1.2;  ///< width of the rims, 0 for none
+  std::string label{};      ///< text in the legend, empty for none
+};
+
+/// What a colour of the faces means.
+struct Swatch {
+  Rgb colour{};
+  std::string label{};
+};
+
+/// What a range of colours of the faces means.
+struct ColourScale {
+  std::vector<Rgb> colours{};  ///< from the low end to the high one, in equal steps; empty for none
+  std::string label{};         ///< what is shown and its range: "depth 3 to 17"
 };
 
 /// A line through points, e.g. a path.
@@ -65,12 +94,15 @@ struct Label {
   Rgb colour = palette::kInk;
 };
 
-/// Everything that a picture shows, as plain data. Drawn in this order: surfaces, frustum, segments, polylines, markers,
-/// labels; within a list, later ones cover earlier ones. Things of one label and one list share a line of the legend.
+/// Everything that a picture shows, as plain data. Drawn in this order: surfaces, patches, frustum, segments, polylines,
+/// markers, labels; within a list, later ones cover earlier ones. Things of one label and one list share a line of the legend.
 struct Picture {
   std::string title{};
   std::string subtitle{};  ///< smaller, after the title
   std::vector<Surface> surfaces{};
+  std::vector<Swatch> swatches{};  ///< lines of the legend for colours of surfaces
+  ColourScale scale{};             ///< the same for a range of colours
+  std::vector<Patches> patches{};
   std::optional<FrustumMark> frustum{};
   std::vector<Segments> segments{};
   std::vector<Polyline> polylines{};

@@ -78,16 +78,27 @@ bool drawable_polygon(const Polygon& polygon) {
          std::all_of(polygon.vertices.begin(), polygon.vertices.end(), drawable);
 }
 
-std::vector<Vertex> make_vertices(const std::vector<Surface>& surfaces, const Camera& camera,
-                                  std::optional<double> cut_z_m) {
+/// The normal that a face is lit by: of a sheet, that of the side that is seen.
+Vec3 lit_normal(const Surface& surface, const Camera& camera) {
+  const Vec3& normal = surface.polygon.plane.normal;
+  if (surface.kind != SurfaceKind::kSheet) return normal;
+  const Vec3 view = camera.kind() == ViewKind::kTop ? Vec3(camera.axes().row(2))
+                                                    : Vec3(surface.polygon.vertices[0] - camera.eye());
+  return normal.dot(view) > 0.0 ? Vec3(-normal) : normal;
+}
+
+/// The triangles of the surfaces of one kind.
+std::vector<Vertex> make_vertices(const std::vector<Surface>& surfaces, SurfaceKind kind,
+                                  const Camera& camera, std::optional<double> cut_z_m) {
   std::vector<Vertex> out;
   for (const Surface& surface : surfaces) {
-    if (!drawable_polygon(surface.polygon)) continue;
+    if (surface.kind != kind || !drawable_polygon(surface.polygon)) continue;
     const std::vector<Vec3>& corners = surface.polygon.vertices;
+    const std::array<float, 3> normal = to_float(lit_normal(surface, camera));
     const auto vertex = [&](const Vec3& corner) {
       const double below = cut_z_m ? *cut_z_m - corner.z() : 1.0;
-      return Vertex{to_float(camera.to_camera(corner)), to_float(surface.polygon.plane.normal),
-                    unit_colour(surface.colour), static_cast<float>(below)};
+      return Vertex{to_float(camera.to_camera(corner)), normal, unit_colour(surface.colour),
+                    static_cast<float>(below)};
     };
     for (std::size_t i = 2; i < corners.size(); ++i) {
       out.push_back(vertex(corners[0]));
@@ -134,19 +145,42 @@ DepthRange depth_range(const std::vector<Vertex>& vertices, const Camera& camera
   return {near_m, std::max(high + margin, 2.0 * near_m)};
 }
 
+/// A run of vertices.
+struct VertexRange {
+  GLint first = 0;
+  GLsizei count = 0;
+};
+
+/// The vertices of a drawing in one array.
+struct VertexArray {
+  std::vector<Vertex> vertices{};
+  VertexRange solid{};   ///< faces of closed things
+  VertexRange closed{};  ///< those and the faces that only close them
+  VertexRange sheets{};
+  VertexRange section{};
+
+  /// Appends a part and says where it stands.
+  VertexRange add(const std::vector<Vertex>& part) {
+    const VertexRange range{static_cast<GLint>(vertices.size()), static_cast<GLsizei>(part.size())};
+    vertices.insert(vertices.end(), part.begin(), part.end());
+    return range;
+  }
+};
+
 /// GL objects of one drawing; all die with it.
 class SurfacePainter {
  public:
-  /// The first `face_vertices` are of faces, the rest of the section.
-  SurfacePainter(const std::vector<Vertex>& vertices, std::size_t face_vertices, const Camera& camera)
+  SurfacePainter(const VertexArray& array, const Camera& camera)
       : context_(make_offscreen_context()),
         gl_(*context_),
         camera_(camera),
-        range_(depth_range(vertices, camera)),
-        face_vertices_(static_cast<GLsizei>(face_vertices)),
-        section_vertices_(static_cast<GLsizei>(vertices.size() - face_vertices)) {
+        range_(depth_range(array.vertices, camera)),
+        solid_(array.solid),
+        closed_(array.closed),
+        sheets_(array.sheets),
+        section_(array.section) {
     make_program();
-    upload(vertices);
+    upload(array.vertices);
     make_buffers();
   }
 
@@ -286,12 +320,13 @@ class SurfacePainter {
     // Rows run down, which mirrors the picture and with it the sense of rotation of every face.
     gl_.front_face(GL_CW);
     gl_.uniform_1f(cut_location_, 0.0f);
-    if (section_vertices_ > 0) count_solids_at_cut();
+    if (section_.count > 0) count_solids_at_cut();
     gl_.enable(GL_DEPTH_TEST);
+    gl_.draw_arrays(GL_TRIANGLES, sheets_.first, sheets_.count);
     gl_.enable(GL_CULL_FACE);
     gl_.cull_face(GL_BACK);
-    gl_.draw_arrays(GL_TRIANGLES, 0, face_vertices_);
-    if (section_vertices_ > 0) draw_section();
+    gl_.draw_arrays(GL_TRIANGLES, solid_.first, solid_.count);
+    if (section_.count > 0) draw_section();
     gl_.disable(GL_CULL_FACE);
     gl_.disable(GL_DEPTH_TEST);
   }
@@ -306,7 +341,7 @@ class SurfacePainter {
     gl_.stencil_func(GL_ALWAYS, 0, 0xFF);
     gl_.stencil_op_separate(GL_FRONT, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
     gl_.stencil_op_separate(GL_BACK, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
-    gl_.draw_arrays(GL_TRIANGLES, 0, face_vertices_);
+    gl_.draw_arrays(GL_TRIANGLES, closed_.first, closed_.count);
     gl_.disable(GL_STENCIL_TEST);
     gl_.draw_buffers(2, kBoth.data());
   }
@@ -316,7 +351,7 @@ class SurfacePainter {
     gl_.stencil_func(GL_NOTEQUAL, 0, 0xFF);
     gl_.stencil_op_separate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP, GL_KEEP);
     gl_.uniform_1f(cut_location_, 1.0f);
-    gl_.draw_arrays(GL_TRIANGLES, face_vertices_, section_vertices_);
+    gl_.draw_arrays(GL_TRIANGLES, section_.first, section_.count);
     gl_.disable(GL_STENCIL_TEST);
   }
 
@@ -364,7 +399,7 @@ class SurfacePainter {
     layer.normal[to] =
         nothing || normal.norm() < 1.0f ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : normal.normalized();
     layer.distance_m[to] = nothing ? std::numeric_limits<float>::infinity() : distance_of(depths_[from]);
-    layer.cut[to] = !nothing && section_vertices_ > 0 && n[3] < 192 ? 1 : 0;
+    layer.cut[to] = !nothing && section_.count > 0 && n[3] < 192 ? 1 : 0;
   }
 
   float distance_of(float depth) const {
@@ -382,8 +417,10 @@ class SurfacePainter {
   GlFunctions gl_;
   const Camera& camera_;
   DepthRange range_;
-  GLsizei face_vertices_;
-  GLsizei section_vertices_;
+  VertexRange solid_;
+  VertexRange closed_;
+  VertexRange sheets_;
+  VertexRange section_;
   GLint cut_location_ = -1;
   GLuint program_ = 0;
   GLuint vertex_array_ = 0;
@@ -414,14 +451,16 @@ SurfaceLayer empty_layer(const PixelRect& area, int factor) {
 SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera& camera,
                              const PixelRect& area, int factor, std::optional<double> cut_z_m) {
   SurfaceLayer layer = empty_layer(area, factor);
-  std::vector<Vertex> vertices = make_vertices(surfaces, camera, cut_z_m);
-  if (vertices.empty()) return layer;
-  const std::size_t face_vertices = vertices.size();
+  VertexArray array;
+  array.solid = array.add(make_vertices(surfaces, SurfaceKind::kSolid, camera, cut_z_m));
+  array.closed = {
+      0, array.solid.count + array.add(make_vertices(surfaces, SurfaceKind::kUnseen, camera, cut_z_m)).count};
+  array.sheets = array.add(make_vertices(surfaces, SurfaceKind::kSheet, camera, cut_z_m));
+  if (array.vertices.empty()) return layer;
   if (cut_z_m && (camera.kind() == ViewKind::kTop || camera.eye().z() > *cut_z_m)) {
-    const std::vector<Vertex> section = make_section(surfaces, camera, *cut_z_m);
-    vertices.insert(vertices.end(), section.begin(), section.end());
+    array.section = array.add(make_section(surfaces, camera, *cut_z_m));
   }
-  SurfacePainter painter(vertices, face_vertices, camera);
+  SurfacePainter painter(array, camera);
   for (int top = 0; top < layer.height; top += kTileSide) {
     for (int left = 0; left < layer.width; left += kTileSide) painter.draw_tile(layer, left, top);
   }

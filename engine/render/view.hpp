@@ -21,7 +21,7 @@ struct Crop {
 /// From where a picture is seen. Whatever is not given is chosen so that all content fits.
 struct View {
   ViewKind kind = ViewKind::kTop;
-  /// Surfaces above this height are cut away, and solids cut by it show a dark section, as in an architect's plan.
+  /// Surfaces and patches above this height are cut away, and solids cut by it show a dark section, as in a plan.
   /// Lines, markers and labels are never cut.
   std::optional<double> cut_z_m{};
   std::optional<Crop> crop{};    ///< top view

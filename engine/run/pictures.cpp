@@ -15,7 +15,6 @@
 #include "geom/box.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
-#include "render/map_surfaces.hpp"
 #include "render/png.hpp"
 #include "run/sensor_json.hpp"
 
@@ -225,29 +224,56 @@ std::string subtitle_of(const Record& record) {
   return text;
 }
 
-/// The view that is asked for. A closed building seen from above is a roof: it is opened unless a height is given.
-render::View view_of(const sim::PictureSpec& spec, const std::vector<render::Surface>& surfaces) {
+/// How the map is opened: as the picture's description says, else as the building suggests.
+render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec& spec,
+                      const MapView& map_view) {
+  if (spec.cut_z_m) return {render::Faces::kAll, spec.cut_z_m};
+  const auto& leak = world.partition.enclosure.leak;
+  std::optional<Vec3> focus = map_view.pvs_from_m;
+  if (map_view.leak && leak) focus = leak->way.front();
+  return render::plan_of(world.partition, focus);
+}
+
+render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan) {
   render::View view;
   view.kind = spec.view == sim::PictureView::kTop ? render::ViewKind::kTop : render::ViewKind::kPerspective;
-  view.cut_z_m = spec.cut_z_m ? spec.cut_z_m : render::plan_cut_height(surfaces);
+  view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
   return view;
 }
 
-std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec) {
-  return render::encode_png(
-      render::draw(picture, view_of(spec, picture.surfaces), spec.width_px, spec.height_px));
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan) {
+  return render::encode_png(render::draw(picture, view_of(spec, plan), spec.width_px, spec.height_px));
+}
+
+std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
+  const auto& enclosure = world.partition.enclosure;
+  if (view.pvs_from_m) return "potentially visible set";
+  if (view.leak && enclosure.leak) {
+    return fmt::format("leak: {} of {} occupants reach the void", enclosure.leaking.size(),
+                       world.occupants.size());
+  }
+  if (view.leak) return enclosure.sealed ? "sealed: no leak" : "encloses nothing";
+  if (view.bsp_depth) {
+    return fmt::format("tree of {} nodes and {} leaves", world.partition.tree.nodes.size(),
+                       world.partition.tree.leaves.size());
+  }
+  return {};
 }
 
 }  // namespace
 
-render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec) {
+render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
+                                render::Faces faces) {
   render::Picture picture;
   picture.title = printable(record.run.value("name", "run"));
   picture.subtitle = subtitle_of(record);
-  if (spec.shows(sim::PictureLayer::kMap) && record.world)
-    picture.surfaces = render::map_surfaces(*record.world);
+  if (record.world && (spec.shows(sim::PictureLayer::kMap) || map_view.anything())) {
+    add_map(picture, *record.world, map_view, faces);
+    if (!map_view.wireframe)
+      picture.surfaces.insert(picture.surfaces.end(), record.models.begin(), record.models.end());
+  }
   const Pose T_world_path = align_path(record).value_or(Pose());
   const Pose T_world_map = align_landmarks(record).value_or(T_world_path);
   if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
@@ -256,20 +282,27 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   return picture;
 }
 
-render::Picture compose_map_picture(const map::World& world, const std::string& title) {
+render::Picture compose_map_picture(const MapSubject& subject, const MapView& map_view, render::Faces faces) {
   render::Picture picture;
-  picture.title = printable(title);
-  picture.surfaces = render::map_surfaces(world);
+  picture.title = printable(subject.title);
+  picture.subtitle = map_subtitle(subject.world, map_view);
+  add_map(picture, subject.world, map_view, faces);
+  if (!map_view.wireframe) {
+    picture.surfaces.insert(picture.surfaces.end(), subject.meshes.begin(), subject.meshes.end());
+  }
   return picture;
 }
 
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec) {
-  return draw_png(compose_picture(record, spec), spec);
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
+  const render::Plan plan =
+      record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
+  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan);
 }
 
-std::string draw_map_picture(const map::World& world, const std::string& title,
-                             const sim::PictureSpec& spec) {
-  return draw_png(compose_map_picture(world, title), spec);
+std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
+                             const MapView& map_view) {
+  const render::Plan plan = plan_for(subject.world, spec, map_view);
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan);
 }
 
 }  // namespace hallway::run

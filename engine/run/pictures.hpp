@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/image.hpp"
 #include "render/picture.hpp"
+#include "run/map_view.hpp"
 #include "run/record.hpp"
 #include "sim/scenario.hpp"
 
@@ -13,17 +15,27 @@ namespace hallway::run {
 /// A picture of a run: the map, true and estimated path, true and mapped landmarks with lines between, submaps, and what
 /// the sensor saw at the end. Estimates are drawn where the best rigid fit to the truth puts them. Errors too small to be
 /// seen are drawn longer, by a power of ten that the legend states.
-render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec);
+/// @param faces  which of the map are shown
+render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec,
+                                const MapView& map_view = {}, render::Faces faces = render::Faces::kAll);
 
-/// A picture of a map alone.
-/// @param title  e.g. the map's name
-render::Picture compose_map_picture(const map::World& world, const std::string& title);
+/// A map alone, and what is drawn over it.
+struct MapSubject {
+  const world::CompiledWorld& world;
+  std::string title{};                    ///< e.g. the map's name
+  std::vector<render::Surface> meshes{};  ///< drawn with the map's own faces
+};
+
+/// A picture of a map.
+render::Picture compose_map_picture(const MapSubject& subject, const MapView& map_view, render::Faces faces);
 
 /// Draws and encodes a picture of a run; opens closed buildings in a top view unless the picture's description says how.
 /// @return the bytes of a PNG file
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec);
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
+                             const MapView& map_view = {});
 
 /// The same for a map alone.
-std::string draw_map_picture(const map::World& world, const std::string& title, const sim::PictureSpec& spec);
+std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
+                             const MapView& map_view = {});
 
 }  // namespace hallway::run

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "geom/rigid_fit.hpp"
 #include "map/reader.hpp"
+#include "run/map_view.hpp"
 
 namespace hallway::run {
 namespace {
@@ -70,9 +71,16 @@ Record read_record(const fs::path& folder) {
   record.submaps = read_if_there(folder / files::kSubmaps, [](const fs::path& path) {
     return log::read_id_pairs(path, log::kSubmapColumns);
   });
-  record.world = read_if_there(folder / files::kMap, [](const fs::path& path) {
-    return std::optional<map::World>(map::build_world(map::load(path)));
+  const auto document = read_if_there(folder / files::kMap, [](const fs::path& path) {
+    return std::optional<map::Document>(map::load(path));
   });
+  if (document) {
+    world::Settings settings;
+    settings.level.reset();
+    record.world = world::compile(*document, settings);
+    std::vector<Error> faults;  // a folder of another program may lack the models
+    record.models = model_faces(*document, folder, faults);
+  }
   return record;
 }
 

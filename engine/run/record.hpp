@@ -12,7 +12,8 @@
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
 #include "log/tum.hpp"
-#include "map/world.hpp"
+#include "render/picture.hpp"
+#include "world/compiled_world.hpp"
 
 namespace hallway::run {
 
@@ -38,7 +39,8 @@ inline constexpr const char* kTiming = "timing.csv";
 struct Record {
   nlohmann::ordered_json run;                 ///< run.json
   nlohmann::ordered_json metrics;             ///< metrics.json
-  std::optional<map::World> world;            ///< of map.map
+  std::optional<world::CompiledWorld> world;  ///< of map.map, without visible sets
+  std::vector<render::Surface> models;        ///< that stand in it, as far as the folder has them
   std::vector<log::StampedPose> truth;        ///< T_world_body
   std::vector<log::StampedPose> trajectory;   ///< T_map_body
   std::vector<log::Landmark> true_landmarks;  ///< world

@@ -155,6 +155,7 @@ void write_json(const fs::path& path, const nlohmann::ordered_json& document) {
 void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
                  const Collected& collected) {
   for (const Attachment& attachment : plan.attachments) {
+    make_folder((folder / attachment.name).parent_path());
     write_file_atomically(folder / attachment.name, attachment.content);
   }
   if (!collected.truth.empty()) {

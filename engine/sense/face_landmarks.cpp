@@ -5,21 +5,19 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "sense/landmarks.hpp"
+#include "sense/surface_clearance.hpp"
 
 namespace hallway::sense {
 namespace {
 
 constexpr double kMaxPointsPerM2 = 1e6;
-
-/// A point of a face stands exactly kFaceClearance_m off a coinciding face of another solid: a hair more for
-/// solids before its own and a hair less for those after it gives such points to the first solid.
-constexpr double kHair_m = 1e-6;
 
 /// A number that a plane keeps however its brush is edited otherwise.
 std::uint32_t plane_number(const Plane& plane) {
@@ -48,16 +46,16 @@ class Squares {
         random_(seed, stream_id("landmarks.face")),
         plane_number_(plane_number(plane)) {}
 
-  /// Numbers of the squares that a polygon of the plane may touch, along both axes.
+  /// Numbers of the squares that polygons with these vertices may touch, along both axes.
   struct Range {
     Eigen::Array2d first;
     Eigen::Array2d last;
     double count() const { return (last - first + 1.0).prod(); }
   };
-  Range range(const Polygon& polygon) const {
+  Range range(const std::vector<Vec3>& vertices) const {
     Eigen::Array2d low = Eigen::Array2d::Constant(HUGE_VAL);
     Eigen::Array2d high = -low;
-    for (const Vec3& vertex : polygon.vertices) {
+    for (const Vec3& vertex : vertices) {
       const Eigen::Array2d at(u_.dot(vertex), v_.dot(vertex));
       low = low.min(at);
       high = high.max(at);
@@ -85,81 +83,85 @@ class Squares {
   std::uint32_t plane_number_;
 };
 
-/// Whether a point of the polygon's plane is inside and clear of its edges.
-bool clear_of_edges(const Polygon& polygon, const Vec3& point) {
-  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
-    const Vec3& from = polygon.vertices[i];
-    const Vec3 edge = polygon.vertices[(i + 1) % polygon.vertices.size()] - from;
-    if (polygon.plane.normal.cross(edge).dot(point - from) < kFaceClearance_m * edge.norm()) return false;
-  }
-  return true;
-}
-
-/// The other solids near enough to one to matter to its points.
-class Neighbours {
- public:
-  Neighbours(const map::World& world, std::size_t solid) : own_(&world.solids[solid]) {
-    Box reach = own_->box;
-    reach.min().array() -= 4.0 * kFaceClearance_m;
-    reach.max().array() += 4.0 * kFaceClearance_m;
-    for (const map::Solid& other : world.solids) {
-      if (&other != own_ && reach.intersects(other.box)) near_.push_back(&other);
-    }
-  }
-
-  bool block(const Vec3& point) const {
-    return std::any_of(near_.begin(), near_.end(), [&](const map::Solid* other) {
-      return other->contains(point, -(kFaceClearance_m + (other < own_ ? kHair_m : -kHair_m)));
-    });
-  }
-
- private:
-  const map::Solid* own_;
-  std::vector<const map::Solid*> near_;
+/// What the surface shows of one face of a solid.
+struct ShownFace {
+  std::uint32_t solid = 0;
+  std::uint32_t face = 0;
+  Plane plane{};                 ///< the normal points into the empty side
+  std::vector<Vec3> vertices{};  ///< of all its polygons
 };
+
+/// The faces that have polygons on the surface, in the order of the world.
+std::vector<ShownFace> shown_faces(const map::World& world, const csg::Surface& surface,
+                                   const PolygonFilter& wanted) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < surface.polygons.size(); ++i) {
+    if (!surface.polygons[i].vertices.empty() && (!wanted || wanted(i))) order.push_back(i);
+  }
+  const auto key = [&](std::uint32_t i) {
+    return std::tuple(surface.polygons[i].solid, surface.polygons[i].face, i);
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::vector<ShownFace> faces;
+  for (const std::uint32_t i : order) {
+    const csg::SurfacePolygon& polygon = surface.polygons[i];
+    if (faces.empty() || faces.back().solid != polygon.solid || faces.back().face != polygon.face) {
+      Plane plane = world.solids[polygon.solid].faces[polygon.face].polygon.plane;
+      if (plane.normal.dot(polygon.plane.normal) < 0.0) plane = {-plane.normal, -plane.offset};
+      faces.push_back({polygon.solid, polygon.face, plane, {}});
+    }
+    for (const std::uint32_t vertex : polygon.vertices)
+      faces.back().vertices.push_back(surface.vertices[vertex]);
+  }
+  return faces;
+}
 
 class FaceLandmarks {
  public:
-  FaceLandmarks(const map::Document& document, const map::World& world, std::vector<Vec3>& landmarks)
-      : document_(document), world_(world), defaults_(map::face_points(document)), landmarks_(landmarks) {}
+  FaceLandmarks(const map::Document& document, const map::World& world, const csg::Surface& surface,
+                const PolygonFilter& wanted, std::vector<Vec3>& landmarks)
+      : document_(document),
+        world_(world),
+        clearance_(surface),
+        wanted_(wanted),
+        defaults_(map::face_points(document)),
+        landmarks_(landmarks) {}
 
-  void add_solid(std::size_t index) {
-    const map::Solid& solid = world_.solids[index];
+  void add(const ShownFace& face) {
+    const map::Solid& solid = world_.solids[face.solid];
     const map::EntityKeys keys(document_, document_.entities[static_cast<std::size_t>(solid.entity)]);
     const double per_m2 = keys.number_or("_points_per_m2", defaults_.per_m2, 0.0, kMaxPointsPerM2);
     if (per_m2 == 0.0) return;
-    const Neighbours neighbours(world_, index);
-    for (const map::SolidFace& face : solid.faces) {
-      const Squares squares(face.polygon.plane, per_m2, defaults_.seed);
-      const Squares::Range range = squares.range(face.polygon);
-      squares_tried_ += range.count();
-      if (squares_tried_ > static_cast<double>(kMaxLandmarks)) {
-        throw keys.error(
-            "the brushes' faces would have more than " + std::to_string(kMaxLandmarks) + " points",
-            "_points_per_m2");
-      }
-      add_face(face.polygon, squares, range, neighbours);
+    const Squares squares(face.plane, per_m2, defaults_.seed);
+    const Squares::Range range = squares.range(face.vertices);
+    squares_tried_ += range.count();
+    if (squares_tried_ > static_cast<double>(kMaxLandmarks)) {
+      throw keys.error("the brushes' faces would have more than " + std::to_string(kMaxLandmarks) + " points",
+                       "_points_per_m2");
     }
+    add_points(face, squares, range);
   }
 
  private:
-  void add_face(const Polygon& polygon, const Squares& squares, const Squares::Range& range,
-                const Neighbours& neighbours) {
+  void add_points(const ShownFace& face, const Squares& squares, const Squares::Range& range) {
     const auto rows = static_cast<std::uint64_t>(range.last[1] - range.first[1]) + 1;
     const auto columns = static_cast<std::uint64_t>(range.last[0] - range.first[0]) + 1;
     for (std::uint64_t row = 0; row < rows; ++row) {
       for (std::uint64_t column = 0; column < columns; ++column) {
         const Vec3 on_face = squares.point(range.first[0] + static_cast<double>(column),
                                            range.first[1] + static_cast<double>(row));
-        if (!clear_of_edges(polygon, on_face)) continue;
-        const Vec3 landmark = on_face + kFaceClearance_m * polygon.plane.normal;
-        if (!neighbours.block(landmark)) landmarks_.push_back(landmark);
+        const auto polygon = clearance_.polygon_at(on_face, face.solid, face.face);
+        if (!polygon || (wanted_ && !wanted_(*polygon))) continue;
+        if (!clearance_.is_clear(on_face, *polygon, kFaceClearance_m)) continue;
+        landmarks_.push_back(on_face + kFaceClearance_m * face.plane.normal);
       }
     }
   }
 
   const map::Document& document_;
   const map::World& world_;
+  SurfaceClearance clearance_;
+  const PolygonFilter& wanted_;
   map::FacePoints defaults_;
   double squares_tried_ = 0.0;
   std::vector<Vec3>& landmarks_;
@@ -167,10 +169,10 @@ class FaceLandmarks {
 
 }  // namespace
 
-void add_face_landmarks(const map::Document& document, const map::World& world,
-                        std::vector<Vec3>& landmarks) {
-  FaceLandmarks faces(document, world, landmarks);
-  for (std::size_t i = 0; i < world.solids.size(); ++i) faces.add_solid(i);
+void add_face_landmarks(const map::Document& document, const map::World& world, const csg::Surface& surface,
+                        const PolygonFilter& wanted, std::vector<Vec3>& landmarks) {
+  FaceLandmarks faces(document, world, surface, wanted, landmarks);
+  for (const ShownFace& face : shown_faces(world, surface, wanted)) faces.add(face);
 }
 
 }  // namespace hallway::sense

@@ -13,7 +13,9 @@ constexpr double kAllRound = 2.0 * kHalfTurn - 1e-9;  ///< 360 degrees, however 
 }  // namespace
 
 FieldOfView::FieldOfView(double horizontal, double vertical, double min_range_m, double max_range_m)
-    : pyramid_(horizontal < kHalfTurn && vertical < kHalfTurn),
+    : horizontal_(horizontal),
+      vertical_(vertical),
+      pyramid_(horizontal < kHalfTurn && vertical < kHalfTurn),
       tan_horizontal_(std::tan(0.5 * horizontal)),
       cos_horizontal_(horizontal < kAllRound ? std::cos(0.5 * horizontal)
                                              : -std::numeric_limits<double>::max()),
@@ -21,17 +23,6 @@ FieldOfView::FieldOfView(double horizontal, double vertical, double min_range_m,
                                          : std::numeric_limits<double>::infinity()),
       min_range_m_(min_range_m),
       max_range_m_(max_range_m) {}
-
-bool FieldOfView::contains(const Vec3& point) const {
-  const double range_m = point.norm();
-  if (range_m < min_range_m_ || range_m > max_range_m_) return false;
-  return pyramid_ ? in_pyramid(point) : in_band(point);
-}
-
-bool FieldOfView::in_pyramid(const Vec3& point) const {
-  return point.x() > 0.0 && std::abs(point.y()) <= point.x() * tan_horizontal_ &&
-         std::abs(point.z()) <= point.x() * tan_vertical_;
-}
 
 bool FieldOfView::in_band(const Vec3& point) const {
   const double level = std::sqrt(point.x() * point.x() + point.y() * point.y());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "geom/pose.hpp"
 
 namespace hallway::sense {
@@ -18,12 +20,27 @@ class FieldOfView {
   FieldOfView(double horizontal, double vertical, double min_range_m, double max_range_m);
 
   /// @param point  in the sensor's frame, metres
-  bool contains(const Vec3& point) const;
+  bool contains(const Vec3& point) const {
+    const double range_m = point.norm();
+    if (range_m < min_range_m_ || range_m > max_range_m_) return false;
+    return pyramid_ ? in_pyramid(point) : in_band(point);
+  }
+
+  bool is_pyramid() const { return pyramid_; }
+  double horizontal() const { return horizontal_; }
+  double vertical() const { return vertical_; }
+  double min_range_m() const { return min_range_m_; }
+  double max_range_m() const { return max_range_m_; }
 
  private:
-  bool in_pyramid(const Vec3& point) const;
+  bool in_pyramid(const Vec3& point) const {
+    return point.x() > 0.0 && std::abs(point.y()) <= point.x() * tan_horizontal_ &&
+           std::abs(point.z()) <= point.x() * tan_vertical_;
+  }
   bool in_band(const Vec3& point) const;
 
+  double horizontal_;
+  double vertical_;
   bool pyramid_;
   double tan_horizontal_;  ///< of half the angle; used by the pyramid
   double cos_horizontal_;  ///< of half the angle, below all others for a full turn; used by the band

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "map/world.hpp"
+#include <span>
+
+#include "csg/surface.hpp"
 #include "trace/triangle_mesh.hpp"
 
 namespace hallway::sense {
 
-/// The faces of all solids of a world, in order, as the triangles that block sight.
-trace::TriangleMesh make_occluders(const map::World& world);
+/// The surface of a world, polygon by polygon, then the meshes that stand in it, in order, as the triangles that block sight.
+trace::TriangleMesh make_occluders(const csg::Surface& surface,
+                                   std::span<const trace::TriangleMesh> meshes = {});
 
 }  // namespace hallway::sense

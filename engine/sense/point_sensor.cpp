@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -63,30 +62,16 @@ const PointSensorSpec& checked(const PointSensorSpec& spec) {
   return spec;
 }
 
-void check_landmarks(const std::vector<Vec3>& landmarks) {
-  if (landmarks.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorCode::kBadInput, "there are more than 2^32 landmarks");
-  }
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    if (landmarks[i].allFinite() && landmarks[i].cwiseAbs().maxCoeff() <= trace::Scene::kMaxRayCoordinate)
-      continue;
-    throw Error(ErrorCode::kBadInput, "its position is not finite or too far from the origin",
-                {.element = "landmark " + std::to_string(i)});
-  }
-}
-
 }  // namespace
 
-PointSensor::PointSensor(PointSensorSpec spec, const std::vector<Vec3>& landmarks, const trace::Scene& scene,
+PointSensor::PointSensor(PointSensorSpec spec, const LandmarkIndex& landmarks, const trace::Scene& scene,
                          std::uint64_t seed)
     : spec_(std::move(spec)),
-      field_of_view_(checked(spec_).horizontal_fov, spec_.vertical_fov, spec_.min_range_m, spec_.max_range_m),
-      landmarks_(landmarks),
-      scene_(scene),
+      visibility_(FieldOfView(checked(spec_).horizontal_fov, spec_.vertical_fov, spec_.min_range_m,
+                              spec_.max_range_m),
+                  landmarks, scene),
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
-      order_(seed, stream_id("sensor.order." + spec_.name)) {
-  check_landmarks(landmarks_);
-}
+      order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
 void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned threads,
                           std::vector<PointObservation>& out) const {
@@ -98,12 +83,12 @@ void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned
     throw Error(ErrorCode::kBadInput, "the pose is not finite or too far from the origin",
                 {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
   }
-  std::vector<std::vector<Seen>> parts((landmarks_.size() + kGrain - 1) / kGrain);
-  parallel_for(landmarks_.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-    parts[begin / kGrain] = look(T_world_sensor, step, begin, end);
+  std::vector<VisiblePoint> visible;
+  visibility_.find(T_world_sensor, threads, visible);
+  std::vector<Seen> all(visible.size());
+  parallel_for(visible.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) all[i] = make_seen(visible[i], step);
   });
-  std::vector<Seen> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) {
     return std::tie(a.place, a.observation.landmark) < std::tie(b.place, b.observation.landmark);
   });
@@ -112,26 +97,13 @@ void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned
   for (const Seen& seen : all) out.push_back(seen.observation);
 }
 
-std::vector<PointSensor::Seen> PointSensor::look(const Pose& T_world_sensor, std::uint32_t step,
-                                                 std::size_t begin, std::size_t end) const {
-  std::vector<Seen> seen;
-  const Eigen::Matrix3d to_sensor = T_world_sensor.q.conjugate().toRotationMatrix();
-  for (std::size_t i = begin; i < end; ++i) {
-    const Vec3 point = to_sensor * (landmarks_[i] - T_world_sensor.t);
-    if (!field_of_view_.contains(point) || scene_.occluded(landmarks_[i], T_world_sensor.t)) continue;
-    seen.push_back(make_seen(point, step, static_cast<std::uint32_t>(i)));
-  }
-  return seen;
-}
-
-PointSensor::Seen PointSensor::make_seen(const Vec3& true_point, std::uint32_t step,
-                                         std::uint32_t landmark) const {
-  const std::uint64_t first = 3 * std::uint64_t{landmark};
+PointSensor::Seen PointSensor::make_seen(const VisiblePoint& visible, std::uint32_t step) const {
+  const std::uint64_t first = 3 * std::uint64_t{visible.landmark};
   const Vec3 deviates(noise_.normal(step, first), noise_.normal(step, first + 1),
                       noise_.normal(step, first + 2));
-  const auto bits = order_.bits(step, landmark);
+  const auto bits = order_.bits(step, visible.landmark);
   return {std::uint64_t{bits[0]} << 32 | bits[1],
-          {landmark, true_point + spec_.noise_m.cwiseProduct(deviates)}};
+          {visible.landmark, visible.point + spec_.noise_m.cwiseProduct(deviates)}};
 }
 
 }  // namespace hallway::sense

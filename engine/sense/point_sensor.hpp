@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 #include "geom/pose.hpp"
-#include "sense/field_of_view.hpp"
+#include "sense/point_visibility.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::sense {
@@ -38,14 +38,14 @@ struct PointObservation {
 /// by (seed, sensor's name, step, landmark).
 class PointSensor {
  public:
-  /// Keeps references to `landmarks` and `scene`, which must outlive the sensor. The index of a landmark is
-  /// its number. Throws Error{kBadInput} naming the sensor and the member if the name is empty, an angle is
-  /// not in (0, 2 pi], the ranges are negative, infinite, or minimum above maximum, a noise is negative, or a
-  /// number is not finite; also for landmarks that Scene takes no rays from.
-  PointSensor(PointSensorSpec spec, const std::vector<Vec3>& landmarks, const trace::Scene& scene,
+  /// Keeps references to `landmarks` and `scene`, which must outlive the sensor. Throws Error{kBadInput} naming
+  /// the sensor and the member if the name is empty, an angle is not in (0, 2 pi], the ranges are negative,
+  /// infinite, or minimum above maximum, a noise is negative, or a number is not finite.
+  PointSensor(PointSensorSpec spec, const LandmarkIndex& landmarks, const trace::Scene& scene,
               std::uint64_t seed);
 
-  /// Replaces `out` by what is seen in a step. O(landmarks + points in view * log(triangles)).
+  /// Replaces `out` by what is seen in a step: the same for every index of the same landmarks. O(blocks in sight +
+  /// points in view * log(triangles)).
   ///
   /// @param T_world_body  the robot's true pose; an Error{kBadInput} if it is not finite or farther from the
   /// origin than Scene::kMaxRayCoordinate
@@ -59,19 +59,14 @@ class PointSensor {
  private:
   /// An observation with its place in the random order.
   struct Seen {
-    std::uint64_t place;
+    std::uint64_t place = 0;
     PointObservation observation;
   };
 
-  /// What is seen of the landmarks [begin, end).
-  std::vector<Seen> look(const Pose& T_world_sensor, std::uint32_t step, std::size_t begin,
-                         std::size_t end) const;
-  Seen make_seen(const Vec3& true_point, std::uint32_t step, std::uint32_t landmark) const;
+  Seen make_seen(const VisiblePoint& visible, std::uint32_t step) const;
 
   PointSensorSpec spec_;
-  FieldOfView field_of_view_;
-  const std::vector<Vec3>& landmarks_;
-  const trace::Scene& scene_;
+  PointVisibility visibility_;
   Random noise_;
   Random order_;
 };

@@ -37,6 +37,8 @@ constexpr Range kNoise_m{0.0, 1e3};
 constexpr Range kMount_m{-1e3, 1e3};
 constexpr Range kWorld_m{-1e7, 1e7};
 constexpr Range kSpeed_m_s{0.0, 1e3};
+constexpr Range kBodySize_m{0.001, 100.0};
+constexpr Range kBodyHeight_m{-100.0, 100.0};
 constexpr Range kPeriod_s{1e-6, 60.0};
 
 const std::vector<std::string> kViews{"top", "perspective"};  // in the order of PictureView
@@ -114,6 +116,31 @@ class ScenarioReader {
       scenario_.robot.speed_m_s = robot.number("speed_m_s", kSpeed_m_s);
     } else {
       throw robot.error("speed_m_s", "is missing; give it or `loop_steps`");
+    }
+    read_body(robot);
+  }
+
+  /// A cylinder where there is a radius, a box where there is a length, else a point.
+  void read_body(TableReader& robot) {
+    const bool round = robot.has("radius_m");
+    if (round && (robot.has("length_m") || robot.has("width_m"))) {
+      throw robot.error("radius_m", "stands beside `length_m` or `width_m`; a robot is a cylinder or a box");
+    }
+    if (!round && !robot.has("length_m") && !robot.has("width_m")) {
+      for (const char* key : {"bottom_m", "top_m"}) {
+        if (robot.has(key)) throw robot.error(key, "needs `radius_m`, or `length_m` and `width_m`");
+      }
+      return;
+    }
+    const double low = robot.number("bottom_m", kBodyHeight_m);
+    const double high = robot.number("top_m", kBodyHeight_m);
+    if (high - low < bsp::kLeastBodySize) throw robot.error("top_m", "is not above `bottom_m`");
+    if (round) {
+      scenario_.robot.body = bsp::Cylinder{robot.number("radius_m", kBodySize_m), low, high};
+    } else {
+      const double length = robot.number("length_m", kBodySize_m);
+      const double width = robot.number("width_m", kBodySize_m);
+      scenario_.robot.body = bsp::UprightBox{0.5 * length, 0.5 * width, 0.0, low, high};
     }
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "bsp/body.hpp"
 #include "geom/pose.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/setting.hpp"
@@ -20,7 +21,8 @@ struct RobotSpec {
   std::string path;                   ///< name of an `hw_path` entity
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
-      loop_steps{};  ///< steps for one round of a closed path, for the whole of an open one
+      loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one
+  std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point
 };
 
 /// A value for a plugin's parameter. Whether there is such a parameter is for the plugin to say.

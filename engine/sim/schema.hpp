@@ -9,7 +9,8 @@ namespace hallway::sim {
 /// The keys of a scenario's tables. What they mean stands in docs/formats.md.
 inline const std::vector<std::string> kTopKeys{"schema", "map",    "seed",   "steps",  "period_s",
                                                "robot",  "sensor", "plugin", "picture"};
-inline const std::vector<std::string> kRobotKeys{"path", "speed_m_s", "loop_steps"};
+inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
+                                                 "length_m", "width_m",   "bottom_m",   "top_m"};
 inline const std::vector<std::string> kSensorKeys{
     "kind",    "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
     "noise_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};

@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/text.hpp"
+#include "map/content.hpp"
 #include "map/entities.hpp"
+#include "map/entity_keys.hpp"
 #include "map/reader.hpp"
 #include "sense/landmarks.hpp"
+#include "sense/mesh_landmarks.hpp"
 #include "sense/occluders.hpp"
 
 namespace hallway::sim {
@@ -25,67 +29,78 @@ std::string file_of(const map::Document& document) {
   return printable(document.file);
 }
 
-/// The first solid that holds the point, `slack_m` around it included.
-const map::Solid* solid_at(const map::World& world, const Vec3& point, double slack_m) {
-  for (const map::Solid& solid : world.solids) {
-    if (solid.contains(point, -slack_m)) return &solid;
+/// What the cache has is used; a run adds nothing to it and is content with the fast sets, since they change no result.
+world::CompiledWorld compile_for_run(const map::Document& document, const std::filesystem::path& file,
+                                     unsigned threads) {
+  world::Settings settings;
+  settings.level = pvs::Level::kFast;
+  settings.threads = threads;
+  settings.cache = world::cache_folder(file);
+  settings.write_cache = false;
+  return world::compile(document, settings);
+}
+
+trace::Scene make_scene(const world::CompiledWorld& world, const PlacedModels& models,
+                        trace::Backend backend) {
+  std::vector<trace::TriangleMesh> meshes;
+  for (const mesh::PlacedMesh& placed : models.meshes) {
+    trace::TriangleMesh& mesh = meshes.emplace_back();
+    mesh.vertices = placed.vertices;
+    for (const mesh::Triangle& triangle : placed.triangles) mesh.triangles.push_back(triangle.vertices);
   }
-  return nullptr;
+  return trace::Scene(sense::make_occluders(world.partition.surface, meshes), backend);
+}
+
+/// Points on what the inside of a sealed world sees, on everything where the world is open; none on a sky.
+std::vector<Vec3> find_landmarks(const map::Document& document, const world::CompiledWorld& world,
+                                 const PlacedModels& models) {
+  const bsp::Compiled& partition = world.partition;
+  const auto wanted = [&](std::size_t polygon) {
+    const csg::SurfacePolygon& p = partition.surface.polygons[polygon];
+    return (!world.sealed() || partition.inside[polygon]) &&
+           !map::is_sky(world.brushes.solids[p.solid].faces[p.face].material);
+  };
+  std::vector<Vec3> landmarks = sense::make_landmarks(document, world.brushes, partition.surface, wanted);
+  const map::FacePoints points = map::face_points(document);
+  constexpr double kMostPerM2 = 1e6;
+  for (std::size_t i = 0; i < models.meshes.size(); ++i) {
+    const map::EntityKeys keys(document,
+                               document.entities[static_cast<std::size_t>(models.placements[i].entity)]);
+    const double per_m2 = keys.number_or("_points_per_m2", points.per_m2, 0.0, kMostPerM2);
+    sense::add_mesh_landmarks(models.meshes[i], static_cast<std::uint32_t>(i), per_m2, points.seed,
+                              landmarks);
+  }
+  return landmarks;
+}
+
+sense::LandmarkIndex make_index(const std::vector<Vec3>& landmarks, const world::CompiledWorld& world) {
+  if (!world.visible) return sense::LandmarkIndex(landmarks);
+  return sense::LandmarkIndex(landmarks, world.partition.tree, *world.visible);
 }
 
 void report_brushes(const map::Document& document, const map::World& world, std::vector<Error>& problems) {
   for (const map::Problem& problem : world.problems) {
     problems.emplace_back(
-        ErrorCode::kBadInput, problem.message + "; the brush is left out",
+        ErrorCode::kBadInput, map::problem_text(problem),
         Where{file_of(document), problem.line, map::brush_name(problem.entity, problem.brush)});
   }
 }
 
-void report_robot_start(const map::Document& document, const map::World& world,
-                        std::vector<Error>& problems) {
+/// Throws if the robot start stands in solid.
+void check_robot_start(const map::Document& document, const world::CompiledWorld& world) {
   const std::optional<map::RobotStart> start = map::find_robot_start(document);
   if (!start) return;
-  if (const map::Solid* solid = solid_at(world, start->T_world_body.t, 0.0)) {
-    problems.emplace_back(ErrorCode::kBadInput,
-                          "the robot start stands inside " + map::brush_name(solid->entity, solid->brush),
-                          Where{file_of(document), start->line, "hw_robot_start"});
+  for (const std::size_t index : world.partition.enclosure.in_solid) {
+    const map::Occupant& occupant = world.occupants[index];
+    if (occupant.entity != start->entity) continue;
+    throw Error(ErrorCode::kBadInput, "the robot start stands in solid",
+                Where{file_of(document), start->line, "hw_robot_start"});
   }
 }
 
-/// Follows the way that the robot will take in short chords and reports where it first meets a solid.
-void report_obstacle(const Simulator& simulator, std::vector<Error>& problems) {
-  constexpr double kChord_m = 0.1;
-  constexpr double kMostChords = 20000.0;
-  constexpr double kSlack_m = 1e-6;  // a hit lies on the solid's surface to within rounding
-  const Scenario& scenario = simulator.scenario();
-  const map::Path& path = simulator.path();
-  const auto report = [&](const map::Solid* solid, double distance_m) {
-    const std::string where = solid != nullptr ? map::brush_name(solid->entity, solid->brush) : "a solid";
-    const int line = solid != nullptr ? solid->line : 0;
-    problems.emplace_back(
-        ErrorCode::kBadInput,
-        distance_m == 0.0 ? "begins inside " + where
-                          : "runs into " + where + " after " + format_double(distance_m) + " m",
-        Where{file_of(simulator.document()), line, "path `" + printable(scenario.robot.path) + "`"});
-  };
-  if (const map::Solid* solid = solid_at(simulator.world(), path.at(0.0).t, 0.0)) {
-    report(solid, 0.0);
-    return;
-  }
-  const double way_m = std::min(path.length_m(), simulator.step_length_m() * (scenario.steps - 1));
-  const double chords = std::clamp(std::ceil(way_m / kChord_m), 1.0, kMostChords);
-  Vec3 from = path.at(0.0).t;
-  for (double i = 1.0; i <= chords; i += 1.0) {
-    const Vec3 to = path.at(way_m * (i / chords)).t;
-    const Vec3 chord = to - from;
-    if (const auto hit = simulator.scene().first_hit({from, chord, chord.norm()})) {
-      const double rounded_m = std::round((way_m * ((i - 1.0) / chords) + hit->distance) * 100.0) / 100.0;
-      report(solid_at(simulator.world(), from + hit->distance * chord.normalized(), kSlack_m),
-             std::max(rounded_m, 0.01));
-      return;
-    }
-    from = to;
-  }
+std::string place_text(const Vec3& place) {
+  const auto rounded = [](double value) { return format_double(std::round(value * 100.0) / 100.0 + 0.0); };
+  return "(" + rounded(place.x()) + ", " + rounded(place.y()) + ", " + rounded(place.z()) + ")";
 }
 
 }  // namespace
@@ -94,22 +109,45 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
     : scenario_(scenario),
       threads_(std::max(threads, 1u)),
       document_(map::load(scenario.map_file)),
-      world_(map::build_world(document_)),
+      world_(compile_for_run(document_, scenario.map_file, threads_)),
+      models_(load_models(document_, scenario.map_file.parent_path())),
       path_(map::find_path(document_, scenario.robot.path)),
       step_length_m_(find_step_length(scenario, path_)),
-      scene_(sense::make_occluders(world_), backend),
-      landmarks_(sense::make_landmarks(document_, world_)) {
+      scene_(make_scene(world_, models_, backend)),
+      landmarks_(find_landmarks(document_, world_, models_)),
+      landmark_index_(make_index(landmarks_, world_)) {
   sensors_.reserve(scenario_.sensors.size());
   for (const sense::PointSensorSpec& spec : scenario_.sensors) {
-    sensors_.emplace_back(spec, landmarks_, scene_, scenario_.seed);
+    sensors_.emplace_back(spec, landmark_index_, scene_, scenario_.seed);
   }
-  report_brushes(document_, world_, problems_);
-  report_robot_start(document_, world_, problems_);
-  report_obstacle(*this, problems_);
+  report_brushes(document_, world_.brushes, problems_);
+  for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
+  check_robot_start(document_, world_);
+  stop_at_obstacle();
+}
+
+void Simulator::stop_at_obstacle() {
+  const double way_m = std::min(path_.length_m(), step_length_m_ * (scenario_.steps - 1));
+  const auto obstacle = find_obstacle(world_, scene_, path_, way_m, scenario_.robot.body);
+  if (!obstacle) return;
+  const Where where{file_of(document_), obstacle->line, "path `" + printable(scenario_.robot.path) + "`"};
+  if (obstacle->distance_m == 0.0) {
+    throw Error(ErrorCode::kBadInput,
+                "begins inside " + obstacle->name + ", at " + place_text(obstacle->from), where);
+  }
+  constexpr double kBackOff_m = 0.001;  // a sensor on the surface would be inside it by rounding
+  stop_m_ = std::max(obstacle->distance_m - kBackOff_m, 0.0);
+  const double rounded_m = std::max(std::round(obstacle->distance_m * 100.0) / 100.0, 0.01);
+  problems_.emplace_back(ErrorCode::kBadInput,
+                         "runs into " + obstacle->name + " after " + format_double(rounded_m) +
+                             " m, between " + place_text(obstacle->from) + " and " +
+                             place_text(obstacle->to) + "; the robot stops there",
+                         where);
 }
 
 Pose Simulator::pose_at(std::uint32_t index) const {
-  return path_.at(step_length_m_ * index);
+  const double distance_m = step_length_m_ * index;
+  return path_.at(stop_m_ ? std::min(distance_m, *stop_m_) : distance_m);
 }
 
 Frame Simulator::step(std::uint32_t index) const {

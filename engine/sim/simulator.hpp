@@ -2,16 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/error.hpp"
 #include "geom/pose.hpp"
 #include "map/document.hpp"
 #include "map/path.hpp"
-#include "map/world.hpp"
+#include "sense/landmark_index.hpp"
 #include "sense/point_sensor.hpp"
+#include "sim/drive.hpp"
+#include "sim/models.hpp"
 #include "sim/scenario.hpp"
 #include "trace/scene.hpp"
+#include "world/compiled_world.hpp"
 
 namespace hallway::sim {
 
@@ -29,14 +33,14 @@ struct Frame {
   std::vector<Reading> readings;  ///< one for each sensor, in their order
 };
 
-/// A robot driven along a path of a map at constant speed, with sensors that see the map's landmarks. The first frame
+/// A robot driven along a path of a map at constant speed until something stops it, with sensors that see the map's landmarks. The first frame
 /// stands at the path's start.
 class Simulator {
  public:
   /// Loads the map and builds everything that frames need.
   /// @param threads  for the work of one frame, at least 1; no result depends on it
-  /// Throws Error for a map that cannot be read, a path that it does not have, two robot starts. Brushes that are no bodies
-  /// are left out and stand in problems().
+  /// Throws Error for a map or a model that cannot be read, a path that the map does not have or that begins in solid, a robot start in
+  /// solid, two robot starts. Brushes that are no bodies are left out and stand in problems().
   Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -47,13 +51,15 @@ class Simulator {
   /// The true pose in that frame, without sensing.
   Pose pose_at(std::uint32_t index) const;
 
-  /// What a user should know but a run can stand: brushes left out, a robot start inside a solid, a path that begins
-  /// inside one or runs into one. In a fixed order.
+  /// What a user should know but a run can stand: brushes left out, a path that runs into something, where the robot then
+  /// stops. In a fixed order.
   const std::vector<Error>& problems() const { return problems_; }
 
   const Scenario& scenario() const { return scenario_; }
   const map::Document& document() const { return document_; }
-  const map::World& world() const { return world_; }
+  const map::World& world() const { return world_.brushes; }
+  const world::CompiledWorld& compiled() const { return world_; }
+  const PlacedModels& models() const { return models_; }
   const map::Path& path() const { return path_; }
   const trace::Scene& scene() const { return scene_; }
   /// Every point that a sensor can see, world metres; the index is the landmark's number.
@@ -62,14 +68,19 @@ class Simulator {
   double step_length_m() const { return step_length_m_; }
 
  private:
+  void stop_at_obstacle();
+
   Scenario scenario_;
   unsigned threads_;
   map::Document document_;
-  map::World world_;
+  world::CompiledWorld world_;
+  PlacedModels models_;
   map::Path path_;
   double step_length_m_;
+  std::optional<double> stop_m_;  ///< of the path, where an obstacle stops the robot
   trace::Scene scene_;
   std::vector<Vec3> landmarks_;
+  sense::LandmarkIndex landmark_index_;
   std::vector<sense::PointSensor> sensors_;
   std::vector<Error> problems_;
 };

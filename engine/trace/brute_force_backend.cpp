@@ -19,11 +19,18 @@ class BruteForceBackend final : public QueryBackend {
     return nearest;
   }
 
-  bool any_hit(const SightLine& line) const override {
+  bool occluded(const Vec3& from, const Vec3& to) const override {
+    const auto line = sight_line_between(from, to);
+    if (!line) return false;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-      if (triangles_.hit(i, line)) return true;
+      if (triangles_.hit(i, *line)) return true;
     }
     return false;
+  }
+
+  void occluded_from(const Vec3& eye, std::span<const Vec3> points,
+                     std::span<std::uint8_t> answers) const override {
+    for (std::size_t i = 0; i < points.size(); ++i) answers[i] = occluded(eye, points[i]) ? 1 : 0;
   }
 
  private:

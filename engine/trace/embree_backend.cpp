@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The only source file that knows Embree. Embree holds a tree of boxes in single precision, one box for each
-// triangle ("user geometry"); it finds which boxes a ray passes, and TriangleSet::hit() decides in double
-// precision. Hence the answers are those of the brute-force backend if no box is missed that a hit's point
-// lies in. This is why none is:
+// The only source file that knows Embree. Embree holds a tree of boxes in single precision, one box for each block
+// of up to eight triangles ("user geometry"); it finds which boxes a ray passes, and the block's triangles are
+// decided in single precision with bounds on the error (triangle_blocks.cpp); those that the bounds leave open, by
+// TriangleSet::hit() in double precision. Hence the answers are those of the brute-force backend if no box is missed
+// that a hit's point lies in. This is why none is:
 //
 // - Coordinates are taken relative to the centre of the scene, and the ray is first cut, in double precision,
 //   to the scene's grown box. So every number that Embree computes with is at most the scene's radius R
-//   (times sqrt 2).
+//   (times sqrt 2); a ray is at least 2^-20 R long, and runs from 0 to 1.
 // - A hit's point lies within box_slack_m() of its triangle's box. The boxes are grown by that and by
 //   kFloatSlack R more.
 // - Each rounding in Embree's box test (the ray in float, reciprocals by Newton steps, products, differences)
@@ -18,6 +19,8 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -25,6 +28,7 @@
 
 #include "base/error.hpp"
 #include "trace/query_backend.hpp"
+#include "trace/triangle_blocks.hpp"
 
 namespace hallway::trace {
 namespace {
@@ -133,49 +137,106 @@ std::optional<Span> clip(const SightLine& line, const Box& box) {
   return span.begin <= span.end ? std::optional(span) : std::nullopt;
 }
 
+constexpr std::size_t kPacket = 8;  ///< rays that Embree traces together: as wide as AVX
+
+/// True for rays whose ends lie side by side as seen from their common start: tracing them together then pays.
+bool run_together(const RTCRay8& rays) {
+  constexpr float kSpread = 1.5f;  // packets of rays further apart are slower than single rays
+  const auto spread = [](const float* values) {
+    const auto [low, high] = std::minmax_element(values, values + kPacket);
+    return *high - *low;
+  };
+  float longest = 0.0f;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    longest = std::max(longest, std::abs(rays.dir_x[i]) + std::abs(rays.dir_y[i]) + std::abs(rays.dir_z[i]));
+  }
+  return spread(rays.dir_x) + spread(rays.dir_y) + spread(rays.dir_z) < kSpread * longest;
+}
+
 class EmbreeBackend final : public QueryBackend {
  public:
   explicit EmbreeBackend(TriangleSet triangles)
       : triangles_(std::move(triangles)),
-        centre_(triangles_.bounds().isEmpty() ? Vec3::Zero() : Vec3(triangles_.bounds().center())),
+        blocks_(triangles_),
         box_growth_m_(triangles_.box_slack_m() + kFloatSlack * triangles_.radius_m()),
-        reach_(triangles_.bounds()) {
-    if (triangles_.size() == 0) return;  // reach_ is empty: clip() lets nothing through to Embree
+        reach_(triangles_.bounds()),
+        certify_(fastest_certify()) {
+    if (blocks_.size() == 0) {
+      reach_.setEmpty();
+      return;
+    }
     reach_.min().array() -= box_growth_m_;
     reach_.max().array() += box_growth_m_;
     build();
   }
 
   std::optional<Hit> first_hit(const SightLine& line) const override {
-    const auto span = clip(line, reach_);
-    if (triangles_.size() == 0 || !span) return std::nullopt;
-    Query query(*this, line, span->begin);
+    const auto span = part_in_reach(line);
+    if (!span) return std::nullopt;
+    const double length = std::max(span->end - span->begin, blocks_.least_length_m());
+    const FloatSegment segment = segment_on(line, *span);
+    FirstHitQuery query(*this, line, segment, span->begin, length);
     RTCRayHit ray{};
-    ray.ray = float_ray(line, *span);
+    ray.ray = float_ray(segment);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &query, &ray);
     return query.nearest;
   }
 
-  bool any_hit(const SightLine& line) const override {
-    const auto span = clip(line, reach_);
-    if (triangles_.size() == 0 || !span) return false;
-    Query query(*this, line, span->begin);
-    RTCRay ray = float_ray(line, *span);
-    rtcOccluded1(scene_.get(), &query, &ray);
-    return query.nearest.has_value();
+  bool occluded(const Vec3& from, const Vec3& to) const override {
+    FloatSegment segment;
+    if (reaches(from) && reaches(to) && is_long(to - from)) {
+      segment = blocks_.segment(from - blocks_.centre(), to - from, true);
+    } else {
+      const auto line = sight_line_between(from, to);
+      const auto span = line ? part_in_reach(*line) : std::nullopt;
+      if (!span) return false;
+      segment = segment_on(*line, *span);
+    }
+    return trace(from, to, segment);
+  }
+
+  void occluded_from(const Vec3& eye, std::span<const Vec3> points,
+                     std::span<std::uint8_t> occluded_points) const override {
+    if (!reaches(eye)) {
+      for (std::size_t i = 0; i < points.size(); ++i) occluded_points[i] = occluded(eye, points[i]) ? 1 : 0;
+      return;
+    }
+    for (std::size_t i = 0; i < points.size(); i += kPacket) {
+      const std::size_t count = std::min(kPacket, points.size() - i);
+      trace_packet(eye, points.subspan(i, count), occluded_points.subspan(i, count));
+    }
   }
 
  private:
-  /// Rides along with a ray through Embree to the call-backs.
-  struct Query : RTCIntersectContext {
-    Query(const EmbreeBackend& asked_backend, const SightLine& asked_line, double ray_begin)
-        : RTCIntersectContext(), backend(asked_backend), line(asked_line), begin(ray_begin) {
+  /// Rides along with rays through Embree to the call-back. Rays carry their index in `time`, which nothing here uses
+  /// otherwise: where Embree regroups rays it does not hand on `id`.
+  struct OcclusionQuery : RTCIntersectContext {
+    OcclusionQuery(const Vec3& start, const Vec3* end_points, const FloatSegment* float_segments)
+        : RTCIntersectContext(), from(start), ends(end_points), segments(float_segments) {
+      rtcInitIntersectContext(this);
+    }
+    const Vec3& from;
+    const Vec3* ends;
+    const FloatSegment* segments;
+  };
+
+  struct FirstHitQuery : RTCIntersectContext {
+    FirstHitQuery(const EmbreeBackend& asked_backend, const SightLine& asked_line,
+                  const FloatSegment& float_segment, double ray_begin, double ray_length)
+        : RTCIntersectContext(),
+          backend(asked_backend),
+          line(asked_line),
+          segment(float_segment),
+          begin(ray_begin),
+          length(ray_length) {
       rtcInitIntersectContext(this);
     }
     const EmbreeBackend& backend;
     const SightLine& line;
-    double begin;  ///< distance along the line at which Embree's ray starts
+    const FloatSegment& segment;
+    double begin;   ///< distance along the line at which Embree's ray starts
+    double length;  ///< of Embree's ray, metres
     std::optional<Hit> nearest{};
   };
 
@@ -187,7 +248,7 @@ class EmbreeBackend final : public QueryBackend {
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     const GeometryHandle geometry(rtcNewGeometry(embree, RTC_GEOMETRY_TYPE_USER));
     check(embree, "to make a geometry");
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), triangles_.size());
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), blocks_.size());
     rtcSetGeometryUserData(geometry.get(), this);
     rtcSetGeometryBoundsFunction(geometry.get(), &EmbreeBackend::give_box, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), &EmbreeBackend::take_first_hit);
@@ -198,26 +259,92 @@ class EmbreeBackend final : public QueryBackend {
     check(embree, "to build the tree of the scene's triangles");
   }
 
-  RTCRay float_ray(const SightLine& line, const Span& span) const {
-    const Vec3 origin = line.origin + span.begin * line.direction - centre_;
+  std::optional<Span> part_in_reach(const SightLine& line) const {
+    return reach_.isEmpty() ? std::nullopt : clip(line, reach_);
+  }
+
+  bool reaches(const Vec3& point) const {
+    return point.x() >= reach_.min().x() && point.x() <= reach_.max().x() && point.y() >= reach_.min().y() &&
+           point.y() <= reach_.max().y() && point.z() >= reach_.min().z() && point.z() <= reach_.max().z();
+  }
+
+  bool is_long(const Vec3& delta) const { return delta.squaredNorm() > least_squared_; }
+
+  FloatSegment segment_on(const SightLine& line, const Span& span) const {
+    const double length = span.end - span.begin;
+    const double least = blocks_.least_length_m();
+    const Vec3 origin = line.origin - blocks_.centre();
+    const bool sure = length >= least && origin.cwiseAbs().maxCoeff() <= blocks_.sure_within_m();
+    return blocks_.segment(origin + span.begin * line.direction, std::max(length, least) * line.direction,
+                           sure);
+  }
+
+  static RTCRay float_ray(const FloatSegment& segment) {
     RTCRay ray{};
-    ray.org_x = static_cast<float>(origin.x());
-    ray.org_y = static_cast<float>(origin.y());
-    ray.org_z = static_cast<float>(origin.z());
-    ray.dir_x = static_cast<float>(line.direction.x());
-    ray.dir_y = static_cast<float>(line.direction.y());
-    ray.dir_z = static_cast<float>(line.direction.z());
+    ray.org_x = segment.origin[0];
+    ray.org_y = segment.origin[1];
+    ray.org_z = segment.origin[2];
+    ray.dir_x = segment.delta[0];
+    ray.dir_y = segment.delta[1];
+    ray.dir_z = segment.delta[2];
     ray.tnear = 0.0f;
-    ray.tfar = round_up(span.end - span.begin);
+    ray.tfar = 1.0f;
     ray.mask = ~0u;
     return ray;
   }
 
+  bool trace(const Vec3& from, const Vec3& to, const FloatSegment& segment) const {
+    OcclusionQuery query(from, &to, &segment);
+    RTCRay ray = float_ray(segment);
+    rtcOccluded1(scene_.get(), &query, &ray);
+    return ray.tfar < 0.0f;
+  }
+
+  void trace_packet(const Vec3& eye, std::span<const Vec3> points,
+                    std::span<std::uint8_t> occluded_points) const {
+    std::array<FloatSegment, kPacket> segments;
+    RTCRay8 rays;
+    bool simple = points.size() == kPacket;
+    for (std::size_t i = 0; i < points.size() && simple; ++i) {
+      simple = reaches(points[i]) && is_long(points[i] - eye);
+      segments[i] = blocks_.segment(eye - blocks_.centre(), points[i] - eye, true);
+      set_ray(rays, i, segments[i]);
+    }
+    if (!simple) {
+      for (std::size_t i = 0; i < points.size(); ++i) occluded_points[i] = occluded(eye, points[i]) ? 1 : 0;
+      return;
+    }
+    if (!run_together(rays)) {
+      for (std::size_t i = 0; i < kPacket; ++i)
+        occluded_points[i] = trace(eye, points[i], segments[i]) ? 1 : 0;
+      return;
+    }
+    alignas(32) static constexpr std::array<int, kPacket> kAllValid{-1, -1, -1, -1, -1, -1, -1, -1};
+    OcclusionQuery query(eye, points.data(), segments.data());
+    rtcOccluded8(kAllValid.data(), scene_.get(), &query, &rays);
+    for (std::size_t i = 0; i < kPacket; ++i) occluded_points[i] = rays.tfar[i] < 0.0f ? 1 : 0;
+  }
+
+  static void set_ray(RTCRay8& rays, std::size_t i, const FloatSegment& segment) {
+    rays.org_x[i] = segment.origin[0];
+    rays.org_y[i] = segment.origin[1];
+    rays.org_z[i] = segment.origin[2];
+    rays.dir_x[i] = segment.delta[0];
+    rays.dir_y[i] = segment.delta[1];
+    rays.dir_z[i] = segment.delta[2];
+    rays.tnear[i] = 0.0f;
+    rays.tfar[i] = 1.0f;
+    rays.time[i] = static_cast<float>(i);
+    rays.mask[i] = ~0u;
+    rays.id[i] = 0;
+    rays.flags[i] = 0;
+  }
+
   static void give_box(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const EmbreeBackend*>(arguments->geometryUserPtr);
-    const Box box = self->triangles_.box(arguments->primID);
-    const Vec3 low = (box.min() - self->centre_).array() - self->box_growth_m_;
-    const Vec3 high = (box.max() - self->centre_).array() + self->box_growth_m_;
+    const Box& box = self->blocks_.box(arguments->primID);
+    const Vec3 low = (box.min() - self->blocks_.centre()).array() - self->box_growth_m_;
+    const Vec3 high = (box.max() - self->blocks_.centre()).array() + self->box_growth_m_;
     RTCBounds& bounds = *arguments->bounds_o;
     bounds.lower_x = round_down(low.x());
     bounds.lower_y = round_down(low.y());
@@ -228,33 +355,59 @@ class EmbreeBackend final : public QueryBackend {
   }
 
   static void take_first_hit(const RTCIntersectFunctionNArguments* arguments) {
-    auto& query = static_cast<Query&>(*arguments->context);
-    const std::uint32_t triangle = arguments->primID;
-    const auto distance = query.backend.triangles_.hit(triangle, query.line);
-    if (!distance) return;
-    if (query.nearest &&
-        std::pair(*distance, triangle) > std::pair(query.nearest->distance, query.nearest->triangle)) {
-      return;
+    auto& query = static_cast<FirstHitQuery&>(*arguments->context);
+    const EmbreeBackend& self = query.backend;
+    const TriangleBlock& block = self.blocks_[arguments->primID];
+    bool nearer = false;
+    for (std::uint32_t open = self.certify_(block, query.segment).open; open != 0; open &= open - 1) {
+      const std::uint32_t triangle = block.triangle[static_cast<std::size_t>(std::countr_zero(open))];
+      const auto distance = self.triangles_.hit(triangle, query.line);
+      if (!distance) continue;
+      if (query.nearest &&
+          std::pair(*distance, triangle) > std::pair(query.nearest->distance, query.nearest->triangle)) {
+        continue;
+      }
+      query.nearest = Hit{*distance, triangle};
+      nearer = true;
     }
-    query.nearest = Hit{*distance, triangle};
+    if (!nearer) return;
     // From here on only boxes that are entered no later than this hit are of interest.
+    const float at = round_up((query.nearest->distance - query.begin) / query.length);
     float& end = RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0);
-    end = std::min(end, std::max(0.0f, round_up(*distance - query.begin)));
+    end = std::min(end, std::max(0.0f, at));
   }
 
   static void take_any_hit(const RTCOccludedFunctionNArguments* arguments) {
-    auto& query = static_cast<Query&>(*arguments->context);
-    const auto distance = query.backend.triangles_.hit(arguments->primID, query.line);
-    if (!distance) return;
-    query.nearest = Hit{*distance, arguments->primID};
-    RTCRayN_tfar(arguments->ray, arguments->N, 0) =
-        -std::numeric_limits<float>::infinity();  // Embree: "occluded"
+    const auto& query = static_cast<const OcclusionQuery&>(*arguments->context);
+    const auto& self = *static_cast<const EmbreeBackend*>(arguments->geometryUserPtr);
+    const TriangleBlock& block = self.blocks_[arguments->primID];
+    for (unsigned i = 0; i < arguments->N; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      const auto ray = static_cast<std::size_t>(RTCRayN_time(arguments->ray, arguments->N, i));
+      const Verdict verdict = self.certify_(block, query.segments[ray]);
+      if (verdict.open == 0) continue;
+      if (verdict.hit == 0 && !self.decide(block, verdict.open, query.from, query.ends[ray])) continue;
+      RTCRayN_tfar(arguments->ray, arguments->N, i) =
+          -std::numeric_limits<float>::infinity();  // Embree: "occluded"
+    }
+  }
+
+  /// Whether the line meets one of the open triangles of a block, in double precision.
+  bool decide(const TriangleBlock& block, std::uint32_t open, const Vec3& from, const Vec3& to) const {
+    const auto line = sight_line_between(from, to);
+    for (; line && open != 0; open &= open - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(open));
+      if (triangles_.hit(block.triangle[lane], *line)) return true;
+    }
+    return false;
   }
 
   TriangleSet triangles_;
-  Vec3 centre_;
+  TriangleBlocks blocks_;
   double box_growth_m_;
-  Box reach_;  ///< all grown boxes lie in it
+  double least_squared_ = blocks_.least_length_m() * blocks_.least_length_m();
+  Box reach_;  ///< all grown boxes lie in it; empty if there are none
+  Certify certify_;
   SceneHandle scene_;
 };
 

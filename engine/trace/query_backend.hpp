@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "trace/scene.hpp"
@@ -11,7 +13,8 @@
 
 namespace hallway::trace {
 
-/// What a Scene asks. Queries are const and may run on any number of threads at once.
+/// What a Scene asks; it has checked that all coordinates are finite and within Scene::kMaxRayCoordinate.
+/// Queries are const and may run on any number of threads at once.
 class QueryBackend {
  public:
   QueryBackend() = default;
@@ -21,16 +24,17 @@ class QueryBackend {
 
   /// The least hit by (distance, triangle).
   virtual std::optional<Hit> first_hit(const SightLine& line) const = 0;
-  /// Whether there is any hit.
-  virtual bool any_hit(const SightLine& line) const = 0;
+  /// Whether there is any hit on sight_line_between() the two.
+  virtual bool occluded(const Vec3& from, const Vec3& to) const = 0;
+  /// The same for many lines from one point; `occluded` has the length of `points`.
+  virtual void occluded_from(const Vec3& eye, std::span<const Vec3> points,
+                             std::span<std::uint8_t> occluded) const = 0;
 };
 
 std::unique_ptr<const QueryBackend> make_brute_force_backend(TriangleSet triangles);
-
-/// Throws Error{kInternal} if Embree fails.
 std::unique_ptr<const QueryBackend> make_embree_backend(TriangleSet triangles);
 
-/// Version and instruction set of Embree. Throws Error{kInternal} if Embree does not start.
+/// Embree's version and the instruction set that it uses.
 std::string embree_description();
 
 }  // namespace hallway::trace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "trace/scene.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,30 +15,14 @@ std::unique_ptr<const QueryBackend> make_backend(TriangleSet triangles, Backend 
                                      : make_brute_force_backend(std::move(triangles));
 }
 
-void check_point(const Vec3& point) {
-  if (point.allFinite() && point.cwiseAbs().maxCoeff() <= Scene::kMaxRayCoordinate) return;
+[[noreturn]] void refuse_point() {
   throw Error(ErrorCode::kBadInput,
               "a ray starts or ends at a point that is not finite or too far from the origin");
 }
 
-/// Empty for a ray that by its definition hits nothing.
-std::optional<SightLine> sight_line(const Vec3& origin, const Vec3& direction, double max_distance) {
-  check_point(origin);
-  if (!direction.allFinite() || std::isnan(max_distance)) {
-    throw Error(ErrorCode::kBadInput, "a ray's direction or length is not a number");
-  }
-  const double largest = direction.cwiseAbs().maxCoeff();
-  if (largest == 0.0 || max_distance < 0.0) return std::nullopt;
-  return SightLine{origin, (direction / largest).normalized(), max_distance};
-}
-
-std::optional<SightLine> sight_line_between(const Vec3& one, const Vec3& other) {
-  check_point(other);
-  // Starting at the lesser point makes the answer the same from both ends, also where rounding decides.
-  const bool ordered = std::lexicographical_compare(one.begin(), one.end(), other.begin(), other.end());
-  const Vec3& from = ordered ? one : other;
-  const Vec3& to = ordered ? other : one;
-  return sight_line(from, to - from, (to - from).norm());
+inline void check_point(const Vec3& point) {
+  const auto within = [](double value) { return std::abs(value) <= Scene::kMaxRayCoordinate; };
+  if (!(within(point.x()) && within(point.y()) && within(point.z()))) refuse_point();  // also for NaN
 }
 
 }  // namespace
@@ -51,13 +34,28 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 std::optional<Hit> Scene::first_hit(const Ray& ray) const {
+  check_point(ray.origin);
+  if (!ray.direction.allFinite() || std::isnan(ray.max_distance)) {
+    throw Error(ErrorCode::kBadInput, "a ray's direction or length is not a number");
+  }
   const auto line = sight_line(ray.origin, ray.direction, ray.max_distance);
   return line ? backend_->first_hit(*line) : std::nullopt;
 }
 
 bool Scene::occluded(const Vec3& from, const Vec3& to) const {
-  const auto line = sight_line_between(from, to);
-  return line && backend_->any_hit(*line);
+  check_point(from);
+  check_point(to);
+  return backend_->occluded(from, to);
+}
+
+void Scene::occluded_from(const Vec3& eye, std::span<const Vec3> points,
+                          std::span<std::uint8_t> occluded_points) const {
+  if (points.size() != occluded_points.size()) {
+    throw Error(ErrorCode::kInternal, "as many answers as points must be asked for");
+  }
+  check_point(eye);
+  for (const Vec3& point : points) check_point(point);
+  backend_->occluded_from(eye, points, occluded_points);
 }
 
 std::string backend_description(Backend backend) {

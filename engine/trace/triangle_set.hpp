@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,6 +28,11 @@ class TriangleSet {
   /// lies in the triangle's box grown by box_slack_m(): a search by boxes cannot lose a hit.
   std::optional<double> hit(std::uint32_t triangle, const SightLine& line) const;
 
+  std::array<Vec3, 3> corners(std::uint32_t triangle) const {
+    return {triangles_[triangle].a, triangles_[triangle].b, triangles_[triangle].c};
+  }
+  /// True for a triangle whose vertices lie on a line: hit() never has a value.
+  bool without_area(std::uint32_t triangle) const { return triangles_[triangle].normal.isZero(0.0); }
   /// The box of a triangle's vertices.
   Box box(std::uint32_t triangle) const;
   /// The box of everything, empty for no triangles.

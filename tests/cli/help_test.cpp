@@ -15,7 +15,7 @@ void expect_help(const std::vector<std::string>& arguments, const std::vector<st
 }
 
 TEST(Help, OfTheProgramListsCommandsAndStatuses) {
-  expect_help({"--help"}, {"run", "replay", "render", "plugin", "Exit status"});
+  expect_help({"--help"}, {"run", "replay", "compile", "map", "render", "plugin", "Exit status"});
 }
 
 TEST(Help, OfRun) {
@@ -30,6 +30,10 @@ TEST(Help, OfReplay) {
 
 TEST(Help, OfRender) {
   expect_help({"render", "--help"}, {"--view", "--out", "--size", "--cut", "--eye", "Example"});
+}
+
+TEST(Help, OfCompile) {
+  expect_help({"compile", "--help"}, {"--level", "--threads", "--no-cache", "--strict", "--json", "Example"});
 }
 
 TEST(Help, OfPluginList) {

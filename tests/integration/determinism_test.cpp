@@ -30,7 +30,9 @@ std::string comparable(const fs::path& file) {
 void expect_same_runs(const fs::path& a, const fs::path& b) {
   std::set<std::string> names;
   for (const fs::path& folder : {a, b}) {
-    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file()) names.insert(fs::path(entry.path()).lexically_relative(folder));
+    }
   }
   EXPECT_GE(names.size(), 15u) << "a run folder with its pictures";
   for (const std::string& name : names) {

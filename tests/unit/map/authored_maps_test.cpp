@@ -32,13 +32,6 @@ std::vector<std::filesystem::path> authored_maps() {
   return files;
 }
 
-/// Least level distance from a point to a solid's box, 0 above or below it.
-double level_distance(const Box& box, const Vec3& point) {
-  const Vec2 outside =
-      (box.min().head<2>() - point.head<2>()).cwiseMax(point.head<2>() - box.max().head<2>()).cwiseMax(0.0);
-  return outside.norm();
-}
-
 TEST(AuthoredMaps, AreCanonicalAndSound) {
   const auto files = authored_maps();
   ASSERT_GE(files.size(), 2u);
@@ -83,24 +76,6 @@ TEST(FigureEight, SceneryStaysClearOfThePathAndOfTheStart) {
   EXPECT_LT(angle_between(start->T_world_body.q, path.at(0.0).q), 1e-9);
 }
 
-TEST(Office, RoundKeepsClearOfEverythingInTheRobotsWay) {
-  const Document document = load(maps_folder() / "office.map");
-  const World world = build_world(document);
-  const Path path = find_path(document, "round");
-  EXPECT_TRUE(path.closed());
-  EXPECT_GT(path.length_m(), 20.0);
-  EXPECT_LT(path.length_m(), 90.0);
-  constexpr double kRobotHeight_m = 1.5;
-  for (double s = 0.0; s < path.length_m(); s += 0.05) {
-    for (const Solid& solid : world.solids) {
-      const bool in_height = solid.box.max().z() > 0.01 && solid.box.min().z() < kRobotHeight_m;
-      if (in_height) {
-        ASSERT_GE(level_distance(solid.box, path.at(s).t), 0.5) << "line " << solid.line << " at " << s;
-      }
-    }
-  }
-}
-
 TEST(Office, StartsOnItsPath) {
   const Document document = load(maps_folder() / "office.map");
   const auto start = find_robot_start(document);
@@ -108,29 +83,6 @@ TEST(Office, StartsOnItsPath) {
   const Pose first = find_path(document, "round").at(0.0);
   EXPECT_LT((start->T_world_body.t - first.t).norm(), 1e-12);
   EXPECT_LT(angle_between(start->T_world_body.q, first.q), 1e-12);
-}
-
-TEST(Office, IsClosedTowardsTheOutside) {
-  // The shell's outermost solids leave no gap: points just outside the inner box lie in a solid, all around.
-  const World world = build_world(load(maps_folder() / "office.map"));
-  const Box inner(Vec3(0, 0, 0), Vec3(24, 16, 2.7));
-  const auto solid_at = [&](const Vec3& point) {
-    return std::any_of(world.solids.begin(), world.solids.end(),
-                       [&](const Solid& s) { return s.contains(point, -1e-9); });
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i <= 60; ++i) {
-      for (int j = 0; j <= 60; ++j) {
-        Vec3 point;
-        point[(axis + 1) % 3] = inner.min()[(axis + 1) % 3] + inner.sizes()[(axis + 1) % 3] * i / 60.0;
-        point[(axis + 2) % 3] = inner.min()[(axis + 2) % 3] + inner.sizes()[(axis + 2) % 3] * j / 60.0;
-        point[axis] = inner.min()[axis] - 0.01;
-        ASSERT_TRUE(solid_at(point)) << point.transpose();
-        point[axis] = inner.max()[axis] + 0.01;
-        ASSERT_TRUE(solid_at(point)) << point.transpose();
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "map/check.hpp"
 #include "map/entities.hpp"
+#include "map/occupants.hpp"
 #include "map/path.hpp"
 #include "map/reader.hpp"
 #include "map/world.hpp"
@@ -75,6 +77,8 @@ bool use(const std::string& text) {
   try {
     const Document document = parse(text, "mutant.map");
     EXPECT_EQ(print(parse(print(document), "again.map")), print(document));
+    check(document);
+    occupants(document);
     const World world = build_world(document);
     for (const Solid& solid : world.solids) {
       for (const SolidFace& face : solid.faces) EXPECT_GE(face.polygon.vertices.size(), 3u);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "map/document.hpp"
+#include "map/texture_axes.hpp"
 
 namespace hallway::map::test {
 
@@ -92,8 +93,27 @@ class RandomDocument {
     made.comments = comments();
     const int faces = upto(7);
     for (int i = 0; i < faces; ++i) made.faces.push_back(face());
+    if (upto(5) == 0) make_primitive(made);
+    if (upto(9) == 0) make_unread(made);
     made.closing_comments = comments();
     return made;
+  }
+
+  /// As the reader makes it: the axes follow from the points.
+  void make_primitive(Brush& brush) {
+    for (Face& face : brush.faces) {
+      face.texture_matrix = {number(), number(), number(), number(), number(), number()};
+      const TextureAxes axes = standard_axes(face.points, 0.0);
+      face.u_axis = axes.u;
+      face.v_axis = axes.v;
+      face.u_offset = face.v_offset = face.rotation_deg = 0.0;
+      face.u_scale = face.v_scale = 1.0;
+    }
+  }
+
+  void make_unread(Brush& brush) {
+    brush.faces.clear();
+    brush.unread = upto(1) ? "patchDef2\n{\n{ \"}\" // }\n} ; {\n}" : "brushDef3 { }";
   }
 
   Entity entity() {

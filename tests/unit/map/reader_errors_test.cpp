@@ -69,19 +69,41 @@ TEST(ReaderErrors, TwoCoordinates) {
   expect_error(map_of("( 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m"), 4, "found `)`");
 }
 
-TEST(ReaderErrors, StandardFormat) {
-  expect_error(map_of("( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m 0 0 0 1 1\n"), 4, "Standard format");
+TEST(ReaderErrors, StandardTextureCutShort) {
+  expect_error(map_of("( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m 0 0 0 1\n"), 5, "the texture's scale, found `}`");
+}
+TEST(ReaderErrors, HexenIiHasOneNumberMore) {
+  expect_error(map_of("( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m 0 0 0 1 1 0\n"), 5, "as Hexen II has it, is not read");
 }
 
-TEST(ReaderErrors, StandardFormatAfterValve) {
-  expect_error(map_of(cube_faces() + "( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m 0 0 0 1 1\n"), 10, "Standard format");
+TEST(ReaderErrors, FaceOutsideABrush) {
+  expect_error("{\n\"a\" \"b\"\n( 0 0 0 )\n}\n", 3, "a face that is in no brush");
 }
 
-TEST(ReaderErrors, BrushPrimitive) {
-  expect_error("{\n{\nbrushDef\n{\n}\n}\n}\n", 3, "`brushDef` is not read");
+TEST(ReaderErrors, BrushPrimitiveWithoutAMatrix) {
+  expect_error("{\n{\nbrushDef\n{\n( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) m\n}\n}\n}\n", 5,
+               "expected `(` to begin the texture's matrix, found `m`");
 }
-TEST(ReaderErrors, Patch) {
-  expect_error("{\n{\npatchDef2\n{\n}\n}\n}\n", 3, "`patchDef2` is not read");
+TEST(ReaderErrors, PatchWithoutABlock) {
+  expect_error("{\n{\npatchDef2\n}\n}\n", 4, "expected `{` after `patchDef2`, found `}`");
+}
+TEST(ReaderErrors, PatchThatDoesNotEnd) {
+  expect_error("{\n{\npatchDef2\n{\n{\n}\n", 7,
+               "the closing brace of `patchDef2`, found the end of the file (it begins at line 3)");
+}
+TEST(ReaderErrors, AMillionOpenBracesInAPatch) {
+  std::string text = "{\n{\npatchDef2\n";
+  for (int i = 0; i < 1000000; ++i) text += "{\n";
+  expect_error(text, 1000004, "the closing brace of `patchDef2`");
+}
+TEST(ReaderErrors, PatchAfterFaces) {
+  expect_error(map_of(cube_faces() + "patchDef2\n{\n}\n"), 10, "`patchDef2` after faces");
+}
+TEST(ReaderErrors, FacesAfterAPatch) {
+  expect_error(map_of("patchDef2\n{\n}\n" + cube_faces()), 7, "expected `}`, found `(`");
+}
+TEST(ReaderErrors, UnknownWordInABrush) {
+  expect_error(map_of("mesh\n"), 4, "expected `(` of a face or `}`, found `mesh`");
 }
 
 TEST(ReaderErrors, BraceInsideABrush) {

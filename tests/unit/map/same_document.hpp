@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -22,6 +23,12 @@ inline bool same_flags(const std::optional<SurfaceFlags>& a, const std::optional
   return a->contents == b->contents && a->flags == b->flags && same_bits(a->value, b->value);
 }
 
+inline bool same_matrix(const std::optional<std::array<double, 6>>& a,
+                        const std::optional<std::array<double, 6>>& b) {
+  if (!a || !b) return !a && !b;
+  return std::memcmp(a->data(), b->data(), sizeof *a) == 0;
+}
+
 /// Equal in everything but line numbers; numbers are compared bit by bit.
 inline bool same_face(const Face& a, const Face& b) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -31,7 +38,7 @@ inline bool same_face(const Face& a, const Face& b) {
          same_bits(a.v_axis, b.v_axis) && same_bits(a.u_offset, b.u_offset) &&
          same_bits(a.v_offset, b.v_offset) && same_bits(a.rotation_deg, b.rotation_deg) &&
          same_bits(a.u_scale, b.u_scale) && same_bits(a.v_scale, b.v_scale) &&
-         same_flags(a.surface_flags, b.surface_flags);
+         same_flags(a.surface_flags, b.surface_flags) && same_matrix(a.texture_matrix, b.texture_matrix);
 }
 
 /// What differs between two documents, apart from line numbers and the file's name; empty where nothing does.
@@ -56,6 +63,7 @@ inline std::string difference(const Document& a, const Document& b) {
       const Brush& q = y.brushes[i];
       const std::string brush = entity + "brush " + std::to_string(i) + ": ";
       if (p.comments != q.comments || p.closing_comments != q.closing_comments) return brush + "comments";
+      if (p.unread != q.unread) return brush + "unread shape";
       if (p.faces.size() != q.faces.size()) return brush + "number of faces";
       for (std::size_t f = 0; f < p.faces.size(); ++f) {
         if (!same_face(p.faces[f], q.faces[f])) return brush + "face " + std::to_string(f);

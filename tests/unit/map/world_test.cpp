@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -14,8 +13,6 @@
 #include "map/reader.hpp"
 #include "map_text.hpp"
 #include "solid_checks.hpp"
-#include "support/data.hpp"
-#include "support/errors.hpp"
 #include "support/long_mode.hpp"
 
 namespace hallway::map {
@@ -204,30 +201,6 @@ TEST(World, APrismOfManySides) {
   test::expect_closed(solid);
   const double expected = 20.0 * kSides * 1e6 * std::tan(std::numbers::pi / kSides);
   EXPECT_NEAR(test::volume(solid), expected, 1e-7 * expected);
-}
-
-TEST(World, RealMapsHaveSoundSolids) {
-  HALLWAY_DATA_OR_SKIP(folder, "maps");
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == ".map") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  std::size_t solids = 0;
-  for (const auto& file : files) {
-    Document document;
-    if (hallway::test::error_of([&] { document = load(file); }))
-      continue;  // what cannot be read is the reader's test
-    SCOPED_TRACE(file.string());
-    const World world = build_world(document);
-    for (const Problem& problem : world.problems) ADD_FAILURE() << problem.line << ": " << problem.message;
-    solids += world.solids.size();
-    for (const Solid& solid : world.solids) {
-      test::expect_sound_faces(solid, 2e-6 * document.metres_per_unit());
-      test::expect_closed(solid);
-    }
-  }
-  EXPECT_GE(solids, 3000u);
 }
 
 }  // namespace

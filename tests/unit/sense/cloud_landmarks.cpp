@@ -40,7 +40,7 @@ std::string cloud(const std::string& name, const std::string& per_100m, const st
 
 std::vector<Vec3> make(const std::string& text) {
   const map::Document document = test::parse_map(text);
-  return make_landmarks(document, map::build_world(document));
+  return make_landmarks(document, map::build_world(document), csg::build_surface(map::build_world(document)));
 }
 
 TEST(CloudLandmarks, AreAsManyAsThePathsLengthAsksFor) {

@@ -28,7 +28,7 @@ Made make(const std::string& text) {
   const map::Document document = test::parse_map(text);
   Made made{map::build_world(document), {}};
   EXPECT_TRUE(made.world.problems.empty());
-  made.landmarks = make_landmarks(document, made.world);
+  made.landmarks = make_landmarks(document, made.world, csg::build_surface(made.world));
   return made;
 }
 
@@ -97,7 +97,13 @@ TEST(FaceLandmarks, AreNotWhereSolidsTouch) {
   const Made made = make(worldspawn({{"_points_per_m2", "100"}},
                                     {box_brush({-2, 0, 0}, {0, 2, 2}), box_brush({0, 0, 0}, {2, 2, 2})}));
   EXPECT_GT(made.landmarks.size(), 3000u);
-  for (const Vec3& point : made.landmarks) ASSERT_GE(std::abs(point.x()), 0.001 - 1e-9) << point.transpose();
+  // None stands in the plane between the two; those above it stand on the face that the two form.
+  const Box both(Vec3(-2, 0, 0), Vec3(2, 2, 2));
+  for (const Vec3& point : made.landmarks) {
+    ASSERT_NEAR(both.exteriorDistance(point), 0.001, 1e-12) << point.transpose();
+  }
+  EXPECT_TRUE(std::any_of(made.landmarks.begin(), made.landmarks.end(),
+                          [](const Vec3& point) { return std::abs(point.x()) < 0.02; }));
 }
 
 TEST(FaceLandmarks, AreClearOfEverySolid) {
@@ -125,10 +131,8 @@ TEST(FaceLandmarks, CoverContinuedFacesLikeOne) {
   const Made parts =
       make(worldspawn(keys, {box_brush({0, 0, 0}, {7.3, 10, 3}), box_brush({7.3, 0, 0}, {20, 10, 3})}));
   for (const Vec3& point : parts.landmarks) ASSERT_TRUE(has(whole.landmarks, point)) << point.transpose();
-  for (const Vec3& point : whole.landmarks) {
-    const bool at_the_seam = std::abs(point.x() - 7.3) < 0.002;
-    ASSERT_TRUE(at_the_seam || has(parts.landmarks, point)) << point.transpose();
-  }
+  for (const Vec3& point : whole.landmarks) ASSERT_TRUE(has(parts.landmarks, point)) << point.transpose();
+  EXPECT_EQ(parts.landmarks.size(), whole.landmarks.size());
 }
 
 TEST(FaceLandmarks, AreNotDoubledWhereFacesCoincide) {
@@ -155,6 +159,62 @@ TEST(FaceLandmarks, StayWhenABrushElsewhereIsEdited) {
     const bool edited = point.x() > 15.0;
     ASSERT_TRUE(edited || has(after.landmarks, point)) << point.transpose();
   }
+}
+
+TEST(FaceLandmarks, LoseNoPointsAtTheEdgesBetweenPolygonsOfAFace) {
+  // A dense plate, and the same with pillars on it that cut its upper face into pieces.
+  const test::Keys keys = {{"_points_per_m2", "10000"}};
+  const std::string plate = box_brush({0, 0, 0}, {2, 2, 0.5});
+  const Made plain = make(worldspawn(keys, {plate}));
+  const Made cut = make(worldspawn(
+      keys, {plate, box_brush({0.5, 0.4, 0.5}, {0.6, 1.1, 2}), box_brush({1.2, 1.3, 0.5}, {1.9, 1.5, 2})}));
+  const auto on_top = [](const Made& made) {
+    std::vector<Vec3> points;
+    for (const Vec3& point : made.landmarks) {
+      const auto beside = [&](double x0, double y0, double x1, double y1) {
+        return point.x() < x0 - 0.001 || point.x() > x1 + 0.001 || point.y() < y0 - 0.001 ||
+               point.y() > y1 + 0.001;
+      };
+      if (std::abs(point.z() - 0.501) < 1e-9 && beside(0.5, 0.4, 0.6, 1.1) && beside(1.2, 1.3, 1.9, 1.5)) {
+        points.push_back(point);
+      }
+    }
+    return points;
+  };
+  const std::vector<Vec3> expected = on_top(plain);
+  EXPECT_GT(expected.size(), 37000u);
+  EXPECT_EQ(on_top(cut), expected);
+}
+
+TEST(FaceLandmarks, StandInsideOfARoomCutOutOfSolid) {
+  const Made made = make(worldspawn({{"_points_per_m2", "20"}}, {box_brush({-1, -1, -1}, {9, 7, 4})}) +
+                         entity({{"classname", "hw_subtract"}}, {box_brush({0, 0, 0}, {8, 6, 3})}));
+  const Box room(Vec3(0, 0, 0), Vec3(8, 6, 3));
+  const Box block(Vec3(-1, -1, -1), Vec3(9, 7, 4));
+  std::size_t inside = 0;
+  for (const Vec3& point : made.landmarks) {
+    if (!block.contains(point)) continue;
+    ++inside;
+    const Vec3 depth = (point - room.min()).cwiseMin(room.max() - point);
+    std::array<double, 3> depths{depth.x(), depth.y(), depth.z()};
+    std::sort(depths.begin(), depths.end());
+    ASSERT_NEAR(depths[0], 0.001, 1e-12) << "off its wall";
+    ASSERT_GE(depths[1], 0.001 - 1e-12) << "off the next wall";
+  }
+  const double expected = 20.0 * 2.0 * (8 * 6 + 8 * 3 + 6 * 3);
+  EXPECT_NEAR(static_cast<double>(inside), expected, 0.03 * expected);
+}
+
+TEST(FaceLandmarks, AreOnlyOnPolygonsThatAreWanted) {
+  const map::Document document =
+      test::parse_map(worldspawn({{"_points_per_m2", "5"}}, {box_brush({0, 0, 0}, {10, 10, 10})}));
+  const map::World world = map::build_world(document);
+  const csg::Surface surface = csg::build_surface(world);
+  const auto faces_up = [&](std::size_t polygon) { return surface.polygons[polygon].plane.normal.z() > 0.5; };
+  const std::vector<Vec3> some = make_landmarks(document, world, surface, faces_up);
+  EXPECT_NEAR(static_cast<double>(some.size()), 500.0, 30.0);
+  for (const Vec3& point : some) ASSERT_NEAR(point.z(), 10.001, 1e-12);
+  EXPECT_TRUE(make_landmarks(document, world, surface, [](std::size_t) { return false; }).empty());
 }
 
 TEST(FaceLandmarks, FollowTheSeed) {
@@ -187,7 +247,8 @@ TEST(FaceLandmarks, AreRefusedBeyondTheLimit) {
   const map::Document document =
       test::parse_map(worldspawn({{"_points_per_m2", "1000000"}}, {box_brush({0, 0, 0}, {1000, 1000, 10})}));
   const map::World world = map::build_world(document);
-  const auto error = test::error_of([&] { static_cast<void>(make_landmarks(document, world)); });
+  const auto error =
+      test::error_of([&] { static_cast<void>(make_landmarks(document, world, csg::build_surface(world))); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::kBadInput);
   EXPECT_EQ(error->where().file, "test.map");

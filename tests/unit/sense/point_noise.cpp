@@ -37,7 +37,7 @@ std::vector<std::vector<Vec3>> deviates(const PointSensor& sensor, const std::ve
 class PointNoise : public testing::Test {
  protected:
   static constexpr std::uint32_t kSteps = 200;
-  PointNoise() : landmarks_(grid()), sensor_(spec(), landmarks_, empty_scene(), 42) {
+  PointNoise() : landmarks_(grid()), index_(landmarks_), sensor_(spec(), index_, empty_scene(), 42) {
     all_ = deviates(sensor_, landmarks_, kSteps);
     count_ = static_cast<double>(kSteps) * static_cast<double>(landmarks_.size());  // 40 000
   }
@@ -56,6 +56,7 @@ class PointNoise : public testing::Test {
   }
 
   std::vector<Vec3> landmarks_;
+  LandmarkIndex index_;
   PointSensor sensor_;
   std::vector<std::vector<Vec3>> all_;
   double count_ = 0.0;
@@ -103,11 +104,14 @@ TEST_F(PointNoise, IsIndependentBetweenStepsAndLandmarks) {
 }
 
 TEST_F(PointNoise, DependsOnSeedAndNameAndNothingElse) {
-  const auto other_seed = deviates(PointSensor(spec(), landmarks_, empty_scene(), 43), landmarks_, 1);
+  const auto other_seed =
+      deviates(PointSensor(spec(), LandmarkIndex(landmarks_), empty_scene(), 43), landmarks_, 1);
   PointSensorSpec renamed = spec();
   renamed.name = "other";
-  const auto other_name = deviates(PointSensor(renamed, landmarks_, empty_scene(), 42), landmarks_, 1);
-  const auto same = deviates(PointSensor(spec(), landmarks_, empty_scene(), 42), landmarks_, 1);
+  const auto other_name =
+      deviates(PointSensor(renamed, LandmarkIndex(landmarks_), empty_scene(), 42), landmarks_, 1);
+  const auto same =
+      deviates(PointSensor(spec(), LandmarkIndex(landmarks_), empty_scene(), 42), landmarks_, 1);
   EXPECT_EQ(same[0], all_[0]);
   EXPECT_NE(other_seed[0][0], all_[0][0]);
   EXPECT_NE(other_name[0][0], all_[0][0]);
@@ -115,13 +119,14 @@ TEST_F(PointNoise, DependsOnSeedAndNameAndNothingElse) {
 
 TEST_F(PointNoise, IsTheLandmarksOwnWhateverElseIsSeen) {
   std::vector<Vec3> fewer(landmarks_.begin(), landmarks_.begin() + 5);
-  const auto alone = deviates(PointSensor(spec(), fewer, empty_scene(), 42), fewer, 1);
+  const auto alone = deviates(PointSensor(spec(), LandmarkIndex(fewer), empty_scene(), 42), fewer, 1);
   for (std::size_t i = 0; i < fewer.size(); ++i) EXPECT_EQ(alone[0][i], all_[0][i]);
 }
 
 TEST(PointWithoutNoise, IsExact) {
   const std::vector<Vec3> landmarks = grid();
-  const PointSensor sensor(camera(), landmarks, empty_scene(), 42);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(camera(), index, empty_scene(), 42);
   for (const auto& observation : observe(sensor, Pose())) {
     EXPECT_EQ(observation.point, landmarks[observation.landmark]);
   }
@@ -133,7 +138,8 @@ TEST(PointNoiseAtTheBorder, DecidesNothing) {
   for (int i = 0; i < 40; ++i) landmarks.push_back({i < 20 ? 99.99 : 100.01, 0.0, 0.0});
   PointSensorSpec spec = camera();
   spec.noise_m = Vec3(1, 1, 1);
-  const PointSensor sensor(spec, landmarks, empty_scene(), 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(spec, index, empty_scene(), 1);
   for (std::uint32_t step = 0; step < 10; ++step) {
     const auto numbers = test::seen(observe(sensor, Pose(), step));
     ASSERT_EQ(numbers.size(), 20u);

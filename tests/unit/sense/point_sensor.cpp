@@ -25,7 +25,8 @@ TEST(PointSensor, GivesPointsInItsOwnFrame) {
   const std::vector<Vec3> landmarks = {{8, 30, 3}};
   PointSensorSpec spec = camera();
   spec.T_body_sensor.t = Vec3(0.5, 0, 1);
-  const PointSensor sensor(spec, landmarks, empty_scene(), 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(spec, index, empty_scene(), 1);
   // The body stands at (10, 20, 0) and looks along y; the sensor is half a metre ahead of it and one up.
   const auto observations =
       observe(sensor, {from_yaw_pitch_roll(0.5 * 3.14159265358979323846, 0, 0), {10, 20, 0}});
@@ -36,7 +37,8 @@ TEST(PointSensor, GivesPointsInItsOwnFrame) {
 TEST(PointSensor, SeesOnlyItsFieldOfView) {
   const std::vector<Vec3> landmarks = {{10, 0, 0}, {-10, 0, 0}, {10, 11, 0}, {10, 9, 0},
                                        {10, 0, 6}, {101, 0, 0}, {100, 0, 0}};
-  EXPECT_EQ(seen(observe(PointSensor(camera(), landmarks, empty_scene(), 1), Pose())), (Numbers{0, 3, 6}));
+  EXPECT_EQ(seen(observe(PointSensor(camera(), LandmarkIndex(landmarks), empty_scene(), 1), Pose())),
+            (Numbers{0, 3, 6}));
 }
 
 TEST(PointSensor, SeesNothingThroughAWall) {
@@ -44,18 +46,20 @@ TEST(PointSensor, SeesNothingThroughAWall) {
   trace::TriangleMesh mesh;
   mesh.add_polygon({{{5, -1, -1}, {5, 1, -1}, {5, 1, 1}, {5, -1, 1}}, {}});
   const trace::Scene scene(mesh, trace::Backend::kBruteForce);
-  EXPECT_EQ(seen(observe(PointSensor(camera(), landmarks, scene, 1), Pose())), (Numbers{0, 2}));
+  EXPECT_EQ(seen(observe(PointSensor(camera(), LandmarkIndex(landmarks), scene, 1), Pose())),
+            (Numbers{0, 2}));
 }
 
 TEST(PointSensor, SeesAWallsPointsFromTheirOwnSideOnly) {
   const map::Document document = test::parse_map(
       test::worldspawn({{"_points_per_m2", "4"}}, {test::box_brush({5, -2, -2}, {5.1, 2, 2})}));
   const map::World world = map::build_world(document);
-  const std::vector<Vec3> landmarks = make_landmarks(document, world);
-  const trace::Scene scene(make_occluders(world), trace::Backend::kBruteForce);
+  const std::vector<Vec3> landmarks = make_landmarks(document, world, csg::build_surface(world));
+  const trace::Scene scene(make_occluders(csg::build_surface(world)), trace::Backend::kBruteForce);
   PointSensorSpec spec = camera();
   spec.vertical_fov = spec.horizontal_fov;
-  const PointSensor sensor(spec, landmarks, scene, 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(spec, index, scene, 1);
   const auto with = [&](bool (*wanted)(const Vec3&)) {
     Numbers numbers;
     for (std::uint32_t i = 0; i < landmarks.size(); ++i) {
@@ -75,14 +79,15 @@ TEST(PointSensor, SeesNothingOutsideFromInsideASolid) {
   const map::Document document = test::parse_map(
       test::worldspawn({{"_points_per_m2", "4"}}, {test::box_brush({-1, -1, -1}, {1, 1, 1})}));
   const map::World world = map::build_world(document);
-  const std::vector<Vec3> landmarks = make_landmarks(document, world);
-  const trace::Scene scene(make_occluders(world), trace::Backend::kBruteForce);
-  EXPECT_TRUE(observe(PointSensor(camera(), landmarks, scene, 1), Pose()).empty());
+  const std::vector<Vec3> landmarks = make_landmarks(document, world, csg::build_surface(world));
+  const trace::Scene scene(make_occluders(csg::build_surface(world)), trace::Backend::kBruteForce);
+  EXPECT_TRUE(observe(PointSensor(camera(), LandmarkIndex(landmarks), scene, 1), Pose()).empty());
 }
 
 TEST(PointSensor, SeesNothingWhereThereIsNothing) {
   const std::vector<Vec3> none;
-  const PointSensor sensor(camera(), none, empty_scene(), 1);
+  const LandmarkIndex index(none);
+  const PointSensor sensor(camera(), index, empty_scene(), 1);
   std::vector<PointObservation> observations(3);
   sensor.observe(Pose(), 0, 4, observations);
   EXPECT_TRUE(observations.empty());
@@ -90,7 +95,8 @@ TEST(PointSensor, SeesNothingWhereThereIsNothing) {
 
 TEST(PointSensor, RefusesAPoseThatIsNoPose) {
   const std::vector<Vec3> landmarks = {{10, 0, 0}};
-  const PointSensor sensor(camera(), landmarks, empty_scene(), 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(camera(), index, empty_scene(), 1);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e9}) {
     const auto error = test::error_of([&] { observe(sensor, {Quat::Identity(), {0, bad, 0}}, 7); });
@@ -103,7 +109,8 @@ TEST(PointSensor, RefusesAPoseThatIsNoPose) {
 TEST(PointSensor, ShufflesEveryFrameAnew) {
   std::vector<Vec3> landmarks;
   for (int i = 0; i < 100; ++i) landmarks.push_back({10, 0.1 * i - 5, 0});
-  const PointSensor sensor(camera(), landmarks, empty_scene(), 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(camera(), index, empty_scene(), 1);
   const auto order = [&](std::uint32_t step) {
     Numbers numbers;
     for (const auto& observation : observe(sensor, Pose(), step)) numbers.push_back(observation.landmark);
@@ -134,7 +141,8 @@ TEST(PointSensor, IsTheSameOnAnyNumberOfThreads) {
   const trace::Scene scene(mesh, trace::Backend::kBruteForce);
   PointSensorSpec spec = camera();
   spec.noise_m = Vec3(0.1, 0.2, 0.3);
-  const PointSensor sensor(spec, landmarks, scene, 1);
+  const LandmarkIndex index(landmarks);
+  const PointSensor sensor(spec, index, scene, 1);
   const auto one = observe(sensor, Pose(), 3, 1);
   EXPECT_GT(one.size(), 500u);
   for (const unsigned threads : {2u, 4u, 8u}) {

@@ -26,7 +26,8 @@ TEST_P(PointSpec, IsRefused) {
   PointSensorSpec spec = test::camera();
   GetParam().spoil(spec);
   const std::vector<Vec3> landmarks;
-  const auto error = test::error_of([&] { PointSensor(spec, landmarks, test::empty_scene(), 1); });
+  const auto error =
+      test::error_of([&] { PointSensor(spec, LandmarkIndex(landmarks), test::empty_scene(), 1); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::kBadInput);
   EXPECT_EQ(error->where().element, "sensor `" + spec.name + "`");
@@ -58,12 +59,13 @@ TEST(PointSpecLimits, AreAllowed) {
   PointSensorSpec spec = test::camera();
   spec.horizontal_fov = spec.vertical_fov = 360.0 * (3.14159265358979323846 / 180.0);
   spec.min_range_m = spec.max_range_m = 0.0;
-  EXPECT_NO_THROW(PointSensor(spec, landmarks, test::empty_scene(), 1));
+  EXPECT_NO_THROW(PointSensor(spec, LandmarkIndex(landmarks), test::empty_scene(), 1));
 }
 
 TEST(PointSpecLandmarks, MustBeFinite) {
   const std::vector<Vec3> landmarks = {{0, 0, 0}, {0, kNan, 0}};
-  const auto error = test::error_of([&] { PointSensor(test::camera(), landmarks, test::empty_scene(), 1); });
+  const auto error =
+      test::error_of([&] { PointSensor(test::camera(), LandmarkIndex(landmarks), test::empty_scene(), 1); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->where().element, "landmark 1");
 }
@@ -73,7 +75,8 @@ TEST(PointSpecName, IsEchoedSafely) {
   spec.name = "a\x1b[31m";
   spec.vertical_fov = 0.0;
   const std::vector<Vec3> landmarks;
-  const auto error = test::error_of([&] { PointSensor(spec, landmarks, test::empty_scene(), 1); });
+  const auto error =
+      test::error_of([&] { PointSensor(spec, LandmarkIndex(landmarks), test::empty_scene(), 1); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->where().element, "sensor `a\\x1b[31m`");
 }

@@ -77,15 +77,16 @@ TEST(PointVisibility, IsWhatTheDefinitionSays) {
   const map::Document document = furnished_room();
   const map::World world = map::build_world(document);
   ASSERT_TRUE(world.problems.empty());
-  const std::vector<Vec3> landmarks = make_landmarks(document, world);
+  const std::vector<Vec3> landmarks = make_landmarks(document, world, csg::build_surface(world));
   ASSERT_GT(landmarks.size(), 1000u);
-  const trace::TriangleMesh occluders = make_occluders(world);
+  const trace::TriangleMesh occluders = make_occluders(csg::build_surface(world));
   const trace::Scene scene(occluders, trace::Backend::kBruteForce);
   PointSensorSpec spec = test::camera();
   spec.min_range_m = 0.5;
   spec.max_range_m = 12.0;
   spec.T_body_sensor = {from_yaw_pitch_roll(0.3, -0.1, 0.05), {0.1, -0.05, 0.4}};
-  const PointSensor sensor(spec, landmarks, scene, 5);
+  const LandmarkIndex landmark_index(landmarks);
+  const PointSensor sensor(spec, landmark_index, scene, 5);
 
   const Random random(23, stream_id("test"));
   std::size_t seen_count = 0;

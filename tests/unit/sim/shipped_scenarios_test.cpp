@@ -41,6 +41,21 @@ TEST_P(ShippedScenario, WantsATopAndAPerspectivePicture) {
   EXPECT_EQ(scenario.pictures[1].view, PictureView::kPerspective);
 }
 
+TEST(Office, IsSealedAndUsesVisibleSets) {
+  const Simulator simulator(load_scenario(test::source_folder() / "maps" / "office.toml"), 1,
+                            trace::Backend::kEmbree);
+  EXPECT_TRUE(simulator.compiled().sealed());
+  ASSERT_TRUE(simulator.compiled().visible.has_value());
+  EXPECT_LT(simulator.compiled().visible->mean_share(), 0.8);
+}
+
+TEST(Office, ItsRoundKeepsHalfAMetreFromEverything) {
+  Scenario scenario = load_scenario(test::source_folder() / "maps" / "office.toml");
+  scenario.robot.body = bsp::Cylinder{0.5, -0.7, 0.7};
+  const Simulator simulator(scenario, 1, trace::Backend::kEmbree);
+  for (const Error& problem : simulator.problems()) ADD_FAILURE() << problem.what();
+}
+
 INSTANTIATE_TEST_SUITE_P(Maps, ShippedScenario, testing::Values("figure_eight.toml", "office.toml"),
                          [](const testing::TestParamInfo<const char*>& scenario) {
                            const std::string file = scenario.param;

@@ -82,7 +82,7 @@ TEST(Simulator, CountsTimeInWholeNanoseconds) {
 }
 
 TEST(Simulator, MovesAtTheGivenSpeed) {
-  World world(test::scenario_text());
+  World world(test::scenario_text(), test::map_text(""));
   world.scenario().robot = {.path = "ahead", .speed_m_s = 0.5};
   const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
   EXPECT_DOUBLE_EQ(simulator.step_length_m(), 0.05);
@@ -90,7 +90,7 @@ TEST(Simulator, MovesAtTheGivenSpeed) {
 }
 
 TEST(Simulator, StandsAtTheEndOfAnOpenPath) {
-  World world(test::scenario_text());
+  World world(test::scenario_text(), test::map_text(""));
   world.scenario().robot = {.path = "ahead", .speed_m_s = 100.0};
   const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
   EXPECT_LT((simulator.step(39).T_world_body.t - Vec3(4, 3, 0)).norm(), 1e-12);
@@ -239,16 +239,64 @@ TEST(Simulator, DoesNotMindASolidBeyondTheWayThatIsTaken) {
   EXPECT_TRUE(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).problems().empty());
 }
 
-TEST(Simulator, SaysThatThePathBeginsInsideASolid) {
-  World world(test::scenario_text(), test::map_text(test::block(-50, 250, -50, 50, 350, 50)));
-  world.scenario().robot = {.path = "ahead", .speed_m_s = 0.1};
-  EXPECT_NE(only_problem(world).message().find("begins inside"), std::string::npos);
+TEST(Simulator, StandsWhereThePathRunsIntoASolid) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0};
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  const Vec3 start = simulator.pose_at(0).t;
+  const double step_m = simulator.step_length_m();
+  for (std::uint32_t i = 0; i < world.scenario().steps; ++i) {
+    const double wanted_m = step_m * i;
+    EXPECT_NEAR((simulator.pose_at(i).t - start).norm(), std::min(wanted_m, 2.0), 0.0011) << i;
+    EXPECT_LT((simulator.pose_at(i).t - start).norm(), 2.0) << i;
+  }
+  EXPECT_GT(step_m * (world.scenario().steps - 1), 2.5) << "it never came to the wall";
 }
 
-TEST(Simulator, SaysThatTheRobotStartIsInsideASolid) {
+TEST(Simulator, ABodyStopsAtItsRadius) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0, .body = bsp::Cylinder{0.3, -0.2, 0.2}};
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  const Vec3 end = simulator.pose_at(world.scenario().steps - 1).t;
+  EXPECT_NEAR((end - simulator.pose_at(0).t).norm(), 1.7, 0.002);
+  ASSERT_EQ(simulator.problems().size(), 1u);
+  EXPECT_NE(simulator.problems()[0].message().find("after 1.7 m"), std::string::npos)
+      << simulator.problems()[0].what();
+}
+
+TEST(Simulator, ABodyMeetsWhatAPointPassesBy) {
+  // Beside the path, 10 cm away.
+  const std::string beside = test::map_text(test::block(200, 310, -50, 201, 350, 50));
+  World world(test::scenario_text(), beside);
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0};
+  EXPECT_TRUE(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).problems().empty());
+  world.scenario().robot.body = bsp::UprightBox{0.2, 0.3, 0.0, -0.1, 0.1};
+  EXPECT_NE(only_problem(world).message().find("runs into"), std::string::npos);
+}
+
+/// The error of a simulator of this world.
+Error only_error(World& world) {
+  const auto error = test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  if (error) return *error;
+  ADD_FAILURE() << "no error";
+  return Error(ErrorCode::kInternal, "");
+}
+
+TEST(Simulator, RefusesAPathThatBeginsInsideASolid) {
+  World world(test::scenario_text(), test::map_text(test::block(-50, 250, -50, 50, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 0.1};
+  const Error error = only_error(world);
+  EXPECT_EQ(error.code(), ErrorCode::kBadInput);
+  EXPECT_NE(error.message().find("begins inside entity 0, brush 0"), std::string::npos) << error.what();
+}
+
+TEST(Simulator, RefusesARobotStartInsideASolid) {
   const std::string start = "{\n\"classname\" \"hw_robot_start\"\n\"origin\" \"310 0 0\"\n}\n";
   World world(test::scenario_text(), test::map_text(test::pillars(), start));
-  EXPECT_NE(only_problem(world).message().find("stands inside"), std::string::npos);
+  const Error error = only_error(world);
+  EXPECT_EQ(error.code(), ErrorCode::kBadInput);
+  EXPECT_GT(error.where().line, 0);
+  EXPECT_NE(error.message().find("stands in solid"), std::string::npos) << error.what();
 }
 
 TEST(Simulator, RefusesTwoRobotStarts) {

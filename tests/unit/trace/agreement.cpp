@@ -4,6 +4,8 @@
 // through edges and vertices, beside them, along faces, and from inside of solids.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,22 @@ class Agreement : public testing::TestWithParam<Place> {
   }
   void expect_same(const Vec3& from, const Vec3& to, const std::string& what) {
     ASSERT_EQ(embree_->occluded(from, to), oracle_->occluded(from, to)) << what;
+  }
+  /// All lines from one point at once, in both orders: as they come, and as neighbours that Embree traces together.
+  void expect_same(const Vec3& eye, std::vector<Vec3> points, const std::string& what) {
+    std::vector<std::uint8_t> got(points.size());
+    for (const bool sorted : {false, true}) {
+      if (sorted) {
+        std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+          return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+        });
+      }
+      embree_->occluded_from(eye, points, got);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        ASSERT_EQ(got[i] != 0, oracle_->occluded(eye, points[i])) << what << ", point " << i;
+        hits_ += got[i] != 0 ? 1 : 0;
+      }
+    }
   }
 
   test::Draw draw_{21};
@@ -122,10 +140,68 @@ TEST_P(Agreement, OnRaysAlongFacesAndEdges) {
 TEST_P(Agreement, OnRaysFromFarOutside) {
   const int rays = test::sized(3000, 50000);
   for (int i = 0; i < rays; ++i) {
-    const Vec3 away = draw_.direction() * size() * draw_.uniform(2.0, 5000.0);
+    const double farthest = std::min(5000.0, 8e7 / size());
+    const Vec3 away = draw_.direction() * size() * draw_.uniform(2.0, farthest);
     const Vec3 target = draw_.index(2) == 0 ? any_edge_point() : anywhere();
     const Vec3 origin = target + away;
     expect_same({origin, target - origin, 1e9}, "ray " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Agreement, OnManyLinesFromOnePoint) {
+  const int eyes = test::sized(60, 1500);
+  int lines = 0;
+  for (int i = 0; i < eyes; ++i) {
+    // Every third eye in the plane of a face, every sixth on an edge, where lines graze.
+    const auto v = any_triangle();
+    const Vec3 eye = i % 6 == 0   ? any_edge_point()
+                     : i % 3 == 0 ? Vec3(v[0] + draw_.uniform(-2.0, 2.0) * (v[1] - v[0]))
+                                  : anywhere();
+    const double spread = draw_.uniform(0.0, 0.3) * size();
+    const Vec3 middle = anywhere();
+    std::vector<Vec3> points = {eye, v[0], 0.5 * (v[0] + v[1]), eye + Vec3(1e-9, 0.0, 0.0)};
+    for (int j = 0; j < 37; ++j) {
+      points.push_back(middle + draw_.point(spread));
+      if (j % 5 == 0) points.push_back(any_edge_point());
+      if (j % 9 == 0) points.push_back(2.0 * any_edge_point() - eye);
+    }
+    lines += 2 * static_cast<int>(points.size());
+    expect_same(eye, points, "eye " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(hits_, lines / 20);
+  EXPECT_LT(hits_, lines);
+}
+
+TEST_P(Agreement, OnLinesWithinRoundingOfAFace) {
+  const int lines = test::sized(5000, 100000);
+  for (int i = 0; i < lines; ++i) {
+    // Both ends above or below a face by 1e-16 ... 1e-1 of the scene's size: nearly parallel to it, crossing or not.
+    const auto v = any_triangle();
+    const Vec3 normal = (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+    const auto near_face = [&] {
+      const double height =
+          size() * std::pow(10.0, draw_.uniform(-16.0, -1.0)) * (draw_.index(2) == 0 ? 1 : -1);
+      return Vec3(v[0] + draw_.uniform(-0.5, 1.0) * (v[1] - v[0]) + draw_.uniform(-0.5, 1.0) * (v[2] - v[0]) +
+                  height * normal);
+    };
+    const Vec3 from = near_face();
+    const Vec3 to = near_face();
+    expect_same(from, to, "segment " + std::to_string(i));
+    expect_same({from, to - from, 4.0 * size()}, "ray " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Agreement, OnVeryShortLines) {
+  const int lines = test::sized(2000, 50000);
+  for (int i = 0; i < lines; ++i) {
+    const Vec3 from =
+        any_edge_point() + draw_.direction() * size() * std::pow(10.0, draw_.uniform(-16.0, -5.0));
+    const Vec3 to = from + draw_.direction() * size() * std::pow(10.0, draw_.uniform(-16.0, -5.0));
+    expect_same(from, to, "segment " + std::to_string(i));
+    expect_same({from, draw_.direction(), (to - from).norm()}, "ray " + std::to_string(i));
     if (HasFatalFailure()) return;
   }
 }
@@ -134,6 +210,9 @@ INSTANTIATE_TEST_SUITE_P(Places, Agreement,
                          testing::Values(Place{"Room", 10.0, Vec3(0.0, 0.0, 0.0)},
                                          Place{"RoomFarAway", 10.0, Vec3(1e4, -1e4, 9e3)},
                                          Place{"Desk", 0.3, Vec3(100.0, 20.0, 0.0)},
+                                         Place{"Speck", 1e-4, Vec3(0.1, 0.2, 0.3)},
+                                         Place{"SpeckFarAway", 1e-3, Vec3(-9e6, 9e6, 9e6)},
+                                         Place{"Planet", 4e6, Vec3(1e5, 0.0, 0.0)},
                                          Place{"Landscape", 1e4, Vec3(0.0, 0.0, 0.0)}),
                          [](const auto& place) { return std::string(place.param.name); });
 

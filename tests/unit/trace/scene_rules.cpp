@@ -189,6 +189,50 @@ TEST(Occluded, IsTheSameFromBothEnds) {
   }
 }
 
+TEST(OccludedFrom, AnswersLikeOccludedForAnyNumberOfPoints) {
+  test::Draw draw(5);
+  const Scene scene(test::mesh_of(test::clutter(draw, 10, 10.0, Vec3::Zero())), kBackend);
+  for (std::size_t count = 0; count < 70; ++count) {
+    const Vec3 eye = draw.point(12.0);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back(draw.point(count % 2 == 0 ? 12.0 : 3.0));
+    std::vector<std::uint8_t> answers(count, 7);
+    scene.occluded_from(eye, points, answers);
+    for (std::size_t i = 0; i < count; ++i) {
+      ASSERT_EQ(answers[i], scene.occluded(eye, points[i]) ? 1 : 0) << count << " " << i;
+    }
+  }
+}
+
+TEST(OccludedFrom, FindsNothingInAnEmptyScene) {
+  const Scene scene(TriangleMesh{}, kBackend);
+  const std::vector<Vec3> points(40, Vec3(1, 2, 3));
+  std::vector<std::uint8_t> answers(40, 1);
+  scene.occluded_from({0, 0, 0}, points, answers);
+  EXPECT_EQ(answers, std::vector<std::uint8_t>(40, 0));
+}
+
+TEST(OccludedFrom, SeesNothingOutsideFromInsideASolid) {
+  const Scene scene = unit_box();
+  std::vector<Vec3> points;
+  for (int i = 0; i < 100; ++i) points.push_back({0.1 * i - 5.0, 3.0, 0.02 * i - 1.0});
+  std::vector<std::uint8_t> answers(100);
+  scene.occluded_from({0.2, 0.3, -0.1}, points, answers);
+  EXPECT_EQ(answers, std::vector<std::uint8_t>(100, 1));
+}
+
+TEST(OccludedFrom, RefusesBadPointsAndLengths) {
+  const Scene scene(wall(), kBackend);
+  std::vector<Vec3> points(20, Vec3(1, 2, 3));
+  std::vector<std::uint8_t> answers(20);
+  points[17].y() = kNan;
+  EXPECT_TRUE(error_of([&] { scene.occluded_from({0, 0, 0}, points, answers); }));
+  points[17].y() = 0.0;
+  EXPECT_TRUE(error_of([&] { scene.occluded_from({0, kInfinity, 0}, points, answers); }));
+  answers.resize(19);
+  EXPECT_TRUE(error_of([&] { scene.occluded_from({0, 0, 0}, points, answers); }));
+}
+
 TEST(Scene, RefusesAVertexThatDoesNotExist) {
   TriangleMesh mesh = wall();
   mesh.triangles.push_back({0, 4, 1});

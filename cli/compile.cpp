@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "base/file.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "compiled_map.hpp"
+#include "console.hpp"
+#include "leak_report.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct CompileOptions {
+  std::string map;
+  std::string level = "full";
+  unsigned threads = hardware_threads();
+  bool no_cache = false;
+  bool strict = false;
+  bool json = false;
+};
+
+/// What the stages made, as numbers.
+struct Counts {
+  std::size_t brushes = 0;
+  std::size_t polygons = 0;
+  std::size_t inside_polygons = 0;
+  std::size_t leaves = 0;
+  std::size_t empty_leaves = 0;
+};
+
+Counts count(const world::CompiledWorld& world) {
+  Counts counts;
+  counts.brushes = world.brushes.solids.size();
+  for (std::size_t i = 0; i < world.partition.surface.polygons.size(); ++i) {
+    if (world.partition.surface.polygons[i].vertices.empty()) continue;
+    ++counts.polygons;
+    if (world.partition.inside[i]) ++counts.inside_polygons;
+  }
+  counts.leaves = world.partition.tree.leaves.size();
+  for (const bsp::Leaf& leaf : world.partition.tree.leaves) {
+    if (leaf.content == bsp::Content::kEmpty) ++counts.empty_leaves;
+  }
+  return counts;
+}
+
+/// Most memory that the program has held at once.
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string size_text(std::uint64_t bytes) {
+  const double value = static_cast<double>(bytes);
+  if (value < 1024.0) return fmt::format("{} B", bytes);
+  if (value < 1024.0 * 1024.0) return fmt::format("{:.1f} KiB", value / 1024.0);
+  return fmt::format("{:.1f} MiB", value / (1024.0 * 1024.0));
+}
+
+std::size_t bad_brushes(const map::World& brushes) {
+  return static_cast<std::size_t>(
+      std::count_if(brushes.problems.begin(), brushes.problems.end(),
+                    [](const map::Problem& problem) { return problem.left_out; }));
+}
+
+std::string left_out_text(const map::World& brushes) {
+  std::string text;
+  for (const map::LeftOutCount& entry : brushes.left_out) {
+    text += fmt::format("{}{} {}", text.empty() ? "left out: " : ", ", entry.brushes,
+                        map::to_string(entry.reason));
+  }
+  if (const std::size_t bad = bad_brushes(brushes); bad > 0) {
+    text += fmt::format("{}{} no solids", text.empty() ? "left out: " : ", ", bad);
+  }
+  return text;
+}
+
+const char* level_text(pvs::Level level) {
+  return level == pvs::Level::kFull ? "full" : "fast";
+}
+
+/// Builds lines of a label, a number and a note.
+class StageTable {
+ public:
+  void row(const char* label, const std::string& value, const std::string& note = {}) {
+    text_ += fmt::format("  {:<12} {:>10}{}{}\n", label, value, note.empty() ? "" : "   ", note);
+  }
+  void row(const char* label, std::size_t value, const std::string& note = {}) {
+    row(label, fmt::to_string(value), note);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string times_text(const world::CompiledWorld& world) {
+  std::string text = "  time        ";
+  double total = 0.0;
+  for (const world::Stage& stage : world.stages) {
+    text += fmt::format(" {} {:.3f} s,", stage.name, stage.seconds);
+    total += stage.seconds;
+  }
+  return text + fmt::format(" in all {:.3f} s\n", total);
+}
+
+std::string verdict(const world::CompiledWorld& world) {
+  if (world.sealed()) return "sealed";
+  return world.partition.enclosure.leak ? "leaks" : "encloses nothing";
+}
+
+std::string table_of(const std::string& map, const world::CompiledWorld& world, const std::string& way_file) {
+  const Counts counts = count(world);
+  StageTable table;
+  table.row("brushes", counts.brushes, left_out_text(world.brushes));
+  table.row("polygons", counts.polygons,
+            world.sealed() ? fmt::format("{} of them inside", counts.inside_polygons) : std::string());
+  table.row("nodes", world.partition.tree.nodes.size());
+  table.row("leaves", counts.leaves, fmt::format("{} of them empty", counts.empty_leaves));
+  table.row("clusters", world.partition.portals.clusters);
+  table.row("portals", world.partition.portals.portals.size());
+  if (world.visible) {
+    table.row("visible", fmt::format("{:.1f} %", 100.0 * world.visible->mean_share()),
+              fmt::format("mean share of the clusters that one may see, level {}; {}",
+                          level_text(world.level), size_text(world.visible->bytes())));
+  }
+  table.row("memory", size_text(peak_memory_bytes()), "at most");
+  std::string text = fmt::format("{}: {}{}\n", printable(fs::path(map).filename().string()), verdict(world),
+                                 world.from_cache ? ", from the cache" : "");
+  text += table.text() + times_text(world);
+  if (world.partition.enclosure.leak) text += leak_text(world, way_file);
+  return text;
+}
+
+Json document_of(const CompiledMap& compiled, const std::string& way_file, int status) {
+  const world::CompiledWorld& world = compiled.world;
+  const Counts counts = count(world);
+  Json left_out = Json::object();
+  for (const map::LeftOutCount& entry : world.brushes.left_out)
+    left_out[std::string(map::to_string(entry.reason))] = entry.brushes;
+  Json stages = Json::array();
+  for (const world::Stage& stage : world.stages)
+    stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+  Json visible = nullptr;
+  if (world.visible) {
+    visible = {{"level", level_text(world.level)},
+               {"mean_share", world.visible->mean_share()},
+               {"bytes", world.visible->bytes()}};
+  }
+  return {{"schema", "hallway.compile/1"},
+          {"status", status},
+          {"map", printable(compiled.document.file, 4096)},
+          {"sealed", world.sealed()},
+          {"brushes",
+           {{"used", counts.brushes}, {"left_out", left_out}, {"no_solids", bad_brushes(world.brushes)}}},
+          {"polygons", counts.polygons},
+          {"polygons_inside", counts.inside_polygons},
+          {"nodes", world.partition.tree.nodes.size()},
+          {"leaves", counts.leaves},
+          {"leaves_empty", counts.empty_leaves},
+          {"clusters", world.partition.portals.clusters},
+          {"portals", world.partition.portals.portals.size()},
+          {"visible", visible},
+          {"memory_peak_bytes", peak_memory_bytes()},
+          {"from_cache", world.from_cache},
+          {"stages", stages},
+          {"leak", leak_json(world)},
+          {"points_file", way_file.empty() ? Json(nullptr) : Json(printable(way_file, 4096))},
+          {"warnings", compiled.warnings}};
+}
+
+/// Writes the way out beside the map, or takes away that of an earlier leak, as Quake's compilers do.
+/// @return the file that was written, if any
+std::string keep_way_file(const std::string& map, CompiledMap& compiled) {
+  const fs::path file = fs::path(map).replace_extension(".pts");
+  const auto& leak = compiled.world.partition.enclosure.leak;
+  std::error_code code;
+  if (!leak) {
+    if (fs::is_regular_file(file, code)) fs::remove(file, code);
+    return {};
+  }
+  try {
+    write_file_atomically(file, way_points(*leak, compiled.world.brushes.metres_per_unit));
+    return file.string();
+  } catch (const Error& error) {
+    compiled.warnings.push_back(fmt::format("the way out is not kept: {}", error.what()));
+    print_warning(compiled.warnings.back());
+    return {};
+  }
+}
+
+int compile(const CompileOptions& options) {
+  CompiledMap compiled =
+      compile_map({.file = options.map,
+                   .level = options.level == "full" ? pvs::Level::kFull : pvs::Level::kFast,
+                   .threads = options.threads,
+                   .use_cache = !options.no_cache,
+                   .strict = options.strict});
+  const std::string way_file = keep_way_file(options.map, compiled);
+  const int status = compiled.world.sealed() ? 0 : 1;
+  if (options.json) {
+    print_json(document_of(compiled, way_file, status));
+  } else {
+    print_result(table_of(options.map, compiled.world, way_file));
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_compile_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "compile", "Make a map ready for questions: its surface, its rooms and what can see what; find leaks");
+  const auto options = std::make_shared<CompileOptions>();
+  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
+  command->add_option("--level", options->level, "How hard to look for what cannot be seen")
+      ->check(CLI::IsMember({"fast", "full"}))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Threads; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
+  command->add_flag("--no-cache", options->no_cache,
+                    "Neither read nor write the folder .hallway beside the map");
+  command->add_flag("--strict", options->strict,
+                    "Refuse a map with brushes that are no solids or occupants in solid");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "A map that leaks is status 1; the way out is then written beside it, as MAP's name with .pts.\n"
+      "Example: hallway compile maps/office.map --level full --threads 2");
+  command->callback([&chosen, options] { chosen = [options] { return compile(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "map/document.hpp"
+#include "pvs/compute.hpp"
+#include "world/compiled_world.hpp"
+
+namespace hallway::cli {
+
+/// How a command wants its map.
+struct MapRequest {
+  std::string file{};
+  std::optional<pvs::Level> level{};  ///< empty: no visible sets
+  unsigned threads = 1;
+  bool use_cache = true;  ///< `.hallway` beside the map; only where there are visible sets to keep
+  bool strict = false;    ///< the first warning is an error
+};
+
+/// A map that is ready for questions.
+struct CompiledMap {
+  map::Document document;
+  world::CompiledWorld world;
+  std::vector<std::string> warnings;  ///< shown on standard error already
+};
+
+/// Reads a map. Throws Error{kBadInput} for a file that holds none.
+map::Document load_map(const std::string& file);
+
+/// Reads and compiles a map, with a progress bar while the visible sets are made, and prints what the user should know: brushes that are
+/// no solids, occupants in solid, a cache that cannot be written. Ctrl-C is Error{kInterrupted}.
+CompiledMap compile_map(const MapRequest& request);
+
+/// `X,Y,Z` in metres. Throws Error{kUsage} naming `what` for anything else.
+Vec3 parse_place(const std::string& what, const std::string& text);
+
+/// Throws Error{kIo} where an output file could not be replaced: a folder, a pipe or a device.
+void check_output_file(const std::string& file);
+
+}  // namespace hallway::cli

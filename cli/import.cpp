@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "map/writer.hpp"
+#include "mesh/import.hpp"
+#include "mesh/load.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ImportCommand {
+  std::string model;
+  std::string out;
+  std::optional<double> units;
+  double margin_m = 2.0;
+  bool copy = false;
+  std::string root;
+  bool force = false;
+  bool json = false;
+};
+
+/// The folder that the model may read from: the map's, or where --copy takes files from.
+fs::path read_folder(const ImportCommand& command, const fs::path& map_folder) {
+  if (!command.copy) return map_folder;
+  return command.root.empty() ? fs::path(command.model).parent_path() : fs::path(command.root);
+}
+
+void check_options(const ImportCommand& command) {
+  if (!command.root.empty() && !command.copy) throw Error(ErrorCode::kUsage, "--root belongs to --copy");
+  std::error_code code;
+  if (!command.force && fs::exists(fs::symlink_status(command.out, code))) {
+    throw Error(ErrorCode::kIo, "is there already; --force replaces it",
+                {.file = printable(command.out, 4096)});
+  }
+}
+
+void print_summary(const ImportCommand& command, const mesh::Model& model, const std::string& name) {
+  const Box bounds = mesh::bounds_of(model);
+  const double scale = command.units ? *command.units / model.metres_per_unit : 1.0;
+  const Vec3 size = scale * bounds.sizes();
+  if (!command.json) {
+    print_result(fmt::format("{}: {} triangles, {} materials, {} images, {:.2f} x {:.2f} x {:.2f} m, as {}\n",
+                             printable(command.out, 4096), model.triangles.size(), model.materials.size(),
+                             model.images.size(), size.x(), size.y(), size.z(), printable(name, 4096)));
+    return;
+  }
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  for (const std::string& warning : model.warnings) warnings.push_back(warning);
+  print_json({{"schema", "hallway.import/1"},
+              {"map", printable(command.out, 4096)},
+              {"model", printable(name, 4096)},
+              {"triangles", model.triangles.size()},
+              {"vertices", model.vertices.size()},
+              {"materials", model.materials.size()},
+              {"images", model.images.size()},
+              {"size_m", {size.x(), size.y(), size.z()}},
+              {"warnings", warnings}});
+}
+
+int import_model(const ImportCommand& command) {
+  check_options(command);
+  const fs::path map_folder = fs::path(command.out).parent_path();
+  mesh::ImportOptions options;
+  options.units = command.units;
+  options.margin_m = command.margin_m;
+  const fs::path root = read_folder(command, map_folder);
+  options.model = mesh::path_in_map_folder(command.model, root);
+  const mesh::Model model = mesh::load_model(command.model, root);
+  for (const std::string& warning : model.warnings) print_warning(printable(command.model) + ": " + warning);
+  const std::string text = map::print(mesh::import_document(model, options));
+  if (command.copy) mesh::copy_model_files(model.files, root, map_folder, command.force);
+  write_file_atomically(command.out, text);
+  print_summary(command, model, options.model);
+  return 0;
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("import", "Make a map around a model: glTF, COLLADA, OBJ, STL, PLY, FBX, ...");
+  const auto options = std::make_shared<ImportCommand>();
+  command->add_option("model", options->model, "Model file, in the folder of the map or below it")
+      ->required()
+      ->type_name("MODEL");
+  command->add_option("--out", options->out, "Map file to write")->required()->type_name("MAP");
+  command
+      ->add_option("--units", options->units, "Metres in one unit of the file [what the file says, else 1]")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->type_name("M");
+  command->add_option("--margin", options->margin_m, "Metres between the model and the walls around it")
+      ->check(CLI::Range(1.0, 1e4))
+      ->type_name("M")
+      ->capture_default_str();
+  command->add_flag("--copy", options->copy,
+                    "Copy the model, and the files that it names, into the folder of the map");
+  command
+      ->add_option("--root", options->root,
+                   "With --copy: folder that the model may name files in; they keep their paths below it "
+                   "[the model's folder]")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace an earlier map, and earlier copies");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "The map is closed by six blocks outside the model, which is detail geometry: it is seen and blocks "
+      "sight.\n"
+      "Example: hallway import models/willowgarage.dae --out garage.map && hallway render garage.map --out "
+      "garage.png");
+  command->callback([&chosen, options] { chosen = [options] { return import_model(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "compiled_map.hpp"
+#include "console.hpp"
+#include "leak_report.hpp"
+#include "map_command.hpp"
+#include "run/pictures.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct LeakOptions {
+  std::string map;
+  std::string picture;
+  std::string points;
+  bool json = false;
+};
+
+void write_outputs(const LeakOptions& options, const world::CompiledWorld& world) {
+  const auto& leak = world.partition.enclosure.leak;
+  if (!options.points.empty() && leak) {
+    write_file_atomically(options.points, way_points(*leak, world.brushes.metres_per_unit));
+  }
+  if (options.picture.empty()) return;
+  const run::MapSubject subject{.world = world, .title = fs::path(options.map).stem().string()};
+  write_file_atomically(options.picture, run::draw_map_picture(subject, {}, {.leak = true}));
+}
+
+std::string text_of(const LeakOptions& options, const world::CompiledWorld& world) {
+  const std::string name = printable(fs::path(options.map).filename().string());
+  if (world.partition.enclosure.leak) return name + ": leaks\n" + leak_text(world, options.points);
+  if (!world.sealed()) return name + ": encloses nothing\n";
+  return fmt::format("{}: sealed; {} occupants are inside\n", name,
+                     world.occupants.size() - world.partition.enclosure.in_solid.size());
+}
+
+int leak(const LeakOptions& options) {
+  for (const std::string& file : {options.picture, options.points}) {
+    if (!file.empty()) check_output_file(file);
+  }
+  const CompiledMap compiled = compile_map({.file = options.map});
+  const world::CompiledWorld& world = compiled.world;
+  write_outputs(options, world);
+  const int status = world.sealed() ? 0 : 1;
+  if (options.json) {
+    print_json({{"schema", "hallway.leak/1"},
+                {"status", status},
+                {"map", printable(options.map, 4096)},
+                {"sealed", world.sealed()},
+                {"leak", leak_json(world)},
+                {"warnings", compiled.warnings}});
+  } else {
+    print_result(text_of(options, world));
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_map_leak_command(CLI::App& group, Action& chosen) {
+  CLI::App* command =
+      group.add_subcommand("leak", "Show the way on which something in the map reaches the void outside");
+  const auto options = std::make_shared<LeakOptions>();
+  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
+  command->add_option("--picture", options->picture, "PNG file to write: a plan with the way out")
+      ->type_name("FILE");
+  command->add_option("--pts", options->points, "File to write the way to, as Quake editors read it")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "Status 1 if the map leaks, 0 if it is sealed.\n"
+      "Example: hallway map leak maps/office.map --picture leak.png");
+  command->callback([&chosen, options] { chosen = [options] { return leak(*options); }; });
+}
+
+}  // namespace hallway::cli

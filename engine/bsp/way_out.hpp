@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "bsp/enclosure.hpp"
+
+namespace hallway::bsp {
+
+/// Ways from everywhere to the void: for each open portal how far it is and which portal is next, over the portals' middles (Dijkstra).
+class WaysOut {
+ public:
+  /// Keeps a reference to the space. O(portals log portals).
+  WaysOut(const CellSpace& space, const std::vector<bool>& open);
+
+  /// Length of the way from a place (metres) in a cell, nearly; infinite where there is none.
+  double length_m(const Vec3& from_m, std::int32_t cell) const;
+  /// The way, pulled tight within the portals that it passes, and its narrowest opening. There must be one.
+  Leak find(const Vec3& from_m, std::int32_t cell) const;
+
+ private:
+  /// The cell that two portals bound.
+  std::int32_t common_cell(std::uint32_t a, std::uint32_t b) const;
+  std::uint32_t first_portal(const Vec3& from_m, std::int32_t cell) const;
+
+  const CellSpace& space_;
+  std::vector<bool> open_;
+  std::vector<std::vector<std::uint32_t>> of_cell_;  ///< open portals of each cell
+  std::vector<Vec3> middle_;
+  std::vector<double> best_;
+  std::vector<std::uint32_t> next_;
+};
+
+}  // namespace hallway::bsp

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "map/check.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "base/text.hpp"
+#include "map/content.hpp"
+#include "map/entity_keys.hpp"
+#include "map/entity_schema.hpp"
+#include "map/path.hpp"
+#include "map/world.hpp"
+
+namespace hallway::map {
+namespace {
+
+std::string quote(std::string_view text) {
+  return "`" + printable(text, 60) + "`";
+}
+
+bool begins_with_hw(std::string_view name) {
+  const auto is = [&](std::size_t i, char c) { return (name[i] | 0x20) == c; };
+  return name.size() >= 3 && is(0, 'h') && is(1, 'w') && name[2] == '_';
+}
+
+std::vector<std::string> class_names() {
+  std::vector<std::string> names;
+  for (const EntitySpec& spec : entity_schema()) names.emplace_back(spec.classname);
+  return names;
+}
+
+/// Names of the entities of a class, and the line of the first of each name.
+using Names = std::map<std::string, int, std::less<>>;
+
+class Checker {
+ public:
+  explicit Checker(const Document& document) : document_(document) {}
+
+  std::vector<Finding> run() {
+    for (const Entity& entity : document_.entities) {
+      check_doubled_keys(entity);
+      check_class(entity);
+    }
+    check_worldspawns();
+    check_robot_starts();
+    check_targetnames();
+    const Names paths = check_names("hw_path");
+    check_names("hw_landmark_cloud");
+    check_references("hw_waypoint", paths);
+    check_references("hw_landmark_cloud", paths);
+    check_paths(paths);
+    check_world();
+    sort();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Severity severity, const Error& error, std::string id) {
+    findings_.push_back({severity, error.where(), error.message(), std::move(id)});
+    if (severity == Severity::kError) faulty_.insert(error.where().element);
+  }
+
+  /// For what may follow from a fault that is known.
+  void add_consequence(const Error& error, std::string id) {
+    if (!faulty_.contains(error.where().element)) add(Severity::kError, error, std::move(id));
+  }
+
+  void check_doubled_keys(const Entity& entity) {
+    const EntityKeys keys(document_, entity);
+    const EntitySpec* spec = find_entity_spec(entity.classname());
+    constexpr int kMost = 20;  // of one entity; each takes a walk over all of its keys
+    int doubled = 0;
+    std::map<std::string_view, int> lines;
+    for (const KeyValue& pair : entity.keys) {
+      const auto [known, is_new] = lines.emplace(pair.key, pair.line);
+      if (is_new || ++doubled > kMost) continue;
+      const bool read = spec && (!spec->open || is_in(*spec, pair.key));
+      add(read ? Severity::kError : Severity::kWarning,
+          keys.error(
+              "key " + quote(pair.key) + " stands twice, first at line " + std::to_string(known->second),
+              pair.key),
+          "doubled-key");
+    }
+  }
+
+  static bool is_in(const EntitySpec& spec, std::string_view key) {
+    return std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return k.name == key; });
+  }
+
+  void check_class(const Entity& entity) {
+    const EntityKeys keys(document_, entity);
+    const std::string_view name = entity.classname();
+    const EntitySpec* spec = find_entity_spec(name);
+    if (name.empty()) {
+      add(Severity::kWarning, keys.error("the entity has no `classname`"), "no-class");
+    } else if (!spec && begins_with_hw(name)) {
+      add(Severity::kError,
+          keys.error("unknown class " + quote(name) + suggestion(name, class_names()), "classname"),
+          "unknown-class");
+    }
+    if (!spec) {
+      if (entity.brushes.empty() && keys.has("origin"))
+        check_value(keys, {.name = "origin", .kind = KeyKind::kPoint});
+      return;
+    }
+    for (const Error& error : keys.unknown_keys()) add(Severity::kError, error, "unknown-key");
+    const std::string_view variant = variant_of(*spec, entity);
+    for (const KeySpec& key : spec->keys) {
+      if (belongs(key, variant)) check_key(keys, key);
+    }
+    check_shape(entity, *spec);
+  }
+
+  void check_key(const EntityKeys& keys, const KeySpec& key) {
+    if (keys.has(key.name)) {
+      check_value(keys, key);
+    } else if (key.required) {
+      add(Severity::kError, keys.error("key " + quote(key.name) + " is missing"), "missing-key");
+    }
+  }
+
+  void check_value(const EntityKeys& keys, const KeySpec& key) {
+    try {
+      keys.check_value(key);
+    } catch (const Error& error) {
+      if (!keys.is_doubled(key.name)) add(Severity::kError, error, "bad-value");
+    }
+  }
+
+  void check_shape(const Entity& entity, const EntitySpec& spec) {
+    const EntityKeys keys(document_, entity);
+    const bool wants_brushes = spec.shape == EntityShape::kBrushes;
+    if (wants_brushes && !spec.open && entity.brushes.empty())
+      add(Severity::kWarning, keys.error("the entity has no brushes and so no effect"), "no-brushes");
+    if (!wants_brushes && !entity.brushes.empty())
+      add(Severity::kWarning, keys.error("brushes of an entity of this class have no part in the world"),
+          "brushes-ignored");
+  }
+
+  void check_worldspawns() {
+    const Entity* first = document_.worldspawn();
+    if (!first) {
+      add(Severity::kWarning,
+          Error(ErrorCode::kBadInput, "the map has no entity of class `worldspawn`", {document_.file, 0, {}}),
+          "no-worldspawn");
+    }
+    for (const Entity& entity : document_.entities) {
+      if (entity.classname() != "worldspawn" || &entity == first) continue;
+      add(Severity::kError,
+          EntityKeys(document_, entity)
+              .error("a second worldspawn; the first is at line " + std::to_string(first->line)),
+          "two-worldspawns");
+    }
+  }
+
+  void check_robot_starts() {
+    const Entity* first = nullptr;
+    for (const Entity& entity : document_.entities) {
+      if (entity.classname() != "hw_robot_start") continue;
+      if (!first) {
+        first = &entity;
+        continue;
+      }
+      add(Severity::kError,
+          EntityKeys(document_, entity)
+              .error("a second robot start; the first is at line " + std::to_string(first->line)),
+          "two-robot-starts");
+    }
+  }
+
+  void check_targetnames() {
+    Names names;
+    for (const Entity& entity : document_.entities) {
+      const std::string* name = entity.find("targetname");
+      if (!name) continue;
+      const auto [first, is_new] = names.emplace(*name, entity.line);
+      if (is_new) continue;
+      add(Severity::kWarning,
+          EntityKeys(document_, entity)
+              .error("a second entity with the targetname " + quote(*name) + "; the first is at line " +
+                         std::to_string(first->second),
+                     "targetname"),
+          "doubled-targetname");
+    }
+  }
+
+  Names check_names(std::string_view classname) {
+    Names names;
+    for (const Entity& entity : document_.entities) {
+      const std::string* name = entity.find("name");
+      if (entity.classname() != classname || !name) continue;
+      const auto [first, is_new] = names.emplace(*name, entity.line);
+      if (is_new) continue;
+      add(Severity::kError,
+          EntityKeys(document_, entity)
+              .error("a second " + std::string(classname) + " named " + quote(*name) +
+                         "; the first is at line " + std::to_string(first->second),
+                     "name"),
+          "doubled-name");
+    }
+    return names;
+  }
+
+  void check_references(std::string_view classname, const Names& paths) {
+    std::vector<std::string> names;
+    for (const auto& [name, line] : paths) names.push_back(name);
+    names.resize(std::min(names.size(), kMostPathsChecked));  // of which one is suggested
+    for (const Entity& entity : document_.entities) {
+      const std::string* path = entity.find("path");
+      if (entity.classname() != classname || !path || path->empty() || paths.contains(*path)) continue;
+      add_consequence(EntityKeys(document_, entity)
+                          .error("the map has no path " + quote(*path) + suggestion(*path, names), "path"),
+                      "unknown-path");
+    }
+  }
+
+  void check_paths(const Names& paths) {
+    std::size_t tried = 0;
+    for (const auto& [name, line] : paths) {
+      if (++tried > kMostPathsChecked) {
+        add(Severity::kWarning,
+            Error(ErrorCode::kBadInput,
+                  "the map has " + std::to_string(paths.size()) + " paths, of which " +
+                      std::to_string(kMostPathsChecked) + " were tried",
+                  {document_.file, 0, {}}),
+            "many-paths");
+        return;
+      }
+      try {
+        find_path(document_, name);
+      } catch (const Error& error) {
+        add_consequence(error, "bad-path");
+      }
+    }
+  }
+
+  void check_world() {
+    std::optional<World> world;
+    try {
+      world = build_world(document_);
+    } catch (const Error& error) {
+      add_consequence(error, "bad-value");
+    }
+    for (const Problem& problem : world ? world->problems : brush_problems(document_)) {
+      const Brush& brush = document_.entities[static_cast<std::size_t>(problem.entity)]
+                               .brushes[static_cast<std::size_t>(problem.brush)];
+      const Error error(ErrorCode::kBadInput, problem.message,
+                        {document_.file, problem.line, brush_name(problem.entity, problem.brush)});
+      if (!problem.left_out) {
+        add(Severity::kWarning, error, "duplicate-plane");
+      } else {
+        add(Severity::kError, error, brush.unread.empty() ? "bad-brush" : "unread-shape");
+      }
+    }
+    if (world) check_ties(*world);
+  }
+
+  /// Brushes that add and that take away at one place with one `order`: which of them counts is decided by where they stand
+  /// in the file, and editors change that.
+  void check_ties(const World& world) {
+    std::map<std::int64_t, std::vector<const Solid*>> by_order;
+    for (const Solid& solid : world.solids) {
+      const Entity& entity = document_.entities[static_cast<std::size_t>(solid.entity)];
+      if (entity.classname() != "hw_add" && entity.classname() != "hw_subtract") continue;
+      if (solid.role == BrushRole::kHint) continue;
+      const EntityKeys keys(document_, entity);
+      by_order[keys.has("order") ? keys.integer("order") : 0].push_back(&solid);
+    }
+    for (auto& [order, solids] : by_order) {
+      if (const auto tie = find_tie(solids)) add_tie(order, *tie);
+    }
+  }
+
+  using Tie = std::pair<const Solid*, const Solid*>;
+
+  /// By boxes, swept along x; gives up after so many pairs that the rest would take seconds.
+  static std::optional<Tie> find_tie(std::vector<const Solid*>& solids) {
+    constexpr std::size_t kMostPairs = 100'000'000;
+    std::stable_sort(solids.begin(), solids.end(),
+                     [](const Solid* a, const Solid* b) { return a->box.min().x() < b->box.min().x(); });
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      for (std::size_t j = i + 1; j < solids.size() && ++pairs < kMostPairs; ++j) {
+        const Solid& a = *solids[i];
+        const Solid& b = *solids[j];
+        if (b.box.min().x() >= a.box.max().x()) break;
+        if (a.role == b.role) continue;
+        const Box common = a.box.intersection(b.box);
+        if ((common.sizes().array() > 0.0).all()) return a.entity < b.entity ? Tie{&a, &b} : Tie{&b, &a};
+      }
+    }
+    return std::nullopt;
+  }
+
+  void add_tie(std::int64_t order, const Tie& tie) {
+    add(Severity::kWarning,
+        Error(ErrorCode::kBadInput,
+              "the brush and that of the other kind at line " + std::to_string(tie.first->line) +
+                  " overlap and have the same `order` " + std::to_string(order) +
+                  ": the one that stands later in the file counts, and editors may move it",
+              {document_.file, tie.second->line, brush_name(tie.second->entity, tie.second->brush)}),
+        "tied-order");
+  }
+
+  void sort() {
+    const auto rank = [](const Finding& f) {
+      return std::tie(f.where.line, f.id, f.message, f.where.element);
+    };
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
+  }
+
+  const Document& document_;
+  std::vector<Finding> findings_;
+  std::set<std::string> faulty_;  ///< elements that have an error
+};
+
+}  // namespace
+
+const std::vector<std::string>& finding_ids() {
+  static const std::vector<std::string> ids{
+      "bad-brush",       "bad-path",           "bad-value",       "brushes-ignored", "doubled-key",
+      "doubled-name",    "doubled-targetname", "duplicate-plane", "many-paths",      "missing-key",
+      "no-brushes",      "no-class",           "no-worldspawn",   "tied-order",      "two-robot-starts",
+      "two-worldspawns", "unknown-class",      "unknown-key",     "unknown-path",    "unread-shape"};
+  return ids;
+}
+
+std::vector<Finding> check(const Document& document) {
+  return Checker(document).run();
+}
+
+}  // namespace hallway::map

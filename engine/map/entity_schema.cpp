@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "map/entity_schema.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace hallway::map {
+namespace {
+
+constexpr std::array<std::string_view, 6> kCommonKeys{"classname",  "origin", "angle",
+                                                      "targetname", "target", "spawnflags"};
+
+constexpr double kMostPoints = 1e6;
+constexpr double kLongest_m = 1e6;
+constexpr double kShortest_m = 1e-3;
+constexpr double kFarthest_m = 1e5;
+constexpr double kLargestAngle_deg = 3600.0;
+
+constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
+  return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
+}
+
+constexpr KeySpec required_number(std::string_view name, double low, double high) {
+  return {.name = name, .kind = KeyKind::kNumber, .required = true, .low = low, .high = high};
+}
+
+constexpr KeySpec required(std::string_view name, KeyKind kind) {
+  return {.name = name, .kind = kind, .required = true};
+}
+
+constexpr KeySpec of_variant(std::string_view variant, KeySpec key) {
+  key.variant = variant;
+  return key;
+}
+
+constexpr KeySpec kOrigin = required("origin", KeyKind::kPoint);
+constexpr KeySpec kAngle = number("angle", -kLargestAngle_deg, kLargestAngle_deg, "0");
+constexpr KeySpec kOrder{.name = "order", .kind = KeyKind::kWhole, .fallback = "0"};
+constexpr KeySpec kOwnPoints = number("_points_per_m2", 0.0, kMostPoints, "");
+
+constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""), number("_scale", 1e-6, 1e3, "0.03125"),
+                            number("_points_per_m2", 0.0, kMostPoints, "0"),
+                            KeySpec{.name = "_point_seed", .kind = KeyKind::kSeed, .fallback = "0"}};
+constexpr std::array kGroup{kOwnPoints};
+constexpr std::array kOrdered{kOrder, kOwnPoints};
+constexpr std::array kStart{kOrigin, kAngle};
+constexpr std::array kPath{
+    required("name", KeyKind::kName),
+    KeySpec{.name = "shape",
+            .kind = KeyKind::kChoice,
+            .fallback = "waypoints",
+            .choices = "waypoints lemniscate"},
+    of_variant("waypoints", {.name = "closed", .kind = KeyKind::kFlag, .fallback = "0"}),
+    of_variant("waypoints", number("corner_radius_m", kShortest_m, kLongest_m, "0.5")),
+    of_variant("lemniscate", kOrigin),
+    of_variant("lemniscate", kAngle),
+    of_variant("lemniscate", required_number("length_m", kShortest_m, kLongest_m)),
+    of_variant("lemniscate", number("rise_m", -kLongest_m / 4.0, kLongest_m / 4.0, "0"))};
+constexpr std::array kWaypoint{required("path", KeyKind::kText), required("index", KeyKind::kWhole), kOrigin};
+constexpr std::array kCloud{required("name", KeyKind::kName),
+                            required("path", KeyKind::kText),
+                            required_number("per_100m", 0.0, kMostPoints),
+                            required_number("sideways_m", 0.0, kFarthest_m),
+                            required_number("height_m", 0.0, kFarthest_m),
+                            KeySpec{.name = "seed", .kind = KeyKind::kSeed, .fallback = "0"}};
+constexpr std::array kMesh{kOrigin,
+                           required("model", KeyKind::kText),
+                           kAngle,
+                           KeySpec{.name = "angles", .kind = KeyKind::kVector, .fallback = "0 0 0"},
+                           KeySpec{.name = "scale", .kind = KeyKind::kScale, .fallback = "1"},
+                           number("units", 1e-6, 1e6, "")};
+constexpr std::array kLight{kOrigin, KeySpec{.name = "light", .kind = KeyKind::kText, .fallback = "300"},
+                            KeySpec{.name = "_color", .kind = KeyKind::kVector, .fallback = "1 1 1"}};
+
+constexpr EntitySpec brushes(std::string_view classname, std::span<const KeySpec> keys, bool open = false) {
+  return {.classname = classname, .shape = EntityShape::kBrushes, .open = open, .keys = keys};
+}
+
+constexpr EntitySpec point(std::string_view classname, std::span<const KeySpec> keys, bool open = false) {
+  return {.classname = classname, .open = open, .keys = keys};
+}
+
+constexpr std::array kSchema{
+    brushes("worldspawn", kWorld, true),
+    brushes("func_group", kGroup, true),
+    brushes("hw_add", kOrdered),
+    brushes("hw_subtract", kOrdered),
+    brushes("hw_detail", kOrdered),
+    point("hw_robot_start", kStart),
+    EntitySpec{.classname = "hw_path", .selector = "shape", .keys = kPath},
+    point("hw_waypoint", kWaypoint),
+    point("hw_landmark_cloud", kCloud),
+    point("hw_mesh", kMesh),
+    point("light", kLight, true),
+};
+
+}  // namespace
+
+std::span<const EntitySpec> entity_schema() {
+  return kSchema;
+}
+
+const EntitySpec* find_entity_spec(std::string_view classname) {
+  const auto found = std::find_if(kSchema.begin(), kSchema.end(),
+                                  [&](const EntitySpec& spec) { return spec.classname == classname; });
+  return found == kSchema.end() ? nullptr : &*found;
+}
+
+std::string_view variant_of(const EntitySpec& spec, const Entity& entity) {
+  if (spec.selector.empty()) return {};
+  if (const std::string* value = entity.find(spec.selector)) return *value;
+  const auto selector = std::find_if(spec.keys.begin(), spec.keys.end(),
+                                     [&](const KeySpec& key) { return key.name == spec.selector; });
+  return selector->fallback;
+}
+
+bool belongs(const KeySpec& key, std::string_view variant) {
+  return key.variant.empty() || key.variant == variant;
+}
+
+std::span<const std::string_view> common_keys() {
+  return kCommonKeys;
+}
+
+}  // namespace hallway::map

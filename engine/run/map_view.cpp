@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "run/map_view.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "bsp/point_location.hpp"
+#include "mesh/load.hpp"
+#include "mesh/placement.hpp"
+#include "render/map_layers.hpp"
+
+namespace hallway::run {
+namespace {
+
+std::vector<bool> clusters_seen_from(const world::CompiledWorld& world, const Vec3& place) {
+  if (!world.visible) {
+    throw Error(ErrorCode::kBadInput,
+                "the map leaks, so nothing is known of what can see what; `hallway map leak` shows where");
+  }
+  const std::int32_t cluster = bsp::cluster_at(world.partition.tree, place);
+  if (cluster < 0) {
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("the place {} is in solid or outside of the map", place_text(place)));
+  }
+  std::vector<bool> seen(world.visible->clusters(), false);
+  for (const std::uint32_t other : world.visible->visible_from(static_cast<std::uint32_t>(cluster))) {
+    seen[other] = true;
+  }
+  return seen;
+}
+
+void add_sight(render::Picture& picture, const world::CompiledWorld& world, const Vec3& place,
+               render::Faces faces) {
+  const std::vector<bool> seen = clusters_seen_from(world, place);
+  picture.surfaces = render::map_surfaces(world.brushes, world.partition, faces,
+                                          render::sight_colours(world.partition.tree, seen));
+  render::add_sight_legend(picture, seen);
+  picture.markers.push_back({.positions = {place},
+                             .shape = render::MarkerShape::kDiamond,
+                             .colour = render::palette::kError,
+                             .size_px = 15.0,
+                             .label = "viewpoint " + place_text(place)});
+}
+
+void add_faces(render::Picture& picture, const world::CompiledWorld& world, const MapView& view,
+               render::Faces faces) {
+  const bsp::Tree& tree = world.partition.tree;
+  if (view.pvs_from_m) {
+    add_sight(picture, world, *view.pvs_from_m, faces);
+  } else if (view.bsp_depth) {
+    picture.surfaces =
+        render::map_surfaces(world.brushes, world.partition, faces, render::depth_colours(tree));
+    render::add_depth_legend(picture, tree);
+  } else {
+    picture.surfaces = render::map_surfaces(world.brushes, world.partition, faces);
+  }
+  if (!view.wireframe) return;
+  picture.surfaces.clear();
+  render::add_wireframe(picture, world.partition.surface, world.partition.inside, faces);
+}
+
+}  // namespace
+
+void add_map(render::Picture& picture, const world::CompiledWorld& world, const MapView& view,
+             render::Faces faces) {
+  add_faces(picture, world, view, faces);
+  if (view.portals) render::add_portals(picture, world.partition.portals);
+  const auto& leak = world.partition.enclosure.leak;
+  if (view.leak && leak) render::add_leak(picture, *leak, occupant_text(world.occupants[leak->occupant]));
+}
+
+std::vector<render::Surface> model_faces(const map::Document& document, const std::filesystem::path& folder,
+                                         std::vector<Error>& faults) {
+  std::vector<render::Surface> faces;
+  for (const mesh::Placement& placement : mesh::placements(document)) {
+    try {
+      const mesh::Model model = mesh::load_model(mesh::model_path(placement, folder), folder);
+      std::vector<render::Surface> more = render::mesh_surfaces(model, mesh::place(model, placement));
+      faces.insert(faces.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    } catch (const Error& error) {
+      faults.push_back(error);
+    }
+  }
+  return faces;
+}
+
+std::string occupant_text(const map::Occupant& occupant) {
+  const std::string name =
+      occupant.name.empty() ? std::string() : fmt::format(" \"{}\"", printable(occupant.name, 60));
+  return fmt::format("{}{} (line {})", printable(occupant.classname, 60), name, occupant.line);
+}
+
+std::string place_text(const Vec3& place) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x(), place.y(), place.z());
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "map/document.hpp"
+#include "mesh/model.hpp"
+#include "mesh/placement.hpp"
+
+namespace hallway::sim {
+
+/// The models that a map's `hw_mesh` entities place.
+struct PlacedModels {
+  std::vector<mesh::Placement> placements;
+  std::vector<mesh::PlacedMesh> meshes;      ///< of each placement
+  std::vector<std::filesystem::path> files;  ///< all files that were read, sorted, none twice
+  std::vector<std::string> warnings;         ///< of the models, safe to print
+};
+
+/// Loads each model once and places it. Throws Error for a bad entity or a model that cannot be read (load_model()).
+PlacedModels load_models(const map::Document& document, const std::filesystem::path& map_folder);
+
+}  // namespace hallway::sim

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "map/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "map/reader.hpp"
+#include "map_text.hpp"
+#include "random_document.hpp"
+#include "support/data.hpp"
+#include "support/long_mode.hpp"
+
+namespace hallway::map {
+namespace {
+
+using Pairs = std::vector<std::array<std::string, 2>>;
+using test::entity_text;
+
+const std::string kWorld = entity_text({{"classname", "worldspawn"}, {"_scale", "0.01"}});  // four lines
+
+std::string with_brush(std::string entity, const std::string& faces = test::cube_faces()) {
+  return entity.insert(entity.rfind('}'), "{\n" + faces + "}\n");
+}
+
+/// "line id" of every finding, errors with an exclamation mark.
+std::string findings_of(const std::string& text) {
+  std::string all;
+  for (const Finding& finding : check(parse(text, "a.map"))) {
+    EXPECT_FALSE(finding.message.empty());
+    EXPECT_EQ(finding.where.file, "a.map");
+    all += std::to_string(finding.where.line) + " " + finding.id +
+           (finding.severity == Severity::kError ? "!" : "") + "\n";
+  }
+  return all;
+}
+
+void expect_message(const std::string& text, const std::string& cause) {
+  const auto findings = check(parse(text, "a.map"));
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.message.find(cause) != std::string::npos;
+  })) << cause;
+}
+
+TEST(Check, ASoundMapHasNoFindings) {
+  EXPECT_EQ(findings_of(kWorld), "");
+  for (const char* name : {"office.map", "figure_eight.map"}) {
+    for (const Finding& finding : check(load(hallway::test::source_folder() / "maps" / name)))
+      ADD_FAILURE() << name << ":" << finding.where.line << ": " << finding.message;
+  }
+}
+
+TEST(Check, Worldspawns) {
+  EXPECT_EQ(findings_of(""), "0 no-worldspawn\n");
+  EXPECT_EQ(findings_of(kWorld + kWorld), "5 two-worldspawns!\n");
+}
+
+TEST(Check, TwoRobotStarts) {
+  const std::string start = entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}});
+  EXPECT_EQ(findings_of(kWorld + start), "");
+  EXPECT_EQ(findings_of(kWorld + start + start + start), "9 two-robot-starts!\n13 two-robot-starts!\n");
+}
+
+TEST(Check, MissingKeys) {
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_robot_start"}})), "5 missing-key!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "light"}})), "5 missing-key!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_mesh"}})),
+            "5 missing-key!\n5 missing-key!\n");
+  expect_message(kWorld + entity_text({{"classname", "hw_mesh"}, {"origin", "0 0 0"}}),
+                 "key `model` is missing");
+}
+
+TEST(Check, ValuesOfTheWrongKind) {
+  const auto mesh = [](const std::string& key, const std::string& value) {
+    return findings_of(
+        kWorld +
+        entity_text({{"classname", "hw_mesh"}, {"origin", "0 0 0"}, {"model", "a.glb"}, {key, value}}));
+  };
+  EXPECT_EQ(mesh("angles", "0 90 0"), "");
+  EXPECT_EQ(mesh("angles", "0 90"), "9 bad-value!\n");
+  EXPECT_EQ(mesh("scale", "2"), "");
+  EXPECT_EQ(mesh("scale", "1 2 3"), "");
+  for (const char* scale : {"0", "1e7", "1 2", "1 2 0", "1 2 3 4", "", "big"})
+    EXPECT_EQ(mesh("scale", scale), "9 bad-value!\n") << scale;
+  EXPECT_EQ(mesh("units", "0.01"), "");
+  EXPECT_EQ(mesh("units", "0"), "9 bad-value!\n");
+  EXPECT_EQ(findings_of(entity_text({{"classname", "worldspawn"}, {"_scale", "nan"}})), "3 bad-value!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "monster_ogre"}, {"origin", "1 2"}})),
+            "7 bad-value!\n");
+  EXPECT_EQ(findings_of(kWorld + with_brush(entity_text({{"classname", "hw_add"}, {"order", "1.5"}}))),
+            "7 bad-value!\n");
+}
+
+TEST(Check, UnknownClassesAndKeysWithASuggestion) {
+  const std::string start = kWorld + entity_text({{"classname", "hw_robot_strat"}, {"origin", "0 0 0"}});
+  EXPECT_EQ(findings_of(start), "6 unknown-class!\n");
+  expect_message(start, "did you mean \"hw_robot_start\"");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "HW_Add"}})), "6 unknown-class!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "monster_ogre"}, {"colour", "red"}})), "");
+  const std::string add =
+      kWorld + with_brush(entity_text({{"classname", "hw_add"}, {"oder", "1"}, {"_tb_group", "1"}}));
+  EXPECT_EQ(findings_of(add), "7 unknown-key!\n");
+  expect_message(add, "did you mean \"order\"");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"origin", "0 0 0"}})), "5 no-class\n");
+}
+
+TEST(Check, KeysOfTheOtherShapeOfAPathAreUnknown) {
+  const std::string path = entity_text({{"classname", "hw_path"},
+                                        {"name", "p"},
+                                        {"shape", "lemniscate"},
+                                        {"origin", "0 0 0"},
+                                        {"length_m", "9"},
+                                        {"closed", "1"}});
+  EXPECT_EQ(findings_of(kWorld + path), "11 unknown-key!\n");
+}
+
+TEST(Check, DoubledKeys) {
+  EXPECT_EQ(
+      findings_of(kWorld +
+                  entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"origin", "1 0 0"}})),
+      "8 doubled-key!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "monster_ogre"}, {"wait", "1"}, {"wait", "1"}})),
+            "8 doubled-key\n");
+}
+
+TEST(Check, DoubledNames) {
+  const std::string eight = entity_text({{"classname", "hw_path"},
+                                         {"name", "p"},
+                                         {"shape", "lemniscate"},
+                                         {"origin", "0 0 0"},
+                                         {"length_m", "9"}});
+  EXPECT_EQ(findings_of(kWorld + eight + eight), "14 doubled-name!\n");
+  const std::string target = entity_text({{"classname", "light"}, {"origin", "0 0 0"}, {"targetname", "t"}});
+  EXPECT_EQ(findings_of(kWorld + target + target), "13 doubled-targetname\n");
+}
+
+TEST(Check, PathsThatCannotBeMade) {
+  const std::string path = kWorld + entity_text({{"classname", "hw_path"}, {"name", "walk"}});
+  const auto waypoint = [](const std::string& name, const std::string& index, const std::string& origin) {
+    return entity_text({{"classname", "hw_waypoint"}, {"path", name}, {"index", index}, {"origin", origin}});
+  };
+  EXPECT_EQ(findings_of(path), "5 bad-path!\n");
+  EXPECT_EQ(findings_of(path + waypoint("walk", "0", "0 0 0") + waypoint("walk", "1", "900 0 0")), "");
+  EXPECT_EQ(findings_of(path + waypoint("walk", "0", "0 0 0") + waypoint("walk", "0", "900 0 0")),
+            "18 bad-path!\n");
+  EXPECT_EQ(findings_of(path + waypoint("walk", "0", "0 0 0") + waypoint("wlak", "1", "900 0 0")),
+            "17 unknown-path!\n");
+  expect_message(path + waypoint("wlak", "1", "900 0 0"), "did you mean \"walk\"");
+}
+
+TEST(Check, ACloudNeedsItsPath) {
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_landmark_cloud"},
+                                              {"name", "c"},
+                                              {"path", "p"},
+                                              {"per_100m", "1"},
+                                              {"sideways_m", "1"},
+                                              {"height_m", "1"}})),
+            "8 unknown-path!\n");
+}
+
+TEST(Check, BadBrushesAreReportedAlsoBesideABadKey) {
+  const std::string bad =
+      test::face_line("( 0 0 0 ) ( 0 0 0 ) ( 1 0 0 )") + test::face_line("( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 )");
+  EXPECT_EQ(findings_of(with_brush(kWorld, bad)), "4 bad-brush!\n");
+  EXPECT_EQ(findings_of(with_brush(entity_text({{"classname", "worldspawn"}, {"_scale", "x"}}), bad)),
+            "3 bad-value!\n4 bad-brush!\n");
+}
+
+TEST(Check, Patches) {
+  EXPECT_EQ(findings_of(with_brush(kWorld, "patchDef2\n{\n}\n")), "4 unread-shape!\n");
+}
+
+TEST(Check, BrushesWhereTheyDoNothing) {
+  EXPECT_EQ(
+      findings_of(kWorld + with_brush(entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}}))),
+      "5 brushes-ignored\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_subtract"}})), "5 no-brushes\n");
+}
+
+TEST(Check, BrushesThatAddAndTakeAwayWithOneOrder) {
+  const auto entity = [](const std::string& name, const std::string& order) {
+    return with_brush(entity_text({{"classname", name}, {"order", order}}));
+  };
+  EXPECT_EQ(findings_of(kWorld + entity("hw_add", "1") + entity("hw_subtract", "1")), "20 tied-order\n");
+  EXPECT_EQ(findings_of(kWorld + entity("hw_add", "1") + entity("hw_subtract", "2")), "");
+  EXPECT_EQ(findings_of(kWorld + entity("hw_add", "1") + entity("hw_add", "1")), "");
+}
+
+TEST(Check, FindingsAreOrderedByLineAndHaveListedNames) {
+  std::mt19937_64 random(51);
+  const std::vector<std::string> classes{"hw_path", "hw_waypoint", "hw_robot_start", "hw_mesh",
+                                         "light",   "worldspawn",  "hw_add",         "hw_x"};
+  const std::vector<std::string> keys{"name",  "path",  "index",      "origin", "order",
+                                      "shape", "scale", "targetname", "_scale", "x"};
+  const std::vector<std::string> values{"p", "q", "0", "1 2 3", "lemniscate", "-1", "nan", ""};
+  const auto one_of = [&](const std::vector<std::string>& texts) { return texts[random() % texts.size()]; };
+  const int count = hallway::test::sized(300, 20000);
+  for (int i = 0; i < count; ++i) {
+    std::string text;
+    for (int e = 0; e < 6; ++e) {
+      Pairs pairs{{"classname", one_of(classes)}};
+      for (int k = 0; k < 4; ++k) pairs.push_back({one_of(keys), one_of(values)});
+      text += e % 2 ? with_brush(entity_text(pairs)) : entity_text(pairs);
+    }
+    const auto findings = check(parse(text, "a.map"));
+    EXPECT_TRUE(std::is_sorted(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+      return a.where.line < b.where.line;
+    }));
+    for (const Finding& finding : findings)
+      EXPECT_TRUE(std::binary_search(finding_ids().begin(), finding_ids().end(), finding.id)) << finding.id;
+  }
+}
+
+TEST(Check, NeverThrowsForWhatADocumentHolds) {
+  const int count = hallway::test::sized(300, 20000);
+  for (int i = 0; i < count; ++i)
+    EXPECT_NO_THROW(check(test::RandomDocument(static_cast<std::uint64_t>(i)).make()));
+}
+
+}  // namespace
+}  // namespace hallway::map
