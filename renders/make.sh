@@ -14,4 +14,22 @@ done
   --show map,truth,estimate,landmarks,errors
 "$hallway" render "$work/office" --view top --size 1120x760 --out "$here/office.png" \
   --show map,truth,estimate,landmarks,errors,frustum
+"$hallway" render "$here/../maps/office.map" --size 1120x640 --show portals --out "$here/portals.png"
+"$hallway" render "$here/../maps/office.map" --size 1120x640 --show pvs-from=4,1.6,1 --out "$here/visible.png"
+
+# A leak made on purpose: a hole of 40 cm in the north wall of the hall.
+cp -r "$here/../maps/models" "$work/models"
+/usr/bin/python3 - "$here/../maps" "$work/leak.map" <<'END'
+import sys
+sys.dont_write_bytecode = True
+sys.path.insert(0, sys.argv[1])
+import make_maps
+lines = make_maps.office()
+lines += make_maps.entity({"classname": "hw_subtract", "order": "2"},
+                          [make_maps.block((3000, 3040), (1490, 1660), (100, 140), "hole")])
+open(sys.argv[2], "w").write("\n".join(lines) + "\n")
+END
+status=0
+"$hallway" map leak "$work/leak.map" --picture "$here/leak.png" || status=$?
+[[ $status -eq 1 ]]
 ls -l "$here"/*.png

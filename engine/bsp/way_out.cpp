@@ -193,10 +193,41 @@ std::int32_t WaysOut::common_cell(std::uint32_t a, std::uint32_t b) const {
   return first ? of_a[0] : of_a[1];
 }
 
+void WaysOut::end_at_rim(const Vec3& from_m, std::int32_t cell, std::vector<std::uint32_t>& chain) const {
+  Vec3 place = from_m;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const std::uint32_t rim = nearest_rim_portal(place, cell);
+    if (rim != kNone) {
+      chain.resize(i);
+      chain.push_back(rim);
+      return;
+    }
+    const auto& region = space_.portals[chain[i]].region;
+    place = middle_[chain[i]];
+    cell = region[0] == cell ? region[1] : region[0];
+  }
+}
+
+std::uint32_t WaysOut::nearest_rim_portal(const Vec3& from_m, std::int32_t cell) const {
+  std::uint32_t nearest = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t p : of_cell_[static_cast<std::size_t>(cell)]) {
+    const auto& region = space_.portals[p].region;
+    if (region[0] != ExactPortal::kBeyond && region[1] != ExactPortal::kBeyond) continue;
+    const Polygon polygon = polygon_of(space_, space_.portals[p]);
+    const double distance = (crossing(polygon, from_m, from_m) - from_m).norm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = p;
+  }
+  return nearest;
+}
+
 Leak WaysOut::find(const Vec3& from_m, std::int32_t cell) const {
   Leak leak;
   std::vector<std::uint32_t> chain;
   for (std::uint32_t p = first_portal(from_m, cell); p != kNone; p = next_[p]) chain.push_back(p);
+  end_at_rim(from_m, cell, chain);
   std::vector<Polygon> polygons;
   std::vector<Vec3> way{from_m};
   for (const std::uint32_t p : chain) {

@@ -21,6 +21,10 @@ class WaysOut {
  private:
   /// The cell that two portals bound.
   std::int32_t common_cell(std::uint32_t a, std::uint32_t b) const;
+  /// Ends a chain of portals in the first cell that touches the rim, by the nearest portal there: shortest over middles is not shortest where the
+  /// portals are as large as the rim's.
+  void end_at_rim(const Vec3& from_m, std::int32_t cell, std::vector<std::uint32_t>& chain) const;
+  std::uint32_t nearest_rim_portal(const Vec3& from_m, std::int32_t cell) const;
   std::uint32_t first_portal(const Vec3& from_m, std::int32_t cell) const;
 
   const CellSpace& space_;
