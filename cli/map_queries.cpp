@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "base/text.hpp"
@@ -12,10 +13,13 @@
 #include "map_command.hpp"
 #include "render/map_layers.hpp"
 #include "run/map_view.hpp"
+#include "sim/models.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
 
@@ -93,78 +97,107 @@ int ask_pvs(const QueryOptions& options) {
 
 // ---- ray ------------------------------------------------------------------------------------------------------------
 
-/// The surface as triangles, and which polygon each comes from.
-struct Triangles {
-  trace::TriangleMesh mesh{};
-  std::vector<std::uint32_t> polygon{};
-};
+/// Everything that stops a ray, as triangles, and where each comes from.
+class Obstacles {
+ public:
+  explicit Obstacles(const CompiledMap& compiled) : world_(compiled.world) {
+    const csg::Surface& surface = world_.partition.surface;
+    mesh_.vertices = surface.vertices;
+    for (std::uint32_t i = 0; i < surface.polygons.size(); ++i) {
+      for (const auto& triangle : csg::triangulate(surface, surface.polygons[i])) {
+        mesh_.triangles.push_back(triangle);
+        polygon_.push_back(i);
+      }
+    }
+    models_ = sim::load_models(compiled.document, fs::absolute(compiled.document.file).parent_path());
+    for (std::size_t i = 0; i < models_.meshes.size(); ++i) add_model(i);
+  }
 
-Triangles triangles_of(const csg::Surface& surface) {
-  Triangles out;
-  out.mesh.vertices = surface.vertices;
-  for (std::uint32_t i = 0; i < surface.polygons.size(); ++i) {
-    for (const auto& triangle : csg::triangulate(surface, surface.polygons[i])) {
-      out.mesh.triangles.push_back(triangle);
-      out.polygon.push_back(i);
+  /// The first hit as a document: place, distance, normal and what is hit; null for none.
+  Json first_hit(const Vec3& from, const Vec3& to) const {
+    const double length = (to - from).norm();
+    const auto hit = trace::Scene(mesh_, trace::Backend::kBruteForce).first_hit({from, to - from, length});
+    if (!hit) return nullptr;
+    const Vec3 at = length > 0.0 ? Vec3(from + hit->distance / length * (to - from)) : from;
+    Json met{{"at_m", place_json(at)}, {"distance_m", hit->distance}};
+    if (hit->triangle < polygon_.size()) {
+      describe_face(world_.partition.surface.polygons[polygon_[hit->triangle]], met);
+    } else {
+      describe_model(hit->triangle, to - from, met);
+    }
+    return met;
+  }
+
+ private:
+  void add_model(std::size_t index) {
+    const mesh::PlacedMesh& placed = models_.meshes[index];
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.vertices.insert(mesh_.vertices.end(), placed.vertices.begin(), placed.vertices.end());
+    for (const mesh::Triangle& triangle : placed.triangles) {
+      const auto& [a, b, c] = triangle.vertices;
+      mesh_.triangles.push_back({first + a, first + b, first + c});
+      model_.push_back(index);
     }
   }
-  return out;
-}
 
-/// What a ray meets.
-struct Met {
-  double distance_m = 0.0;
-  Vec3 at = Vec3::Zero();
-  const csg::SurfacePolygon* polygon = nullptr;
+  void describe_face(const csg::SurfacePolygon& polygon, Json& met) const {
+    const map::Solid& solid = world_.brushes.solids[polygon.solid];
+    const map::SolidFace& face = solid.faces[polygon.face];
+    met["normal"] = place_json(polygon.plane.normal);
+    met["entity"] = solid.entity;
+    met["brush"] = solid.brush;
+    met["line"] = face.line;
+    met["material"] = printable(face.material);
+  }
+
+  void describe_model(std::uint32_t triangle, const Vec3& direction, Json& met) const {
+    const auto& [a, b, c] = mesh_.triangles[triangle];
+    Vec3 normal =
+        (mesh_.vertices[b] - mesh_.vertices[a]).cross(mesh_.vertices[c] - mesh_.vertices[a]).normalized();
+    if (normal.dot(direction) > 0.0) normal = -normal;  // models are seen from either side
+    const mesh::Placement& placement = models_.placements[model_[triangle - polygon_.size()]];
+    met["normal"] = place_json(normal);
+    met["entity"] = placement.entity;
+    met["line"] = placement.line;
+    met["model"] = printable(placement.model);
+  }
+
+  const world::CompiledWorld& world_;
+  trace::TriangleMesh mesh_;
+  std::vector<std::uint32_t> polygon_;  ///< of each triangle of the surface
+  sim::PlacedModels models_;
+  std::vector<std::size_t> model_;  ///< of each triangle behind those
 };
 
-std::optional<Met> first_face(const csg::Surface& surface, const Vec3& from, const Vec3& to) {
-  const Triangles triangles = triangles_of(surface);
-  const double length = (to - from).norm();
-  const auto hit =
-      trace::Scene(triangles.mesh, trace::Backend::kBruteForce).first_hit({from, to - from, length});
-  if (!hit) return std::nullopt;
-  const Vec3 at = length > 0.0 ? Vec3(from + hit->distance / length * (to - from)) : from;
-  return Met{hit->distance, at, &surface.polygons[triangles.polygon[hit->triangle]]};
+std::string hit_text(const Json& met) {
+  const auto place = [&](const char* key) {
+    const auto& values = met.at(key);
+    return Vec3(values[0].get<double>(), values[1].get<double>(), values[2].get<double>());
+  };
+  const Vec3 normal = place("normal");
+  const std::string what =
+      met.contains("model")
+          ? fmt::format("model        {}, entity {}, line {}", met.at("model").get<std::string>(),
+                        met.at("entity").get<int>(), met.at("line").get<int>())
+          : fmt::format("face         {}, line {}, material {}",
+                        map::brush_name(met.at("entity").get<int>(), met.at("brush").get<int>()),
+                        met.at("line").get<int>(), met.at("material").get<std::string>());
+  return fmt::format("hit after {}\n  at           {}\n  normal       ({:.3f}, {:.3f}, {:.3f})\n  {}\n",
+                     render::measure_text(met.at("distance_m").get<double>()), run::place_text(place("at_m")),
+                     normal.x(), normal.y(), normal.z(), what);
 }
 
 int ask_ray(const QueryOptions& options) {
   const Vec3 from = parse_place("FROM", options.from);
   const Vec3 to = parse_place("TO", options.to);
+  const double length = (to - from).norm();
   const CompiledMap compiled = compile_map({.file = options.map});
-  const world::CompiledWorld& world = compiled.world;
-  const std::optional<Met> met = first_face(world.partition.surface, from, to);
-  if (!met) {
-    if (options.json) {
-      print_json(
-          {{"schema", "hallway.ray/1"}, {"status", 0}, {"length_m", (to - from).norm()}, {"hit", nullptr}});
-    } else {
-      print_result(fmt::format("free: {}\n", render::measure_text((to - from).norm())));
-    }
-    return 0;
-  }
-  const map::Solid& solid = world.brushes.solids[met->polygon->solid];
-  const map::SolidFace& face = solid.faces[met->polygon->face];
-  const Vec3& normal = met->polygon->plane.normal;
+  const Json met = Obstacles(compiled).first_hit(from, to);
   if (options.json) {
-    print_json({{"schema", "hallway.ray/1"},
-                {"status", 0},
-                {"length_m", (to - from).norm()},
-                {"hit",
-                 {{"at_m", place_json(met->at)},
-                  {"distance_m", met->distance_m},
-                  {"normal", place_json(normal)},
-                  {"entity", solid.entity},
-                  {"brush", solid.brush},
-                  {"line", face.line},
-                  {"material", printable(face.material)}}}});
-    return 0;
+    print_json({{"schema", "hallway.ray/1"}, {"status", 0}, {"length_m", length}, {"hit", met}});
+  } else {
+    print_result(met.is_null() ? fmt::format("free: {}\n", render::measure_text(length)) : hit_text(met));
   }
-  print_result(fmt::format(
-      "hit after {}\n  at           {}\n  normal       ({:.3f}, {:.3f}, {:.3f})\n  face         {}, line {}, "
-      "material {}\n",
-      render::measure_text(met->distance_m), run::place_text(met->at), normal.x(), normal.y(), normal.z(),
-      map::brush_name(solid.entity, solid.brush), face.line, printable(face.material)));
   return 0;
 }
 
@@ -185,7 +218,8 @@ void add_map_pvs_command(CLI::App& group, Action& chosen) {
 }
 
 void add_map_ray_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand("ray", "Say which face of the map is met first on a line");
+  CLI::App* command =
+      group.add_subcommand("ray", "Say which face or model of the map is met first on a line");
   const auto options = std::make_shared<QueryOptions>();
   add_places(*command, *options);
   command->footer("Example: hallway map ray maps/office.map 1,2,1.5 9,2,1.5");

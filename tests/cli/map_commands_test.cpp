@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/data.hpp"
 #include "support/process.hpp"
 #include "support/room_maps.hpp"
 #include "support/temp_folder.hpp"
@@ -236,6 +237,20 @@ TEST(MapRay, FirstFaceWithItsBrushAndMaterial) {
   std::string line;
   for (int i = 0; i < hit.at("line").get<int>(); ++i) std::getline(lines, line);
   EXPECT_TRUE(line.starts_with("( 400 0 0 ) ( 400 0 300 ) ( 400 300 0 ) plaster")) << line;
+}
+
+TEST(MapRay, ModelsAreMetAsBrushesAre) {
+  const std::string office = test::source_folder() / "maps" / "office.map";
+  // From above the sculpture in the hall straight down onto it, and past it.
+  const auto met =
+      json::parse(hallway({"map", "ray", office, "33.447,7.879,3", "33.447,7.879,0.31", "--json"}).out)
+          .at("hit");
+  EXPECT_EQ(met.at("model"), "models/knot.glb");
+  EXPECT_LT(met.at("distance_m").get<double>(), 2.5);
+  EXPECT_GT(met.at("normal")[2].get<double>(), 0.0);
+  const auto beside =
+      json::parse(hallway({"map", "ray", office, "32.5,8,3", "32.5,8,-2", "--json"}).out).at("hit");
+  EXPECT_EQ(beside.at("material"), "floor_stone");
 }
 
 TEST(MapRay, FreeLineSaysSo) {
