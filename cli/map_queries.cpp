@@ -13,6 +13,7 @@
 #include "map_command.hpp"
 #include "render/map_layers.hpp"
 #include "run/map_view.hpp"
+#include "sense/occluders.hpp"
 #include "sim/models.hpp"
 #include "trace/scene.hpp"
 
@@ -100,17 +101,17 @@ int ask_pvs(const QueryOptions& options) {
 /// Everything that stops a ray, as triangles, and where each comes from.
 class Obstacles {
  public:
-  explicit Obstacles(const CompiledMap& compiled) : world_(compiled.world) {
+  explicit Obstacles(const CompiledMap& compiled)
+      : world_(compiled.world),
+        models_(sim::load_models(compiled.document, fs::absolute(compiled.document.file).parent_path())),
+        mesh_(sense::make_occluders(world_.partition.surface, sim::triangles_of(models_))) {
     const csg::Surface& surface = world_.partition.surface;
-    mesh_.vertices = surface.vertices;
     for (std::uint32_t i = 0; i < surface.polygons.size(); ++i) {
-      for (const auto& triangle : csg::triangulate(surface, surface.polygons[i])) {
-        mesh_.triangles.push_back(triangle);
-        polygon_.push_back(i);
-      }
+      polygon_.insert(polygon_.end(), csg::triangulate(surface, surface.polygons[i]).size(), i);
     }
-    models_ = sim::load_models(compiled.document, fs::absolute(compiled.document.file).parent_path());
-    for (std::size_t i = 0; i < models_.meshes.size(); ++i) add_model(i);
+    for (std::size_t i = 0; i < models_.meshes.size(); ++i) {
+      model_.insert(model_.end(), models_.meshes[i].triangles.size(), i);
+    }
   }
 
   /// The first hit as a document: place, distance, normal and what is hit; null for none.
@@ -129,17 +130,6 @@ class Obstacles {
   }
 
  private:
-  void add_model(std::size_t index) {
-    const mesh::PlacedMesh& placed = models_.meshes[index];
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.insert(mesh_.vertices.end(), placed.vertices.begin(), placed.vertices.end());
-    for (const mesh::Triangle& triangle : placed.triangles) {
-      const auto& [a, b, c] = triangle.vertices;
-      mesh_.triangles.push_back({first + a, first + b, first + c});
-      model_.push_back(index);
-    }
-  }
-
   void describe_face(const csg::SurfacePolygon& polygon, Json& met) const {
     const map::Solid& solid = world_.brushes.solids[polygon.solid];
     const map::SolidFace& face = solid.faces[polygon.face];
@@ -163,10 +153,10 @@ class Obstacles {
   }
 
   const world::CompiledWorld& world_;
-  trace::TriangleMesh mesh_;
-  std::vector<std::uint32_t> polygon_;  ///< of each triangle of the surface
   sim::PlacedModels models_;
-  std::vector<std::size_t> model_;  ///< of each triangle behind those
+  trace::TriangleMesh mesh_;            ///< the surface's triangles, then those of the models
+  std::vector<std::uint32_t> polygon_;  ///< of each triangle of the surface
+  std::vector<std::size_t> model_;      ///< of each triangle behind those
 };
 
 std::string hit_text(const Json& met) {

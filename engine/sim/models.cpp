@@ -29,4 +29,18 @@ PlacedModels load_models(const map::Document& document, const std::filesystem::p
   return placed;
 }
 
+trace::TriangleMesh triangles_of(const mesh::PlacedMesh& placed) {
+  trace::TriangleMesh mesh;
+  mesh.vertices = placed.vertices;
+  mesh.triangles.reserve(placed.triangles.size());
+  for (const mesh::Triangle& triangle : placed.triangles) mesh.triangles.push_back(triangle.vertices);
+  return mesh;
+}
+
+std::vector<trace::TriangleMesh> triangles_of(const PlacedModels& models) {
+  std::vector<trace::TriangleMesh> meshes;
+  for (const mesh::PlacedMesh& placed : models.meshes) meshes.push_back(triangles_of(placed));
+  return meshes;
+}
+
 }  // namespace hallway::sim

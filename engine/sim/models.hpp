@@ -8,6 +8,7 @@
 #include "map/document.hpp"
 #include "mesh/model.hpp"
 #include "mesh/placement.hpp"
+#include "trace/triangle_mesh.hpp"
 
 namespace hallway::sim {
 
@@ -21,5 +22,11 @@ struct PlacedModels {
 
 /// Loads each model once and places it. Throws Error for a bad entity or a model that cannot be read (load_model()).
 PlacedModels load_models(const map::Document& document, const std::filesystem::path& map_folder);
+
+/// A placed model as triangles that block sight, in its own order.
+trace::TriangleMesh triangles_of(const mesh::PlacedMesh& placed);
+
+/// All models of a map so.
+std::vector<trace::TriangleMesh> triangles_of(const PlacedModels& models);
 
 }  // namespace hallway::sim

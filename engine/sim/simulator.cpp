@@ -40,17 +40,6 @@ world::CompiledWorld compile_for_run(const map::Document& document, const std::f
   return world::compile(document, settings);
 }
 
-trace::Scene make_scene(const world::CompiledWorld& world, const PlacedModels& models,
-                        trace::Backend backend) {
-  std::vector<trace::TriangleMesh> meshes;
-  for (const mesh::PlacedMesh& placed : models.meshes) {
-    trace::TriangleMesh& mesh = meshes.emplace_back();
-    mesh.vertices = placed.vertices;
-    for (const mesh::Triangle& triangle : placed.triangles) mesh.triangles.push_back(triangle.vertices);
-  }
-  return trace::Scene(sense::make_occluders(world.partition.surface, meshes), backend);
-}
-
 /// Points on what the inside of a sealed world sees, on everything where the world is open; none on a sky.
 std::vector<Vec3> find_landmarks(const map::Document& document, const world::CompiledWorld& world,
                                  const PlacedModels& models) {
@@ -113,7 +102,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       models_(load_models(document_, scenario.map_file.parent_path())),
       path_(map::find_path(document_, scenario.robot.path)),
       step_length_m_(find_step_length(scenario, path_)),
-      scene_(make_scene(world_, models_, backend)),
+      scene_(sense::make_occluders(world_.partition.surface, triangles_of(models_)), backend),
       landmarks_(find_landmarks(document_, world_, models_)),
       landmark_index_(make_index(landmarks_, world_)) {
   sensors_.reserve(scenario_.sensors.size());

@@ -16,18 +16,10 @@ namespace {
 struct Office {
   sim::Scenario scenario = sim::load_scenario(test::source_folder() / "maps" / "office.toml");
   sim::Simulator simulator{scenario, 2, trace::Backend::kEmbree};
-  trace::Scene oracle{occluders(simulator), trace::Backend::kBruteForce};
-
   /// Walls as they come out of the brushes, and the sculpture.
-  static trace::TriangleMesh occluders(const sim::Simulator& simulator) {
-    std::vector<trace::TriangleMesh> meshes;
-    for (const mesh::PlacedMesh& placed : simulator.models().meshes) {
-      trace::TriangleMesh& mesh = meshes.emplace_back();
-      mesh.vertices = placed.vertices;
-      for (const mesh::Triangle& triangle : placed.triangles) mesh.triangles.push_back(triangle.vertices);
-    }
-    return sense::make_occluders(csg::build_surface(simulator.world()), meshes);
-  }
+  trace::Scene oracle{
+      sense::make_occluders(csg::build_surface(simulator.world()), sim::triangles_of(simulator.models())),
+      trace::Backend::kBruteForce};
 
   Vec3 viewpoint(const sim::Frame& frame) const {
     return frame.T_world_body * scenario.sensors.front().T_body_sensor.t;
