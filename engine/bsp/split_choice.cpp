@@ -40,12 +40,17 @@ std::vector<Candidate> gather(std::span<const FacetShape> facets) {
   return merged;
 }
 
-/// Keeps the planes with the largest faces.
-void keep_largest(std::vector<Candidate>& candidates, std::size_t most) {
+/// Keeps half of what may stay for the planes with the largest faces, which cut least for what they decide, and half for planes picked evenly from the rest,
+/// which lie everywhere.
+void keep_some(std::vector<Candidate>& candidates, std::size_t most) {
   if (candidates.size() <= most) return;
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(-a.area, a.plane) < std::pair(-b.area, b.plane);
   });
+  const std::size_t largest = (most + 1) / 2;
+  const std::size_t others = most - largest;
+  const std::size_t rest = candidates.size() - largest;
+  for (std::size_t i = 0; i < others; ++i) candidates[largest + i] = candidates[largest + i * rest / others];
   candidates.resize(most);
 }
 
@@ -97,7 +102,7 @@ std::uint32_t choose_plane(const PlaneSet& planes, std::span<const FacetShape> f
     }
     if (!axial.empty()) candidates = std::move(axial);
   }
-  keep_largest(candidates, std::max<std::size_t>(options.candidates, 1));
+  keep_some(candidates, std::max<std::size_t>(options.candidates, 1));
   std::uint32_t best = candidates.front().plane;
   double best_cost = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates) {
