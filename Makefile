@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo test test-long check bench renders format lint clean build-release deps
+.PHONY: demo test test-long check fuzz bench renders format lint clean build-release deps
 .DEFAULT_GOAL := demo
 
 deps:
@@ -29,6 +29,18 @@ test-long: build-release
 check: deps
 	for preset in release clang asan tsan; do \
 	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && ctest --preset $$preset || exit 1; \
+	done
+
+## libFuzzer on everything that reads foreign bytes, FUZZ_SECONDS each; what it finds is kept in build/fuzz/finds
+FUZZ_SECONDS ?= 600
+FUZZ_TARGETS := map_reader mesh_protocol mesh_scene
+fuzz: deps
+	cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+	  -DHALLWAY_FUZZ=ON -DHALLWAY_SANITIZE=address,undefined,fuzzer-no-link -DHALLWAY_BENCH=OFF
+	cmake --build build/fuzz -j $(JOBS) --target $(FUZZ_TARGETS:%=fuzz_%)
+	for target in $(FUZZ_TARGETS); do \
+	  mkdir -p build/fuzz/finds/$$target && build/fuzz/tests/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -timeout=20 \
+	    -artifact_prefix=build/fuzz/finds/$$target/ build/fuzz/finds/$$target tests/fuzz/corpus/$$target || exit 1; \
 	done
 
 ## benchmarks: ratios against references measured in the same run, and a plot
