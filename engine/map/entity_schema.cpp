@@ -68,7 +68,8 @@ constexpr std::array kMesh{kOrigin,
                            kAngle,
                            KeySpec{.name = "angles", .kind = KeyKind::kVector, .fallback = "0 0 0"},
                            KeySpec{.name = "scale", .kind = KeyKind::kScale, .fallback = "1"},
-                           number("units", 1e-6, 1e6, "")};
+                           number("units", 1e-6, 1e6, ""),
+                           kOwnPoints};
 constexpr std::array kLight{kOrigin, KeySpec{.name = "light", .kind = KeyKind::kText, .fallback = "300"},
                             KeySpec{.name = "_color", .kind = KeyKind::kVector, .fallback = "1 1 1"}};
 
