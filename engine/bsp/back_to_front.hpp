@@ -18,17 +18,17 @@ namespace hallway::bsp {
 template <typename Visit>
 void back_to_front(const Tree& tree, const Vec3& eye, Visit&& visit) {
   check_query_point(eye);
-  PendingStack<std::int32_t> rest;
-  rest.push(tree.nodes.empty() ? ~0 : 0);
+  PendingStack<Child> rest;
+  rest.push(tree.root);
   while (!rest.empty()) {
-    std::int32_t at = rest.pop();
-    while (at >= 0) {
-      const Node& node = tree.nodes[static_cast<std::size_t>(at)];
-      const std::size_t near = node.plane.distance(eye) < 0.0 ? 1 : 0;
+    Child at = rest.pop();
+    while (!at.is_leaf()) {
+      const Node& node = tree.nodes[at.index()];
+      const std::size_t near = tree.distance(at, eye) < 0.0 ? 1 : 0;
       rest.push(node.child[near]);
       at = node.child[1 - near];
     }
-    visit(static_cast<std::uint32_t>(~at));
+    visit(at.index());
   }
 }
 

@@ -275,11 +275,6 @@ class Compiler {
 
   void emit_tree() {
     Tree& tree = compiled_.tree;
-    for (const ExactNode& node : tree_.nodes) {
-      Plane plane = exact_.planes[node.plane].unit;
-      plane.offset *= world_.metres_per_unit;
-      tree.nodes.push_back({plane, node.child});
-    }
     const std::vector<Box> boxes = cell_boxes();
     compiled_.inside.assign(compiled_.surface.polygons.size(), false);
     std::vector<std::uint32_t> faces;
@@ -299,6 +294,13 @@ class Compiler {
                              static_cast<std::uint32_t>(faces.size())});
       tree.leaf_faces.insert(tree.leaf_faces.end(), faces.begin(), faces.end());
     }
+    std::vector<Division> divisions;
+    for (const ExactNode& node : tree_.nodes) {
+      Plane plane = exact_.planes[node.plane].unit;
+      plane.offset *= world_.metres_per_unit;
+      divisions.push_back({plane, node.child});
+    }
+    set_nodes(tree, divisions);
   }
 
   /// The facet in metres, without corners that rounding has made one; empty where nothing is left of it.

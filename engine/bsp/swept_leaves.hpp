@@ -18,7 +18,7 @@ template <typename Visit>
 void visit_swept_leaves(const Tree& tree, const BodyShape& shape, const Vec3& from, const Vec3& motion,
                         const double& limit, Visit&& visit) {
   struct Part {
-    std::int32_t at;
+    Child at;
     double begin, end;  // of the motion
   };
   // Leaves of a part the times at which start + slope * time is not below zero.
@@ -33,19 +33,20 @@ void visit_swept_leaves(const Tree& tree, const BodyShape& shape, const Vec3& fr
     return part;
   };
   PendingStack<Part> rest;
-  rest.push({tree.nodes.empty() ? ~0 : 0, 0.0, 1.0});
+  rest.push({tree.root, 0.0, 1.0});
   while (!rest.empty()) {
     const Part part = rest.pop();
     if (part.begin > part.end || part.begin > limit) continue;
-    if (part.at < 0) {
-      visit(static_cast<std::uint32_t>(~part.at));
+    if (part.at.is_leaf()) {
+      visit(part.at.index());
       continue;
     }
-    const Node& node = tree.nodes[static_cast<std::size_t>(part.at)];
-    const double distance = node.plane.distance(from);
-    const double speed = node.plane.normal.dot(motion);
-    Part front = clip(part, distance + shape.reach(node.plane.normal), speed);
-    Part back = clip(part, shape.reach(-node.plane.normal) - distance, -speed);
+    const Node& node = tree.nodes[part.at.index()];
+    const Vec3& normal = tree.normals[part.at.index()];
+    const double distance = tree.distance(part.at, from);
+    const double speed = normal.dot(motion);
+    Part front = clip(part, distance + shape.reach(normal), speed);
+    Part back = clip(part, shape.reach(-normal) - distance, -speed);
     front.at = node.child[0];
     back.at = node.child[1];
     if (back.begin < front.begin) std::swap(front, back);

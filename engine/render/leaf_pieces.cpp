@@ -46,17 +46,17 @@ Halves divide(const std::vector<Vec3>& corners, const Plane& plane) {
 
 std::vector<LeafPiece> leaf_pieces(const bsp::Tree& tree, const Polygon& face) {
   std::vector<LeafPiece> out;
-  if (tree.nodes.empty()) return {{0, face}};
-  std::vector<std::pair<std::int32_t, std::vector<Vec3>>> open{{0, face.vertices}};
+  std::vector<std::pair<bsp::Child, std::vector<Vec3>>> open{{tree.root, face.vertices}};
   while (!open.empty()) {
     auto [child, corners] = std::move(open.back());
     open.pop_back();
-    if (child < 0) {
-      out.push_back({static_cast<std::uint32_t>(~child), {std::move(corners), face.plane}});
+    if (child.is_leaf()) {
+      out.push_back({child.index(), {std::move(corners), face.plane}});
       continue;
     }
-    const bsp::Node& node = tree.nodes[static_cast<std::size_t>(child)];
-    Halves halves = divide(corners, node.plane);
+    const bsp::Node& node = tree.nodes[child.index()];
+    const Plane plane = tree.plane(child.index());
+    Halves halves = divide(corners, plane);
     if (halves.front && halves.behind) {
       for (std::size_t side : {std::size_t{1}, std::size_t{0}}) {
         if (halves.part[side].size() >= 3) open.emplace_back(node.child[side], std::move(halves.part[side]));
@@ -64,7 +64,7 @@ std::vector<LeafPiece> leaf_pieces(const bsp::Tree& tree, const Polygon& face) {
       continue;
     }
     // A face in the node's plane belongs to the side that it looks at.
-    const bool before = halves.front || (!halves.behind && node.plane.normal.dot(face.plane.normal) > 0.0);
+    const bool before = halves.front || (!halves.behind && plane.normal.dot(face.plane.normal) > 0.0);
     open.emplace_back(node.child[before ? 0 : 1], std::move(corners));
   }
   return out;
@@ -72,17 +72,15 @@ std::vector<LeafPiece> leaf_pieces(const bsp::Tree& tree, const Polygon& face) {
 
 std::vector<std::uint32_t> leaf_depths(const bsp::Tree& tree) {
   std::vector<std::uint32_t> depths(tree.leaves.size(), 0);
-  if (tree.nodes.empty()) return depths;
-  std::vector<std::pair<std::int32_t, std::uint32_t>> open{{0, 0}};
+  std::vector<std::pair<bsp::Child, std::uint32_t>> open{{tree.root, 0}};
   while (!open.empty()) {
     const auto [child, depth] = open.back();
     open.pop_back();
-    if (child < 0) {
-      depths[static_cast<std::size_t>(~child)] = depth;
+    if (child.is_leaf()) {
+      depths[child.index()] = depth;
       continue;
     }
-    for (const std::int32_t next : tree.nodes[static_cast<std::size_t>(child)].child)
-      open.emplace_back(next, depth + 1);
+    for (const bsp::Child next : tree.nodes[child.index()].child) open.emplace_back(next, depth + 1);
   }
   return depths;
 }

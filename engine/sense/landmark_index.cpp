@@ -36,18 +36,18 @@ void check_landmarks(const std::vector<Vec3>& landmarks) {
 std::vector<std::uint32_t> clusters_at(const bsp::Tree& tree, const Vec3& point) {
   const double margin = kOnPlane_m + kOnPlane * point.cwiseAbs().maxCoeff();
   std::vector<std::uint32_t> clusters;
-  std::vector<std::int32_t> open{tree.nodes.empty() ? ~0 : 0};
+  std::vector<bsp::Child> open{tree.root};
   while (!open.empty()) {
-    const std::int32_t at = open.back();
+    const bsp::Child at = open.back();
     open.pop_back();
-    if (at < 0) {
-      const std::int32_t cluster = tree.leaves[static_cast<std::size_t>(~at)].cluster;
+    if (at.is_leaf()) {
+      const std::int32_t cluster = tree.leaves[at.index()].cluster;
       if (cluster < 0) return {};
       clusters.push_back(static_cast<std::uint32_t>(cluster));
       continue;
     }
-    const bsp::Node& node = tree.nodes[static_cast<std::size_t>(at)];
-    const double distance = node.plane.distance(point);
+    const bsp::Node& node = tree.nodes[at.index()];
+    const double distance = tree.distance(at, point);
     if (distance >= -margin) open.push_back(node.child[0]);
     if (distance <= margin) open.push_back(node.child[1]);
   }

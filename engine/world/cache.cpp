@@ -91,10 +91,12 @@ void get_surface(ByteReader& in, bsp::Compiled& partition) {
 
 void put_tree(ByteWriter& out, const bsp::Tree& tree) {
   out.put(static_cast<std::uint64_t>(tree.nodes.size()));
+  out.put(tree.root.bits());
   for (const bsp::Node& node : tree.nodes) {
-    put(out, node.plane);
-    for (const std::int32_t child : node.child) out.put(child);
+    out.put(node.offset);
+    for (const bsp::Child child : node.child) out.put(child.bits());
   }
+  put(out, tree.normals);
   out.put(static_cast<std::uint64_t>(tree.leaves.size()));
   for (const bsp::Leaf& leaf : tree.leaves) {
     out.put(static_cast<std::uint8_t>(leaf.content));
@@ -111,10 +113,12 @@ void put_tree(ByteWriter& out, const bsp::Tree& tree) {
 bsp::Tree get_tree(ByteReader& in) {
   bsp::Tree tree;
   tree.nodes.resize(in.count(sizeof(double)));
+  tree.root = bsp::Child(in.get<std::uint32_t>());
   for (bsp::Node& node : tree.nodes) {
-    node.plane = get_plane(in);
-    for (std::int32_t& child : node.child) child = in.get<std::int32_t>();
+    node.offset = in.get<double>();
+    for (bsp::Child& child : node.child) child = bsp::Child(in.get<std::uint32_t>());
   }
+  tree.normals = get_points(in);
   tree.leaves.resize(in.count(sizeof(double)));
   for (bsp::Leaf& leaf : tree.leaves) {
     leaf.content = static_cast<bsp::Content>(in.get<std::uint8_t>());

@@ -201,7 +201,8 @@ TEST(Compile, TheSameBytesEachTime) {
     const Compiled b = compile(world, occupants, {});
     ASSERT_EQ(a.tree.nodes.size(), b.tree.nodes.size());
     for (std::size_t i = 0; i < a.tree.nodes.size(); ++i) {
-      ASSERT_EQ(a.tree.nodes[i].plane.normal, b.tree.nodes[i].plane.normal);
+      ASSERT_EQ(a.tree.normals[i], b.tree.normals[i]);
+      ASSERT_EQ(a.tree.nodes[i].offset, b.tree.nodes[i].offset);
       ASSERT_EQ(a.tree.nodes[i].child, b.tree.nodes[i].child);
     }
     ASSERT_EQ(a.tree.leaf_faces, b.tree.leaf_faces);

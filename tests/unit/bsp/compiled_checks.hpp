@@ -117,15 +117,15 @@ struct Stretch {
   std::uint32_t leaf = 0;
 };
 
-inline void stretches_of(const bsp::Tree& tree, std::int32_t at, const Vec3& a, const Vec3& b, double begin,
+inline void stretches_of(const bsp::Tree& tree, bsp::Child at, const Vec3& a, const Vec3& b, double begin,
                          double end, std::vector<Stretch>& out) {
-  if (at < 0) {
-    out.push_back({begin, end, static_cast<std::uint32_t>(~at)});
+  if (at.is_leaf()) {
+    out.push_back({begin, end, at.index()});
     return;
   }
-  const bsp::Node& node = tree.nodes[static_cast<std::size_t>(at)];
-  const double da = node.plane.distance(a + begin * (b - a));
-  const double db = node.plane.distance(a + end * (b - a));
+  const bsp::Node& node = tree.nodes[at.index()];
+  const double da = tree.distance(at, a + begin * (b - a));
+  const double db = tree.distance(at, a + end * (b - a));
   if (da >= 0.0 && db >= 0.0) return stretches_of(tree, node.child[0], a, b, begin, end, out);
   if (da < 0.0 && db < 0.0) return stretches_of(tree, node.child[1], a, b, begin, end, out);
   const double cut = begin + (end - begin) * da / (da - db);
@@ -153,7 +153,7 @@ inline std::string missing_portal(const map::World& world, const bsp::Compiled& 
     const Vec3 b = a + length_m * Vec3(x, y, normal(random)).normalized();
     if (!compiled.tree.bounds.contains(b) || compiled.tree.nodes.empty()) continue;
     stretches.clear();
-    stretches_of(compiled.tree, 0, a, b, 0.0, 1.0, stretches);
+    stretches_of(compiled.tree, compiled.tree.root, a, b, 0.0, 1.0, stretches);
     for (std::size_t k = 0; k + 1 < stretches.size(); ++k) {
       const std::int32_t from = compiled.tree.leaves[stretches[k].leaf].cluster;
       const std::int32_t to = compiled.tree.leaves[stretches[k + 1].leaf].cluster;

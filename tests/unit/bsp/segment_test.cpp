@@ -161,7 +161,7 @@ TEST(Segment, DoesNotSlipBetweenLeaves) {
     for (std::uint32_t i = 0; i < test::sized(5000u, 50000u); ++i) {
       auto [from, to] = segments.segment(i);
       for (std::uint64_t k = 0; k < 2; ++k) {  // in one plane, or along the line that two have in common
-        const Plane& plane = tree.nodes[random.bits(i, k)[0] % tree.nodes.size()].plane;
+        const Plane plane = tree.plane(random.bits(i, k)[0] % static_cast<std::uint32_t>(tree.nodes.size()));
         from -= plane.distance(from) * plane.normal;
         to -= plane.distance(to) * plane.normal;
         if (!world.compiled.enclosure.sealed || !segments.is_solid(from)) {
@@ -214,6 +214,25 @@ TEST_F(InRooms, WhatOnlyTouchesIsNotHit) {
   for (const auto& [from, to] : touching) {
     EXPECT_FALSE(first_solid(tree(), from, to)) << from.transpose() << " to " << to.transpose();
     EXPECT_FALSE(first_solid(tree(), to, from)) << to.transpose() << " to " << from.transpose();
+  }
+}
+
+/// Where a segment meets the plane in which it ends is rounded, and must not put its last bit behind the plane.
+TEST_F(InRooms, AnEndOnAFaceIsNoHitFromAnywhere) {
+  const Random random(7, stream_id("ends on faces"));
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const auto in = [&](std::uint64_t n, double low, double high) { return random.uniform(i, n, low, high); };
+    const Vec3 from(in(0, 0.1, 9.9), in(1, 6.1, 7.9), in(2, 0.1, 3.9));  // nothing is between
+    Vec3 to(in(3, 0.1, 9.9), in(4, 6.1, 7.9), in(5, 0.1, 3.9));
+    const double face[] = {0.0, 10.0, 0.0, 4.0};
+    const int axis[] = {0, 0, 2, 2};
+    to[axis[i % 4]] = face[i % 4];
+    ASSERT_FALSE(first_solid(tree(), from, to)) << from.transpose() << " to " << to.transpose();
+    ASSERT_FALSE(first_solid(tree(), to, from)) << to.transpose() << " to " << from.transpose();
+    // A little farther it is one.
+    Vec3 beyond = to;
+    beyond[axis[i % 4]] += i % 4 == 1 || i % 4 == 3 ? 1e-9 : -1e-9;
+    ASSERT_TRUE(first_solid(tree(), from, beyond)) << from.transpose() << " to " << beyond.transpose();
   }
 }
 
@@ -285,8 +304,10 @@ TEST(Segment, FromFarAway) {
 TEST(Segment, InEmptyAndInFullSpace) {
   bsp::Tree tree;
   tree.leaves.resize(1);
+  bsp::set_nodes(tree, {});
   EXPECT_FALSE(first_solid(tree, {0, 0, 0}, {1, 0, 0}));
   tree.leaves[0].content = bsp::Content::kSolid;
+  bsp::set_nodes(tree, {});
   EXPECT_TRUE(first_solid(tree, {0, 0, 0}, {1, 0, 0})->starts_in_solid);
 }
 

@@ -174,13 +174,12 @@ TEST(MapLayers, DepthIsTheNumberOfNodesOnTheWayDown) {
   const std::vector<std::uint32_t> depths = leaf_depths(tree);
   for (const Vec3& place : {Vec3(1, 1, 1), Vec3(8, 1, 1), Vec3(2, 5, 1), Vec3(5, 6.5, 1), Vec3(5, 1, 1)}) {
     std::uint32_t depth = 0;
-    std::int32_t child = 0;
-    while (child >= 0) {
-      const bsp::Node& node = tree.nodes[static_cast<std::size_t>(child)];
-      child = node.child[node.plane.distance(place) >= 0.0 ? 0 : 1];
+    bsp::Child child = tree.root;
+    while (!child.is_leaf()) {
+      child = tree.nodes[child.index()].child[tree.distance(child, place) >= 0.0 ? 0 : 1];
       ++depth;
     }
-    EXPECT_EQ(depths[static_cast<std::size_t>(~child)], depth);
+    EXPECT_EQ(depths[child.index()], depth);
   }
 }
 

@@ -74,13 +74,11 @@ struct Rooms {
     outside.content = bsp::Content::kSolid;
     outside.box = tree.bounds;
     tree.leaves.push_back(outside);
+    std::vector<bsp::Division> divisions;
     const auto cut = [&](const Vec3& normal, double offset, std::int32_t front, std::int32_t back) {
-      bsp::Node node;
-      node.plane = {normal, offset};
-      node.child = {front, back};
-      tree.nodes.push_back(node);
+      divisions.push_back({{normal, offset}, {front, back}});
     };
-    const auto next = [&] { return static_cast<std::int32_t>(tree.nodes.size()) + 1; };
+    const auto next = [&] { return static_cast<std::int32_t>(divisions.size()) + 1; };
     // The void is leaf 0 (~0): in front of the planes of the hull, all of which point outward.
     cut(-Vec3::UnitX(), 0.0, ~0, next());
     cut(Vec3::UnitX(), length(), ~0, next());
@@ -98,6 +96,7 @@ struct Rooms {
       const auto room = static_cast<std::int32_t>(i);
       cut(-Vec3::UnitX(), -kLength * (i + 1), ~(room + 1), i + 2 == count ? ~(room + 2) : next());
     }
+    bsp::set_nodes(tree, divisions);
   }
 };
 
