@@ -84,6 +84,18 @@ CompiledMap compile_map(const MapRequest& request) {
   return out;
 }
 
+std::vector<render::Surface> model_faces(CompiledMap& compiled, bool strict) {
+  std::vector<Error> faults;
+  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
+  std::vector<render::Surface> faces = run::model_faces(compiled.document, folder, faults);
+  for (const Error& fault : faults) {
+    if (strict) throw fault;
+    compiled.warnings.push_back(std::string(fault.what()) + "; left out");
+    print_warning(compiled.warnings.back());
+  }
+  return faces;
+}
+
 Vec3 parse_place(const std::string& what, const std::string& text) {
   const auto parts = split(text, ',');
   Vec3 place = Vec3::Zero();

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "map/document.hpp"
 #include "pvs/compute.hpp"
+#include "render/picture.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway::cli {
@@ -34,6 +35,10 @@ map::Document load_map(const std::string& file);
 /// Reads and compiles a map, with a progress bar while the visible sets are made, and prints what the user should know: brushes that are
 /// no solids, occupants in solid, a cache that cannot be written. Ctrl-C is Error{kInterrupted}.
 CompiledMap compile_map(const MapRequest& request);
+
+/// The models that stand in a map, as faces of a picture. One that cannot be read is left out with a warning, shown on standard error and
+/// added to the map's, or with `strict` thrown.
+std::vector<render::Surface> model_faces(CompiledMap& compiled, bool strict);
 
 /// `X,Y,Z` in metres. Throws Error{kUsage} naming `what` for anything else.
 Vec3 parse_place(const std::string& what, const std::string& text);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "base/file.hpp"
 #include "base/text.hpp"
@@ -11,6 +12,8 @@
 #include "console.hpp"
 #include "map_command.hpp"
 #include "mesh/export.hpp"
+#include "mesh/load.hpp"
+#include "mesh/placement.hpp"
 #include "render/colour.hpp"
 #include "sense/landmarks.hpp"
 
@@ -87,6 +90,23 @@ mesh::Model model_of(const world::CompiledWorld& world, bool all) {
   return model;
 }
 
+/// Adds the models that stand in the map; one that cannot be read is left out with a warning.
+void add_models(mesh::Model& model, CompiledMap& compiled) {
+  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
+  for (const mesh::Placement& placement : mesh::placements(compiled.document)) {
+    try {
+      mesh::Model one = mesh::load_model(mesh::model_path(placement, folder), folder);
+      mesh::PlacedMesh placed = mesh::place(one, placement);
+      one.vertices = std::move(placed.vertices);
+      one.triangles = std::move(placed.triangles);
+      mesh::append(model, std::move(one));
+    } catch (const Error& error) {
+      compiled.warnings.push_back(std::string(error.what()) + "; left out");
+      print_warning(compiled.warnings.back());
+    }
+  }
+}
+
 Written write_model(const ExportOptions& options, const std::string& format, const mesh::Model& model) {
   Written written{.files = {options.out}, .triangles = model.triangles.size()};
   if (format == ".glb") write_file_atomically(options.out, mesh::to_glb(model));
@@ -95,6 +115,12 @@ Written write_model(const ExportOptions& options, const std::string& format, con
     const fs::path library = fs::path(options.out).replace_extension(".mtl");
     check_output_file(library.string());
     const mesh::ObjFiles files = mesh::to_obj(model, library.filename().string());
+    for (const mesh::ObjFiles::File& image : files.images) {
+      const fs::path file = library.parent_path() / image.name;
+      check_output_file(file.string());
+      write_file_atomically(file, image.bytes);
+      written.files.push_back(file.string());
+    }
     write_file_atomically(library, files.mtl);
     write_file_atomically(options.out, files.obj);
     written.files.push_back(library.string());
@@ -115,12 +141,13 @@ Written write_points(const ExportOptions& options, const map::Document& document
 int export_map(const ExportOptions& options) {
   const std::string format = format_of(options);
   check_output_file(options.out);
-  const CompiledMap compiled = compile_map({.file = options.map});
+  CompiledMap compiled = compile_map({.file = options.map});
   Written written;
   if (options.points) {
     written = write_points(options, compiled.document, compiled.world.brushes);
   } else {
-    const mesh::Model model = model_of(compiled.world, options.all);
+    mesh::Model model = model_of(compiled.world, options.all);
+    add_models(model, compiled);
     if (model.triangles.empty()) {
       throw Error(ErrorCode::kBadInput, "has no faces to export", {.file = printable(options.map, 4096)});
     }
@@ -146,8 +173,8 @@ int export_map(const ExportOptions& options) {
 }  // namespace
 
 void add_map_export_command(CLI::App& group, Action& chosen) {
-  CLI::App* command =
-      group.add_subcommand("export", "Write a map's surface, or its points, for other programs");
+  CLI::App* command = group.add_subcommand(
+      "export", "Write a map's surface and its models, or its points, for other programs");
   const auto options = std::make_shared<ExportOptions>();
   command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
   command

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "base/file.hpp"
 #include "base/text.hpp"
@@ -25,13 +26,16 @@ struct LeakOptions {
   bool json = false;
 };
 
-void write_outputs(const LeakOptions& options, const world::CompiledWorld& world) {
+void write_outputs(const LeakOptions& options, CompiledMap& compiled) {
+  const world::CompiledWorld& world = compiled.world;
   const auto& leak = world.partition.enclosure.leak;
   if (!options.points.empty() && leak) {
     write_file_atomically(options.points, way_points(*leak, world.brushes.metres_per_unit));
   }
   if (options.picture.empty()) return;
-  const run::MapSubject subject{.world = world, .title = fs::path(options.map).stem().string()};
+  std::vector<render::Surface> meshes = model_faces(compiled, false);
+  const run::MapSubject subject{
+      .world = world, .title = fs::path(options.map).stem().string(), .meshes = std::move(meshes)};
   write_file_atomically(options.picture, run::draw_map_picture(subject, {}, {.leak = true}));
 }
 
@@ -47,9 +51,9 @@ int leak(const LeakOptions& options) {
   for (const std::string& file : {options.picture, options.points}) {
     if (!file.empty()) check_output_file(file);
   }
-  const CompiledMap compiled = compile_map({.file = options.map});
+  CompiledMap compiled = compile_map({.file = options.map});
   const world::CompiledWorld& world = compiled.world;
-  write_outputs(options, world);
+  write_outputs(options, compiled);
   const int status = world.sealed() ? 0 : 1;
   if (options.json) {
     print_json({{"schema", "hallway.leak/1"},

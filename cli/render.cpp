@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -10,8 +10,6 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
-#include "mesh/load.hpp"
-#include "mesh/placement.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 #include "show_list.hpp"
@@ -69,25 +67,13 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   return spec;
 }
 
-/// The models that stand in a map, as faces; one that cannot be read is a warning.
-std::vector<render::Surface> mesh_faces(const CompiledMap& compiled, bool strict) {
-  std::vector<Error> faults;
-  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
-  std::vector<render::Surface> faces = run::model_faces(compiled.document, folder, faults);
-  for (const Error& fault : faults) {
-    if (strict) throw fault;
-    print_warning(std::string(fault.what()) + "; left out");
-  }
-  return faces;
-}
-
 std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
   MapRequest request{.file = options.input, .strict = options.strict};
   if (show.map.pvs_from_m) request.level = pvs::Level::kFull;
-  const CompiledMap compiled = compile_map(request);
-  const run::MapSubject subject{.world = compiled.world,
-                                .title = fs::path(options.input).stem().string(),
-                                .meshes = mesh_faces(compiled, options.strict)};
+  CompiledMap compiled = compile_map(request);
+  std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
+  const run::MapSubject subject{
+      .world = compiled.world, .title = fs::path(options.input).stem().string(), .meshes = std::move(meshes)};
   return run::draw_map_picture(subject, spec, show.map);
 }
 

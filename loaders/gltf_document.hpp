@@ -64,6 +64,7 @@ struct Material {
   std::vector<double> base_colour{};
   std::int64_t texture = -1;
   std::int64_t texture_set = 0;  ///< the n of TEXCOORD_n
+  bool opaque = true;            ///< the alpha of its texture says nothing
 };
 
 struct Image {

@@ -104,7 +104,8 @@ Mesh mesh_of(const tinygltf::Mesh& in) {
 
 Material material_of(const tinygltf::Material& in) {
   const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
-  return {in.name, pbr.baseColorFactor, pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord};
+  const bool opaque = in.alphaMode != "MASK" && in.alphaMode != "BLEND";
+  return {in.name, pbr.baseColorFactor, pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, opaque};
 }
 
 Image image_of(tinygltf::Image& in) {

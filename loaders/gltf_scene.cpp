@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <utility>
@@ -67,14 +68,28 @@ Eigen::Matrix4d local_transform(const Node& node) {
   return transform;
 }
 
+constexpr std::size_t kAlpha = 3;  // of four channels
+constexpr std::uint8_t kOpaque = 255;
+
+bool has_alpha(const mesh::Image& image) {
+  for (std::size_t i = kAlpha; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != kOpaque) return true;
+  }
+  return false;
+}
+
+void remove_alpha(mesh::Image& image) {
+  for (std::size_t i = kAlpha; i < image.rgba.size(); i += 4) image.rgba[i] = kOpaque;
+}
+
 /// Indices of separate triangles from those of a strip or fan.
 std::vector<std::uint32_t> unroll(const std::vector<std::uint32_t>& run, std::int64_t mode) {
   std::vector<std::uint32_t> triangles;
   for (std::size_t i = 0; i + 2 < run.size(); ++i) {
-    if (mode == kFan) {
-      triangles.insert(triangles.end(), {run[i + 1], run[i + 2], run[0]});
-    } else {
+    if (mode == kStrip) {
       triangles.insert(triangles.end(), {run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]});
+    } else {
+      triangles.insert(triangles.end(), {run[i + 1], run[i + 2], run[0]});
     }
   }
   return triangles;
@@ -222,14 +237,16 @@ class Converter {
     }
     if (material.texture >= 0) {
       const std::int64_t image = at(document_.textures, material.texture, "texture");
-      if (image >= 0) result.image = decoded(image);
+      if (image >= 0) result.image = decoded(image, material.opaque);
     }
     scene_.materials.push_back(std::move(result));
   }
 
-  std::optional<std::uint32_t> decoded(std::int64_t image) {
+  /// An image whose alpha counts for one material and not for another becomes two.
+  std::optional<std::uint32_t> decoded(std::int64_t image, bool opaque) {
     const Image& found = at(document_.images, image, "image");
-    auto& done = image_of_[static_cast<std::size_t>(image)];
+    auto& both = image_of_[static_cast<std::size_t>(image)];
+    auto& done = both[opaque ? 1 : 0];
     if (done) return *done;
     done.emplace();
     const std::string name = found.name.empty() ? "image " + std::to_string(image) : found.name;
@@ -247,6 +264,11 @@ class Converter {
     if (scene_.images.size() >= limits_.images) refuse("has more images than the limit");
     *done = static_cast<std::uint32_t>(scene_.images.size());
     scene_.images.push_back(std::move(std::get<mesh::Image>(result)));
+    if (!has_alpha(scene_.images.back())) {
+      both.fill(done);
+    } else if (opaque) {
+      remove_alpha(scene_.images.back());
+    }
     return *done;
   }
 
@@ -261,7 +283,8 @@ class Converter {
   std::uint64_t vertices_left_;
   std::uint64_t triangles_left_;
   std::vector<std::optional<std::vector<std::uint32_t>>> parts_of_mesh_;  ///< empty: not converted yet
-  std::vector<std::optional<std::optional<std::uint32_t>>> image_of_;     ///< empty: not decoded yet
+  /// With its alpha, and without; empty: not decoded yet.
+  std::vector<std::array<std::optional<std::optional<std::uint32_t>>, 2>> image_of_;
   std::set<std::string> warned_;
   Scene scene_;
 };

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/png.hpp"
 #include "base/text.hpp"
 
 namespace hallway::mesh {
@@ -20,6 +23,9 @@ constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
+constexpr int kLinear = 9729;
+constexpr int kLinearMipmapLinear = 9987;
+constexpr int kRepeat = 10497;
 constexpr std::size_t kMaxChannel = 255;
 
 /// Every size is fine, but nothing else may be wrong.
@@ -36,6 +42,28 @@ void append(std::string& out, T value) {
   out.append(bytes, sizeof(T));
 }
 
+bool opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != kMaxChannel) return false;
+  }
+  return true;
+}
+
+/// Without the alpha channel where that says nothing.
+std::string png_of(const Image& image) {
+  Pixels pixels{image.width, image.height, 4, image.rgba};
+  std::vector<std::uint8_t> colours;
+  if (opaque(image)) {
+    colours.reserve(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      colours.insert(colours.end(), {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+    }
+    pixels.channels = 3;
+    pixels.bytes = colours;
+  }
+  return encode_png(pixels, PngEffort::kQuick);
+}
+
 /// Triangles of each material, in order.
 std::vector<std::vector<std::size_t>> by_material(const Model& model) {
   std::vector<std::vector<std::size_t>> groups(model.materials.size());
@@ -46,6 +74,7 @@ std::vector<std::vector<std::size_t>> by_material(const Model& model) {
 /// Vertices and indices of one material's triangles, with vertices that it does not use left out.
 struct Part {
   std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 2>> uv;  // one for each position, or none at all
   std::vector<std::uint32_t> indices;
 };
 
@@ -54,7 +83,7 @@ class PartMaker {
  public:
   explicit PartMaker(const Model& model) : model_(model), place_(model.vertices.size(), kNone) {}
 
-  Part make(const std::vector<std::size_t>& triangles) {
+  Part make(const std::vector<std::size_t>& triangles, bool with_uv) {
     Part part;
     for (const std::size_t triangle : triangles) {
       for (const std::uint32_t vertex : model_.triangles[triangle].vertices) {
@@ -63,6 +92,7 @@ class PartMaker {
           const Vec3& p = model_.vertices[vertex];
           part.positions.push_back(
               {static_cast<float>(p.x()), static_cast<float>(p.z()), static_cast<float>(-p.y())});
+          if (with_uv) part.uv.push_back(model_.uv[vertex]);
         }
         part.indices.push_back(place_[vertex]);
       }
@@ -84,16 +114,22 @@ class GlbBuilder {
  public:
   GlbBuilder() { json_["asset"] = {{"version", "2.0"}, {"generator", "Hallway"}}; }
 
-  void add(const Part& part, const Material& material) {
-    const std::size_t positions = add_positions(part.positions);
+  /// @param image  what the material shows; nullptr for none
+  void add(const Part& part, const Material& material, const Image* image) {
+    Json attributes = {{"POSITION", add_positions(part.positions)}};
+    if (!part.uv.empty()) attributes["TEXCOORD_0"] = add_uv(part.uv);
     const std::size_t indices = add_indices(part.indices);
     primitives_.push_back(
-        {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", materials_.size()}});
-    Json description = {
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor", material.base_colour}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+        {{"attributes", attributes}, {"indices", indices}, {"material", materials_.size()}});
+    Json surface = {{"baseColorFactor", material.base_colour}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+    if (image != nullptr) surface["baseColorTexture"] = {{"index", texture_of(*image)}};
+    Json description = {{"pbrMetallicRoughness", std::move(surface)}};
     if (!material.name.empty()) description["name"] = printable(material.name, kMaxNameBytes);
-    if (material.base_colour[3] < 1.0F) description["alphaMode"] = "BLEND";
+    if (material.base_colour[3] < 1.0F) {
+      description["alphaMode"] = "BLEND";
+    } else if (image != nullptr && !opaque(*image)) {
+      description["alphaMode"] = "MASK";
+    }
     description["doubleSided"] = true;
     materials_.push_back(std::move(description));
   }
@@ -105,6 +141,14 @@ class GlbBuilder {
       json_["nodes"] = Json::array({{{"mesh", 0}}});
       json_["meshes"] = Json::array({{{"primitives", primitives_}}});
       json_["materials"] = materials_;
+      if (!textures_.empty()) {
+        json_["textures"] = textures_;
+        json_["samplers"] = Json::array({{{"magFilter", kLinear},
+                                          {"minFilter", kLinearMipmapLinear},
+                                          {"wrapS", kRepeat},
+                                          {"wrapT", kRepeat}}});
+        json_["images"] = images_;
+      }
       json_["accessors"] = accessors_;
       json_["bufferViews"] = views_;
       json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
@@ -130,6 +174,13 @@ class GlbBuilder {
                           {"max", high}});
     return accessors_.size() - 1;
   }
+  std::size_t add_uv(const std::vector<std::array<float, 2>>& uv) {
+    accessors_.push_back({{"bufferView", add_view(uv, kArrayBuffer)},
+                          {"componentType", kFloat},
+                          {"count", uv.size()},
+                          {"type", "VEC2"}});
+    return accessors_.size() - 1;
+  }
   std::size_t add_indices(const std::vector<std::uint32_t>& indices) {
     accessors_.push_back({{"bufferView", add_view(indices, kElementArrayBuffer)},
                           {"componentType", kUnsignedInt},
@@ -137,7 +188,7 @@ class GlbBuilder {
                           {"type", "SCALAR"}});
     return accessors_.size() - 1;
   }
-  /// Every item is a multiple of four bytes, so that each view begins where it may.
+  /// Every item is a multiple of four bytes, and images are filled up to one, so that each view begins where it may.
   template <typename T>
   std::size_t add_view(const std::vector<T>& items, int target) {
     const std::size_t bytes = items.size() * sizeof(T);
@@ -145,6 +196,21 @@ class GlbBuilder {
         {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}, {"target", target}});
     binary_.append(reinterpret_cast<const char*>(items.data()), bytes);
     return views_.size() - 1;
+  }
+
+  /// The number of the texture that shows an image, which is written when it is first asked for.
+  std::size_t texture_of(const Image& image) {
+    const auto [found, fresh] = texture_of_.emplace(&image, textures_.size());
+    if (!fresh) return found->second;
+    const std::string png = png_of(image);
+    views_.push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", png.size()}});
+    binary_ += png;
+    binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
+    Json description = {{"bufferView", views_.size() - 1}, {"mimeType", "image/png"}};
+    if (!image.name.empty()) description["name"] = printable(image.name, kMaxNameBytes);
+    textures_.push_back({{"sampler", 0}, {"source", images_.size()}});
+    images_.push_back(std::move(description));
+    return found->second;
   }
 
   std::string container() const {
@@ -170,6 +236,9 @@ class GlbBuilder {
   Json materials_ = Json::array();
   Json accessors_ = Json::array();
   Json views_ = Json::array();
+  Json textures_ = Json::array();
+  Json images_ = Json::array();
+  std::map<const Image*, std::size_t> texture_of_;  // looked up, never walked through
   std::string binary_;
 };
 
@@ -180,6 +249,33 @@ std::string obj_name(const Material& material, std::size_t index) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ' ' || c == '\\' || c == '#'; }, '_');
   return name;
+}
+
+void append_line(std::string& text, const char* keyword, std::initializer_list<double> values) {
+  text += keyword;
+  for (const double value : values) {
+    text += ' ';
+    append_double(text, value);
+  }
+  text += '\n';
+}
+
+/// Vertices and texture coordinates, whose v runs up in OBJ.
+void append_points(std::string& obj, const Model& model) {
+  for (const Vec3& vertex : model.vertices) append_line(obj, "v", {vertex.x(), vertex.y(), vertex.z()});
+  for (const auto& [u, v] : model.uv) append_line(obj, "vt", {double{u}, 1.0 - double{v}});
+}
+
+/// Adds the images that materials show; gives the file names of all images, empty for others.
+std::vector<std::string> add_images(ObjFiles& files, const Model& model, const std::string& mtl_name) {
+  std::vector<std::string> names(model.images.size());
+  const std::string stem = mtl_name.substr(0, mtl_name.rfind('.'));
+  for (const Material& material : model.materials) {
+    if (!shows_image(model, material) || !names[*material.image].empty()) continue;
+    names[*material.image] = stem + "_" + std::to_string(files.images.size()) + ".png";
+    files.images.push_back({names[*material.image], png_of(model.images[*material.image])});
+  }
+  return names;
 }
 
 unsigned char channel_byte(float value) {
@@ -194,7 +290,10 @@ std::string to_glb(const Model& model) {
   PartMaker parts(model);
   const auto groups = by_material(model);
   for (std::size_t material = 0; material < groups.size(); ++material) {
-    if (!groups[material].empty()) builder.add(parts.make(groups[material]), model.materials[material]);
+    if (groups[material].empty()) continue;
+    const Material& look = model.materials[material];
+    const Image* image = shows_image(model, look) ? &model.images[*look.image] : nullptr;
+    builder.add(parts.make(groups[material], image != nullptr), look, image);
   }
   return builder.finish();
 }
@@ -204,14 +303,8 @@ ObjFiles to_obj(const Model& model, const std::string& mtl_name) {
   ObjFiles files;
   files.obj = "# z up, metres\nmtllib " + mtl_name + "\n";
   files.mtl = "# materials\n";
-  for (const Vec3& vertex : model.vertices) {
-    files.obj += "v";
-    for (const double value : {vertex.x(), vertex.y(), vertex.z()}) {
-      files.obj += ' ';
-      append_double(files.obj, value);
-    }
-    files.obj += '\n';
-  }
+  append_points(files.obj, model);
+  const std::vector<std::string> images = add_images(files, model, mtl_name);
   const auto groups = by_material(model);
   for (std::size_t material = 0; material < groups.size(); ++material) {
     const std::string name = obj_name(model.materials[material], material);
@@ -219,11 +312,16 @@ ObjFiles to_obj(const Model& model, const std::string& mtl_name) {
     files.mtl += "newmtl " + name + "\nKd";
     for (const float channel : {red, green, blue}) files.mtl += " " + format_double(double{channel});
     files.mtl += "\nd " + format_double(double{alpha}) + "\n";
+    const bool textured = shows_image(model, model.materials[material]);
+    if (textured) files.mtl += "map_Kd " + images[*model.materials[material].image] + "\n";
     if (!groups[material].empty()) files.obj += "usemtl " + name + "\n";
     for (const std::size_t triangle : groups[material]) {
       files.obj += "f";
-      for (const std::uint32_t vertex : model.triangles[triangle].vertices)
-        files.obj += " " + std::to_string(std::uint64_t{vertex} + 1);
+      for (const std::uint32_t vertex : model.triangles[triangle].vertices) {
+        const std::string number = std::to_string(std::uint64_t{vertex} + 1);
+        files.obj += " " + number;
+        if (textured) files.obj += "/" + number;
+      }
       files.obj += '\n';
     }
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -86,6 +89,17 @@ void check_images(const Model& model, const ModelLimits& limits) {
   }
 }
 
+/// Gives the numbers of the images in the model.
+std::vector<std::uint32_t> add_images(Model& model, std::vector<Image> images) {
+  std::vector<std::uint32_t> numbers;
+  for (Image& image : images) {
+    const auto same = std::find(model.images.begin(), model.images.end(), image);
+    numbers.push_back(static_cast<std::uint32_t>(same - model.images.begin()));
+    if (same == model.images.end()) model.images.push_back(std::move(image));
+  }
+  return numbers;
+}
+
 }  // namespace
 
 void check_model(const Model& model, const ModelLimits& limits) {
@@ -94,6 +108,34 @@ void check_model(const Model& model, const ModelLimits& limits) {
   check_triangles(model);
   check_materials(model);
   check_images(model, limits);
+}
+
+bool shows_image(const Model& model, const Material& material) {
+  return material.image.has_value() && !model.uv.empty();
+}
+
+void append(Model& model, Model other) {
+  const auto first_vertex = static_cast<std::uint32_t>(model.vertices.size());
+  const auto first_material = static_cast<std::uint32_t>(model.materials.size());
+  if (!model.uv.empty() || !other.uv.empty()) {
+    model.uv.resize(model.vertices.size());
+    other.uv.resize(other.vertices.size());
+  }
+  for (Triangle& triangle : other.triangles) {
+    for (std::uint32_t& vertex : triangle.vertices) vertex += first_vertex;
+    triangle.material += first_material;
+  }
+  const std::vector<std::uint32_t> image_of = add_images(model, std::move(other.images));
+  for (Material& material : other.materials) {
+    if (material.image) material.image = image_of[*material.image];
+  }
+  const auto move_all = [](auto& from, auto& to) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  move_all(other.vertices, model.vertices);
+  move_all(other.uv, model.uv);
+  move_all(other.triangles, model.triangles);
+  move_all(other.materials, model.materials);
 }
 
 Box bounds_of(const Model& model) {

@@ -13,12 +13,14 @@
 
 namespace hallway::mesh {
 
-/// A decoded picture: rows from the top, four bytes (red, green, blue, alpha; sRGB as in the file) a pixel.
+/// A decoded picture: rows from the top, four bytes (red, green, blue, alpha; sRGB as in the file) a pixel. Where alpha is
+/// below one half there is a hole, elsewhere it is opaque.
 struct Image {
   std::string name{};
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgba{};  ///< 4 * width * height bytes
+  friend bool operator==(const Image&, const Image&) = default;
 };
 
 struct Material {
@@ -68,6 +70,13 @@ inline constexpr std::uint64_t kMaxNameBytes = 4'096;  ///< of a name, file or w
 /// Throws Error{kBadInput} saying what is wrong, if anything: a count over its limit or zero triangles, an index out of
 /// range, a number that is not finite or out of range, an image whose size is not that of its pixels. O(size).
 void check_model(const Model& model, const ModelLimits& limits);
+
+/// Whether a material shows its image: it has one, and the model has texture coordinates.
+bool shows_image(const Model& model, const Material& material);
+
+/// Adds another model's triangles and materials, and the images that are not there yet. O(size of both), and number of the images times
+/// that of the others.
+void append(Model& model, Model other);
 
 /// The box around the vertices that triangles use, metres.
 Box bounds_of(const Model& model);

@@ -23,6 +23,7 @@ GlFunctions::GlFunctions(const GlContext& context) {
   look_up(context, "glBindBuffer", bind_buffer);
   look_up(context, "glBindFramebuffer", bind_framebuffer);
   look_up(context, "glBindRenderbuffer", bind_renderbuffer);
+  look_up(context, "glBindTexture", bind_texture);
   look_up(context, "glBindVertexArray", bind_vertex_array);
   look_up(context, "glBlitFramebuffer", blit_framebuffer);
   look_up(context, "glBufferData", buffer_data);
@@ -38,6 +39,7 @@ GlFunctions::GlFunctions(const GlContext& context) {
   look_up(context, "glDeleteProgram", delete_program);
   look_up(context, "glDeleteRenderbuffers", delete_renderbuffers);
   look_up(context, "glDeleteShader", delete_shader);
+  look_up(context, "glDeleteTextures", delete_textures);
   look_up(context, "glDeleteVertexArrays", delete_vertex_arrays);
   look_up(context, "glDepthFunc", depth_func);
   look_up(context, "glDisable", disable);
@@ -50,7 +52,9 @@ GlFunctions::GlFunctions(const GlContext& context) {
   look_up(context, "glGenBuffers", gen_buffers);
   look_up(context, "glGenFramebuffers", gen_framebuffers);
   look_up(context, "glGenRenderbuffers", gen_renderbuffers);
+  look_up(context, "glGenTextures", gen_textures);
   look_up(context, "glGenVertexArrays", gen_vertex_arrays);
+  look_up(context, "glGenerateMipmap", generate_mipmap);
   look_up(context, "glGetError", get_error);
   look_up(context, "glGetIntegerv", get_integer);
   look_up(context, "glGetProgramiv", get_program);
@@ -64,6 +68,8 @@ GlFunctions::GlFunctions(const GlContext& context) {
   look_up(context, "glShaderSource", shader_source);
   look_up(context, "glStencilFunc", stencil_func);
   look_up(context, "glStencilOpSeparate", stencil_op_separate);
+  look_up(context, "glTexImage2D", tex_image_2d);
+  look_up(context, "glTexParameteri", tex_parameter_i);
   look_up(context, "glUniform1f", uniform_1f);
   look_up(context, "glUniform4f", uniform_4f);
   look_up(context, "glUseProgram", use_program);

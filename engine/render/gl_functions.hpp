@@ -16,6 +16,7 @@ struct GlFunctions {
   PFNGLBINDBUFFERPROC bind_buffer;
   PFNGLBINDFRAMEBUFFERPROC bind_framebuffer;
   PFNGLBINDRENDERBUFFERPROC bind_renderbuffer;
+  PFNGLBINDTEXTUREPROC bind_texture;
   PFNGLBINDVERTEXARRAYPROC bind_vertex_array;
   PFNGLBLITFRAMEBUFFERPROC blit_framebuffer;
   PFNGLBUFFERDATAPROC buffer_data;
@@ -31,6 +32,7 @@ struct GlFunctions {
   PFNGLDELETEPROGRAMPROC delete_program;
   PFNGLDELETERENDERBUFFERSPROC delete_renderbuffers;
   PFNGLDELETESHADERPROC delete_shader;
+  PFNGLDELETETEXTURESPROC delete_textures;
   PFNGLDELETEVERTEXARRAYSPROC delete_vertex_arrays;
   PFNGLDEPTHFUNCPROC depth_func;
   PFNGLDISABLEPROC disable;
@@ -43,7 +45,9 @@ struct GlFunctions {
   PFNGLGENBUFFERSPROC gen_buffers;
   PFNGLGENFRAMEBUFFERSPROC gen_framebuffers;
   PFNGLGENRENDERBUFFERSPROC gen_renderbuffers;
+  PFNGLGENTEXTURESPROC gen_textures;
   PFNGLGENVERTEXARRAYSPROC gen_vertex_arrays;
+  PFNGLGENERATEMIPMAPPROC generate_mipmap;
   PFNGLGETERRORPROC get_error;
   PFNGLGETINTEGERVPROC get_integer;
   PFNGLGETPROGRAMIVPROC get_program;
@@ -57,6 +61,8 @@ struct GlFunctions {
   PFNGLSHADERSOURCEPROC shader_source;
   PFNGLSTENCILFUNCPROC stencil_func;
   PFNGLSTENCILOPSEPARATEPROC stencil_op_separate;
+  PFNGLTEXIMAGE2DPROC tex_image_2d;
+  PFNGLTEXPARAMETERIPROC tex_parameter_i;
   PFNGLUNIFORM1FPROC uniform_1f;
   PFNGLUNIFORM4FPROC uniform_4f;
   PFNGLUSEPROGRAMPROC use_program;

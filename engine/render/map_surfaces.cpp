@@ -52,42 +52,9 @@ class Painter {
 
 // ---- meshes ---------------------------------------------------------------------------------------------------------
 
-/// The mean colour of a picture over a triangle: over a fixed pattern of points.
-std::array<double, 3> mean_texel(const mesh::Image& image, const std::array<std::array<float, 2>, 3>& uv) {
-  constexpr int kSteps = 8;
-  std::array<double, 3> sum{};
-  int count = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; i + j < kSteps; ++j) {
-      const double a = (i + 1.0 / 3.0) / kSteps;
-      const double b = (j + 1.0 / 3.0) / kSteps;
-      const auto along = [&](std::size_t axis, std::uint32_t size) {
-        const double at = (1.0 - a - b) * static_cast<double>(uv[0][axis]) +
-                          a * static_cast<double>(uv[1][axis]) + b * static_cast<double>(uv[2][axis]);
-        const double turn = at - std::floor(at);
-        return std::min<std::size_t>(size - 1, static_cast<std::size_t>(turn * size));
-      };
-      const std::size_t texel = 4 * (along(1, image.height) * image.width + along(0, image.width));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgba[texel + c];
-      ++count;
-    }
-  }
-  for (double& channel : sum) channel /= count;
-  return sum;
-}
-
-Rgb triangle_colour(const mesh::Model& model, const mesh::Triangle& triangle) {
-  const mesh::Material& material = model.materials[triangle.material];
-  std::array<double, 3> colour{255.0, 255.0, 255.0};
-  if (material.image && !model.uv.empty() && model.images[*material.image].width > 0 &&
-      model.images[*material.image].height > 0) {
-    colour = mean_texel(
-        model.images[*material.image],
-        {model.uv[triangle.vertices[0]], model.uv[triangle.vertices[1]], model.uv[triangle.vertices[2]]});
-  }
+Rgb colour_of(const mesh::Material& material) {
   const auto channel = [&](std::size_t c) {
-    const double value = colour[c] * static_cast<double>(material.base_colour[c]);
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(material.base_colour[c], 0.0f, 1.0f)));
   };
   return {channel(0), channel(1), channel(2)};
 }
@@ -239,7 +206,17 @@ std::vector<Surface> map_surfaces(const map::World& world, const bsp::Compiled& 
   return out;
 }
 
-std::vector<Surface> mesh_surfaces(const mesh::Model& model, const mesh::PlacedMesh& placed) {
+Textures model_textures(std::vector<mesh::Image> images) {
+  Textures textures;
+  for (mesh::Image& image : images) {
+    textures.push_back(
+        std::make_shared<const Texture>(Texture{image.width, image.height, std::move(image.rgba)}));
+  }
+  return textures;
+}
+
+std::vector<Surface> mesh_surfaces(const mesh::Model& model, const Textures& textures,
+                                   const mesh::PlacedMesh& placed) {
   std::vector<Surface> out;
   out.reserve(placed.triangles.size());
   for (std::size_t i = 0; i < placed.triangles.size(); ++i) {
@@ -247,9 +224,16 @@ std::vector<Surface> mesh_surfaces(const mesh::Model& model, const mesh::PlacedM
     const Vec3 across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (!(across.norm() > 0.0)) continue;
     const Vec3 normal = across.normalized();
-    out.push_back({{{corners.begin(), corners.end()}, {normal, normal.dot(corners[0])}},
-                   triangle_colour(model, placed.triangles[i]),
-                   SurfaceKind::kSheet});
+    const mesh::Triangle& triangle = placed.triangles[i];
+    const mesh::Material& material = model.materials[triangle.material];
+    Surface surface{{{corners.begin(), corners.end()}, {normal, normal.dot(corners[0])}},
+                    colour_of(material),
+                    SurfaceKind::kSheet};
+    if (material.image && !model.uv.empty()) {
+      surface.texture = textures.at(*material.image);
+      for (const std::uint32_t vertex : triangle.vertices) surface.uv.push_back(model.uv[vertex]);
+    }
+    out.push_back(std::move(surface));
   }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,8 +32,15 @@ using LeafColour = std::function<Rgb(std::uint32_t leaf, Rgb material)>;
 std::vector<Surface> map_surfaces(const map::World& world, const bsp::Compiled& compiled, Faces faces,
                                   const LeafColour& colour);
 
-/// A model's triangles, each in one colour: its material's, times the mean of its picture over the triangle.
-std::vector<Surface> mesh_surfaces(const mesh::Model& model, const mesh::PlacedMesh& placed);
+/// A model's images, in their order.
+using Textures = std::vector<std::shared_ptr<const Texture>>;
+Textures model_textures(std::vector<mesh::Image> images);
+
+/// A model's triangles as sheets, in their material's base colour times its picture. The colours of both count as sRGB and are multiplied as
+/// they stand. Triangles without area are left out.
+/// @param textures  those of the model, whose own images are not looked at
+std::vector<Surface> mesh_surfaces(const mesh::Model& model, const Textures& textures,
+                                   const mesh::PlacedMesh& placed);
 
 /// How a picture shows the inside of a building.
 struct Plan {

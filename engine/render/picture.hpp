@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "geom/polygon.hpp"
 #include "geom/pose.hpp"
 #include "render/colour.hpp"
+#include "render/texture.hpp"
 
 namespace hallway::render {
 
@@ -24,6 +26,10 @@ struct Surface {
   Polygon polygon{};  ///< world, metres; convex
   Rgb colour{};
   SurfaceKind kind = SurfaceKind::kSolid;
+  std::shared_ptr<const Texture> texture{};  ///< multiplies the colour; none for a face of one colour
+  /// Where each vertex lies on the texture: (0, 0) is its top left corner, (1, 1) its bottom right one. A face whose
+  /// coordinates are not finite, or not as many as its vertices, is drawn without a texture.
+  std::vector<std::array<float, 2>> uv{};
 };
 
 /// Flat areas that let through what lies behind them, e.g. portals. View::cut_z_m cuts them as it does surfaces.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "base/error.hpp"
@@ -23,39 +24,47 @@ struct Vertex {
   std::array<float, 3> camera;  // right, down, forward, metres
   std::array<float, 3> normal;  // world
   std::array<float, 3> colour;
-  float below_cut;  // metres below the cut
+  std::array<float, 2> uv;  // on the texture
+  float below_cut;          // metres below the cut
 };
 
 const char* const kVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 camera;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec3 colour_in;
-layout(location = 3) in float below_cut;
+layout(location = 3) in vec2 uv_in;
+layout(location = 4) in float below_cut;
 uniform vec4 scale_shift;  // metres (perspective: slopes) to the tile's [-1, 1]
 uniform vec4 depth;        // clip z = x * forward + y; clip w = z * forward + w
 flat out vec3 normal;
 flat out vec3 colour;
+out vec2 uv;
 void main() {
   float w = depth.z * camera.z + depth.w;
   gl_Position = vec4(scale_shift.xy * camera.xy + scale_shift.zw * w, depth.x * camera.z + depth.y, w);
   gl_ClipDistance[0] = below_cut;
   normal = normal_in;
   colour = colour_in;
+  uv = uv_in;
 }
 )";
 
 const char* const kFragmentShader = R"(#version 330 core
 flat in vec3 normal;
 flat in vec3 colour;
+in vec2 uv;
+uniform sampler2D image;
 uniform float cut;  // 1 for the section of cut solids, which is not lit
 layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normal_out;
 const vec3 kSun = vec3(0.45, -0.58, 0.68);
 const vec3 kFill = vec3(-0.90, 0.25, 0.36);
 void main() {
+  vec4 texel = texture(image, uv);
+  if (texel.a < 0.5) discard;
   float sky = 0.5 + 0.5 * normal.z;
   float light = 0.69 + 0.09 * sky + 0.24 * max(dot(normal, kSun), 0.0) + 0.05 * max(dot(normal, kFill), 0.0);
-  colour_out = vec4(colour * mix(light, 1.0, cut), 1.0);
+  colour_out = vec4(colour * texel.rgb * mix(light, 1.0, cut), 1.0);
   normal_out = vec4(0.5 * normal + 0.5, 1.0 - 0.5 * cut);
 }
 )";
@@ -87,23 +96,67 @@ Vec3 lit_normal(const Surface& surface, const Camera& camera) {
   return normal.dot(view) > 0.0 ? Vec3(-normal) : normal;
 }
 
-/// The triangles of the surfaces of one kind.
-std::vector<Vertex> make_vertices(const std::vector<Surface>& surfaces, SurfaceKind kind,
-                                  const Camera& camera, std::optional<double> cut_z_m) {
-  std::vector<Vertex> out;
+bool textured(const Surface& surface) {
+  if (!surface.texture || surface.uv.size() != surface.polygon.vertices.size()) return false;
+  return std::all_of(surface.uv.begin(), surface.uv.end(), [](const std::array<float, 2>& uv) {
+    return std::isfinite(uv[0]) && std::isfinite(uv[1]);
+  });
+}
+
+/// The textures of a drawing, each once, in the order of their first use. Number 0 is white, for faces without one.
+class TextureTable {
+ public:
+  explicit TextureTable(const std::vector<Surface>& surfaces) {
+    for (const Surface& surface : surfaces) {
+      if (!textured(surface) || !surface.texture->whole()) continue;
+      if (numbers_.emplace(surface.texture.get(), textures_.size()).second)
+        textures_.push_back(surface.texture.get());
+    }
+  }
+
+  std::size_t number_of(const Surface& surface) const {
+    if (!textured(surface)) return 0;
+    const auto found = numbers_.find(surface.texture.get());
+    return found == numbers_.end() ? 0 : found->second;
+  }
+  const std::vector<const Texture*>& textures() const { return textures_; }
+
+ private:
+  static inline const Texture kWhite{1, 1, {255, 255, 255, 255}};
+  std::vector<const Texture*> textures_{&kWhite};
+  std::map<const Texture*, std::size_t> numbers_;  // looked up, never walked through
+};
+
+/// Texture coordinates of a face, moved by whole repeats to near 0, where single precision is finest.
+std::vector<std::array<float, 2>> near_zero(std::vector<std::array<float, 2>> uv) {
+  for (const std::size_t axis : {0u, 1u}) {
+    float low = uv.front()[axis];
+    for (const auto& at : uv) low = std::min(low, at[axis]);
+    for (auto& at : uv) at[axis] -= std::floor(low);
+  }
+  return uv;
+}
+
+/// The triangles of the surfaces of one kind, for each texture.
+std::vector<std::vector<Vertex>> make_vertices(const std::vector<Surface>& surfaces, SurfaceKind kind,
+                                               const TextureTable& textures, const Camera& camera,
+                                               std::optional<double> cut_z_m) {
+  std::vector<std::vector<Vertex>> out(textures.textures().size());
   for (const Surface& surface : surfaces) {
     if (surface.kind != kind || !drawable_polygon(surface.polygon)) continue;
     const std::vector<Vec3>& corners = surface.polygon.vertices;
     const std::array<float, 3> normal = to_float(lit_normal(surface, camera));
-    const auto vertex = [&](const Vec3& corner) {
-      const double below = cut_z_m ? *cut_z_m - corner.z() : 1.0;
-      return Vertex{to_float(camera.to_camera(corner)), normal, unit_colour(surface.colour),
-                    static_cast<float>(below)};
+    const std::size_t texture = textures.number_of(surface);
+    const auto uv = texture > 0 ? near_zero(surface.uv) : std::vector<std::array<float, 2>>(corners.size());
+    const auto add = [&](std::size_t i) {
+      const double below = cut_z_m ? *cut_z_m - corners[i].z() : 1.0;
+      out[texture].push_back({to_float(camera.to_camera(corners[i])), normal, unit_colour(surface.colour),
+                              uv[i], static_cast<float>(below)});
     };
     for (std::size_t i = 2; i < corners.size(); ++i) {
-      out.push_back(vertex(corners[0]));
-      out.push_back(vertex(corners[i - 1]));
-      out.push_back(vertex(corners[i]));
+      add(0);
+      add(i - 1);
+      add(i);
     }
   }
   return out;
@@ -119,8 +172,11 @@ std::vector<Vertex> make_section(const std::vector<Surface>& surfaces, const Cam
   const Vec2 low = box.min().head<2>() - Vec2::Ones();
   const Vec2 high = box.max().head<2>() + Vec2::Ones();
   const auto vertex = [&](double x, double y) {
-    return Vertex{
-        to_float(camera.to_camera({x, y, cut_z_m})), {0.0f, 0.0f, 1.0f}, unit_colour(palette::kCut), 1.0f};
+    return Vertex{to_float(camera.to_camera({x, y, cut_z_m})),
+                  {0.0f, 0.0f, 1.0f},
+                  unit_colour(palette::kCut),
+                  {0.0f, 0.0f},
+                  1.0f};
   };
   const std::array<Vertex, 4> corner{vertex(low.x(), low.y()), vertex(high.x(), low.y()),
                                      vertex(high.x(), high.y()), vertex(low.x(), high.y())};
@@ -151,12 +207,18 @@ struct VertexRange {
   GLsizei count = 0;
 };
 
+/// Vertices that are drawn with one texture.
+struct Batch {
+  VertexRange range{};
+  std::size_t texture = 0;  ///< number in the TextureTable
+};
+
 /// The vertices of a drawing in one array.
 struct VertexArray {
   std::vector<Vertex> vertices{};
-  VertexRange solid{};   ///< faces of closed things
-  VertexRange closed{};  ///< those and the faces that only close them
-  VertexRange sheets{};
+  std::vector<Batch> solid{};  ///< faces of closed things
+  VertexRange closed{};        ///< those and the faces that only close them
+  std::vector<Batch> sheets{};
   VertexRange section{};
 
   /// Appends a part and says where it stands.
@@ -165,12 +227,19 @@ struct VertexArray {
     vertices.insert(vertices.end(), part.begin(), part.end());
     return range;
   }
+  std::vector<Batch> add(const std::vector<std::vector<Vertex>>& by_texture) {
+    std::vector<Batch> batches;
+    for (std::size_t texture = 0; texture < by_texture.size(); ++texture) {
+      if (!by_texture[texture].empty()) batches.push_back({add(by_texture[texture]), texture});
+    }
+    return batches;
+  }
 };
 
 /// GL objects of one drawing; all die with it.
 class SurfacePainter {
  public:
-  SurfacePainter(const VertexArray& array, const Camera& camera)
+  SurfacePainter(const VertexArray& array, const std::vector<const Texture*>& textures, const Camera& camera)
       : context_(make_offscreen_context()),
         gl_(*context_),
         camera_(camera),
@@ -181,6 +250,7 @@ class SurfacePainter {
         section_(array.section) {
     make_program();
     upload(array.vertices);
+    upload(textures);
     make_buffers();
   }
 
@@ -190,6 +260,7 @@ class SurfacePainter {
   ~SurfacePainter() {
     gl_.delete_framebuffers(2, framebuffers_.data());
     gl_.delete_renderbuffers(6, renderbuffers_.data());
+    gl_.delete_textures(static_cast<GLsizei>(textures_.size()), textures_.data());
     gl_.delete_vertex_arrays(1, &vertex_array_);
     gl_.delete_buffers(1, &vertex_buffer_);
     gl_.delete_program(program_);
@@ -251,7 +322,32 @@ class SurfacePainter {
     attribute(0, 3, offsetof(Vertex, camera));
     attribute(1, 3, offsetof(Vertex, normal));
     attribute(2, 3, offsetof(Vertex, colour));
-    attribute(3, 1, offsetof(Vertex, below_cut));
+    attribute(3, 2, offsetof(Vertex, uv));
+    attribute(4, 1, offsetof(Vertex, below_cut));
+  }
+
+  void upload(const std::vector<const Texture*>& textures) {
+    GLint longest_side = 0;
+    gl_.get_integer(GL_MAX_TEXTURE_SIZE, &longest_side);
+    textures_.resize(textures.size());
+    gl_.gen_textures(static_cast<GLsizei>(textures_.size()), textures_.data());
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+      gl_.bind_texture(GL_TEXTURE_2D, textures_[i]);
+      // It repeats as it is. From afar the mean of what a pixel covers is seen, so that it does not shimmer.
+      gl_.tex_parameter_i(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+      const auto side = static_cast<std::uint32_t>(longest_side);
+      if (textures[i]->width > side || textures[i]->height > side) {
+        fill_texture(reduced(*textures[i], side));
+      } else {
+        fill_texture(*textures[i]);
+      }
+    }
+  }
+
+  void fill_texture(const Texture& texture) {
+    gl_.tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(texture.width),
+                     static_cast<GLsizei>(texture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+    gl_.generate_mipmap(GL_TEXTURE_2D);
   }
 
   /// Framebuffer `which` (0 multisampled, 1 resolved): colour, normal, depth and stencil.
@@ -315,6 +411,7 @@ class SurfacePainter {
 
   void draw_faces() {
     gl_.enable(GL_MULTISAMPLE);
+    gl_.bind_texture(GL_TEXTURE_2D, textures_[0]);
     gl_.depth_func(GL_LEQUAL);
     gl_.enable(GL_CLIP_DISTANCE0);
     // Rows run down, which mirrors the picture and with it the sense of rotation of every face.
@@ -322,13 +419,21 @@ class SurfacePainter {
     gl_.uniform_1f(cut_location_, 0.0f);
     if (section_.count > 0) count_solids_at_cut();
     gl_.enable(GL_DEPTH_TEST);
-    gl_.draw_arrays(GL_TRIANGLES, sheets_.first, sheets_.count);
+    draw_batches(sheets_);
     gl_.enable(GL_CULL_FACE);
     gl_.cull_face(GL_BACK);
-    gl_.draw_arrays(GL_TRIANGLES, solid_.first, solid_.count);
+    draw_batches(solid_);
     if (section_.count > 0) draw_section();
     gl_.disable(GL_CULL_FACE);
     gl_.disable(GL_DEPTH_TEST);
+  }
+
+  void draw_batches(const std::vector<Batch>& batches) {
+    for (const Batch& batch : batches) {
+      gl_.bind_texture(GL_TEXTURE_2D, textures_[batch.texture]);
+      gl_.draw_arrays(GL_TRIANGLES, batch.range.first, batch.range.count);
+    }
+    gl_.bind_texture(GL_TEXTURE_2D, textures_[0]);
   }
 
   /// Leaves in the stencil the number of solids that hold the point where the ray of sight crosses the cut: behind it, a
@@ -417,14 +522,15 @@ class SurfacePainter {
   GlFunctions gl_;
   const Camera& camera_;
   DepthRange range_;
-  VertexRange solid_;
+  std::vector<Batch> solid_;
   VertexRange closed_;
-  VertexRange sheets_;
+  std::vector<Batch> sheets_;
   VertexRange section_;
   GLint cut_location_ = -1;
   GLuint program_ = 0;
   GLuint vertex_array_ = 0;
   GLuint vertex_buffer_ = 0;
+  std::vector<GLuint> textures_;
   std::array<GLuint, 2> framebuffers_{};
   std::array<GLuint, 6> renderbuffers_{};
   std::vector<std::uint8_t> colours_;
@@ -452,15 +558,19 @@ SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera&
                              const PixelRect& area, int factor, std::optional<double> cut_z_m) {
   SurfaceLayer layer = empty_layer(area, factor);
   VertexArray array;
-  array.solid = array.add(make_vertices(surfaces, SurfaceKind::kSolid, camera, cut_z_m));
-  array.closed = {
-      0, array.solid.count + array.add(make_vertices(surfaces, SurfaceKind::kUnseen, camera, cut_z_m)).count};
-  array.sheets = array.add(make_vertices(surfaces, SurfaceKind::kSheet, camera, cut_z_m));
+  const TextureTable textures(surfaces);
+  const auto add = [&](SurfaceKind kind) {
+    return array.add(make_vertices(surfaces, kind, textures, camera, cut_z_m));
+  };
+  array.solid = add(SurfaceKind::kSolid);
+  add(SurfaceKind::kUnseen);
+  array.closed = {0, static_cast<GLsizei>(array.vertices.size())};
+  array.sheets = add(SurfaceKind::kSheet);
   if (array.vertices.empty()) return layer;
   if (cut_z_m && (camera.kind() == ViewKind::kTop || camera.eye().z() > *cut_z_m)) {
     array.section = array.add(make_section(surfaces, camera, *cut_z_m));
   }
-  SurfacePainter painter(array, camera);
+  SurfacePainter painter(array, textures.textures(), camera);
   for (int top = 0; top < layer.height; top += kTileSide) {
     for (int left = 0; left < layer.width; left += kTileSide) painter.draw_tile(layer, left, top);
   }

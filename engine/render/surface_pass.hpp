@@ -28,7 +28,7 @@ struct SurfaceLayer {
   }
 };
 
-/// Draws the faces, lit by a sky and a sun, with 4-fold multisampling at `factor` times the resolution of the picture.
+/// Draws the faces, textured where they have a picture, lit by a sky and a sun, with 4-fold multisampling at `factor` times the resolution of the picture.
 /// With `cut_z_m` what lies above is left out and the insides of cut solids are filled with palette::kCut. Throws
 /// Error{kIo} if there is no off-screen context.
 SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera& camera,

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <map>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -62,6 +64,18 @@ void add_faces(render::Picture& picture, const world::CompiledWorld& world, cons
   render::add_wireframe(picture, world.partition.surface, world.partition.inside, faces);
 }
 
+/// A model whose images became textures.
+struct ModelLook {
+  mesh::Model model;
+  render::Textures textures;
+};
+
+ModelLook load_look(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  ModelLook look{mesh::load_model(file, folder), {}};
+  look.textures = render::model_textures(std::exchange(look.model.images, {}));
+  return look;
+}
+
 }  // namespace
 
 void add_map(render::Picture& picture, const world::CompiledWorld& world, const MapView& view,
@@ -75,10 +89,15 @@ void add_map(render::Picture& picture, const world::CompiledWorld& world, const 
 std::vector<render::Surface> model_faces(const map::Document& document, const std::filesystem::path& folder,
                                          std::vector<Error>& faults) {
   std::vector<render::Surface> faces;
+  std::map<std::filesystem::path, ModelLook> looks;
   for (const mesh::Placement& placement : mesh::placements(document)) {
     try {
-      const mesh::Model model = mesh::load_model(mesh::model_path(placement, folder), folder);
-      std::vector<render::Surface> more = render::mesh_surfaces(model, mesh::place(model, placement));
+      const std::filesystem::path file = mesh::model_path(placement, folder);
+      auto look = looks.find(file);
+      if (look == looks.end()) look = looks.emplace(file, load_look(file, folder)).first;
+      const mesh::Model& model = look->second.model;
+      std::vector<render::Surface> more =
+          render::mesh_surfaces(model, look->second.textures, mesh::place(model, placement));
       faces.insert(faces.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     } catch (const Error& error) {
       faults.push_back(error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -305,6 +306,53 @@ TEST(MapExport, LeavesOutTheShellUnlessAllIsAskedFor) {
   ASSERT_EQ(map_command("export", map, {"--out", folder / "all.obj", "--all"}).status, 0);
   EXPECT_NEAR(lowest_x(folder / "inside.obj"), 0.0, 1e-9);
   EXPECT_NEAR(lowest_x(folder / "all.obj"), -1.0, 1e-9);
+}
+
+/// Writes a sloping red square of 1 m with a picture of one pixel; gives the entity that places it in room A.
+std::string red_square(const TempFolder& folder) {
+  folder.write("square.obj",
+               "mtllib square.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 "
+               "1\nusemtl red\n"
+               "f 1/1 2/2 3/3 4/4\n");
+  folder.write("square.mtl", "newmtl red\nKd 1 1 1\nmap_Kd red.tga\n");
+  folder.write("red.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\x20\0\0\xdc", 21));
+  return point_entity("hw_mesh", {100, 100, 50}, "\"model\" \"square.obj\"\n");
+}
+
+TEST(MapLeak, PictureShowsTheModels) {
+  const TempFolder folder;
+  const fs::path map = folder.write("rooms.map", two_rooms(hole(), red_square(folder)));
+  const TempFolder other;
+  const fs::path bare = other.write("rooms.map", two_rooms(hole()));
+  for (const auto& [file, name] : {std::pair{map, "with.png"}, {bare, "without.png"}})
+    EXPECT_EQ(map_command("leak", file, {"--picture", folder / name}).status, 1);
+  ASSERT_EQ(hallway({"render", map, "--show", "leak", "--out", folder / "rendered.png"}).status, 0);
+  EXPECT_TRUE(read_file(folder / "with.png") == read_file(folder / "rendered.png"));
+  EXPECT_FALSE(read_file(folder / "with.png") == read_file(folder / "without.png"));
+}
+
+TEST(MapExport, ModelsAndTheirPictures) {
+  const TempFolder folder;
+  const std::string missing = point_entity("hw_mesh", {100, 100, 0}, "\"model\" \"missing.obj\"\n");
+  const fs::path map = folder.write("rooms.map", two_rooms({}, red_square(folder) + missing));
+  const auto exported = [&](const fs::path& file, const char* name) {
+    const Ended ended = map_command("export", file, {"--out", folder / name, "--json"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return json::parse(ended.out);
+  };
+  const json bare = exported(folder.write("bare.map", two_rooms()), "bare.obj");
+  const json obj = exported(map, "rooms.obj");
+  EXPECT_EQ(obj.at("triangles").get<int>(), bare.at("triangles").get<int>() + 2);
+  ASSERT_EQ(obj.at("warnings").size(), 1u);
+  EXPECT_NE(obj.at("warnings")[0].get<std::string>().find("missing.obj"), std::string::npos);
+  const fs::path picture = folder / "rooms_0.png";
+  EXPECT_NE(std::find(obj.at("files").begin(), obj.at("files").end(), picture.string()),
+            obj.at("files").end());
+  EXPECT_TRUE(read_file(picture).starts_with("\x89PNG"));
+  EXPECT_NE(read_file(folder / "rooms.mtl").find("map_Kd rooms_0.png"), std::string::npos);
+  EXPECT_NE(read_file(folder / "rooms.obj").find("v 2 2 1\n"), std::string::npos);
+  exported(map, "rooms.glb");
+  EXPECT_NE(read_file(folder / "rooms.glb").find("\x89PNG"), std::string::npos);
 }
 
 TEST(MapExport, PointsOfTheFaces) {

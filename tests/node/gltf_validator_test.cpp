@@ -21,10 +21,20 @@ mesh::Model with_hard_numbers() {
   return model;
 }
 
+mesh::Model with_holes() {
+  Model model = test::tiles();
+  model.images[1].rgba[3] = 0;
+  model.images[1].name = "\xff \"holes\"";
+  model.materials[1].image = 0;
+  model.materials[1].base_colour[3] = 0.5F;
+  return model;
+}
+
 TEST(GltfValidator, FindsNothingWrongInWhatWeWrite) {
   HALLWAY_GLTF_VALIDATOR_OR_SKIP(validator);
   const test::TempFolder folder;
-  for (const Model& model : {test::cube(), test::random_model(8, 2000), with_hard_numbers(), Model{}}) {
+  for (const Model& model : {test::cube(), test::random_model(8, 2000), with_hard_numbers(), with_holes(),
+                             test::tiles(), Model{}}) {
     const test::Ended ended = test::validate_gltf(validator, folder.write("a.glb", to_glb(model)));
     EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
   }

@@ -41,6 +41,7 @@ Model written_and_read(const std::string& name, const std::string& bytes) {
 Model obj_and_back(const Model& model) {
   const test::TempFolder folder;
   const ObjFiles files = to_obj(model, "a.mtl");
+  for (const ObjFiles::File& image : files.images) folder.write(image.name, image.bytes);
   folder.write("a.mtl", files.mtl);
   return load_model(folder.write("a.obj", files.obj), folder.path());
 }
@@ -83,6 +84,82 @@ TEST(Export, PlyComesBack) {
     for (Triangle& triangle : flat.triangles) triangle.material = 0;
     EXPECT_EQ(corners_by_material(flat), corners_by_material(model));
   }
+}
+
+/// Position and texture coordinates of each corner of the triangles that show an image, as 32-bit floats.
+std::vector<std::array<float, 5>> textured_corners(const Model& model) {
+  std::vector<std::array<float, 5>> corners;
+  for (const Triangle& triangle : model.triangles) {
+    if (!shows_image(model, model.materials[triangle.material])) continue;
+    for (const std::uint32_t vertex : triangle.vertices) {
+      const Vec3& p = model.vertices[vertex];
+      const auto& [u, v] = model.uv[vertex];
+      corners.push_back(
+          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), u, v});
+    }
+  }
+  return corners;
+}
+
+/// What the first triangle shows.
+struct Look {
+  std::array<float, 4> base_colour;
+  Image image;
+};
+
+Look look_of(const Model& model) {
+  const Material& material = model.materials.at(model.triangles.at(0).material);
+  return {material.base_colour, model.images.at(material.image.value())};
+}
+
+TEST(Export, TexturesComeBack) {
+  for (const bool holes : {false, true}) {
+    Model model = test::tiles();
+    if (holes) model.images[1].rgba[7] = 10;
+    for (const Model& back : {written_and_read("a.glb", to_glb(model)), obj_and_back(model)}) {
+      EXPECT_TRUE(back.warnings.empty()) << back.warnings.front();
+      EXPECT_EQ(textured_corners(back), textured_corners(model));
+      EXPECT_EQ(look_of(back).base_colour, model.materials[0].base_colour);
+      EXPECT_EQ(look_of(back).image.width, 2u);
+      EXPECT_EQ(look_of(back).image.height, 2u);
+      EXPECT_EQ(look_of(back).image.rgba, model.images[1].rgba);
+      EXPECT_EQ(back.images.size(), 1u);  // what nothing shows is left out
+      EXPECT_FALSE(shows_image(back, back.materials.at(back.triangles.at(2).material)));
+    }
+    EXPECT_EQ(written_and_read("a.glb", to_glb(model)).images[0].name, "four");
+    EXPECT_EQ(to_glb(model), to_glb(model));
+  }
+}
+
+TEST(Export, ImageOfSeveralMaterialsIsWrittenOnce) {
+  Model model = test::tiles();
+  model.materials[1].image = 1;
+  EXPECT_EQ(written_and_read("a.glb", to_glb(model)).images.size(), 1u);
+  EXPECT_EQ(to_obj(model, "some.name.mtl").images.size(), 1u);
+  EXPECT_EQ(to_obj(model, "some.name.mtl").images[0].name, "some.name_0.png");
+}
+
+TEST(Export, ImageWithoutTextureCoordinatesIsLeftOut) {
+  Model model = test::tiles();
+  model.uv.clear();
+  EXPECT_TRUE(written_and_read("a.glb", to_glb(model)).images.empty());
+  EXPECT_TRUE(to_obj(model, "a.mtl").images.empty());
+}
+
+TEST(Append, KeepsWhatBothShow) {
+  Model model = test::cube();
+  append(model, test::tiles());
+  append(model, test::tiles());
+  check_model(model, {});
+  EXPECT_EQ(model.images.size(), 2u);  // the same ones
+  EXPECT_EQ(model.materials.size(), 6u);
+  auto twice = textured_corners(test::tiles());
+  twice.insert(twice.end(), twice.begin(), twice.begin() + 6);
+  EXPECT_EQ(textured_corners(model), twice);
+  ASSERT_EQ(model.triangles.size(), 18u);
+  EXPECT_EQ(model.images[*model.materials[model.triangles[12].material].image], test::tiles().images[1]);
+  EXPECT_EQ(model.vertices[model.triangles[17].vertices[2]], Vec3(0, 0, 1));
+  EXPECT_EQ(model.materials[model.triangles[17].material].name, "plain");
 }
 
 TEST(Export, MaterialsThatAreNotUsedAreLeftOut) {

@@ -141,6 +141,27 @@ TEST(LoadGltf, MaterialsAndTextures) {
   EXPECT_EQ(model.files, (std::vector<std::string>{"a picture.bmp", "model.gltf"}));
 }
 
+TEST(LoadGltf, AlphaOfAnOpaqueMaterialSaysNothing) {
+  // A picture of 1 x 1 pixel, half transparent: TGA, 32 bits.
+  const std::string tga = std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28", 18) + "\x1e\x14\x0a\x40";
+  const test::TempFolder folder;
+  folder.write("a.tga", tga);
+  Json json = test::triangle_gltf();
+  json["materials"] = Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
+      {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "MASK"},
+      {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "BLEND"}])");
+  json["textures"] = Json::parse(R"([{"source": 0}])");
+  json["images"] = Json::parse(R"([{"uri": "a.tga"}])");
+  const Model model = load_model(folder.write("model.gltf", json.dump()), folder.path());
+  ASSERT_EQ(model.images.size(), 2u);
+  const auto pixel = [&](std::size_t material) {
+    return model.images.at(model.materials.at(material).image.value()).rgba;
+  };
+  EXPECT_EQ(pixel(0), (std::vector<std::uint8_t>{10, 20, 30, 255}));
+  EXPECT_EQ(pixel(1), (std::vector<std::uint8_t>{10, 20, 30, 64}));
+  EXPECT_EQ(model.materials[1].image, model.materials[2].image);
+}
+
 TEST(LoadGltf, SameBytesEachTime) {
   const Json json = test::triangle_gltf();
   const Model first = load_json(json);

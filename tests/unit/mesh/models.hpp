@@ -26,6 +26,18 @@ inline mesh::Model cube() {
   return model;
 }
 
+/// A square of 2 m in the plane z = 0 with a picture of 2 x 2 pixels on it twice along x, and a triangle in one colour.
+inline mesh::Model tiles() {
+  mesh::Model model;
+  model.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 1}};
+  model.uv = {{0.0F, 1.0F}, {2.0F, 1.0F}, {2.0F, 0.0F}, {0.0F, 0.0F}, {0.0F, 0.0F}};
+  model.triangles = {{{0, 1, 2}, 0}, {{0, 2, 3}, 0}, {{0, 1, 4}, 1}};
+  model.materials = {{"tiles", {1.0F, 0.5F, 0.25F, 1.0F}, 1}, {"plain", {0.5F, 0.5F, 0.5F, 1.0F}, {}}};
+  model.images = {{"of nothing", 1, 1, {1, 2, 3, 255}},
+                  {"four", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 8, 7, 255}}};
+  return model;
+}
+
 /// Triangles at random places, in random order of materials, some sharing vertices.
 inline mesh::Model random_model(std::uint64_t seed, std::size_t triangles) {
   const Random random(seed, stream_id("test.random_model"));

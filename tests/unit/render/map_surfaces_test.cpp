@@ -137,21 +137,38 @@ mesh::Model textured_square() {
   return model;
 }
 
-TEST(MeshSurfaces, TrianglesHaveTheMeanOfTheirPictureTimesTheBaseColour) {
-  const mesh::Model model = textured_square();
-  const std::vector<Surface> surfaces = mesh_surfaces(model, mesh::place(model, {}));
+std::vector<Surface> surfaces_of(const mesh::Model& model) {
+  return mesh_surfaces(model, model_textures(model.images), mesh::place(model, {}));
+}
+
+TEST(MeshSurfaces, TrianglesHaveTheirPictureAndTheBaseColour) {
+  mesh::Model model = textured_square();
+  model.materials.push_back({.name = "plain", .base_colour = {0.0f, 1.0f, 0.2f, 1.0f}});
+  model.triangles[3].material = 1;
+  const std::vector<Surface> surfaces = surfaces_of(model);
   ASSERT_EQ(surfaces.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(surfaces[i].colour, (i < 2 ? Rgb{200, 0, 0} : Rgb{0, 100, 0}));
     EXPECT_EQ(surfaces[i].kind, SurfaceKind::kSheet);
     EXPECT_NEAR(surfaces[i].polygon.plane.normal.z(), 1.0, 1e-12);
+    EXPECT_EQ(surfaces[i].colour, (i < 3 ? Rgb{255, 128, 255} : Rgb{0, 255, 51}));
+    ASSERT_EQ(surfaces[i].texture != nullptr, i < 3);
+    if (i == 3) continue;
+    EXPECT_EQ(surfaces[i].texture, surfaces[0].texture);
+    EXPECT_EQ(surfaces[i].texture->rgba, model.images[0].rgba);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& corner = surfaces[i].polygon.vertices[k];
+      EXPECT_EQ(surfaces[i].uv.at(k)[0], static_cast<float>(corner.x() / 2.0));
+      EXPECT_EQ(surfaces[i].uv.at(k)[1], static_cast<float>(corner.y() / 2.0));
+    }
   }
+  model.uv.clear();
+  EXPECT_EQ(surfaces_of(model)[0].texture, nullptr);
 }
 
 TEST(MeshSurfaces, AreSeenFromBothSidesAndCutNothing) {
   const mesh::Model model = textured_square();
   Picture picture;
-  picture.surfaces = mesh_surfaces(model, mesh::place(model, {}));
+  picture.surfaces = surfaces_of(model);
   for (const double height : {3.0, -3.0}) {
     View view;
     view.kind = ViewKind::kPerspective;
