@@ -300,8 +300,15 @@ ExactPoint PlaneSet::intersect(std::uint32_t ia, std::uint32_t ib, std::uint32_t
   const long double offsets = std::abs(d[0]) / n[0].lpNorm<1>() + std::abs(d[1]) / n[1].lpNorm<1>() +
                               std::abs(d[2]) / n[2].lpNorm<1>();
   point.error = static_cast<double>(0x1p-59L * size * (reach + offsets) / std::abs(det) + 0x1p-52L * reach);
-  // Where rounding may have changed the determinant by a part of itself, the place says nothing.
-  if (!(0x1p-59L * size < 0.25L * std::abs(det))) point.error = std::numeric_limits<double>::infinity();
+  // Where two of the planes nearly coincide, rounding moves the point along them by far more than by its own last bits.
+  constexpr long double kLastBits = 0x1p-45L;
+  const bool stable = 0x1p-59L * size < 0.25L * std::abs(det);
+  if (!stable || point.error > static_cast<double>(kLastBits * (1.0L + reach))) {
+    const auto x = exact_solution({planes_[ia].abcd, planes_[ib].abcd, planes_[ic].abcd});
+    point.at = Vec3(x[0], x[1], x[2]);
+    point.error = 0x1p-51 * point.at.cwiseAbs().maxCoeff();
+    return point;
+  }
   if (!(point.error < 1e-3) || !(reach <= static_cast<long double>(kGridReach))) return point;
   const Vec3 snapped = (point.at * kGrid).array().round() / kGrid;
   if ((snapped - point.at).cwiseAbs().maxCoeff() > point.error) return point;

@@ -67,6 +67,16 @@ def world(brushes=(), *others, scale="0.01"):
     return lines
 
 
+def slanted_column(top, material):
+    """The ground below a triangle of points, counter-clockwise from above."""
+    (p, q, r), low = top, 0
+    lines = ["{", face([p, r, q], material, (1, 0, 0), (0, -1, 0)),
+             face([(*p[:2], low), (*q[:2], low), (*r[:2], low)], material, (1, 0, 0), (0, -1, 0))]
+    for a, b in ((p, q), (q, r), (r, p)):
+        lines.append(face([(*a[:2], low), a, (*b[:2], low)], material, (1, 0, 0), (0, 0, -1)))
+    return lines + ["}"]
+
+
 def renamed(brush, old, new):
     return [line.replace(f") {old} [", f") {new} [") for line in brush]
 
@@ -306,6 +316,21 @@ def sliver_1e6():
     """a film of 0.000001 units is too thin to be a brush, a foil of 0.001 units is one"""
     return world([block((0, 100), (0, 100), (0, 50), "left"), block((0, 100), (0, 100), (50, 50.000001), "film"),
                   block((200, 300), (0, 100), (0, 0.001), "foil")])
+
+
+@regress
+def slanted_columns():
+    """hilly ground of columns between sides that are one plane but for the rounding of their corners"""
+    cells, at = 6, lambda i: round(X[0] + i * (X[1] - X[0]) / 7.3, 6)
+    height = lambda i, j: round(40 + 20 * math.sin(1.7 * i) * math.cos(1.3 * j), 6)
+    corner = lambda i, j: (at(i), at(j) * 0.6, height(i, j))
+    brushes = []
+    for i in range(cells):
+        for j in range(cells):
+            a, b, c, d = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+            for triangle in ((a, b, c), (a, c, d)):
+                brushes.append(slanted_column(triangle, "ground"))
+    return world(walls() + brushes, start((200, 150, 120)))
 
 
 @regress

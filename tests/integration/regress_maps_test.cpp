@@ -387,6 +387,15 @@ const std::vector<Row>& rows() {
          map.owner({250, 50, 0.001}, "foil");
          map.owner({50, 50, 50}, "left");
        }},
+      {"slanted_columns",
+       [](const Asked& map) {
+         map.sealed();
+         map.no_problems();
+         map.solid({100, 60, 15});
+         map.empty({100, 60, 65});
+         map.sees({50, 50, 120}, {350, 250, 120});
+         map.sees({200, 150, 120}, {390, 10, 20});
+       }},
       {"thin_wall_1mm",
        [](const Asked& map) {
          map.sealed();

@@ -4,6 +4,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -98,6 +99,33 @@ TEST(ExactSign, OrientationAndZeros) {
   EXPECT_EQ(sign_of_determinant(Rows<3>{{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}, {4, 5, 6}}}), 0);
   // 0.1 + 0.2 is not the double 0.3
   EXPECT_EQ(sign_of_determinant(Rows<3>{{{0.1 + 0.2, 1, 0}, {0.3, 1, 0}, {0, 0, 1}}}), 1);
+}
+
+TEST(ExactSolution, SatisfiesEquationsThatNearlyDepend) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> number(-1000.0, 1000.0);
+  for (int round = 0; round < 2000; ++round) {
+    std::array<std::array<double, 4>, 3> rows{};
+    for (auto& row : rows) {
+      for (double& value : row) value = number(random);
+    }
+    const double off = std::pow(10.0, -1.0 - round % 14);
+    for (std::size_t k = 0; k < 3; ++k) rows[1][k] = rows[0][k] + off * number(random);
+    const Rows<3> left{{{rows[0][0], rows[0][1], rows[0][2]},
+                        {rows[1][0], rows[1][1], rows[1][2]},
+                        {rows[2][0], rows[2][1], rows[2][2]}}};
+    if (sign_of_determinant(left) == 0) continue;
+    const auto x = exact_solution(rows);
+    for (const auto& row : rows) {
+      // What is left comes from rounding x alone: less than a last bit of each term.
+      mpq_class rest(-row[3]), bound(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        rest += mpq_class(row[k]) * mpq_class(x[k]);
+        bound += abs(mpq_class(row[k]) * mpq_class(x[k])) / (mpz_class(1) << 52);
+      }
+      ASSERT_TRUE(abs(rest) <= bound) << "round " << round << ": " << mpq_class(abs(rest)).get_d();
+    }
+  }
 }
 
 }  // namespace
