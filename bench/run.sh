@@ -18,6 +18,8 @@ echo
 echo
 "$build/bin/bench_bsp"
 echo
+"$build/bin/bench_edit"
+echo
 maps=${HALLWAY_DATA:-$here/../../shared/data}/maps
 if [[ -d $maps/id1 ]]; then
   "$build/bin/bench_compile" $(for map in e1m1 e1m7 dm2 dm5 end; do echo "$maps/id1/$map.map=$maps/id1_bsp/$map.bsp"; done)

@@ -20,6 +20,7 @@ void add_plugin_command(CLI::App& app, Action& chosen);
 void add_import_command(CLI::App& app, Action& chosen);
 void add_compile_command(CLI::App& app, Action& chosen);
 void add_map_command(CLI::App& app, Action& chosen);
+void add_edit_command(CLI::App& app, Action& chosen);
 
 /// Adds `--plugin-path DIR`, which may stand several times.
 void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders);

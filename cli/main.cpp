@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_import_command(app, chosen);
     hallway::cli::add_compile_command(app, chosen);
     hallway::cli::add_map_command(app, chosen);
+    hallway::cli::add_edit_command(app, chosen);
     check_command(app, argc, argv);
     try {
       app.parse(argc, argv);

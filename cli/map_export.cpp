@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -12,9 +11,7 @@
 #include "console.hpp"
 #include "map_command.hpp"
 #include "mesh/export.hpp"
-#include "mesh/load.hpp"
-#include "mesh/placement.hpp"
-#include "render/colour.hpp"
+#include "run/map_export.hpp"
 #include "sense/landmarks.hpp"
 
 namespace hallway::cli {
@@ -41,91 +38,26 @@ struct Written {
   throw Error(ErrorCode::kUsage, message);
 }
 
-/// The ending of the output file, in lower case. Throws Error{kUsage} for one that is not written.
-std::string format_of(const ExportOptions& options) {
-  std::string ending = fs::path(options.out).extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  if (ending != ".glb" && ending != ".obj" && ending != ".ply") {
+/// Throws Error{kUsage} for an ending that is not written.
+void check_format(const ExportOptions& options) {
+  const auto ending = run::model_ending(options.out);
+  if (!ending) {
     refuse(fmt::format("--out takes a file that ends in .glb, .obj or .ply, not \"{}\"",
                        printable(options.out)));
   }
-  if (options.points && ending != ".ply") refuse("--points writes a .ply file");
-  return ending;
+  if (options.points && *ending != ".ply") refuse("--points writes a .ply file");
 }
 
-mesh::Material material_of(const std::string& name) {
-  const render::Rgb colour = render::material_colour(name);
-  const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; };
-  return {.name = name, .base_colour = {channel(colour.r), channel(colour.g), channel(colour.b), 1.0f}};
-}
-
-/// The surface of a world as triangles, a material for each of the map's.
-mesh::Model model_of(const world::CompiledWorld& world, bool all) {
-  const csg::Surface& surface = world.partition.surface;
-  const bool inside_only = !all && world.sealed();
-  mesh::Model model;
-  std::map<std::string, std::uint32_t> materials;
-  std::vector<std::int64_t> index_of(surface.vertices.size(), -1);
-  const auto vertex = [&](std::uint32_t index) {
-    if (index_of[index] < 0) {
-      index_of[index] = static_cast<std::int64_t>(model.vertices.size());
-      model.vertices.push_back(surface.vertices[index]);
-    }
-    return static_cast<std::uint32_t>(index_of[index]);
-  };
-  for (std::size_t i = 0; i < surface.polygons.size(); ++i) {
-    const csg::SurfacePolygon& polygon = surface.polygons[i];
-    if (inside_only && !world.partition.inside[i]) continue;
-    const std::string& name = world.brushes.solids[polygon.solid].faces[polygon.face].material;
-    const auto [material, added] =
-        materials.emplace(name, static_cast<std::uint32_t>(model.materials.size()));
-    if (added) model.materials.push_back(material_of(printable(name)));
-    for (const auto& corners : csg::triangulate(surface, polygon)) {
-      model.triangles.push_back(
-          {{vertex(corners[0]), vertex(corners[1]), vertex(corners[2])}, material->second});
-    }
+/// The surface with the models that stand in the map; one that cannot be read is left out with a warning.
+mesh::Model model_of(CompiledMap& compiled, bool all) {
+  mesh::Model model = run::surface_model(compiled.world, all);
+  std::vector<Error> faults;
+  run::add_models(model, compiled.document, fs::absolute(compiled.document.file).parent_path(), faults);
+  for (const Error& fault : faults) {
+    compiled.warnings.push_back(std::string(fault.what()) + "; left out");
+    print_warning(compiled.warnings.back());
   }
   return model;
-}
-
-/// Adds the models that stand in the map; one that cannot be read is left out with a warning.
-void add_models(mesh::Model& model, CompiledMap& compiled) {
-  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
-  for (const mesh::Placement& placement : mesh::placements(compiled.document)) {
-    try {
-      mesh::Model one = mesh::load_model(mesh::model_path(placement, folder), folder);
-      mesh::PlacedMesh placed = mesh::place(one, placement);
-      one.vertices = std::move(placed.vertices);
-      one.triangles = std::move(placed.triangles);
-      mesh::append(model, std::move(one));
-    } catch (const Error& error) {
-      compiled.warnings.push_back(std::string(error.what()) + "; left out");
-      print_warning(compiled.warnings.back());
-    }
-  }
-}
-
-Written write_model(const ExportOptions& options, const std::string& format, const mesh::Model& model) {
-  Written written{.files = {options.out}, .triangles = model.triangles.size()};
-  if (format == ".glb") write_file_atomically(options.out, mesh::to_glb(model));
-  if (format == ".ply") write_file_atomically(options.out, mesh::to_ply(model));
-  if (format == ".obj") {
-    const fs::path library = fs::path(options.out).replace_extension(".mtl");
-    check_output_file(library.string());
-    const mesh::ObjFiles files = mesh::to_obj(model, library.filename().string());
-    for (const mesh::ObjFiles::File& image : files.images) {
-      const fs::path file = library.parent_path() / image.name;
-      check_output_file(file.string());
-      write_file_atomically(file, image.bytes);
-      written.files.push_back(file.string());
-    }
-    write_file_atomically(library, files.mtl);
-    write_file_atomically(options.out, files.obj);
-    written.files.push_back(library.string());
-  }
-  return written;
 }
 
 Written write_points(const ExportOptions& options, const map::Document& document, const map::World& brushes) {
@@ -139,19 +71,18 @@ Written write_points(const ExportOptions& options, const map::Document& document
 }
 
 int export_map(const ExportOptions& options) {
-  const std::string format = format_of(options);
+  check_format(options);
   check_output_file(options.out);
   CompiledMap compiled = compile_map({.file = options.map});
   Written written;
   if (options.points) {
     written = write_points(options, compiled.document, compiled.world.brushes);
   } else {
-    mesh::Model model = model_of(compiled.world, options.all);
-    add_models(model, compiled);
+    const mesh::Model model = model_of(compiled, options.all);
     if (model.triangles.empty()) {
       throw Error(ErrorCode::kBadInput, "has no faces to export", {.file = printable(options.map, 4096)});
     }
-    written = write_model(options, format, model);
+    written = {.files = run::write_model(options.out, model), .triangles = model.triangles.size()};
   }
   if (options.json) {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();

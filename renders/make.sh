@@ -32,4 +32,8 @@ END
 status=0
 "$hallway" map leak "$work/leak.map" --picture "$here/leak.png" || status=$?
 [[ $status -eq 1 ]]
+# The flat of docs/tutorial-map.md.
+awk '/^```/ { inside = !inside; next } inside' "$here/../docs/tutorial-map.md" > "$work/flat.hwe"
+(cd "$work" && "$hallway" edit flat.map -f flat.hwe > /dev/null)
+cp "$work/flat.png" "$here/tutorial.png"
 ls -l "$here"/*.png

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "compiled_map.hpp"
+#include "console.hpp"
+#include "edit_console.hpp"
+#include "editor/complete.hpp"
+#include "editor/help.hpp"
+#include "editor/session.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using editor::Report;
+using editor::ScriptLine;
+using editor::Session;
+using Json = nlohmann::ordered_json;
+
+struct EditOptions {
+  std::string map;
+  std::string script;
+  std::vector<std::string> words;
+  bool keep_going = false;
+  bool candidates = false;
+  bool json = false;
+};
+
+constexpr std::uint64_t kMostScriptBytes = 64u << 20;
+
+void show(const Report& report, bool json) {
+  if (json) return;
+  std::string text;
+  for (const std::string& line : report.lines) text += line + "\n";
+  print_result(text);
+}
+
+void show_notes(const Session& session) {
+  for (const std::string& note : session.notes()) print_warning(note);
+}
+
+Json json_of(const Report& report) {
+  Json json = {{"status", report.status}, {"text", report.lines}};
+  json.update(report.data);
+  return json;
+}
+
+void finish_json(const EditOptions& options, int status, Json reports) {
+  if (!options.json) return;
+  print_json({{"schema", "hallway.edit/1"},
+              {"status", status},
+              {"map", printable(options.map, 4096)},
+              {"reports", std::move(reports)}});
+}
+
+/// Standard input is read to its end.
+std::vector<ScriptLine> script_of(const EditOptions& options) {
+  if (options.script != "-") return editor::read_script(options.script);
+  std::string text;
+  for (char block[65536]; std::cin.read(block, sizeof block) || std::cin.gcount() > 0;) {
+    text.append(block, static_cast<std::size_t>(std::cin.gcount()));
+    if (text.size() > kMostScriptBytes)
+      throw Error(ErrorCode::kBadInput, "standard input has more than 64 MiB");
+  }
+  return editor::script_lines(text, "standard input");
+}
+
+int run_whole_script(Session& session, const EditOptions& options) {
+  const std::string name =
+      options.script == "-" ? "(standard input)" : "source " + editor::quoted(options.script);
+  const std::vector<Report> reports = session.run_script(script_of(options), name);
+  session.save();
+  int status = 0;
+  Json list = Json::array();
+  for (const Report& report : reports) {
+    show(report, options.json);
+    list.push_back(json_of(report));
+    status = std::max(status, report.status);
+  }
+  finish_json(options, status, std::move(list));
+  return status;
+}
+
+/// Each line a step of its own; one that is refused is reported and passed over.
+int run_line_by_line(Session& session, const EditOptions& options) {
+  int status = 0;
+  Json list = Json::array();
+  for (const ScriptLine& line : script_of(options)) {
+    try {
+      const Report report = session.run(editor::parse_script_line(line.text, session.units()));
+      show(report, options.json);
+      list.push_back(json_of(report));
+      status = std::max(status, report.status);
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::kInternal) throw;
+      const Error placed(error.code(), error.what(), {line.file, line.line, {}});
+      if (!options.json) report_failure(placed, false);
+      list.push_back({{"status", exit_status(error.code())}, {"error", placed.what()}});
+      status = std::max(status, exit_status(error.code()));
+    }
+  }
+  session.save();
+  finish_json(options, status, std::move(list));
+  return status;
+}
+
+int run_one(Session& session, const EditOptions& options) {
+  const Report report = session.run(editor::parse_words(options.words, session.units()));
+  session.save();
+  show(report, options.json);
+  finish_json(options, report.status, Json::array({json_of(report)}));
+  return report.status;
+}
+
+/// Needs no readable map, and no whole journal.
+int recover_map(const EditOptions& options) {
+  const editor::Call call = editor::parse_words(options.words, {});
+  const std::string to = call.arguments.text_or_empty("to");
+  if (to.empty() && fs::exists(options.map)) {
+    Session session(options.map);  // says why, where the two do not belong together
+    show_notes(session);
+    const bool unsaved = session.unsaved();
+    session.save();
+    print_result(unsaved ? fmt::format("{} has what its journal holds\n", printable(options.map))
+                         : "there is nothing to recover\n");
+    return 0;
+  }
+  const std::string& file = to.empty() ? options.map : to;
+  check_output_file(file);
+  if (!to.empty() && fs::exists(to)) throw Error(ErrorCode::kIo, "the file is there already", {to, 0, {}});
+  write_file_atomically(file, editor::recover(options.map));
+  print_result(fmt::format("{} has what the journal holds\n", printable(file)));
+  return 0;
+}
+
+int print_candidates(const EditOptions& options) {
+  std::vector<std::string> words = options.words;
+  const std::string current = words.empty() ? std::string() : words.back();
+  if (!words.empty()) words.pop_back();
+  // No session: completing must not wait for one, nor leave a journal behind.
+  editor::State state;
+  try {
+    state = editor::state_of(load_map(options.map));
+  } catch (const Error&) {
+    // a map to be
+  }
+  std::string text;
+  for (const std::string& candidate : editor::completions(state, words, current)) text += candidate + "\n";
+  print_result(text);
+  return 0;
+}
+
+int edit(EditOptions options) {
+  const auto json = std::find(options.words.begin(), options.words.end(), "--json");
+  if (json != options.words.end()) {
+    options.json = true;
+    options.words.erase(json);
+  }
+  if (options.candidates) return print_candidates(options);
+  if (!options.words.empty() && !options.script.empty())
+    throw Error(ErrorCode::kUsage, "either a command or a script (-f), not both");
+  if (!options.words.empty() && options.words[0] == "recover") return recover_map(options);
+  if (!fs::path(options.map).has_filename() || fs::is_directory(options.map))
+    throw Error(ErrorCode::kUsage, "a map is a file", {printable(options.map), 0, {}});
+  Session session(options.map);
+  show_notes(session);
+  if (!options.words.empty()) return run_one(session, options);
+  if (!options.script.empty())
+    return options.keep_going ? run_line_by_line(session, options) : run_whole_script(session, options);
+  if (::isatty(0) != 0) return run_edit_console(session);
+  options.script = "-";
+  return options.keep_going ? run_line_by_line(session, options) : run_whole_script(session, options);
+}
+
+}  // namespace
+
+void add_edit_command(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("edit", "Author and change a map: one command, a script, or a console");
+  const auto options = std::make_shared<EditOptions>();
+  const auto shell = std::make_shared<std::string>();
+  const auto reference = std::make_shared<bool>(false);
+  command->add_option("map", options->map, "A .map file; made where there is none")->type_name("MAP");
+  command
+      ->add_option("-f,--file", options->script,
+                   "Run a file of commands (- for standard input): all of them or none")
+      ->type_name("SCRIPT");
+  command->add_flag("--keep-going", options->keep_going,
+                    "With -f: each line counts for itself, and one that fails is passed over");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->add_flag("--candidates", options->candidates, "Print what the last word may become (for shells)");
+  command
+      ->add_option("--completion", *shell,
+                   "Print a script that makes a shell complete commands: bash, zsh or fish")
+      ->type_name("SHELL");
+  command->add_flag("--reference", *reference,
+                    "Print the table of commands, as docs/edit.md has it; with --json as data");
+  command->prefix_command();
+  command->footer(
+      "Without a command or script this is a console. `hallway edit MAP help` lists the commands, `help "
+      "NAME` explains one.\n"
+      "Every step can be undone, also in the next shell: the history is in MAP.journal.\n"
+      "Example: hallway edit flat.map new\n"
+      "         hallway edit flat.map entity light at 1,2,2.5\n"
+      "         hallway edit flat.map undo");
+  command->callback([&chosen, options, shell, reference, command] {
+    for (const std::string& word : command->remaining()) {
+      if (word != "--" || !options->words.empty()) options->words.push_back(word);
+    }
+    chosen = [options, shell, reference] {
+      if (*reference) {
+        if (options->json)
+          print_json({{"schema", "hallway.edit-commands/1"}, {"commands", editor::reference_json()}});
+        else
+          print_result(editor::reference_markdown());
+        return 0;
+      }
+      if (!shell->empty()) {
+        print_result(editor::completion_script(*shell));
+        return 0;
+      }
+      if (options->map.empty()) throw Error(ErrorCode::kUsage, "which map? `hallway edit --help` says more");
+      return edit(*options);
+    };
+  });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "editor/clipboard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "editor/commands/making.hpp"
+#include "editor/made_line.hpp"
+#include "map/reader.hpp"
+#include "map/writer.hpp"
+
+namespace hallway::editor {
+namespace {
+
+constexpr std::array kNameKeys{"_tb_name", "name", "targetname"};
+constexpr std::array kReferenceKeys{"path", "target", "killtarget"};
+
+bool is_world(const EntityItem& entity) {
+  return entity.classname() == "worldspawn";
+}
+
+/// Things with their members; worldspawn as its brushes.
+std::vector<Thing> copied_things(const State& state, const std::vector<Thing>& meant) {
+  std::vector<Thing> things;
+  for (const Thing& thing : with_members(state, meant)) {
+    if (thing.brush || !is_world(*state.entities[thing.entity])) {
+      things.push_back(thing);
+      continue;
+    }
+    for (std::size_t b = 0; b < state.entities[thing.entity]->brushes.size(); ++b)
+      things.push_back({thing.entity, b});
+  }
+  return things;
+}
+
+/// `north` becomes `north-2`, that `north-3`, and so on up to one that is not taken.
+std::string next_name(const std::string& name, const std::set<std::string>& taken) {
+  const std::size_t dash = name.rfind('-');
+  const auto number =
+      dash == std::string::npos ? std::nullopt : parse_uint(std::string_view(name).substr(dash + 1));
+  const bool numbered = number && dash > 0 && *number > 0 && *number < 1'000'000'000;
+  const std::string stem = numbered ? name.substr(0, dash) : name;
+  for (std::uint64_t n = numbered ? *number + 1 : 2;; ++n) {
+    std::string next = stem + '-' + std::to_string(n);
+    if (!taken.contains(next)) return next;
+  }
+}
+
+/// Changes the value of a key that is there.
+void replace(map::Entity& head, std::string_view key, const std::string& value) {
+  for (map::KeyValue& pair : head.keys) {
+    if (pair.key == key) pair.value = value;
+  }
+}
+
+void unset(map::Entity& head, std::string_view key) {
+  std::erase_if(head.keys, [&](const map::KeyValue& pair) { return pair.key == key; });
+}
+
+/// Copies things into the state of an edit.
+class Copier {
+ public:
+  Copier(Edit& edit, const State& source) : edit_(edit), source_(source), same_map_(&edit.state == &source) {}
+
+  Copies copy(const std::vector<Thing>& meant) {
+    const State source = source_;  // what is copied may be part of what is changed
+    auto things = copied_things(source, meant);
+    leave_out_starts(source, things);
+    if (things.empty()) throw Error(ErrorCode::kUsage, "that leaves nothing to be copied");
+    choose_names(source, things);
+    std::map<std::size_t, std::vector<BrushItem>> loose;
+    for (const Thing& thing : things) {
+      if (thing.brush) {
+        const BrushItem& item = source.entities[thing.entity]->brushes[*thing.brush];
+        loose[same_map_ ? thing.entity : worldspawn(edit_.state)].push_back(item);
+      }
+    }
+    const std::size_t first_new = edit_.state.entities.size();
+    for (const auto& [entity, items] : loose) add_loose(entity, items);
+    for (const Thing& thing : things) {
+      if (!thing.brush) add_copy(*source.entities[thing.entity]);
+    }
+    for (std::size_t e = first_new; e < edit_.state.entities.size(); ++e) name_host(edit_.state, e);
+    return std::move(copies_);
+  }
+
+ private:
+  void leave_out_starts(const State& source, std::vector<Thing>& things) {
+    const bool there =
+        std::any_of(edit_.state.entities.begin(), edit_.state.entities.end(),
+                    [](const auto& entity) { return entity->classname() == "hw_robot_start"; });
+    const auto gone = std::erase_if(things, [&](const Thing& thing) {
+      return there && source.entities[thing.entity]->classname() == "hw_robot_start";
+    });
+    if (gone > 0) copies_.notes.push_back("the robot's start is left out: a map has one");
+  }
+
+  void choose_names(const State& source, const std::vector<Thing>& things) {
+    std::set<std::string> taken, mine;
+    for (const auto& entity : edit_.state.entities) {
+      for (const char* key : kNameKeys) {
+        if (const std::string* name = entity->head->find(key); name != nullptr && !name->empty())
+          taken.insert(*name);
+      }
+    }
+    int number = next_group_number(edit_.state);
+    for (const Thing& thing : things) {
+      if (thing.brush) continue;
+      const EntityItem& entity = *source.entities[thing.entity];
+      if (const auto group = group_number(entity)) groups_.emplace(*group, std::to_string(number++));
+      if (is_layer(entity)) layers_.emplace(value_of(entity, "_tb_id"), std::to_string(number++));
+      for (const char* key : kNameKeys) {
+        if (const std::string* name = entity.head->find(key); name != nullptr && !name->empty())
+          mine.insert(*name);
+      }
+    }
+    std::set<std::string> all = taken;
+    all.insert(mine.begin(), mine.end());
+    for (const std::string& name : mine) {
+      const std::string next = taken.contains(name) ? next_name(name, all) : name;
+      all.insert(next);
+      names_.emplace(name, next);
+    }
+  }
+
+  void add_loose(std::size_t entity, const std::vector<BrushItem>& items) {
+    auto copy = std::make_shared<EntityItem>(*edit_.state.entities[entity]);
+    for (const BrushItem& item : items) {
+      copies_.ids.push_back(edit_.state.next_id++);
+      copy->brushes.push_back({copies_.ids.back(), item.brush});
+    }
+    edit_.state.entities[entity] = std::move(copy);
+    forget_made(edit_.state, {Thing{entity, {}}});
+  }
+
+  void add_copy(const EntityItem& entity) {
+    auto item = std::make_shared<EntityItem>();
+    item->id = edit_.state.next_id++;
+    item->head = std::make_shared<const map::Entity>(head_of_copy(entity));
+    for (const BrushItem& brush : entity.brushes)
+      item->brushes.push_back({edit_.state.next_id++, brush.brush});
+    copies_.ids.push_back(item->id);
+    const std::string* in = item->head->find("_tb_group");
+    const bool joins =
+        in != nullptr && *in == value_of(entity, "_tb_group") && item->head->find(kMadeKey) == nullptr;
+    edit_.state.entities.push_back(std::move(item));
+    if (joins) forget_made(edit_.state, {Thing{edit_.state.entities.size() - 1, {}}});
+  }
+
+  static bool is_layer(const EntityItem& entity) { return value_of(entity, "_tb_type") == "_tb_layer"; }
+
+  static std::string value_of(const EntityItem& entity, std::string_view key) {
+    const std::string* value = entity.head->find(key);
+    return value != nullptr ? *value : std::string();
+  }
+
+  map::Entity head_of_copy(const EntityItem& entity) {
+    map::Entity head = *entity.head;
+    const auto follow = [&](const char* key, const std::map<std::string, std::string>& changes) {
+      const std::string* value = head.find(key);
+      const auto change = value != nullptr ? changes.find(*value) : changes.end();
+      if (change == changes.end()) return false;
+      replace(head, key, std::string(change->second));
+      return true;
+    };
+    for (const char* key : kNameKeys) follow(key, names_);
+    bool path_follows = false;
+    for (const char* key : kReferenceKeys) path_follows = follow(key, names_) || path_follows;
+    if (head.classname() == "hw_waypoint" && !path_follows) make_last(head);
+    follow("_tb_id", is_layer(entity) ? layers_ : groups_);
+    if (!follow("_tb_layer", layers_) && !same_map_) unset(head, "_tb_layer");
+    if (!follow("_tb_group", groups_) && !same_map_) unset(head, "_tb_group");
+    if (const std::string* line = head.find(kMadeKey); line != nullptr && head.find("_tb_name") != nullptr)
+      replace(head, kMadeKey, renamed_line(*line, *head.find("_tb_name"), units_of(edit_.state)));
+    return head;
+  }
+
+  /// A waypoint's number is its own within its path.
+  void make_last(map::Entity& head) {
+    const std::string* path = head.find("path");
+    std::int64_t next = 0;
+    for (const auto& entity : edit_.state.entities) {
+      const std::string* of = entity->head->find("path");
+      const std::string* text = entity->head->find("index");
+      if (entity->classname() != "hw_waypoint" || path == nullptr || of == nullptr || *of != *path ||
+          text == nullptr)
+        continue;
+      if (const auto index = parse_int(*text); index && *index < 1'000'000'000)
+        next = std::max(next, *index + 1);
+    }
+    replace(head, "index", std::to_string(next));
+  }
+
+  Edit& edit_;
+  const State& source_;
+  bool same_map_;
+  std::map<std::string, std::string> names_;
+  std::map<std::string, std::string> groups_;
+  std::map<std::string, std::string> layers_;
+  Copies copies_;
+};
+
+const std::string& clipboard_of(const Edit& edit) {
+  if (edit.clipboard.empty())
+    throw Error(ErrorCode::kUsage, "there is no clipboard here: nothing says which file it is");
+  return edit.clipboard;
+}
+
+/// What brushes of an entity are alone: of groups, brushes of the world; of others, an entity of the same kind.
+map::Entity without_group(const EntityItem& entity) {
+  map::Entity head = *entity.head;
+  std::erase_if(head.keys, [](const map::KeyValue& pair) {
+    return pair.key == "_tb_group" || pair.key == "_tb_layer" || pair.key == "targetname" ||
+           pair.key == kMadeKey;
+  });
+  return head;
+}
+
+}  // namespace
+
+Copies add_copies(Edit& edit, const State& source, const std::vector<Thing>& things) {
+  return Copier(edit, source).copy(things);
+}
+
+std::string clipboard_text(const Edit& edit, const std::vector<Thing>& meant) {
+  const State& state = edit.state;
+  const auto things = copied_things(state, meant);
+  map::Document document;
+  map::Entity world;
+  world.keys = {{{}, "classname", "worldspawn", 0},
+                {{}, "_hallway", "1", 0},
+                {{}, "_scale", format_double(edit.metres_per_unit()), 0}};
+  std::set<std::string> groups;
+  for (const Thing& thing : things) {
+    const auto number = thing.brush ? std::nullopt : group_number(*state.entities[thing.entity]);
+    if (number) groups.insert(*number);
+  }
+  std::map<std::size_t, std::size_t> places;  // of entities of which brushes only are copied
+  for (const Thing& thing : things) {
+    const EntityItem& entity = *state.entities[thing.entity];
+    if (thing.brush && (is_world(entity) || entity.classname() == "func_group")) {
+      world.brushes.push_back(*entity.brushes[*thing.brush].brush);
+    } else if (thing.brush) {
+      const auto [place, is_new] = places.emplace(thing.entity, document.entities.size());
+      if (is_new) document.entities.push_back(without_group(entity));
+      document.entities[place->second].brushes.push_back(*entity.brushes[*thing.brush].brush);
+    } else {
+      map::Entity& copy = document.entities.emplace_back(*entity.head);
+      for (const BrushItem& item : entity.brushes) copy.brushes.push_back(*item.brush);
+      unset(copy, "_tb_layer");
+      if (const std::string* in = copy.find("_tb_group"); in != nullptr && !groups.contains(*in))
+        unset(copy, "_tb_group");
+    }
+  }
+  document.entities.insert(document.entities.begin(), std::move(world));
+  return map::print(document);
+}
+
+void write_clipboard(const Edit& edit, const std::string& text) {
+  write_file_atomically(clipboard_of(edit), text);
+}
+
+State read_clipboard(const Edit& edit) {
+  const std::string& file = clipboard_of(edit);
+  std::error_code none;
+  if (!std::filesystem::exists(file, none))
+    throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
+  State state = state_of(map::parse(read_file(file, map::kMaxMapBytes), file));
+  if (all_things(state).empty())
+    throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
+  return state;
+}
+
+std::vector<Thing> all_things(const State& state) {
+  std::vector<Thing> things;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    if (!is_world(entity)) things.push_back({e, {}});
+    for (std::size_t b = 0; is_world(entity) && b < entity.brushes.size(); ++b) things.push_back({e, b});
+  }
+  return things;
+}
+
+}  // namespace hallway::editor

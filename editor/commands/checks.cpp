@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+//
+// What is wrong with the map, and what it looks like.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "editor/commands/topics.hpp"
+#include "editor/selection.hpp"
+#include "editor/shown.hpp"
+#include "editor/validate.hpp"
+#include "map/writer.hpp"
+#include "render/map_layers.hpp"
+#include "run/map_view.hpp"
+#include "run/pictures.hpp"
+#include "world/compiled_world.hpp"
+
+namespace hallway::editor {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kIds{
+    ArgSpec{.name = "id", .kind = ArgKind::kText, .help = "only faults of that id, such as `bad-brush`"}};
+constexpr std::array kPicture{ArgSpec{
+    .name = "picture", .kind = ArgKind::kFile, .help = "a PNG file to write: a plan with the way out"}};
+constexpr std::array kRender{
+    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "a PNG file to write"},
+    ArgSpec{.name = "view",
+            .kind = ArgKind::kChoice,
+            .fallback = "top",
+            .help = "like a plan, or from a viewpoint",
+            .choices = "top perspective"},
+    ArgSpec{
+        .name = "eye", .kind = ArgKind::kPlace, .help = "perspective: from where [what shows everything]"},
+    ArgSpec{.name = "target", .kind = ArgKind::kPlace, .help = "perspective: the place looked at"},
+    ArgSpec{.name = "cut",
+            .kind = ArgKind::kLength,
+            .help = "cut away what stands above this height [what opens a building]"},
+    ArgSpec{.name = "width",
+            .kind = ArgKind::kWhole,
+            .fallback = "1280",
+            .help = "pixels",
+            .low = 16,
+            .high = 16384},
+    ArgSpec{.name = "height",
+            .kind = ArgKind::kWhole,
+            .fallback = "800",
+            .help = "pixels",
+            .low = 16,
+            .high = 16384},
+    ArgSpec{.name = "show",
+            .kind = ArgKind::kChoice,
+            .help = "drawn over the map, or instead of its faces",
+            .choices = "portals leak wireframe bsp-depth"}};
+
+std::string line_of(const State& state, const Fault& fault) {
+  std::string text = fault.severity == map::Severity::kError ? "error: " : "warning: ";
+  if (const auto thing = find(state, fault.thing)) text += describe(state, *thing) + ": ";
+  text += fmt::format("{} [{}]", fault.message, fault.id);
+  if (fault.line > 0) text += fmt::format(" (line {})", fault.line);
+  return text;
+}
+
+std::vector<Fault> faults_of(const Edit& edit, const Arguments& arguments) {
+  auto faults = validate(edit.state, edit.file);
+  if (arguments.has("id"))
+    std::erase_if(faults, [&](const Fault& fault) { return fault.id != arguments.text("id"); });
+  return faults;
+}
+
+void validate_map(Edit& edit, const Arguments& arguments) {
+  const auto faults = faults_of(edit, arguments);
+  edit.report.data["faults"] = Json::array();
+  for (const Fault& fault : faults) {
+    edit.report.lines.push_back(line_of(edit.state, fault));
+    if (!fault.fix.empty()) edit.report.lines.push_back("  fix: " + printable(fault.fix));
+    edit.report.data["faults"].push_back(
+        {{"id", fault.id},
+         {"severity", fault.severity == map::Severity::kError ? "error" : "warning"},
+         {"thing", fault.thing},
+         {"line", fault.line},
+         {"message", fault.message},
+         {"fix", fault.fix}});
+    if (fault.severity == map::Severity::kError) edit.report.status = 1;
+  }
+  if (faults.empty()) edit.report.lines.push_back("nothing is wrong");
+}
+
+/// One fix after the other, each followed by another look: a fix may mend, or bring to light, what is next.
+void fix_map(Edit& edit, const Arguments& arguments) {
+  constexpr int kMostFixes = 1000;
+  std::set<std::string> tried;
+  edit.report.data["fixed"] = Json::array();
+  for (int i = 0; i < kMostFixes; ++i) {
+    const auto faults = faults_of(edit, arguments);
+    const auto next = std::find_if(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return !fault.fix.empty() && !tried.contains(fault.fix);
+    });
+    if (next == faults.end()) break;
+    tried.insert(next->fix);
+    const Call call = parse_line(next->fix, units_of(edit.state));
+    Edit one{edit.state, edit.file};
+    std::get<EditFunction>(call.command->run)(one, call.arguments);
+    edit.state = std::move(one.state);
+    edit.report.lines.push_back(fmt::format("{}: {}", next->id, printable(next->fix)));
+    edit.report.data["fixed"].push_back({{"id", next->id}, {"command", next->fix}});
+  }
+  const auto left = faults_of(edit, arguments).size();
+  edit.report.data["left"] = left;
+  edit.report.lines.push_back(
+      fmt::format("{} mended, {} left for you", edit.report.data["fixed"].size(), left));
+}
+
+world::CompiledWorld compiled(const Edit& edit, map::Document& document) {
+  document = document_of(edit.state, edit.file);
+  world::Settings settings;
+  settings.level.reset();
+  return world::compile(document, settings);
+}
+
+void compile_map(Edit& edit, const Arguments&) {
+  map::Document document;
+  const world::CompiledWorld world = compiled(edit, document);
+  const auto& tree = world.partition.tree;
+  edit.report.data["sealed"] = world.sealed();
+  edit.report.data["brushes"] = world.brushes.solids.size();
+  edit.report.data["polygons"] = world.partition.surface.polygons.size();
+  edit.report.data["clusters"] = tree.clusters;
+  edit.report.data["portals"] = world.partition.portals.portals.size();
+  edit.report.lines.push_back(fmt::format("{}; {} brushes, {} polygons, {} clusters, {} portals",
+                                          world.sealed()                   ? "sealed"
+                                          : world.partition.enclosure.leak ? "leaks"
+                                                                           : "encloses nothing",
+                                          world.brushes.solids.size(),
+                                          world.partition.surface.polygons.size(), tree.clusters,
+                                          world.partition.portals.portals.size()));
+  if (!world.sealed()) edit.report.status = 1;
+}
+
+/// A picture shows the map without what is hidden.
+std::string picture_of(const Edit& edit, const sim::PictureSpec& spec, const run::MapView& view) {
+  const Edit shown{without_hidden(edit.state), edit.file};
+  map::Document document;
+  const world::CompiledWorld world = compiled(shown, document);
+  std::vector<Error> faults;
+  const run::MapSubject subject{
+      .world = world,
+      .title = fs::path(edit.file).stem().string(),
+      .meshes = run::model_faces(document, fs::path(edit.file).parent_path(), faults)};
+  return run::draw_map_picture(subject, spec, view);
+}
+
+void show_leak(Edit& edit, const Arguments& arguments) {
+  map::Document document;
+  const world::CompiledWorld world = compiled(edit, document);
+  const auto& leak = world.partition.enclosure.leak;
+  edit.report.data["sealed"] = world.sealed();
+  if (leak) {
+    const map::Occupant& occupant = world.occupants[leak->occupant];
+    edit.report.lines.push_back(
+        fmt::format("leaks: {} reaches the void after {}, through an opening of {} x {} at {}",
+                    run::occupant_text(occupant), render::measure_text(leak->length_m),
+                    render::measure_text(leak->narrowest.width_m),
+                    render::measure_text(leak->narrowest.height_m), run::place_text(leak->narrowest.at)));
+    edit.report.status = 1;
+  } else {
+    edit.report.lines.push_back(
+        world.sealed() ? "sealed" : "encloses nothing: there is no start, light or other occupant inside");
+    edit.report.status = world.sealed() ? 0 : 1;
+  }
+  if (arguments.has("picture"))
+    write_file_atomically(arguments.text("picture"), picture_of(edit, {}, {.leak = true}));
+}
+
+void render_map(Edit& edit, const Arguments& arguments) {
+  sim::PictureSpec spec;
+  spec.file = arguments.text("file");
+  spec.view = arguments.text("view") == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
+  spec.width_px = static_cast<int>(arguments.whole("width"));
+  spec.height_px = static_cast<int>(arguments.whole("height"));
+  if (arguments.has("cut")) spec.cut_z_m = arguments.number("cut");
+  if (arguments.has("eye") != arguments.has("target"))
+    throw Error(ErrorCode::kUsage, "render: eye and target are given together");
+  if (arguments.has("eye")) {
+    if (spec.view == sim::PictureView::kTop)
+      throw Error(ErrorCode::kUsage, "render: eye and target belong to view=perspective");
+    spec.eye_m = arguments.place("eye");
+    spec.target_m = arguments.place("target");
+  }
+  const std::string show = arguments.text_or_empty("show");
+  const run::MapView view{.portals = show == "portals",
+                          .leak = show == "leak",
+                          .wireframe = show == "wireframe",
+                          .bsp_depth = show == "bsp-depth"};
+  write_file_atomically(arguments.text("file"), picture_of(edit, spec, view));
+  edit.report.data["file"] = arguments.text("file");
+  edit.report.lines.push_back(fmt::format("drew {}", printable(arguments.text("file"))));
+}
+
+constexpr std::array kCommands{
+    CommandSpec{.name = "validate",
+                .topic = "checks and pictures",
+                .summary = "list what is wrong, and the command that mends it",
+                .details = "Status 1 if there is an error.",
+                .arguments = kIds,
+                .example = "validate",
+                .run = &validate_map},
+    CommandSpec{.name = "fix",
+                .topic = "checks and pictures",
+                .summary = "run the commands that `validate` proposes",
+                .arguments = kIds,
+                .example = "fix",
+                .run = &fix_map},
+    CommandSpec{.name = "leak",
+                .topic = "checks and pictures",
+                .summary = "show the way on which something reaches the void outside",
+                .details = "Status 1 if the map leaks.",
+                .arguments = kPicture,
+                .example = "leak",
+                .run = &show_leak},
+    CommandSpec{.name = "compile",
+                .topic = "checks and pictures",
+                .summary = "compile the map as it is now and count what comes of it",
+                .details = "Status 1 if it is not sealed.",
+                .example = "compile",
+                .run = &compile_map},
+    CommandSpec{.name = "render",
+                .topic = "checks and pictures",
+                .summary = "draw the map as it is now, without what is hidden",
+                .arguments = kRender,
+                .example = "render plan.png",
+                .before = "entity light at 1,1,1",
+                .run = &render_map},
+};
+
+}  // namespace
+
+std::span<const CommandSpec> check_commands() {
+  return kCommands;
+}
+
+}  // namespace hallway::editor

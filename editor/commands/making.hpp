@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "editor/command.hpp"
+#include "editor/selection.hpp"
+
+namespace hallway::editor {
+
+/// Three numbers as maps write them: "1 2.5 3".
+std::string vector_text(const Vec3& vector);
+
+// What commands say of the things that they touched: a line and the numbers under "made", "changed" or "removed" in the data.
+void say_made(Edit& edit, const std::vector<Id>& ids);
+void say_changed(Edit& edit, const std::vector<Thing>& things);
+void say_removed(Edit& edit, const std::vector<Thing>& things);
+
+/// The index of worldspawn. Throws Error{kUsage} in a map without one.
+std::size_t worldspawn(const State& state);
+
+/// What a shape is made of.
+struct Parts {
+  std::vector<map::Brush> added{};       ///< solid
+  std::vector<map::Brush> subtracted{};  ///< cut out of whatever is there before them
+  int order = 1;                         ///< when `subtracted` apply: the key `order` of `hw_subtract`
+  /// When `added` apply: 0 with all other brushes, before anything is cut out; else the key `order` of an `hw_add`.
+  int added_order = 0;
+};
+
+/// Adds a shape: a brush alone goes into worldspawn; all else becomes a group, which remembers under the key `_hw_made` the line that
+/// made it. Returns the number of the brush or group. @param name  may be empty
+Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts parts);
+
+/// Gives a group other parts; it keeps its number, keys and all members that are no parts of its shape.
+void replace_shape(Edit& edit, Id group, Parts parts);
+
+/// The order in which bodies must be added so that nothing that is cut out already takes them away: 0 where they stand in no
+/// `hw_subtract`, else one more than the highest `order` of those. Doors and windows do not count, nor does what belongs to the group
+/// of the number `but_of`. O(brushes of hw_subtract).
+int order_among_cuts(const State& state, const std::vector<map::Brush>& brushes,
+                     const std::string& but_of = {});
+
+/// The key `order` of an entity, 0 where it has none.
+int order_of(const EntityItem& entity);
+
+/// What brushes occupy together, map units.
+Box bounds_of(const std::vector<map::Brush>& brushes);
+
+/// False where a brush has certainly nothing in common with a box; much faster than overlap(). O(faces).
+bool may_overlap(const Box& box, const map::Brush& brush);
+
+/// Whether two brushes have a volume in common.
+bool overlap(const map::Brush& a, const map::Brush& b);
+
+/// Whether an entity is the cut of a door or window.
+bool is_opening(const EntityItem& entity);
+
+/// The entities that carry the number of a group, by index.
+std::vector<std::size_t> members_of(const State& state, const std::string& number);
+
+/// Gives an entity other brushes; as many as it had keep their numbers. O(brushes).
+void set_brushes(State& state, std::size_t entity, std::vector<map::Brush> brushes);
+
+/// The next free number for a TrenchBroom group.
+int next_group_number(const State& state);
+
+/// Refuses a name that something has already.
+void check_new_name(const State& state, const std::string& name);
+
+}  // namespace hallway::editor

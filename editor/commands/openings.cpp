@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "editor/commands/openings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "editor/commands/made.hpp"
+#include "editor/commands/shape_parts.hpp"
+#include "editor/shapes.hpp"
+
+namespace hallway::editor {
+namespace {
+
+constexpr double kTolerance = 1e-6;  ///< map units
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::kUsage, message);
+}
+
+/// A wall in which openings can be: where it runs, and how high it is.
+struct Wall {
+  std::vector<WallStretch> stretches{};
+  double height = 0.0;
+  std::string material{};
+  std::string floor{};  ///< material of the floor in a door; empty: as the rest
+
+  double length() const {
+    double sum = 0.0;
+    for (const WallStretch& stretch : stretches) sum += (stretch.to - stretch.from).norm();
+    return sum;
+  }
+};
+
+/// The side of a room's wall as a stretch from west to east, or from south to north.
+WallStretch side_of(const Box& inside, const std::string& side, double thickness) {
+  const Vec3 low = inside.min(), high = inside.max();
+  const bool along_x = side == "north" || side == "south";
+  const auto point = [&](double along, double across) {
+    return along_x ? Vec3(along, across, low.z()) : Vec3(across, along, low.z());
+  };
+  const Eigen::Index a = along_x ? 0 : 1, b = along_x ? 1 : 0;
+  const bool far = side == "north" || side == "east";
+  const double inner = far ? high[b] : low[b];
+  const double outer = tidied(point(0.0, far ? inner + thickness : inner - thickness))[b];
+  const double least = std::min(inner, outer), most = std::max(inner, outer), middle = (inner + outer) / 2.0;
+  WallStretch stretch{point(low[a], middle), point(high[a], middle), {}};
+  stretch.outline = {point(low[a], least), point(high[a], least), point(high[a], most), point(low[a], most)};
+  if (!along_x) std::reverse(stretch.outline.begin(), stretch.outline.end());
+  return stretch;
+}
+
+/// A wall by its shape alone: an upright block on a rectangle, which runs along its longer side, from west to east or
+/// else from south to north.
+std::optional<Wall> block_wall(const map::Brush& brush) {
+  const auto body = body_of(brush);
+  if (!body || body->sides.size() != 6 || body->vertices.size() != 8) return std::nullopt;
+  Box box;
+  for (const Vec3& vertex : body->vertices) box.extend(vertex);
+  for (const map::ConvexBody::Side& side : body->sides) {
+    std::vector<Vec3> base;
+    for (const std::uint32_t v : side.loop) base.push_back(tidied(body->vertices[v]));
+    const bool at_foot = std::all_of(base.begin(), base.end(), [&](const Vec3& corner) {
+      return std::abs(corner.z() - box.min().z()) <= kTolerance;
+    });
+    if (!at_foot || base.size() != 4) continue;
+    std::reverse(base.begin(), base.end());  // it is seen from below
+    Vec3 one = base[1] - base[0], other = base[3] - base[0];
+    if (std::abs(one.dot(other)) > kTolerance * one.norm() * other.norm()) return std::nullopt;
+    if (other.norm() > one.norm()) {
+      std::rotate(base.begin(), base.begin() + 1, base.end());
+      one = base[1] - base[0];
+    }
+    if (one.x() < -kTolerance || (std::abs(one.x()) <= kTolerance && one.y() < 0.0))
+      std::rotate(base.begin(), base.begin() + 2, base.end());
+    Wall wall{.stretches = {},
+              .height = box.sizes().z(),
+              .material = brush.faces[side.plane].material,
+              .floor = {}};
+    wall.stretches.push_back({(base[0] + base[3]) / 2.0, (base[1] + base[2]) / 2.0, base});
+    // The sides must be upright: then what is over the foot is as large as it.
+    if (std::abs(volume_of(*body) - one.norm() * (base[3] - base[0]).norm() * wall.height) >
+        1e-6 * volume_of(*body))
+      return std::nullopt;
+    return wall;
+  }
+  return std::nullopt;
+}
+
+/// The brushes of which a thing alone is made: those of an entity, or of a group with its members. None where something is cut out of
+/// it but doors and windows.
+std::vector<const map::Brush*> own_brushes(const State& state, const Thing& thing) {
+  const EntityItem& entity = *state.entities[thing.entity];
+  if (thing.brush) return {entity.brushes[*thing.brush].brush.get()};
+  std::vector<const map::Brush*> brushes;
+  for (const BrushItem& brush : entity.brushes) brushes.push_back(brush.brush.get());
+  if (const auto number = group_number(entity)) {
+    for (const std::size_t member : members_of(state, *number)) {
+      const EntityItem& part = *state.entities[member];
+      if (is_opening(part)) continue;
+      if (part.classname() == "hw_subtract") return {};
+      for (const BrushItem& brush : part.brushes) brushes.push_back(brush.brush.get());
+    }
+  }
+  return brushes;
+}
+
+Wall made_wall(const Edit& edit, const Call& call, const Arguments& opening) {
+  Edit as_made{.state = edit.state, .file = edit.file};
+  as_made.state.desk.grid_m = 0.0;  // the line has its places rounded already
+  const Arguments& made = call.arguments;
+  Wall wall{.stretches = {},
+            .height = made.number("height") / edit.metres_per_unit(),
+            .material = made.text("material"),
+            .floor = {}};
+  if (call.command->name == "room") {
+    if (!opening.has("side"))
+      refuse("side: a room has four walls; say `side` north, east, south or west (north is y+)");
+    wall.stretches.push_back(side_of(room_inside(as_made, made), opening.text("side"),
+                                     made.number("wall") / edit.metres_per_unit()));
+    wall.floor = made.text("floor_material");
+    return wall;
+  }
+  if (call.command->name == "wall") {
+    wall.stretches.push_back(wall_stretch(as_made, made));
+  } else {
+    wall.stretches = arc_stretches(as_made, made);
+  }
+  return wall;
+}
+
+Wall wall_of(const Edit& edit, const Thing& host, const Arguments& opening) {
+  const State& state = edit.state;
+  const EntityItem& entity = *state.entities[host.entity];
+  const auto call = host.brush ? std::nullopt : made_call(state, entity);
+  const std::string_view made = call ? call->command->name : std::string_view();
+  if (made != "room" && opening.has("side"))
+    refuse(fmt::format("side: {} is no room; `side` says which wall of a room", describe(state, host)));
+  if (made == "wall" || made == "arc" || made == "room") return made_wall(edit, *call, opening);
+  const auto brushes = own_brushes(state, host);
+  auto wall = brushes.size() == 1 ? block_wall(*brushes.front()) : std::nullopt;
+  if (!wall) {
+    refuse(fmt::format("in: {} is no wall: a `wall`, `arc` or `room` as it was made, or one upright block",
+                       describe(state, host)));
+  }
+  return std::move(*wall);
+}
+
+/// Where an opening is in its wall, map units.
+struct Gap {
+  double begin = 0.0;  ///< along the middle line
+  double end = 0.0;
+  double low = 0.0;  ///< over the foot of the wall
+  double high = 0.0;
+};
+
+Gap gap_of(const Edit& edit, const Wall& wall, std::string_view command, const Arguments& arguments) {
+  const double scale = edit.metres_per_unit();
+  const double at = arguments.number("at");
+  const double half = arguments.number("width") / 2.0;
+  const double low = arguments.has("sill") ? arguments.number("sill") : 0.0;
+  const double high = low + arguments.number("height");
+  const double length = wall.length() * scale, height = wall.height * scale;
+  constexpr double kSlack_m = 1e-9;
+  if (at - half < -kSlack_m || at + half > length + kSlack_m) {
+    refuse(fmt::format("{}: it reaches from {:.6g} m to {:.6g} m along a wall that is {:.6g} m long", command,
+                       at - half, at + half, length));
+  }
+  if (high > height + kSlack_m) {
+    refuse(
+        fmt::format("{}: it reaches {:.6g} m high in a wall that is {:.6g} m high", command, high, height));
+  }
+  return {(at - half) / scale, (at + half) / scale, low / scale, std::min(high / scale, wall.height)};
+}
+
+/// What of the wall is in the gap, a body for each stretch.
+std::vector<map::Brush> cut_brushes(const Wall& wall, const Gap& gap, const std::string& material) {
+  std::vector<map::Brush> brushes;
+  double passed = 0.0;
+  for (const WallStretch& stretch : wall.stretches) {
+    const Vec3 way = stretch.to - stretch.from;
+    const double length = way.norm();
+    const Vec3 direction = way / length;
+    const double begin = gap.begin - passed, end = gap.end - passed;
+    passed += length;
+    if (end <= kTolerance || begin >= length - kTolerance) continue;
+    std::vector<Vec3> outline = stretch.outline;
+    if (begin > kTolerance)
+      outline = polygon_behind(outline, stretch.from + begin * direction, Vec3(-direction));
+    if (end < length - kTolerance)
+      outline = polygon_behind(outline, stretch.from + end * direction, direction);
+    if (outline.size() < 3) continue;
+    for (Vec3& corner : outline) {
+      corner.z() = stretch.from.z() + gap.low;
+      corner = tidied(corner);
+    }
+    brushes.push_back(extrusion(outline, (gap.high - gap.low) * Vec3::UnitZ(), material));
+  }
+  return brushes;
+}
+
+/// One more than the highest order of what makes the wall.
+int order_for(const State& state, const Thing& host) {
+  const EntityItem& entity = *state.entities[host.entity];
+  int order = host.brush || !group_number(entity) ? order_of(entity) : 0;
+  if (const auto number = group_number(entity); number && !host.brush) {
+    for (const std::size_t member : members_of(state, *number)) {
+      const EntityItem& part = *state.entities[member];
+      if (part.classname().starts_with("hw_") && !part.brushes.empty() && !is_opening(part))
+        order = std::max(order, order_of(part));
+    }
+  }
+  return order + 1;
+}
+
+void check_free(const State& state, std::string_view command, const std::vector<map::Brush>& cuts, Id but) {
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    if (entity.id == but || !is_opening(entity)) continue;
+    for (const BrushItem& brush : entity.brushes) {
+      if (std::none_of(cuts.begin(), cuts.end(),
+                       [&](const map::Brush& cut) { return overlap(cut, *brush.brush); }))
+        continue;
+      refuse(fmt::format("{}: it overlaps {}", command, describe(state, {e, {}})));
+    }
+  }
+}
+
+/// The group that a thing is, or belongs to.
+std::string group_of(const State& state, const Thing& host) {
+  const EntityItem& entity = *state.entities[host.entity];
+  if (const auto number = group_number(entity)) return *number;
+  const std::string* number = entity.head->find("_tb_group");
+  return number != nullptr ? *number : std::string();
+}
+
+void set_floor(std::vector<map::Brush>& cuts, const std::string& material) {
+  for (map::Brush& cut : cuts) {
+    for (map::Face& face : cut.faces) {
+      const auto plane = plane_of(face);
+      if (plane && plane->normal.z() < -0.5) face.material = material;
+    }
+  }
+}
+
+/// An opening as an entity; its brushes and its place among the cuts.
+map::Entity opening_entity(const Edit& edit, std::string_view command, const Arguments& arguments,
+                           const Thing& host, Id but) {
+  const Wall wall = wall_of(edit, host, arguments);
+  const Gap gap = gap_of(edit, wall, command, arguments);
+  map::Entity cut;
+  cut.brushes =
+      cut_brushes(wall, gap, arguments.has("material") ? arguments.text("material") : wall.material);
+  if (command == "door" && !arguments.has("material") && !wall.floor.empty())
+    set_floor(cut.brushes, wall.floor);
+  if (cut.brushes.empty()) refuse(fmt::format("{}: nothing of the wall is in it", command));
+  check_free(edit.state, command, cut.brushes, but);
+  cut.keys.push_back({{}, "classname", "hw_subtract", 0});
+  cut.keys.push_back({{}, "order", std::to_string(order_for(edit.state, host)), 0});
+  return cut;
+}
+
+Thing host_of(const State& state, const Thing& opening) {
+  const std::string* number = state.entities[opening.entity]->head->find("_tb_group");
+  for (std::size_t e = 0; number != nullptr && e < state.entities.size(); ++e) {
+    if (group_number(*state.entities[e]) == *number) return {e, {}};
+  }
+  refuse(fmt::format("{} belongs to no wall that has a name; make it again with `door` or `window`",
+                     describe(state, opening)));
+}
+
+}  // namespace
+
+Id cut_opening(Edit& edit, std::string_view command, const Arguments& arguments) {
+  const std::string name = arguments.text_or_empty("name");
+  check_new_name(edit.state, name);
+  const Thing host = resolve_one(edit.state, arguments.text("in"));
+  map::Entity cut = opening_entity(edit, command, arguments, host, 0);
+  if (!name.empty()) cut.keys.push_back({{}, "targetname", name, 0});
+  if (const std::string group = group_of(edit.state, host); !group.empty())
+    cut.keys.push_back({{}, "_tb_group", group, 0});
+  cut.keys.push_back({{}, "_hw_made", made_line(edit, command, arguments), 0});
+  return add_entity(edit.state, std::move(cut));
+}
+
+void recut_opening(Edit& edit, Id opening, std::string_view command, const Arguments& arguments) {
+  const Thing thing = *find(edit.state, opening);
+  const Thing host = host_of(edit.state, thing);
+  map::Entity cut = opening_entity(edit, command, arguments, host, opening);
+  set_key(edit.state, thing.entity, "order", *cut.find("order"));
+  set_key(edit.state, thing.entity, "_hw_made", made_line(edit, command, arguments));
+  set_brushes(edit.state, thing.entity, std::move(cut.brushes));
+}
+
+void recut_openings(Edit& edit, Id group) {
+  const std::string number = *group_number(*edit.state.entities[find(edit.state, group)->entity]);
+  std::vector<Id> openings;
+  for (const std::size_t member : members_of(edit.state, number)) {
+    if (is_opening(*edit.state.entities[member])) openings.push_back(edit.state.entities[member]->id);
+  }
+  // Each is checked against the others where they are to be: so they all leave before the first comes back.
+  for (const Id id : openings) set_brushes(edit.state, find(edit.state, id)->entity, {});
+  for (const Id id : openings) {
+    const Thing thing = *find(edit.state, id);
+    const auto call = made_call(edit.state, *edit.state.entities[thing.entity]);
+    if (!call)
+      refuse(fmt::format("{} cannot be cut again: its key _hw_made does not say how",
+                         describe(edit.state, thing)));
+    try {
+      recut_opening(edit, id, call->command->name, call->arguments);
+    } catch (const Error& error) {
+      refuse(fmt::format("{}, which stands in it: {}", describe(edit.state, thing), error.what()));
+    }
+  }
+}
+
+}  // namespace hallway::editor

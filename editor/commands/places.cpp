@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: MIT
+//
+// The robot and its paths, landmarks, lights, models.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "editor/commands/making.hpp"
+#include "editor/commands/topics.hpp"
+#include "editor/selection.hpp"
+#include "map/entity_schema.hpp"
+#include "map/path.hpp"
+
+namespace hallway::editor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ArgSpec kAt{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "where it stands"};
+constexpr ArgSpec kHeading{.name = "heading",
+                           .kind = ArgKind::kAngle,
+                           .fallback = "0",
+                           .help = "counter-clockwise from above, 0 along x",
+                           .low = -3600,
+                           .high = 3600};
+constexpr ArgSpec kOptionalName{.name = "name", .kind = ArgKind::kName, .help = "what it is called"};
+
+constexpr std::array kStart{kAt, kHeading};
+constexpr std::array kPath{
+    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
+    ArgSpec{
+        .name = "places", .kind = ArgKind::kPlaces, .required = true, .help = "its waypoints, two or more"},
+    ArgSpec{.name = "closed",
+            .kind = ArgKind::kChoice,
+            .fallback = "no",
+            .help = "whether it leads back to the first",
+            .choices = "yes no"},
+    ArgSpec{.name = "corner_radius",
+            .kind = ArgKind::kLength,
+            .fallback = "0.5",
+            .help = "of the arcs that round its corners",
+            .low = 1e-3,
+            .high = 1e6}};
+constexpr std::array kWaypoint{
+    ArgSpec{.name = "path", .kind = ArgKind::kName, .required = true, .help = "a path's name"},
+    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "the new waypoint"},
+    ArgSpec{.name = "index",
+            .kind = ArgKind::kWhole,
+            .help = "which one it becomes, the first being 0 [the last]",
+            .low = 0,
+            .high = 1e6}};
+constexpr std::array kLandmarks{
+    ArgSpec{.name = "path", .kind = ArgKind::kName, .help = "a cloud of landmarks around that path"},
+    ArgSpec{.name = "per_100m",
+            .kind = ArgKind::kNumber,
+            .help = "points on 100 m of path",
+            .low = 0,
+            .high = 1e6},
+    ArgSpec{
+        .name = "sideways", .kind = ArgKind::kLength, .help = "how far from the path", .low = 0, .high = 1e5},
+    ArgSpec{
+        .name = "height", .kind = ArgKind::kLength, .help = "how far above and below", .low = 0, .high = 1e5},
+    ArgSpec{.name = "name", .kind = ArgKind::kName, .help = "of the cloud [the path's with `_cloud`]"},
+    ArgSpec{.name = "per_m2",
+            .kind = ArgKind::kNumber,
+            .help = "points on a square metre of surface, instead of a cloud",
+            .low = 0,
+            .high = 1e6},
+    ArgSpec{.name = "on", .kind = ArgKind::kWhat, .help = "on which things [the whole map]"},
+    ArgSpec{.name = "seed",
+            .kind = ArgKind::kWhole,
+            .help = "another seed puts them elsewhere",
+            .low = 0,
+            .high = 9e15}};
+constexpr std::array kLight{kAt,
+                            ArgSpec{.name = "brightness",
+                                    .kind = ArgKind::kNumber,
+                                    .fallback = "300",
+                                    .help = "as in Quake",
+                                    .low = 0,
+                                    .high = 1e6},
+                            ArgSpec{.name = "colour",
+                                    .kind = ArgKind::kFactors,
+                                    .help = "red, green and blue, each 0 to 1 [white]",
+                                    .low = 0,
+                                    .high = 1},
+                            kOptionalName};
+constexpr std::array kMesh{
+    ArgSpec{.name = "file",
+            .kind = ArgKind::kFile,
+            .required = true,
+            .help = "a model; a relative name counts from the map's folder, in which it must stand"},
+    kAt, kHeading,
+    ArgSpec{.name = "scale",
+            .kind = ArgKind::kFactors,
+            .fallback = "1",
+            .help = "its size, or that along each of its axes; negative ones mirror",
+            .low = -1e6,
+            .high = 1e6},
+    kOptionalName};
+
+std::string degrees_text(double angle) {
+  return format_double(std::round(angle * 180.0 / std::numbers::pi * 1e9) / 1e9 + 0.0);
+}
+
+map::Entity point_entity(const Edit& edit, const char* classname, const Vec3& at) {
+  map::Entity entity;
+  entity.keys = {{{}, "classname", classname, 0}, {{}, "origin", vector_text(edit.units(at)), 0}};
+  return entity;
+}
+
+void add_key(map::Entity& entity, const char* key, std::string value) {
+  entity.keys.push_back({{}, key, std::move(value), 0});
+}
+
+void start(Edit& edit, const Arguments& arguments) {
+  worldspawn(edit.state);
+  std::vector<Thing> starts;
+  for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
+    if (edit.state.entities[e]->classname() == "hw_robot_start") starts.push_back({e, {}});
+  }
+  if (starts.size() > 1) {
+    throw Error(
+        ErrorCode::kUsage,
+        fmt::format("start: there are {} robot starts, and a map has one; `delete` the others than {}",
+                    starts.size(), describe(edit.state, starts.front())));
+  }
+  const std::string heading = degrees_text(arguments.number("heading"));
+  if (starts.empty()) {
+    map::Entity entity = point_entity(edit, "hw_robot_start", arguments.place("at"));
+    add_key(entity, "angle", heading);
+    return say_made(edit, {add_entity(edit.state, std::move(entity))});
+  }
+  set_key(edit.state, starts[0].entity, "origin", vector_text(edit.units(arguments.place("at"))));
+  set_key(edit.state, starts[0].entity, "angle", heading);
+  say_changed(edit, starts);
+}
+
+// ---- Paths ----------------------------------------------------------------------------------------------------------
+
+/// Why a path cannot be made; empty if it can.
+std::string fault_of_path(const Edit& edit, const std::string& name) {
+  map::Document document;  // of what a path depends on
+  document.file = edit.file;
+  for (const auto& entity : edit.state.entities) {
+    const std::string_view classname = entity->classname();
+    if (classname == "worldspawn" || classname == "hw_path" || classname == "hw_waypoint")
+      document.entities.push_back(*entity->head);
+  }
+  try {
+    map::find_path(document, name);
+  } catch (const Error& error) {
+    return error.message();
+  }
+  return {};
+}
+
+map::Entity waypoint_entity(const Edit& edit, const std::string& path, std::size_t index, const Vec3& at) {
+  map::Entity entity;
+  entity.keys = {{{}, "classname", "hw_waypoint", 0},
+                 {{}, "path", path, 0},
+                 {{}, "index", std::to_string(index), 0},
+                 {{}, "origin", vector_text(edit.units(at)), 0}};
+  return entity;
+}
+
+void make_path(Edit& edit, const Arguments& arguments) {
+  worldspawn(edit.state);
+  const std::string& name = arguments.text("name");
+  const auto& places = arguments.places("places");
+  check_new_name(edit.state, name);
+  if (places.size() < 2)
+    throw Error(ErrorCode::kUsage, "path: one waypoint leads nowhere; name two places or more");
+  map::Entity path;
+  path.keys = {{{}, "classname", "hw_path", 0},
+               {{}, "name", name, 0},
+               {{}, "closed", arguments.text("closed") == "yes" ? "1" : "0", 0},
+               {{}, "corner_radius_m", format_double(arguments.number("corner_radius")), 0}};
+  const Id id = add_entity(edit.state, std::move(path));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    add_entity(edit.state, waypoint_entity(edit, name, i, places[i]));
+  if (const std::string fault = fault_of_path(edit, name); !fault.empty())
+    throw Error(ErrorCode::kUsage, "path: " + fault);
+  say_made(edit, {id});
+  edit.report.data["waypoints"] = places.size();
+}
+
+/// The waypoints of a path in their order: entity and index.
+std::vector<std::pair<std::int64_t, std::size_t>> waypoints_of(const State& state, const std::string& path) {
+  std::vector<std::pair<std::int64_t, std::size_t>> waypoints;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    const std::string* of = entity.head->find("path");
+    if (entity.classname() != "hw_waypoint" || of == nullptr || *of != path) continue;
+    const std::string* text = entity.head->find("index");
+    const auto index = text != nullptr ? parse_int(*text) : std::nullopt;
+    if (!index) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("waypoint: {} has no index that is a whole number", describe(state, {e, {}})));
+    }
+    waypoints.emplace_back(*index, e);
+  }
+  std::sort(waypoints.begin(), waypoints.end());
+  return waypoints;
+}
+
+/// The `hw_path` of that name, which may be one of waypoints only.
+std::size_t path_named(const State& state, const std::string& name, bool of_waypoints, const char* command) {
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    const std::string* own = entity.head->find("name");
+    if (entity.classname() != "hw_path" || own == nullptr) continue;
+    names.push_back(*own);
+    if (*own != name) continue;
+    const std::string* shape = entity.head->find("shape");
+    if (of_waypoints && shape != nullptr && *shape != "waypoints")
+      throw Error(ErrorCode::kUsage, fmt::format("{}: the path {} is a {} and has no waypoints", command,
+                                                 name, printable(*shape)));
+    return e;
+  }
+  throw Error(ErrorCode::kUsage,
+              fmt::format("{}: there is no path \"{}\"{}{}", command, printable(name),
+                          suggestion(name, names), names.empty() ? "; `path` makes one" : ""));
+}
+
+void waypoint(Edit& edit, const Arguments& arguments) {
+  const std::string& path = arguments.text("path");
+  path_named(edit.state, path, true, "waypoint");
+  const auto others = waypoints_of(edit.state, path);
+  const std::size_t index =
+      arguments.has("index") ? static_cast<std::size_t>(arguments.whole("index")) : others.size();
+  if (index > others.size()) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("waypoint: index {} is too high; the path {} has {} waypoints, from 0 on", index,
+                            path, others.size()));
+  }
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const auto number = static_cast<std::int64_t>(i < index ? i : i + 1);
+    if (others[i].first != number) set_key(edit.state, others[i].second, "index", std::to_string(number));
+  }
+  say_made(edit, {add_entity(edit.state, waypoint_entity(edit, path, index, arguments.place("at")))});
+  edit.report.data["index"] = index;
+  if (const std::string fault = fault_of_path(edit, path); !fault.empty()) {
+    edit.report.lines.push_back("note: as it is the path cannot be followed: " + fault);
+    edit.report.data["notes"].push_back(fault);
+  }
+}
+
+// ---- Landmarks --------------------------------------------------------------------------------------------------------
+
+void scatter(Edit& edit, const Arguments& arguments) {
+  const std::string density = format_double(arguments.number("per_m2"));
+  std::vector<Thing> things{{worldspawn(edit.state), {}}};
+  if (arguments.has("on")) {
+    if (arguments.has("seed"))
+      throw Error(ErrorCode::kUsage, "landmarks: `seed` is the whole map's; leave out `on`");
+    things = resolve(edit.state, arguments.text("on"));
+  }
+  for (const Thing& thing : with_members(edit.state, things)) {
+    const EntityItem& entity = *edit.state.entities[thing.entity];
+    const map::EntitySpec* spec = map::find_entity_spec(entity.classname());
+    const bool surface =
+        spec != nullptr && std::any_of(spec->keys.begin(), spec->keys.end(),
+                                       [](const map::KeySpec& key) { return key.name == "_points_per_m2"; });
+    if (thing.brush) {
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("landmarks: {} has no density of its own; `name` makes it a group, which can",
+                              describe(edit.state, thing)));
+    }
+    const bool meant = std::find(things.begin(), things.end(), thing) != things.end();
+    if (!surface && meant)
+      throw Error(ErrorCode::kUsage, "landmarks: " + describe(edit.state, thing) + " has no surface");
+    if (surface) set_key(edit.state, thing.entity, "_points_per_m2", density);
+  }
+  if (arguments.has("seed"))
+    set_key(edit.state, things[0].entity, "_point_seed", std::to_string(arguments.whole("seed")));
+  say_changed(edit, things);
+}
+
+void cloud(Edit& edit, const Arguments& arguments) {
+  for (const char* needed : {"path", "per_100m", "sideways", "height"}) {
+    if (!arguments.has(needed)) {
+      throw Error(
+          ErrorCode::kUsage,
+          fmt::format("landmarks: `{}` is missing; a cloud takes path, per_100m, sideways and height, "
+                      "and surfaces take per_m2",
+                      needed));
+    }
+  }
+  if (arguments.has("on")) throw Error(ErrorCode::kUsage, "landmarks: `on` goes with `per_m2`");
+  const std::string& path = arguments.text("path");
+  path_named(edit.state, path, false, "landmarks");
+  const std::string name = arguments.has("name") ? arguments.text("name") : path + "_cloud";
+  check_new_name(edit.state, name);
+  map::Entity entity;
+  entity.keys = {{{}, "classname", "hw_landmark_cloud", 0},
+                 {{}, "name", name, 0},
+                 {{}, "path", path, 0},
+                 {{}, "per_100m", format_double(arguments.number("per_100m")), 0},
+                 {{}, "sideways_m", format_double(arguments.number("sideways")), 0},
+                 {{}, "height_m", format_double(arguments.number("height")), 0}};
+  if (arguments.has("seed")) add_key(entity, "seed", std::to_string(arguments.whole("seed")));
+  say_made(edit, {add_entity(edit.state, std::move(entity))});
+}
+
+void landmarks(Edit& edit, const Arguments& arguments) {
+  if (!arguments.has("per_m2")) return cloud(edit, arguments);
+  for (const char* other : {"path", "per_100m", "sideways", "height", "name"}) {
+    if (arguments.has(other)) {
+      throw Error(
+          ErrorCode::kUsage,
+          fmt::format("landmarks: `{}` belongs to a cloud and `per_m2` to surfaces; make one, then the other",
+                      other));
+    }
+  }
+  scatter(edit, arguments);
+}
+
+// ---- Lights and models --------------------------------------------------------------------------------------------------
+
+void light(Edit& edit, const Arguments& arguments) {
+  worldspawn(edit.state);
+  map::Entity entity = point_entity(edit, "light", arguments.place("at"));
+  add_key(entity, "light", format_double(arguments.number("brightness")));
+  if (arguments.has("colour")) add_key(entity, "_color", vector_text(arguments.place("colour")));
+  if (const std::string name = arguments.text_or_empty("name"); !name.empty()) {
+    check_new_name(edit.state, name);
+    add_key(entity, "targetname", name);
+  }
+  say_made(edit, {add_entity(edit.state, std::move(entity))});
+}
+
+/// A model's file as maps name it: relative to the map's folder, with slashes.
+std::string model_name(const Edit& edit, const std::string& file) {
+  std::error_code none;
+  const fs::path map_file = fs::absolute(edit.file, none);
+  const fs::path folder = fs::weakly_canonical(map_file.parent_path(), none);
+  const fs::path given = fs::path(file).is_absolute() ? fs::path(file) : folder / file;
+  if (!fs::is_regular_file(given, none)) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("mesh: there is no file {}; a relative name counts from the map's folder",
+                            printable(given.string())));
+  }
+  const fs::path inside = fs::weakly_canonical(given, none).lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..") {
+    throw Error(ErrorCode::kUsage, fmt::format("mesh: {} is not in the map's folder {}; copy it there",
+                                               printable(file), printable(folder.string())));
+  }
+  return inside.generic_string();
+}
+
+void mesh(Edit& edit, const Arguments& arguments) {
+  worldspawn(edit.state);
+  const Vec3& scale = arguments.place("scale");
+  for (const double factor : scale) {
+    if (std::abs(factor) < 1e-6)
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("mesh: a scale of {} is too small; 1e-6 is the least", format_double(factor)));
+  }
+  map::Entity entity = point_entity(edit, "hw_mesh", arguments.place("at"));
+  add_key(entity, "model", model_name(edit, arguments.text("file")));
+  add_key(entity, "angle", degrees_text(arguments.number("heading")));
+  const bool even = scale.x() == scale.y() && scale.y() == scale.z();
+  if (!even) {
+    add_key(entity, "scale", vector_text(scale));
+  } else if (scale.x() != 1.0) {
+    add_key(entity, "scale", format_double(scale.x()));
+  }
+  if (const std::string name = arguments.text_or_empty("name"); !name.empty()) {
+    check_new_name(edit.state, name);
+    add_key(entity, "targetname", name);
+  }
+  say_made(edit, {add_entity(edit.state, std::move(entity))});
+}
+
+constexpr std::string_view kTopic = "robot, paths and lights";
+
+constexpr std::array kCommands{
+    CommandSpec{.name = "start",
+                .topic = kTopic,
+                .summary = "put the robot's start somewhere; a map has one",
+                .arguments = kStart,
+                .example = "start at 1,1,0.2 heading 90",
+                .run = &start},
+    CommandSpec{
+        .name = "path",
+        .topic = kTopic,
+        .summary = "make a path through waypoints",
+        .details = "A path that no robot can follow, because a corner's arc has no room, say, is refused.",
+        .arguments = kPath,
+        .example = "path round 0,0,0.7;5,0,0.7;5,4,0.7;0,4,0.7 closed=yes corner_radius=0.5",
+        .run = &make_path},
+    CommandSpec{.name = "waypoint",
+                .topic = kTopic,
+                .summary = "add a waypoint to a path; those behind it are numbered anew",
+                .details = "`move` moves one, `delete` takes one away.",
+                .arguments = kWaypoint,
+                .example = "waypoint way at 5,4 index=1",
+                .before = "path way 0,0;10,0",
+                .run = &waypoint},
+    CommandSpec{
+        .name = "landmarks",
+        .topic = kTopic,
+        .summary = "scatter landmarks around a path or on surfaces",
+        .details = "With `per_m2` on the surfaces of the map or of things, else as a cloud around a path.",
+        .arguments = kLandmarks,
+        .example = "landmarks path=way per_100m=100 sideways=5 height=2",
+        .before = "path way 0,0;10,0",
+        .run = &landmarks},
+    CommandSpec{.name = "light",
+                .topic = kTopic,
+                .summary = "put a light somewhere",
+                .arguments = kLight,
+                .example = "light at 2,3,2.5 brightness=300 colour=1,0.9,0.8 name=lamp",
+                .run = &light},
+    CommandSpec{
+        .name = "mesh",
+        .topic = kTopic,
+        .summary = "put a model somewhere",
+        .details = "glTF, GLB, OBJ, STL, PLY and others. The map names the file relative to its own folder.",
+        .arguments = kMesh,
+        .example = "mesh model.obj at 2,3 heading=30",
+        .run = &mesh},
+};
+
+}  // namespace
+
+std::span<const CommandSpec> places_commands() {
+  return kCommands;
+}
+
+}  // namespace hallway::editor

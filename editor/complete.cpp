@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "editor/complete.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "editor/selection.hpp"
+
+namespace hallway::editor {
+namespace {
+
+const ArgSpec* argument_of(const CommandSpec& command, std::string_view name) {
+  for (const ArgSpec& spec : command.arguments) {
+    if (spec.name == name) return &spec;
+  }
+  return nullptr;
+}
+
+void add_names(const State& state, std::set<std::string>& out) {
+  for (const auto& entity : state.entities) {
+    if (std::string name = name_of(*entity); !name.empty() && editor::quoted(name) == name)
+      out.insert(std::move(name));
+  }
+}
+
+/// Values that an argument may have.
+std::set<std::string> values(const State& state, const ArgSpec& spec) {
+  std::set<std::string> out;
+  switch (spec.kind) {
+    case ArgKind::kChoice:
+      for (const std::string_view choice : split(spec.choices, ' ')) out.emplace(choice);
+      break;
+    case ArgKind::kWhat:
+      add_names(state, out);
+      out.insert({"all", "selected"});
+      break;
+    case ArgKind::kMaterial:
+      for (const auto& entity : state.entities) {
+        for (const BrushItem& brush : entity->brushes) {
+          for (const map::Face& face : brush.brush->faces) {
+            if (editor::quoted(face.material) == face.material) out.insert(face.material);
+          }
+        }
+      }
+      break;
+    default:
+      break;
+  }
+  return out;
+}
+
+/// Arguments that the words have given values to, by name.
+std::set<std::string_view> given(const CommandSpec& command, const std::vector<std::string>& words) {
+  std::set<std::string_view> names;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string_view word = words[i];
+    if (const ArgSpec* spec = argument_of(command, word.substr(0, word.find('=')))) names.insert(spec->name);
+  }
+  return names;
+}
+
+void add_arguments(const State& state, const CommandSpec& command, const std::vector<std::string>& words,
+                   std::set<std::string>& out) {
+  const auto names = given(command, words);
+  bool first = true;
+  for (const ArgSpec& spec : command.arguments) {
+    if (names.contains(spec.name)) continue;
+    if (spec.kind != ArgKind::kKeys) out.insert(std::string(spec.name) + "=");
+    if (first) out.merge(values(state, spec));
+    first = false;
+  }
+  if (command.name != "help") return;
+  for (const CommandSpec& other : commands()) out.emplace(other.name);
+}
+
+constexpr std::string_view kBash = R"sh(_hallway_edit() {
+  local current=${COMP_WORDS[COMP_CWORD]}
+  [[ ${COMP_WORDS[1]} == edit && $COMP_CWORD -ge 3 ]] || { mapfile -t COMPREPLY < <(compgen -f -- "$current"); return; }
+  local line=${COMP_LINE:0:COMP_POINT}
+  local -a typed
+  read -ra typed <<< "$line"
+  [[ $line == *[[:blank:]] ]] && typed+=("")
+  mapfile -t COMPREPLY < <("${typed[0]}" edit "${typed[2]}" --candidates "${typed[@]:3}" 2>/dev/null)
+  # Bash breaks words at `=`: only what stands behind the last one is replaced.
+  local last=${typed[-1]}
+  if [[ $last == *=* ]]; then COMPREPLY=("${COMPREPLY[@]#"${last%"${last##*=}"}"}"); fi
+  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
+  return 0
+}
+complete -o default -F _hallway_edit hallway
+)sh";
+
+constexpr std::string_view kZsh = R"sh(#compdef hallway
+_hallway_edit() {
+  if [[ $words[2] == edit && $CURRENT -ge 4 ]]; then
+    local -a found
+    found=(${(f)"$($words[1] edit $words[3] --candidates ${words[4,CURRENT]} 2>/dev/null)"})
+    compadd -Q -S '' -- $found
+  else
+    _files
+  fi
+}
+compdef _hallway_edit hallway
+)sh";
+
+constexpr std::string_view kFish = R"sh(function __hallway_edit
+  set -l typed (commandline -opc)
+  set -l current (commandline -ct)
+  test (count $typed) -ge 3; and test $typed[2] = edit; or return
+  $typed[1] edit $typed[3] --candidates $typed[4..-1] $current 2>/dev/null
+end
+complete -c hallway -n '__fish_seen_subcommand_from edit' -a '(__hallway_edit)'
+)sh";
+
+}  // namespace
+
+std::vector<std::string> completions(const State& state, const std::vector<std::string>& words,
+                                     std::string_view current) {
+  std::set<std::string> all;
+  std::string prefix;  // of the word, that stays
+  if (words.empty()) {
+    for (const CommandSpec& command : commands()) all.emplace(command.name);
+  } else if (const CommandSpec* command = find_command(words.front())) {
+    const std::size_t equals = current.find('=');
+    const ArgSpec* named =
+        equals == std::string_view::npos ? nullptr : argument_of(*command, current.substr(0, equals));
+    const ArgSpec* before = words.size() > 1 ? argument_of(*command, words.back()) : nullptr;
+    if (named != nullptr) {
+      prefix = current.substr(0, equals + 1);
+      all = values(state, *named);
+    } else if (before != nullptr) {
+      all = values(state, *before);
+    } else {
+      add_arguments(state, *command, words, all);
+    }
+  }
+  std::vector<std::string> out;
+  for (const std::string& candidate : all) {
+    if ((prefix + candidate).starts_with(current)) out.push_back(prefix + candidate);
+  }
+  return out;
+}
+
+std::string completion_script(std::string_view shell) {
+  if (shell == "bash") return std::string(kBash);
+  if (shell == "zsh") return std::string(kZsh);
+  if (shell == "fish") return std::string(kFish);
+  throw Error(ErrorCode::kUsage,
+              fmt::format("there is no completion for the shell \"{}\"; there are bash, zsh and fish",
+                          printable(shell)));
+}
+
+}  // namespace hallway::editor

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "editor/help.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace hallway::editor {
+namespace {
+
+std::string usage_of(const ArgSpec& spec) {
+  const std::string text =
+      spec.kind == ArgKind::kKeys ? type_name(spec) : fmt::format("{}={}", spec.name, type_name(spec));
+  return spec.required ? text : "[" + text + "]";
+}
+
+std::string help_of(const ArgSpec& spec) {
+  std::string text(spec.help);
+  if (!spec.fallback.empty()) text += fmt::format(" [{}]", spec.fallback);
+  return text;
+}
+
+/// Commands in the order of the table, by topic in the order in which the topics come up.
+std::vector<std::string_view> topics() {
+  std::vector<std::string_view> all;
+  for (const CommandSpec& command : commands()) {
+    if (std::find(all.begin(), all.end(), command.topic) == all.end()) all.push_back(command.topic);
+  }
+  return all;
+}
+
+template <typename Visit>
+void for_topic(std::string_view topic, Visit&& visit) {
+  for (const CommandSpec& command : commands()) {
+    if (command.topic == topic) visit(command);
+  }
+}
+
+/// The lines of an example, those it needs first.
+std::vector<std::string_view> example_lines(const CommandSpec& command) {
+  std::vector<std::string_view> lines;
+  if (!command.before.empty()) lines = split(command.before, '\n');
+  lines.push_back(command.example);
+  return lines;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '<') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string usage(const CommandSpec& command) {
+  std::string text(command.name);
+  for (const ArgSpec& spec : command.arguments) text += " " + usage_of(spec);
+  return text;
+}
+
+std::string help_text(const CommandSpec& command) {
+  std::string text = usage(command) + "\n  " + std::string(command.summary) + "\n";
+  if (!command.details.empty()) text += "  " + std::string(command.details) + "\n";
+  for (const ArgSpec& spec : command.arguments)
+    text += fmt::format("    {:<12} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
+  text += "  Example:\n";
+  for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
+  text.pop_back();
+  return text;
+}
+
+std::string help_overview() {
+  std::string text;
+  for (const std::string_view topic : topics()) {
+    text += std::string(topic) + "\n";
+    for_topic(topic, [&](const CommandSpec& command) {
+      text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+    });
+  }
+  return text +
+         "`help NAME` explains one. Arguments are `name value`, `name=value`, or values in their order.";
+}
+
+std::string reference_markdown() {
+  std::string text;
+  for (const std::string_view topic : topics()) {
+    text += fmt::format("\n### {}{}\n", static_cast<char>(std::toupper(static_cast<unsigned char>(topic[0]))),
+                        topic.substr(1));
+    for_topic(topic, [&](const CommandSpec& command) {
+      text += fmt::format("\n#### {}\n\n    {}\n\n{}{}.\n", command.name, usage(command),
+                          static_cast<char>(std::toupper(static_cast<unsigned char>(command.summary[0]))),
+                          command.summary.substr(1));
+      if (!command.details.empty()) text += fmt::format("\n{}\n", command.details);
+      if (!command.arguments.empty()) text += "\n| argument | type | what |\n|---|---|---|\n";
+      for (const ArgSpec& spec : command.arguments) {
+        text += fmt::format("| `{}`{} | {} | {} |\n", spec.name, spec.required ? "" : " (optional)",
+                            escaped(type_name(spec)), escaped(help_of(spec)));
+      }
+      text += "\nExample:\n\n";
+      for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
+    });
+  }
+  return text;
+}
+
+nlohmann::ordered_json reference_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const CommandSpec& command : commands()) {
+    nlohmann::ordered_json arguments = nlohmann::ordered_json::array();
+    for (const ArgSpec& spec : command.arguments) {
+      nlohmann::ordered_json one = {
+          {"name", spec.name}, {"type", type_name(spec)}, {"required", spec.required}};
+      if (!spec.fallback.empty()) one["default"] = spec.fallback;
+      if (!spec.choices.empty()) {
+        for (const std::string_view choice : split(spec.choices, ' ')) one["choices"].push_back(choice);
+      }
+      one["help"] = spec.help;
+      arguments.push_back(std::move(one));
+    }
+    list.push_back({{"name", command.name},
+                    {"topic", command.topic},
+                    {"summary", command.summary},
+                    {"arguments", std::move(arguments)},
+                    {"example", example_lines(command)}});
+  }
+  return list;
+}
+
+}  // namespace hallway::editor

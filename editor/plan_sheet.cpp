@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "editor/plan_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace hallway::editor {
+namespace {
+
+/// Advance widths of Helvetica for U+0020 to U+007E, thousandths of the size (Adobe's font metrics).
+constexpr std::array<std::uint16_t, 95> kAdvance{
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667,  611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584};
+constexpr double kOtherAdvance = 556.0;
+
+void append_utf8(std::string& out, std::uint32_t code) {
+  const auto tail = [&](unsigned shift) { out += static_cast<char>(0x80u | ((code >> shift) & 0x3Fu)); };
+  if (code < 0x80) {
+    out += static_cast<char>(code);
+  } else if (code < 0x800) {
+    out += static_cast<char>(0xC0u | (code >> 6));
+    tail(0);
+  } else if (code < 0x10000) {
+    out += static_cast<char>(0xE0u | (code >> 12));
+    tail(6);
+    tail(0);
+  } else {
+    out += static_cast<char>(0xF0u | (code >> 18));
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
+/// Whether XML 1.0 allows a character.
+bool is_xml(std::uint32_t code) {
+  return (code >= 0x20 && code < 0xD800) || (code >= 0xE000 && code < 0xFFFE) || code >= 0x10000;
+}
+
+std::string xml_text(std::string_view utf8) {
+  std::string out;
+  for (const std::uint32_t code : code_points(utf8)) {
+    if (code == '&') {
+      out += "&amp;";
+    } else if (code == '<') {
+      out += "&lt;";
+    } else if (code == '>') {
+      out += "&gt;";
+    } else if (code == '"') {
+      out += "&quot;";
+    } else {
+      append_utf8(out, is_xml(code) ? code : 0xFFFD);
+    }
+  }
+  return out;
+}
+
+std::string hex(const SheetColour& colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
+}
+
+class SvgWriter {
+ public:
+  explicit SvgWriter(const Sheet& sheet) : sheet_(sheet) {}
+
+  std::string write() {
+    const std::string width = sheet_number(sheet_.width_mm), height = sheet_number(sheet_.height_mm);
+    out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+    out_ += fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" "
+        "viewBox=\"0 0 {0} {1}\">\n",
+        width, height);
+    out_ += fmt::format("<title>{}</title>\n", xml_text(sheet_.title));
+    out_ += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", width, height);
+    for (const SheetLayer& layer : sheet_.layers) {
+      out_ += fmt::format("<g class=\"{}\">\n", xml_text(layer.name));
+      for (const auto& item : layer.items) std::visit([this](const auto& one) { add(one); }, item);
+      out_ += "</g>\n";
+    }
+    return out_ + "</svg>\n";
+  }
+
+ private:
+  void add_points(const std::vector<Vec2>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      out_ += fmt::format("{}{} {}", i == 0 ? "M" : " L", sheet_number(points[i].x()),
+                          sheet_number(sheet_.height_mm - points[i].y()));
+    }
+  }
+
+  void add(const SheetLine& line) {
+    out_ += "<path d=\"";
+    add_points(line.points);
+    out_ += fmt::format("\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+                        hex(line.pen.colour), sheet_number(line.pen.width_mm));
+    if (line.pen.dash_mm > 0.0) {
+      out_ += fmt::format(" stroke-dasharray=\"{} {}\"", sheet_number(line.pen.dash_mm),
+                          sheet_number(line.pen.gap_mm));
+    }
+    out_ += "/>\n";
+  }
+
+  void add(const SheetFill& fill) {
+    out_ += "<path d=\"";
+    for (const auto& loop : fill.loops) {
+      add_points(loop);
+      out_ += " Z";
+    }
+    out_ += fmt::format("\" fill=\"{}\" fill-rule=\"evenodd\"/>\n", hex(fill.colour));
+  }
+
+  void add(const SheetText& text) {
+    const std::string x = sheet_number(text.at.x()), y = sheet_number(sheet_.height_mm - text.at.y());
+    out_ += fmt::format(
+        "<text x=\"{}\" y=\"{}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{}\" fill=\"{}\"",
+        x, y, sheet_number(text.size_mm), hex(text.colour));
+    if (text.anchor != SheetText::Anchor::kStart) {
+      out_ +=
+          fmt::format(" text-anchor=\"{}\"", text.anchor == SheetText::Anchor::kMiddle ? "middle" : "end");
+    }
+    if (text.upwards) out_ += fmt::format(" transform=\"rotate(-90 {} {})\"", x, y);
+    out_ += fmt::format(">{}</text>\n", xml_text(text.text));
+  }
+
+  const Sheet& sheet_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> code_points(std::string_view utf8) {
+  constexpr std::uint32_t kReplacement = 0xFFFD;
+  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  std::vector<std::uint32_t> codes;
+  for (std::size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<std::uint8_t>(utf8[i]);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
+    std::uint32_t code = length == 1   ? first
+                         : length == 2 ? first & 0x1Fu
+                         : length == 3 ? first & 0x0Fu
+                                       : first & 0x07u;
+    bool good = length > 0 && i + length <= utf8.size();
+    for (std::size_t k = 1; good && k < length; ++k) {
+      const auto next = static_cast<std::uint8_t>(utf8[i + k]);
+      good = (next & 0xC0u) == 0x80u;
+      code = (code << 6) | (next & 0x3Fu);
+    }
+    good = good && code >= kLeast[length] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+    codes.push_back(good ? code : kReplacement);
+    i += good ? length : 1;
+  }
+  return codes;
+}
+
+double text_width_mm(std::string_view utf8, double size_mm) {
+  double sum = 0.0;
+  for (const std::uint32_t code : code_points(utf8))
+    sum += code >= 0x20 && code < 0x7F ? kAdvance[code - 0x20] : kOtherAdvance;
+  return sum * size_mm / 1000.0;
+}
+
+std::string sheet_number(double value) {
+  std::string text = fmt::format("{:.6f}", value);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string to_svg(const Sheet& sheet) {
+  return SvgWriter(sheet).write();
+}
+
+}  // namespace hallway::editor

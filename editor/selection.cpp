@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "editor/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "editor/command.hpp"
+#include "editor/shapes.hpp"
+
+namespace hallway::editor {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::kUsage, message);
+}
+
+bool is_world(const EntityItem& entity) {
+  return entity.classname() == "worldspawn";
+}
+
+bool inside(const Box& box, const Box& part) {
+  return !part.isEmpty() && box.contains(part);
+}
+
+/// Finds what the terms of a text mean in a state.
+class Resolver {
+ public:
+  explicit Resolver(const State& state) : state_(state) {}
+
+  std::vector<Thing> resolve(std::string_view what) {
+    for (const std::string_view term : split(what, '+')) add_term(trim(term));
+    std::vector<Thing> things;
+    for (const Thing& thing : found_) {
+      if (thing.brush && found_.contains(Thing{thing.entity, {}})) continue;
+      things.push_back(thing);
+    }
+    if (things.empty()) refuse(fmt::format("\"{}\" means nothing: the map is empty", printable(what)));
+    return things;
+  }
+
+ private:
+  void add_term(std::string_view term) {
+    if (term.empty()) refuse("a name, a number or another word for things is missing");
+    if (term == "all") return add_all();
+    if (term == "selected")
+      return add_numbers(state_.desk.selection, "nothing is selected; `select` chooses");
+    if (term.starts_with('#')) return add_range(term.substr(1), term);
+    if (term[0] >= '0' && term[0] <= '9') return add_range(term, term);
+    const std::size_t equals = term.find('=');
+    if (equals != std::string_view::npos) return add_filter(term.substr(0, equals), term.substr(equals + 1));
+    add_named(term);
+  }
+
+  void add_all() {
+    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+      if (is_world(*state_.entities[e])) {
+        add_brushes(e, [](const map::Brush&) { return true; });
+      } else {
+        found_.insert({e, {}});
+      }
+    }
+  }
+
+  void add_numbers(const std::vector<Id>& ids, const std::string& otherwise) {
+    const std::set<Id> wanted(ids.begin(), ids.end());
+    const std::size_t before = found_.size();
+    for_each([&](const Thing& thing, Id id) {
+      if (wanted.contains(id)) found_.insert(thing);
+    });
+    if (found_.size() == before) refuse(otherwise);
+  }
+
+  void add_range(std::string_view range, std::string_view term) {
+    const std::size_t dots = range.find("..");
+    const auto first = parse_uint(range.substr(0, dots));
+    std::string_view end = dots == std::string_view::npos ? range : range.substr(dots + 2);
+    if (end.starts_with('#')) end.remove_prefix(1);
+    const auto last = parse_uint(end);
+    if (!first || !last)
+      refuse(fmt::format("\"{}\" is no number of a thing, nor two of them as 12..15", printable(term)));
+    const std::size_t before = found_.size();
+    bool any = false;
+    for_each([&](const Thing& thing, Id id) {
+      if (id < *first || id > *last) return;
+      any = true;
+      found_.insert(thing);
+    });
+    if (!any && found_.size() == before)
+      refuse(fmt::format("there is nothing of the number {}", printable(term)));
+  }
+
+  void add_filter(std::string_view kind, std::string_view value) {
+    const std::size_t before = found_.size();
+    if (kind == "class") {
+      add_entities([&](const EntityItem& entity) { return fits(entity.classname(), value); });
+    } else if (kind == "material") {
+      for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+        add_brushes(e, [&](const map::Brush& brush) {
+          return std::any_of(brush.faces.begin(), brush.faces.end(),
+                             [&](const map::Face& face) { return fits(face.material, value); });
+        });
+      }
+    } else if (kind == "group") {
+      add_group(value);
+    } else if (kind == "box") {
+      add_box(value);
+    } else {
+      refuse(fmt::format("\"{}=\" chooses nothing{}; there are class=, material=, group= and box=",
+                         printable(kind), suggestion(kind, {"class", "material", "group", "box"})));
+    }
+    if (found_.size() == before)
+      refuse(fmt::format("there is nothing that \"{}={}\" fits", printable(kind), printable(value)));
+  }
+
+  void add_group(std::string_view name) {
+    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+      const EntityItem& entity = *state_.entities[e];
+      if (!group_number(entity) || !fits(name_of(entity), name)) continue;
+      for (std::size_t b = 0; b < entity.brushes.size(); ++b) found_.insert({e, b});
+      for (const Thing& member : with_members(state_, {Thing{e, {}}})) {
+        if (member.entity != e) found_.insert(member);
+      }
+    }
+  }
+
+  void add_box(std::string_view text) {
+    const auto numbers = split(text, ',');
+    Vec3 corner[2];
+    for (std::size_t i = 0; i < numbers.size() && numbers.size() == 6; ++i) {
+      const auto number = parse_double(trim(numbers[i]));
+      if (!number)
+        refuse(fmt::format("box={} is not six numbers: X,Y,Z of two corners in metres", printable(text)));
+      corner[i / 3][static_cast<Eigen::Index>(i % 3)] = *number / units_of(state_).metres_per_unit;
+    }
+    if (numbers.size() != 6)
+      refuse(fmt::format("box={} is not six numbers: X,Y,Z of two corners in metres", printable(text)));
+    Box box(corner[0].cwiseMin(corner[1]), corner[0].cwiseMax(corner[1]));
+    const Vec3 slack = Vec3::Constant(1e-6 * (1.0 + box.sizes().norm()));
+    box = Box(box.min() - slack, box.max() + slack);
+    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+      const EntityItem& entity = *state_.entities[e];
+      if (!is_world(entity) && inside(box, bounds_of(state_, {e, {}}))) found_.insert({e, {}});
+      for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
+        if (inside(box, bounds_of(*entity.brushes[b].brush))) found_.insert({e, b});
+      }
+    }
+  }
+
+  void add_named(std::string_view pattern) {
+    const bool glob = pattern.find_first_of("*?") != std::string_view::npos;
+    const std::size_t before = found_.size();
+    bool any = false;
+    add_entities([&](const EntityItem& entity) {
+      const std::string name = name_of(entity);
+      const bool fit = !name.empty() && (glob ? fits(name, pattern) : name == pattern);
+      any = any || fit;
+      return fit;
+    });
+    if (any || found_.size() != before) return;
+    std::vector<std::string> names{"all", "selected"};
+    for (const auto& entity : state_.entities) {
+      if (std::string name = name_of(*entity); !name.empty()) names.push_back(std::move(name));
+    }
+    refuse(fmt::format("there is nothing named \"{}\"{}", printable(pattern), suggestion(pattern, names)));
+  }
+
+  template <typename Test>
+  void add_entities(Test&& test) {
+    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+      if (test(*state_.entities[e])) found_.insert({e, {}});
+    }
+  }
+
+  template <typename Test>
+  void add_brushes(std::size_t e, Test&& test) {
+    const auto& brushes = state_.entities[e]->brushes;
+    for (std::size_t b = 0; b < brushes.size(); ++b) {
+      if (test(*brushes[b].brush)) found_.insert({e, b});
+    }
+  }
+
+  template <typename Visit>
+  void for_each(Visit&& visit) {
+    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
+      visit(Thing{e, {}}, state_.entities[e]->id);
+      const auto& brushes = state_.entities[e]->brushes;
+      for (std::size_t b = 0; b < brushes.size(); ++b) visit(Thing{e, b}, brushes[b].id);
+    }
+  }
+
+  const State& state_;
+  std::set<Thing> found_;
+};
+
+}  // namespace
+
+std::vector<Thing> resolve(const State& state, std::string_view what) {
+  return Resolver(state).resolve(what);
+}
+
+Thing resolve_one(const State& state, std::string_view what) {
+  const auto things = resolve(state, what);
+  if (things.size() != 1)
+    refuse(fmt::format("\"{}\" means {} things, where one is wanted", printable(what), things.size()));
+  return things.front();
+}
+
+std::string name_of(const EntityItem& entity) {
+  for (const char* key : {"_tb_name", "name", "targetname"}) {
+    if (const std::string* name = entity.head->find(key); name != nullptr && !name->empty()) return *name;
+  }
+  return {};
+}
+
+std::string describe(const State& state, const Thing& thing) {
+  const EntityItem& entity = *state.entities[thing.entity];
+  if (thing.brush) return fmt::format("#{} brush of #{}", entity.brushes[*thing.brush].id, entity.id);
+  const std::string name = name_of(entity);
+  const std::string kind = group_number(entity) ? "group" : printable(entity.classname());
+  return name.empty() ? fmt::format("#{} {}", entity.id, kind)
+                      : fmt::format("#{} {} {}", entity.id, kind, printable(name));
+}
+
+std::optional<std::string> group_number(const EntityItem& entity) {
+  const std::string* type = entity.head->find("_tb_type");
+  const std::string* number = entity.head->find("_tb_id");
+  if (type == nullptr || *type != "_tb_group" || number == nullptr) return std::nullopt;
+  return *number;
+}
+
+std::vector<Thing> with_members(const State& state, const std::vector<Thing>& things) {
+  std::set<Thing> all(things.begin(), things.end());
+  std::set<std::string, std::less<>> groups, paths;
+  const auto open = [&](std::size_t e) {
+    const EntityItem& entity = *state.entities[e];
+    bool news = false;
+    if (const auto number = group_number(entity)) news = groups.insert(*number).second;
+    const std::string* path = entity.classname() == "hw_path" ? entity.head->find("name") : nullptr;
+    if (path != nullptr) news = paths.insert(*path).second || news;
+    return news;
+  };
+  bool again = false;
+  for (const Thing& thing : things) {
+    if (!thing.brush) again = open(thing.entity) || again;
+  }
+  while (again) {
+    again = false;
+    for (std::size_t e = 0; e < state.entities.size(); ++e) {
+      const EntityItem& entity = *state.entities[e];
+      const std::string* group = entity.head->find("_tb_group");
+      const std::string* path = entity.classname() == "hw_waypoint" ? entity.head->find("path") : nullptr;
+      const bool belongs =
+          (group != nullptr && groups.contains(*group)) || (path != nullptr && paths.contains(*path));
+      if (belongs && all.insert({e, {}}).second) again = open(e) || again;
+    }
+  }
+  std::erase_if(all, [&](const Thing& thing) {
+    return thing.brush && all.contains(Thing{thing.entity, {}});
+  });
+  return {all.begin(), all.end()};
+}
+
+std::vector<std::size_t> groups_of(const State& state, const Thing& thing) {
+  const std::size_t none = state.entities.size();
+  std::vector<std::size_t> groups;
+  std::size_t next = thing.entity;
+  while (next != none) {
+    const EntityItem& entity = *state.entities[next];
+    if (group_number(entity)) {
+      if (std::find(groups.begin(), groups.end(), next) != groups.end()) break;  // groups in a circle
+      groups.push_back(next);
+    }
+    next = none;
+    const std::string* above = entity.head->find("_tb_group");
+    for (std::size_t e = 0; above != nullptr && e < none && next == none; ++e) {
+      if (group_number(*state.entities[e]) == *above) next = e;
+    }
+  }
+  return groups;
+}
+
+double volume_of(const map::Brush& brush) {
+  const auto body = body_of(brush);
+  return body ? volume_of(*body) : 0.0;
+}
+
+Box bounds_of(const map::Brush& brush) {
+  Box box;
+  if (const auto body = body_of(brush)) {
+    for (const Vec3& corner : body->vertices) box.extend(corner);
+  }
+  return box;
+}
+
+Box bounds_of(const State& state, const Thing& thing) {
+  const EntityItem& entity = *state.entities[thing.entity];
+  if (thing.brush) return bounds_of(*entity.brushes[*thing.brush].brush);
+  Box box;
+  for (const BrushItem& brush : entity.brushes) {
+    if (const Box part = bounds_of(*brush.brush); !part.isEmpty()) box.extend(part);
+  }
+  if (entity.brushes.empty()) {
+    if (const auto origin = origin_of(entity)) box.extend(*origin);
+  }
+  return box;
+}
+
+std::optional<Vec3> origin_of(const EntityItem& entity) {
+  const std::string* text = entity.head->find("origin");
+  if (text == nullptr) return std::nullopt;
+  Vec3 origin;
+  Eigen::Index count = 0;
+  for (const std::string_view part : split(*text, ' ')) {
+    if (part.empty()) continue;
+    const auto number = parse_double(part);
+    if (!number || count == 3) return std::nullopt;
+    origin[count++] = *number;
+  }
+  if (count != 3) return std::nullopt;
+  return origin;
+}
+
+bool fits(std::string_view text, std::string_view pattern) {
+  std::size_t t = 0, p = 0;
+  std::size_t star = std::string_view::npos, behind = 0;  // the last star, and the text that it has to leave
+  while (t < text.size()) {
+    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]) && pattern[p] != '*') {
+      ++t;
+      ++p;
+    } else if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      behind = t;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      t = ++behind;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+}  // namespace hallway::editor

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "run/map_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "bsp/segment.hpp"
+#include "map/path.hpp"
+#include "render/map_layers.hpp"
+#include "run/map_view.hpp"
+#include "world/compiled_world.hpp"
+
+namespace hallway::run {
+namespace {
+
+using map::Finding;
+using map::Severity;
+
+/// A path is looked at in steps of this length, or longer ones where it is very long.
+constexpr double kStep_m = 0.05;
+constexpr double kMostSteps = 200'000;
+
+/// Whether a class is one of ours: what stands in solid then cannot work.
+bool is_ours(const std::string& classname) {
+  return classname.starts_with("hw_");
+}
+
+Where where_of(const map::Document& document, int entity, int line) {
+  return {.file = printable(document.file, 4096), .line = line, .element = fmt::format("entity {}", entity)};
+}
+
+void add_occupants_in_solid(std::vector<Finding>& findings, const map::Document& document,
+                            const world::CompiledWorld& world) {
+  for (const std::size_t index : world.partition.enclosure.in_solid) {
+    const map::Occupant& occupant = world.occupants[index];
+    findings.push_back({is_ours(occupant.classname) ? Severity::kError : Severity::kWarning,
+                        where_of(document, occupant.entity, occupant.line),
+                        fmt::format("{} stands in solid, at {}", printable(occupant.classname),
+                                    place_text(occupant.position_m)),
+                        "occupant-in-solid"});
+  }
+}
+
+void add_leak(std::vector<Finding>& findings, const map::Document& document,
+              const world::CompiledWorld& world) {
+  const auto& leak = world.partition.enclosure.leak;
+  const bool has_structure =
+      std::any_of(world.brushes.solids.begin(), world.brushes.solids.end(),
+                  [](const map::Solid& solid) { return solid.role == map::BrushRole::kAdd; });
+  if (!leak || !has_structure) return;
+  const map::Occupant& occupant = world.occupants[leak->occupant];
+  findings.push_back(
+      {Severity::kWarning, where_of(document, occupant.entity, occupant.line),
+       fmt::format("the map leaks: {} reaches the void after {}, through an opening of {} x {} at {}",
+                   printable(occupant.classname), render::measure_text(leak->length_m),
+                   render::measure_text(leak->narrowest.width_m),
+                   render::measure_text(leak->narrowest.height_m), place_text(leak->narrowest.at)),
+       "leak"});
+}
+
+/// A stretch of a path that lies in solid.
+struct Stretch {
+  double from_m = 0.0;  ///< along the path
+  double to_m = 0.0;
+  Vec3 at = Vec3::Zero();  ///< where it begins
+};
+
+/// The first stretch of a path that passes through solid, and how many there are.
+std::pair<std::optional<Stretch>, std::size_t> blocked_stretches(const bsp::Tree& tree,
+                                                                 const map::Path& path) {
+  const double length = path.length_m();
+  const double steps = std::clamp(std::ceil(length / kStep_m), 1.0, kMostSteps);
+  std::optional<Stretch> first;
+  std::size_t count = 0;
+  bool inside = false;
+  Vec3 from = path.at(0.0).t;
+  for (double i = 1.0; i <= steps; i += 1.0) {
+    const Vec3 to = path.at(length * i / steps).t;
+    const auto hit = bsp::first_solid(tree, from, to);
+    if (hit && !inside) ++count;
+    if (hit && !first) {
+      const double begin = length * (i - 1.0 + hit->fraction) / steps;
+      first = Stretch{begin, begin, hit->point};
+    }
+    if (hit && count == 1) first->to_m = length * i / steps;
+    inside = hit.has_value();
+    from = to;
+  }
+  return {first, count};
+}
+
+void add_blocked_paths(std::vector<Finding>& findings, const map::Document& document,
+                       const world::CompiledWorld& world) {
+  std::size_t paths = 0;
+  for (std::size_t i = 0; i < document.entities.size(); ++i) {
+    const map::Entity& entity = document.entities[i];
+    const std::string* name = entity.find("name");
+    if (entity.classname() != "hw_path" || name == nullptr) continue;
+    if (++paths > map::kMostPathsChecked) return;
+    try {
+      const auto [first, count] = blocked_stretches(world.partition.tree, map::find_path(document, *name));
+      if (!first) continue;
+      std::string text =
+          fmt::format("path \"{}\" passes through a wall from {:.2f} m to {:.2f} m along it, at {}",
+                      printable(*name), first->from_m, first->to_m, place_text(first->at));
+      if (count > 1) text += fmt::format(", and {} more times", count - 1);
+      findings.push_back({Severity::kError, where_of(document, static_cast<int>(i), entity.line), text,
+                          "path-through-wall"});
+    } catch (const Error&) {
+      continue;  // a path that cannot be made is a finding of map::check()
+    }
+  }
+}
+
+/// Compiles the map, if its entities let it, and adds what shows then.
+void add_world_findings(std::vector<Finding>& findings, const map::Document& document) {
+  world::Settings settings;
+  settings.level.reset();
+  world::CompiledWorld world;
+  try {
+    world = world::compile(document, settings);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kBadInput) throw;
+    if (findings.empty()) {
+      findings.push_back({Severity::kError, error.where(), error.message(), "not-compilable"});
+    }
+    return;
+  }
+  add_occupants_in_solid(findings, document, world);
+  add_blocked_paths(findings, document, world);
+  add_leak(findings, document, world);
+}
+
+}  // namespace
+
+std::vector<Finding> find_faults(const map::Document& document) {
+  std::vector<Finding> findings = map::check(document);
+  add_world_findings(findings, document);
+  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    return std::tie(a.where.line, a.id, a.message) < std::tie(b.where.line, b.id, b.message);
+  });
+  return findings;
+}
+
+}  // namespace hallway::run

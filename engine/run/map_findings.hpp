@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "map/check.hpp"
+#include "map/document.hpp"
+
+namespace hallway::run {
+
+/// All that can be said of a map: what map::check() finds, and what shows once it is compiled: occupants in solid, paths through walls, a
+/// leak. Ordered by line, id and message. Throws nothing for what a document holds. Costs a compilation without visible sets.
+std::vector<map::Finding> find_faults(const map::Document& document);
+
+}  // namespace hallway::run

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "map/check.hpp"
+#include "map/entities.hpp"
+#include "map/path.hpp"
+#include "solidity.hpp"
+#include "unit/editor/editing.hpp"
+
+namespace hallway {
+namespace {
+
+using test::Editing;
+using test::mentions;
+using test::refusal;
+
+map::Document document_of(const Editing& map) {
+  return editor::document_of(map.session->state(), (map.folder / "map.map").string());
+}
+
+struct Places : Editing {
+  Places() { run("new"); }
+};
+
+TEST(PlacesCommands, StartIsOneAndKeepsItsNumber) {
+  Places map;
+  const auto made = map.run("start at 1,2,0.5 heading 90").data["made"];
+  EXPECT_EQ(map.run("start at 3,2 heading=-45deg").data["changed"], made);
+  const auto start = map::find_robot_start(document_of(map));
+  ASSERT_TRUE(start);
+  EXPECT_LT((start->T_world_body.t - Vec3(3, 2, 0)).norm(), 1e-9);
+  EXPECT_LT(angle_between(start->T_world_body.q, from_yaw_pitch_roll(-std::numbers::pi / 4, 0, 0)), 1e-9);
+  EXPECT_TRUE(mentions(refusal(map, "start"), "at"));
+  EXPECT_TRUE(mentions(refusal(map, "start 1,1 heading=5m"), "angle"));
+  map.run("entity hw_robot_start at 0,0,0");
+  EXPECT_TRUE(mentions(refusal(map, "start 1,1"), "2 robot starts"));
+}
+
+TEST(PlacesCommands, APathCanBeFollowed) {
+  Places map;
+  const auto report = map.run("path round 0,0,0.7;5,0,0.7;5,4,0.7;0,4,0.7 closed=yes corner_radius=50cm");
+  EXPECT_EQ(report.data["waypoints"], 4);
+  const map::Path path = map::find_path(document_of(map), "round");
+  EXPECT_TRUE(path.closed());
+  EXPECT_NEAR(path.length_m(), 18.0 - 4.0 + std::numbers::pi, 1e-9);
+  map.run("path way \"0,0 3,0\"");
+  EXPECT_FALSE(map::find_path(document_of(map), "way").closed());
+  EXPECT_TRUE(map::check(document_of(map)).empty());
+  EXPECT_TRUE(mentions(refusal(map, "path way 0,0;1,1"), "already"));
+  EXPECT_TRUE(mentions(refusal(map, "path one 0,0"), "two places"));
+  EXPECT_TRUE(mentions(refusal(map, "path bad 0,0;0.1,0;0.1,0.1"), "path: "));
+  EXPECT_TRUE(mentions(refusal(map, "path bad 0,0;1,0 closed=maybe"), "maybe"));
+  EXPECT_TRUE(mentions(refusal(map, "path bad 0,0;1,0 corner_radius=0"), "corner_radius"));
+}
+
+TEST(PlacesCommands, WaypointsAreNumberedAnew) {
+  Places map;
+  map.run_all(
+      {"path way 0,0;10,0", "waypoint way at 10,10", "waypoint way at 5,-3 index=1", "waypoint way 0,-5 0"});
+  const map::Document document = document_of(map);
+  std::map<int, std::string> order;
+  for (const map::Entity& entity : document.entities) {
+    if (entity.classname() == "hw_waypoint") order[std::stoi(*entity.find("index"))] = *entity.find("origin");
+  }
+  const std::map<int, std::string> wanted{
+      {0, "0 -500 0"}, {1, "0 0 0"}, {2, "500 -300 0"}, {3, "1000 0 0"}, {4, "1000 1000 0"}};
+  EXPECT_EQ(order, wanted);
+  EXPECT_EQ(map::find_path(document, "way").at(0.0).t, Vec3(0, -5, 0));
+  EXPECT_TRUE(mentions(refusal(map, "waypoint way 0,0 index=7"), "5 waypoints"));
+  EXPECT_TRUE(mentions(refusal(map, "waypoint wya 0,0"), "\"way\""));
+  map.run("entity hw_path name=eight shape=lemniscate length_m=40 origin=\"0 0 0\"");
+  EXPECT_TRUE(mentions(refusal(map, "waypoint eight 0,0"), "lemniscate"));
+  // One that cannot be followed may be on its way to one that can.
+  EXPECT_TRUE(mentions(map.run("waypoint way 10,10").lines.back(), "note"));
+  map.run("entity hw_waypoint at 1,1 path=way index=x");
+  EXPECT_TRUE(mentions(refusal(map, "waypoint way 0,0"), "index"));
+}
+
+TEST(PlacesCommands, DeletingAPathDeletesItsWaypoints) {
+  Places map;
+  map.run_all({"path way 0,0;10,0", "path other 0,1;10,1", "delete way"});
+  EXPECT_TRUE(map::check(document_of(map)).empty());
+  EXPECT_EQ(map.run("list class=hw_waypoint").data["count"], 2);
+}
+
+TEST(PlacesCommands, LandmarksAroundAPathAndOnSurfaces) {
+  Places map;
+  map.run_all({"path way 0,0;10,0", "landmarks path=way per_100m=100 sideways=5 height=2 seed=4",
+               "box from 0,0 to 2,2,2 name=crate", "landmarks per_m2=25 seed=9",
+               "landmarks per_m2=3 on=crate"});
+  const map::Document document = document_of(map);
+  const auto clouds = map::landmark_clouds(document);
+  ASSERT_EQ(clouds.size(), 1u);
+  EXPECT_EQ(clouds[0].name, "way_cloud");
+  EXPECT_EQ(clouds[0].sideways_m, 5.0);
+  EXPECT_EQ(clouds[0].seed, 4u);
+  EXPECT_EQ(map::face_points(document).per_m2, 25.0);
+  EXPECT_EQ(map::face_points(document).seed, 9u);
+  EXPECT_EQ(*test::named(map, "crate").head->find("_points_per_m2"), "3");
+  EXPECT_TRUE(map::check(document).empty());
+  EXPECT_TRUE(mentions(refusal(map, "landmarks"), "missing"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks path=way per_100m=1 sideways=1"), "height"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks path=wya per_100m=1 sideways=1 height=1"), "\"way\""));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks path=way per_100m=1 sideways=1 height=1"), "already"));
+  EXPECT_TRUE(
+      mentions(refusal(map, "landmarks path=way per_100m=1 sideways=1 height=1 on=crate name=b"), "per_m2"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 path=way"), "belongs to a cloud"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 on=way"), "no surface"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 on=crate seed=3"), "seed"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=-1"), "per_m2"));
+  map.run("box from 5,0 to 6,1,1");
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 on=box=5,0,0,6,1,1"), "name"));
+}
+
+TEST(PlacesCommands, Light) {
+  Places map;
+  map.run("light at 2,3,2.5 brightness=200 colour=1,0.5,0 name=lamp");
+  const auto& head = *test::named(map, "lamp").head;
+  EXPECT_EQ(*head.find("origin"), "200 300 250");
+  EXPECT_EQ(*head.find("light"), "200");
+  EXPECT_EQ(*head.find("_color"), "1 0.5 0");
+  EXPECT_TRUE(mentions(refusal(map, "light 1,1 name=lamp"), "already"));
+  EXPECT_TRUE(mentions(refusal(map, "light 1,1 colour=2,0,0"), "colour"));
+  EXPECT_TRUE(mentions(refusal(map, "light 1,1 brightness=-3"), "brightness"));
+}
+
+TEST(PlacesCommands, MeshNamesItsFileFromTheMapsFolder) {
+  Places map;
+  std::filesystem::create_directories(map.folder / "models");
+  map.folder.write("models/chair.obj", "v 0 0 0\n");
+  const std::string file = (map.folder / "models/chair.obj").string();
+  map.run("mesh models/chair.obj at 1,2 heading=30 scale=2 name=a");
+  map.run("mesh models/../models/chair.obj at 1,2 scale=1,2,3 name=b");
+  map.run("mesh " + file + " at 1,2 name=c");
+  for (const char* name : {"a", "b", "c"})
+    EXPECT_EQ(*test::named(map, name).head->find("model"), "models/chair.obj");
+  EXPECT_EQ(*test::named(map, "a").head->find("angle"), "30");
+  EXPECT_EQ(*test::named(map, "a").head->find("scale"), "2");
+  EXPECT_EQ(*test::named(map, "b").head->find("scale"), "1 2 3");
+  EXPECT_TRUE(map::check(document_of(map)).empty());
+  const test::TempFolder other;
+  const std::string outside = other.write("chair.obj", "v 0 0 0\n").string();
+  EXPECT_TRUE(mentions(refusal(map, "mesh " + outside + " at 0,0"), "not in the map's folder"));
+  std::filesystem::create_symlink(outside, map.folder / "link.obj");
+  EXPECT_TRUE(mentions(refusal(map, "mesh link.obj at 0,0"), "not in the map's folder"));
+  EXPECT_TRUE(mentions(refusal(map, "mesh models/chiar.obj at 0,0"), "no file"));
+  EXPECT_TRUE(mentions(refusal(map, "mesh models at 0,0"), "no file"));
+  EXPECT_TRUE(mentions(refusal(map, "mesh models/chair.obj at 0,0 scale=0"), "small"));
+}
+
+}  // namespace
+}  // namespace hallway

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/png.hpp"
+#include "base/random.hpp"
+#include "base/text.hpp"
+#include "editor/command.hpp"
+#include "editor/selection.hpp"
+
+namespace hallway::test {
+
+/// A picture of 4 x 4 grey values that rise towards the lower right.
+inline std::string small_png() {
+  std::vector<std::uint8_t> bytes;
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<std::uint8_t>(30 * (x + y)));
+    }
+  }
+  return encode_png({.width_px = 4, .height_px = 4, .channels = 3, .bytes = bytes}, PngEffort::kQuick);
+}
+
+/// Lines of commands with arguments of the right kinds, most of which work.
+class RandomCommands {
+ public:
+  explicit RandomCommands(std::uint64_t seed) : random_(seed, stream_id("commands")) {}
+
+  /// Whether next() can give it: not those that look at the whole map for long or end it, or need a file that is not there.
+  static bool covers(const editor::CommandSpec& command) {
+    for (const std::string_view name :
+         {"new", "help", "source", "recover", "save", "render", "print", "export", "import", "leak",
+          "compile", "validate", "fix", "undo", "redo", "log", "diff", "checkpoint"}) {
+      if (command.name == name) return false;
+    }
+    return true;
+  }
+
+  std::string next(const editor::State& state) {
+    const auto all = editor::commands();
+    if (!queue_.empty()) {
+      std::string line = queue_.front();
+      queue_.pop_front();
+      return line;
+    }
+    for (;;) {
+      const auto& command = all[pick(all.size())];
+      if (!covers(command)) continue;
+      // Maps stay small: what is copied in numbers is taken away again.
+      std::size_t things = 0;
+      for (const auto& entity : state.entities) things += 1 + entity->brushes.size();
+      if (things > 400 && command.name != "delete") continue;
+      return line(command, state);
+    }
+  }
+
+ private:
+  std::size_t pick(std::size_t count) {
+    return static_cast<std::size_t>(random_.bits(0, number_++)[0] % count);
+  }
+  double uniform(double low, double high) { return random_.uniform(0, number_++, low, high); }
+  bool chance(double p) { return uniform(0.0, 1.0) < p; }
+
+  std::string line(const editor::CommandSpec& command, const editor::State& state) {
+    std::string text(command.name);
+    if (chance(0.15)) {
+      // Some only make sense together: what the example needs, then the example.
+      if (!command.before.empty()) {
+        for (const std::string_view line : split(command.before, '\n')) queue_.emplace_back(line);
+      }
+      queue_.emplace_back(command.example);
+      std::string first = queue_.front();
+      queue_.pop_front();
+      return first;
+    }
+    for (const editor::ArgSpec& spec : command.arguments) {
+      if (!spec.required && !chance(0.35)) continue;
+      if (spec.kind == editor::ArgKind::kKeys) {
+        text += " k" + std::to_string(pick(3)) + "=" + std::to_string(pick(5));
+      } else {
+        text += " " + editor::quoted(std::string(spec.name) + "=" + value(spec, state));
+      }
+    }
+    return text;
+  }
+
+  static std::string decimal(double x) { return format_double(std::round(x * 8.0) / 8.0); }
+
+  double in(const editor::ArgSpec& spec, double low, double high) {
+    return std::min(std::max(uniform(std::max(low, spec.low), std::min(high, spec.high)), spec.low),
+                    spec.high);
+  }
+
+  std::string place() {
+    return decimal(uniform(-6, 6)) + "," + decimal(uniform(-6, 6)) + "," + decimal(uniform(0, 3));
+  }
+
+  std::string value(const editor::ArgSpec& spec, const editor::State& state) {
+    using editor::ArgKind;
+    switch (spec.kind) {
+      case ArgKind::kName:
+        return "n" + std::to_string(pick(40));
+      case ArgKind::kText:
+        return std::array{"light", "hw_waypoint", "plain", "a text"}[pick(4)];
+      case ArgKind::kNumber:
+        return decimal(in(spec, -3.0, 3.0));
+      case ArgKind::kWhole:
+        return std::to_string(static_cast<int>(in(spec, 1.0, 6.0)));
+      case ArgKind::kLength:
+        return decimal(std::max(in(spec, 0.0, 3.0), 0.125));
+      case ArgKind::kAngle:
+        return std::to_string(15 * static_cast<int>(pick(24)));
+      case ArgKind::kFactors:
+        return decimal(uniform(0.5, 2.0));
+      case ArgKind::kPlace:
+      case ArgKind::kVector:
+        return place();
+      case ArgKind::kPlaces: {
+        const double x = uniform(-5, 5), y = uniform(-5, 5), r = uniform(1, 3);
+        return decimal(x) + "," + decimal(y) + ";" + decimal(x + r) + "," + decimal(y) + ";" +
+               decimal(x + r) + "," + decimal(y + r);
+      }
+      case ArgKind::kWhat:
+        return what(state);
+      case ArgKind::kFile:
+        return std::array{"heights.png", "model.obj"}[pick(2)];
+      case ArgKind::kMaterial:
+        return std::array{"wall", "floor", "brick", "wood"}[pick(4)];
+      case ArgKind::kChoice: {
+        const auto choices = split(spec.choices, ' ');
+        return std::string(choices[pick(choices.size())]);
+      }
+      case ArgKind::kKeys:
+        break;
+    }
+    return "";
+  }
+
+  std::string what(const editor::State& state) {
+    std::vector<std::string> words;
+    for (const auto& entity : state.entities) {
+      if (entity->classname() != "worldspawn") words.push_back("#" + std::to_string(entity->id));
+      if (std::string name = editor::name_of(*entity); !name.empty() && editor::quoted(name) == name)
+        words.push_back(name);
+      for (std::size_t b = 0; b < entity->brushes.size() && b < 3; ++b)
+        words.push_back("#" + std::to_string(entity->brushes[b].id));
+    }
+    if (words.empty() || chance(0.05)) return "selected";
+    return words[pick(words.size())];
+  }
+
+  Random random_;
+  std::uint64_t number_ = 0;
+  std::deque<std::string> queue_;
+};
+
+}  // namespace hallway::test
