@@ -130,5 +130,25 @@ TEST_F(Tutorial, ARobotDrivesThroughIt) {
   EXPECT_EQ(run.err.find("stopped"), std::string::npos) << run.err;
 }
 
+/// Maps that people learn from are made by scripts that stand beside them.
+TEST(EditScripts, MakeTheMapsBesideThem) {
+  const fs::path maps = test::source_folder() / "maps";
+  std::size_t scripts = 0;
+  for (const auto& entry : fs::directory_iterator(maps)) {
+    if (entry.path().extension() != ".hwe") continue;
+    ++scripts;
+    const test::TempFolder made;
+    const std::string name = entry.path().stem().string() + ".map";
+    const auto ended = test::hallway({"edit", name, "-f", entry.path()}, made.path());
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(read_file(made / name), read_file(maps / name)) << name << " is not what its script makes";
+  }
+  EXPECT_GE(scripts, 1u);
+}
+
+TEST_F(Tutorial, MakesTheMapOfTheSameName) {
+  EXPECT_EQ(read_file(*folder / "flat.map"), read_file(test::source_folder() / "maps" / "flat.map"));
+}
+
 }  // namespace
 }  // namespace hallway
