@@ -22,6 +22,20 @@ std::string help_of(const ArgSpec& spec) {
   return text;
 }
 
+/// The text in lines that a terminal has room for.
+std::string wrapped(std::string_view text, std::string_view indent) {
+  constexpr std::size_t kColumns = 96;
+  std::string out, line;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > kColumns) {
+      out += std::string(indent) + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + std::string(word);
+  }
+  return out + std::string(indent) + line + "\n";
+}
+
 /// Commands in the order of the table, by topic in the order in which the topics come up.
 std::vector<std::string_view> topics() {
   std::vector<std::string_view> all;
@@ -65,7 +79,7 @@ std::string usage(const CommandSpec& command) {
 
 std::string help_text(const CommandSpec& command) {
   std::string text = usage(command) + "\n  " + std::string(command.summary) + "\n";
-  if (!command.details.empty()) text += "  " + std::string(command.details) + "\n";
+  if (!command.details.empty()) text += wrapped(command.details, "  ");
   for (const ArgSpec& spec : command.arguments)
     text += fmt::format("    {:<12} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
   text += "  Example:\n";

@@ -46,6 +46,33 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> png_size(std::string_view
   return std::pair{number(kWidth), number(kHeight)};
 }
 
+/// Whether each Huffman table of a JPEG picture has at most the 256 symbols that there are. stb of Debian 12 writes behind its array
+/// for one that has more. Segments are found as stb finds them: what is no marker is passed over.
+bool huffman_tables_fit(std::string_view bytes) {
+  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  constexpr unsigned kTables = 0xC4;
+  constexpr std::size_t kCounts = 16;
+  for (std::size_t i = 0; i + 4 <= bytes.size();) {
+    const unsigned marker = at(i) == 0xFF ? at(i + 1) : 0;
+    const bool alone = marker == 0 || marker == 1 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD9);
+    if (alone) {
+      ++i;
+      continue;
+    }
+    const std::size_t length = static_cast<std::size_t>(at(i + 2)) << 8 | at(i + 3);
+    const std::size_t end = i + 2 + length;
+    for (std::size_t table = i + 4;
+         marker == kTables && table < end && table + 1 + kCounts <= bytes.size();) {
+      std::size_t symbols = 0;
+      for (std::size_t k = 1; k <= kCounts; ++k) symbols += at(table + k);
+      if (symbols > 256) return false;
+      table += 1 + kCounts + symbols;
+    }
+    i = end;
+  }
+  return true;
+}
+
 struct Free {
   void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
@@ -66,6 +93,9 @@ void ImageDecoder::reserve(std::uint64_t width, std::uint64_t height, const std:
 std::variant<mesh::Image, std::string> ImageDecoder::decode(std::string_view bytes, const std::string& name) {
   if (bytes.size() > INT_MAX) return std::string("is too large");
   if (const auto stated = png_size(bytes)) check_room(stated->first, stated->second, name);
+  // A JPEG picture may have any number of such bytes before its first marker.
+  if (bytes.starts_with('\xFF') && !huffman_tables_fit(bytes))
+    return std::string("has a damaged Huffman table");
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0;

@@ -286,6 +286,23 @@ TEST(HostileGltf, ImagesThatAreBombs) {
   }
 }
 
+/// More symbols than there are overrun the decoder's table.
+TEST(HostileGltf, AJpegWithTooManyHuffmanSymbolsIsNotDecoded) {
+  const test::TempFolder folder;
+  for (const std::string& before : {std::string("\xff\xd8", 2), std::string("\xff\xff\xff\xd8", 4)}) {
+    const std::string jpeg =
+        before + std::string("\xff\xc4\x0f\xff\0", 5) + std::string(16, '\xff') + std::string(4096, '\1');
+    Json json = test::triangle_gltf();
+    json["images"] = {{{"uri", "data:image/jpeg;base64," + test::base64(jpeg)}}};
+    json["textures"] = Json::parse(R"([{"source": 0}])");
+    json["materials"] = Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+    const Model model = load_model(folder.write("model.gltf", json.dump()), folder.path());
+    EXPECT_EQ(model.triangles.size(), 1u);
+    ASSERT_EQ(model.warnings.size(), 1u);
+    EXPECT_NE(model.warnings[0].find("Huffman"), std::string::npos) << model.warnings[0];
+  }
+}
+
 TEST(HostileGltf, ImageThatIsMissingOrBrokenLeavesTheRest) {
   const test::TempFolder folder;
   folder.write("broken.png", "no picture");
