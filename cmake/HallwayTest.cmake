@@ -13,6 +13,12 @@ set(HALLWAY_TEST_ENVIRONMENT
     "UBSAN_OPTIONS=print_stacktrace=1"
     "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/sanitizers/tsan.supp:halt_on_error=1")
 
+# After which a test counts as hung. Programs that a sanitizer watches run many times slower.
+set(HALLWAY_TEST_SECONDS 900)
+if(HALLWAY_SANITIZE)
+  set(HALLWAY_TEST_SECONDS 2700)
+endif()
+
 function(hallway_add_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBS;LABELS;ENV" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
@@ -23,7 +29,7 @@ function(hallway_add_test name)
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND test_${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${HALLWAY_TEST_SECONDS}
                        ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT};${arg_ENV}")
 endfunction()
 

@@ -49,10 +49,11 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> png_size(std::string_view
 /// Whether each Huffman table of a JPEG picture has at most the 256 symbols that there are. stb of Debian 12 writes behind its array
 /// for one that has more. Segments are found as stb finds them: what is no marker is passed over.
 bool huffman_tables_fit(std::string_view bytes) {
-  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  // Behind its end stb reads zeros.
+  const auto at = [&](std::size_t i) { return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u; };
   constexpr unsigned kTables = 0xC4;
   constexpr std::size_t kCounts = 16;
-  for (std::size_t i = 0; i + 4 <= bytes.size();) {
+  for (std::size_t i = 0; i < bytes.size();) {
     const unsigned marker = at(i) == 0xFF ? at(i + 1) : 0;
     const bool alone = marker == 0 || marker == 1 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD9);
     if (alone) {
@@ -61,8 +62,7 @@ bool huffman_tables_fit(std::string_view bytes) {
     }
     const std::size_t length = static_cast<std::size_t>(at(i + 2)) << 8 | at(i + 3);
     const std::size_t end = i + 2 + length;
-    for (std::size_t table = i + 4;
-         marker == kTables && table < end && table + 1 + kCounts <= bytes.size();) {
+    for (std::size_t table = i + 4; marker == kTables && table < end && table < bytes.size();) {
       std::size_t symbols = 0;
       for (std::size_t k = 1; k <= kCounts; ++k) symbols += at(table + k);
       if (symbols > 256) return false;

@@ -16,6 +16,7 @@
 #include "random_commands.hpp"
 #include "support/errors.hpp"
 #include "support/long_mode.hpp"
+#include "world/compiled_world.hpp"
 
 namespace hallway {
 namespace {
@@ -237,6 +238,34 @@ TEST(Commands, RandomOnesKeepTheHistory) {
     EXPECT_TRUE(worked[command.name] > 0 || !test::RandomCommands::covers(command))
         << command.name << " never worked";
   }
+}
+
+/// Whatever is built in a room, the room can be compiled, and its visible sets made: shapes are turned, mirrored, cut and rounded.
+TEST(Commands, WhatRandomOnesBuildCompiles) {
+  std::size_t sealed = 0;
+  for (std::uint64_t round = 0; round < test::sized(15u, 150u); ++round) {
+    Editing editing;
+    const InFolder there(editing.folder);
+    editing.session->set_clipboard(editing.folder / "clipboard.map");
+    test::RandomCommands random(2000 + round);
+    editing.run_all({"new", "room from -25,-25,-12 to 25,25,-12 height=40 name=hall"});
+    for (int i = 0; i < 40; ++i) {
+      const std::string line = random.next(editing.session->state());
+      try {
+        if (!line.starts_with("delete")) editing.run(line);
+      } catch (const Error& error) {
+        ASSERT_NE(error.code(), ErrorCode::kInternal) << line << ": " << error.what();
+      }
+    }
+    editing.run("start at 24,24,27");
+    try {
+      sealed +=
+          world::compile(map::parse(editing.text(), "map"), {.level = pvs::Level::kFast}).sealed() ? 1u : 0u;
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ErrorCode::kBadInput) << "round " << round << ": " << error.what();
+    }
+  }
+  EXPECT_GT(sealed, 0u);
 }
 
 TEST(Commands, FixLeavesNothingThatItCouldMend) {
