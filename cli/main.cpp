@@ -13,9 +13,11 @@
 namespace {
 
 constexpr const char* kAbout =
-    "Headless simulator and plugin host for robot mapping algorithms: drive a simulated robot through a map, "
-    "load an\n"
-    "algorithm as a shared object, measure what it mapped against the truth, and look at pictures of it.";
+    "Headless map editor, simulator and plugin host for robot mapping algorithms: author a map in a shell, "
+    "drive a\n"
+    "simulated robot through it, load an algorithm as a shared object, measure what it mapped against the "
+    "truth, and\n"
+    "look at pictures of it.";
 
 constexpr const char* kFooter =
     "Exit status: 0 done; 1 ran, and the answer is no; 2 usage; 3 bad input or I/O; 4 plugin not loadable;\n"

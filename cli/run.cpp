@@ -117,7 +117,7 @@ int run_scenario(const RunOptions& options) {
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",
                            .name = name,
-                           .settings = scenario.settings,
+                           .settings = simulator.scenario().settings,
                            .parameters = stages.origins,
                            .warnings = warnings,
                            .period_ns = scenario.period_ns,

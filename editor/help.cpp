@@ -81,7 +81,7 @@ std::string help_text(const CommandSpec& command) {
   std::string text = usage(command) + "\n  " + std::string(command.summary) + "\n";
   if (!command.details.empty()) text += wrapped(command.details, "  ");
   for (const ArgSpec& spec : command.arguments)
-    text += fmt::format("    {:<12} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
+    text += fmt::format("    {:<14} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
   text += "  Example:\n";
   for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
   text.pop_back();

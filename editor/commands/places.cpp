@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The robot and its paths, landmarks, lights, models.
+// The robot with its sensors and paths, landmarks, lights, models.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "editor/selection.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
+#include "map/sensors.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -34,6 +35,24 @@ constexpr ArgSpec kHeading{.name = "heading",
 constexpr ArgSpec kOptionalName{.name = "name", .kind = ArgKind::kName, .help = "what it is called"};
 
 constexpr std::array kStart{kAt, kHeading};
+
+/// An argument without a fallback: what is not given stays as it is, or is left to the class's default.
+constexpr ArgSpec part(std::string_view name, ArgKind kind, std::string_view help) {
+  return {.name = name, .kind = kind, .help = help};
+}
+
+constexpr std::array kSensor{
+    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
+    ArgSpec{.name = "kind", .kind = ArgKind::kChoice, .help = "what it sees [points]", .choices = "points"},
+    part("horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"),
+    part("vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"),
+    part("min_range", ArgKind::kLength, "nearest distance seen [0]"),
+    part("max_range", ArgKind::kLength, "farthest distance seen [100]"),
+    part("noise", ArgKind::kLength, "standard deviation along each axis [0]"),
+    part("at", ArgKind::kVector, "where on the robot: forward, left, up [0,0,0]"),
+    part("yaw", ArgKind::kAngle, "turn on the robot about z, to the left [0]"),
+    part("pitch", ArgKind::kAngle, "then about its y, down [0]"),
+    part("roll", ArgKind::kAngle, "then about its x [0]")};
 constexpr std::array kPath{
     ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
     ArgSpec{
@@ -142,6 +161,75 @@ void start(Edit& edit, const Arguments& arguments) {
   set_key(edit.state, starts[0].entity, "origin", vector_text(edit.units(arguments.place("at"))));
   set_key(edit.state, starts[0].entity, "angle", heading);
   say_changed(edit, starts);
+}
+
+// ---- Sensors --------------------------------------------------------------------------------------------------------
+
+/// The keys of a sensor that the arguments give.
+std::vector<std::pair<std::string, std::string>> sensor_keys(const Arguments& arguments) {
+  std::vector<std::pair<std::string, std::string>> keys;
+  if (arguments.has("kind")) keys.emplace_back("kind", arguments.text("kind"));
+  for (const char* angle : {"horizontal_fov", "vertical_fov", "yaw", "pitch", "roll"}) {
+    if (arguments.has(angle))
+      keys.emplace_back(std::string(angle) + "_deg", degrees_text(arguments.number(angle)));
+  }
+  for (const char* length : {"min_range", "max_range", "noise"}) {
+    if (arguments.has(length))
+      keys.emplace_back(std::string(length) + "_m", format_double(arguments.number(length)));
+  }
+  if (arguments.has("at")) keys.emplace_back("position_m", vector_text(arguments.place("at")));
+  return keys;
+}
+
+/// Refuses a sensor that the simulator would not take.
+void check_sensor(const Edit& edit, std::size_t sensor) {
+  map::Document document;  // of that sensor alone
+  document.file = edit.file;
+  document.entities.push_back(*edit.state.entities[sensor]->head);
+  try {
+    map::sensors(document);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kUsage, "sensor: " + error.message());
+  }
+}
+
+std::vector<Thing> sensors_named(const State& state, const std::string& name) {
+  std::vector<Thing> found;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const std::string* own = state.entities[e]->head->find("name");
+    if (state.entities[e]->classname() == "hw_sensor" && own != nullptr && *own == name)
+      found.push_back({e, {}});
+  }
+  return found;
+}
+
+void sensor(Edit& edit, const Arguments& arguments) {
+  worldspawn(edit.state);
+  const std::string& name = arguments.text("name");
+  const auto keys = sensor_keys(arguments);
+  const std::vector<Thing> there = sensors_named(edit.state, name);
+  if (there.empty()) {
+    check_new_name(edit.state, name);
+    map::Entity entity;
+    entity.keys = {{{}, "classname", "hw_sensor", 0}, {{}, "name", name, 0}};
+    if (!arguments.has("kind")) add_key(entity, "kind", "points");
+    for (const auto& [key, value] : keys) add_key(entity, key.c_str(), value);
+    const Id id = add_entity(edit.state, std::move(entity));
+    check_sensor(edit, edit.state.entities.size() - 1);
+    return say_made(edit, {id});
+  }
+  if (there.size() > 1) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("sensor: there are {} sensors named {}; `delete` the others than {}",
+                            there.size(), name, describe(edit.state, there.front())));
+  }
+  if (keys.empty()) {
+    throw Error(ErrorCode::kUsage, fmt::format("sensor: {} is there already; say what of it is to change",
+                                               describe(edit.state, there.front())));
+  }
+  for (const auto& [key, value] : keys) set_key(edit.state, there.front().entity, key, value);
+  check_sensor(edit, there.front().entity);
+  say_changed(edit, there);
 }
 
 // ---- Paths ----------------------------------------------------------------------------------------------------------
@@ -391,6 +479,15 @@ constexpr std::array kCommands{
                 .arguments = kStart,
                 .example = "start at 1,1,0.2 heading 90",
                 .run = &start},
+    CommandSpec{.name = "sensor",
+                .topic = kTopic,
+                .summary = "put a sensor on the robot, or change the one of that name",
+                .details = "Scenarios without sensors of their own take those of their map. Of a sensor that "
+                           "is there already only "
+                           "what is given changes.",
+                .arguments = kSensor,
+                .example = "sensor eyes horizontal_fov=120 max_range=12 noise=2cm at=0.2,0,0.5 pitch=10",
+                .run = &sensor},
     CommandSpec{
         .name = "path",
         .topic = kTopic,

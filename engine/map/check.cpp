@@ -15,6 +15,7 @@
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
+#include "map/sensors.hpp"
 #include "map/world.hpp"
 
 namespace hallway::map {
@@ -52,6 +53,8 @@ class Checker {
     check_targetnames();
     const Names paths = check_names("hw_path");
     check_names("hw_landmark_cloud");
+    check_names("hw_sensor");
+    check_sensors();
     check_references("hw_waypoint", paths);
     check_references("hw_landmark_cloud", paths);
     check_paths(paths);
@@ -205,6 +208,17 @@ class Checker {
           "doubled-name");
     }
     return names;
+  }
+
+  void check_sensors() {
+    for (const Entity& entity : document_.entities) {
+      if (entity.classname() != "hw_sensor") continue;
+      try {
+        check_sensor(EntityKeys(document_, entity));
+      } catch (const Error& error) {
+        add_consequence(error, "bad-value");
+      }
+    }
   }
 
   void check_references(std::string_view classname, const Names& paths) {

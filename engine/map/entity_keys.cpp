@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 
 namespace hallway::map {
 namespace {
+
+constexpr double kAnything = std::numeric_limits<double>::max();
 
 std::string quote(std::string_view text) {
   return "`" + printable(text, 60) + "`";
@@ -61,16 +64,21 @@ std::string EntityKeys::text(std::string_view key) const {
   return pair.value;
 }
 
+void EntityKeys::check_range(const KeySpec& key, double value) const {
+  if (value >= key.low && value <= key.high && !(key.above_low && value == key.low)) return;
+  const std::string low = format_double(key.low), high = format_double(key.high);
+  throw error("key " + quote(key.name) + " is " + format_double(value) + "; it must " +
+                  (key.above_low ? "be above " + low + " and at most " + high
+                                 : "lie between " + low + " and " + high),
+              key.name);
+}
+
 double EntityKeys::number_from(const KeyValue& pair, double low, double high) const {
   const auto value = parse_double(trim(pair.value));
   if (!value)
     throw error("key " + quote(pair.key) + ": " + quote(pair.value) + " is no finite decimal number",
                 pair.key);
-  if (*value < low || *value > high) {
-    throw error("key " + quote(pair.key) + " is " + format_double(*value) + "; it must lie between " +
-                    format_double(low) + " and " + format_double(high),
-                pair.key);
-  }
+  check_range({.name = pair.key, .low = low, .high = high}, *value);
   return *value;
 }
 
@@ -186,6 +194,18 @@ void EntityKeys::check_scale(std::string_view key) const {
               key);
 }
 
+void EntityKeys::check_numbers(const KeySpec& key) const {
+  const KeyValue& pair = require(key.name);
+  const std::vector<double> numbers = numbers_from(pair);
+  if (numbers.size() != 3 && (numbers.size() != 1 || key.kind == KeyKind::kVector)) {
+    throw error("key " + quote(key.name) + ": " + quote(pair.value) +
+                    (key.kind == KeyKind::kVector ? " is not three numbers" : " is not one number or three"),
+                key.name);
+  }
+  if (key.low == key.high) return;
+  for (const double number : numbers) check_range(key, number);
+}
+
 void EntityKeys::check_choice(const KeySpec& key) const {
   const std::string value = text(key.name);
   std::vector<std::string> choices;
@@ -204,7 +224,7 @@ void EntityKeys::check_value(const KeySpec& key) const {
       text(key.name);
       break;
     case KeyKind::kNumber:
-      number(key.name, key.low, key.high);
+      check_range(key, number(key.name, -kAnything, kAnything));
       break;
     case KeyKind::kWhole:
       integer(key.name);
@@ -222,7 +242,8 @@ void EntityKeys::check_value(const KeySpec& key) const {
       point(key.name);
       break;
     case KeyKind::kVector:
-      vector(key.name);
+    case KeyKind::kNumbers:
+      check_numbers(key);
       break;
     case KeyKind::kScale:
       check_scale(key.name);

@@ -57,8 +57,10 @@ class EntityKeys {
   const KeyValue& require(std::string_view key) const;
   double number_from(const KeyValue& pair, double low, double high) const;
   std::vector<double> numbers_from(const KeyValue& pair) const;
+  void check_range(const KeySpec& key, double value) const;
   Vec3 point(std::string_view key) const;
   void check_scale(std::string_view key) const;
+  void check_numbers(const KeySpec& key) const;
   void check_choice(const KeySpec& key) const;
 
   const Document& document_;

@@ -15,6 +15,9 @@ constexpr double kLongest_m = 1e6;
 constexpr double kShortest_m = 1e-3;
 constexpr double kFarthest_m = 1e5;
 constexpr double kLargestAngle_deg = 3600.0;
+constexpr double kFullTurn_deg = 360.0;
+constexpr double kLargestNoise_m = 1e3;
+constexpr double kFarthestMount_m = 1e3;
 
 constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
   return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
@@ -22,6 +25,17 @@ constexpr KeySpec number(std::string_view name, double low, double high, std::st
 
 constexpr KeySpec required_number(std::string_view name, double low, double high) {
   return {.name = name, .kind = KeyKind::kNumber, .required = true, .low = low, .high = high};
+}
+
+constexpr KeySpec field_of_view(std::string_view name, std::string_view fallback) {
+  KeySpec key = number(name, 0.0, kFullTurn_deg, fallback);
+  key.above_low = true;
+  return key;
+}
+
+constexpr KeySpec numbers(std::string_view name, KeyKind kind, double low, double high,
+                          std::string_view fallback) {
+  return {.name = name, .kind = kind, .low = low, .high = high, .fallback = fallback};
 }
 
 constexpr KeySpec required(std::string_view name, KeyKind kind) {
@@ -63,6 +77,19 @@ constexpr std::array kCloud{required("name", KeyKind::kName),
                             required_number("sideways_m", 0.0, kFarthest_m),
                             required_number("height_m", 0.0, kFarthest_m),
                             KeySpec{.name = "seed", .kind = KeyKind::kSeed, .fallback = "0"}};
+// What a scenario's sensor may be too.
+constexpr std::array kSensor{
+    required("name", KeyKind::kName),
+    KeySpec{.name = "kind", .kind = KeyKind::kChoice, .fallback = "points", .choices = "points"},
+    field_of_view("horizontal_fov_deg", "90"),
+    field_of_view("vertical_fov_deg", "60"),
+    number("min_range_m", 0.0, kLongest_m, "0"),
+    number("max_range_m", 0.0, kLongest_m, "100"),
+    numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
+    numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
+    number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
+    number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
+    number("roll_deg", -kFullTurn_deg, kFullTurn_deg, "0")};
 constexpr std::array kMesh{kOrigin,
                            required("model", KeyKind::kText),
                            kAngle,
@@ -91,6 +118,7 @@ constexpr std::array kSchema{
     EntitySpec{.classname = "hw_path", .selector = "shape", .keys = kPath},
     point("hw_waypoint", kWaypoint),
     point("hw_landmark_cloud", kCloud),
+    point("hw_sensor", kSensor),
     point("hw_mesh", kMesh),
     point("light", kLight, true),
 };

@@ -16,12 +16,13 @@ enum class KeyKind {
   kName,    ///< a text that other entities refer to
   kNumber,  ///< a finite decimal
   kWhole,
-  kSeed,    ///< a whole number from 0 to 2^64 - 1
-  kFlag,    ///< 0 or 1
-  kChoice,  ///< one of KeySpec::choices
-  kPoint,   ///< three numbers, map units
-  kVector,  ///< three numbers
-  kScale,   ///< one number or three, of 1e-6 to 1e6 or their negatives
+  kSeed,     ///< a whole number from 0 to 2^64 - 1
+  kFlag,     ///< 0 or 1
+  kChoice,   ///< one of KeySpec::choices
+  kPoint,    ///< three numbers, map units
+  kVector,   ///< three numbers
+  kNumbers,  ///< one number or three
+  kScale,    ///< one number or three, of 1e-6 to 1e6 or their negatives
 };
 
 /// A key of a class of entities.
@@ -29,8 +30,10 @@ struct KeySpec {
   std::string_view name{};
   KeyKind kind = KeyKind::kText;
   bool required = false;
-  double low = 0.0;  ///< of a kNumber
+  double low =
+      0.0;  ///< of a kNumber, and of each number of a kNumbers or kVector; of a kVector any where both are 0
   double high = 0.0;
+  bool above_low = false;       ///< `low` itself is refused
   std::string_view fallback{};  ///< what counts where the key is absent; empty where that is nothing
   std::string_view choices{};   ///< of a kChoice, between blanks
   std::string_view variant{};   ///< the key is one of this variant of the class only; empty for all

@@ -11,8 +11,8 @@
 namespace hallway::map {
 namespace {
 
-constexpr std::array<std::string_view, 5> kPlaceless{"worldspawn", "info_null", "info_notnull", "hw_mesh",
-                                                     "misc_model"};
+constexpr std::array<std::string_view, 6> kPlaceless{"worldspawn", "info_null", "info_notnull",
+                                                     "hw_mesh",    "hw_sensor", "misc_model"};
 
 bool has_place(const Entity& entity) {
   const std::string_view name = entity.classname();

@@ -20,8 +20,8 @@ struct Occupant {
 };
 
 /// All entities with an origin and without brushes, in the order of the file, except for those whose place means nothing:
-/// `info_null` and `info_notnull` (points that lights aim at), references to models and other maps (`hw_mesh`,
-/// `misc_model`, `misc_external_map…`).
+/// `info_null` and `info_notnull` (points that lights aim at), sensors (which are on the robot), references to models and other maps
+/// (`hw_mesh`, `misc_model`, `misc_external_map…`).
 ///
 /// Throws Error{kBadInput} for an origin that is not three numbers, and where a class of Hallway's that needs one has none.
 std::vector<Occupant> occupants(const Document& document);

@@ -12,9 +12,13 @@ namespace hallway::run {
 SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(simulator) {
   const sim::Scenario& scenario = simulator.scenario();
   if (scenario.sensors.size() != 1) {
-    throw Error(ErrorCode::kBadInput,
-                fmt::format("a run takes exactly one sensor; there are {}", scenario.sensors.size()),
-                {.file = printable(scenario.file)});
+    throw Error(
+        ErrorCode::kBadInput,
+        fmt::format(
+            "a run takes exactly one sensor, a [sensor.NAME] of the scenario or, where it has none, an "
+            "hw_sensor of its map; there are {}",
+            scenario.sensors.size()),
+        {.file = printable(scenario.file)});
   }
   const sense::PointSensorSpec& spec = scenario.sensors.front();
   sensor_.name = spec.name;

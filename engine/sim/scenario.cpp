@@ -10,8 +10,10 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "map/sensors.hpp"
 #include "sim/overrides.hpp"
 #include "sim/schema.hpp"
+#include "sim/sensors.hpp"
 #include "sim/table_reader.hpp"
 #include "sim/toml_reader.hpp"
 
@@ -20,21 +22,13 @@ namespace {
 
 constexpr const char* kSchema = "hallway.scenario/1";
 constexpr std::int64_t kMaxSteps = 10'000'000;
-constexpr std::size_t kMaxSensors = 64;
 constexpr std::size_t kMaxPlugins = 64;
 constexpr std::size_t kMaxParameters = 1000;
 constexpr std::size_t kMaxPictures = 1000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
-constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxFileNameBytes = 200;
-constexpr double kPi = 3.14159265358979323846;
 
-constexpr Range kFieldOfView_deg{0.0, 360.0, true};
-constexpr Range kTurn_deg{-360.0, 360.0};
-constexpr Range kSensorRange_m{0.0, 1e6};
-constexpr Range kNoise_m{0.0, 1e3};
-constexpr Range kMount_m{-1e3, 1e3};
 constexpr Range kWorld_m{-1e7, 1e7};
 constexpr Range kSpeed_m_s{0.0, 1e3};
 constexpr Range kBodySize_m{0.001, 100.0};
@@ -44,17 +38,6 @@ constexpr Range kPeriod_s{1e-6, 60.0};
 const std::vector<std::string> kViews{"top", "perspective"};  // in the order of PictureView
 const std::vector<std::string> kLayers{"map",    "truth",   "estimate", "landmarks",
                                        "errors", "submaps", "frustum"};  // in the order of PictureLayer
-
-double radians(double degrees) {
-  return degrees * (kPi / 180.0);
-}
-
-bool is_plain_name(std::string_view name) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return !name.empty() && name.size() <= kMaxNameBytes && std::all_of(name.begin(), name.end(), plain);
-}
 
 bool is_plugin_file(std::string_view plugin) {
   return plugin.find('/') != std::string_view::npos || plugin.ends_with(".so") ||
@@ -146,9 +129,9 @@ class ScenarioReader {
 
   void read_sensors(const TableReader& top) {
     const TomlTable& sensors = top.table("sensor");
-    if (sensors.size() > kMaxSensors) {
+    if (sensors.size() > map::kMaxSensors) {
       throw top.error("sensor", "has " + std::to_string(sensors.size()) + " sensors; at most " +
-                                    std::to_string(kMaxSensors) + " are allowed");
+                                    std::to_string(map::kMaxSensors) + " are allowed");
     }
     std::vector<std::string> names;
     for (const TomlEntry& entry : sensors) names.push_back(entry.key);
@@ -157,34 +140,12 @@ class ScenarioReader {
       if (!std::holds_alternative<TomlTable>(find(sensors, name)->value)) {
         throw all.error(name, "must be a table: a sensor is written as [sensor.NAME]");
       }
-      if (!is_plain_name(name)) {
+      if (!map::is_sensor_name(name)) {
         throw all.error(name, "a sensor's name is 1 to 64 of the characters a-z, A-Z, 0-9, _ and -");
       }
       TableReader sensor = reader("sensor." + name, all.table(name), all.line(name), kSensorKeys);
       scenario_.sensors.push_back(read_sensor(name, sensor));
     }
-  }
-
-  static sense::PointSensorSpec read_sensor(const std::string& name, TableReader& sensor) {
-    sense::PointSensorSpec spec;
-    spec.name = name;
-    sensor.choice("kind", {"points"});
-    spec.horizontal_fov = radians(sensor.number("horizontal_fov_deg", kFieldOfView_deg, 90.0));
-    spec.vertical_fov = radians(sensor.number("vertical_fov_deg", kFieldOfView_deg, 60.0));
-    spec.min_range_m = sensor.number("min_range_m", kSensorRange_m, spec.min_range_m);
-    spec.max_range_m = sensor.number("max_range_m", kSensorRange_m, spec.max_range_m);
-    if (spec.min_range_m > spec.max_range_m) {
-      throw sensor.error(sensor.has("min_range_m") ? "min_range_m" : "max_range_m",
-                         "min_range_m = " + format_double(spec.min_range_m) +
-                             " is above max_range_m = " + format_double(spec.max_range_m));
-    }
-    spec.noise_m = sensor.vector_or_one("noise_m", kNoise_m, spec.noise_m);
-    spec.T_body_sensor.t = sensor.vector("position_m", kMount_m, Vec3::Zero());
-    const double yaw = radians(sensor.number("yaw_deg", kTurn_deg, 0.0));
-    const double pitch = radians(sensor.number("pitch_deg", kTurn_deg, 0.0));
-    const double roll = radians(sensor.number("roll_deg", kTurn_deg, 0.0));
-    spec.T_body_sensor.q = from_yaw_pitch_roll(yaw, pitch, roll);
-    return spec;
   }
 
   template <typename Read>

@@ -74,7 +74,7 @@ struct Scenario {
   std::uint32_t steps = 1;               ///< number of frames
   std::int64_t period_ns = 100'000'000;  ///< from frame to frame
   RobotSpec robot;
-  std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file
+  std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file; none: those of the map count
   std::vector<PluginSpec> pipeline;             ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order

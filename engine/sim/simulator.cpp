@@ -16,6 +16,7 @@
 #include "sense/landmarks.hpp"
 #include "sense/mesh_landmarks.hpp"
 #include "sense/occluders.hpp"
+#include "sim/sensors.hpp"
 
 namespace hallway::sim {
 namespace {
@@ -105,6 +106,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       scene_(sense::make_occluders(world_.partition.surface, triangles_of(models_)), backend),
       landmarks_(find_landmarks(document_, world_, models_)),
       landmark_index_(make_index(landmarks_, world_)) {
+  take_map_sensors(scenario_, document_);
   sensors_.reserve(scenario_.sensors.size());
   for (const sense::PointSensorSpec& spec : scenario_.sensors) {
     sensors_.emplace_back(spec, landmark_index_, scene_, scenario_.seed);

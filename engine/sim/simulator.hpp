@@ -37,10 +37,11 @@ struct Frame {
 /// stands at the path's start.
 class Simulator {
  public:
-  /// Loads the map and builds everything that frames need.
+  /// Loads the map and builds everything that frames need. Of a scenario without sensors those of the map count.
   /// @param threads  for the work of one frame, at least 1; no result depends on it
   /// Throws Error for a map or a model that cannot be read, a path that the map does not have or that begins in solid, a robot start in
-  /// solid, two robot starts. Brushes that are no bodies are left out and stand in problems().
+  /// solid, two robot starts, a bad
+  /// `hw_sensor` where the scenario has no sensors. Brushes that are no bodies are left out and stand in problems().
   Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -55,6 +56,7 @@ class Simulator {
   /// stops. In a fixed order.
   const std::vector<Error>& problems() const { return problems_; }
 
+  /// What is run: with the map's sensors where the scenario that was given has none.
   const Scenario& scenario() const { return scenario_; }
   const map::Document& document() const { return document_; }
   const map::World& world() const { return world_.brushes; }

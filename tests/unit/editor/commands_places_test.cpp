@@ -8,6 +8,7 @@
 #include "map/check.hpp"
 #include "map/entities.hpp"
 #include "map/path.hpp"
+#include "map/sensors.hpp"
 #include "solidity.hpp"
 #include "unit/editor/editing.hpp"
 
@@ -38,6 +39,68 @@ TEST(PlacesCommands, StartIsOneAndKeepsItsNumber) {
   EXPECT_TRUE(mentions(refusal(map, "start 1,1 heading=5m"), "angle"));
   map.run("entity hw_robot_start at 0,0,0");
   EXPECT_TRUE(mentions(refusal(map, "start 1,1"), "2 robot starts"));
+}
+
+TEST(PlacesCommands, ASensorIsMadeAndThenChanged) {
+  Places map;
+  const auto made =
+      map.run("sensor eyes horizontal_fov=1.5rad max_range=12 noise=2cm at=20cm,0,0.5 pitch=10 yaw=-90deg")
+          .data["made"];
+  const auto key = [&](const char* name) {
+    const std::string* value = test::named(map, "eyes").head->find(name);
+    return value == nullptr ? std::string("none") : *value;
+  };
+  EXPECT_EQ(key("classname"), "hw_sensor");
+  EXPECT_EQ(key("kind"), "points");
+  EXPECT_NEAR(std::stod(key("horizontal_fov_deg")), 270.0 / std::numbers::pi, 1e-8);
+  EXPECT_EQ(key("max_range_m"), "12");
+  EXPECT_EQ(key("noise_m"), "0.02");
+  EXPECT_EQ(key("position_m"), "0.2 0 0.5");
+  EXPECT_EQ(key("yaw_deg"), "-90");
+  EXPECT_EQ(key("pitch_deg"), "10");
+  for (const char* absent : {"origin", "vertical_fov_deg", "min_range_m", "roll_deg"})
+    EXPECT_EQ(key(absent), "none") << absent;
+  EXPECT_TRUE(map::check(document_of(map)).empty());
+  EXPECT_EQ(map.run("sensor eyes min_range=50cm vertical_fov=45 roll=5 pitch=0").data["changed"], made);
+  EXPECT_EQ(key("min_range_m"), "0.5");
+  EXPECT_EQ(key("vertical_fov_deg"), "45");
+  EXPECT_EQ(key("roll_deg"), "5");
+  EXPECT_EQ(key("pitch_deg"), "0");
+  EXPECT_EQ(key("max_range_m"), "12") << "what is not given stays";
+  EXPECT_EQ(map.run("list class=hw_sensor").data["count"], 1);
+  map.run("sensor back kind=points yaw=180");
+  EXPECT_EQ(map::sensors(document_of(map)).size(), 2u);
+}
+
+TEST(PlacesCommands, ASensorThatCannotBeIsRefused) {
+  Places map;
+  map.run_all({"sensor eyes max_range=5", "path way 0,0;1,0"});
+  const std::string before = map.text();
+  for (const char* name : {"eyes", "fresh"}) {
+    const auto refused = [&](const std::string& arguments, const char* cause) {
+      EXPECT_TRUE(mentions(refusal(map, "sensor " + std::string(name) + " " + arguments), cause))
+          << name << " " << arguments << ": "
+          << refusal(map, "sensor " + std::string(name) + " " + arguments);
+    };
+    refused("horizontal_fov=0", "above 0");
+    refused("vertical_fov=361", "at most 360");
+    refused("min_range=200", "is above");
+    refused("max_range=-1", "max_range");
+    refused("max_range=1e7", "max_range");
+    refused("noise=-1cm", "noise");
+    refused("at=0,0,2000", "position_m");
+    refused("yaw=400", "yaw");
+    refused("kind=point", "\"points\"");
+    refused("max_range=5deg", "no length");
+    refused("nois=1", "\"noise\"");
+  }
+  EXPECT_TRUE(mentions(refusal(map, "sensor eyes"), "already"));
+  EXPECT_TRUE(mentions(refusal(map, "sensor"), "name"));
+  EXPECT_TRUE(mentions(refusal(map, "sensor way yaw=1"), "already"));
+  EXPECT_TRUE(mentions(refusal(map, "sensor a.b yaw=1"), "characters"));
+  EXPECT_EQ(map.text(), before);
+  map.run("entity hw_sensor name=eyes");
+  EXPECT_TRUE(mentions(refusal(map, "sensor eyes yaw=1"), "2 sensors"));
 }
 
 TEST(PlacesCommands, APathCanBeFollowed) {

@@ -96,6 +96,62 @@ TEST(Check, ValuesOfTheWrongKind) {
             "7 bad-value!\n");
 }
 
+TEST(Check, Sensors) {
+  const auto sensor = [](const Pairs& more) {
+    Pairs pairs{{"classname", "hw_sensor"}, {"name", "eyes"}};
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    return kWorld + entity_text(pairs);
+  };
+  EXPECT_EQ(findings_of(sensor({})), "");
+  EXPECT_EQ(findings_of(sensor({{"kind", "points"},
+                                {"horizontal_fov_deg", "360"},
+                                {"vertical_fov_deg", "0.5"},
+                                {"min_range_m", "2"},
+                                {"max_range_m", "2"},
+                                {"noise_m", "0 0.1 1000"},
+                                {"position_m", "-1000 0 1000"},
+                                {"yaw_deg", "-360"},
+                                {"pitch_deg", "360"},
+                                {"roll_deg", "1"}})),
+            "");
+  EXPECT_EQ(findings_of(sensor({{"noise_m", "0.1"}})), "");
+  const Pairs wrong{{"kind", "lidar"},
+                    {"horizontal_fov_deg", "0"},
+                    {"vertical_fov_deg", "0"},
+                    {"horizontal_fov_deg", "360.5"},
+                    {"vertical_fov_deg", "-90"},
+                    {"horizontal_fov_deg", "nan"},
+                    {"min_range_m", "-1"},
+                    {"min_range_m", "101"},
+                    {"max_range_m", "1000001"},
+                    {"max_range_m", "inf"},
+                    {"noise_m", "-0.1"},
+                    {"noise_m", "0 0 -0.1"},
+                    {"noise_m", "0 0"},
+                    {"noise_m", "0 0 0 0"},
+                    {"noise_m", ""},
+                    {"noise_m", "1001"},
+                    {"position_m", "0"},
+                    {"position_m", "0 0 1001"},
+                    {"yaw_deg", "361"},
+                    {"pitch_deg", "-361"},
+                    {"roll_deg", "left"}};
+  for (const auto& pair : wrong)
+    EXPECT_EQ(findings_of(sensor({pair})), "8 bad-value!\n") << pair[0] << " " << pair[1];
+  EXPECT_EQ(findings_of(sensor({{"max_range_m", "1"}, {"min_range_m", "2"}})), "9 bad-value!\n");
+  expect_message(sensor({{"max_range_m", "1"}, {"min_range_m", "2"}}),
+                 "`min_range_m` 2 is above `max_range_m` 1");
+  expect_message(sensor({{"vertical_fov_deg", "0"}}), "must be above 0 and at most 360");
+  EXPECT_EQ(findings_of(sensor({{"nois_m", "1"}})), "8 unknown-key!\n");
+  EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_sensor"}})), "5 missing-key!\n");
+  for (const std::string& name : {std::string("my eyes"), std::string("a.b"), std::string(65, 'a')})
+    EXPECT_EQ(findings_of(kWorld + entity_text({{"classname", "hw_sensor"}, {"name", name}})),
+              "7 bad-value!\n");
+  EXPECT_EQ(findings_of(sensor({}) + entity_text({{"classname", "hw_sensor"}, {"name", "eyes"}})),
+            "11 doubled-name!\n");
+  EXPECT_EQ(findings_of(sensor({{"noise_m", "1"}, {"noise_m", "1"}})), "9 doubled-key!\n");
+}
+
 TEST(Check, UnknownClassesAndKeysWithASuggestion) {
   const std::string start = kWorld + entity_text({{"classname", "hw_robot_strat"}, {"origin", "0 0 0"}});
   EXPECT_EQ(findings_of(start), "6 unknown-class!\n");

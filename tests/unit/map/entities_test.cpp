@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "map/reader.hpp"
+#include "map/sensors.hpp"
 #include "map_text.hpp"
 #include "support/errors.hpp"
 
@@ -53,6 +54,44 @@ TEST(RobotStart, MayBeAbsent) {
 TEST(RobotStart, TwoAreAnError) {
   const Pairs start{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}};
   expect_error(find_robot_start, {start, start}, 5, "the first is at line 1");
+}
+
+TEST(Sensors, AreThoseOfTheFileInItsOrder) {
+  const Document document = document_of({kWorld,
+                                         {{"classname", "hw_sensor"}, {"name", "z"}, {"origin", "1 2 3"}},
+                                         {{"classname", "light"}, {"origin", "0 0 0"}},
+                                         {{"classname", "hw_sensor"}, {"name", "a"}, {"noise_m", "0.1"}}});
+  const auto found = sensors(document);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0], &document.entities[1]);
+  EXPECT_EQ(found[1], &document.entities[3]);
+}
+
+TEST(Sensors, WrongOnesAreErrorsWithTheirLine) {
+  const Pairs eyes{{"classname", "hw_sensor"}, {"name", "eyes"}};
+  const auto with = [&](const std::string& key, const std::string& value) {
+    Pairs pairs = eyes;
+    pairs.push_back({key, value});
+    return std::vector<Pairs>{pairs};
+  };
+  expect_error(sensors, {eyes, eyes}, 7, "a second sensor named `eyes`");
+  expect_error(sensors, {{{"classname", "hw_sensor"}}}, 1, "key `name` is missing");
+  expect_error(sensors, {{{"classname", "hw_sensor"}, {"name", "my eyes"}}}, 3, "is no sensor's name");
+  expect_error(sensors, with("horizontal_fov_deg", "0"), 4, "must be above 0 and at most 360");
+  expect_error(sensors, with("noise_m", "0 -1 0"), 4, "must lie between 0 and 1000");
+  expect_error(sensors, with("max_range_m", "-1"), 4, "must lie between 0 and 1e+06");
+  expect_error(sensors, with("min_range_m", "101"), 4, "`min_range_m` 101 is above `max_range_m` 100");
+  expect_error(sensors, with("rang_m", "1"), 4, "unknown key `rang_m`");
+  expect_error(sensors, with("kind", "lidar"), 4, "unknown kind `lidar`");
+}
+
+TEST(Sensors, SixtyFourAreTheMost) {
+  std::vector<Pairs> many;
+  for (std::size_t i = 0; i < kMaxSensors; ++i)
+    many.push_back({{"classname", "hw_sensor"}, {"name", "s" + std::to_string(i)}});
+  EXPECT_EQ(sensors(document_of(many)).size(), 64u);
+  many.push_back({{"classname", "hw_sensor"}, {"name", "one-more"}});
+  expect_error(sensors, many, 257, "at most 64");
 }
 
 TEST(RobotStart, NeedsAnOrigin) {

@@ -58,6 +58,7 @@ std::string fgd_type(KeyKind kind) {
     case KeyKind::kName:
     case KeyKind::kPoint:
     case KeyKind::kVector:
+    case KeyKind::kNumbers:
     case KeyKind::kScale:
       break;
   }

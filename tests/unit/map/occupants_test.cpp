@@ -51,6 +51,8 @@ TEST(Occupants, WhatHasNoPlaceIsNone) {
                                      {{"classname", "misc_external_map"}, {"origin", "0 0 0"}},
                                      {{"classname", "hw_mesh"}, {"origin", "0 0 0"}, {"model", "a.glb"}},
                                      {{"classname", "hw_landmark_cloud"}, {"name", "c"}},
+                                     {{"classname", "hw_sensor"}, {"name", "s"}},
+                                     {{"classname", "hw_sensor"}, {"name", "t"}, {"origin", "0 0 0"}},
                                      {{"classname", "func_timer"}},
                                      {{"classname", "light"}}}))
                   .empty());

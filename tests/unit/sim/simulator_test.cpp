@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -169,6 +170,102 @@ TEST(Simulator, GivesAFrameAskedForAloneAsInOrder) {
   std::vector<std::string> frames;
   for (std::uint32_t i = 0; i < 40; ++i) frames.push_back(bytes_of(in_order.step(i)));
   for (std::uint32_t i = 40; i-- > 0;) EXPECT_EQ(bytes_of(backwards.step(i)), frames[i]) << i;
+}
+
+/// The entity of a map that is a sensor.
+std::string sensor_entity(const std::string& name, const std::string& keys) {
+  return "{\n\"classname\" \"hw_sensor\"\n\"name\" \"" + name + "\"\n" + keys + "}\n";
+}
+
+void expect_equal(const sense::PointSensorSpec& a, const sense::PointSensorSpec& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.T_body_sensor.t, b.T_body_sensor.t);
+  EXPECT_EQ(a.T_body_sensor.q.coeffs(), b.T_body_sensor.q.coeffs());
+  EXPECT_EQ(a.horizontal_fov, b.horizontal_fov);
+  EXPECT_EQ(a.vertical_fov, b.vertical_fov);
+  EXPECT_EQ(a.min_range_m, b.min_range_m);
+  EXPECT_EQ(a.max_range_m, b.max_range_m);
+  EXPECT_EQ(a.noise_m, b.noise_m);
+}
+
+TEST(Simulator, TakesTheSensorsOfTheMapWhereTheScenarioHasNone) {
+  const std::string in_map =
+      sensor_entity("eyes", "\"max_range_m\" \"8\"\n\"noise_m\" \"0.02\"\n\"origin\" \"310 0 0\"\n") +
+      sensor_entity("back",
+                    "\"kind\" \"points\"\n\"max_range_m\" \"8\"\n\"yaw_deg\" \"180\"\n\"position_m\" "
+                    "\"-0.2 0 0.5\"\n");
+  World mapped(test::scenario_text(), test::map_text(test::pillars(), in_map));
+  World written(test::scenario_text(kTwoEyes));
+  EXPECT_TRUE(mapped.scenario().sensors.empty());
+  const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
+  ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k)
+    expect_equal(simulator.scenario().sensors[k], written.scenario().sensors[k]);
+  // All the same, noise included.
+  EXPECT_EQ(bytes_of_run(mapped.scenario(), 1, trace::Backend::kBruteForce),
+            bytes_of_run(written.scenario(), 1, trace::Backend::kBruteForce));
+}
+
+TEST(Simulator, AllKeysOfAMapsSensorMeanWhatAScenariosDo) {
+  const std::string in_map = sensor_entity(
+      "a",
+      "\"kind\" \"points\"\n\"horizontal_fov_deg\" \"120\"\n\"vertical_fov_deg\" \"30\"\n\"min_range_m\" "
+      "\"0.5\"\n\"max_range_m\" \"7\"\n\"noise_m\" \"0.1 0.2 0.3\"\n\"position_m\" \"1 2 3\"\n\"yaw_deg\" "
+      "\"10\"\n\"pitch_deg\" \"20\"\n\"roll_deg\" \"30\"\n");
+  World mapped(test::scenario_text(), test::map_text("", in_map + sensor_entity("b", "")));
+  World written(test::scenario_text(
+      "[sensor.a]\nkind = 'points'\nhorizontal_fov_deg = 120\nvertical_fov_deg = 30\n"
+      "min_range_m = 0.5\nmax_range_m = 7\nnoise_m = [0.1, 0.2, 0.3]\nposition_m = [1, 2, 3]\n"
+      "yaw_deg = 10\npitch_deg = 20\nroll_deg = 30\n[sensor.b]\nkind = 'points'\n"));
+  const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
+  ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k)
+    expect_equal(simulator.scenario().sensors[k], written.scenario().sensors[k]);
+  // The record of the settings is the same but for where they were said.
+  const auto values_of = [](const Scenario& scenario) {
+    std::set<std::string> values;
+    for (const Setting& setting : scenario.settings) values.insert(setting.key + " = " + setting.value);
+    return values;
+  };
+  EXPECT_EQ(values_of(simulator.scenario()), values_of(written.scenario()));
+  std::set<std::string> origins;
+  for (const Setting& setting : simulator.scenario().settings) {
+    if (setting.key.starts_with("sensor.a"))
+      origins.insert(setting.origin.substr(0, setting.origin.find(':')));
+    if (setting.key.starts_with("sensor.b")) {
+      EXPECT_EQ(setting.origin, "default") << setting.key;
+    }
+  }
+  EXPECT_EQ(origins, std::set<std::string>{"small.map"});
+}
+
+TEST(Simulator, IgnoresTheSensorsOfTheMapWhereTheScenarioHasItsOwn) {
+  // One that could not be read does not matter either.
+  const std::string in_map = sensor_entity("back", "") + sensor_entity("bad", "\"noise_m\" \"-1\"\n");
+  World world(test::scenario_text(kEyes), test::map_text(test::pillars(), in_map));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  ASSERT_EQ(simulator.scenario().sensors.size(), 1u);
+  EXPECT_EQ(simulator.scenario().sensors[0].name, "eyes");
+  for (const Setting& setting : simulator.scenario().settings)
+    EXPECT_FALSE(setting.key.starts_with("sensor.b")) << setting.key;
+}
+
+TEST(Simulator, ABadSensorOfTheMapIsRefusedWithTheMapsLine) {
+  const std::string map = test::map_text("", sensor_entity("eyes", "\"horizontal_fov_deg\" \"0\"\n"));
+  World world(test::scenario_text(), map);
+  const auto error = test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_TRUE(error->where().file.ends_with("small.map")) << error->where().file;
+  EXPECT_EQ(error->where().line, std::count(map.begin(), map.end(), '\n') - 1);
+  EXPECT_NE(error->message().find("horizontal_fov_deg"), std::string::npos) << error->what();
+}
+
+TEST(Simulator, HasNoSensorWhereNeitherScenarioNorMapHasOne) {
+  World world(test::scenario_text());
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  EXPECT_TRUE(simulator.scenario().sensors.empty());
+  EXPECT_TRUE(simulator.step(0).readings.empty());
 }
 
 TEST(Simulator, DrawsOtherNoiseForAnotherSeed) {
