@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# hallway_add_library(<name> SOURCES a.cpp … [LINKS …] [PRIVATE_LINKS …])
+# hallway_add_library(<name> SOURCES a.cpp … [LINKS …] [PRIVATE_LINKS …] [PRECOMPILED target])
 #
 # One engine library: target hallway_<name>, included as "<name>/….hpp". LINKS are the libraries to its left in
 # docs/architecture.md and whatever its headers expose; PRIVATE_LINKS are what only its sources use.
@@ -37,10 +37,21 @@ function(hallway_reuse_precompiled target owner)
   endif()
 endfunction()
 
+# hallway_compile_quickly(<target>): less optimization for code whose speed does not matter: tests, which are half of what is built, the command
+# line and the editor.
+function(hallway_compile_quickly target)
+  if(TARGET ${target})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
 function(hallway_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "" "PRECOMPILED" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(NOT arg_PRECOMPILED)
+    set(arg_PRECOMPILED hallway_precompiled)
+  endif()
   add_library(hallway_${name} STATIC ${arg_SOURCES})
   target_include_directories(hallway_${name} PUBLIC ${PROJECT_SOURCE_DIR}/engine)
   target_link_libraries(hallway_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
-  hallway_reuse_precompiled(hallway_${name} hallway_precompiled)
+  hallway_reuse_precompiled(hallway_${name} ${arg_PRECOMPILED})
 endfunction()

@@ -19,13 +19,6 @@ if(HALLWAY_SANITIZE)
   set(HALLWAY_TEST_SECONDS 2700)
 endif()
 
-# hallway_compile_quickly(<target>): less optimization for code that runs once; half of what is built is tests.
-function(hallway_compile_quickly target)
-  if(TARGET ${target})
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
-endfunction()
-
 function(hallway_add_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBS;LABELS;ENV" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
