@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo test test-long check fuzz bench renders format lint clean build-release deps
+.PHONY: demo install test test-long check fuzz bench renders format lint clean build-release deps
 .DEFAULT_GOAL := demo
 
 deps:
@@ -21,6 +21,11 @@ demo: build-release
 test: build-release
 	ctest --preset release
 
+## the program, its plugins and the SDK, into $(DESTDIR)$(PREFIX)
+PREFIX ?= /usr/local
+install: build-release
+	DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX)
+
 ## every test, at full size
 test-long: build-release
 	ctest --test-dir build/release --output-on-failure
@@ -33,7 +38,7 @@ check: deps
 
 ## libFuzzer on everything that reads foreign bytes, FUZZ_SECONDS each; what it finds is kept in build/fuzz/finds
 FUZZ_SECONDS ?= 600
-FUZZ_TARGETS := map_reader mesh_protocol mesh_scene edit_command edit_journal
+FUZZ_TARGETS := map_reader mesh_protocol mesh_scene edit_command edit_journal mcap_reader
 fuzz: deps
 	cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
 	  -DHALLWAY_FUZZ=ON -DHALLWAY_SANITIZE=address,undefined,fuzzer-no-link -DHALLWAY_BENCH=OFF

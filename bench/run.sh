@@ -20,6 +20,9 @@ echo
 echo
 "$build/bin/bench_edit"
 echo
+"$build/bin/bench_isolation" "$build/tests/abi/fixtures/minimal.so" "$build/lib/hallway/plugins/slam_point.so" \
+  $(ls "${HALLWAY_DATA:-$here/../../shared/data}/landmark_logs/figure8_d100/obs.csv" 2>/dev/null)
+echo
 maps=${HALLWAY_DATA:-$here/../../shared/data}/maps
 if [[ -d $maps/id1 ]]; then
   "$build/bin/bench_compile" $(for map in e1m1 e1m7 dm2 dm5 end; do echo "$maps/id1/$map.map=$maps/id1_bsp/$map.bsp"; done)

@@ -78,12 +78,16 @@ int main(int argc, char** argv) {
     hallway::cli::Action chosen;
     hallway::cli::add_run_command(app, chosen);
     hallway::cli::add_replay_command(app, chosen);
+    hallway::cli::add_compare_command(app, chosen);
+    hallway::cli::add_batch_command(app, chosen);
+    hallway::cli::add_log_command(app, chosen);
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);
     hallway::cli::add_import_command(app, chosen);
     hallway::cli::add_compile_command(app, chosen);
     hallway::cli::add_map_command(app, chosen);
     hallway::cli::add_edit_command(app, chosen);
+    hallway::cli::add_doctor_command(app, chosen);
     check_command(app, argc, argv);
     try {
       app.parse(argc, argv);

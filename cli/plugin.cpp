@@ -96,7 +96,7 @@ std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
 }
 
 void add_plugin_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("plugin", "Look at the plugins that are there");
+  CLI::App* command = app.add_subcommand("plugin", "Look at plugins, check them, and begin new ones");
   command->require_subcommand(1);
   CLI::App* listing =
       command->add_subcommand("list", "List the plugins on the search path, with what they take and give");
@@ -104,6 +104,9 @@ void add_plugin_command(CLI::App& app, Action& chosen) {
   add_plugin_path_option(*listing, options->plugin_path);
   listing->add_flag("--json", options->json, "Print one JSON document");
   listing->callback([&chosen, options] { chosen = [options] { return list(*options); }; });
+  add_plugin_info_command(*command, chosen);
+  add_plugin_check_command(*command, chosen);
+  add_plugin_new_command(*command, chosen);
 }
 
 }  // namespace hallway::cli

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
-#include "console.hpp"
-#include "log/landmarks.hpp"
+#include "isolation_options.hpp"
 #include "log/observations.hpp"
-#include "log/poses.hpp"
+#include "log_input.hpp"
 #include "report.hpp"
-#include "run/log_source.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
 #include "run/run.hpp"
-#include "run/sensor_json.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::cli {
@@ -36,65 +32,11 @@ struct ReplayOptions {
   std::optional<double> period_s;
   std::string out;
   std::vector<std::string> plugin_path;
+  IsolationOptions isolation;
   bool force = false;
   bool json = false;
   bool quiet = false;
 };
-
-constexpr double kDefaultPeriod_s = 0.1;
-
-/// The log and what stands beside it: a log in a run folder brings the run's facts with it.
-struct Input {
-  fs::path observations;
-  std::optional<nlohmann::ordered_json> manifest;  ///< run.json of its folder
-  std::optional<fs::path> true_poses;
-  std::optional<fs::path> true_landmarks;
-  std::string name;
-};
-
-std::optional<fs::path> if_there(const fs::path& path) {
-  std::error_code code;
-  return fs::exists(path, code) ? std::optional(path) : std::nullopt;
-}
-
-Input find_input(const ReplayOptions& options) {
-  Input input;
-  std::error_code code;
-  input.observations = options.observations;
-  if (fs::is_directory(input.observations, code)) input.observations /= run::files::kObservations;
-  const fs::path folder = input.observations.parent_path();
-  if (input.observations.filename() == run::files::kObservations && run::is_run_folder(folder)) {
-    input.manifest = run::read_manifest(folder);
-    input.name = input.manifest->value("name", "log");
-    input.true_poses = if_there(folder / run::files::kTruePoses);
-    input.true_landmarks = if_there(folder / run::files::kTrueLandmarks);
-  } else {
-    // A log is often called obs.csv: the folder says more.
-    const fs::path absolute = fs::absolute(input.observations, code);
-    input.name = absolute.parent_path().filename().string();
-    if (input.name.empty()) input.name = absolute.stem().string();
-  }
-  if (!options.true_poses.empty()) input.true_poses = options.true_poses;
-  if (!options.true_landmarks.empty()) input.true_landmarks = options.true_landmarks;
-  return input;
-}
-
-std::int64_t period_of(const ReplayOptions& options, const Input& input) {
-  if (options.period_s) return static_cast<std::int64_t>(*options.period_s * 1e9 + 0.5);
-  if (input.manifest && input.manifest->contains("period_ns")) {
-    return input.manifest->at("period_ns").get<std::int64_t>();
-  }
-  return static_cast<std::int64_t>(kDefaultPeriod_s * 1e9);
-}
-
-host::SensorInfo sensor_of(const Input& input) {
-  if (input.manifest && input.manifest->contains("sensors") && !input.manifest->at("sensors").empty()) {
-    return run::read_sensor(input.manifest->at("sensors").front());
-  }
-  host::SensorInfo sensor;
-  sensor.name = "log";
-  return sensor;
-}
 
 /// Stages to build, with where their parameters come from.
 struct Stages {
@@ -102,10 +44,23 @@ struct Stages {
   std::vector<run::ParameterOrigin> origins;
 };
 
+/// Of a plugin that a log names only the id counts: a log must not make this program load a file of its choice.
+void check_recorded_id(const std::string& id) {
+  const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  });
+  if (plain && !id.empty() && !id.ends_with(".so")) return;
+  throw Error(ErrorCode::kBadInput,
+              fmt::format("the log names a plugin \"{}\", which is no id", printable(id)),
+              {.file = run::files::kRun, .element = "plugins"});
+}
+
 /// What the run that wrote the log used, as far as it had been set.
 void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const std::string& wanted) {
   for (const auto& plugin : manifest.at("plugins")) {
     const std::string id = plugin.at("id").get<std::string>();
+    if (wanted.empty()) check_recorded_id(id);
     if (!wanted.empty() && sim::short_plugin_name(wanted) != id) continue;
     host::StageSpec spec{.plugin = wanted.empty() ? id : wanted, .parameters = {}};
     for (const auto& parameter : plugin.at("parameters")) {
@@ -140,7 +95,7 @@ void add_setting(Stages& stages, const std::string& text) {
   stages.origins.push_back({sim::short_plugin_name(stage->plugin), name, "command line"});
 }
 
-Stages stages_of(const ReplayOptions& options, const Input& input) {
+Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
   Stages stages;
   try {
     if (input.manifest) add_recorded(stages, *input.manifest, options.plugin);
@@ -158,38 +113,33 @@ Stages stages_of(const ReplayOptions& options, const Input& input) {
 }
 
 int replay(const ReplayOptions& options) {
-  const Input input = find_input(options);
-  run::ManifestFacts facts{.command = "replay", .name = input.name, .period_ns = period_of(options, input)};
-  const auto read_input = [&](const fs::path& path) -> const std::string& {
-    facts.inputs.push_back({path.filename().string(), read_file(path)});
-    return facts.inputs.back().content;
-  };
-  facts.inputs.reserve(3);  // the texts that read_input() gives stay where they are
-  log::ReadLog read = log::parse_observations(read_input(input.observations), input.observations.string());
-  if (read.damage) {
-    facts.warnings.push_back(log::describe(*read.damage, read.log, input.observations.string()));
-    print_warning(facts.warnings.back());
-  }
-  run::LogTruth truth;
-  if (input.true_poses)
-    truth.poses = log::parse_poses(read_input(*input.true_poses), input.true_poses->string());
-  if (input.true_landmarks) {
-    truth.landmarks = log::parse_landmarks(read_input(*input.true_landmarks), input.true_landmarks->string());
-  }
-  run::LogSource source(std::move(read.log), std::move(truth), sensor_of(input), facts.period_ns,
-                        options.steps);
+  OpenedLog input = open_log({.log = options.observations,
+                              .true_poses = options.true_poses,
+                              .true_landmarks = options.true_landmarks,
+                              .period_s = options.period_s,
+                              .steps = options.steps});
+  run::Source& source = *input.source;
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log);
-  facts.parameters = std::move(stages.origins);
+  const sim::PluginLimits limits = apply(options.isolation, {});
+  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+                          isolation_of(options.isolation, limits));
+  const run::ManifestFacts facts{.command = "replay",
+                                 .name = input.name,
+                                 .inputs = std::move(input.inputs),
+                                 .parameters = std::move(stages.origins),
+                                 .warnings = input.warnings,
+                                 .period_ns = input.period_ns};
   const run::RunPlan plan{
       .folder = options.out.empty() ? fs::path("out") / ("replay-" + input.name) : fs::path(options.out),
       .replace = options.force,
       .manifest = run::make_manifest(facts, pipeline),
       .attachments = {},
       .pictures = {},
-      .write_observations = false};
-  return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = facts.warnings},
+      .write_observations = false,
+      .lock_step = false,
+      .on_failure = limits.on_failure};
+  return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
                             {.json = options.json, .quiet = options.quiet});
 }
 
@@ -200,12 +150,14 @@ void add_replay_command(CLI::App& app, Action& chosen) {
       app.add_subcommand("replay", "Feed recorded observations to a plugin, and measure what it maps");
   const auto options = std::make_shared<ReplayOptions>();
   command
-      ->add_option(
-          "observations", options->observations,
-          "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or a run "
-          "folder; a log in a run folder brings the run's plugin, parameters and truth with it")
+      ->add_option("observations", options->observations,
+                   "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), an "
+                   ".mcap log, "
+                   "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
+                   "parameters and "
+                   "truth with them")
       ->required()
-      ->type_name("OBSERVATIONS");
+      ->type_name("LOG");
   command->add_option("--plugin", options->plugin, "Plugin to run: an id or a .so file")
       ->type_name("NAME|FILE");
   command
@@ -231,10 +183,11 @@ void add_replay_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1e-6, 1e6));
   command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
   add_plugin_path_option(*command, options->plugin_path);
+  add_isolation_options(*command, options->isolation);
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer("Example: hallway replay out/office/observations.csv --plugin ./my_slam.so --out out/mine");
+  command->footer("Example: hallway replay out/office/run.mcap --plugin ./my_slam.so --out out/mine");
   command->callback([&chosen, options] { chosen = [options] { return replay(*options); }; });
 }
 

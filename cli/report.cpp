@@ -5,9 +5,11 @@
 
 #include <optional>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
 #include "eval/metrics_json.hpp"
+#include "run/manifest.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -98,6 +100,9 @@ std::string table_of(const Outcome& outcome) {
   add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
   table.row("written to", printable(outcome.folder.string(), 4096));
   for (const auto& picture : result.pictures) table.row("picture", printable(picture.string(), 4096));
+  if (result.failures != 0) {
+    table.row("plugin failures", fmt::format("{}, {} restarts", result.failures, result.restarts));
+  }
   return fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
                      result.stopped ? " (stopped early)" : "") +
          table.text();
@@ -112,16 +117,38 @@ std::vector<std::string> plugin_names(host::Pipeline& pipeline) {
   return names;
 }
 
+/// 5 where a plugin failed, whatever became of the run then.
+int status_of(const run::RunResult& result) {
+  if (result.failures != 0) return exit_status(ErrorCode::kPluginFault);
+  return result.stopped ? interrupt_status() : 0;
+}
+
+/// Prints each failure and where it happened on standard error.
+void print_failures(const run::RunResult& result) {
+  for (const run::Failure& failure : result.verdicts) {
+    const std::string at = failure.iteration ? fmt::format("iteration {}: ", *failure.iteration) : "";
+    fmt::print(stderr, "hallway: {}{}\n", at, failure.verdict.message);
+    for (const std::string& line : failure.verdict.backtrace) fmt::print(stderr, "    {}\n", line);
+  }
+  if (result.failures > result.verdicts.size()) {
+    fmt::print(stderr, "hallway: {} failures more\n", result.failures - result.verdicts.size());
+  }
+}
+
 nlohmann::ordered_json document_of(const Outcome& outcome) {
   nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
   for (const auto& picture : outcome.result.pictures) pictures.push_back(printable(picture.string(), 4096));
   return {{"schema", "hallway.result/1"},
-          {"status", outcome.result.stopped ? interrupt_status() : 0},
+          {"status", status_of(outcome.result)},
           {"name", outcome.report.name},
           {"plugins", outcome.plugins},
           {"folder", printable(outcome.folder.string(), 4096)},
           {"pictures", pictures},
           {"warnings", outcome.report.warnings},
+          {"verdict",
+           outcome.result.verdicts.empty() ? nullptr : run::print_failure(outcome.result.verdicts.front())},
+          {"failures", outcome.result.failures},
+          {"restarts", outcome.result.restarts},
           {"submaps", outcome.result.submaps},
           {"metrics", eval::to_json(outcome.result.metrics)}};
 }
@@ -142,13 +169,14 @@ int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run:
         run::execute(source, pipeline, plan,
                      {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
+  print_failures(result);
   const Outcome outcome{report, plugin_names(pipeline), plan.folder, result};
   if (style.json) {
     print_json(document_of(outcome));
   } else if (!style.quiet) {
     print_result(table_of(outcome));
   }
-  return result.stopped ? interrupt_status() : 0;
+  return status_of(result);
 }
 
 }  // namespace hallway::cli

@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "isolation_options.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string plugin;
   std::vector<std::string> plugin_path;
   unsigned threads = hardware_threads();
+  IsolationOptions isolation;
   bool strict = false;
   bool force = false;
   bool json = false;
@@ -52,6 +54,7 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
   if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
+  for (const sim::Override& limit : overrides_of(options.isolation)) overrides.push_back(limit);
   return overrides;
 }
 
@@ -112,7 +115,8 @@ int run_scenario(const RunOptions& options) {
   run::SimulatedSource source(simulator);
   const Stages stages = stages_of(scenario);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log);
+  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+                          isolation_of(options.isolation, scenario.limits));
 
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",
@@ -132,7 +136,9 @@ int run_scenario(const RunOptions& options) {
                     .attachments = {{run::files::kScenario, facts.inputs[0].content},
                                     {run::files::kMap, facts.inputs[1].content}},
                     .pictures = scenario.pictures,
-                    .write_observations = true};
+                    .write_observations = true,
+                    .lock_step = true,
+                    .on_failure = scenario.limits.on_failure};
   for (const run::Attachment& model : models) plan.attachments.push_back(model);
   return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
                             {.json = options.json, .quiet = options.quiet});
@@ -169,6 +175,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u));
+  add_isolation_options(*command, options->isolation);
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");

@@ -4,9 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +12,6 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
-#include <thread>
 
 #include "base/error.hpp"
 #include "base/helper.hpp"
@@ -55,16 +52,6 @@ struct Ends {
   }
 };
 
-/// Moves a descriptor above 0, 1 and 2, which the child's own take: in a process that had closed them a new one would
-/// be one of these.
-bool move_above_standard(int& fd) {
-  if (fd > 2) return true;
-  const int moved = ::fcntl(fd, F_DUPFD_CLOEXEC, 3);
-  close_if_open(fd);
-  fd = moved;
-  return moved >= 0;
-}
-
 /// The way in is a socket, since only send() can be told not to raise SIGPIPE.
 bool open_ends(Ends& ends) {
   std::array<int, 2> in{};
@@ -80,32 +67,6 @@ bool open_ends(Ends& ends) {
   }
   ::fcntl(ends.parent_out, F_SETPIPE_SZ, static_cast<int>(kReadBytes));  // a refusal only makes it slower
   return ::fcntl(ends.parent_out, F_SETFL, O_NONBLOCK) == 0;
-}
-
-int spawn(pid_t& pid, const fs::path& program, std::vector<std::string>& words, const Ends& ends) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends.child_in, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends.child_out, 1);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  sigfillset(&signals);
-  posix_spawnattr_setsigdefault(&attributes, &signals);
-  sigemptyset(&signals);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const int problem = ::posix_spawn(&pid, program.c_str(), &actions, &attributes, argv.data(), ::environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return problem;
 }
 
 std::string seconds(std::chrono::milliseconds time) {
@@ -150,16 +111,18 @@ Child::Child(const fs::path& program, const std::vector<std::string>& arguments,
     : limits_(limits), deadline_(Clock::now() + limits.wall_time) {
   Ends ends;
   if (!open_ends(ends)) fail(program, "cannot make a pipe", errno);
-  std::vector<std::string> words{program.string(), helper_word(limits.memory_bytes, limits.cpu_seconds)};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const int problem = spawn(pid_, program, words, ends);
-  if (problem != 0) fail(program, "cannot be started", problem);
+  ProcessSetup setup{.arguments = {helper_word(limits.memory_bytes, limits.cpu_seconds)},
+                     .descriptors = {ends.child_in, ends.child_out, -1},
+                     .own_session = false,
+                     .environment = {}};
+  setup.arguments.insert(setup.arguments.end(), arguments.begin(), arguments.end());
+  process_.emplace(program, setup);
   std::swap(input_, ends.parent_in);
   std::swap(output_, ends.parent_out);
 }
 
 Child::~Child() {
-  if (!reaped_) stop();
+  if (!stopped_) stop();
   close_input();
   close_output();
 }
@@ -239,50 +202,21 @@ std::string Child::exchange(std::string_view input) {
   return output;
 }
 
-bool Child::ended_by(Clock::time_point deadline) const {
-  using namespace std::chrono_literals;
-  for (auto nap = 100us;; nap = std::min<std::chrono::microseconds>(2 * nap, 10ms)) {
-    siginfo_t info{};
-    // WNOWAIT: it stays a zombie, so that its number still names its group when stop() kills what is left of that.
-    const int problem = ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT);
-    if (problem != 0 && errno != EINTR) return true;
-    if (problem == 0 && info.si_pid == pid_) return true;
-    if (Clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(nap);
-  }
-}
-
 void Child::stop() {
-  if (!ended_by(Clock::now())) {
-    ::kill(-pid_, SIGTERM);
-    ended_by(Clock::now() + kTermGrace);
+  if (!process_->ended_by(Clock::now())) {
+    process_->signal(SIGTERM);
+    process_->ended_by(Clock::now() + kTermGrace);
   }
-  reap();
-}
-
-void Child::reap() {
-  ::kill(-pid_, SIGKILL);  // whatever it has started
-  int status = 0;
-  pid_t got = -1;
-  do {
-    got = ::waitpid(pid_, &status, 0);
-  } while (got < 0 && errno == EINTR);
-  reaped_ = true;
-  // A program that ignores SIGCHLD has its children reaped by the kernel, and nobody knows how they ended.
-  if (got != pid_) {
-    end_ = {ChildFate::kExited, 0};
-  } else if (WIFSIGNALED(status)) {
-    end_ = {ChildFate::kSignalled, WTERMSIG(status)};
-  } else {
-    end_ = {ChildFate::kExited, WEXITSTATUS(status)};
-  }
+  const ProcessEnd end = process_->kill();
+  end_ = {end.signalled ? ChildFate::kSignalled : ChildFate::kExited, end.number};
+  stopped_ = true;
 }
 
 ChildEnd Child::wait() {
-  if (reaped_) return end_;
+  if (stopped_) return end_;
   close_input();
   if (!too_much_output_) close_output();
-  if (!out_of_time_ && !too_much_output_ && !ended_by(deadline_)) out_of_time_ = true;
+  if (!out_of_time_ && !too_much_output_ && !process_->ended_by(deadline_)) out_of_time_ = true;
   stop();
   if (too_much_output_) end_ = {ChildFate::kOutputLimit, 0};
   if (out_of_time_) end_ = {ChildFate::kTimeLimit, 0};

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/spawn.hpp"
 
 namespace hallway {
 
@@ -85,19 +86,17 @@ class Child {
   Ready poll_until_deadline(bool want_input, bool want_output);
   std::size_t send_some(std::string_view bytes);
   int remaining_ms() const;
-  bool ended_by(std::chrono::steady_clock::time_point deadline) const;
   void stop();
-  void reap();
 
   ChildLimits limits_;
   std::chrono::steady_clock::time_point deadline_;
-  pid_t pid_ = -1;
+  std::optional<ProcessGroup> process_;
   int input_ = -1;   ///< our end of its standard input
   int output_ = -1;  ///< our end of its standard output
   std::uint64_t received_ = 0;
   bool out_of_time_ = false;
   bool too_much_output_ = false;
-  bool reaped_ = false;
+  bool stopped_ = false;
   ChildEnd end_{};
 };
 

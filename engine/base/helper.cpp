@@ -47,6 +47,15 @@ std::string helper_word(std::uint64_t memory_bytes, std::uint64_t cpu_seconds) {
          std::to_string(::getpid());
 }
 
+bool reserves_addresses() {
+  return kReservesAddresses;
+}
+
+bool end_with_parent(std::int64_t parent) {
+  // The second question, for a parent that ended before the first was answered.
+  return ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent;
+}
+
 bool begin_helper(std::string_view argument) {
   const auto parts = split(argument, ':');
   if (parts.size() != 4 || parts[0] != kPrefix) return false;
@@ -54,8 +63,7 @@ bool begin_helper(std::string_view argument) {
   const auto cpu = parse_uint(parts[2]);
   const auto parent = parse_int(parts[3]);
   if (!memory || !cpu || !parent) return false;
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
-  if (::getppid() != *parent) return false;  // it ended before we asked to be told
+  if (!end_with_parent(*parent)) return false;
   // SIGXCPU at the soft limit names the cause; the hard one is for a program that ignores that.
   bool good = limit(RLIMIT_CPU, *cpu, *cpu + 1) && limit(RLIMIT_CORE, 0, 0) && limit(RLIMIT_FSIZE, 0, 0) &&
               limit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);

@@ -18,6 +18,12 @@ std::string helper_word(std::uint64_t memory_bytes, std::uint64_t cpu_seconds);
 /// @return false if the argument is none of these, or the starter is already gone; the program then ends
 bool begin_helper(std::string_view argument);
 
+/// Arranges to be killed when the thread that started this process ends. @return false if `parent`, which did, is already gone
+bool end_with_parent(std::int64_t parent);
+
+/// Whether this program was built with a sanitizer that reserves most of the address space.
+bool reserves_addresses();
+
 /// Reads standard input to its end, at most `max_bytes`. Throws Error{kIo}.
 std::string read_standard_input(std::uint64_t max_bytes);
 /// Writes all of it to standard output. Throws Error{kIo}.

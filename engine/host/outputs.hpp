@@ -39,6 +39,8 @@ class Outputs {
   std::span<const hw_submap_t> submaps() const { return submaps_; }
   /// The landmarks of a submap of this object.
   std::span<const std::uint64_t> members(const hw_submap_t& submap) const;
+  /// The landmarks of all submaps, as first_member counts them.
+  std::span<const std::uint64_t> all_members() const { return submap_members_; }
   /// The counters, in the order put.
   std::span<const Counter> counters() const { return std::span(counters_).first(n_counters_); }
 

@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
+
+#include "host/isolated_plugin.hpp"
+#include "host/plugin.hpp"
 
 namespace hallway::host {
 namespace {
 
 /// Sensors are the only producers: no kind of output is a kind of sample.
-void check_producers(const Plugin& plugin, std::span<const SensorInfo> sensors) {
+void check_producers(const Stage& plugin, std::span<const SensorInfo> sensors) {
   std::set<std::uint32_t> produced;
   for (const SensorInfo& sensor : sensors) produced.insert(sensor.kind);
   for (const std::uint32_t kind : plugin.info().inputs) {
@@ -27,28 +31,63 @@ void check_producers(const Plugin& plugin, std::span<const SensorInfo> sensors) 
 
 }  // namespace
 
-Pipeline::Pipeline(std::span<const StageSpec> stages, std::span<const std::filesystem::path> folders,
-                   std::span<const SensorInfo> sensors, const LogSink& log) {
-  if (stages.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
-  for (const StageSpec& spec : stages) {
-    Plugin& plugin = *stages_.emplace_back(std::make_unique<Plugin>(find_plugin(spec.plugin, folders), log));
+Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
+                   std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
+    : specs_(std::move(stages)),
+      folders_(std::move(folders)),
+      sensors_(std::move(sensors)),
+      log_(std::move(log)),
+      isolation_(std::move(isolation)) {
+  if (specs_.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
+  start();
+}
+
+std::unique_ptr<Stage> Pipeline::make_stage(const std::string& plugin) {
+  if (!isolation_) return std::make_unique<Plugin>(find_plugin(plugin, folders_), log_);
+  auto stage = std::make_unique<IsolatedPlugin>(plugin, folders_, *isolation_, log_);
+  if (log_ && !std::exchange(warned_, true)) {
+    for (const std::string& missing : stage->missing()) {
+      log_(stage->info().id, HW_LOG_WARNING, "its isolation is not complete: " + missing);
+    }
+  }
+  return stage;
+}
+
+void Pipeline::start() {
+  for (const StageSpec& spec : specs_) {
+    Stage& plugin = *stages_.emplace_back(make_stage(spec.plugin));
     for (const ParameterSetting& setting : spec.parameters) {
       plugin.set_parameter(setting.name, setting.value, setting.where);
     }
-    check_producers(plugin, sensors);
+    check_producers(plugin, sensors_);
   }
-  for (const auto& plugin : stages_) plugin->activate(sensors);
+  for (const auto& plugin : stages_) plugin->activate(sensors_);
 }
 
-const Outputs& Pipeline::process(const hw_frame_t& frame) {
+std::size_t Pipeline::capacity() const {
+  std::size_t least = stages_.front()->capacity();
+  for (const auto& plugin : stages_) least = std::min(least, plugin->capacity());
+  return least;
+}
+
+void Pipeline::submit(const hw_frame_t& frame) {
+  for (const auto& plugin : stages_) plugin->submit(frame);
+}
+
+const Outputs& Pipeline::collect() {
   last_call_ = {};
   const Outputs* outputs = nullptr;
   for (const auto& plugin : stages_) {
-    outputs = &plugin->process(frame);
+    outputs = &plugin->collect();
     last_call_.wall_ns += plugin->last_call().wall_ns;
     last_call_.cpu_ns += plugin->last_call().cpu_ns;
   }
   return *outputs;
+}
+
+const Outputs& Pipeline::process(const hw_frame_t& frame) {
+  submit(frame);
+  return collect();
 }
 
 const Outputs& Pipeline::report(bool refine) {
@@ -59,6 +98,15 @@ const Outputs& Pipeline::report(bool refine) {
 
 void Pipeline::reset() {
   for (const auto& plugin : stages_) plugin->reset();
+}
+
+void Pipeline::restart() {
+  stages_.clear();
+  start();
+}
+
+void Pipeline::close() {
+  for (const auto& plugin : stages_) plugin->close();
 }
 
 }  // namespace hallway::host

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "host/plugin.hpp"
+#include "host/isolation.hpp"
+#include "host/stage.hpp"
 
 namespace hallway::host {
 
@@ -25,29 +27,53 @@ struct StageSpec {
 };
 
 /// Plugins in order, each fed with the samples of the kinds it needs. The last one's outputs are the
-/// pipeline's.
+/// pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
 class Pipeline {
  public:
   /// Finds, makes, sets and activates the plugins. Before any of them is activated, checks that each kind of
   /// sample that one needs is given by a sensor: Error{kBadInput} names the plugin, the kind and what there
-  /// is. Throws what find_plugin() and Plugin throw, and Error{kBadInput} if `stages` is empty.
-  Pipeline(std::span<const StageSpec> stages, std::span<const std::filesystem::path> folders,
-           std::span<const SensorInfo> sensors, const LogSink& log = {});
+  /// is. Throws what find_plugin(), Plugin and IsolatedPlugin throw, and Error{kBadInput} if `stages` is empty.
+  /// @param isolation  unset: the plugins run in this process. Set: each has a process of its own, and what the kernel
+  ///                   does not keep them from is logged once, as a warning
+  Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
+           std::vector<SensorInfo> sensors, LogSink log = {}, std::optional<Isolation> isolation = {});
 
   std::size_t size() const { return stages_.size(); }
-  Plugin& stage(std::size_t i) { return *stages_[i]; }
+  Stage& stage(std::size_t i) { return *stages_[i]; }
+  /// Whether each plugin has a process of its own.
+  bool isolated() const { return isolation_.has_value(); }
 
+  /// How many frames may be submitted and not yet collected.
+  std::size_t capacity() const;
+  /// Hands one frame to every plugin; see Stage::submit().
+  void submit(const hw_frame_t& frame);
+  /// What the last plugin answers to the oldest frame that was submitted and not yet collected.
+  /// @return valid until the next call
+  const Outputs& collect();
   /// Feeds one frame to every plugin, in order. @return the last one's outputs, valid until the next call
   const Outputs& process(const hw_frame_t& frame);
   /// The last plugin's map.  @return valid until the next call
   const Outputs& report(bool refine);
   /// Forgets the maps.
   void reset();
-  /// The sum of what the plugins took in the last process(), or the last one in report().
+  /// Ends all plugins and makes new ones of the same files and parameters. Frames under way are forgotten. Throws as the constructor does.
+  void restart();
+  /// Ends all plugins in good order. Throws the PluginFailure of the first that does not end so.
+  void close();
+  /// The sum of what the plugins took in the last collect(), or the last one in report().
   const CallTime& last_call() const { return last_call_; }
 
  private:
-  std::vector<std::unique_ptr<Plugin>> stages_;
+  void start();
+  std::unique_ptr<Stage> make_stage(const std::string& plugin);
+
+  std::vector<StageSpec> specs_;
+  std::vector<std::filesystem::path> folders_;
+  std::vector<SensorInfo> sensors_;
+  LogSink log_;
+  std::optional<Isolation> isolation_;
+  bool warned_ = false;
+  std::vector<std::unique_ptr<Stage>> stages_;
   CallTime last_call_;
 };
 

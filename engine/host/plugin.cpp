@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "base/text.hpp"
 #include "host/error_text.hpp"
@@ -62,31 +63,35 @@ Plugin::Plugin(Found found, LogSink log) : found_(std::move(found)), log_(std::m
   try {
     read_parameters();
   } catch (...) {
-    destroy();
+    close();
     throw;
   }
 }
 
 Plugin::~Plugin() {
-  destroy();
+  close();
 }
 
-void Plugin::destroy() noexcept {
+void Plugin::close() {
+  if (closed_) return;
+  closed_ = true;
   try {
     if (active_) plugin_.vtable->deactivate(plugin_.self);
     plugin_.vtable->destroy(plugin_.self);
-  } catch (...) {  // it is gone, and there is nobody left to tell
+  } catch (...) {  // it is gone, and nothing that it gave is worth less for it
   }
 }
 
 void Plugin::fail(ErrorCode code, const char* call, const std::string& reason) {
   faulted_ = true;
-  throw Error(code, fmt::format("{}(): {}", call, reason),
-              {file().string(), 0, fmt::format("plugin `{}`", info().id)});
+  const std::string message = fmt::format("{}(): {}", call, reason);
+  throw PluginFailure(code, message, {file().string(), 0, fmt::format("plugin `{}`", info().id)},
+                      {.what = Misdeed::kFault, .call = call, .plugin = info().id, .message = message});
 }
 
 template <typename Call>
 hw_status_t Plugin::guarded(const char* name, Call&& call) {
+  if (closed_) throw Error(ErrorCode::kInternal, fmt::format("{}() after close()", name));
   if (faulted_) fail(ErrorCode::kPluginFault, name, "is not called, the plugin has failed before");
   error_.size = sizeof error_;
   error_.status = HW_OK;
@@ -205,24 +210,10 @@ void Plugin::reset() {
   if (status != HW_OK) fail(ErrorCode::kPluginFault, "reset", error_text(error_, status));
 }
 
-const hw_frame_t& Plugin::select_samples(const hw_frame_t& frame) {
-  selected_samples_.clear();
-  selected_indices_.clear();
-  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
-    const auto& inputs = info().inputs;
-    if (std::find(inputs.begin(), inputs.end(), frame.samples[i]->kind) == inputs.end()) continue;
-    selected_samples_.push_back(frame.samples[i]);
-    selected_indices_.push_back(i);
-  }
-  selected_ = frame;
-  selected_.n_samples = static_cast<std::uint32_t>(selected_samples_.size());
-  selected_.samples = selected_samples_.data();
-  return selected_;
-}
-
-const Outputs& Plugin::process(const hw_frame_t& frame) {
-  const hw_frame_t& selected = select_samples(frame);
-  collector_.begin(&selected, selected_indices_);
+const Outputs& Plugin::collect() {
+  if (submitted_ == nullptr) throw Error(ErrorCode::kInternal, "collect() without a frame");
+  const hw_frame_t& selected = selection_.select(*std::exchange(submitted_, nullptr), info().inputs);
+  collector_.begin(&selected, selection_.indices());
   return timed("process", [&] { return plugin_.vtable->process(plugin_.self, &selected, &error_); });
 }
 

@@ -45,6 +45,7 @@ Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
           {"trace", trace::backend_description(facts.trace)},
           {"compiler", compiler_name()},
           {"plugin_files", files},
+          {"isolated", pipeline.isolated()},
           {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 
@@ -56,7 +57,7 @@ std::string origin_of(const ManifestFacts& facts, const std::string& plugin, con
   return origin;
 }
 
-Json describe_plugin(const ManifestFacts& facts, host::Plugin& plugin) {
+Json describe_plugin(const ManifestFacts& facts, host::Stage& plugin) {
   Json parameters = Json::array();
   for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
     const host::Parameter& parameter = plugin.parameters()[i];
@@ -94,6 +95,27 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
           {"inputs", inputs},           {"period_ns", facts.period_ns},
           {"settings", settings},       {"plugins", plugins},
           {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
+}
+
+Json print_failure(const Failure& failure) {
+  const host::Verdict& verdict = failure.verdict;
+  Json json{{"what", host::misdeed_name(verdict.what)}, {"plugin", verdict.plugin}};
+  json["signal"] = verdict.what == host::Misdeed::kCrash ? Json(verdict.signal) : Json(nullptr);
+  json["exit_status"] = verdict.what == host::Misdeed::kExit ? Json(verdict.exit_status) : Json(nullptr);
+  json["iteration"] = failure.iteration ? Json(*failure.iteration) : Json(nullptr);
+  json["call"] = verdict.call;
+  json["message"] = verdict.message;
+  json["backtrace"] = verdict.backtrace;
+  return json;
+}
+
+void describe_failures(sim::OnFailure policy, const RunResult& result, Json& manifest) {
+  manifest["on_failure"] = on_failure_name(policy);
+  manifest["failures"] = result.failures;
+  manifest["restarts"] = result.restarts;
+  manifest["verdict"] = result.verdicts.empty() ? Json(nullptr) : print_failure(result.verdicts.front());
+  if (result.verdicts.size() < 2) return;
+  for (const Failure& failure : result.verdicts) manifest["verdicts"].push_back(print_failure(failure));
 }
 
 }  // namespace hallway::run

@@ -262,7 +262,74 @@ std::string map_subtitle(const world::CompiledWorld& world, const MapView& view)
   return {};
 }
 
+/// Colours of runs beside each other, after Okabe and Ito; none is that of the truth.
+render::Rgb comparison_colour(std::size_t index) {
+  constexpr std::array<render::Rgb, 6> kColours{
+      {{213, 94, 0}, {0, 158, 115}, {170, 51, 119}, {230, 159, 0}, {86, 180, 233}, {60, 60, 60}}};
+  return index < kColours.size() ? kColours[index] : render::submap_colour(index);
+}
+
+/// The path and the landmarks of one run among others.
+void add_compared(render::Picture& picture, const Compared& run, const sim::PictureSpec& spec,
+                  render::Rgb colour) {
+  const Pose T_world_path = align_path(run.record).value_or(Pose());
+  const Pose T_world_map = align_landmarks(run.record).value_or(T_world_path);
+  const LandmarkPlaces mapped = mapped_places(run.record, T_world_map);
+  render::Markers marks{
+      .positions = {}, .shape = render::MarkerShape::kDot, .colour = colour, .size_px = 3.5, .label = {}};
+  for (const log::MapLandmark& landmark :
+       run.record.landmarks) {  // in the file's order, so that the picture is the same
+    if (const auto place = mapped.find(landmark.id); place != mapped.end())
+      marks.positions.push_back(place->second);
+  }
+  if (spec.shows(sim::PictureLayer::kLandmarks) && !marks.positions.empty())
+    picture.markers.push_back(std::move(marks));
+  if (spec.shows(sim::PictureLayer::kEstimate) && !run.record.trajectory.empty()) {
+    picture.polylines.push_back({.points = line_of(run.record.trajectory, T_world_path),
+                                 .colour = colour,
+                                 .width_px = 1.8,
+                                 .dashed = false,
+                                 .label = printable(run.name)});
+  }
+}
+
+/// The true landmarks as rings, below what was mapped.
+void add_true_landmarks(render::Picture& picture, const Record& record) {
+  render::Markers truth{.positions = {},
+                        .shape = render::MarkerShape::kRing,
+                        .colour = render::palette::kTruth,
+                        .size_px = 7.0,
+                        .label = "true landmarks"};
+  for (const log::Landmark& landmark : record.true_landmarks)
+    truth.positions.push_back(vector_of(landmark.position_m));
+  if (!truth.positions.empty()) picture.markers.push_back(std::move(truth));
+}
+
 }  // namespace
+
+render::Picture compose_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
+                                   render::Faces faces) {
+  const Record& first = runs.front().record;
+  render::Picture picture;
+  picture.title = printable(first.run.value("name", "run"));
+  picture.subtitle = fmt::format("{} runs of the same input", runs.size());
+  if (first.world && spec.shows(sim::PictureLayer::kMap)) {
+    add_map(picture, *first.world, {}, faces);
+    picture.surfaces.insert(picture.surfaces.end(), first.models.begin(), first.models.end());
+  }
+  if (spec.shows(sim::PictureLayer::kTruth)) {
+    add_true_landmarks(picture, first);
+    if (!first.truth.empty()) {
+      picture.polylines.push_back({.points = line_of(first.truth, Pose()),
+                                   .colour = render::palette::kTruth,
+                                   .width_px = 5.0,
+                                   .dashed = false,
+                                   .label = "true path"});
+    }
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) add_compared(picture, runs[i], spec, comparison_colour(i));
+  return picture;
+}
 
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
                                 render::Faces faces) {
@@ -297,6 +364,12 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
   const render::Plan plan =
       record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
   return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan);
+}
+
+std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec) {
+  const Record& first = runs.front().record;
+  const render::Plan plan = first.world ? plan_for(*first.world, spec, {}) : render::Plan{{}, spec.cut_z_m};
+  return draw_png(compose_comparison(runs, spec, plan.faces), spec, plan);
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,

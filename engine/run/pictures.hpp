@@ -19,6 +19,17 @@ namespace hallway::run {
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec,
                                 const MapView& map_view = {}, render::Faces faces = render::Faces::kAll);
 
+/// A run that is shown beside others of the same input.
+struct Compared {
+  std::string name;
+  const Record& record;
+};
+
+/// One picture of several runs, at least one: the map and the truth of the first, and of each the estimated path and the mapped landmarks where
+/// its best rigid fit to the truth puts them, in a colour of its own.
+render::Picture compose_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
+                                   render::Faces faces = render::Faces::kAll);
+
 /// A map alone, and what is drawn over it.
 struct MapSubject {
   const world::CompiledWorld& world;
@@ -33,6 +44,9 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 /// @return the bytes of a PNG file
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
                              const MapView& map_view = {});
+
+/// The same for several runs.
+std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec);
 
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,

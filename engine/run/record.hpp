@@ -24,6 +24,7 @@ inline constexpr const char* kMetrics = "metrics.json";
 inline constexpr const char* kScenario = "scenario.toml";
 inline constexpr const char* kMap = "map.map";
 inline constexpr const char* kObservations = "observations.csv";
+inline constexpr const char* kLog = "run.mcap";
 inline constexpr const char* kTruePoses = "truth_poses.csv";
 inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
 inline constexpr const char* kTrueTrajectory = "truth.tum";

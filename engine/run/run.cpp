@@ -10,6 +10,9 @@
 #include "host/frame_builder.hpp"
 #include "log/poses.hpp"
 #include "log/timing.hpp"
+#include "run/frame_feed.hpp"
+#include "run/log_recorder.hpp"
+#include "run/manifest.hpp"
 #include "run/output_folder.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
@@ -20,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kSensorId = 0;
 constexpr double kMillisecondsPerNanosecond = 1e-6;
 
 /// Everything that is collected while a run goes on and written at its end.
@@ -61,8 +63,11 @@ log::LandmarkStatus status_of(std::uint32_t status) {
   }
 }
 
-FinalMap copy_map(const host::Outputs& outputs) {
+/// @param answer  null where there is none: nothing is known of the map
+FinalMap copy_map(const host::Outputs* answer) {
   FinalMap map;
+  if (answer == nullptr) return map;
+  const host::Outputs& outputs = *answer;
   for (const hw_landmark_t& landmark : outputs.landmarks()) {
     map.landmarks.push_back({.id = landmark.id,
                              .position_m = {landmark.position[0], landmark.position[1], landmark.position[2]},
@@ -77,72 +82,68 @@ FinalMap copy_map(const host::Outputs& outputs) {
   return map;
 }
 
-/// Feeds frames to the pipeline and takes down what comes back.
-class Driver {
+/// Takes down what comes back of the frames, and scores it.
+class Tally {
  public:
-  Driver(Source& source, host::Pipeline& pipeline, bool keep_observations)
+  Tally(const Source& source, bool keep_observations)
       : source_(source),
-        pipeline_(pipeline),
         keep_observations_(keep_observations),
         evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
 
-  void run_iteration(std::uint32_t iteration) {
-    source_.read(iteration, frame_);
-    const host::Outputs& outputs = pipeline_.process(build_frame(iteration));
-    const host::CallTime time = pipeline_.last_call();
-    const double wall_ms = static_cast<double>(time.wall_ns) * kMillisecondsPerNanosecond;
-    const double cpu_ms = static_cast<double>(time.cpu_ns) * kMillisecondsPerNanosecond;
-    const std::optional<Pose> estimate = estimate_of(outputs);
-    evaluator_.add({.T_world_body = frame_.T_world_body,
-                    .orientation_known = frame_.orientation_known,
-                    .T_map_body = estimate,
-                    .associations = associations(outputs),
-                    .identities = identities_,
-                    .wall_ms = wall_ms,
-                    .cpu_ms = cpu_ms});
-    collected_.times.push_back({.iteration = iteration, .wall_ms = wall_ms, .cpu_ms = cpu_ms});
-    if (estimate) collected_.trajectory.push_back(stamped(frame_.t_ns, *estimate));
-    keep_truth(iteration);
+  void add(const FrameAnswer& answer) {
+    const SourceFrame& frame = answer.frame;
+    identities_.clear();
+    if (source_.has_identities()) {
+      for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
+    }
+    eval::Iteration iteration{.T_world_body = frame.T_world_body,
+                              .orientation_known = frame.orientation_known,
+                              .T_map_body = {},
+                              .associations = associations(answer),
+                              .identities = identities_,
+                              .wall_ms = {},
+                              .cpu_ms = {}};
+    if (answer.outputs != nullptr) add_answer(answer, iteration);
+    evaluator_.add(iteration);
+    keep_truth(answer.iteration, frame);
   }
 
   const eval::Evaluator& evaluator() const { return evaluator_; }
   const Collected& collected() const { return collected_; }
 
  private:
-  const hw_frame_t& build_frame(std::uint32_t iteration) {
-    builder_.begin(iteration, frame_.t_ns);
-    std::vector<hw_point3_t>& points = builder_.add_points(kSensorId);
-    identities_.clear();
-    for (const log::Observation& seen : frame_.observations) {
-      points.push_back({seen.point[0], seen.point[1], seen.point[2]});
-      if (source_.has_identities()) identities_.push_back(seen.landmark);
-    }
-    return builder_.finish();
+  void add_answer(const FrameAnswer& answer, eval::Iteration& iteration) {
+    iteration.wall_ms = static_cast<double>(answer.time.wall_ns) * kMillisecondsPerNanosecond;
+    iteration.cpu_ms = static_cast<double>(answer.time.cpu_ns) * kMillisecondsPerNanosecond;
+    iteration.T_map_body = estimate_of(*answer.outputs);
+    collected_.times.push_back(
+        {.iteration = answer.iteration, .wall_ms = *iteration.wall_ms, .cpu_ms = *iteration.cpu_ms});
+    if (iteration.T_map_body)
+      collected_.trajectory.push_back(stamped(answer.frame.t_ns, *iteration.T_map_body));
   }
 
-  std::span<const log::LandmarkId> associations(const host::Outputs& outputs) {
-    if (const auto given = outputs.associations(0)) return *given;
-    none_.assign(frame_.observations.size(), log::kNoLandmark);
+  std::span<const log::LandmarkId> associations(const FrameAnswer& answer) {
+    if (answer.outputs != nullptr) {
+      if (const auto given = answer.outputs->associations(0)) return *given;
+    }
+    none_.assign(answer.frame.observations.size(), log::kNoLandmark);
     return none_;
   }
 
-  void keep_truth(std::uint32_t iteration) {
-    if (keep_observations_) collected_.observations.add_frame(iteration, frame_.observations);
-    if (!frame_.T_world_body) return;
-    const log::StampedPose pose = stamped(frame_.t_ns, *frame_.T_world_body);
+  void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
+    if (keep_observations_) collected_.observations.add_frame(iteration, frame.observations);
+    if (!frame.T_world_body) return;
+    const log::StampedPose pose = stamped(frame.t_ns, *frame.T_world_body);
     collected_.truth.push_back(pose);
     collected_.true_poses.push_back({.iteration = iteration,
                                      .position_m = pose.position_m,
                                      .orientation = pose.orientation,
-                                     .orientation_known = frame_.orientation_known});
+                                     .orientation_known = frame.orientation_known});
   }
 
-  Source& source_;
-  host::Pipeline& pipeline_;
+  const Source& source_;
   bool keep_observations_;
   eval::Evaluator evaluator_;
-  host::FrameBuilder builder_;
-  SourceFrame frame_;
   std::vector<log::LandmarkId> identities_;
   std::vector<log::LandmarkId> none_;
   Collected collected_;
@@ -177,12 +178,13 @@ void write_map(const fs::path& folder, const FinalMap& map, const eval::Evaluato
   if (evaluator.has_identities()) log::write_id_pairs(folder / files::kMatches, matches, log::kMatchColumns);
 }
 
-nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, bool stopped,
+nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, const RunResult& result,
                                          std::uint32_t done) {
   nlohmann::ordered_json manifest = plan.manifest;
   manifest["sensors"] = nlohmann::ordered_json::array({print_sensor(source.sensor())});
   manifest["iterations"] = done;
-  manifest["stopped_early"] = stopped;
+  manifest["stopped_early"] = result.stopped;
+  describe_failures(plan.on_failure, result, manifest);
   return manifest;
 }
 
@@ -191,25 +193,37 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
   OutputFolder output(plan.folder, plan.replace);
   const fs::path& folder = output.working_path();
-  Driver driver(source, pipeline, plan.write_observations);
+  log::FileOutput log_file(folder / files::kLog);
+  LogRecorder recorder(log_file, source, plan.manifest);
+  host::FrameBuilder builder;
+  Tally tally(source, plan.write_observations);
+  FrameFeed feed(source, pipeline, plan);
   RunResult result;
-  std::uint32_t done = 0;
-  while (done < source.iterations() && !result.stopped) {
-    driver.run_iteration(done++);
-    if (hooks.progress) hooks.progress(done);
-    result.stopped = hooks.stop && hooks.stop();
+  while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
+    feed.next(result.stopped, [&](const FrameAnswer& answer) {
+      recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
+      if (answer.outputs != nullptr) recorder.record_answer(*answer.outputs);
+      tally.add(answer);
+    });
+    if (hooks.progress) hooks.progress(feed.done());
+    result.stopped = result.stopped || (hooks.stop && hooks.stop());
   }
-  const FinalMap online = copy_map(pipeline.report(false));
-  const FinalMap refined = copy_map(pipeline.report(true));
-  result.metrics = driver.evaluator().metrics(online.landmarks, refined.landmarks);
+  const FinalMap online = copy_map(feed.report(false));
+  const host::Outputs* refined_outputs = feed.report(true);
+  const FinalMap refined = refined_outputs != nullptr ? copy_map(refined_outputs) : online;
+  recorder.record_map(refined.landmarks, refined.submap_members);
+  recorder.finish();
+  feed.close();
+  feed.tell(result);
+  result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
   result.submaps = refined.submaps;
 
-  write_input(folder, plan, source, driver.collected());
-  log::write_tum(folder / files::kTrajectory, driver.collected().trajectory);
-  write_map(folder, refined, driver.evaluator());
-  log::write_timing(folder / files::kTiming, driver.collected().times);
+  write_input(folder, plan, source, tally.collected());
+  log::write_tum(folder / files::kTrajectory, tally.collected().trajectory);
+  write_map(folder, refined, tally.evaluator());
+  log::write_timing(folder / files::kTiming, tally.collected().times);
   write_json(folder / files::kMetrics, eval::to_json(result.metrics));
-  write_json(folder / files::kRun, complete_manifest(plan, source, result.stopped, done));
+  write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
   if (!plan.pictures.empty()) {
     const Record record = read_record(folder);
     for (const sim::PictureSpec& picture : plan.pictures) {

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eval/metrics.hpp"
 #include "host/pipeline.hpp"
+#include "host/verdict.hpp"
 #include "run/source.hpp"
 #include "sim/scenario.hpp"
 
@@ -20,6 +22,9 @@ struct Attachment {
   std::string content;
 };
 
+/// "stop", "continue", "restart".
+const char* on_failure_name(sim::OnFailure policy);
+
 /// What a run leaves behind, and where.
 struct RunPlan {
   std::filesystem::path folder;  ///< final name of the run folder
@@ -29,6 +34,8 @@ struct RunPlan {
   std::vector<Attachment> attachments;
   std::vector<sim::PictureSpec> pictures;
   bool write_observations = false;  ///< also the input, in the form that replay reads
+  bool lock_step = true;            ///< one frame at a time; else as many as the pipeline takes are under way
+  sim::OnFailure on_failure = sim::OnFailure::kStop;  ///< what becomes of it when a plugin fails
 };
 
 /// What the caller is told and asked while a run goes on.
@@ -37,19 +44,31 @@ struct RunHooks {
   std::function<bool()> stop;  ///< true ends the run after the iterations so far, in good order
 };
 
+/// A failure of the pipeline.
+struct Failure {
+  host::Verdict verdict;
+  std::optional<std::uint32_t> iteration;  ///< of its frame; unset where it was no call of process()
+};
+
 /// How a run went.
 struct RunResult {
   eval::Metrics metrics;
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names
   bool stopped = false;                         ///< by RunHooks::stop
+  std::uint64_t failures = 0;                   ///< of the pipeline
+  std::vector<Failure> verdicts;                ///< of the first of them, kMaxVerdicts at most
+  std::uint64_t restarts = 0;                   ///< of the pipeline
+
+  static constexpr std::size_t kMaxVerdicts = 100;
 };
 
 /// Feeds every frame of the source to the pipeline, scores what it answers and writes the run folder (docs/formats.md).
 ///
 /// The folder appears whole or not at all. Same source, pipeline and plan give the same bytes, but for timing.csv,
 /// metrics.json: iteration_ms, iteration_cpu_ms and run.json: host.
-/// Throws Error{kIo} if the folder cannot be written, which is checked first, and Error{kPluginFault} if a plugin fails.
+/// A plugin that fails ends the run or not, as the plan says; the folder is written in any case, with the verdict in run.json.
+/// Throws Error{kIo} if the folder cannot be written, which is checked first.
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks);
 
 }  // namespace hallway::run

@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/toml_reader.hpp"
 #include "sim/scenario.hpp"
 #include "sim/schema.hpp"
-#include "sim/toml_reader.hpp"
 
 namespace hallway::sim {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "base/toml_node.hpp"
 #include "sim/setting.hpp"
-#include "sim/toml_node.hpp"
 
 namespace hallway::sim {
 

@@ -10,12 +10,12 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "base/toml_reader.hpp"
 #include "map/sensors.hpp"
 #include "sim/overrides.hpp"
 #include "sim/schema.hpp"
 #include "sim/sensors.hpp"
 #include "sim/table_reader.hpp"
-#include "sim/toml_reader.hpp"
 
 namespace hallway::sim {
 namespace {
@@ -34,6 +34,9 @@ constexpr Range kSpeed_m_s{0.0, 1e3};
 constexpr Range kBodySize_m{0.001, 100.0};
 constexpr Range kBodyHeight_m{-100.0, 100.0};
 constexpr Range kPeriod_s{1e-6, 60.0};
+constexpr Range kCallTimeout_s{0.01, 1e6};
+constexpr std::int64_t kMinMemory_mib = 16;
+constexpr std::int64_t kMaxMemory_mib = std::int64_t{1} << 24;
 
 const std::vector<std::string> kViews{"top", "perspective"};  // in the order of PictureView
 const std::vector<std::string> kLayers{"map",    "truth",   "estimate", "landmarks",
@@ -59,6 +62,7 @@ class ScenarioReader {
         static_cast<std::uint64_t>(top.whole("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
     scenario_.steps = static_cast<std::uint32_t>(top.whole("steps", 1, kMaxSteps));
     scenario_.period_ns = std::llround(top.number("period_s", kPeriod_s, scenario_.period_s()) * 1e9);
+    read_limits(top);
     read_robot(top);
     read_sensors(top);
     read_list(top, "plugin", kMaxPlugins,
@@ -85,6 +89,14 @@ class ScenarioReader {
       throw top.error("schema", "\"" + printable(schema) + "\" is not read by this version; it reads \"" +
                                     kSchema + "\"");
     }
+  }
+
+  void read_limits(TableReader& top) {
+    PluginLimits& limits = scenario_.limits;
+    limits.call_timeout_s = top.number("call_timeout_s", kCallTimeout_s, limits.call_timeout_s);
+    limits.memory_mib = static_cast<std::uint64_t>(top.whole(
+        "memory_limit_mib", kMinMemory_mib, kMaxMemory_mib, static_cast<std::int64_t>(limits.memory_mib)));
+    limits.on_failure = static_cast<OnFailure>(top.choice("on_failure", kOnFailure, 0));
   }
 
   void read_robot(const TableReader& top) {

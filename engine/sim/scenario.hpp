@@ -42,6 +42,20 @@ struct PluginSpec {
 /// plugin in it, without folder and `.so`.
 std::string short_plugin_name(const std::string& plugin);
 
+/// What becomes of a run when a plugin fails.
+enum class OnFailure {
+  kStop,      ///< it ends, and what there is so far is written
+  kContinue,  ///< the frames after it have no answer
+  kRestart,   ///< a new instance, with an empty map, goes on with the frame after it
+};
+
+/// What plugins are held to.
+struct PluginLimits {
+  double call_timeout_s = 60.0;     ///< wall clock; 0.01 at least
+  std::uint64_t memory_mib = 4096;  ///< of a plugin's process
+  OnFailure on_failure = OnFailure::kStop;
+};
+
 enum class PictureView { kTop, kPerspective };
 
 /// What a picture can show.
@@ -73,6 +87,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   std::uint32_t steps = 1;               ///< number of frames
   std::int64_t period_ns = 100'000'000;  ///< from frame to frame
+  PluginLimits limits{};
   RobotSpec robot;
   std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file; none: those of the map count
   std::vector<PluginSpec> pipeline;             ///< in the order of the file

@@ -7,8 +7,9 @@
 namespace hallway::sim {
 
 /// The keys of a scenario's tables. What they mean stands in docs/formats.md.
-inline const std::vector<std::string> kTopKeys{"schema", "map",    "seed",   "steps",  "period_s",
-                                               "robot",  "sensor", "plugin", "picture"};
+inline const std::vector<std::string> kTopKeys{
+    "schema",           "map",        "seed",  "steps",  "period_s", "call_timeout_s",
+    "memory_limit_mib", "on_failure", "robot", "sensor", "plugin",   "picture"};
 inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
                                                  "length_m", "width_m",   "bottom_m",   "top_m"};
 inline const std::vector<std::string> kSensorKeys{
@@ -19,6 +20,10 @@ inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px
                                                    "cut_z_m", "eye_m", "target_m", "show"};
 
 /// Those at the top that the command line may set as they are.
-inline const std::vector<std::string> kTopOverrideKeys{"map", "seed", "steps", "period_s"};
+inline const std::vector<std::string> kTopOverrideKeys{
+    "map", "seed", "steps", "period_s", "call_timeout_s", "memory_limit_mib", "on_failure"};
+
+/// What `on_failure` may be, in the order of OnFailure.
+inline const std::vector<std::string> kOnFailure{"stop", "continue", "restart"};
 
 }  // namespace hallway::sim

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/toml_node.hpp"
 #include "geom/pose.hpp"
 #include "sim/setting.hpp"
-#include "sim/toml_node.hpp"
 
 namespace hallway::sim {
 

@@ -28,6 +28,14 @@ TEST(Help, OfReplay) {
               {"--plugin", "--steps", "--truth-poses", "--truth-landmarks", "--out", "--json", "Example"});
 }
 
+TEST(Help, OfLog) {
+  expect_help({"log", "--help"}, {"info", "cut", "recover", "convert", "Example"});
+  expect_help({"log", "info", "--help"}, {"--json", "status 1", "Example"});
+  expect_help({"log", "cut", "--help"}, {"--from", "--to-iteration", "--out", "--force", "Example"});
+  expect_help({"log", "recover", "--help"}, {"--out", "part-PID", "Example"});
+  expect_help({"log", "convert", "--help"}, {"--truth-poses", "--period", "Example"});
+}
+
 TEST(Help, OfRender) {
   expect_help({"render", "--help"}, {"--view", "--out", "--size", "--cut", "--eye", "Example"});
 }

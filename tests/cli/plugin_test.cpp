@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins that cannot be run, as a user of the command line meets them. tests/unit/host has every cause.
+// Plugins as a user of the command line meets them. tests/unit/host has every cause for which one cannot be run.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -51,7 +51,7 @@ TEST(PluginFault, ExceptionInAnIterationNamesThePluginAndItsReason) {
       world.run({"--plugin", fixture("misbehaves") + ":misbehaves", "--set", "misbehaves.fault=throws"});
   EXPECT_EQ(ended.status, 5);
   EXPECT_NE(ended.err.find("misbehaves"), std::string::npos) << ended.err;
-  EXPECT_FALSE(std::filesystem::exists(world.out()));
+  EXPECT_NE(ended.err.find("iteration 0: "), std::string::npos) << ended.err;
 }
 
 TEST(PluginFault, PoseThatIsNoNumber) {
@@ -110,6 +110,94 @@ TEST(PluginList, AsJson) {
     }
   }
   EXPECT_TRUE(found);
+}
+
+TEST(PluginCheck, SaysThatAPluginLoadsHereAndWhatItNeeds) {
+  const TempFolder folder;
+  const std::string file = binary_folder() / "lib/hallway/plugins/slam_point.so";
+  const Ended ended = hallway({"plugin", "check", file});
+  EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+  for (const char* part : {"libc.so.6", "hw_entry", "GLIBC_", "it will load on"}) {
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  }
+  const auto json = nlohmann::json::parse(hallway({"plugin", "check", file, "--json"}).out);
+  EXPECT_EQ(json["schema"], "hallway.plugin_check/1");
+  EXPECT_EQ(json["loads"], true);
+}
+
+TEST(PluginCheck, SaysWhyAPluginDoesNotLoadOnAnOldRobot) {
+  const TempFolder folder;
+  const auto profile =
+      folder.write("robot.toml",
+                   "schema = \"hallway.machine/1\"\nname = \"rover\"\nmachine = \"x86-64\"\nglibc = \"2.2\"\n"
+                   "glibcxx = \"3.4.30\"\ncxxabi = \"1.3.13\"\nabi_major = 0\nabi_minor = 1\nlibraries = "
+                   "[\"libc.so.6\"]\n");
+  const std::string file = binary_folder() / "lib/hallway/plugins/slam_point.so";
+  const Ended ended = hallway({"plugin", "check", file, "--profile", profile});
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  for (const char* part : {"it will not load on rover", "needs glibc 2.", "there is 2.2",
+                           "libstdc++.so.6, which is not there"}) {
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  }
+}
+
+TEST(PluginCheck, FilesThatAreNoPlugins) {
+  const TempFolder folder;
+  const Ended text = hallway({"plugin", "check", folder.write("a.so", "text")});
+  EXPECT_EQ(text.status, 1);
+  EXPECT_NE(text.out.find("not an ELF file"), std::string::npos) << text.out;
+  EXPECT_EQ(hallway({"plugin", "check", folder / "none.so"}).status, 4);
+  EXPECT_EQ(hallway({"plugin", "check", folder.write("b.so", ""), "--profile", folder / "none.toml"}).status,
+            3);
+}
+
+TEST(PluginInfo, ListsParametersWithUnitsAndRanges) {
+  const Ended ended = hallway({"plugin", "info", "slam_point"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  for (const char* part : {"takes     points", "gives     pose", "noise_m = "}) {
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  }
+  const auto json = nlohmann::json::parse(hallway({"plugin", "info", "slam_point", "--json"}).out);
+  EXPECT_EQ(json["id"], "slam_point");
+  EXPECT_EQ(json["inputs"], nlohmann::json::array({"points"}));
+  EXPECT_EQ(hallway({"plugin", "info", "slam_poin"}).status, 4);
+}
+
+TEST(PluginNew, WritesAProjectAndNothingOverIt) {
+  const TempFolder folder;
+  const Ended ended = hallway({"plugin", "new", "my_slam"}, folder.path());
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const std::string source = read_file(folder / "my_slam/my_slam.cpp");
+  EXPECT_NE(source.find("class MySlam final"), std::string::npos);
+  for (const char* file : {"CMakeLists.txt", "CMakePresets.json", "README.md", "my_slam.cpp"}) {
+    EXPECT_EQ(read_file(folder / "my_slam" / file).find('@'), std::string::npos) << file;
+  }
+  const Ended again = hallway({"plugin", "new", "my_slam"}, folder.path());
+  EXPECT_EQ(again.status, 3);
+  EXPECT_NE(again.err.find("is there already"), std::string::npos) << again.err;
+  for (const char* name : {"My", "1a", "a-b", "../a", ""}) {
+    EXPECT_EQ(hallway({"plugin", "new", name, "--folder", "other"}, folder.path()).status, 2) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+}
+
+TEST(Doctor, FindsAllThatTheTestsRunWith) {
+  const TempFolder folder;
+  const Ended ended = hallway({"doctor", "--picture", folder / "a.png"});
+  EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+  EXPECT_EQ(ended.out.find("BROKEN"), std::string::npos) << ended.out;
+  EXPECT_TRUE(read_file(folder / "a.png").starts_with("\x89PNG"));
+  const auto json = nlohmann::json::parse(hallway({"doctor", "--json"}).out);
+  EXPECT_EQ(json["good"], true);
+  EXPECT_EQ(json["checks"].size(), 7u);
+}
+
+TEST(Doctor, SaysWhatIsNotThere) {
+  const TempFolder folder;
+  folder.write("bad.so", "text");
+  const Ended ended = hallway({"doctor", "--plugin-path", folder.path()});
+  EXPECT_NE(ended.out.find("lacking  plugins"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("not an ELF file"), std::string::npos) << ended.out;
 }
 
 }  // namespace

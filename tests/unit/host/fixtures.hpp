@@ -6,6 +6,7 @@
 
 #include "host/frame_builder.hpp"
 #include "host/pipeline.hpp"
+#include "host/plugin.hpp"
 
 namespace hallway::host::test_fixtures {
 

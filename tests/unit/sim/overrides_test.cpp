@@ -50,6 +50,13 @@ TEST(Overrides, StandAboveTheFile) {
   EXPECT_EQ(origin_of(scenario, "map"), "s.toml:1");
 }
 
+TEST(Overrides, SetTheLimitsOfPlugins) {
+  const Scenario scenario = load_with({{"call_timeout_s", "2"}, {"on_failure", "continue"}});
+  EXPECT_EQ(scenario.limits.call_timeout_s, 2.0);
+  EXPECT_EQ(scenario.limits.on_failure, OnFailure::kContinue);
+  EXPECT_EQ(origin_of(scenario, "on_failure"), "command line");
+}
+
 TEST(Overrides, TheLaterOfTwoCounts) {
   EXPECT_EQ(load_with({{"seed", "7"}, {"seed", "8"}}).seed, 8u);
 }

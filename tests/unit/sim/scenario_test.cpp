@@ -37,6 +37,18 @@ TEST(LoadScenario, ReadsWhatTheFileSays) {
   EXPECT_FALSE(scenario.robot.speed_m_s.has_value());
 }
 
+TEST(LoadScenario, HasLimitsForPlugins) {
+  const Scenario usual = load(test::scenario_text());
+  EXPECT_EQ(usual.limits.call_timeout_s, 60.0);
+  EXPECT_EQ(usual.limits.memory_mib, 4096u);
+  EXPECT_EQ(usual.limits.on_failure, OnFailure::kStop);
+  const Scenario own =
+      load("call_timeout_s = 0.5\nmemory_limit_mib = 100\non_failure = 'restart'\n" + test::scenario_text());
+  EXPECT_EQ(own.limits.call_timeout_s, 0.5);
+  EXPECT_EQ(own.limits.memory_mib, 100u);
+  EXPECT_EQ(own.limits.on_failure, OnFailure::kRestart);
+}
+
 TEST(LoadScenario, LooksForTheMapBesideTheScenario) {
   const test::TempFolder folder;
   const auto file = folder.write("s.toml", test::scenario_text());

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether what Hallway needs is there and works, for the first minute on a new machine.
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <thread>
+
+#include "base/child.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "host/isolated_plugin.hpp"
+#include "host/machine_profile.hpp"
+#include "host/search.hpp"
+#include "isolation_options.hpp"
+#include "render/draw.hpp"
+#include "render/gl_context.hpp"
+#include "render/png.hpp"
+#include "run/manifest.hpp"
+#include "trace/scene.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct DoctorOptions {
+  std::vector<std::string> plugin_path;
+  std::string picture;
+  bool json = false;
+};
+
+enum class Health { kGood, kLacking, kBroken };
+
+/// One thing that was looked at.
+struct Check {
+  std::string name;
+  Health health = Health::kGood;
+  std::string text;
+};
+
+const char* word(Health health) {
+  constexpr std::array kWords{"ok", "lacking", "BROKEN"};
+  return kWords[static_cast<std::size_t>(health)];
+}
+
+/// What `look` says; an Error means that the thing is broken.
+template <typename Look>
+Check check(const char* name, Look&& look) {
+  Check result{name, Health::kGood, {}};
+  try {
+    look(result);
+  } catch (const Error& error) {
+    result.health = Health::kBroken;
+    result.text = error.what();
+  }
+  return result;
+}
+
+void look_at_machine(Check& result) {
+  const host::MachineProfile machine = host::this_machine();
+  result.text = fmt::format("{}, {} threads, glibc {}, libstdc++ {}", machine.machine,
+                            std::thread::hardware_concurrency(), machine.glibc,
+                            machine.glibcxx.empty() ? "unknown" : machine.glibcxx);
+}
+
+/// The renderer's own words for itself.
+std::string gl_text(const render::GlContext& context, unsigned name) {
+  using GetString = const unsigned char* (*)(unsigned);
+  const auto get = reinterpret_cast<GetString>(context.function("glGetString"));
+  const unsigned char* text = get != nullptr ? get(name) : nullptr;
+  return text != nullptr ? printable(reinterpret_cast<const char*>(text)) : "unknown";
+}
+
+void look_at_renderer(Check& result) {
+  constexpr unsigned kRenderer = 0x1F01, kVersion = 0x1F02;  // GL_RENDERER, GL_VERSION
+  const auto context = render::make_offscreen_context();
+  result.text = gl_text(*context, kRenderer) + ", " + gl_text(*context, kVersion);
+}
+
+/// A red square in the middle of the picture, seen from above.
+render::Picture test_picture() {
+  render::Picture picture;
+  picture.title = "hallway doctor";
+  render::Surface square;
+  square.polygon.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.polygon.plane = {Vec3::UnitZ(), 0.0};
+  square.colour = {200, 30, 30};
+  picture.surfaces.push_back(square);
+  return picture;
+}
+
+void look_at_picture(Check& result, const std::string& file) {
+  constexpr int kWidth = 320, kHeight = 240;
+  const render::Picture picture = test_picture();
+  const render::View view{.crop = render::Crop{{0.5, 0.5}, 2.0}};
+  const render::Image image = render::draw(picture, view, kWidth, kHeight);
+  const render::PixelRect area = render::map_area(picture, kWidth, kHeight);
+  const render::Rgb middle = image.at((area.left + area.right) / 2, (area.top + area.bottom) / 2);
+  const render::Rgb corner = image.at(area.left + 4, area.top + 4);
+  const bool red = middle.r > 100 && middle.r > 2 * middle.g && middle.r > 2 * middle.b;
+  if (!red || corner.g < 100) {
+    result.health = Health::kBroken;
+    result.text = fmt::format("a red square came out as ({}, {}, {}) on ({}, {}, {})", middle.r, middle.g,
+                              middle.b, corner.r, corner.g, corner.b);
+    return;
+  }
+  result.text =
+      fmt::format("a red square of {} x {} pixels is where it should be", area.width() / 2, area.width() / 2);
+  if (file.empty()) return;
+  write_file_atomically(file, render::encode_png(image));
+  result.text += ", " + printable(file, 4096);
+}
+
+void look_at_helpers(Check& result) {
+  for (const char* name : {"hallway-plugin", "hallway-mesh-loader"}) {
+    result.text += (result.text.empty() ? "" : ", ") + printable(find_helper(name).string(), 4096);
+  }
+}
+
+void look_at_plugins(Check& result, const std::vector<fs::path>& folders) {
+  std::size_t loadable = 0;
+  std::string found;
+  for (const host::Listed& listed : host::list_plugins(folders)) {
+    for (const host::PluginInfo& info : listed.plugins) {
+      ++loadable;
+      found += fmt::format("{}{} {}", found.empty() ? "" : ", ", info.id, info.version);
+    }
+    if (listed.problem.empty()) continue;
+    result.health = Health::kLacking;
+    found += fmt::format("{}{}", found.empty() ? "" : ", ", listed.problem);
+  }
+  std::vector<std::string> searched;
+  for (const fs::path& folder : folders) searched.push_back(printable(folder.string(), 4096));
+  if (loadable == 0) result.health = Health::kLacking;
+  result.text = fmt::format("{} in {}", found.empty() ? "none" : found, fmt::join(searched, ", "));
+}
+
+void look_at_isolation(Check& result, const std::vector<fs::path>& folders) {
+  host::IsolatedPlugin plugin("slam_point", folders, *isolation_of({}, {}));
+  result.text = "slam_point runs in a process of its own";
+  for (const std::string& missing : plugin.missing()) {
+    result.health = Health::kLacking;
+    result.text += "; " + missing;
+  }
+  plugin.close();
+}
+
+std::vector<Check> examine(const DoctorOptions& options) {
+  const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
+  return {
+      check("machine", look_at_machine),
+      check("rays", [](Check& result) { result.text = trace::backend_description(trace::Backend::kEmbree); }),
+      check("renderer", look_at_renderer),
+      check("picture", [&](Check& result) { look_at_picture(result, options.picture); }),
+      check("helpers", look_at_helpers),
+      check("plugins", [&](Check& result) { look_at_plugins(result, folders); }),
+      check("isolation", [&](Check& result) { look_at_isolation(result, folders); })};
+}
+
+int doctor(const DoctorOptions& options) {
+  const std::vector<Check> checks = examine(options);
+  bool good = true;
+  std::string text =
+      fmt::format("hallway {}, plugin ABI {}.{}\n", run::version(), HW_ABI_MAJOR, HW_ABI_MINOR);
+  Json entries = Json::array();
+  for (const Check& one : checks) {
+    good = good && one.health != Health::kBroken;
+    text += fmt::format("{:<8} {:<10} {}\n", word(one.health), one.name, one.text);
+    entries.push_back({{"name", one.name}, {"health", word(one.health)}, {"text", one.text}});
+  }
+  if (options.json) {
+    print_json({{"schema", "hallway.doctor/1"},
+                {"hallway", run::version()},
+                {"abi", fmt::format("{}.{}", HW_ABI_MAJOR, HW_ABI_MINOR)},
+                {"good", good},
+                {"checks", entries}});
+  } else {
+    print_result(text);
+  }
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("doctor", "Look whether all that Hallway needs is there and works");
+  const auto options = std::make_shared<DoctorOptions>();
+  add_plugin_path_option(*command, options->plugin_path);
+  command->add_option("--picture", options->picture, "Write the test picture")->type_name("FILE.png");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "Draws a small picture, starts a plugin in a process of its own, and says what the kernel does not "
+      "provide to confine it.\n"
+      "Exit status: 0 all works (what is lacking is said); 1 something is broken.\n"
+      "Example: hallway doctor --picture test.png");
+  command->callback([&chosen, options] { chosen = [options] { return doctor(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "isolation_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "base/text.hpp"
+#include "sim/schema.hpp"
+
+namespace hallway::cli {
+
+void add_isolation_options(CLI::App& command, IsolationOptions& options) {
+  command.add_flag(
+      "--in-process", options.in_process,
+      "Run plugins in this process, for debuggers and benchmarks: no limits, and a crash is a crash of all");
+  command
+      .add_option("--call-timeout", options.call_timeout_s,
+                  "Seconds that one call of a plugin may take [the scenario's, else 60]")
+      ->type_name("S")
+      ->check(CLI::Range(0.01, 1e6));
+  command
+      .add_option("--memory-limit", options.memory_limit_mib,
+                  "MiB of memory that a plugin's process may hold [the scenario's, else 4096]")
+      ->type_name("MIB")
+      ->check(CLI::Range(16u, 1u << 24));
+  command
+      .add_option("--on-failure", options.on_failure,
+                  "When a plugin fails: stop (write what there is), continue (without answers) or restart (a "
+                  "new instance with "
+                  "an empty map); the exit status is 5 in any case [the scenario's, else stop]")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember(sim::kOnFailure));
+}
+
+sim::PluginLimits apply(const IsolationOptions& options, sim::PluginLimits limits) {
+  if (options.call_timeout_s) limits.call_timeout_s = *options.call_timeout_s;
+  if (options.memory_limit_mib) limits.memory_mib = *options.memory_limit_mib;
+  if (options.on_failure) {
+    const auto at = std::find(sim::kOnFailure.begin(), sim::kOnFailure.end(), *options.on_failure);
+    limits.on_failure = static_cast<sim::OnFailure>(at - sim::kOnFailure.begin());
+  }
+  return limits;
+}
+
+std::vector<sim::Override> overrides_of(const IsolationOptions& options) {
+  std::vector<sim::Override> overrides;
+  if (options.call_timeout_s) overrides.push_back({"call_timeout_s", format_double(*options.call_timeout_s)});
+  if (options.memory_limit_mib) {
+    overrides.push_back({"memory_limit_mib", fmt::to_string(*options.memory_limit_mib)});
+  }
+  if (options.on_failure) overrides.push_back({"on_failure", *options.on_failure});
+  return overrides;
+}
+
+std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
+                                            const sim::PluginLimits& limits) {
+  if (options.in_process) return std::nullopt;
+  std::error_code problem;
+  return host::Isolation{
+      .call_time = std::chrono::milliseconds(static_cast<std::int64_t>(limits.call_timeout_s * 1e3 + 0.5)),
+      .memory_bytes = limits.memory_mib << 20,
+      .temporary = std::filesystem::temp_directory_path(problem)};
+}
+
+}  // namespace hallway::cli

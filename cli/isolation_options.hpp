@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "host/isolation.hpp"
+#include "sim/scenario.hpp"
+
+namespace hallway::cli {
+
+/// How plugins are run, as the command line says it; what it does not say is unset.
+struct IsolationOptions {
+  bool in_process = false;
+  std::optional<double> call_timeout_s;
+  std::optional<std::uint64_t> memory_limit_mib;
+  std::optional<std::string> on_failure;
+};
+
+/// Adds --in-process, --call-timeout, --memory-limit and --on-failure.
+void add_isolation_options(CLI::App& command, IsolationOptions& options);
+
+/// `limits` with what the command line says above them.
+sim::PluginLimits apply(const IsolationOptions& options, sim::PluginLimits limits);
+
+/// The same as settings of a scenario.
+std::vector<sim::Override> overrides_of(const IsolationOptions& options);
+
+/// How plugins are kept within these limits; unset with --in-process. Their scratch folders stand in the system's folder for temporary files.
+std::optional<host::Isolation> isolation_of(const IsolationOptions& options, const sim::PluginLimits& limits);
+
+}  // namespace hallway::cli

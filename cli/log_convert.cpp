@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "console.hpp"
+#include "log/landmarks.hpp"
+#include "log/poses.hpp"
+#include "log_command.hpp"
+#include "log_input.hpp"
+#include "log_output.hpp"
+#include "run/log_recorder.hpp"
+#include "run/manifest.hpp"
+#include "run/output_folder.hpp"
+#include "run/record.hpp"
+#include "run/sensor_json.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct ConvertOptions {
+  LogChoice choice;
+  std::string out;
+  bool force = false;
+  bool json = false;
+};
+
+/// The facts of the run that wrote the log or, where nobody knows them, those of the log itself.
+Json manifest_of(const OpenedLog& opened) {
+  if (opened.manifest) return *opened.manifest;
+  return {{"schema", "hallway.run/1"}, {"hallway", run::version()}, {"command", "convert"},
+          {"name", opened.name},       {"inputs", Json::array()},   {"period_ns", opened.period_ns},
+          {"settings", Json::array()}, {"plugins", Json::array()},  {"warnings", opened.warnings}};
+}
+
+void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
+  NewFile file(options.out, options.force);
+  run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
+  host::FrameBuilder builder;
+  run::SourceFrame frame;
+  for (std::uint32_t i = 0; i < opened.source->iterations(); ++i) {
+    opened.source->read(i, frame);
+    recorder.record_input(run::build_frame(builder, i, frame), frame);
+  }
+  recorder.finish();
+  file.commit();
+}
+
+log::IterationPose pose_of(std::uint32_t iteration, const run::SourceFrame& frame) {
+  const Pose& pose = *frame.T_world_body;
+  return {.iteration = iteration,
+          .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
+          .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()},
+          .orientation_known = frame.orientation_known};
+}
+
+void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::int64_t period_ns) {
+  if (frame.t_ns == period_ns * static_cast<std::int64_t>(iteration)) return;
+  print_warning(fmt::format(
+      "frame {} lies at {} ns and not at {} periods of {} ns: CSV files have no times, and those of "
+      "the log are lost",
+      iteration, frame.t_ns, iteration, period_ns));
+}
+
+void write_folder(OpenedLog& opened, const ConvertOptions& options) {
+  run::OutputFolder folder(options.out, options.force);
+  run::Source& source = *opened.source;
+  log::ObservationLog observations(source.has_identities());
+  std::vector<log::IterationPose> poses;
+  run::SourceFrame frame;
+  bool regular = true;
+  for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    source.read(i, frame);
+    observations.add_frame(i, frame.observations);
+    if (frame.T_world_body) poses.push_back(pose_of(i, frame));
+    if (regular) warn_of_times(i, frame, opened.period_ns);
+    regular = regular && frame.t_ns == opened.period_ns * static_cast<std::int64_t>(i);
+  }
+  Json manifest = manifest_of(opened);
+  manifest["sensors"] = Json::array({run::print_sensor(source.sensor())});
+  manifest["iterations"] = source.iterations();
+  const fs::path& path = folder.working_path();
+  log::write_observations(path / run::files::kObservations, observations);
+  if (!poses.empty()) log::write_poses(path / run::files::kTruePoses, poses);
+  if (source.true_landmarks())
+    log::write_landmarks(path / run::files::kTrueLandmarks, *source.true_landmarks());
+  write_file_atomically(path / run::files::kRun,
+                        manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  folder.commit();
+}
+
+int convert(const ConvertOptions& options) {
+  OpenedLog opened = open_log(options.choice);
+  if (fs::path(options.out).extension() == ".mcap") {
+    write_mcap(opened, options);
+  } else {
+    write_folder(opened, options);
+  }
+  if (options.json) {
+    print_json({{"schema", "hallway.log_convert/1"},
+                {"status", 0},
+                {"written", printable(options.out, 4096)},
+                {"frames", opened.source->iterations()},
+                {"warnings", opened.warnings}});
+  } else {
+    print_result(fmt::format("{}: {} frames\n", printable(options.out, 4096), opened.source->iterations()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_log_convert_command(CLI::App& group, Action& chosen) {
+  CLI::App* command = group.add_subcommand(
+      "convert", "Turn an MCAP log into the CSV files of replay, or those into an MCAP log");
+  const auto options = std::make_shared<ConvertOptions>();
+  command
+      ->add_option("log", options->choice.log, "An .mcap file, a CSV file of observations, or a run folder")
+      ->required()
+      ->type_name("LOG");
+  command->add_option("--out", options->out, "File to write if it ends in .mcap, else a folder for CSV files")
+      ->required()
+      ->type_name("FILE|DIR");
+  command
+      ->add_option("--truth-poses", options->choice.true_poses,
+                   "CSV file of true poses, for a log that is CSV")
+      ->type_name("FILE");
+  command
+      ->add_option("--truth-landmarks", options->choice.true_landmarks,
+                   "CSV file of true landmarks, for a log that is CSV")
+      ->type_name("FILE");
+  command
+      ->add_option("--period", options->choice.period_s,
+                   "Seconds from frame to frame of a CSV log [the run's, else 0.1]")
+      ->type_name("S")
+      ->check(CLI::Range(1e-6, 1e6));
+  command->add_flag("--force", options->force, "Replace what is there");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "What plugins answered is not carried over: it is the replay that answers anew.\n"
+      "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
+      "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap");
+  command->callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
+}
+
+}  // namespace hallway::cli

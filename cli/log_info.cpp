@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "console.hpp"
+#include "log/mcap_reader.hpp"
+#include "log_command.hpp"
+#include "log_input.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The messages of one channel.
+struct ChannelFacts {
+  log::McapChannel channel;
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t first_ns = 0;
+  std::uint64_t last_ns = 0;
+};
+
+/// What a log holds, as far as it can be read.
+struct Facts {
+  std::string file{};
+  std::uint64_t bytes = 0;
+  log::McapHeader header{};
+  std::uint64_t chunks = 0;
+  std::map<std::uint16_t, ChannelFacts> channels;
+  std::vector<std::string> attachments;
+  std::vector<std::string> metadata;
+  std::optional<log::McapDamage> damage;
+  bool all_data_read = false;
+};
+
+void count(ChannelFacts& facts, const log::McapMessage& message) {
+  const std::uint64_t t = message.log_time_ns;
+  facts.first_ns = facts.messages == 0 ? t : std::min(facts.first_ns, t);
+  facts.last_ns = std::max(facts.last_ns, t);
+  facts.bytes += message.data.size();
+  ++facts.messages;
+}
+
+Facts facts_of(const fs::path& path) {
+  const log::FileInput input(path);
+  Facts facts;
+  facts.file = printable(path.string(), 4096);
+  facts.bytes = input.size();
+  log::McapReader reader(input);
+  while (const log::McapItem* item = reader.next()) {
+    if (const auto* channel = std::get_if<log::McapChannel>(item))
+      facts.channels[channel->id].channel = *channel;
+    if (const auto* message = std::get_if<log::McapMessage>(item))
+      count(facts.channels[message->channel_id], *message);
+    if (const auto* attachment = std::get_if<log::McapAttachment>(item))
+      facts.attachments.push_back(attachment->name);
+    if (const auto* metadata = std::get_if<log::McapMetadata>(item)) facts.metadata.push_back(metadata->name);
+  }
+  facts.header = reader.header();
+  facts.chunks = reader.chunks();
+  facts.damage = reader.damage();
+  facts.all_data_read = reader.all_data_read();
+  return facts;
+}
+
+Facts checked_facts_of(const fs::path& path) {
+  try {
+    return facts_of(path);
+  } catch (const Error& error) {
+    if (!error.where().file.empty()) throw;
+    throw Error(error.code(), error.message(), {.file = printable(path.string())});
+  }
+}
+
+std::uint64_t messages_of(const Facts& facts) {
+  std::uint64_t sum = 0;
+  for (const auto& [id, channel] : facts.channels) sum += channel.messages;
+  return sum;
+}
+
+std::string seconds(std::uint64_t ns) {
+  return fmt::format("{}.{:09}", ns / 1'000'000'000, ns % 1'000'000'000);
+}
+
+std::string damage_text(const Facts& facts) {
+  if (!facts.damage) return "none: every check sum is right";
+  return fmt::format(
+      "byte {} of {}: {}; {}", facts.damage->offset, facts.bytes, facts.damage->cause,
+      facts.all_data_read ? "all messages could be read" : "what stands before it could be read");
+}
+
+std::string names_of(const std::vector<std::string>& names) {
+  std::vector<std::string> safe;
+  for (const std::string& name : names) safe.push_back(printable(name));
+  return safe.empty() ? "none" : fmt::format("{}", fmt::join(safe, ", "));
+}
+
+std::string text_of(const Facts& facts) {
+  std::string text = facts.file + "\n";
+  const auto row = [&](const char* label, const std::string& value) {
+    text += fmt::format("  {:<12} {}\n", label, value);
+  };
+  row("bytes", fmt::to_string(facts.bytes));
+  row("written by", printable(facts.header.library));
+  row("chunks", fmt::to_string(facts.chunks));
+  row("messages", fmt::to_string(messages_of(facts)));
+  for (const auto& [id, channel] : facts.channels) {
+    text += fmt::format("    {:<32} {:>8}  {}", printable(channel.channel.topic), channel.messages,
+                        printable(channel.channel.encoding));
+    if (channel.messages > 0)
+      text += fmt::format("  {} s to {} s", seconds(channel.first_ns), seconds(channel.last_ns));
+    text += '\n';
+  }
+  row("metadata", names_of(facts.metadata));
+  row("attachments", names_of(facts.attachments));
+  row("damage", damage_text(facts));
+  return text;
+}
+
+Json names_json(const std::vector<std::string>& names) {
+  Json list = Json::array();
+  for (const std::string& name : names) list.push_back(printable(name));
+  return list;
+}
+
+Json document_of(const Facts& facts) {
+  Json channels = Json::array();
+  for (const auto& [id, channel] : facts.channels) {
+    Json entry{{"topic", printable(channel.channel.topic)},
+               {"encoding", printable(channel.channel.encoding)},
+               {"messages", channel.messages},
+               {"bytes", channel.bytes}};
+    entry["first_ns"] = channel.messages > 0 ? Json(channel.first_ns) : Json(nullptr);
+    entry["last_ns"] = channel.messages > 0 ? Json(channel.last_ns) : Json(nullptr);
+    channels.push_back(entry);
+  }
+  Json damage = nullptr;
+  if (facts.damage) {
+    damage = {{"byte", facts.damage->offset},
+              {"cause", facts.damage->cause},
+              {"all_data_read", facts.all_data_read}};
+  }
+  return {{"schema", "hallway.log_info/1"},
+          {"status", facts.damage ? 1 : 0},
+          {"file", facts.file},
+          {"bytes", facts.bytes},
+          {"profile", printable(facts.header.profile)},
+          {"library", printable(facts.header.library)},
+          {"chunks", facts.chunks},
+          {"messages", messages_of(facts)},
+          {"channels", channels},
+          {"metadata", names_json(facts.metadata)},
+          {"attachments", names_json(facts.attachments)},
+          {"damage", damage}};
+}
+
+}  // namespace
+
+void add_log_info_command(CLI::App& group, Action& chosen) {
+  CLI::App* command =
+      group.add_subcommand("info", "Read all of an MCAP log; say what is in it and whether it is whole");
+  const auto file = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  command->add_option("log", *file, "An .mcap file, or a run folder")->required()->type_name("LOG");
+  command->add_flag("--json", *json, "Print one JSON document");
+  command->footer(
+      "Exit status 1 says that the log is damaged.\nExample: hallway log info out/office/run.mcap");
+  command->callback([&chosen, file, json] {
+    chosen = [file, json] {
+      const Facts facts = checked_facts_of(mcap_file(*file));
+      if (*json) {
+        print_json(document_of(facts));
+      } else {
+        print_result(text_of(facts));
+      }
+      return facts.damage ? 1 : 0;
+    };
+  });
+}
+
+}  // namespace hallway::cli

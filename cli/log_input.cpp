@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "log_input.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "console.hpp"
+#include "log/landmarks.hpp"
+#include "log/observations.hpp"
+#include "log/poses.hpp"
+#include "run/log_source.hpp"
+#include "run/record.hpp"
+#include "run/recorded_run.hpp"
+#include "run/sensor_json.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDefaultPeriod_s = 0.1;
+
+/// A log of text files and what stands beside it.
+struct Files {
+  fs::path observations;
+  std::optional<nlohmann::ordered_json> manifest;  ///< run.json of its folder
+  std::optional<fs::path> true_poses;
+  std::optional<fs::path> true_landmarks;
+};
+
+std::optional<fs::path> if_there(const fs::path& path) {
+  std::error_code code;
+  return fs::exists(path, code) ? std::optional(path) : std::nullopt;
+}
+
+/// The file that is meant: in a folder the observations or, where it has none, the MCAP log.
+fs::path log_file(const std::string& log) {
+  std::error_code code;
+  const fs::path path = log;
+  if (!fs::is_directory(path, code)) return path;
+  const bool only_mcap =
+      !fs::exists(path / run::files::kObservations, code) && fs::exists(path / run::files::kLog, code);
+  return path / (only_mcap ? run::files::kLog : run::files::kObservations);
+}
+
+/// A log is often called obs.csv: the folder says more.
+std::string name_of(const fs::path& file) {
+  std::error_code code;
+  const fs::path absolute = fs::absolute(file, code);
+  const std::string folder = absolute.parent_path().filename().string();
+  return folder.empty() ? absolute.stem().string() : folder;
+}
+
+Files find_files(const LogChoice& choice, const fs::path& observations) {
+  Files files;
+  files.observations = observations;
+  const fs::path folder = observations.parent_path();
+  if (observations.filename() == run::files::kObservations && run::is_run_folder(folder)) {
+    files.manifest = run::read_manifest(folder);
+    files.true_poses = if_there(folder / run::files::kTruePoses);
+    files.true_landmarks = if_there(folder / run::files::kTrueLandmarks);
+  }
+  if (!choice.true_poses.empty()) files.true_poses = choice.true_poses;
+  if (!choice.true_landmarks.empty()) files.true_landmarks = choice.true_landmarks;
+  return files;
+}
+
+std::int64_t period_of(const LogChoice& choice, const std::optional<nlohmann::ordered_json>& manifest) {
+  if (choice.period_s) return static_cast<std::int64_t>(*choice.period_s * 1e9 + 0.5);
+  if (manifest && manifest->contains("period_ns")) return manifest->at("period_ns").get<std::int64_t>();
+  return static_cast<std::int64_t>(kDefaultPeriod_s * 1e9);
+}
+
+host::SensorInfo sensor_of(const std::optional<nlohmann::ordered_json>& manifest) {
+  if (manifest && manifest->contains("sensors") && !manifest->at("sensors").empty()) {
+    return run::read_sensor(manifest->at("sensors").front());
+  }
+  host::SensorInfo sensor;
+  sensor.name = "log";
+  return sensor;
+}
+
+/// A name from a log, fit for a folder's: it may come from anywhere.
+std::string plain_name(std::string name) {
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    if (!plain) c = '_';
+  }
+  constexpr std::size_t kMaxName = 100;
+  return name.empty() ? "log" : name.substr(0, kMaxName);
+}
+
+void warn(OpenedLog& opened, std::string warning) {
+  opened.warnings.push_back(std::move(warning));
+  print_warning(opened.warnings.back());
+}
+
+OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
+  const Files files = find_files(choice, path);
+  OpenedLog opened;
+  opened.manifest = files.manifest;
+  opened.name = name_of(path);
+  if (files.manifest) opened.name = files.manifest->value("name", "log");
+  opened.period_ns = period_of(choice, files.manifest);
+  const auto read_input = [&](const fs::path& file) -> const std::string& {
+    opened.inputs.push_back({file.filename().string(), read_file(file)});
+    return opened.inputs.back().content;
+  };
+  log::ReadLog read = log::parse_observations(read_input(path), path.string());
+  if (read.damage) warn(opened, log::describe(*read.damage, read.log, path.string()));
+  run::LogTruth truth;
+  if (files.true_poses)
+    truth.poses = log::parse_poses(read_input(*files.true_poses), files.true_poses->string());
+  if (files.true_landmarks) {
+    truth.landmarks = log::parse_landmarks(read_input(*files.true_landmarks), files.true_landmarks->string());
+  }
+  opened.source = std::make_unique<run::LogSource>(std::move(read.log), std::move(truth),
+                                                   sensor_of(files.manifest), opened.period_ns, choice.steps);
+  return opened;
+}
+
+OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string content) {
+  if (!choice.true_poses.empty() || !choice.true_landmarks.empty() || choice.period_s) {
+    throw Error(ErrorCode::kUsage,
+                "an MCAP log holds its own truth and times: --truth-poses, --truth-landmarks and --period "
+                "are for CSV");
+  }
+  OpenedLog opened;
+  opened.inputs.push_back({path.filename().string(), std::move(content)});
+  run::RecordedRun run;
+  try {
+    run = run::read_recorded_run(log::MemoryInput(opened.inputs.back().content));
+  } catch (const Error& error) {
+    throw Error(error.code(), error.message(), {.file = printable(path.string())});
+  }
+  if (run.damage) {
+    warn(opened, fmt::format("{}: byte {}: {}; kept what stands before: {} frames", printable(path.string()),
+                             run.damage->offset, run.damage->cause, run.frames.size()));
+  }
+  opened.manifest = run.manifest;
+  opened.name = run.manifest ? plain_name(run.manifest->at("name").get<std::string>()) : name_of(path);
+  opened.period_ns = run.period_ns > 0 ? run.period_ns : period_of(choice, {});
+  opened.source = std::make_unique<run::RecordedSource>(std::move(run), choice.steps);
+  return opened;
+}
+
+}  // namespace
+
+OpenedLog open_log(const LogChoice& choice) {
+  const fs::path path = log_file(choice.log);
+  if (path.extension() != ".mcap") return open_csv(choice, path);
+  return open_mcap(choice, path, read_file(path));
+}
+
+fs::path mcap_file(const std::string& path) {
+  std::error_code code;
+  return fs::is_directory(path, code) ? fs::path(path) / run::files::kLog : fs::path(path);
+}
+
+}  // namespace hallway::cli

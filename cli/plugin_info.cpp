@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "host/isolated_plugin.hpp"
+#include "isolation_options.hpp"
+
+namespace hallway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+  std::string plugin;
+  std::vector<std::string> plugin_path;
+  bool json = false;
+};
+
+std::vector<std::string> names_of(const std::vector<std::uint32_t>& kinds,
+                                  std::string (*name)(std::uint32_t)) {
+  std::vector<std::string> names;
+  for (const std::uint32_t kind : kinds) names.push_back(name(kind));
+  return names;
+}
+
+/// What a parameter may be: "0.001 to 10", "exact, fast".
+std::string range_of(const host::Parameter& parameter) {
+  if (parameter.default_value.type == HW_PARAM_CHOICE)
+    return fmt::format("{}", fmt::join(parameter.choices, ", "));
+  if (parameter.default_value.type == HW_PARAM_BOOL) return "true, false";
+  return parameter.print(parameter.minimum) + " to " + parameter.print(parameter.maximum);
+}
+
+std::string text_of(const host::Stage& plugin) {
+  const host::PluginInfo& info = plugin.info();
+  std::string text = fmt::format("{} {}\n{}\n", info.id, info.version, info.description);
+  const auto line = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += fmt::format("  {:<9} {}\n", name, value);
+  };
+  line("name", info.name);
+  line("vendor", info.vendor);
+  line("file", printable(plugin.file().string(), 4096));
+  line("takes", fmt::format("{}", fmt::join(names_of(info.inputs, &host::sample_kind_name), ", ")));
+  line("gives", fmt::format("{}", fmt::join(names_of(info.outputs, &host::output_kind_name), ", ")));
+  if (plugin.parameters().empty()) return text + "no parameters\n";
+  text += "parameters, set by --set " + info.id + ".NAME=VALUE or in a scenario:\n";
+  for (const host::Parameter& parameter : plugin.parameters()) {
+    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+    text += fmt::format("  {} = {}{}  ({}: {})\n      {}\n", parameter.name,
+                        parameter.print(parameter.default_value), unit, parameter.type_name(),
+                        range_of(parameter), parameter.help);
+  }
+  return text;
+}
+
+Json json_of(const host::Stage& plugin) {
+  const host::PluginInfo& info = plugin.info();
+  Json parameters = Json::array();
+  for (const host::Parameter& parameter : plugin.parameters()) {
+    Json one{{"name", parameter.name},
+             {"type", parameter.type_name()},
+             {"unit", parameter.unit},
+             {"default", parameter.print(parameter.default_value)},
+             {"help", parameter.help}};
+    if (parameter.default_value.type == HW_PARAM_CHOICE) {
+      one["choices"] = parameter.choices;
+    } else if (parameter.default_value.type != HW_PARAM_BOOL) {
+      one["minimum"] = parameter.print(parameter.minimum);
+      one["maximum"] = parameter.print(parameter.maximum);
+    }
+    parameters.push_back(std::move(one));
+  }
+  return {{"schema", "hallway.plugin_info/1"},
+          {"id", info.id},
+          {"name", info.name},
+          {"version", info.version},
+          {"vendor", info.vendor},
+          {"description", info.description},
+          {"file", printable(plugin.file().string(), 4096)},
+          {"inputs", names_of(info.inputs, &host::sample_kind_name)},
+          {"outputs", names_of(info.outputs, &host::output_kind_name)},
+          {"parameters", std::move(parameters)}};
+}
+
+int show(const InfoOptions& options) {
+  const auto isolation = isolation_of({}, {});
+  host::IsolatedPlugin plugin(options.plugin, plugin_folders(options.plugin_path), *isolation);
+  if (options.json) {
+    print_json(json_of(plugin));
+  } else {
+    print_result(text_of(plugin));
+  }
+  plugin.close();
+  return 0;
+}
+
+}  // namespace
+
+void add_plugin_info_command(CLI::App& plugin, Action& chosen) {
+  CLI::App* command = plugin.add_subcommand("info", "Say what a plugin takes and gives, and its parameters");
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("plugin", options->plugin, "A plugin's id, or its file")
+      ->type_name("NAME|FILE")
+      ->required();
+  add_plugin_path_option(*command, options->plugin_path);
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer("Example: hallway plugin info slam_point");
+  command->callback([&chosen, options] { chosen = [options] { return show(*options); }; });
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "base/toml_node.hpp"
+
+#include <algorithm>
+
+namespace hallway {
+
+TomlNode* find(TomlTable& table, std::string_view key) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+  return found == table.end() ? nullptr : &found->node;
+}
+
+const TomlNode* find(const TomlTable& table, std::string_view key) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+  return found == table.end() ? nullptr : &found->node;
+}
+
+const char* kind_name(const TomlNode& node) {
+  struct Names {
+    const char* operator()(const TomlDate&) const { return "a date or time"; }
+    const char* operator()(bool) const { return "true or false"; }
+    const char* operator()(std::int64_t) const { return "a whole number"; }
+    const char* operator()(double) const { return "a number with a fraction"; }
+    const char* operator()(const std::string&) const { return "a text"; }
+    const char* operator()(const TomlArray&) const { return "a list"; }
+    const char* operator()(const TomlTable&) const { return "a table"; }
+  };
+  return std::visit(Names{}, node.value);
+}
+
+}  // namespace hallway

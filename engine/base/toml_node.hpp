@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hallway {
+
+struct TomlNode;
+struct TomlEntry;
+
+using TomlArray = std::vector<TomlNode>;
+/// Key-value pairs in the order of the file; no key stands twice.
+using TomlTable = std::vector<TomlEntry>;
+
+/// A date or a time: TOML has them, our files do not use them.
+struct TomlDate {};
+
+/// A value and where it came from.
+struct TomlNode {
+  std::variant<TomlDate, bool, std::int64_t, double, std::string, TomlArray, TomlTable> value;
+  int line = 0;  ///< 1-based line in the file; 0 for what the command line gave
+};
+
+/// One `key = value` or `[key]`.
+struct TomlEntry {
+  std::string key;
+  TomlNode node;
+};
+
+/// The value of `key`, or null. O(number of keys).
+const TomlNode* find(const TomlTable& table, std::string_view key);
+TomlNode* find(TomlTable& table, std::string_view key);
+
+/// What kind of value it is, for messages: "a number", "a table", …
+const char* kind_name(const TomlNode& node);
+
+}  // namespace hallway

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "base/toml_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "base/toml_depth.hpp"
+#include "base/toml_library.hpp"
+
+namespace hallway {
+namespace {
+
+constexpr std::size_t kMaxKeyParts = 16;
+
+int line_of(const toml::source_region& source) {
+  return static_cast<int>(source.begin.line);
+}
+
+TomlNode convert(const toml::node& node);
+
+TomlArray convert_array(const toml::array& array) {
+  TomlArray items;
+  items.reserve(array.size());
+  for (const toml::node& item : array) items.push_back(convert(item));
+  return items;
+}
+
+/// toml++ sorts keys by name; a scenario's sensors count in the order of the file.
+TomlTable convert_table(const toml::table& table) {
+  std::vector<std::pair<const toml::key*, const toml::node*>> pairs;
+  for (const auto& [key, node] : table) pairs.emplace_back(&key, &node);
+  const auto position = [](const toml::key& key) {
+    return std::pair(key.source().begin.line, key.source().begin.column);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const auto& a, const auto& b) { return position(*a.first) < position(*b.first); });
+  TomlTable entries;
+  entries.reserve(pairs.size());
+  for (const auto& [key, node] : pairs) {
+    TomlEntry entry{std::string(key->str()), convert(*node)};
+    entry.node.line = line_of(key->source());
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+TomlNode convert(const toml::node& node) {
+  TomlNode copy;
+  copy.line = line_of(node.source());
+  if (const auto* table = node.as_table()) copy.value = convert_table(*table);
+  if (const auto* array = node.as_array()) copy.value = convert_array(*array);
+  if (const auto* text = node.as_string()) copy.value = text->get();
+  if (const auto* whole = node.as_integer()) copy.value = whole->get();
+  if (const auto* number = node.as_floating_point()) copy.value = number->get();
+  if (const auto* flag = node.as_boolean()) copy.value = flag->get();
+  return copy;
+}
+
+void forget_lines(TomlNode& node) {
+  node.line = 0;
+  if (auto* array = std::get_if<TomlArray>(&node.value)) {
+    for (TomlNode& item : *array) forget_lines(item);
+  }
+  if (auto* table = std::get_if<TomlTable>(&node.value)) {
+    for (TomlEntry& entry : *table) forget_lines(entry.node);
+  }
+}
+
+}  // namespace
+
+TomlTable parse_toml(std::string_view text, const std::string& file) {
+  if (const int line = line_of_deep_key(text, kMaxKeyParts); line > 0) {
+    throw Error(ErrorCode::kBadInput, "a key has more than " + std::to_string(kMaxKeyParts) + " dotted parts",
+                {.file = printable(file), .line = line});
+  }
+  const toml::parse_result result = toml::parse(text, file);
+  if (!result) {
+    const toml::parse_error& error = result.error();
+    throw Error(ErrorCode::kBadInput, printable(error.description()),
+                {.file = printable(file), .line = line_of(error.source())});
+  }
+  return convert_table(result.table());
+}
+
+std::optional<TomlNode> parse_toml_value(std::string_view text) {
+  if (text.find('\n') != std::string_view::npos) return std::nullopt;  // could smuggle in a second key
+  const std::string line = "value = " + std::string(text);
+  if (line_of_deep_key(line, kMaxKeyParts) > 0) return std::nullopt;
+  const toml::parse_result result = toml::parse(line);
+  if (!result) return std::nullopt;
+  TomlTable table = convert_table(result.table());
+  forget_lines(table.front().node);
+  return std::move(table.front().node);
+}
+
+}  // namespace hallway

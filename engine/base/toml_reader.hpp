@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/toml_node.hpp"
+
+namespace hallway {
+
+/// Reads a TOML 1.0 text. Throws Error{kBadInput} with file, line and cause; nesting beyond a few dozen levels, as values or
+/// as dotted keys, is refused.
+/// @param file  name of the file for messages
+TomlTable parse_toml(std::string_view text, const std::string& file);
+
+/// The one value that `text` is in TOML; empty if it is none. Its line is 0.
+std::optional<TomlNode> parse_toml_value(std::string_view text);
+
+}  // namespace hallway

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "host/isolated_plugin.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.hpp"
+#include "host/frame_bytes.hpp"
+#include "host/outputs_bytes.hpp"
+
+namespace hallway::host {
+namespace {
+
+/// Above the memory that is watched, so that a breach is seen before an allocation fails, but not by much.
+constexpr std::uint64_t kDataMargin = std::uint64_t{256} << 20;
+
+constexpr std::size_t kMaxText = 20'000;
+
+}  // namespace
+
+IsolatedPlugin::IsolatedPlugin(const std::string& wanted, std::span<const std::filesystem::path> folders,
+                               const Isolation& isolation, const LogSink& log)
+    : process_(isolation, log, wanted) {
+  StartRequest request{.wanted = wanted,
+                       .folders = {},
+                       .data_bytes = isolation.memory_bytes + kDataMargin,
+                       .file_bytes = isolation.file_bytes,
+                       .scratch = process_.scratch().string()};
+  for (const std::filesystem::path& folder : folders) request.folders.push_back(folder.string());
+  submit(Request::kStart, [&](ByteWriter& writer) { write_start(writer, request); });
+  await(Request::kStart, [&](ByteReader& reader) { started_ = read_started(reader); });
+  if (!isolation.temporary.empty() && process_.scratch().empty()) {
+    started_.missing.push_back("no scratch folder can be made in " +
+                               printable(isolation.temporary.string(), kMaxText));
+  }
+  file_ = started_.file;
+  process_.set_plugin(started_.info.id, file_);
+  // Samples of other kinds cannot be sent; see frame_bytes_size().
+  if (std::ranges::count(started_.info.inputs, HW_SAMPLE_POINTS) > 0) sent_kinds_ = {HW_SAMPLE_POINTS};
+}
+
+IsolatedPlugin::~IsolatedPlugin() {
+  try {
+    close();
+  } catch (const std::exception&) {  // nobody asked
+  }
+}
+
+template <typename Write>
+void IsolatedPlugin::submit(Request request, Write&& write) {
+  ByteWriter writer(process_.room());
+  write(writer);
+  if (!writer.fits())
+    throw Error(ErrorCode::kBadInput, "what a plugin is told is larger than the room for it");
+  process_.submit(request, writer.size());
+}
+
+template <typename Read>
+void IsolatedPlugin::await(Request request, Read&& read) {
+  const HostChannel::Answer answer = process_.await(request);
+  ByteReader reader(answer.bytes);
+  try {
+    if (answer.reply == Reply::kError) throw_error(reader, started_.info.id);
+    read(reader);
+  } catch (const BadBytes& bad) {
+    process_.fail_protocol(request, bad.what);
+  }
+  last_call_ = {answer.wall_ns, answer.cpu_ns};
+}
+
+template <typename Write>
+void IsolatedPlugin::call(Request request, Write&& write) {
+  if (closed_) throw Error(ErrorCode::kInternal, fmt::format("{}() after close()", call_name(request)));
+  submit(request, write);
+  await(request, [](ByteReader& reader) { reader.expect_end(); });
+}
+
+std::string IsolatedPlugin::parameter_text(std::size_t index) {
+  submit(Request::kGetParameter, [&](ByteWriter& writer) { writer.put<std::uint64_t>(index); });
+  std::string text;
+  await(Request::kGetParameter, [&](ByteReader& reader) { text = printable(reader.get_text(), kMaxText); });
+  return text;
+}
+
+void IsolatedPlugin::set_parameter(std::string_view name, std::string_view value, const Where& where) {
+  if (active_) throw Error(ErrorCode::kInternal, "set_parameter() after activate()");
+  call(Request::kSetParameter, [&](ByteWriter& writer) {
+    writer.put_text(name);
+    writer.put_text(value);
+    write_where(writer, where);
+  });
+}
+
+void IsolatedPlugin::activate(std::span<const SensorInfo> sensors) {
+  call(Request::kActivate, [&](ByteWriter& writer) { write_sensors(writer, sensors); });
+  active_ = true;
+}
+
+void IsolatedPlugin::reset() {
+  call(Request::kReset, [](ByteWriter&) {});
+}
+
+void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const std::uint32_t> sent_indices) {
+  indices.assign(sent_indices.begin(), sent_indices.end());
+  samples.assign(sent.n_samples, {});
+  points.assign(sent.n_samples, {});
+  pointers.clear();
+  for (std::uint32_t i = 0; i < sent.n_samples; ++i) {
+    points[i].count = static_cast<const hw_points_t*>(sent.samples[i]->payload)->count;
+    samples[i].kind = sent.samples[i]->kind;
+    samples[i].payload = &points[i];
+    pointers.push_back(&samples[i]);
+  }
+  frame = {};
+  frame.n_samples = sent.n_samples;
+  frame.samples = pointers.data();
+}
+
+void IsolatedPlugin::submit(const hw_frame_t& frame) {
+  if (!active_) throw Error(ErrorCode::kInternal, "process() before activate()");
+  if (submitted_ - collected_ >= capacity()) throw Error(ErrorCode::kInternal, "too many frames under way");
+  const hw_frame_t& selected = selection_.select(frame, sent_kinds_);
+  const std::size_t size = frame_bytes_size(selected);
+  const std::span<std::byte> room = process_.room();
+  if (size > room.size()) {
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("a frame of {} bytes; an isolated plugin takes {} at most", size, room.size()));
+  }
+  write_frame_bytes(selected, room.first(size));
+  pending_[submitted_ % pending_.size()].remember(selected, selection_.indices());
+  ++submitted_;
+  process_.submit(Request::kProcess, size);
+}
+
+const Outputs& IsolatedPlugin::collect() {
+  if (submitted_ == collected_) throw Error(ErrorCode::kInternal, "collect() without a frame");
+  const Pending& pending = pending_[collected_++ % pending_.size()];
+  await(Request::kProcess,
+        [&](ByteReader& reader) { read_answer(Request::kProcess, reader, &pending.frame, pending.indices); });
+  return collector_.outputs();
+}
+
+const Outputs& IsolatedPlugin::report(bool refine) {
+  if (!active_) throw Error(ErrorCode::kInternal, "report() before activate()");
+  if (submitted_ != collected_) throw Error(ErrorCode::kInternal, "report() with frames under way");
+  submit(Request::kReport, [&](ByteWriter& writer) { writer.put<std::uint64_t>(refine ? 1 : 0); });
+  await(Request::kReport, [&](ByteReader& reader) { read_answer(Request::kReport, reader, nullptr, {}); });
+  return collector_.outputs();
+}
+
+/// The other side has checked its outputs with the same code, so one that is wrong here was not written by it.
+void IsolatedPlugin::read_answer(Request request, ByteReader& reader, const hw_frame_t* frame,
+                                 std::span<const std::uint32_t> indices) {
+  collector_.begin(frame, indices);
+  read_outputs(reader, collector_);
+  reader.expect_end();
+  const std::string problem = collector_.finish();
+  if (!problem.empty()) process_.fail_protocol(request, problem);
+}
+
+void IsolatedPlugin::close() {
+  if (std::exchange(closed_, true) || !process_.runs()) return;
+  try {
+    while (process_.under_way() != 0) process_.await(Request::kProcess);
+    submit(Request::kClose, [](ByteWriter&) {});
+    await(Request::kClose, [](ByteReader& reader) { reader.expect_end(); });
+  } catch (...) {
+    process_.end();
+    throw;
+  }
+  process_.end();
+}
+
+}  // namespace hallway::host

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "host/plugin_messages.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace hallway::host {
+namespace {
+
+constexpr std::size_t kMaxText = 20'000;
+
+/// Ours for ever, unlike what the other side may still write over.
+std::string get_printable(ByteReader& reader) {
+  return printable(reader.get_text(), kMaxText);
+}
+
+void write_texts(ByteWriter& writer, const std::vector<std::string>& texts) {
+  writer.put<std::uint64_t>(texts.size());
+  for (const std::string& text : texts) writer.put_text(text);
+}
+
+std::vector<std::string> read_texts(ByteReader& reader) {
+  std::vector<std::string> texts(reader.get_count());
+  for (std::string& text : texts) text = reader.get_text();
+  return texts;
+}
+
+std::vector<std::string> read_printables(ByteReader& reader) {
+  std::vector<std::string> texts(reader.get_count());
+  for (std::string& text : texts) text = get_printable(reader);
+  return texts;
+}
+
+void write_info(ByteWriter& writer, const PluginInfo& info) {
+  for (const std::string* text : {&info.id, &info.name, &info.version, &info.vendor, &info.description}) {
+    writer.put_text(*text);
+  }
+  writer.put_list(std::span(info.inputs));
+  writer.put_list(std::span(info.outputs));
+}
+
+PluginInfo read_info(ByteReader& reader) {
+  PluginInfo info;
+  for (std::string* text : {&info.id, &info.name, &info.version, &info.vendor, &info.description}) {
+    *text = get_printable(reader);
+  }
+  info.inputs = reader.copy_list<std::uint32_t>();
+  info.outputs = reader.copy_list<std::uint32_t>();
+  return info;
+}
+
+void write_parameter(ByteWriter& writer, const Parameter& parameter) {
+  for (const std::string* text : {&parameter.name, &parameter.unit, &parameter.help}) writer.put_text(*text);
+  for (const auto* value : {&parameter.default_value, &parameter.minimum, &parameter.maximum})
+    writer.put(*value);
+  write_texts(writer, parameter.choices);
+}
+
+Parameter read_parameter(ByteReader& reader) {
+  Parameter parameter{};
+  for (std::string* text : {&parameter.name, &parameter.unit, &parameter.help}) *text = get_printable(reader);
+  for (auto* value : {&parameter.default_value, &parameter.minimum, &parameter.maximum}) {
+    *value = reader.get<hw_param_value_t>();
+  }
+  parameter.choices = read_printables(reader);
+  return parameter;
+}
+
+/// What a plugin's process may say of what went wrong.
+ErrorCode code_of(std::uint32_t number) {
+  for (const ErrorCode code :
+       {ErrorCode::kBadInput, ErrorCode::kIo, ErrorCode::kPluginLoad, ErrorCode::kPluginFault}) {
+    if (number == static_cast<std::uint32_t>(code)) return code;
+  }
+  throw BadBytes{"an error of an unknown kind"};
+}
+
+}  // namespace
+
+void write_start(ByteWriter& writer, const StartRequest& request) {
+  writer.put_text(request.wanted);
+  write_texts(writer, request.folders);
+  writer.put(request.data_bytes);
+  writer.put(request.file_bytes);
+  writer.put_text(request.scratch);
+}
+
+StartRequest read_start(ByteReader& reader) {
+  StartRequest request;
+  request.wanted = reader.get_text();
+  request.folders = read_texts(reader);
+  request.data_bytes = reader.get<std::uint64_t>();
+  request.file_bytes = reader.get<std::uint64_t>();
+  request.scratch = reader.get_text();
+  return request;
+}
+
+void write_started(ByteWriter& writer, const StartReply& reply) {
+  write_texts(writer, reply.missing);
+  writer.put_text(reply.file);
+  write_info(writer, reply.info);
+  writer.put<std::uint64_t>(reply.parameters.size());
+  for (const Parameter& parameter : reply.parameters) write_parameter(writer, parameter);
+}
+
+StartReply read_started(ByteReader& reader) {
+  StartReply reply;
+  reply.missing = read_printables(reader);
+  reply.file = reader.get_text();
+  reply.info = read_info(reader);
+  reply.parameters.resize(reader.get_count());
+  for (Parameter& parameter : reply.parameters) parameter = read_parameter(reader);
+  reader.expect_end();
+  return reply;
+}
+
+void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors) {
+  writer.put<std::uint64_t>(sensors.size());
+  for (const SensorInfo& sensor : sensors) {
+    writer.put(sensor.id);
+    writer.put(sensor.kind);
+    writer.put_text(sensor.name);
+    writer.put(sensor.T_body_sensor);
+    for (const double number : {sensor.horizontal_fov, sensor.vertical_fov, sensor.min_range_m,
+                                sensor.max_range_m, sensor.noise_m[0], sensor.noise_m[1], sensor.noise_m[2]})
+      writer.put(number);
+  }
+}
+
+std::vector<SensorInfo> read_sensors(ByteReader& reader) {
+  std::vector<SensorInfo> sensors(reader.get_count());
+  for (SensorInfo& sensor : sensors) {
+    sensor.id = reader.get<std::uint32_t>();
+    sensor.kind = reader.get<std::uint32_t>();
+    sensor.name = reader.get_text();
+    sensor.T_body_sensor = reader.get<hw_pose_t>();
+    for (double* number : {&sensor.horizontal_fov, &sensor.vertical_fov, &sensor.min_range_m,
+                           &sensor.max_range_m, &sensor.noise_m[0], &sensor.noise_m[1], &sensor.noise_m[2]})
+      *number = reader.get<double>();
+  }
+  return sensors;
+}
+
+void write_where(ByteWriter& writer, const Where& where) {
+  writer.put_text(where.file);
+  writer.put<std::int64_t>(where.line);
+  writer.put_text(where.element);
+}
+
+Where read_where(ByteReader& reader) {
+  Where where;
+  where.file = get_printable(reader);
+  where.line = static_cast<int>(reader.get<std::int64_t>());
+  where.element = get_printable(reader);
+  return where;
+}
+
+void write_error(ByteWriter& writer, const Error& error) {
+  const auto* failure = dynamic_cast<const PluginFailure*>(&error);
+  writer.put(static_cast<std::uint32_t>(error.code()));
+  writer.put_text(error.message());
+  write_where(writer, error.where());
+  writer.put_text(failure != nullptr ? failure->verdict().call : "");
+}
+
+void throw_error(ByteReader& reader, const std::string& plugin) {
+  const ErrorCode code = code_of(reader.get<std::uint32_t>());
+  const std::string message = get_printable(reader);
+  const Where where = read_where(reader);
+  const std::string call = get_printable(reader);
+  reader.expect_end();
+  if (call.empty()) throw Error(code, message, where);
+  throw PluginFailure(
+      code, message, where,
+      {.what = Misdeed::kFault, .call = call, .plugin = printable(plugin), .message = message});
+}
+
+}  // namespace hallway::host

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/byte_stream.hpp"
+#include "host/stage.hpp"
+#include "host/verdict.hpp"
+
+namespace hallway::host {
+
+// What goes through a channel beside frames and outputs. Every read_x() throws BadBytes where the bytes are none of write_x(), and makes texts from a
+// plugin's process safe to print once more.
+
+/// The first request.
+struct StartRequest {
+  std::string wanted{};                ///< a plugin, as find_plugin() takes it
+  std::vector<std::string> folders{};  ///< to look in
+  std::uint64_t data_bytes = 0;        ///< private memory that may be had
+  std::uint64_t file_bytes = 0;        ///< largest file that may be written
+  std::string scratch{};               ///< folder that may be written in
+};
+void write_start(ByteWriter& writer, const StartRequest& request);
+StartRequest read_start(ByteReader& reader);
+
+/// The answer to it.
+struct StartReply {
+  std::vector<std::string> missing{};  ///< what the kernel does not keep the plugin from
+  std::string file{};
+  PluginInfo info{};
+  std::vector<Parameter> parameters{};
+};
+void write_started(ByteWriter& writer, const StartReply& reply);
+StartReply read_started(ByteReader& reader);
+
+void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors);
+std::vector<SensorInfo> read_sensors(ByteReader& reader);
+
+void write_where(ByteWriter& writer, const Where& where);
+Where read_where(ByteReader& reader);
+
+/// An error, with the call that it came from where there is one.
+void write_error(ByteWriter& writer, const Error& error);
+/// Throws it again: an Error or a PluginFailure.
+[[noreturn]] void throw_error(ByteReader& reader, const std::string& plugin);
+
+}  // namespace hallway::host

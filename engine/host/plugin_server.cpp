@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "host/plugin_server.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+
+#include "base/helper.hpp"
+#include "base/sandbox.hpp"
+#include "host/channel.hpp"
+#include "host/frame_bytes.hpp"
+#include "host/outputs_bytes.hpp"
+#include "host/plugin.hpp"
+#include "host/plugin_messages.hpp"
+
+namespace hallway::host {
+namespace {
+
+/// Sends what the plugin logs; on any thread.
+void send_log(PluginChannel& channel, std::uint32_t level, const std::string& message) {
+  const LogHead head{level};
+  std::string packet(sizeof head + message.size(), '\0');
+  std::memcpy(packet.data(), &head, sizeof head);
+  std::memcpy(packet.data() + sizeof head, message.data(), message.size());
+  ::send(kLogDescriptor, packet.data(), packet.size(), MSG_NOSIGNAL);
+  channel.nudge();
+}
+
+/// Passes calls on to one plugin.
+class Server {
+ public:
+  explicit Server(PluginChannel& channel) : channel_(channel) {}
+
+  /// Serves one call. @return whether there are more to come
+  bool serve() {
+    const PluginChannel::Call call = channel_.receive();
+    ByteReader reader(call.bytes);
+    ByteWriter writer(call.room);
+    std::optional<CallTime> time;
+    try {
+      if (call.request == Request::kProcess) {
+        time = process(call.bytes, writer);
+      } else {
+        time = perform(call.request, reader, writer);
+      }
+      if (!writer.fits()) throw too_much(call);
+      channel_.answer(Reply::kDone, writer.size(), time->wall_ns, time->cpu_ns);
+    } catch (const Error& error) {
+      answer_error(call, error);
+    } catch (const std::bad_alloc&) {
+      answer_error(call, Error(ErrorCode::kPluginFault,
+                               fmt::format("{}(): there is no memory left", call_name(call.request))));
+    }
+    return call.request != Request::kClose;
+  }
+
+ private:
+  CallTime perform(Request request, ByteReader& reader, ByteWriter& writer) {
+    switch (request) {
+      case Request::kStart:
+        start(read_start(reader), writer);
+        return {};
+      case Request::kSetParameter:
+        set_parameter(reader);
+        return {};
+      case Request::kGetParameter:
+        writer.put_text(plugin_->parameter_text(reader.get<std::uint64_t>()));
+        return {};
+      case Request::kActivate:
+        plugin_->activate(read_sensors(reader));
+        return {};
+      case Request::kReset:
+        plugin_->reset();
+        return {};
+      case Request::kReport:
+        write_outputs(writer, plugin_->report(reader.get<std::uint64_t>() != 0), 0);
+        return plugin_->last_call();
+      case Request::kClose:
+        plugin_.reset();  // and with it the library
+        return {};
+      case Request::kProcess:
+        break;
+    }
+    throw Error(ErrorCode::kPluginFault, "an unknown request");
+  }
+
+  void start(const StartRequest& request, ByteWriter& writer) {
+    StartReply reply;
+    reply.missing = confine({.data_bytes = request.data_bytes,
+                             .file_bytes = request.file_bytes,
+                             .open_files = 256,
+                             .scratch = request.scratch});
+    const std::vector<std::filesystem::path> folders(request.folders.begin(), request.folders.end());
+    plugin_ =
+        std::make_unique<Plugin>(find_plugin(request.wanted, folders),
+                                 [this](const std::string&, std::uint32_t level, const std::string& message) {
+                                   send_log(channel_, level, message);
+                                 });
+    reply.file = plugin_->file().string();
+    reply.info = plugin_->info();
+    reply.parameters.assign(plugin_->parameters().begin(), plugin_->parameters().end());
+    write_started(writer, reply);
+  }
+
+  void set_parameter(ByteReader& reader) {
+    const std::string name = reader.get_text();
+    const std::string value = reader.get_text();
+    plugin_->set_parameter(name, value, read_where(reader));
+  }
+
+  CallTime process(std::span<const std::byte> bytes, ByteWriter& writer) {
+    const hw_frame_t& frame = frames_.read(bytes);
+    write_outputs(writer, plugin_->process(frame), frame.n_samples);
+    return plugin_->last_call();
+  }
+
+  PluginFailure too_much(const PluginChannel::Call& call) const {
+    const std::string message =
+        fmt::format("{}(): put more than {} bytes in one call", call_name(call.request), call.room.size());
+    return {ErrorCode::kPluginFault,
+            message,
+            {plugin_->file().string(), 0, fmt::format("plugin `{}`", plugin_->info().id)},
+            {.what = Misdeed::kFault, .call = call_name(call.request), .message = message}};
+  }
+
+  void answer_error(const PluginChannel::Call& call, const Error& error) {
+    ByteWriter writer(call.room);
+    write_error(writer, error);
+    channel_.answer(Reply::kError, writer.size());
+  }
+
+  PluginChannel& channel_;
+  FrameReader frames_;
+  std::unique_ptr<Plugin> plugin_;
+};
+
+}  // namespace
+
+void serve_plugin(long parent) {
+  try {
+    if (!end_with_parent(parent)) ::_exit(1);
+    PluginChannel channel(kRequestDescriptor, kReplyDescriptor);
+    keep_crash_record(channel.crash());
+    ::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is an error of write()
+    Server server(channel);
+    while (server.serve()) {
+    }
+    ::_exit(0);
+  } catch (...) {  // nobody can be told: the host sees it end
+    ::_exit(1);
+  }
+}
+
+}  // namespace hallway::host

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/sample.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "host/outputs.hpp"
+#include "host/parameter.hpp"
+#include "host/plugin_info.hpp"
+
+namespace hallway::host {
+
+/// Receives what a plugin logs: its id, HW_LOG_…, and a text that is safe to print. May be called on any
+/// thread, at any time while the plugin lives, and must not throw.
+using LogSink =
+    std::function<void(const std::string& plugin, std::uint32_t level, const std::string& message)>;
+
+/// What is known of one sensor; see hw_sensor_info_t. A number that is not known is NaN.
+struct SensorInfo {
+  std::uint32_t id = 0;                   ///< the number that its samples carry
+  std::uint32_t kind = HW_SAMPLE_POINTS;  ///< HW_SAMPLE_… that it gives
+  std::string name;                       ///< for people
+  hw_pose_t T_body_sensor{{0, 0, 0}, {1, 0, 0, 0}};
+  double horizontal_fov = kUnknown;  ///< full angle, radians
+  double vertical_fov = kUnknown;    ///< full angle, radians
+  double min_range_m = kUnknown;
+  double max_range_m = kUnknown;
+  double noise_m[3] = {kUnknown, kUnknown,
+                       kUnknown};  ///< standard deviation along x, y, z of the sensor's frame
+
+  static constexpr double kUnknown = __builtin_nan("");
+};
+
+/// What one call took of the plugin alone.
+struct CallTime {
+  std::int64_t wall_ns = 0;  ///< steady clock
+  std::int64_t cpu_ns = 0;   ///< CPU time of the calling thread
+};
+
+/// One instance of a plugin, wherever it runs: Plugin in this process, IsolatedPlugin in one of its own. Both give the same outputs and the
+/// same errors.
+///
+/// Every function that calls into the plugin throws PluginFailure with the plugin's own reason, naming the file, the plugin and the call;
+/// what the plugin put is checked before it is given to anybody (see OutputCollector). After a failure only close() and the destructor
+/// may be used.
+class Stage {
+ public:
+  Stage() = default;
+  virtual ~Stage() = default;
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  virtual const PluginInfo& info() const = 0;
+  virtual const std::filesystem::path& file() const = 0;
+
+  /// What it declares, in its own order; empty without hw.params/1.
+  virtual std::span<const Parameter> parameters() const = 0;
+  /// The present value of parameter `index`, as text.
+  virtual std::string parameter_text(std::size_t index) = 0;
+  /// Sets a parameter; only before activate(). Throws Error{kBadInput} at `where`: unknown name (with a
+  /// suggestion), not a value of its type, outside of its range, or refused by the plugin.
+  virtual void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) = 0;
+
+  /// Makes it ready for frames. Throws Error{kBadInput} with the plugin's reason where it does not accept its
+  /// parameters or sensors (HW_ERROR_ARGUMENT, HW_ERROR_RANGE, HW_ERROR_UNSUPPORTED), else
+  /// PluginFailure.
+  virtual void activate(std::span<const SensorInfo> sensors) = 0;
+  /// Forgets the map, as if newly activated.
+  virtual void reset() = 0;
+
+  /// How many frames may be submitted and not yet collected.
+  virtual std::size_t capacity() const = 0;
+  /// Hands over one frame: those of its samples whose kinds are among info().inputs. Outputs know a sample by its
+  /// index in `frame`, which lives until it is collected where capacity() is 1, else until this returns.
+  virtual void submit(const hw_frame_t& frame) = 0;
+  /// The answer to the oldest frame that was submitted and not yet collected.
+  /// @return valid until the next call
+  virtual const Outputs& collect() = 0;
+  /// submit() and collect(), with nothing else under way.
+  const Outputs& process(const hw_frame_t& frame) {
+    submit(frame);
+    return collect();
+  }
+  /// The map as it stands or, with `refine`, after what the plugin can still do about it; with no frame under way.
+  /// @return valid until the next call
+  virtual const Outputs& report(bool refine) = 0;
+  /// The time of the last collect() or report().
+  virtual const CallTime& last_call() const = 0;
+
+  /// Ends the plugin in good order; what goes wrong in that is thrown here and nowhere else. The destructor does it where nobody did, and
+  /// keeps quiet.
+  virtual void close() = 0;
+};
+
+}  // namespace hallway::host

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "log/id_pairs.hpp"
+#include "log/landmarks.hpp"
+#include "log/map_landmarks.hpp"
+#include "log/mcap_writer.hpp"
+#include "log/poses.hpp"
+
+namespace hallway::log {
+
+// What Hallway puts into an MCAP file (docs/formats.md): one channel for what plugins are given, others for what they
+// answer and for what is true, which no plugin is ever given.
+
+/// Topics of the channels.
+namespace topics {
+inline constexpr std::string_view kFrame = "/hallway/frame";                    ///< as given to the plugins
+inline constexpr std::string_view kActivation = "/hallway/activation";          ///< facts given once
+inline constexpr std::string_view kTruePose = "/hallway/truth/pose";            ///< T_world_body
+inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    ///< of the observations
+inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
+inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
+inline constexpr std::string_view kAssociations = "/hallway/output/associations";
+inline constexpr std::string_view kMap = "/hallway/output/map";  ///< at the end, as re-solved
+}  // namespace topics
+
+/// Whether the messages of a topic are of the whole log and not of a moment.
+bool is_of_whole_log(std::string_view topic);
+
+/// Which frame a message belongs to.
+struct FrameStamp {
+  std::uint32_t iteration = 0;
+  std::int64_t t_ns = 0;  ///< not below 0
+};
+
+/// A pose that a plugin put.
+struct PoseAnswer {
+  bool valid = false;  ///< false: the plugin says that it is lost
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
+};
+
+/// Records a run. The same calls give the same bytes. All functions throw Error{kIo}, and Error{kInternal} for a number that
+/// is not finite.
+class RunLogWriter {
+ public:
+  /// Keeps a reference to `output`.
+  /// @param library   which program writes
+  /// @param manifest  JSON: the facts of the run that are known before its first frame
+  RunLogWriter(ByteOutput& output, const std::string& library, const std::string& manifest);
+
+  /// JSON: the period and the sensors.
+  void add_activation(const std::string& json);
+  void add_true_landmarks(std::span<const Landmark> landmarks);
+  /// A frame in the form of host/frame_bytes.hpp.
+  void add_frame(const FrameStamp& stamp, std::string_view bytes);
+  void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
+  void add_identities(const FrameStamp& stamp, std::span<const LandmarkId> ids);
+  void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
+  void add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids);
+  /// The map at the end, under the stamp of the last frame.
+  void add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
+               std::span<const IdPair> submap_members);
+  /// Writes what is left and the index.
+  void finish();
+
+ private:
+  void add(std::string_view topic, const FrameStamp& stamp, std::string_view data);
+
+  McapWriter writer_;
+  std::set<std::uint16_t> channels_;  ///< those in the log
+};
+
+/// A frame as it stands in a log.
+struct FrameMessage {
+  std::string_view bytes;  ///< host/frame_bytes.hpp
+};
+struct ActivationMessage {
+  std::string json;
+};
+struct TruePoseMessage {
+  IterationPose pose;
+};
+struct IdentitiesMessage {
+  std::uint32_t iteration = 0;
+  std::vector<LandmarkId> ids;
+};
+struct TrueLandmarksMessage {
+  std::vector<Landmark> landmarks;
+};
+
+/// What replay needs of a log; std::monostate for all else.
+using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, TruePoseMessage,
+                                IdentitiesMessage, TrueLandmarksMessage>;
+
+/// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
+/// promises.
+RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message);
+
+/// The manifest that RunLogWriter was given, from its metadata record; empty for one of another name.
+std::optional<std::string> manifest_of(const McapMetadata& metadata);
+
+}  // namespace hallway::log

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <unordered_set>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "log/json_text.hpp"
+#include "log/observations.hpp"
+#include "log/run_log.hpp"
+#include "log/run_log_channels.hpp"
+#include "log/unit_quaternion.hpp"
+
+namespace hallway::log {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void bad(const std::string& cause) {
+  throw Error(ErrorCode::kBadInput, cause);
+}
+
+Json parse_json(std::string_view text) {
+  check_json_size(text);
+  return Json::parse(text);
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const Json& json) {
+  if (!json.is_array() || json.size() != N) bad("a list of numbers of a wrong length");
+  std::array<double, N> values{};
+  for (std::size_t i = 0; i < N; ++i) values[i] = json[i].get<double>();
+  for (const double value : values) {
+    if (!std::isfinite(value)) bad("a number that is not finite");
+  }
+  return values;
+}
+
+std::uint64_t whole(const Json& json, std::uint64_t max) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > max)
+    bad("a number that is no such count or id");
+  return json.get<std::uint64_t>();
+}
+
+std::uint32_t iteration_of(const Json& json) {
+  return static_cast<std::uint32_t>(whole(json.at("iteration"), kMaxIteration));
+}
+
+TruePoseMessage true_pose(const Json& json) {
+  IterationPose pose;
+  pose.iteration = iteration_of(json);
+  pose.position_m = numbers<3>(json.at("T_world_body").at("position_m"));
+  pose.orientation = numbers<4>(json.at("T_world_body").at("orientation_wxyz"));
+  pose.orientation_known = json.at("orientation_known").get<bool>();
+  if (!is_unit(pose.orientation)) bad("a quaternion that is not of unit length");
+  return {pose};
+}
+
+IdentitiesMessage identities(const Json& json) {
+  IdentitiesMessage message{.iteration = iteration_of(json), .ids = {}};
+  const Json& list = json.at("landmark_ids");
+  if (!list.is_array()) bad("landmark ids that are no list");
+  for (const Json& id : list) message.ids.push_back(id == -1 ? kNoLandmark : whole(id, kNoLandmark - 1));
+  return message;
+}
+
+TrueLandmarksMessage true_landmarks(const Json& json) {
+  TrueLandmarksMessage message;
+  std::unordered_set<LandmarkId> seen;
+  for (const Json& entry : json.at("landmarks")) {
+    message.landmarks.push_back(
+        {.id = whole(entry.at("id"), kNoLandmark - 1), .position_m = numbers<3>(entry.at("position_m"))});
+    if (!seen.insert(message.landmarks.back().id).second) bad("a landmark that stands there twice");
+  }
+  return message;
+}
+
+RunMessage parse(std::string_view topic, std::string_view data) {
+  if (topic == topics::kFrame) return FrameMessage{data};
+  if (topic == topics::kActivation) return ActivationMessage{std::string(data)};
+  if (topic == topics::kTruePose) return true_pose(parse_json(data));
+  if (topic == topics::kIdentities) return identities(parse_json(data));
+  if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
+  return {};
+}
+
+}  // namespace
+
+bool is_of_whole_log(std::string_view topic) {
+  return topic == topics::kActivation || topic == topics::kTrueLandmarks;
+}
+
+RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message) {
+  try {
+    return parse(channel.topic, message.data);
+  } catch (const Json::exception& failure) {
+    bad(printable(channel.topic) + ": " + printable(failure.what()));
+  } catch (const Error& error) {
+    bad(printable(channel.topic) + ": " + error.message());
+  }
+}
+
+std::optional<std::string> manifest_of(const McapMetadata& metadata) {
+  if (metadata.name != kRunMetadata) return std::nullopt;
+  for (const auto& [key, value] : metadata.entries) {
+    if (key == "manifest") return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace hallway::log

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "log/run_log.hpp"
+#include "log/run_log_channels.hpp"
+
+namespace hallway::log {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <std::size_t N>
+Json numbers(const std::array<double, N>& values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) throw Error(ErrorCode::kInternal, "a number for a log is not finite");
+  }
+  return Json(values);
+}
+
+Json pose_json(const std::array<double, 3>& position_m, const std::array<double, 4>& orientation) {
+  return {{"position_m", numbers(position_m)}, {"orientation_wxyz", numbers(orientation)}};
+}
+
+/// Ids with -1 for none, as in the CSV files.
+Json ids_json(std::span<const LandmarkId> ids) {
+  Json list = Json::array();
+  for (const LandmarkId id : ids) list.push_back(id == kNoLandmark ? Json(-1) : Json(id));
+  return list;
+}
+
+Json submaps_json(std::span<const IdPair> members) {
+  Json submaps = Json::array();
+  for (const IdPair& pair : members) {
+    if (submaps.empty() || submaps.back()["id"] != pair.first) {
+      submaps.push_back({{"id", pair.first}, {"landmark_ids", Json::array()}});
+    }
+    submaps.back()["landmark_ids"].push_back(pair.second);
+  }
+  return submaps;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+McapMetadata run_metadata(const std::string& manifest) {
+  return {.name = kRunMetadata, .entries = {{"format", kRunLogFormat}, {"manifest", manifest}}};
+}
+
+}  // namespace
+
+RunLogWriter::RunLogWriter(ByteOutput& output, const std::string& library, const std::string& manifest)
+    : writer_(output, {.profile = kRunLogProfile, .library = library}) {
+  writer_.add(run_metadata(manifest));
+}
+
+void RunLogWriter::add(std::string_view topic, const FrameStamp& stamp, std::string_view data) {
+  const std::uint16_t id = run_channel_id(topic);
+  if (channels_.insert(id).second) {
+    const bool is_frame = topic == topics::kFrame;
+    if (is_frame) writer_.add(frame_schema());
+    writer_.add(McapChannel{.id = id,
+                            .schema_id = is_frame ? frame_schema().id : std::uint16_t{0},
+                            .topic = std::string(topic),
+                            .encoding = is_frame ? kFrameEncoding : kJsonEncoding,
+                            .metadata = {}});
+  }
+  if (stamp.t_ns < 0) throw Error(ErrorCode::kInternal, "a log has no times before 0");
+  const auto t_ns = static_cast<std::uint64_t>(stamp.t_ns);
+  writer_.add(McapMessage{.channel_id = id,
+                          .sequence = stamp.iteration,
+                          .log_time_ns = t_ns,
+                          .publish_time_ns = t_ns,
+                          .data = data});
+}
+
+void RunLogWriter::add_activation(const std::string& json) {
+  add(topics::kActivation, {}, json);
+}
+
+void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
+  Json list = Json::array();
+  for (const Landmark& landmark : landmarks) {
+    list.push_back({{"id", landmark.id}, {"position_m", numbers(landmark.position_m)}});
+  }
+  add(topics::kTrueLandmarks, {}, text_of({{"landmarks", list}}));
+}
+
+void RunLogWriter::add_frame(const FrameStamp& stamp, std::string_view bytes) {
+  add(topics::kFrame, stamp, bytes);
+}
+
+void RunLogWriter::add_true_pose(const FrameStamp& stamp, const IterationPose& pose) {
+  add(topics::kTruePose, stamp,
+      text_of({{"iteration", stamp.iteration},
+               {"T_world_body", pose_json(pose.position_m, pose.orientation)},
+               {"orientation_known", pose.orientation_known}}));
+}
+
+void RunLogWriter::add_identities(const FrameStamp& stamp, std::span<const LandmarkId> ids) {
+  add(topics::kIdentities, stamp,
+      text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"landmark_ids", ids_json(ids)}}));
+}
+
+void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
+  Json json{{"iteration", stamp.iteration}, {"status", pose.valid ? "valid" : "lost"}};
+  if (pose.valid) json["T_map_body"] = pose_json(pose.position_m, pose.orientation);
+  add(topics::kPose, stamp, text_of(json));
+}
+
+void RunLogWriter::add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids) {
+  add(topics::kAssociations, stamp,
+      text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"landmark_ids", ids_json(ids)}}));
+}
+
+void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
+                           std::span<const IdPair> submap_members) {
+  Json list = Json::array();
+  for (const MapLandmark& landmark : landmarks) {
+    list.push_back({{"id", landmark.id},
+                    {"position_m", numbers(landmark.position_m)},
+                    {"observations", landmark.observations},
+                    {"status", landmark_status_name(landmark.status)}});
+  }
+  add(topics::kMap, stamp, text_of({{"landmarks", list}, {"submaps", submaps_json(submap_members)}}));
+}
+
+void RunLogWriter::finish() {
+  writer_.finish();
+}
+
+}  // namespace hallway::log

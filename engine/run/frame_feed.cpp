@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "run/frame_feed.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "run/log_recorder.hpp"
+
+namespace hallway::run {
+
+const char* on_failure_name(sim::OnFailure policy) {
+  switch (policy) {
+    case sim::OnFailure::kStop:
+      return "stop";
+    case sim::OnFailure::kContinue:
+      return "continue";
+    case sim::OnFailure::kRestart:
+      return "restart";
+  }
+  return "stop";
+}
+
+FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& plan)
+    : source_(source),
+      pipeline_(pipeline),
+      policy_(plan.on_failure),
+      window_(plan.lock_step ? 1 : static_cast<std::uint32_t>(pipeline.capacity())),
+      frames_(window_) {}
+
+bool FrameFeed::has_next() const {
+  const bool ended = !alive_ && policy_ == sim::OnFailure::kStop;
+  return !ended && done_ < source_.iterations();
+}
+
+void FrameFeed::submit() {
+  SourceFrame& frame = frames_[submitted_ % window_];
+  source_.read(submitted_, frame);
+  const hw_frame_t& built = build_frame(builder_, submitted_, frame);
+  ++submitted_;
+  if (alive_) pipeline_.submit(built);
+}
+
+void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& take) {
+  const std::uint32_t end = last ? done_ + 1 : std::min(source_.iterations() - done_, window_) + done_;
+  FrameAnswer answer{.iteration = done_, .frame = frames_[done_ % window_]};
+  std::optional<host::Verdict> failure = guarded([&] {
+    while (submitted_ < end) submit();
+    if (!alive_) return;
+    answer.outputs = &pipeline_.collect();
+    answer.time = pipeline_.last_call();
+  });
+  take(answer);
+  const std::uint32_t iteration = done_++;
+  if (failure) {
+    note(std::move(*failure), iteration);
+    submitted_ = done_;  // those under way are lost with the plugin; a frame can be read again
+    if (policy_ == sim::OnFailure::kRestart) restart();
+  }
+}
+
+void FrameFeed::restart() {
+  if (auto failure = guarded([&] { pipeline_.restart(); })) {
+    note(std::move(*failure), std::nullopt);
+    return;
+  }
+  ++told_.restarts;
+  alive_ = true;
+}
+
+std::optional<host::Verdict> FrameFeed::guarded(const std::function<void()>& work) {
+  try {
+    work();
+    return std::nullopt;
+  } catch (const host::PluginFailure& failure) {
+    host::Verdict verdict = failure.verdict();
+    verdict.message = failure.what();
+    return verdict;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kPluginFault) throw;
+    return host::Verdict{.message = error.what()};
+  }
+}
+
+void FrameFeed::note(host::Verdict verdict, std::optional<std::uint32_t> iteration) {
+  alive_ = false;
+  ++told_.failures;
+  if (told_.verdicts.size() < RunResult::kMaxVerdicts) {
+    told_.verdicts.push_back({std::move(verdict), iteration});
+  }
+}
+
+const host::Outputs* FrameFeed::report(bool refine) {
+  if (!alive_) return nullptr;
+  const host::Outputs* outputs = nullptr;
+  if (auto failure = guarded([&] { outputs = &pipeline_.report(refine); }))
+    note(std::move(*failure), std::nullopt);
+  return outputs;
+}
+
+void FrameFeed::close() {
+  if (auto failure = guarded([&] { pipeline_.close(); })) note(std::move(*failure), std::nullopt);
+}
+
+void FrameFeed::tell(RunResult& result) const {
+  result.failures = told_.failures;
+  result.verdicts = told_.verdicts;
+  result.restarts = told_.restarts;
+}
+
+}  // namespace hallway::run

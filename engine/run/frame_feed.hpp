@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/frame_builder.hpp"
+#include "run/run.hpp"
+#include "run/source.hpp"
+
+namespace hallway::run {
+
+/// What the pipeline made of one frame.
+struct FrameAnswer {
+  std::uint32_t iteration = 0;
+  const SourceFrame& frame;
+  const host::Outputs* outputs =
+      nullptr;            ///< null where there is none: the pipeline failed at it or before it
+  host::CallTime time{};  ///< where there is an answer
+};
+
+/// Feeds the frames of a source to a pipeline, in order, and does what the plan says when a plugin fails. The answers are the same however many
+/// frames are under way.
+class FrameFeed {
+ public:
+  FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& plan);
+
+  /// How many frames have been answered or failed.
+  std::uint32_t done() const { return done_; }
+  /// Whether there is a next one: not at the end, not after a failure that stops the run.
+  bool has_next() const;
+  /// Waits for the answer to the next frame and shows it to `take`. With `last`, no frames are submitted that are not yet under way.
+  void next(bool last, const std::function<void(const FrameAnswer&)>& take);
+  /// Frames that were submitted and not yet answered.
+  std::uint32_t under_way() const { return submitted_ - done_; }
+
+  /// The pipeline's map, or null where it has failed.
+  const host::Outputs* report(bool refine);
+  /// Ends the pipeline in good order.
+  void close();
+
+  /// The failures so far, in `result`.
+  void tell(RunResult& result) const;
+
+ private:
+  void submit();
+  std::optional<host::Verdict> guarded(const std::function<void()>& work);
+  void note(host::Verdict verdict, std::optional<std::uint32_t> iteration);
+  void restart();
+
+  Source& source_;
+  host::Pipeline& pipeline_;
+  sim::OnFailure policy_;
+  std::uint32_t window_;
+  bool alive_ = true;
+  std::uint32_t submitted_ = 0;
+  std::uint32_t done_ = 0;
+  host::FrameBuilder builder_;
+  std::vector<SourceFrame> frames_;  ///< under way, by iteration modulo window_
+  RunResult told_;
+};
+
+}  // namespace hallway::run

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "log/mcap_reader.hpp"
+#include "run/source.hpp"
+
+namespace hallway::run {
+
+/// What replay needs of an MCAP log.
+struct RecordedRun {
+  std::optional<nlohmann::ordered_json> manifest;  ///< run.json as known before the first frame
+  host::SensorInfo sensor;
+  std::int64_t period_ns = 0;  ///< 0 where not known
+  bool has_identities = false;
+  std::vector<SourceFrame> frames;
+  std::optional<std::vector<log::Landmark>> true_landmarks;
+  std::optional<log::McapDamage> damage;  ///< where reading stopped; what stands before it is here
+};
+
+/// Reads a log that LogRecorder has written, up to its end or the first damage: of the file, or of a message that is not what
+/// its channel promises. Messages of other channels are passed over. Memory grows with the observations.
+/// Throws Error{kBadInput} if it is no MCAP file, and if nothing is damaged but there is no frame channel; Error{kIo}.
+RecordedRun read_recorded_run(const log::ByteInput& input);
+
+/// The frames of a recorded log, as they were: numbered anew from 0, at their recorded times.
+class RecordedSource : public Source {
+ public:
+  /// @param steps  how many frames to give; 0 for all
+  RecordedSource(RecordedRun run, std::uint32_t steps);
+
+  std::uint32_t iterations() const override { return iterations_; }
+  void read(std::uint32_t iteration, SourceFrame& frame) override { frame = run_.frames[iteration]; }
+  const host::SensorInfo& sensor() const override { return run_.sensor; }
+  bool has_identities() const override { return run_.has_identities; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
+    return run_.true_landmarks;
+  }
+
+ private:
+  RecordedRun run_;
+  std::uint32_t iterations_;
+};
+
+}  // namespace hallway::run

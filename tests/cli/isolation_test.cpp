@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Runs whose plugins fail: what is said, what is written, what goes on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/small_world.hpp"
+
+namespace hallway {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string fixture(const std::string& name) {
+  return (test::binary_folder() / "tests" / "abi" / "fixtures" / (name + ".so")).string();
+}
+
+Json read_json(const fs::path& path) {
+  return Json::parse(read_file(path));
+}
+
+/// A run of the plugin `breaks`, which does `how` in frame 20 of 60.
+test::Ended run_breaking(const test::SmallWorld& world, const std::string& how,
+                         const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"--plugin",          fixture("breaks"), "--set",
+                                     "breaks.how=" + how, "--set",           "breaks.at=20"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return world.run(arguments);
+}
+
+std::size_t lines_of(const fs::path& path) {
+  const std::string text = read_file(path);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Isolation, ACrashIsAVerdictAndWhatWasRecordedStays) {
+  const test::SmallWorld world;
+  const test::Ended ended = run_breaking(world, "segv", {"--json"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  EXPECT_NE(ended.err.find("iteration 20: "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("crashed with signal 11"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("breaks.so+0x"), std::string::npos) << "no backtrace: " << ended.err;
+  const Json printed = Json::parse(ended.out);
+  EXPECT_EQ(printed.at("status"), 5);
+  EXPECT_EQ(printed.at("verdict").at("what"), "crash");
+
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  const Json& verdict = run.at("verdict");
+  EXPECT_EQ(verdict.at("what"), "crash");
+  EXPECT_EQ(verdict.at("plugin"), "breaks");
+  EXPECT_EQ(verdict.at("signal"), 11);
+  EXPECT_EQ(verdict.at("iteration"), 20);
+  EXPECT_EQ(verdict.at("call"), "process");
+  EXPECT_FALSE(verdict.at("backtrace").empty());
+  EXPECT_EQ(run.at("iterations"), 21) << "the frame that it met its end at is kept";
+  EXPECT_EQ(run.at("failures"), 1);
+  EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 20u);
+  EXPECT_TRUE(fs::exists(fs::path(world.out()) / "run.mcap"));
+}
+
+TEST(Isolation, AFrameThatKillsAPluginDoesSoAgainInReplay) {
+  const test::SmallWorld world;
+  run_breaking(world, "_exit");
+  const test::Ended ended = test::hallway({"replay", world.out(), "--plugin", fixture("breaks"), "--out",
+                                           world.out("again"), "--set", "how=_exit", "--set", "at=20"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(fs::path(world.out("again")) / "run.json");
+  EXPECT_EQ(run.at("verdict").at("what"), "exit");
+  EXPECT_EQ(run.at("verdict").at("exit_status"), 7);
+  EXPECT_EQ(run.at("verdict").at("iteration"), 20);
+}
+
+TEST(Isolation, APluginThatHangsIsEndedInTime) {
+  const test::SmallWorld world;
+  const test::Ended ended = run_breaking(world, "deadlock", {"--call-timeout", "3"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("verdict").at("what"), "timeout");
+  EXPECT_EQ(run.at("verdict").at("iteration"), 20);
+}
+
+TEST(Isolation, TheScenarioSaysTheLimitsToo) {
+  test::TempFolder folder;
+  folder.write("small.map", test::small_map());
+  const fs::path scenario =
+      folder.write("small.toml", "call_timeout_s = 3\non_failure = 'continue'\n" + test::small_scenario());
+  const test::Ended ended = test::hallway({"run", scenario, "--out", (folder.path() / "out").string(),
+                                           "--plugin", fixture("breaks"), "--set", "breaks.how=loop"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(folder.path() / "out" / "run.json");
+  EXPECT_EQ(run.at("verdict").at("what"), "timeout");
+  EXPECT_EQ(run.at("on_failure"), "continue");
+  EXPECT_EQ(run.at("iterations"), 60);
+}
+
+TEST(Isolation, ContinueGoesOnWithoutAnswers) {
+  const test::SmallWorld world;
+  const test::Ended ended = run_breaking(world, "abort", {"--on-failure", "continue"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("iterations"), 60);
+  EXPECT_EQ(run.at("failures"), 1);
+  EXPECT_EQ(read_json(fs::path(world.out()) / "metrics.json").at("lost_iterations"), 40);
+  EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 20u);
+}
+
+TEST(Isolation, RestartGoesOnWithANewInstance) {
+  const test::SmallWorld world;
+  const test::Ended ended = run_breaking(world, "abort", {"--on-failure", "restart"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("iterations"), 60);
+  EXPECT_EQ(run.at("failures"), 1);
+  EXPECT_EQ(run.at("restarts"), 1);
+  EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 59u);
+}
+
+TEST(Isolation, AFaultHasTheSameVerdictInBothPlaces) {
+  const test::SmallWorld world;
+  const std::vector<std::string> plugin{"--plugin", fixture("misbehaves") + ":misbehaves", "--set",
+                                        "misbehaves.fault=nan_position"};
+  std::vector<std::string> in_process = plugin;
+  in_process.push_back("--in-process");
+  EXPECT_EQ(world.run(plugin, "isolated").status, 5);
+  EXPECT_EQ(world.run(in_process, "in_process").status, 5);
+  const Json isolated = read_json(fs::path(world.out("isolated")) / "run.json").at("verdict");
+  EXPECT_EQ(isolated.at("what"), "fault");
+  EXPECT_EQ(isolated.at("iteration"), 0);
+  EXPECT_EQ(isolated, read_json(fs::path(world.out("in_process")) / "run.json").at("verdict"));
+}
+
+/// What may differ between two runs of one input.
+Json without_machine(Json json) {
+  for (const char* key : {"host", "iteration_ms", "iteration_cpu_ms"}) json.erase(key);
+  return json;
+}
+
+void expect_same_folder(const fs::path& a, const fs::path& b) {
+  std::set<std::string> names;
+  for (const fs::path& folder : {a, b}) {
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  }
+  names.erase("timing.csv");
+  EXPECT_GT(names.size(), 10u);
+  for (const std::string& name : names) {
+    ASSERT_TRUE(fs::exists(a / name) && fs::exists(b / name)) << name;
+    if (name.ends_with(".json")) {
+      EXPECT_EQ(without_machine(read_json(a / name)), without_machine(read_json(b / name))) << name;
+    } else {
+      EXPECT_EQ(read_file(a / name), read_file(b / name)) << name;
+    }
+  }
+}
+
+TEST(Isolation, IsolatedOrNotTheFolderHasTheSameBytes) {
+  const test::SmallWorld world;
+  ASSERT_EQ(world.run({}, "isolated").status, 0);
+  ASSERT_EQ(world.run({"--in-process"}, "in_process").status, 0);
+  expect_same_folder(world.out("isolated"), world.out("in_process"));
+  const std::string log = world.out("isolated") + "/observations.csv";
+  ASSERT_EQ(test::hallway({"replay", log, "--out", world.out("replay_isolated")}).status, 0);
+  ASSERT_EQ(test::hallway({"replay", log, "--out", world.out("replay_in_process"), "--in-process"}).status,
+            0);
+  expect_same_folder(world.out("replay_isolated"), world.out("replay_in_process"));
+  EXPECT_EQ(read_file(world.out("isolated") + "/trajectory.tum"),
+            read_file(world.out("replay_isolated") + "/trajectory.tum"));
+}
+
+TEST(Isolation, WhatAPluginWritesNeverReachesStandardOutput) {
+  const test::SmallWorld world;
+  const test::Ended ended = run_breaking(world, "stdout", {"--json"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NO_THROW(Json::parse(ended.out));
+  EXPECT_NE(ended.err.find("hallway: breaks: wrote: xxx"), std::string::npos);
+  EXPECT_LT(ended.err.size(), 100'000u);
+}
+
+TEST(Isolation, APluginThatDiesWhileItIsLoadedIsAFailureWithoutAFolder) {
+  const test::SmallWorld world;
+  const test::Ended ended = world.run({"--plugin", fixture("crashes_in_init")});
+  EXPECT_EQ(ended.status, 5);
+  EXPECT_NE(ended.err.find("load(): crashed with signal 6"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("crashes_in_init.so"), std::string::npos) << ended.err;
+  EXPECT_FALSE(fs::exists(world.out()));
+}
+
+TEST(Isolation, WrongLimitsAreWrongUse) {
+  const test::SmallWorld world;
+  EXPECT_EQ(world.run({"--on-failure", "hope"}).status, 2);
+  EXPECT_EQ(world.run({"--call-timeout", "0"}).status, 2);
+  EXPECT_EQ(world.run({"--memory-limit", "-1"}).status, 2);
+}
+
+}  // namespace
+}  // namespace hallway

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/small_world.hpp"
+
+namespace hallway::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A run of the small world, made once for all tests.
+class Log : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    world_ = new SmallWorld;
+    const Ended ended = world_->run({"--quiet"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+  }
+  static void TearDownTestSuite() {
+    delete world_;
+    world_ = nullptr;
+  }
+  static fs::path run_folder() { return world_->out(); }
+  static std::string log() { return run_folder() / "run.mcap"; }
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+  static Json info(const std::string& file) {
+    return Json::parse(hallway({"log", "info", file, "--json"}).out);
+  }
+  static std::uint64_t messages(const Json& info, const std::string& topic) {
+    for (const Json& channel : info.at("channels")) {
+      if (channel.at("topic") == topic) return channel.at("messages").get<std::uint64_t>();
+    }
+    return 0;
+  }
+  static void expect_same(const fs::path& a, const fs::path& b, const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      EXPECT_TRUE(read_file(a / name) == read_file(b / name)) << name << " differs";
+  }
+
+  static SmallWorld* world_;
+  TempFolder folder_;
+};
+
+SmallWorld* Log::world_ = nullptr;
+
+const std::vector<std::string> kAnswers{"trajectory.tum",  "landmarks.csv",      "landmarks.ply",
+                                        "submaps.csv",     "matches.csv",        "truth.tum",
+                                        "truth_poses.csv", "truth_landmarks.csv"};
+
+TEST_F(Log, InfoSaysWhatIsInARunsLog) {
+  const Json facts = info(log());
+  EXPECT_EQ(facts.at("status"), 0);
+  EXPECT_TRUE(facts.at("damage").is_null());
+  for (const char* topic : {"/hallway/frame", "/hallway/truth/pose", "/hallway/truth/identities",
+                            "/hallway/output/pose", "/hallway/output/associations"}) {
+    EXPECT_EQ(messages(facts, topic), 60u) << topic;
+  }
+  for (const char* topic : {"/hallway/activation", "/hallway/truth/landmarks", "/hallway/output/map"}) {
+    EXPECT_EQ(messages(facts, topic), 1u) << topic;
+  }
+  EXPECT_EQ(facts.at("metadata"), Json::array({"hallway.run"}));
+  EXPECT_GE(facts.at("chunks").get<int>(), 6) << "6 s of driving";
+  const Ended text = hallway({"log", "info", run_folder()});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_NE(text.out.find("/hallway/frame"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("0.000000000 s to 5.900000000 s"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("damage       none"), std::string::npos) << text.out;
+}
+
+TEST_F(Log, ReplayGivesTheSameAnswersAsTheRun) {
+  const Ended ended = hallway({"replay", log(), "--quiet", "--out", path("again")});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  expect_same(run_folder(), path("again"), kAnswers);
+  // The replay's own log gives them once more, and says the same as the log it was made from.
+  ASSERT_EQ(hallway({"replay", path("again"), "--quiet", "--out", path("third")}).status, 0);
+  expect_same(run_folder(), path("third"), kAnswers);
+  EXPECT_EQ(info(log()).at("channels"), info(path("again")).at("channels"));
+}
+
+TEST_F(Log, SameRunSameBytes) {
+  ASSERT_EQ(world_->run({"--quiet", "--threads", "3"}, "second").status, 0);
+  expect_same(run_folder(), world_->out("second"), {"run.mcap"});
+}
+
+TEST_F(Log, ALogCutAnywhereIsReplayedUpToTheDamageAndRecovered) {
+  const std::string whole = read_file(log());
+  std::uint64_t frames = 0;
+  for (const double share : {0.2, 0.5, 0.8, 0.999}) {
+    const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+    const std::string cut = folder_.write("cut.mcap", whole.substr(0, size));
+    const Ended told = hallway({"log", "info", cut});
+    EXPECT_EQ(told.status, 1);
+    EXPECT_NE(told.out.find("of " + std::to_string(size)), std::string::npos) << told.out;
+    const Ended mended = hallway({"log", "recover", cut, "--force"});
+    ASSERT_EQ(mended.status, 0) << mended.err;
+    EXPECT_NE(mended.err.find("what stands before it is kept"), std::string::npos) << mended.err;
+    const Json facts = info(path("cut.recovered.mcap"));
+    EXPECT_TRUE(facts.at("damage").is_null());
+    EXPECT_GT(messages(facts, "/hallway/frame"), frames);
+    frames = messages(facts, "/hallway/frame");
+    EXPECT_EQ(messages(facts, "/hallway/truth/identities"), frames) << "a moment is kept whole";
+    for (const std::string& file : {cut, path("cut.recovered.mcap")}) {
+      const Ended replayed = hallway({"replay", file, "--quiet", "--force", "--out", path("part")});
+      EXPECT_EQ(replayed.status, 0) << replayed.err;
+      EXPECT_EQ(replayed.err.find("kept what stands before") != std::string::npos, file == cut)
+          << replayed.err;
+      const std::string poses = read_file(fs::path(path("part")) / "trajectory.tum");
+      EXPECT_TRUE(read_file(run_folder() / "trajectory.tum").starts_with(poses));
+      EXPECT_EQ(Json::parse(read_file(fs::path(path("part")) / "run.json")).at("iterations"), frames);
+    }
+  }
+}
+
+TEST_F(Log, CutTakesASpanOfIterationsOrOfTime) {
+  ASSERT_EQ(hallway({"log", "cut", log(), "--from-iteration", "10", "--to-iteration", "29", "--out",
+                     path("a.mcap")})
+                .status,
+            0);
+  ASSERT_EQ(hallway({"log", "cut", log(), "--from", "1", "--to", "2.9", "--out", path("b.mcap")}).status, 0);
+  EXPECT_TRUE(read_file(path("a.mcap")) == read_file(path("b.mcap"))) << "frames lie 0.1 s apart";
+  const Json facts = info(path("a.mcap"));
+  EXPECT_EQ(messages(facts, "/hallway/frame"), 20u);
+  EXPECT_EQ(messages(facts, "/hallway/truth/landmarks"), 1u) << "of the whole log";
+  EXPECT_EQ(messages(facts, "/hallway/activation"), 1u);
+  EXPECT_EQ(messages(facts, "/hallway/output/map"), 0u);
+  const Ended replayed = hallway({"replay", path("a.mcap"), "--quiet", "--out", path("part")});
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_EQ(Json::parse(read_file(fs::path(path("part")) / "run.json")).at("iterations"), 20);
+  // All of it is a copy that says the same.
+  ASSERT_EQ(hallway({"log", "cut", log(), "--from", "0", "--out", path("all.mcap")}).status, 0);
+  EXPECT_EQ(info(path("all.mcap")).at("channels"), info(log()).at("channels"));
+}
+
+TEST_F(Log, CutRefusesWhatMakesNoSense) {
+  EXPECT_EQ(hallway({"log", "cut", log(), "--out", path("a.mcap")}).status, 2);
+  EXPECT_EQ(
+      hallway({"log", "cut", log(), "--from", "1", "--to-iteration", "3", "--out", path("a.mcap")}).status,
+      2);
+  EXPECT_EQ(hallway({"log", "cut", log(), "--from", "3", "--to", "1", "--out", path("a.mcap")}).status, 2);
+  EXPECT_EQ(hallway({"log", "cut", log(), "--from-iteration", "70", "--out", path("a.mcap")}).status, 3);
+  folder_.write("a.mcap", "mine");
+  EXPECT_EQ(hallway({"log", "cut", log(), "--from", "1", "--out", path("a.mcap")}).status, 3);
+  EXPECT_EQ(read_file(path("a.mcap")), "mine");
+}
+
+TEST_F(Log, ConvertToCsvAndBackLosesNothingThatReplayNeeds) {
+  const Ended to_csv = hallway({"log", "convert", log(), "--out", path("csv")});
+  ASSERT_EQ(to_csv.status, 0) << to_csv.err;
+  EXPECT_EQ(to_csv.err, "");
+  expect_same(run_folder(), path("csv"), {"observations.csv", "truth_poses.csv", "truth_landmarks.csv"});
+  ASSERT_EQ(hallway({"log", "convert", path("csv"), "--out", path("back.mcap")}).status, 0);
+  for (const std::string& from : {path("csv"), path("back.mcap")}) {
+    const Ended ended = hallway({"replay", from, "--quiet", "--force", "--out", path("again")});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    expect_same(run_folder(), path("again"), kAnswers);
+  }
+}
+
+TEST_F(Log, ConvertTakesAnyObservations) {
+  const std::string csv = folder_.write("obs.csv", "iteration,x,y,z\n0,1,2,3\n3,4,5,6\n");
+  const Ended ended = hallway({"log", "convert", csv, "--period", "0.5", "--out", path("a.mcap"), "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(Json::parse(ended.out).at("frames"), 4);
+  const Json facts = info(path("a.mcap"));
+  EXPECT_EQ(messages(facts, "/hallway/frame"), 4u) << "two of them without points";
+  EXPECT_EQ(messages(facts, "/hallway/truth/identities"), 0u);
+  EXPECT_EQ(hallway({"replay", path("a.mcap"), "--out", path("run")}).status, 2) << "nobody names a plugin";
+  EXPECT_EQ(
+      hallway({"replay", path("a.mcap"), "--plugin", "slam_point", "--quiet", "--out", path("run")}).status,
+      0);
+}
+
+TEST_F(Log, WhatIsNoLogIsAnErrorWithItsName) {
+  for (const std::string content : {"", "x", "iteration,x,y,z\n"}) {
+    const std::string file = folder_.write("no.mcap", content);
+    for (const char* command : {"info", "recover"}) {
+      const Ended ended = hallway({"log", command, file});
+      EXPECT_EQ(ended.status, 3);
+      EXPECT_NE(ended.err.find("no.mcap"), std::string::npos) << ended.err;
+    }
+    EXPECT_EQ(hallway({"replay", file, "--plugin", "slam_point", "--out", path("run")}).status, 3);
+    EXPECT_FALSE(fs::exists(path("run")));
+    EXPECT_FALSE(fs::exists(path("no.recovered.mcap")));
+  }
+  EXPECT_EQ(hallway({"log", "info", path("missing.mcap")}).status, 3);
+  EXPECT_EQ(hallway({"log", "info", folder_.path()}).status, 3);
+}
+
+TEST_F(Log, ARunThatIsKilledLeavesALogThatCanBeRecovered) {
+  const fs::path out = path("killed");
+  Process process(
+      {hallway_program(), "run", world_->scenario(), "--steps", "2000000", "--quiet", "--out", out});
+  const fs::path log = out.string() + ".part-" + std::to_string(process.pid()) + "/run.mcap";
+  std::error_code code;
+  for (int i = 0; i < 6000; ++i) {
+    const std::uintmax_t size = fs::file_size(log, code);
+    if (!code && size > 200'000) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(process.pid(), SIGKILL);
+  EXPECT_EQ(process.wait().status, 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(out));
+  const Ended ended = hallway({"log", "recover", log.parent_path(), "--out", path("mended.mcap")});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json facts = info(path("mended.mcap"));
+  EXPECT_TRUE(facts.at("damage").is_null());
+  EXPECT_GT(messages(facts, "/hallway/frame"), 10u);
+  EXPECT_EQ(hallway({"replay", path("mended.mcap"), "--quiet", "--out", path("run")}).status, 0);
+}
+
+}  // namespace
+}  // namespace hallway::test

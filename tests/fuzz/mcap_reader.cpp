@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The bytes as an MCAP log. Whatever they are, reading ends, with an Error, with damage or at the end; what was read can be
+// written as a whole log that gives the same; and what a replay takes of it is a sequence of sound frames.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "log/mcap_copy.hpp"
+#include "run/recorded_run.hpp"
+
+using hallway::Error;
+namespace log_ = hallway::log;
+namespace run = hallway::run;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+void check_copy(const log_::ByteInput& input) {
+  log_::StringOutput out;
+  const log_::McapCopy copy = log_::copy_mcap(input, out);
+  const log_::MemoryInput again(out.text());
+  log_::McapReader reader(again);
+  std::uint64_t messages = 0;
+  while (const log_::McapItem* item = reader.next())
+    messages += std::holds_alternative<log_::McapMessage>(*item) ? 1u : 0u;
+  if (reader.damage() || messages != copy.messages) std::abort();
+  if (copy.damage && (copy.damage->offset > input.size() || copy.damage->cause.empty())) std::abort();
+}
+
+void check_frames(const run::RecordedRun& recorded) {
+  std::int64_t t_ns = 0;
+  for (const run::SourceFrame& frame : recorded.frames) {
+    if (frame.t_ns < t_ns) std::abort();
+    t_ns = frame.t_ns;
+    for (const log_::Observation& seen : frame.observations) {
+      for (const double x : seen.point) {
+        if (!std::isfinite(x)) std::abort();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const log_::MemoryInput input(std::string_view(reinterpret_cast<const char*>(data), size));
+  try {
+    check_copy(input);
+  } catch (const Error&) {  // no MCAP file, or a message that is larger than we write
+  }
+  try {
+    check_frames(run::read_recorded_run(input));
+  } catch (const Error&) {
+    return 0;
+  }
+  return 0;
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// The runner with a program of its own in the place of `hallway`: a shell script that does what its arguments say.
+#include "batch/runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "support/errors.hpp"
+#include "support/temp_folder.hpp"
+
+namespace hallway::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunnerTest : public testing::Test {
+ protected:
+  RunnerTest() {
+    // run WORD ... --out DIR: writes a run folder with the word's length as its metric, and counts its calls.
+    program_ = folder_.write("program.sh", R"(#!/bin/sh
+echo "$2" >> ")" + (folder_ / "calls").string() +
+                                               R"("
+while [ $# -gt 0 ]; do [ "$1" = --out ] && out=$2; [ -z "$word" ] && [ "$1" != run ] && word=$1; shift; done
+case $word in
+  fails) echo "hallway: some reason" >&2; exit 5;;
+  dies) kill -9 $$;;
+  sleeps) sleep 60;;
+esac
+mkdir -p "$out"
+echo "{\"length\": ${#word}}" > "$out/metrics.json"
+echo "{\"verdict\": null}" > "$out/run.json"
+)");
+    fs::permissions(program_, fs::perms::owner_all);
+  }
+
+  static Plan plan_of(const std::vector<std::string>& words) {
+    Plan plan;
+    for (const std::string& word : words)
+      plan.cells.push_back({.name = "cell_" + word, .labels = {{"word", word}}, .arguments = {"run", word}});
+    return plan;
+  }
+
+  RunnerSetup setup(unsigned jobs = 2, bool resume = false) const {
+    return {.program = program_, .folder = folder_ / "batch", .jobs = jobs, .resume = resume};
+  }
+
+  std::size_t calls() const {
+    std::ifstream file(folder_ / "calls");
+    return static_cast<std::size_t>(std::count(std::istreambuf_iterator<char>(file), {}, '\n'));
+  }
+
+  test::TempFolder folder_;
+  fs::path program_;
+};
+
+TEST_F(RunnerTest, OneThatFailsStopsNoOther) {
+  const auto results = run_cells(plan_of({"aa", "fails", "bbb", "dies", "c"}), setup());
+  ASSERT_EQ(results.size(), 5u);
+  EXPECT_EQ(results[0].metrics["length"], 2);
+  EXPECT_EQ(results[1].status, 5);
+  EXPECT_EQ(results[1].problem, "some reason");
+  EXPECT_TRUE(results[1].metrics.is_null());
+  EXPECT_EQ(results[2].metrics["length"], 3);
+  EXPECT_EQ(results[3].status, 128 + 9);
+  EXPECT_EQ(results[4].metrics["length"], 1);
+  EXPECT_TRUE(results[4].good());
+}
+
+TEST_F(RunnerTest, ResultsAreInTheOrderOfThePlanForAnyNumberOfJobs) {
+  std::vector<std::string> words;
+  for (std::size_t i = 1; i <= 12; ++i) words.emplace_back(i, 'x');
+  for (const unsigned jobs : {1u, 3u, 20u}) {
+    const auto results = run_cells(plan_of(words), setup(jobs));
+    ASSERT_EQ(results.size(), words.size());
+    for (std::size_t i = 0; i < words.size(); ++i) EXPECT_EQ(results[i].metrics["length"], i + 1);
+  }
+}
+
+TEST_F(RunnerTest, ResumeRunsOnlyWhatIsNewOrChanged) {
+  Plan plan = plan_of({"a", "fails", "dies"});
+  const fs::path input = folder_.write("input.csv", "1");
+  plan.cells[0].inputs = {input};
+  run_cells(plan, setup());
+  EXPECT_EQ(calls(), 3u);
+  plan.cells.push_back({.name = "new", .arguments = {"run", "new"}});
+  auto results = run_cells(plan, setup(2, true));
+  EXPECT_EQ(calls(), 5u);  // the new one, and the one that was killed
+  EXPECT_TRUE(results[0].reused);
+  EXPECT_EQ(results[0].metrics["length"], 1);
+  EXPECT_EQ(results[1].status, 5);
+  EXPECT_FALSE(results[3].reused);
+  folder_.write("input.csv", "2");
+  results = run_cells(plan, setup(2, true));
+  EXPECT_EQ(calls(), 7u);  // what reads the input, and the killed one again
+  EXPECT_FALSE(results[0].reused);
+  run_cells(plan, setup(2, false));
+  EXPECT_EQ(calls(), 11u);
+}
+
+TEST_F(RunnerTest, IsStoppedWithWhatIsDone) {
+  RunnerSetup stopping = setup(1);
+  std::size_t done = 0;
+  stopping.progress = [&](std::size_t count) { done = count; };
+  stopping.stop = [&] { return done == 2; };
+  const auto results = run_cells(plan_of({"a", "bb", "sleeps", "c"}), stopping);
+  EXPECT_EQ(results.size(), 2u);
+}
+
+TEST_F(RunnerTest, TwoInOneFolderAreAConflict) {
+  RunnerSetup outer = setup(1);
+  std::optional<Error> conflict;
+  outer.progress = [&](std::size_t) {
+    conflict = test::error_of([&] { run_cells(plan_of({"b"}), setup(1)); });
+  };
+  run_cells(plan_of({"a"}), outer);
+  ASSERT_TRUE(conflict);
+  EXPECT_EQ(conflict->code(), ErrorCode::kIo);
+  EXPECT_NE(conflict->message().find("another batch"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hallway::batch

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What comes back from a plugin's process: every output survives the way, and no bytes whatever do harm.
+#include "host/outputs_bytes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/random.hpp"
+#include "fixtures.hpp"
+
+namespace hallway::host {
+namespace {
+
+using test_fixtures::frame_of;
+
+void put(OutputCollector& collector, std::uint32_t kind, const void* payload) {
+  const hw_output_t output{sizeof output, kind, 0, 0, payload};
+  ASSERT_EQ(collector.put(&output), HW_OK);
+}
+
+/// One of everything that there is, for a frame of three points.
+void put_everything(OutputCollector& collector) {
+  hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}};
+  put(collector, HW_OUTPUT_POSE, &pose);
+  const hw_landmark_t points[]{{7, {1, 2, 3}, 4, HW_LANDMARK_MAPPED},
+                               {9, {4, 5, 6}, 1, HW_LANDMARK_TEMPORARY}};
+  hw_landmarks_t landmarks{sizeof landmarks, sizeof(hw_landmark_t), 2, points};
+  put(collector, HW_OUTPUT_LANDMARKS, &landmarks);
+  const std::uint64_t ids[]{7, HW_NO_LANDMARK, 9};
+  hw_associations_t associations{sizeof associations, 0, 3, ids};
+  put(collector, HW_OUTPUT_ASSOCIATIONS, &associations);
+  const std::uint64_t members[]{7, 9, 7};
+  const hw_submap_t parts[]{{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}, {2, {{0, 0, 1}, {0, 0, 0, 1}}, 2, 1}};
+  hw_submaps_t submaps{sizeof submaps, sizeof(hw_submap_t), 2, parts, 3, members};
+  put(collector, HW_OUTPUT_SUBMAPS, &submaps);
+  const hw_counter_t numbers[]{{"a", 1.5}, {"a_long_name_of_a_counter", -2}};
+  hw_counters_t counters{sizeof counters, sizeof(hw_counter_t), 2, numbers};
+  put(collector, HW_OUTPUT_COUNTERS, &counters);
+}
+
+class OutputsBytes : public testing::Test {
+ protected:
+  OutputsBytes() : frame_(frame_of(builder_, 0, {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}})) {
+    OutputCollector collector;
+    collector.begin(&frame_, indices_);
+    put_everything(collector);
+    EXPECT_EQ(collector.finish(), "");
+    room_.resize(4096);
+    ByteWriter writer(std::as_writable_bytes(std::span(room_)));
+    write_outputs(writer, collector.outputs(), 1);
+    EXPECT_TRUE(writer.fits());
+    room_.resize(writer.size() / 8);
+  }
+
+  /// What is wrong with these bytes, empty if nothing.
+  std::string read(std::span<const std::byte> bytes) {
+    reader_.begin(&frame_, indices_);
+    try {
+      ByteReader reader(bytes);
+      read_outputs(reader, reader_);
+      reader.expect_end();
+    } catch (const BadBytes& bad) {
+      return bad.what;
+    }
+    return reader_.finish();
+  }
+
+  FrameBuilder builder_;
+  const hw_frame_t& frame_;
+  std::vector<std::uint32_t> indices_{0};
+  std::vector<std::uint64_t> room_;
+  OutputCollector reader_;
+};
+
+TEST_F(OutputsBytes, ReadBackAsTheyWere) {
+  ASSERT_EQ(read(std::as_bytes(std::span(room_))), "");
+  const Outputs& outputs = reader_.outputs();
+  EXPECT_EQ(outputs.pose()->T_map_body.orientation[1], 0.8);
+  ASSERT_EQ(outputs.landmarks().size(), 2u);
+  EXPECT_EQ(outputs.landmarks()[1].position[2], 6);
+  EXPECT_TRUE(std::ranges::equal(*outputs.associations(0), std::vector<std::uint64_t>{7, HW_NO_LANDMARK, 9}));
+  ASSERT_EQ(outputs.submaps().size(), 2u);
+  EXPECT_TRUE(std::ranges::equal(outputs.members(outputs.submaps()[1]), std::vector<std::uint64_t>{7}));
+  EXPECT_EQ(outputs.counters()[1].name, "a_long_name_of_a_counter");
+  // And written again they are the same bytes.
+  std::vector<std::uint64_t> again(room_.size());
+  ByteWriter writer(std::as_writable_bytes(std::span(again)));
+  write_outputs(writer, outputs, 1);
+  EXPECT_EQ(again, room_);
+}
+
+TEST_F(OutputsBytes, CutAnywhereTheyAreRefused) {
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(room_));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_NE(read(bytes.first(size)), "") << size;
+  }
+  room_.push_back(0);
+  EXPECT_NE(read(std::as_bytes(std::span(room_))), "") << "one more than there were";
+}
+
+TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
+  const std::vector<std::uint64_t> good = room_;
+  std::size_t refused = 0;
+  for (std::uint32_t step = 0; step < 20'000; ++step) {
+    room_ = good;
+    const Random random(1, stream_id("outputs_bytes"));
+    const auto word = static_cast<std::size_t>(random.uniform(step, 0) * static_cast<double>(room_.size()));
+    const auto bit = static_cast<unsigned>(random.uniform(step, 1) * 64);
+    room_[word] = step % 2 == 0 ? room_[word] ^ (std::uint64_t{1} << bit) : UINT64_MAX >> bit;
+    if (!read(std::as_bytes(std::span(room_))).empty()) {
+      ++refused;
+      continue;
+    }
+    for (const hw_landmark_t& landmark : reader_.outputs().landmarks()) {
+      EXPECT_TRUE(std::isfinite(landmark.position[0]));
+    }
+    for (const hw_submap_t& submap : reader_.outputs().submaps()) {
+      EXPECT_LE(reader_.outputs().members(submap).size(), 3u);
+    }
+  }
+  EXPECT_GT(refused, 1000u);
+}
+
+TEST_F(OutputsBytes, WithoutRoomNothingIsWrittenBeyondIt) {
+  reader_.begin(&frame_, indices_);
+  put_everything(reader_);
+  reader_.finish();
+  std::vector<std::uint64_t> room(20, 4711);
+  ByteWriter writer(std::as_writable_bytes(std::span(room).first(10)));
+  write_outputs(writer, reader_.outputs(), 1);
+  EXPECT_FALSE(writer.fits());
+  EXPECT_TRUE(std::all_of(room.begin() + 10, room.end(), [](std::uint64_t word) { return word == 4711; }));
+}
+
+}  // namespace
+}  // namespace hallway::host
