@@ -181,31 +181,13 @@ std::string group_of(const EntityItem& entity) {
   return number != nullptr ? *number : std::string();
 }
 
-/// The groups that an entity is in, from the innermost out.
-std::vector<std::size_t> groups_around(const State& state, std::size_t entity) {
-  std::vector<std::size_t> groups;
-  for (const std::string* number = state.entities[entity]->head->find("_tb_group"); number != nullptr;) {
-    const std::string wanted = *number;
-    number = nullptr;
-    for (std::size_t e = 0; e < state.entities.size(); ++e) {
-      const auto own = group_number(*state.entities[e]);
-      const bool new_one = std::find(groups.begin(), groups.end(), e) == groups.end();
-      if (!own || *own != wanted || !new_one) continue;  // groups may be in a circle
-      groups.push_back(e);
-      number = state.entities[e]->head->find("_tb_group");
-      break;
-    }
-  }
-  return groups;
-}
-
 /// Removes brushes, and what of the entities has nothing left in it; a group goes with the last of its parts.
 void take_away(State& state, const Brushes& brushes) {
   forget_made(state, things_of(brushes));
   std::set<Id> touched;
   for (const auto& [e, indices] : brushes) {
     touched.insert(state.entities[e]->id);
-    for (const std::size_t group : groups_around(state, e)) touched.insert(state.entities[group]->id);
+    for (const std::size_t group : groups_of(state, {e, {}})) touched.insert(state.entities[group]->id);
   }
   remove(state, things_of(brushes));
   for (bool again = true; again;) {
