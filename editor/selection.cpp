@@ -222,7 +222,11 @@ std::string describe(const State& state, const Thing& thing) {
   const EntityItem& entity = *state.entities[thing.entity];
   if (thing.brush) return fmt::format("#{} brush of #{}", entity.brushes[*thing.brush].id, entity.id);
   const std::string name = name_of(entity);
-  const std::string kind = group_number(entity) ? "group" : printable(entity.classname());
+  // A door is called what it was made as, and not by the class of its cut.
+  const std::string* made = entity.classname() == "hw_subtract" ? entity.head->find("_hw_made") : nullptr;
+  const std::string kind = group_number(entity) ? "group"
+                           : made != nullptr    ? printable(made->substr(0, made->find(' ')))
+                                                : printable(entity.classname());
   return name.empty() ? fmt::format("#{} {}", entity.id, kind)
                       : fmt::format("#{} {} {}", entity.id, kind, printable(name));
 }

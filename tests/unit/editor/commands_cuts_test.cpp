@@ -199,6 +199,12 @@ TEST_F(CutCommands, OpeningRefusals) {
   EXPECT_TRUE(mentions(refusal(editing, "window in north at 4 sill=-1"), "sill"));
 }
 
+TEST_F(CutCommands, ADoorIsCalledADoor) {
+  editing.run("wall from 0,0 to 6,0 name=north");
+  EXPECT_EQ(editing.run("door in north at 2").lines.back(), "made #4 door");
+  EXPECT_EQ(editing.run("window in north at 4 name=view").lines.back(), "made #6 window view");
+}
+
 TEST_F(CutCommands, SubtractMakesACut) {
   editing.run_all({"box from 0,0 to 4,4,3", "box from 1,1,1 to 2,4,2 name=niche", "subtract niche"});
   EXPECT_EQ(named(editing, "niche").classname(), "hw_subtract");
