@@ -40,7 +40,7 @@ std::vector<std::string> commands_of(const std::string& page) {
 /// The lines that are indented by four blanks below a heading.
 std::string indented_after(const std::string& page, const std::string& words) {
   std::string text;
-  for (const std::string_view line : split(page.substr(page.find(words)), '\n')) {
+  for (const std::string_view line : split(std::string_view(page).substr(page.find(words)), '\n')) {
     if (line.starts_with("    ")) text += std::string(line.substr(4)) + "\n";
     if (line.empty() && !text.empty()) text += "\n";
   }
