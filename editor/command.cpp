@@ -13,8 +13,8 @@ namespace {
 std::vector<CommandSpec> join() {
   std::vector<CommandSpec> all;
   for (const auto& topic :
-       {world_commands(), shape_commands(), cut_commands(), things_commands(), moves_commands(),
-        places_commands(), check_commands(), output_commands(), history_commands()}) {
+       {world_commands(), shape_commands(), cut_commands(), things_commands(), group_commands(),
+        moves_commands(), places_commands(), check_commands(), output_commands(), history_commands()}) {
     all.insert(all.end(), topic.begin(), topic.end());
   }
   return all;

@@ -67,7 +67,7 @@ std::optional<Line> line_at(std::string_view text, std::size_t at, const std::st
 Journal::Journal(fs::path path) : path_(std::move(path)) {
   open_and_lock();
   try {
-    read(read_file(path_));
+    if (file_ >= 0) read(read_file(path_));
   } catch (...) {
     ::close(file_);
     throw;
@@ -76,13 +76,18 @@ Journal::Journal(fs::path path) : path_(std::move(path)) {
 
 Journal::~Journal() {
   // An empty journal says nothing; it is there because it was locked.
-  if (file_ >= 0 && size_ == 0) ::unlink(path_.c_str());
+  if (writable() && size_ == 0) ::unlink(path_.c_str());
   if (file_ >= 0) ::close(file_);
 }
 
 void Journal::open_and_lock() {
   for (;;) {
     file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    refusal_ = file_ < 0 ? errno : 0;
+    // What cannot be changed can still be looked at.
+    if (refusal_ == EACCES || refusal_ == EROFS || refusal_ == EPERM)
+      file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file_ < 0 && refusal_ != 0 && errno == ENOENT) return;
     if (file_ < 0) fail(path_, "the journal cannot be opened", errno);
     struct stat opened {};
     struct stat named {};
@@ -90,7 +95,7 @@ void Journal::open_and_lock() {
       ::close(file_);
       throw Error(ErrorCode::kIo, "the journal is not a regular file", {path_.string(), 0, {}});
     }
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    if (::flock(file_, (writable() ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
       ::close(file_);
       throw Error(ErrorCode::kIo, "the map is open in another editor", {path_.string(), 0, {}});
     }
@@ -134,12 +139,17 @@ void Journal::read(const std::string& text) {
   checksum_ = std::move(reading.checksum);
   records_ = std::move(reading.records);
   base_ = std::move(reading.base);
-  if (bytes_dropped_ > 0 && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
+  if (bytes_dropped_ > 0 && writable() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
     fail(path_, "the journal's end cannot be mended", errno);
   }
 }
 
+void Journal::check_writable() const {
+  if (!writable()) fail(path_, "nothing can be changed here, as the journal cannot be written", refusal_);
+}
+
 void Journal::start(Json first, std::string base) {
+  check_writable();
   if (!base.empty()) first["bytes"] = base.size();
   std::string checksum;
   const std::string text = std::string(kFormat) + line_of(first, {}, base, checksum);
@@ -155,6 +165,7 @@ void Journal::start(Json first, std::string base) {
 }
 
 void Journal::append(const Json& record) {
+  check_writable();
   std::string checksum;
   const std::string line = line_of(record, checksum_, {}, checksum);
   try {

@@ -19,7 +19,7 @@ namespace hallway::editor {
 class Journal {
  public:
   /// Opens or makes the journal and reads its records. A last line that was cut off while it was written is removed: nobody was told
-  /// that it is there. Throws Error{kIo} where another process has it open (naming its process number) or the file cannot be
+  /// that it is there. Where folder or journal may not be written, what is there is read, and only that. Throws Error{kIo} where another process has it open (naming its process number) or the file cannot be
   /// used, and Error{kBadInput} naming the line where something else than the end is damaged.
   explicit Journal(std::filesystem::path path);
   ~Journal();
@@ -31,6 +31,9 @@ class Journal {
   const std::string& base() const { return base_; }
   /// How many bytes of a record that was never acknowledged were removed by the constructor.
   std::size_t bytes_dropped() const { return bytes_dropped_; }
+
+  /// Whether start() and append() may work; else they throw Error{kIo} with the reason.
+  bool writable() const { return refusal_ == 0; }
 
   /// Starts anew with this first record and its bytes; what was there is gone. The new file takes the old one's place at once.
   void start(nlohmann::ordered_json first, std::string base);
@@ -52,11 +55,13 @@ class Journal {
 
  private:
   void open_and_lock();
+  void check_writable() const;
   void read(const std::string& text);
   void write_all(const std::string& text);
 
   std::filesystem::path path_;
   int file_ = -1;
+  int refusal_ = 0;  ///< errno of the attempt to open it for writing
   std::string checksum_;  ///< of the last line
   std::uint64_t size_ = 0;
   std::vector<nlohmann::ordered_json> records_;

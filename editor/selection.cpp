@@ -222,7 +222,11 @@ std::string describe(const State& state, const Thing& thing) {
   const EntityItem& entity = *state.entities[thing.entity];
   if (thing.brush) return fmt::format("#{} brush of #{}", entity.brushes[*thing.brush].id, entity.id);
   const std::string name = name_of(entity);
-  const std::string kind = group_number(entity) ? "group" : printable(entity.classname());
+  // A door is called what it was made as, and not by the class of its cut.
+  const std::string* made = entity.classname() == "hw_subtract" ? entity.head->find("_hw_made") : nullptr;
+  const std::string kind = group_number(entity) ? "group"
+                           : made != nullptr    ? printable(made->substr(0, made->find(' ')))
+                                                : printable(entity.classname());
   return name.empty() ? fmt::format("#{} {}", entity.id, kind)
                       : fmt::format("#{} {} {}", entity.id, kind, printable(name));
 }
@@ -285,12 +289,37 @@ std::vector<std::size_t> groups_of(const State& state, const Thing& thing) {
   return groups;
 }
 
+namespace {
+
+/// The bounds of a brush whose six faces are those of an upright box: what they say, without intersecting planes. Most brushes of most
+/// maps are such.
+std::optional<Box> bounds_of_upright_box(const map::Brush& brush) {
+  if (brush.faces.size() != 6) return std::nullopt;
+  Vec3 low = Vec3::Constant(-HUGE_VAL), high = Vec3::Constant(HUGE_VAL);
+  for (const map::Face& face : brush.faces) {
+    const auto& [a, b, c] = face.points;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
+      const Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const double turn = (c[u] - a[u]) * (b[v] - a[v]) - (c[v] - a[v]) * (b[u] - a[u]);
+      if (turn > 0.0) high[axis] = std::min(high[axis], a[axis]);
+      if (turn < 0.0) low[axis] = std::max(low[axis], a[axis]);
+    }
+  }
+  if (!low.allFinite() || !high.allFinite() || !(low.array() < high.array()).all()) return std::nullopt;
+  return Box(low, high);
+}
+
+}  // namespace
+
 double volume_of(const map::Brush& brush) {
+  if (const auto box = bounds_of_upright_box(brush)) return box->volume();
   const auto body = body_of(brush);
   return body ? volume_of(*body) : 0.0;
 }
 
 Box bounds_of(const map::Brush& brush) {
+  if (const auto box = bounds_of_upright_box(brush)) return *box;
   Box box;
   if (const auto body = body_of(brush)) {
     for (const Vec3& corner : body->vertices) box.extend(corner);

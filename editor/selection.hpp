@@ -47,7 +47,7 @@ std::vector<std::size_t> groups_of(const State& state, const Thing& thing);
 /// The volume of a brush, cubic map units; 0 for one that is no body.
 double volume_of(const map::Brush& brush);
 
-/// What a brush occupies, map units; empty for one that is no body. O(faces squared).
+/// What a brush occupies, map units; empty for one that is no body. O(1) for upright boxes, else O(faces squared).
 Box bounds_of(const map::Brush& brush);
 
 /// What a thing occupies, map units: an entity's brushes, else its origin.

@@ -109,6 +109,9 @@ Session::Session(fs::path map) : file_(std::move(map)), journal_(journal_path(fi
   if (journal_.bytes_dropped() > 0) {
     notes_.push_back("the journal's last entry was cut off while it was written, and is dropped");
   }
+  if (!journal_.writable()) {
+    notes_.push_back("its folder cannot be written: the map can be looked at, and nothing in it changed");
+  }
   const auto text = content_of(file_);
   try {
     if (journal_.records().empty()) {
@@ -216,6 +219,12 @@ void Session::restore_from_journal() {
 void Session::take_outside_change(const std::string& text) {
   State next = matched(state_, map::parse(text, file_.string()));
   next.desk = state_.desk;
+  if (!journal_.writable()) {
+    state_ = saved_ = std::move(next);
+    steps_.clear();
+    done_ = 0;
+    return;
+  }
   commit("(changed by another program)", std::move(next));
   journal_.append({{"save", content_hash(text)}});
   journal_.append({{"saved", content_hash(text)}});

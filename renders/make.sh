@@ -19,15 +19,10 @@ done
 
 # A leak made on purpose: a hole of 40 cm in the north wall of the hall.
 cp -r "$here/../maps/models" "$work/models"
-/usr/bin/python3 - "$here/../maps" "$work/leak.map" <<'END'
-import sys
-sys.dont_write_bytecode = True
-sys.path.insert(0, sys.argv[1])
-import make_maps
-lines = make_maps.office()
-lines += make_maps.entity({"classname": "hw_subtract", "order": "2"},
-                          [make_maps.block((3000, 3040), (1490, 1660), (100, 140), "hole")])
-open(sys.argv[2], "w").write("\n".join(lines) + "\n")
+cp "$here/../maps/office.map" "$work/leak.map"
+"$hallway" edit "$work/leak.map" -f - > /dev/null <<'END'
+box from 30,14.9,1 to 30.4,16.6,1.4 material=hole name=hole
+subtract hole
 END
 status=0
 "$hallway" map leak "$work/leak.map" --picture "$here/leak.png" || status=$?

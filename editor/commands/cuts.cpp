@@ -76,6 +76,13 @@ constexpr std::array kSubtract{kWhat,
                                        .low = -1e6,
                                        .high = 1e6},
                                kName};
+constexpr std::array kAdded{kWhat,
+                            ArgSpec{.name = "order",
+                                    .kind = ArgKind::kWhole,
+                                    .help = "when it is added [after all cuts that it stands in]",
+                                    .low = -1e6,
+                                    .high = 1e6},
+                            kName};
 constexpr std::array kIntersect{
     kWhat, ArgSpec{.name = "with", .kind = ArgKind::kWhat, .required = true, .help = "the other brushes"},
     kName};
@@ -174,17 +181,13 @@ std::string group_of(const EntityItem& entity) {
   return number != nullptr ? *number : std::string();
 }
 
-/// Removes brushes, and what of the entities has nothing left in it.
+/// Removes brushes, and what of the entities has nothing left in it; a group goes with the last of its parts.
 void take_away(State& state, const Brushes& brushes) {
   forget_made(state, things_of(brushes));
   std::set<Id> touched;
   for (const auto& [e, indices] : brushes) {
     touched.insert(state.entities[e]->id);
-    // A group goes with the last of its parts.
-    for (std::size_t other = 0; other < state.entities.size(); ++other) {
-      const auto number = group_number(*state.entities[other]);
-      if (number && *number == group_of(*state.entities[e])) touched.insert(state.entities[other]->id);
-    }
+    for (const std::size_t group : groups_of(state, {e, {}})) touched.insert(state.entities[group]->id);
   }
   remove(state, things_of(brushes));
   for (bool again = true; again;) {
@@ -222,7 +225,8 @@ int order_after(const State& state, const Brushes& cuts) {
   int order = 1;
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
     const EntityItem& entity = *state.entities[e];
-    if (entity.classname() != "hw_add" || order_of(entity) < order) continue;
+    const bool solid = entity.classname() == "hw_add" || entity.classname() == "hw_detail";
+    if (!solid || order_of(entity) < order) continue;
     for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
       const auto own = cuts.find(e);
       if (own != cuts.end() && own->second.contains(b)) continue;
@@ -243,31 +247,53 @@ std::string inherited_name(const State& state, const std::vector<Thing>& things)
   return name_of(*state.entities[things.front().entity]);
 }
 
-void subtract(Edit& edit, const Arguments& arguments) {
+/// What `subtract` and `detail` share: brushes leave where they are and become one entity.
+void become_entity(Edit& edit, const Arguments& arguments, const char* classname, const Brushes& brushes,
+                   int order) {
   State& state = edit.state;
-  const auto things = resolve(state, arguments.text("what"));
-  const Brushes brushes = brushes_of(state, "subtract", arguments.text("what"));
-  check_solid(state, "subtract", brushes);
-  const int order =
-      arguments.has("order") ? static_cast<int>(arguments.whole("order")) : order_after(state, brushes);
   std::string name = arguments.text_or_empty("name");
-  if (name.empty()) name = inherited_name(state, things);
-  map::Entity cut;
-  cut.keys = {{{}, "classname", "hw_subtract", 0}, {{}, "order", std::to_string(order), 0}};
-  cut.brushes = copies_of(state, brushes);
+  if (name.empty()) name = inherited_name(state, resolve(state, arguments.text("what")));
+  map::Entity entity;
+  entity.keys = {{{}, "classname", classname, 0}, {{}, "order", std::to_string(order), 0}};
+  entity.brushes = copies_of(state, brushes);
   const std::string group = group_of(*state.entities[brushes.begin()->first]);
   const bool one_group = std::all_of(brushes.begin(), brushes.end(), [&](const auto& entry) {
     return group_of(*state.entities[entry.first]) == group;
   });
   take_away(state, brushes);
   check_new_name(state, name);
-  if (!name.empty()) cut.keys.push_back({{}, "targetname", name, 0});
+  if (!name.empty()) entity.keys.push_back({{}, "targetname", name, 0});
   // Brushes of a group of which something is left stay with it.
   const bool group_lives = one_group && !group.empty() &&
                            std::any_of(state.entities.begin(), state.entities.end(),
-                                       [&](const auto& entity) { return group_number(*entity) == group; });
-  if (group_lives) cut.keys.push_back({{}, "_tb_group", group, 0});
-  say_made(edit, {add_entity(state, std::move(cut))});
+                                       [&](const auto& e) { return group_number(*e) == group; });
+  if (group_lives) entity.keys.push_back({{}, "_tb_group", group, 0});
+  say_made(edit, {add_entity(state, std::move(entity))});
+}
+
+void subtract(Edit& edit, const Arguments& arguments) {
+  const Brushes brushes = brushes_of(edit.state, "subtract", arguments.text("what"));
+  check_solid(edit.state, "subtract", brushes);
+  const int order =
+      arguments.has("order") ? static_cast<int>(arguments.whole("order")) : order_after(edit.state, brushes);
+  become_entity(edit, arguments, "hw_subtract", brushes, order);
+}
+
+/// Makes solid brushes one entity of a class, whose order is that of what stands in cuts.
+void make_added(Edit& edit, const Arguments& arguments, const char* command, const char* classname) {
+  const Brushes brushes = brushes_of(edit.state, command, arguments.text("what"));
+  check_solid(edit.state, command, brushes);
+  const int order = arguments.has("order") ? static_cast<int>(arguments.whole("order"))
+                                           : order_among_cuts(edit.state, copies_of(edit.state, brushes));
+  become_entity(edit, arguments, classname, brushes, order);
+}
+
+void make_solid(Edit& edit, const Arguments& arguments) {
+  make_added(edit, arguments, "add", "hw_add");
+}
+
+void make_detail(Edit& edit, const Arguments& arguments) {
+  make_added(edit, arguments, "detail", "hw_detail");
 }
 
 void intersect(Edit& edit, const Arguments& arguments) {
@@ -447,6 +473,28 @@ constexpr std::array kCommands{
                 .example = "subtract niche",
                 .before = "box from 0,0 to 4,4,3\nbox from 1,1,1 to 2,4,2 name=niche",
                 .run = &subtract},
+    CommandSpec{
+        .name = "add",
+        .topic = "cuts",
+        .summary = "put solid brushes together, to be added after cuts",
+        .details = "Shapes that stand in a room are added after it without this; `add` makes several one "
+                   "thing with one order.",
+        .arguments = kAdded,
+        .example = "add pillar+pillar-2 name=pillars",
+        .before = "room from 0,0 to 5,4 name=kitchen\ncylinder at 1,1 radius 0.2 height 2.7 name=pillar\n"
+                  "duplicate pillar by 2,0",
+        .run = &make_solid},
+    CommandSpec{.name = "detail",
+                .topic = "cuts",
+                .summary = "make solid brushes detail, which does not divide the map",
+                .details =
+                    "Furniture, door frames, and whatever else neither seals a room nor is worth a say in "
+                    "what may see what: "
+                    "they stay solid, and compiling and the visible sets cost less.",
+                .arguments = kAdded,
+                .example = "detail table",
+                .before = "room from 0,0 to 5,4 name=kitchen\nbox from 1,1 to 2,2,0.7 name=table",
+                .run = &make_detail},
     CommandSpec{.name = "intersect",
                 .topic = "cuts",
                 .summary = "keep only what two sets of brushes have in common",

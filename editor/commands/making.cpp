@@ -110,7 +110,8 @@ void check_new_name(const State& state, const std::string& name) {
 Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts parts) {
   check_new_name(edit.state, name);
   const std::size_t world = worldspawn(edit.state);
-  if (name.empty() && parts.added.size() == 1 && parts.subtracted.empty()) {
+  const bool one_brush = parts.added.size() == 1 && parts.subtracted.empty();
+  if (name.empty() && one_brush && !parts.remembered) {
     if (parts.added_order == 0) return add_brush(edit.state, world, std::move(parts.added.front()));
     return add_entity(edit.state, part_entity("hw_add", parts.added_order, {}, std::move(parts.added)));
   }

@@ -27,9 +27,11 @@ struct Parts {
   int order = 1;                         ///< when `subtracted` apply: the key `order` of `hw_subtract`
   /// When `added` apply: 0 with all other brushes, before anything is cut out; else the key `order` of an `hw_add`.
   int added_order = 0;
+  bool remembered =
+      false;  ///< a group even where it is one brush without a name: others depend on what made it
 };
 
-/// Adds a shape: a brush alone goes into worldspawn; all else becomes a group, which remembers under the key `_hw_made` the line that
+/// Adds a shape: a brush alone without a name goes into worldspawn; all else becomes a group, which remembers under the key `_hw_made` the line that
 /// made it. Returns the number of the brush or group. @param name  may be empty
 Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts parts);
 

@@ -243,7 +243,8 @@ WallStretch wall_stretch(const Edit& edit, const Arguments& arguments) {
 Parts wall_parts(const Edit& edit, const Arguments& arguments) {
   const double height = length(edit, arguments, "height");
   return {.added = {extrusion(wall_stretch(edit, arguments).outline, height * Vec3::UnitZ(),
-                              arguments.text("material"))}};
+                              arguments.text("material"))},
+          .remembered = true};  // for the corners with walls to come
 }
 
 std::vector<WallStretch> arc_stretches(const Edit& edit, const Arguments& arguments) {

@@ -11,7 +11,8 @@ namespace hallway::editor {
 std::span<const CommandSpec> world_commands();    ///< new, entity, key, delete
 std::span<const CommandSpec> shape_commands();    ///< box, wall, room, terrain, remake, ...
 std::span<const CommandSpec> cut_commands();      ///< door, window, subtract, hollow, clip, ...
-std::span<const CommandSpec> things_commands();   ///< select, list, info, name, group, material, ...
+std::span<const CommandSpec> things_commands();   ///< select, list, info, measure, find
+std::span<const CommandSpec> group_commands();    ///< name, group, ungroup, hide, show, material, grid
 std::span<const CommandSpec> check_commands();    ///< validate, fix, leak, compile, render
 std::span<const CommandSpec> places_commands();   ///< start, sensor, path, waypoint, landmarks, light, mesh
 std::span<const CommandSpec> moves_commands();    ///< move, rotate, ..., copy, paste

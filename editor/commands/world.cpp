@@ -46,7 +46,10 @@ void make_new(Edit& edit, const Arguments& arguments) {
   fresh.next_id = edit.state.next_id;
   fresh.desk.grid_m = edit.state.desk.grid_m;
   map::Entity world;
+  // The first two lines tell TrenchBroom which game and format to open the map with.
+  world.comments = {"Game: Hallway", "Format: Valve"};
   world.keys = {{{}, "classname", "worldspawn", 0},
+                {{}, "mapversion", "220", 0},
                 {{}, "_hallway", "1", 0},
                 {{}, "_scale", format_double(arguments.number("scale")), 0}};
   if (arguments.number("points") > 0.0)

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "bsp/point_location.hpp"
 #include "bsp/segment.hpp"
 #include "map/path.hpp"
 #include "render/map_layers.hpp"
@@ -120,6 +121,56 @@ void add_blocked_paths(std::vector<Finding>& findings, const map::Document& docu
   }
 }
 
+/// For each cluster the number of the part of the empty space that it belongs to; portals join clusters to parts.
+std::vector<std::uint32_t> connected_parts(const bsp::PortalGraph& graph) {
+  std::vector<std::vector<std::uint32_t>> neighbours(graph.clusters);
+  for (const bsp::Portal& portal : graph.portals) {
+    neighbours[portal.cluster[0]].push_back(portal.cluster[1]);
+    neighbours[portal.cluster[1]].push_back(portal.cluster[0]);
+  }
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  std::vector<std::uint32_t> parts(graph.clusters, kNone);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t first = 0; first < graph.clusters; ++first) {
+    if (parts[first] != kNone) continue;
+    parts[first] = first;
+    open.push_back(first);
+    while (!open.empty()) {
+      const std::uint32_t cluster = open.back();
+      open.pop_back();
+      for (const std::uint32_t next : neighbours[cluster]) {
+        if (parts[next] != kNone) continue;
+        parts[next] = first;
+        open.push_back(next);
+      }
+    }
+  }
+  return parts;
+}
+
+/// Waypoints to which no opening leads from the robot's start. Those in solid are said already.
+void add_unreachable_waypoints(std::vector<Finding>& findings, const map::Document& document,
+                               const world::CompiledWorld& world) {
+  const auto start = std::find_if(world.occupants.begin(), world.occupants.end(), [](const auto& occupant) {
+    return occupant.classname == "hw_robot_start";
+  });
+  if (start == world.occupants.end()) return;
+  const bsp::Tree& tree = world.partition.tree;
+  const std::int32_t home = bsp::cluster_at(tree, start->position_m);
+  if (home < 0) return;
+  const auto parts = connected_parts(world.partition.portals);
+  for (const map::Occupant& occupant : world.occupants) {
+    const std::int32_t cluster = bsp::cluster_at(tree, occupant.position_m);
+    if (occupant.classname != "hw_waypoint" || cluster < 0) continue;
+    if (parts[static_cast<std::size_t>(cluster)] == parts[static_cast<std::size_t>(home)]) continue;
+    findings.push_back(
+        {Severity::kError, where_of(document, occupant.entity, occupant.line),
+         fmt::format("waypoint {} at {} cannot be reached from the robot's start: no opening leads there",
+                     printable(occupant.name), place_text(occupant.position_m)),
+         "unreachable-waypoint"});
+  }
+}
+
 /// Compiles the map, if its entities let it, and adds what shows then.
 void add_world_findings(std::vector<Finding>& findings, const map::Document& document) {
   world::Settings settings;
@@ -136,6 +187,7 @@ void add_world_findings(std::vector<Finding>& findings, const map::Document& doc
   }
   add_occupants_in_solid(findings, document, world);
   add_blocked_paths(findings, document, world);
+  add_unreachable_waypoints(findings, document, world);
   add_leak(findings, document, world);
 }
 

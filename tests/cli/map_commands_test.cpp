@@ -72,6 +72,27 @@ TEST(MapCheck, PathThroughTheWallSaysWhereAlongIt) {
   EXPECT_EQ(message.find("more times"), std::string::npos) << message;
 }
 
+TEST(MapCheck, WaypointInAClosetWithoutADoorIsUnreachable) {
+  const TempFolder folder;
+  const auto unreachable = [&](const std::string& cuts, int to_x) {
+    const fs::path map = folder.write("rooms.map", two_rooms(cuts, path_along_x(100, to_x)));
+    const json document = json::parse(map_command("check", map, {"--json"}).out);
+    std::vector<std::string> messages;
+    for (const json& found : document.at("findings")) {
+      if (found.at("id") == "unreachable-waypoint") messages.push_back(found.at("message"));
+    }
+    return messages;
+  };
+  const std::string closet = test::box_brush({450, 100, 0}, {550, 200, 250}, "plaster");
+  const std::string door = test::box_brush({390, 120, 0}, {460, 180, 200}, "plaster");
+  const auto shut = unreachable(closet, 500);
+  ASSERT_EQ(shut.size(), 1u);  // the path's other end is in the start's room
+  EXPECT_NE(shut.front().find("(5.00, 1.50, 0.50)"), std::string::npos) << shut.front();
+  EXPECT_EQ(unreachable(closet + door, 500), std::vector<std::string>());
+  // Room B is reached around two corners, though the straight way is barred.
+  EXPECT_EQ(unreachable({}, 900), std::vector<std::string>());
+}
+
 TEST(MapCheck, PathThatTouchesTheFloorIsFree) {
   const TempFolder folder;
   std::string path = path_along_x(100, 300);

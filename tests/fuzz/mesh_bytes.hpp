@@ -40,7 +40,8 @@ class ByteSource {
   }
   float real_float() { return static_cast<float>(real()); }
   std::string text(std::size_t most) {
-    const std::size_t size = std::min(count(most), bytes_.size());
+    const std::size_t wanted = count(most);  // which takes a byte itself
+    const std::size_t size = std::min(wanted, bytes_.size());
     const std::string taken(bytes_.substr(0, size));
     bytes_.remove_prefix(size);
     return taken;

@@ -199,6 +199,12 @@ TEST_F(CutCommands, OpeningRefusals) {
   EXPECT_TRUE(mentions(refusal(editing, "window in north at 4 sill=-1"), "sill"));
 }
 
+TEST_F(CutCommands, ADoorIsCalledADoor) {
+  editing.run("wall from 0,0 to 6,0 name=north");
+  EXPECT_EQ(editing.run("door in north at 2").lines.back(), "made #4 door");
+  EXPECT_EQ(editing.run("window in north at 4 name=view").lines.back(), "made #6 window view");
+}
+
 TEST_F(CutCommands, SubtractMakesACut) {
   editing.run_all({"box from 0,0 to 4,4,3", "box from 1,1,1 to 2,4,2 name=niche", "subtract niche"});
   EXPECT_EQ(named(editing, "niche").classname(), "hw_subtract");
@@ -238,6 +244,54 @@ TEST_F(CutCommands, SubtractRefusals) {
   EXPECT_TRUE(mentions(refusal(editing, "subtract crate name=lamp"), "has that name"));
   EXPECT_TRUE(mentions(refusal(editing, "subtract"), "`what`"));
   EXPECT_TRUE(mentions(refusal(editing, "subtract selected"), "nothing is selected"));
+}
+
+TEST_F(CutCommands, AddPutsShapesTogetherAfterTheCut) {
+  editing.run_all({"room from 0,0 to 5,4 name=r", "cylinder at 1,1 radius 0.2 height 2 name=pillar",
+                   "duplicate pillar by 2,0", "add pillar* name=pillars"});
+  EXPECT_EQ(named(editing, "pillars").classname(), "hw_add");
+  EXPECT_EQ(named(editing, "pillars").brushes.size(), 2u);
+  EXPECT_EQ(order("pillars"), 2);  // after the room, whose order is 1
+  EXPECT_TRUE(is_solid(editing, {1, 1, 1}));
+  EXPECT_TRUE(is_solid(editing, {3, 1, 1}));
+  editing.run("add pillars order=5");
+  EXPECT_EQ(order("pillars"), 5);
+}
+
+TEST_F(CutCommands, DetailIsSolidAndDividesNothing) {
+  editing.run_all(
+      {"room from 0,0 to 5,4 name=r", "start at 0.5,0.5,0.1", "box from 2,0.1 to 2.2,3.9,2.5 name=screen"});
+  const auto clusters = [&] {
+    return compiled().partition.portals.clusters;
+  };
+  const auto divided = clusters();
+  editing.run("detail screen");
+  EXPECT_EQ(named(editing, "screen").classname(), "hw_detail");
+  EXPECT_TRUE(is_solid(editing, {2.1, 2, 1}));
+  EXPECT_GT(divided, 1u);
+  EXPECT_EQ(clusters(), 1u);
+}
+
+/// Groups of groups go with the last that was in them.
+TEST_F(CutCommands, NothingEmptyStaysOfGroupsOfGroups) {
+  editing.run_all({"box from 0,0 to 1,1,1 name=a", "box from 2,0 to 3,1,1 name=b", "group a+b both",
+                   "duplicate both by 0,5", "detail both* name=all"});
+  EXPECT_EQ(editing.session->state().entities.size(), 2u) << editing.text();  // worldspawn and the detail
+  EXPECT_EQ(named(editing, "all").brushes.size(), 4u);
+}
+
+TEST_F(CutCommands, AddAndDetailRefusals) {
+  editing.run_all(
+      {"room 0,0 4,4 name=r", "entity light at=1,1,1 targetname=lamp", "box 9,9 10,10,1 name=crate"});
+  for (const std::string command : {"add", "detail"}) {
+    EXPECT_TRUE(mentions(refusal(editing, command + " r"), "no solid"));
+    EXPECT_TRUE(mentions(refusal(editing, command + " lamp"), command + ": "));
+    EXPECT_TRUE(mentions(refusal(editing, command + " crat"), "did you mean \"crate\""));
+    EXPECT_TRUE(mentions(refusal(editing, command + " crate order=x"), "whole number"));
+    EXPECT_TRUE(mentions(refusal(editing, command + " crate name=lamp"), "has that name"));
+    EXPECT_TRUE(mentions(refusal(editing, command), "`what`"));
+    EXPECT_TRUE(mentions(refusal(editing, command + " selected"), "nothing is selected"));
+  }
 }
 
 TEST_F(CutCommands, IntersectKeepsWhatBothHold) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include "base/file.hpp"
@@ -122,6 +123,16 @@ TEST_F(ShapeCommands, AWallStandsOnItsLine) {
   EXPECT_TRUE(mentions(refusal(editing, "wall from 0,0 to 0,0"), "one place"));
   EXPECT_TRUE(mentions(refusal(editing, "wall from 0,0,1 to 3,0,2"), "one height"));
   EXPECT_TRUE(mentions(refusal(editing, "wall from 0,0 to 3,0 thickness=0"), "thickness"));
+}
+
+TEST_F(ShapeCommands, WallsWithoutNamesMeetInCornersAndCanBeMadeAgain) {
+  editing.run_all({"wall from 0,0 to 4,0 thickness=0.2", "wall from 4,0 to 4,3 thickness=0.2"});
+  EXPECT_TRUE(is_solid(editing, {4.09, -0.09, 1}));  // the corner
+  EXPECT_FALSE(is_solid(editing, {4.11, -0.09, 1}));
+  const auto second = editing.session->state().entities.back()->id;
+  editing.run(fmt::format("remake #{} height=1", second));
+  EXPECT_TRUE(is_solid(editing, {4, 2, 0.9}));
+  EXPECT_FALSE(is_solid(editing, {4, 2, 1.1}));
 }
 
 TEST_F(ShapeCommands, WallsThatEndAtOnePlaceFillTheirCorner) {

@@ -32,17 +32,11 @@ inline std::string small_png() {
 /// Lines of commands with arguments of the right kinds, most of which work.
 class RandomCommands {
  public:
-  explicit RandomCommands(std::uint64_t seed) : random_(seed, stream_id("commands")) {}
+  /// Which commands: those that change what is in the map, or all there are.
+  enum class Which { kChanging, kAll };
 
-  /// Whether next() can give it: not those that look at the whole map for long or end it, or need a file that is not there.
-  static bool covers(const editor::CommandSpec& command) {
-    for (const std::string_view name :
-         {"new", "help", "source", "recover", "save", "render", "print", "export", "import", "leak",
-          "compile", "validate", "fix", "undo", "redo", "log", "diff", "checkpoint"}) {
-      if (command.name == name) return false;
-    }
-    return true;
-  }
+  explicit RandomCommands(std::uint64_t seed, Which which = Which::kChanging)
+      : which_(which), random_(seed, stream_id("commands")) {}
 
   std::string next(const editor::State& state) {
     const auto all = editor::commands();
@@ -53,16 +47,37 @@ class RandomCommands {
     }
     for (;;) {
       const auto& command = all[pick(all.size())];
-      if (!covers(command)) continue;
+      if (which_ == Which::kChanging && !changes_things(command)) continue;
       // Maps stay small: what is copied in numbers is taken away again.
       std::size_t things = 0;
       for (const auto& entity : state.entities) things += 1 + entity->brushes.size();
-      if (things > 400 && command.name != "delete") continue;
+      if (things > 400 && changes_things(command) && command.name != "delete") continue;
       return line(command, state);
     }
   }
 
  private:
+  /// Not those that look at the whole map, end it, go about in its history or deal with files.
+  static bool changes_things(const editor::CommandSpec& command) {
+    for (const std::string_view name :
+         {"new", "help", "source", "recover", "save", "render", "print", "export", "import", "leak",
+          "compile", "validate", "fix", "undo", "redo", "log", "diff", "checkpoint"}) {
+      if (command.name == name) return false;
+    }
+    return true;
+  }
+
+  /// A file of the kind that a command wants; those it reads are there, the others are written.
+  std::string file(std::string_view command) {
+    if (command == "source") return "house.hwe";
+    if (command == "import") return "kitchen.map";
+    if (command == "render" || command == "leak") return std::array{"a.png", "b.png"}[pick(2)];
+    if (command == "print") return std::array{"plan.svg", "plan.pdf"}[pick(2)];
+    if (command == "export") return std::array{"out.glb", "out.obj", "out.ply"}[pick(3)];
+    if (command == "recover") return "recovered-" + std::to_string(pick(1000)) + ".map";
+    return std::array{"heights.png", "model.obj"}[pick(2)];
+  }
+
   std::size_t pick(std::size_t count) {
     return static_cast<std::size_t>(random_.bits(0, number_++)[0] % count);
   }
@@ -86,7 +101,7 @@ class RandomCommands {
       if (spec.kind == editor::ArgKind::kKeys) {
         text += " k" + std::to_string(pick(3)) + "=" + std::to_string(pick(5));
       } else {
-        text += " " + editor::quoted(std::string(spec.name) + "=" + value(spec, state));
+        text += " " + editor::quoted(std::string(spec.name) + "=" + value(command.name, spec, state));
       }
     }
     return text;
@@ -103,7 +118,7 @@ class RandomCommands {
     return decimal(uniform(-6, 6)) + "," + decimal(uniform(-6, 6)) + "," + decimal(uniform(0, 3));
   }
 
-  std::string value(const editor::ArgSpec& spec, const editor::State& state) {
+  std::string value(std::string_view command, const editor::ArgSpec& spec, const editor::State& state) {
     using editor::ArgKind;
     switch (spec.kind) {
       case ArgKind::kName:
@@ -131,7 +146,7 @@ class RandomCommands {
       case ArgKind::kWhat:
         return what(state);
       case ArgKind::kFile:
-        return std::array{"heights.png", "model.obj"}[pick(2)];
+        return file(command);
       case ArgKind::kMaterial:
         return std::array{"wall", "floor", "brick", "wood"}[pick(4)];
       case ArgKind::kChoice: {
@@ -157,6 +172,7 @@ class RandomCommands {
     return words[pick(words.size())];
   }
 
+  Which which_;
   Random random_;
   std::uint64_t number_ = 0;
   std::deque<std::string> queue_;

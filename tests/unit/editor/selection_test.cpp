@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "base/random.hpp"
+#include "editor/shapes.hpp"
 #include "solidity.hpp"
 #include "support/brushes.hpp"
 #include "support/errors.hpp"
@@ -132,6 +134,38 @@ TEST(Selection, VolumesAndBounds) {
   }
   EXPECT_EQ(editor::bounds_of(state, *editor::find(state, 9)).min(), Vec3(10, 20, 30));
   EXPECT_TRUE(editor::bounds_of(state, *editor::find(state, 8)).isEmpty());
+}
+
+/// Upright boxes have a short cut; every brush has the bounds of its corners.
+TEST(BoundsOf, AreThoseOfTheCorners) {
+  const Random random(3, stream_id("test.editor.bounds"));
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const auto number = [&](std::uint64_t index) { return random.uniform(i, index, 1.0, 50.0); };
+    const Vec3 low(number(0), -number(1), number(2));
+    const Vec3 high = low + Vec3(number(3), number(4), number(5));
+    const map::Brush box = editor::box_brush(low, high, "wall");
+    const Box bounds = editor::bounds_of(box);
+    constexpr double kRounding = 1e-6;  // of the box's own corners, map units
+    EXPECT_LT((bounds.min() - low).norm(), kRounding);
+    EXPECT_LT((bounds.max() - high).norm(), kRounding);
+    EXPECT_NEAR(editor::volume_of(box), editor::volume_of(*editor::body_of(box)),
+                1e-9 * editor::volume_of(box));
+    // Five planes of a box and a slanted sixth one: no upright box, and a sixth plane that is missing leaves no body.
+    map::Brush slanted = box;
+    slanted.faces[0].points[0].z() -= 0.25;
+    const auto body = editor::body_of(slanted);
+    ASSERT_TRUE(body);
+    Box corners;
+    for (const Vec3& corner : body->vertices) corners.extend(corner);
+    EXPECT_EQ(editor::bounds_of(slanted).min(), corners.min());
+    EXPECT_EQ(editor::bounds_of(slanted).max(), corners.max());
+    map::Brush open = box;
+    open.faces[1] = open.faces[0];
+    EXPECT_TRUE(editor::bounds_of(open).isEmpty());
+    map::Brush inside_out = box;
+    for (map::Face& face : inside_out.faces) std::swap(face.points[1], face.points[2]);
+    EXPECT_TRUE(editor::bounds_of(inside_out).isEmpty());
+  }
 }
 
 }  // namespace

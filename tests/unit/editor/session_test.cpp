@@ -2,6 +2,7 @@
 #include "editor/session.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -248,6 +249,55 @@ TEST(Session, RealMapsAreKeptAsTheyAreButForWhatChanges) {
   editing.reopen();
   editing.session->undo(1);
   EXPECT_EQ(editing.text(), map::print(document));
+}
+
+/// Acts for a while as a user who may not write, also where the test is run by root.
+class WithoutWriting {
+ public:
+  explicit WithoutWriting(const fs::path& folder) : folder_(folder) {
+    ::chmod(folder_.c_str(), 0555);
+    if (::geteuid() == 0) was_root_ = ::seteuid(65534) == 0;
+  }
+  ~WithoutWriting() {
+    if (was_root_) {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
+    ::chmod(folder_.c_str(), 0755);
+  }
+
+ private:
+  fs::path folder_;
+  bool was_root_ = false;
+};
+
+TEST(Session, AMapInAFolderThatCannotBeWrittenCanBeLookedAt) {
+  for (const bool with_journal : {false, true}) {
+    Editing editing;
+    editing.run_all({"new", "box from 0,0 to 1,1,1 name=crate"});
+    editing.session->save();
+    const std::string text = editing.text();
+    const fs::path journal = editor::journal_path(editing.folder / "map.map");
+    editing.session.reset();
+    if (!with_journal) fs::remove(journal);
+    const std::string before = with_journal ? read_file(journal) : std::string();
+    {
+      const WithoutWriting here(editing.folder.path());
+      editing.session = std::make_unique<editor::Session>(editing.folder / "map.map");
+      EXPECT_EQ(editing.text(), text);
+      EXPECT_EQ(editing.run("list class=func_group").lines.size(), 1u);
+      ASSERT_EQ(editing.session->notes().size(), 1u);
+      EXPECT_NE(editing.session->notes()[0].find("looked at"), std::string::npos);
+      const auto error = test::error_of([&] { editing.run("box from 0,0 to 1,1,1"); });
+      ASSERT_TRUE(error);
+      EXPECT_EQ(error->code(), ErrorCode::kIo);
+      EXPECT_EQ(editing.text(), text);
+      editing.session.reset();
+    }
+    EXPECT_EQ(fs::exists(journal) ? read_file(journal) : std::string(), before);
+    // The next one may write, and has the same history.
+    editing.session = std::make_unique<editor::Session>(editing.folder / "map.map");
+    EXPECT_EQ(editing.session->done(), with_journal ? 2u : 0u);
+  }
 }
 
 }  // namespace
