@@ -89,7 +89,7 @@ std::string seconds(std::uint64_t ns) {
 }
 
 std::string damage_text(const Facts& facts) {
-  if (!facts.damage) return "none: every check sum is right";
+  if (!facts.damage) return "none; every check sum that it has is right";
   return fmt::format(
       "byte {} of {}: {}; {}", facts.damage->offset, facts.bytes, facts.damage->cause,
       facts.all_data_read ? "all messages could be read" : "what stands before it could be read");

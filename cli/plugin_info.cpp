@@ -49,7 +49,8 @@ std::string text_of(const host::Stage& plugin) {
   if (plugin.parameters().empty()) return text + "no parameters\n";
   text += "parameters, set by --set " + info.id + ".NAME=VALUE or in a scenario:\n";
   for (const host::Parameter& parameter : plugin.parameters()) {
-    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+    const bool bare = parameter.unit.empty() || parameter.unit == "1";  // a ratio
+    const std::string unit = bare ? "" : " " + parameter.unit;
     text += fmt::format("  {} = {}{}  ({}: {})\n      {}\n", parameter.name,
                         parameter.print(parameter.default_value), unit, parameter.type_name(),
                         range_of(parameter), parameter.help);

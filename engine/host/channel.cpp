@@ -126,6 +126,9 @@ bool HostChannel::is_answered() const {
 
 bool HostChannel::wait(std::chrono::nanoseconds limit) {
   if (spin_until([&] { return is_answered(); })) return true;
+  // Not for each of many: half of them are taken at once, while the other side has the other half to do.
+  request_area_->wake_at.store(answered_ + std::max(1u, under_way() / 2), std::memory_order_seq_cst);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
   futex_wait(reply_area_->answered, answered_, limit);
   return is_answered();
 }
@@ -168,8 +171,12 @@ PluginChannel::Call PluginChannel::receive() {
 void PluginChannel::answer(Reply reply, std::size_t size, std::int64_t wall_ns, std::int64_t cpu_ns) {
   reply_area_->entries[received_ % kSlots] = {static_cast<std::uint32_t>(reply), slot_, size, wall_ns,
                                               cpu_ns};
-  reply_area_->answered.store(++received_, std::memory_order_release);
-  futex_wake(reply_area_->answered);
+  reply_area_->answered.store(++received_, std::memory_order_seq_cst);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  const bool last = request_area_->submitted.load(std::memory_order_acquire) == received_;
+  // As numbers that go round.
+  const auto beyond = static_cast<std::int32_t>(received_ - request_area_->wake_at.load());
+  if (last || beyond >= 0) futex_wake(reply_area_->answered);
 }
 
 }  // namespace hallway::host

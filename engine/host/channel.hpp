@@ -31,7 +31,7 @@ enum class Reply : std::uint32_t {
   kError,     ///< with an Error
 };
 
-inline constexpr std::uint32_t kChannelVersion = 1;
+inline constexpr std::uint32_t kChannelVersion = 2;
 
 /// Calls that may be under way at a time. Eight would do for two processors that have nothing else to do; more carry over the times in which a busy
 /// machine lets one side wait.
@@ -50,6 +50,7 @@ struct Entry {
 struct RequestArea {
   std::uint32_t version;
   FutexWord submitted;  ///< counts requests
+  FutexWord wake_at;    ///< number of replies at which the host wants to be woken
   std::array<Entry, kSlots> entries;
 };
 

@@ -269,14 +269,17 @@ render::Rgb comparison_colour(std::size_t index) {
   return index < kColours.size() ? kColours[index] : render::submap_colour(index);
 }
 
-/// The path and the landmarks of one run among others.
+/// The path and the landmarks of one run among others. Those that are drawn first are wider, and show behind what covers them.
 void add_compared(render::Picture& picture, const Compared& run, const sim::PictureSpec& spec,
-                  render::Rgb colour) {
+                  render::Rgb colour, double wider_px) {
   const Pose T_world_path = align_path(run.record).value_or(Pose());
   const Pose T_world_map = align_landmarks(run.record).value_or(T_world_path);
   const LandmarkPlaces mapped = mapped_places(run.record, T_world_map);
-  render::Markers marks{
-      .positions = {}, .shape = render::MarkerShape::kDot, .colour = colour, .size_px = 3.5, .label = {}};
+  render::Markers marks{.positions = {},
+                        .shape = render::MarkerShape::kDot,
+                        .colour = colour,
+                        .size_px = 3.5 + wider_px,
+                        .label = {}};
   for (const log::MapLandmark& landmark :
        run.record.landmarks) {  // in the file's order, so that the picture is the same
     if (const auto place = mapped.find(landmark.id); place != mapped.end())
@@ -287,7 +290,7 @@ void add_compared(render::Picture& picture, const Compared& run, const sim::Pict
   if (spec.shows(sim::PictureLayer::kEstimate) && !run.record.trajectory.empty()) {
     picture.polylines.push_back({.points = line_of(run.record.trajectory, T_world_path),
                                  .colour = colour,
-                                 .width_px = 1.8,
+                                 .width_px = 1.8 + wider_px,
                                  .dashed = false,
                                  .label = printable(run.name)});
   }
@@ -327,7 +330,10 @@ render::Picture compose_comparison(const std::vector<Compared>& runs, const sim:
                                    .label = "true path"});
     }
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) add_compared(picture, runs[i], spec, comparison_colour(i));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double covering = static_cast<double>(std::min<std::size_t>(runs.size() - 1 - i, 5));
+    add_compared(picture, runs[i], spec, comparison_colour(i), 1.7 * covering);
+  }
   return picture;
 }
 

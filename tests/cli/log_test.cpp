@@ -92,7 +92,7 @@ TEST_F(Log, SameRunSameBytes) {
 TEST_F(Log, ALogCutAnywhereIsReplayedUpToTheDamageAndRecovered) {
   const std::string whole = read_file(log());
   std::uint64_t frames = 0;
-  for (const double share : {0.2, 0.5, 0.8, 0.999}) {
+  for (const double share : {0.4, 0.6, 0.8, 0.999}) {
     const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
     const std::string cut = folder_.write("cut.mcap", whole.substr(0, size));
     const Ended told = hallway({"log", "info", cut});
@@ -175,6 +175,23 @@ TEST_F(Log, ConvertTakesAnyObservations) {
   EXPECT_EQ(
       hallway({"replay", path("a.mcap"), "--plugin", "slam_point", "--quiet", "--out", path("run")}).status,
       0);
+}
+
+TEST_F(Log, ALogNamesPluginsByTheirIdAlone) {
+  fs::copy(run_folder(), path("other"));
+  const std::string manifest = read_file(fs::path(path("other")) / "run.json");
+  const std::string hostile = replaced(manifest, "\"id\": \"slam_point\"", "\"id\": \"./slam_point.so\"");
+  ASSERT_NE(hostile, manifest);
+  write_file_atomically(fs::path(path("other")) / "run.json", hostile);
+  ASSERT_EQ(hallway({"log", "convert", path("other"), "--out", path("other.mcap")}).status, 0);
+  for (const std::string& log : {path("other"), path("other.mcap")}) {
+    const Ended ended = hallway({"replay", log, "--quiet", "--out", path("run")});
+    EXPECT_EQ(ended.status, 3);
+    EXPECT_NE(ended.err.find("which is no id"), std::string::npos) << ended.err;
+    EXPECT_EQ(hallway({"replay", log, "--plugin", "slam_point", "--quiet", "--force", "--out", path("ours")})
+                  .status,
+              0);
+  }
 }
 
 TEST_F(Log, WhatIsNoLogIsAnErrorWithItsName) {
