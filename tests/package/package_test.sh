@@ -35,6 +35,7 @@ cat > standing.map <<'END'
 }
 {
 "classname" "hw_landmark_cloud"
+"name" "around"
 "path" "round"
 "per_100m" "200"
 "sideways_m" "5"
