@@ -114,13 +114,13 @@ Json json_of(const EntityPointer& entity) {
 }
 
 void read(const Json& json, BrushItem& out) {
-  out.id = json.at("id").get<Id>();
+  out.id = whole_number(json.at("id"));
   out.brush = std::make_shared<const map::Brush>(brush_of(json.at("text").get<std::string>()));
 }
 
 void read(const Json& json, EntityPointer& out) {
   auto entity = std::make_shared<EntityItem>();
-  entity->id = json.at("id").get<Id>();
+  entity->id = whole_number(json.at("id"));
   entity->head = std::make_shared<const map::Entity>(head_of(json.at("text").get<std::string>()));
   for (const Json& brush : json.at("brushes")) read(brush, entity->brushes.emplace_back());
   out = std::move(entity);
@@ -146,7 +146,7 @@ template <typename Item>
 void read(const Json& json, std::vector<Splice<Item>>& out) {
   for (const Json& entry : json) {
     Splice<Item>& change = out.emplace_back();
-    change.at = entry.at("at").get<std::size_t>();
+    change.at = whole_number(entry.at("at"));
     for (const Json& item : entry.at("before")) read(item, change.before.emplace_back());
     for (const Json& item : entry.at("after")) read(item, change.after.emplace_back());
   }
@@ -156,12 +156,22 @@ Json json_of(const Desk& desk) {
   return {{"selection", desk.selection}, {"hidden", desk.hidden}, {"grid_m", desk.grid_m}};
 }
 
+std::vector<Id> ids_of(const Json& json) {
+  std::vector<Id> ids;
+  for (const Json& id : json) ids.push_back(whole_number(id));
+  return ids;
+}
+
 Desk desk_of(const Json& json) {
-  return {json.at("selection").get<std::vector<Id>>(), json.at("hidden").get<std::vector<Id>>(),
-          json.at("grid_m").get<double>()};
+  return {ids_of(json.at("selection")), ids_of(json.at("hidden")), json.at("grid_m").get<double>()};
 }
 
 }  // namespace
+
+std::uint64_t whole_number(const Json& json) {
+  if (json.is_number_unsigned()) return json.get<std::uint64_t>();
+  throw Error(ErrorCode::kBadInput, "a record has something else where a whole number should stand");
+}
 
 Patch difference(const State& before, const State& after) {
   Patch patch;
@@ -249,11 +259,11 @@ Json to_json(const Patch& patch) {
 Patch patch_from_json(const Json& json) {
   try {
     Patch patch;
-    patch.next_id = {json.at("next_id").at(0).get<Id>(), json.at("next_id").at(1).get<Id>()};
+    patch.next_id = {whole_number(json.at("next_id").at(0)), whole_number(json.at("next_id").at(1))};
     if (json.contains("entities")) read(json["entities"], patch.entities);
     for (const Json& entry : json.value("changes", Json::array())) {
       EntityChange& change = patch.changes.emplace_back();
-      change.id = entry.at("id").get<Id>();
+      change.id = whole_number(entry.at("id"));
       if (entry.contains("head")) {
         const auto head = [&](const char* side) {
           return std::make_shared<const map::Entity>(

@@ -51,6 +51,9 @@ void apply(State& state, const Patch& patch);
 /// As JSON; brushes and entities as text in the map format.
 nlohmann::ordered_json to_json(const Patch& patch);
 
+/// The whole number, not negative, that a value of a record is. Throws Error{kBadInput} for anything else: a fraction, or more than fits.
+std::uint64_t whole_number(const nlohmann::ordered_json& json);
+
 /// Throws Error{kBadInput} for anything that to_json() does not write.
 Patch patch_from_json(const nlohmann::ordered_json& json);
 

@@ -33,11 +33,11 @@ State skeleton(const Json& shape) {
   constexpr std::size_t kMostThings = std::size_t{1} << 26;  // more than a map's file has room for
   State state;
   for (const Json& count : shape) {
-    if (count.get<std::size_t>() > kMostThings || state.next_id > kMostThings)
+    if (whole_number(count) > kMostThings || state.next_id > kMostThings)
       throw Error(ErrorCode::kBadInput, "the journal begins with a map of more things than a map can have");
     auto entity = std::make_shared<EntityItem>();
     entity->id = state.next_id++;
-    for (auto brushes = count.get<std::size_t>(); brushes > 0; --brushes)
+    for (auto brushes = whole_number(count); brushes > 0; --brushes)
       entity->brushes.push_back({state.next_id++, nullptr});
     state.entities.push_back(std::move(entity));
   }
@@ -88,10 +88,10 @@ struct History {
       steps.push_back({{}, record["checkpoint"].get<std::string>(), {}});
       ++done;
     } else if (record.contains("undo")) {
-      for (auto n = record["undo"].get<std::size_t>(); n > 0 && done > 0; --n)
+      for (auto n = whole_number(record["undo"]); n > 0 && done > 0; --n)
         apply(state, inverse(steps[--done].patch));
     } else if (record.contains("redo")) {
-      for (auto n = record["redo"].get<std::size_t>(); n > 0 && done < steps.size(); --n)
+      for (auto n = whole_number(record["redo"]); n > 0 && done < steps.size(); --n)
         apply(state, steps[done++].patch);
     }
   }

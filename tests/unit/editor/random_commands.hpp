@@ -36,7 +36,7 @@ class RandomCommands {
   enum class Which { kChanging, kAll };
 
   explicit RandomCommands(std::uint64_t seed, Which which = Which::kChanging)
-      : which_(which), random_(seed, stream_id("commands")) {}
+      : which_(which), random_(seed, stream_id("commands")), tour_(static_cast<std::size_t>(seed) * 40) {}
 
   std::string next(const editor::State& state) {
     const auto all = editor::commands();
@@ -45,6 +45,8 @@ class RandomCommands {
       queue_.pop_front();
       return line;
     }
+    // Of all commands each has its turn, too: chance alone would leave one out now and then.
+    if (which_ == Which::kAll && number_of_lines_++ % 3 == 0) return example(all[tour_++ % all.size()]);
     for (;;) {
       const auto& command = all[pick(all.size())];
       if (which_ == Which::kChanging && !changes_things(command)) continue;
@@ -84,18 +86,20 @@ class RandomCommands {
   double uniform(double low, double high) { return random_.uniform(0, number_++, low, high); }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
 
+  /// Some commands only make sense together: what the example needs, then the example.
+  std::string example(const editor::CommandSpec& command) {
+    if (!command.before.empty()) {
+      for (const std::string_view line : split(command.before, '\n')) queue_.emplace_back(line);
+    }
+    queue_.emplace_back(command.example);
+    std::string first = queue_.front();
+    queue_.pop_front();
+    return first;
+  }
+
   std::string line(const editor::CommandSpec& command, const editor::State& state) {
     std::string text(command.name);
-    if (chance(0.15)) {
-      // Some only make sense together: what the example needs, then the example.
-      if (!command.before.empty()) {
-        for (const std::string_view line : split(command.before, '\n')) queue_.emplace_back(line);
-      }
-      queue_.emplace_back(command.example);
-      std::string first = queue_.front();
-      queue_.pop_front();
-      return first;
-    }
+    if (chance(0.15)) return example(command);
     for (const editor::ArgSpec& spec : command.arguments) {
       if (!spec.required && !chance(0.35)) continue;
       if (spec.kind == editor::ArgKind::kKeys) {
@@ -115,7 +119,9 @@ class RandomCommands {
   }
 
   std::string place() {
-    return decimal(uniform(-6, 6)) + "," + decimal(uniform(-6, 6)) + "," + decimal(uniform(0, 3));
+    const double x = uniform(-6, 6), y = uniform(-6, 6),
+                 z = uniform(0, 3);  // in this order with every compiler
+    return decimal(x) + "," + decimal(y) + "," + decimal(z);
   }
 
   std::string value(std::string_view command, const editor::ArgSpec& spec, const editor::State& state) {
@@ -175,6 +181,8 @@ class RandomCommands {
   Which which_;
   Random random_;
   std::uint64_t number_ = 0;
+  std::size_t number_of_lines_ = 0;
+  std::size_t tour_;  ///< the command whose turn it is; each sequence begins elsewhere
   std::deque<std::string> queue_;
 };
 
