@@ -17,6 +17,7 @@
 #include "host/machine_profile.hpp"
 #include "host/search.hpp"
 #include "isolation_options.hpp"
+#include "record/version.hpp"
 #include "render/draw.hpp"
 #include "render/gl_context.hpp"
 #include "render/png.hpp"
@@ -167,7 +168,7 @@ int doctor(const DoctorOptions& options) {
   const std::vector<Check> checks = examine(options);
   bool good = true;
   std::string text =
-      fmt::format("hallway {}, plugin ABI {}.{}\n", run::version(), HW_ABI_MAJOR, HW_ABI_MINOR);
+      fmt::format("hallway {}, plugin ABI {}.{}\n", record::version(), HW_ABI_MAJOR, HW_ABI_MINOR);
   Json entries = Json::array();
   for (const Check& one : checks) {
     good = good && one.health != Health::kBroken;
@@ -176,7 +177,7 @@ int doctor(const DoctorOptions& options) {
   }
   if (options.json) {
     print_json({{"schema", "hallway.doctor/1"},
-                {"hallway", run::version()},
+                {"hallway", record::version()},
                 {"abi", fmt::format("{}.{}", HW_ABI_MAJOR, HW_ABI_MINOR)},
                 {"good", good},
                 {"checks", entries}});

@@ -12,11 +12,12 @@
 #include "log_command.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
+#include "record/output_folder.hpp"
+#include "record/sensor_json.hpp"
+#include "record/version.hpp"
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
-#include "run/output_folder.hpp"
 #include "run/record.hpp"
-#include "run/sensor_json.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -34,9 +35,9 @@ struct ConvertOptions {
 /// The facts of the run that wrote the log or, where nobody knows them, those of the log itself.
 Json manifest_of(const OpenedLog& opened) {
   if (opened.manifest) return *opened.manifest;
-  return {{"schema", "hallway.run/1"}, {"hallway", run::version()}, {"command", "convert"},
-          {"name", opened.name},       {"inputs", Json::array()},   {"period_ns", opened.period_ns},
-          {"settings", Json::array()}, {"plugins", Json::array()},  {"warnings", opened.warnings}};
+  return {{"schema", "hallway.run/1"}, {"hallway", record::version()}, {"command", "convert"},
+          {"name", opened.name},       {"inputs", Json::array()},      {"period_ns", opened.period_ns},
+          {"settings", Json::array()}, {"plugins", Json::array()},     {"warnings", opened.warnings}};
 }
 
 void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
@@ -69,7 +70,7 @@ void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::
 }
 
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
-  run::OutputFolder folder(options.out, options.force);
+  record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
   log::ObservationLog observations(source.has_identities());
   std::vector<log::IterationPose> poses;
@@ -83,7 +84,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
     regular = regular && frame.t_ns == opened.period_ns * static_cast<std::int64_t>(i);
   }
   Json manifest = manifest_of(opened);
-  manifest["sensors"] = Json::array({run::print_sensor(source.sensor())});
+  manifest["sensors"] = Json::array({record::print_sensor(source.sensor())});
   manifest["iterations"] = source.iterations();
   const fs::path& path = folder.working_path();
   log::write_observations(path / run::files::kObservations, observations);

@@ -10,10 +10,10 @@
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"
 #include "log/poses.hpp"
+#include "record/sensor_json.hpp"
 #include "run/log_source.hpp"
 #include "run/record.hpp"
 #include "run/recorded_run.hpp"
-#include "run/sensor_json.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -75,7 +75,7 @@ std::int64_t period_of(const LogChoice& choice, const std::optional<nlohmann::or
 
 host::SensorInfo sensor_of(const std::optional<nlohmann::ordered_json>& manifest) {
   if (manifest && manifest->contains("sensors") && !manifest->at("sensors").empty()) {
-    return run::read_sensor(manifest->at("sensors").front());
+    return record::read_sensor(manifest->at("sensors").front());
   }
   host::SensorInfo sensor;
   sensor.name = "log";

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "record/version.hpp"
 #include "run/manifest.hpp"
 
 namespace {
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
   try {
     CLI::App app(kAbout, "hallway");
     app.footer(kFooter);
-    app.set_version_flag("--version", "hallway " + hallway::run::version());
+    app.set_version_flag("--version", "hallway " + hallway::record::version());
     app.require_subcommand(1);
     hallway::cli::Action chosen;
     hallway::cli::add_run_command(app, chosen);

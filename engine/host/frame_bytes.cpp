@@ -229,7 +229,7 @@ class FrameReader::Cursor {
 
 namespace {
 
-/// Bytes that a struct had in ABI 0.1: up to and with its last member of that time.
+/// Bytes that a struct had in ABI 1.0: up to and with its last member of that time.
 template <typename T, typename Member>
 constexpr std::size_t size_with(std::size_t offset, Member T::*) {
   return offset + sizeof(Member);

@@ -24,7 +24,7 @@ namespace hallway::host {
 //         HW_SAMPLE_POINTS     hw_points_t; points → count elements of `stride` bytes; track → count u64
 //
 // Each part begins where the one before ends, or later; parts never overlap. A reader takes structs and strides that are larger than those it
-// knows and passes over samples of kinds that it does not know; a struct smaller than in ABI 0.1 is damage. The layout's version changes only
+// knows and passes over samples of kinds that it does not know; a struct smaller than in ABI 1.0 is damage. The layout's version changes only
 // when a reader of the one before would be misled.
 
 /// Version of the layout that write_frame_bytes() writes and FrameReader reads.

@@ -91,6 +91,7 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   sample_indices_ = sample_indices;
   fault_.clear();
   outputs_.pose_.reset();
+  outputs_.drive_command_.reset();
   outputs_.landmarks_.clear();
   outputs_.association_ranges_.clear();
   outputs_.association_ids_.clear();
@@ -121,6 +122,8 @@ hw_status_t OutputCollector::copy(const hw_output_t& output) {
   switch (output.kind) {
     case HW_OUTPUT_POSE:
       return copy_pose(payload_of<hw_pose_output_t>(output));
+    case HW_OUTPUT_DRIVE_COMMAND:
+      return copy_drive_command(payload_of<hw_drive_command_t>(output));
     case HW_OUTPUT_LANDMARKS:
       return copy_landmarks(payload_of<hw_landmarks_t>(output));
     case HW_OUTPUT_ASSOCIATIONS:
@@ -146,6 +149,16 @@ hw_status_t OutputCollector::copy_pose(const hw_pose_output_t& pose) {
     demand(pose.status == HW_POSE_LOST, "an unknown status");
   }
   outputs_.pose_ = copy;
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_drive_command(const hw_drive_command_t& command) {
+  demand(HW_HAS(&command, hw_drive_command_t, angular_rad_s), "a payload that is too small");
+  demand(frame_ != nullptr, "it answers a frame, and this call has none");
+  demand(!outputs_.drive_command_, "a second one in one call");
+  const DriveCommand copy{command.linear_m_s, command.angular_rad_s};
+  demand(std::isfinite(copy.linear_m_s) && std::isfinite(copy.angular_rad_s), "a speed that is not finite");
+  outputs_.drive_command_ = copy;
   return HW_OK;
 }
 

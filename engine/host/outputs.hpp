@@ -19,6 +19,14 @@ struct PoseOutput {
   hw_pose_t T_map_body{};  ///< finite, unit quaternion
 };
 
+/// The drive command that a plugin put; finite.
+struct DriveCommand {
+  double linear_m_s = 0;     ///< along the body's x axis
+  double angular_rad_s = 0;  ///< about the body's z axis
+
+  friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
+};
+
 /// A counter that a plugin put.
 struct Counter {
   std::string name;
@@ -30,6 +38,8 @@ class Outputs {
  public:
   /// The pose, if one was put.
   const std::optional<PoseOutput>& pose() const { return pose_; }
+  /// The drive command, if one was put.
+  const std::optional<DriveCommand>& drive_command() const { return drive_command_; }
   /// The landmarks, ids distinct, in the order put.
   std::span<const hw_landmark_t> landmarks() const { return landmarks_; }
   /// Per element of that sample of the frame, the landmark it was taken for, or HW_NO_LANDMARK; nothing if
@@ -52,6 +62,7 @@ class Outputs {
   };
 
   std::optional<PoseOutput> pose_;
+  std::optional<DriveCommand> drive_command_;
   std::vector<hw_landmark_t> landmarks_;
   std::vector<AssociationRange> association_ranges_;
   std::vector<std::uint64_t> association_ids_;
@@ -79,6 +90,7 @@ class OutputCollector {
  private:
   hw_status_t copy(const hw_output_t& output);
   hw_status_t copy_pose(const hw_pose_output_t& pose);
+  hw_status_t copy_drive_command(const hw_drive_command_t& command);
   hw_status_t copy_landmarks(const hw_landmarks_t& landmarks);
   hw_status_t copy_associations(const hw_associations_t& associations);
   hw_status_t copy_submaps(const hw_submaps_t& submaps);

@@ -34,6 +34,16 @@ void read_pose(ByteReader& reader, OutputCollector& collector) {
   put(collector, HW_OUTPUT_POSE, &pose);
 }
 
+void read_drive_command(ByteReader& reader, OutputCollector& collector) {
+  const auto commands = reader.get<std::uint64_t>();
+  if (commands == 0) return;
+  if (commands != 1) throw BadBytes{"more than one drive command"};
+  auto command = sized<hw_drive_command_t>();
+  command.linear_m_s = reader.get<double>();
+  command.angular_rad_s = reader.get<double>();
+  put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
+}
+
 void read_landmarks(ByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_landmark_t>();
   auto landmarks = sized<hw_landmarks_t>();
@@ -99,6 +109,12 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
   const std::optional<PoseOutput>& pose = outputs.pose();
   writer.put<std::uint64_t>(!pose ? kNoPose : pose->valid ? kValid : kLost);
   if (pose) writer.put(pose->T_map_body);
+  const std::optional<DriveCommand>& command = outputs.drive_command();
+  writer.put<std::uint64_t>(command ? 1u : 0u);
+  if (command) {
+    writer.put(command->linear_m_s);
+    writer.put(command->angular_rad_s);
+  }
   writer.put_list(outputs.landmarks());
   write_associations(writer, outputs, n_samples);
   writer.put_list(outputs.submaps());
@@ -112,6 +128,7 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
 
 void read_outputs(ByteReader& reader, OutputCollector& collector) {
   read_pose(reader, collector);
+  read_drive_command(reader, collector);
   read_landmarks(reader, collector);
   read_associations(reader, collector);
   read_submaps(reader, collector);

@@ -31,7 +31,8 @@ inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    
 inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
-inline constexpr std::string_view kMap = "/hallway/output/map";  ///< at the end, as re-solved
+inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
+inline constexpr std::string_view kMap = "/hallway/output/map";          ///< at the end, as re-solved
 }  // namespace topics
 
 /// Whether the messages of a topic are of the whole log and not of a moment.
@@ -48,6 +49,12 @@ struct PoseAnswer {
   bool valid = false;  ///< false: the plugin says that it is lost
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
+};
+
+/// A drive command that a plugin put.
+struct CommandAnswer {
+  double linear_m_s = 0;
+  double angular_rad_s = 0;
 };
 
 /// Records a run. The same calls give the same bytes. All functions throw Error{kIo}, and Error{kInternal} for a number that
@@ -68,6 +75,7 @@ class RunLogWriter {
   void add_identities(const FrameStamp& stamp, std::span<const LandmarkId> ids);
   void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
   void add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids);
+  void add_command(const FrameStamp& stamp, const CommandAnswer& command);
   /// The map at the end, under the stamp of the last frame.
   void add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
                std::span<const IdPair> submap_members);

@@ -115,6 +115,14 @@ void RunLogWriter::add_associations(const FrameStamp& stamp, std::span<const Lan
       text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"landmark_ids", ids_json(ids)}}));
 }
 
+void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& command) {
+  const auto [linear, angular] = command;
+  if (!std::isfinite(linear) || !std::isfinite(angular))
+    throw Error(ErrorCode::kInternal, "a number for a log is not finite");
+  add(topics::kCommand, stamp,
+      text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
+}
+
 void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
                            std::span<const IdPair> submap_members) {
   Json list = Json::array();

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <span>
 #include <vector>
 
 #include "host/frame_builder.hpp"
 #include "host/outputs.hpp"
-#include "log/run_log.hpp"
+#include "record/answer_recorder.hpp"
 #include "run/source.hpp"
 
 namespace hallway::run {
@@ -27,17 +26,15 @@ class LogRecorder {
   /// A frame as the plugins get it, and what is true of it.
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
   /// What the pipeline answered to the frame that was recorded last.
-  void record_answer(const host::Outputs& outputs);
+  void record_answer(const host::Outputs& outputs) { recorder_.record_answer(outputs); }
   /// The map at the end.
-  void record_map(std::span<const log::MapLandmark> landmarks, std::span<const log::IdPair> submap_members);
+  void record_map(const record::FinalMap& map) { recorder_.record_map(map); }
   /// Writes what is left and the index.
-  void finish();
+  void finish() { recorder_.finish(); }
 
  private:
-  log::RunLogWriter writer_;
+  record::AnswerRecorder recorder_;
   bool has_identities_;
-  log::FrameStamp stamp_;
-  std::string bytes_;
   std::vector<log::LandmarkId> ids_;
 };
 

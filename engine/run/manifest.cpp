@@ -10,6 +10,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/text.hpp"
+#include "record/version.hpp"
 
 namespace hallway::run {
 namespace {
@@ -49,34 +50,7 @@ Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
           {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 
-std::string origin_of(const ManifestFacts& facts, const std::string& plugin, const std::string& parameter) {
-  std::string origin = "default";
-  for (const ParameterOrigin& known : facts.parameters) {
-    if (known.plugin == plugin && known.name == parameter) origin = known.origin;  // the last one counts
-  }
-  return origin;
-}
-
-Json describe_plugin(const ManifestFacts& facts, host::Stage& plugin) {
-  Json parameters = Json::array();
-  for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
-    const host::Parameter& parameter = plugin.parameters()[i];
-    parameters.push_back({{"name", parameter.name},
-                          {"value", plugin.parameter_text(i)},
-                          {"unit", parameter.unit},
-                          {"origin", origin_of(facts, plugin.info().id, parameter.name)}});
-  }
-  return {{"id", plugin.info().id},
-          {"version", plugin.info().version},
-          {"hash", content_hash(read_file(plugin.file()))},
-          {"parameters", parameters}};
-}
-
 }  // namespace
-
-std::string version() {
-  return HALLWAY_VERSION;
-}
 
 Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   Json inputs = Json::array();
@@ -89,8 +63,8 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   }
   Json plugins = Json::array();
   for (std::size_t i = 0; i < pipeline.size(); ++i)
-    plugins.push_back(describe_plugin(facts, pipeline.stage(i)));
-  return {{"schema", "hallway.run/1"},  {"hallway", version()},
+    plugins.push_back(record::print_plugin(facts.parameters, pipeline.stage(i)));
+  return {{"schema", "hallway.run/1"},  {"hallway", record::version()},
           {"command", facts.command},   {"name", facts.name},
           {"inputs", inputs},           {"period_ns", facts.period_ns},
           {"settings", settings},       {"plugins", plugins},
@@ -98,15 +72,7 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
 }
 
 Json print_failure(const Failure& failure) {
-  const host::Verdict& verdict = failure.verdict;
-  Json json{{"what", host::misdeed_name(verdict.what)}, {"plugin", verdict.plugin}};
-  json["signal"] = verdict.what == host::Misdeed::kCrash ? Json(verdict.signal) : Json(nullptr);
-  json["exit_status"] = verdict.what == host::Misdeed::kExit ? Json(verdict.exit_status) : Json(nullptr);
-  json["iteration"] = failure.iteration ? Json(*failure.iteration) : Json(nullptr);
-  json["call"] = verdict.call;
-  json["message"] = verdict.message;
-  json["backtrace"] = verdict.backtrace;
-  return json;
+  return record::print_verdict(failure.verdict, failure.iteration);
 }
 
 void describe_failures(sim::OnFailure policy, const RunResult& result, Json& manifest) {

@@ -8,21 +8,14 @@
 #include <vector>
 
 #include "host/pipeline.hpp"
+#include "record/plugin_json.hpp"
 #include "run/run.hpp"
 #include "sim/setting.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::run {
 
-/// This program's version, e.g. "0.1.0".
-std::string version();
-
-/// Where a plugin's parameter got its value, when it was not left at its default.
-struct ParameterOrigin {
-  std::string plugin;  ///< id
-  std::string name;
-  std::string origin;  ///< "office.toml:12", "command line", "run.json"
-};
+using record::ParameterOrigin;
 
 /// What a command knows of a run before it begins.
 struct ManifestFacts {

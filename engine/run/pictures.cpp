@@ -13,10 +13,11 @@
 
 #include "base/text.hpp"
 #include "geom/box.hpp"
+#include "record/sensor_json.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
 #include "render/png.hpp"
-#include "run/sensor_json.hpp"
+#include "run/abi_pose.hpp"
 
 namespace hallway::run {
 namespace {
@@ -192,7 +193,7 @@ void add_frustum(render::Picture& picture, const Record& record, const Pose& T_w
   if (!(mark.horizontal_fov > 0.0) || !(mark.vertical_fov > 0.0) || !(mark.range_m > 0.0)) return;
   Pose T_body_sensor;
   const auto mount = sensor.find("T_body_sensor");
-  if (mount != sensor.end()) T_body_sensor = read_pose(*mount);
+  if (mount != sensor.end()) T_body_sensor = run::pose_of(record::read_pose(*mount));
   if (!record.truth.empty()) {
     mark.T_world_sensor = pose_of(record.truth.back()) * T_body_sensor;
   } else if (!record.trajectory.empty()) {

@@ -12,7 +12,7 @@
 #include "host/frame_bytes.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
-#include "run/sensor_json.hpp"
+#include "record/sensor_json.hpp"
 
 namespace hallway::run {
 namespace {
@@ -52,7 +52,7 @@ class Collector {
       run_.period_ns = json.value("period_ns", std::int64_t{0});
       run_.has_identities = json.value("has_identities", false);
       if (json.at("sensors").size() != 1) bad("replay takes logs of one sensor");
-      run_.sensor = read_sensor(json.at("sensors").front());
+      run_.sensor = record::read_sensor(json.at("sensors").front());
     } catch (const nlohmann::json::exception& failure) {
       bad("the activation: " + printable(failure.what()));
     }

@@ -10,13 +10,15 @@
 #include "host/frame_builder.hpp"
 #include "log/poses.hpp"
 #include "log/timing.hpp"
+#include "record/final_map.hpp"
+#include "record/output_folder.hpp"
+#include "record/sensor_json.hpp"
+#include "run/abi_pose.hpp"
 #include "run/frame_feed.hpp"
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
-#include "run/output_folder.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
-#include "run/sensor_json.hpp"
 
 namespace hallway::run {
 namespace {
@@ -34,13 +36,6 @@ struct Collected {
   std::vector<log::IterationTime> times;
 };
 
-/// The pipeline's map, copied out of buffers that the next call uses again.
-struct FinalMap {
-  std::vector<log::MapLandmark> landmarks;
-  std::vector<log::IdPair> submap_members;
-  std::uint64_t submaps = 0;
-};
-
 log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
   return {.t_s = static_cast<double>(t_ns) / 1e9,
           .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
@@ -50,36 +45,6 @@ log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
 std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   if (!outputs.pose() || !outputs.pose()->valid) return std::nullopt;
   return pose_of(outputs.pose()->T_map_body);
-}
-
-log::LandmarkStatus status_of(std::uint32_t status) {
-  switch (status) {
-    case HW_LANDMARK_MAPPED:
-      return log::LandmarkStatus::kMapped;
-    case HW_LANDMARK_DYNAMIC:
-      return log::LandmarkStatus::kDynamic;
-    default:
-      return log::LandmarkStatus::kTemporary;
-  }
-}
-
-/// @param answer  null where there is none: nothing is known of the map
-FinalMap copy_map(const host::Outputs* answer) {
-  FinalMap map;
-  if (answer == nullptr) return map;
-  const host::Outputs& outputs = *answer;
-  for (const hw_landmark_t& landmark : outputs.landmarks()) {
-    map.landmarks.push_back({.id = landmark.id,
-                             .position_m = {landmark.position[0], landmark.position[1], landmark.position[2]},
-                             .observations = landmark.observations,
-                             .status = status_of(landmark.status)});
-  }
-  for (const hw_submap_t& submap : outputs.submaps()) {
-    for (const std::uint64_t member : outputs.members(submap))
-      map.submap_members.push_back({submap.id, member});
-  }
-  map.submaps = outputs.submaps().size();
-  return map;
 }
 
 /// Takes down what comes back of the frames, and scores it.
@@ -167,10 +132,7 @@ void write_input(const fs::path& folder, const RunPlan& plan, const Source& sour
   if (plan.write_observations) log::write_observations(folder / files::kObservations, collected.observations);
 }
 
-void write_map(const fs::path& folder, const FinalMap& map, const eval::Evaluator& evaluator) {
-  log::write_map_landmarks(folder / files::kLandmarks, map.landmarks);
-  log::write_landmarks_ply(folder / files::kLandmarksPly, map.landmarks);
-  log::write_id_pairs(folder / files::kSubmaps, map.submap_members, log::kSubmapColumns);
+void write_matches(const fs::path& folder, const eval::Evaluator& evaluator) {
   std::vector<log::IdPair> matches;
   for (const auto& [landmark, truth] : evaluator.associations().ownership().owner) {
     matches.push_back({.first = landmark, .second = truth});
@@ -181,7 +143,7 @@ void write_map(const fs::path& folder, const FinalMap& map, const eval::Evaluato
 nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, const RunResult& result,
                                          std::uint32_t done) {
   nlohmann::ordered_json manifest = plan.manifest;
-  manifest["sensors"] = nlohmann::ordered_json::array({print_sensor(source.sensor())});
+  manifest["sensors"] = nlohmann::ordered_json::array({record::print_sensor(source.sensor())});
   manifest["iterations"] = done;
   manifest["stopped_early"] = result.stopped;
   describe_failures(plan.on_failure, result, manifest);
@@ -191,7 +153,7 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
 }  // namespace
 
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
-  OutputFolder output(plan.folder, plan.replace);
+  record::OutputFolder output(plan.folder, plan.replace);
   const fs::path& folder = output.working_path();
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
@@ -208,10 +170,10 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
     if (hooks.progress) hooks.progress(feed.done());
     result.stopped = result.stopped || (hooks.stop && hooks.stop());
   }
-  const FinalMap online = copy_map(feed.report(false));
+  const record::FinalMap online = record::copy_map(feed.report(false));
   const host::Outputs* refined_outputs = feed.report(true);
-  const FinalMap refined = refined_outputs != nullptr ? copy_map(refined_outputs) : online;
-  recorder.record_map(refined.landmarks, refined.submap_members);
+  const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
+  recorder.record_map(refined);
   recorder.finish();
   feed.close();
   feed.tell(result);
@@ -220,7 +182,8 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
 
   write_input(folder, plan, source, tally.collected());
   log::write_tum(folder / files::kTrajectory, tally.collected().trajectory);
-  write_map(folder, refined, tally.evaluator());
+  record::write_map(folder, refined);
+  write_matches(folder, tally.evaluator());
   log::write_timing(folder / files::kTiming, tally.collected().times);
   write_json(folder / files::kMetrics, eval::to_json(result.metrics));
   write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));

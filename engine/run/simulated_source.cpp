@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "run/sensor_json.hpp"
+#include "run/abi_pose.hpp"
 
 namespace hallway::run {
 

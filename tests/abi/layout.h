@@ -65,6 +65,12 @@ AT(hw_pose_output_t, size, 0);
 AT(hw_pose_output_t, status, 4);
 AT(hw_pose_output_t, T_map_body, 8);
 
+SIZE(hw_drive_command_t, 24);
+AT(hw_drive_command_t, size, 0);
+AT(hw_drive_command_t, reserved, 4);
+AT(hw_drive_command_t, linear_m_s, 8);
+AT(hw_drive_command_t, angular_rad_s, 16);
+
 SIZE(hw_landmark_t, 40);
 AT(hw_landmark_t, id, 0);
 AT(hw_landmark_t, position, 8);
@@ -226,6 +232,65 @@ static_assert(HW_PARAM_BOOL == 1 && HW_PARAM_INT == 2 && HW_PARAM_DOUBLE == 3 &&
 static_assert(HW_LOG_DEBUG == 0 && HW_LOG_INFO == 1 && HW_LOG_WARNING == 2 && HW_LOG_ERROR == 3,
               "log levels");
 static_assert(HW_SAMPLE_TRACKED == 1u && HW_REPORT_REFINE == 1u && HW_NO_LANDMARK == UINT64_MAX, "flags");
+
+SIZE(hw_setting_t, 16);
+AT(hw_setting_t, key, 0);
+AT(hw_setting_t, value, 8);
+
+SIZE(hw_driver_settings_t, 24);
+AT(hw_driver_settings_t, size, 0);
+AT(hw_driver_settings_t, n_settings, 4);
+AT(hw_driver_settings_t, settings, 8);
+AT(hw_driver_settings_t, folder, 16);
+
+SIZE(hw_robot_info_t, 40);
+AT(hw_robot_info_t, size, 0);
+AT(hw_robot_info_t, flags, 4);
+AT(hw_robot_info_t, name, 8);
+AT(hw_robot_info_t, period_ns, 16);
+AT(hw_robot_info_t, sensors, 24);
+AT(hw_robot_info_t, n_sensors, 32);
+AT(hw_robot_info_t, reserved, 36);
+
+SIZE(hw_answer_t, 64);
+AT(hw_answer_t, size, 0);
+AT(hw_answer_t, status, 4);
+AT(hw_answer_t, sequence, 8);
+AT(hw_answer_t, t_ns, 16);
+AT(hw_answer_t, command, 24);
+AT(hw_answer_t, pose, 32);
+AT(hw_answer_t, landmarks, 40);
+AT(hw_answer_t, counters, 48);
+AT(hw_answer_t, message, 56);
+
+SIZE(hw_driver_vtable_t, 64);
+AT(hw_driver_vtable_t, open, 0);
+AT(hw_driver_vtable_t, describe, 8);
+AT(hw_driver_vtable_t, read, 16);
+AT(hw_driver_vtable_t, write, 24);
+AT(hw_driver_vtable_t, counters, 32);
+AT(hw_driver_vtable_t, get_extension, 40);
+AT(hw_driver_vtable_t, close, 48);
+AT(hw_driver_vtable_t, destroy, 56);
+
+SIZE(hw_driver_t, 16);
+AT(hw_driver_t, vtable, 0);
+AT(hw_driver_t, self, 8);
+
+SIZE(hw_driver_info_t, 56);
+AT(hw_driver_info_t, size, 0);
+AT(hw_driver_info_t, reserved, 4);
+AT(hw_driver_info_t, id, 8);
+AT(hw_driver_info_t, name, 16);
+AT(hw_driver_info_t, version, 24);
+AT(hw_driver_info_t, vendor, 32);
+AT(hw_driver_info_t, description, 40);
+AT(hw_driver_info_t, settings, 48);
+
+SIZE(hw_driver_factory_t, 24);
+AT(hw_driver_factory_t, count, 0);
+AT(hw_driver_factory_t, describe, 8);
+AT(hw_driver_factory_t, create, 16);
 
 #undef SIZE
 #undef AT

@@ -32,10 +32,11 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense"}},
     {"engine/host", {"base", "hallway"}},
     {"engine/log", {"base"}},
+    {"engine/record", {"base", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
-     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log",
+     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
       "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
@@ -45,7 +46,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "eval", "render", "run",   "editor",  "hallway", "slam_point"};
+                                       "log",   "record", "eval", "render", "run",   "editor",  "hallway", "slam_point"};
 
 struct Include {
   fs::path file;

@@ -9,7 +9,7 @@
 // 1. Vtables are frozen for ever. A new function is a new extension ("hw.name/2"), asked for with get_extension().
 // 2. A data struct whose first member is `size` grows only at its end, in steps of whole 8 bytes, without padding that
 //    the compiler would choose. Its writer sets `size` to sizeof the struct as compiled; its reader asks HW_HAS() before
-//    it reads a member that did not exist in version 0.1. Such a struct is reached by pointer, also within lists
+//    it reads a member that did not exist in version 1.0. Such a struct is reached by pointer, also within lists
 //    (`const hw_sample_t *const *`), never by index arithmetic: the reader's sizeof is not the writer's.
 // 3. A struct without `size` is frozen for ever. Lists of such structs (points, landmarks) carry their `stride`, the
 //    distance in bytes from one element to the next, which may be larger than the struct.

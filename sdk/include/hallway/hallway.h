@@ -12,6 +12,7 @@
 // Ownership. What a call is given lives until the call returns; what a host is given it copies before it
 // returns; nothing is freed on the other side of the border.
 
+#include "driver.h"
 #include "entry.h"
 #include "ext/log.h"
 #include "ext/params.h"

@@ -17,7 +17,7 @@ enum {
   HW_OUTPUT_PLANES = 6,         ///< reserved
   HW_OUTPUT_SEGMENTS = 7,       ///< reserved
   HW_OUTPUT_TOPOLOGY = 8,       ///< reserved
-  HW_OUTPUT_DRIVE_COMMAND = 9,  ///< reserved
+  HW_OUTPUT_DRIVE_COMMAND = 9,  ///< hw_drive_command_t; at most one in a call, in process() only
   HW_OUTPUT_DRAWING = 10        ///< reserved
 };
 
@@ -43,6 +43,15 @@ typedef struct hw_pose_output_t {
   uint32_t status;       ///< HW_POSE_…
   hw_pose_t T_map_body;  ///< finite, unit quaternion (to 1e-6)
 } hw_pose_output_t;
+
+/// Payload of HW_OUTPUT_DRIVE_COMMAND: how the robot shall move from now on, until the next command. A host that has no
+/// robot to drive takes it down and does nothing with it.
+typedef struct hw_drive_command_t {
+  uint32_t size;         ///< sizeof(hw_drive_command_t) of the writer
+  uint32_t reserved;     ///< 0
+  double linear_m_s;     ///< along the body's x axis, forward positive; finite
+  double angular_rad_s;  ///< about the body's z axis, to the left positive; finite
+} hw_drive_command_t;
 
 /// Stands for "no landmark"; never the id of one.
 #define HW_NO_LANDMARK UINT64_MAX

@@ -124,6 +124,14 @@ class Host {
     put(HW_OUTPUT_SUBMAPS, payload);
   }
 
+  /// Answers how the robot shall move from now on: forward, and to the left about its vertical axis.
+  void put_drive_command(double linear_m_s, double angular_rad_s) const {
+    hw_drive_command_t payload{};
+    payload.linear_m_s = linear_m_s;
+    payload.angular_rad_s = angular_rad_s;
+    put(HW_OUTPUT_DRIVE_COMMAND, payload);
+  }
+
   /// Answers numbers worth watching.
   template <std::size_t N>
   void put_counters(const hw_counter_t (&counters)[N]) const {

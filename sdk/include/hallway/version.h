@@ -10,8 +10,8 @@
 /// Version of the ABI that these headers describe. A host loads a plugin if and only if their major numbers
 /// are equal; within one major number everything grows by the rules of growth.h, so that any minor number
 /// works with any other.
-#define HW_ABI_MAJOR 0u
-#define HW_ABI_MINOR 1u
+#define HW_ABI_MAJOR 1u
+#define HW_ABI_MINOR 0u
 
 /// Version of the ABI that something was compiled against. Frozen.
 typedef struct hw_version_t {

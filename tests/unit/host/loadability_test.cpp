@@ -22,8 +22,8 @@ MachineProfile robot() {
           .glibc = "2.31",
           .glibcxx = "3.4.28",
           .cxxabi = "1.3.12",
-          .abi_major = 0,
-          .abi_minor = 1,
+          .abi_major = 1,
+          .abi_minor = 0,
           .libraries = {"libc.so.6", "libm.so.6", "libstdc++.so.6"}};
 }
 
@@ -36,7 +36,7 @@ LibraryFacts plugin() {
   facts.needed_versions = {
       {"libc.so.6", "GLIBC_2.17"}, {"libstdc++.so.6", "GLIBCXX_3.4.9"}, {"libstdc++.so.6", "CXXABI_1.3"}};
   facts.exports = {"hw_entry"};
-  facts.abi = hw_version_t{0, 1};
+  facts.abi = hw_version_t{1, 0};
   return facts;
 }
 
@@ -65,7 +65,7 @@ TEST(Loadability, EachReasonIsNamed) {
   EXPECT_TRUE(says(problem_after([](auto& f) { f.problem = "is cut off"; }), "is cut off"));
   EXPECT_TRUE(says(problem_after([](auto& f) { f.abi.reset(); }), "hw_entry"));
   EXPECT_TRUE(
-      says(problem_after([](auto& f) { f.abi->abi_major = 7; }), "7.1 of the plugin ABI, there it is 0.1"));
+      says(problem_after([](auto& f) { f.abi->abi_major = 7; }), "7.0 of the plugin ABI, there it is 1.0"));
   EXPECT_TRUE(says(problem_after([](auto& f) { f.needed.push_back("libpcl_common.so.1.13"); }),
                    "libpcl_common.so.1.13, which is not there"));
   // The newest version alone is named, and numbers are compared as numbers: 2.4 is older than 2.31.
@@ -175,7 +175,7 @@ TEST(MachineProfile, RefusesWhatIsNone) {
   EXPECT_TRUE(says(refusal("glibc =", "glibbc ="), "did you mean \"glibc\""));
   EXPECT_TRUE(says(refusal("machine = \"AArch64\"\n", ""), "`machine` is missing"));
   EXPECT_TRUE(says(refusal("\"2.31\"", "2.31"), "`glibc` is a number"));
-  EXPECT_TRUE(says(refusal("abi_major = 0", "abi_major = -1"), "abi_major"));
+  EXPECT_TRUE(says(refusal("abi_major = 1", "abi_major = -1"), "abi_major"));
   EXPECT_TRUE(says(refusal("hallway.machine/1", "hallway.scenario/1"), "schema"));
   EXPECT_FALSE(refusal("[\n", "[[[\n").empty());
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "run/sensor_json.hpp"
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
 
@@ -69,29 +68,6 @@ TEST(AlignPath, PairsPosesOfOneTime) {
   const auto fit = align_path(record);
   ASSERT_TRUE(fit);
   EXPECT_LT((fit->t - kMotion.t).norm(), 1e-12);
-}
-
-TEST(SensorJson, KeepsEveryBitAndWhatIsUnknown) {
-  host::SensorInfo sensor;
-  sensor.name = "eyes";
-  sensor.T_body_sensor = abi_pose(kMotion);
-  sensor.horizontal_fov = 1.0 / 3.0;
-  sensor.noise_m[0] = 0.1;
-  const host::SensorInfo back = read_sensor(nlohmann::ordered_json::parse(print_sensor(sensor).dump()));
-  EXPECT_EQ(back.name, "eyes");
-  EXPECT_EQ(back.horizontal_fov, sensor.horizontal_fov);
-  EXPECT_TRUE(std::isnan(back.vertical_fov));
-  EXPECT_EQ(back.noise_m[0], 0.1);
-  EXPECT_TRUE(std::isnan(back.noise_m[2]));
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(back.T_body_sensor.position[i], sensor.T_body_sensor.position[i]);
-  for (int i = 0; i < 4; ++i)
-    EXPECT_EQ(back.T_body_sensor.orientation[i], sensor.T_body_sensor.orientation[i]);
-}
-
-TEST(SensorJson, WrongMemberIsBadInput) {
-  const auto error = test::error_of([] { read_sensor(nlohmann::ordered_json::parse(R"({"name": 3})")); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
 }
 
 TEST(Manifest, OfAnotherProgramIsRefused) {

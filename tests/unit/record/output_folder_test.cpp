@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/output_folder.hpp"
+#include "record/output_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
 
-namespace hallway::run {
+namespace hallway::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(OutputFolder, RefusesNamesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace hallway::run
+}  // namespace hallway::record

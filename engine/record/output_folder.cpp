@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/output_folder.hpp"
+#include "record/output_folder.hpp"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 
-namespace hallway::run {
+namespace hallway::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ void OutputFolder::commit() {
   }
 }
 
-}  // namespace hallway::run
+}  // namespace hallway::record

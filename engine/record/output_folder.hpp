@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace hallway::run {
+namespace hallway::record {
 
 /// A folder that appears whole or not at all: everything is written into a folder beside it, and commit() gives that its
 /// final name. Destroyed without commit(), it leaves nothing behind, and what stood under the name before stays.
@@ -32,4 +32,4 @@ class OutputFolder {
   bool committed_ = false;
 };
 
-}  // namespace hallway::run
+}  // namespace hallway::record

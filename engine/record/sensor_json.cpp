@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/sensor_json.hpp"
+#include "record/sensor_json.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 
-namespace hallway::run {
+namespace hallway::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -32,33 +32,22 @@ auto read_checked(const char* element, Read read) {
 
 }  // namespace
 
-hw_pose_t abi_pose(const Pose& pose) {
-  return {{pose.t.x(), pose.t.y(), pose.t.z()}, {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+Json print_pose(const hw_pose_t& pose) {
+  return {{"position_m", pose.position}, {"orientation_wxyz", pose.orientation}};
 }
 
-Pose pose_of(const hw_pose_t& pose) {
-  const auto& q = pose.orientation;
-  const auto& t = pose.position;
-  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
-}
-
-Json print_pose(const Pose& pose) {
-  return {{"position_m", {pose.t.x(), pose.t.y(), pose.t.z()}},
-          {"orientation_wxyz", {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}}};
-}
-
-Pose read_pose(const Json& json) {
+hw_pose_t read_pose(const Json& json) {
   return read_checked("pose", [&] {
     const auto t = json.at("position_m").get<std::array<double, 3>>();
     const auto q = json.at("orientation_wxyz").get<std::array<double, 4>>();
-    return Pose{Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+    return hw_pose_t{{t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}};
   });
 }
 
 Json print_sensor(const host::SensorInfo& sensor) {
   return {{"name", sensor.name},
           {"kind", "points"},
-          {"T_body_sensor", print_pose(pose_of(sensor.T_body_sensor))},
+          {"T_body_sensor", print_pose(sensor.T_body_sensor)},
           {"horizontal_fov_rad", known(sensor.horizontal_fov)},
           {"vertical_fov_rad", known(sensor.vertical_fov)},
           {"min_range_m", known(sensor.min_range_m)},
@@ -70,7 +59,7 @@ host::SensorInfo read_sensor(const Json& json) {
   return read_checked("sensor", [&] {
     host::SensorInfo sensor;
     sensor.name = json.at("name").get<std::string>();
-    sensor.T_body_sensor = abi_pose(read_pose(json.at("T_body_sensor")));
+    sensor.T_body_sensor = read_pose(json.at("T_body_sensor"));
     sensor.horizontal_fov = number_or_unknown(json.at("horizontal_fov_rad"));
     sensor.vertical_fov = number_or_unknown(json.at("vertical_fov_rad"));
     sensor.min_range_m = number_or_unknown(json.at("min_range_m"));
@@ -82,4 +71,4 @@ host::SensorInfo read_sensor(const Json& json) {
   });
 }
 
-}  // namespace hallway::run
+}  // namespace hallway::record

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "record/answer_recorder.hpp"
+
+#include "host/frame_bytes.hpp"
+#include "record/sensor_json.hpp"
+#include "record/version.hpp"
+
+namespace hallway::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Without the facts of the machine: they would make logs of the same run differ.
+std::string manifest_text(Json manifest) {
+  manifest.erase("host");
+  return text_of(manifest);
+}
+
+std::string activation_text(const LogFacts& facts) {
+  Json sensors = Json::array();
+  for (const host::SensorInfo& info : facts.sensors) {
+    Json sensor = print_sensor(info);
+    sensor["id"] = info.id;
+    sensors.push_back(std::move(sensor));
+  }
+  return text_of({{"period_ns", facts.period_ns},
+                  {"has_identities", facts.has_identities},
+                  {"sensors", std::move(sensors)}});
+}
+
+log::PoseAnswer answer_of(const host::PoseOutput& pose) {
+  const auto& t = pose.T_map_body.position;
+  const auto& q = pose.T_map_body.orientation;
+  return {pose.valid, {t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}};
+}
+
+}  // namespace
+
+AnswerRecorder::AnswerRecorder(log::ByteOutput& output, const LogFacts& facts)
+    : writer_(output, "hallway " + version(), manifest_text(facts.manifest)) {
+  writer_.add_activation(activation_text(facts));
+}
+
+void AnswerRecorder::record_frame(const hw_frame_t& frame) {
+  stamp_ = {static_cast<std::uint32_t>(frame.sequence), frame.t_ns};
+  bytes_.resize(host::frame_bytes_size(frame));
+  host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes_)));
+  writer_.add_frame(stamp_, bytes_);
+}
+
+void AnswerRecorder::record_answer(const host::Outputs& outputs) {
+  if (outputs.pose()) writer_.add_pose(stamp_, answer_of(*outputs.pose()));
+  if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
+  if (const auto& command = outputs.drive_command())
+    writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});
+}
+
+void AnswerRecorder::record_map(const FinalMap& map) {
+  writer_.add_map(stamp_, map.landmarks, map.submap_members);
+}
+
+}  // namespace hallway::record

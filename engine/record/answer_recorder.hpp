@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/sample.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "host/outputs.hpp"
+#include "host/stage.hpp"
+#include "log/run_log.hpp"
+#include "record/final_map.hpp"
+
+namespace hallway::record {
+
+/// What stands in a log once, for those who read it.
+struct LogFacts {
+  nlohmann::ordered_json
+      manifest;  ///< run.json as known before the first frame; its member `host` is left out
+  std::span<const host::SensorInfo> sensors;
+  std::int64_t period_ns = 0;   ///< from frame to frame; 0 where it is not regular
+  bool has_identities = false;  ///< whether the observations' true landmarks are recorded too
+};
+
+/// Records into an MCAP log (docs/formats.md) what plugins are given and what they answer. Same calls, same bytes. All functions
+/// throw Error{kIo}.
+class AnswerRecorder {
+ public:
+  /// Keeps a reference to `output`.
+  AnswerRecorder(log::ByteOutput& output, const LogFacts& facts);
+
+  /// A frame as the plugins get it.
+  void record_frame(const hw_frame_t& frame);
+  /// What the pipeline answered to the frame that was recorded last.
+  void record_answer(const host::Outputs& outputs);
+  /// The map at the end.
+  void record_map(const FinalMap& map);
+  /// Writes what is left and the index.
+  void finish() { writer_.finish(); }
+
+  /// For what else there is to record of the same frames.
+  log::RunLogWriter& writer() { return writer_; }
+  /// Of the frame that was recorded last.
+  const log::FrameStamp& stamp() const { return stamp_; }
+
+ private:
+  log::RunLogWriter writer_;
+  log::FrameStamp stamp_;
+  std::string bytes_;
+};
+
+}  // namespace hallway::record

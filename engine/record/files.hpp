@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The names of the files of a run folder.
+namespace hallway::record::files {
+
+inline constexpr const char* kRun = "run.json";
+inline constexpr const char* kMetrics = "metrics.json";
+inline constexpr const char* kScenario = "scenario.toml";
+inline constexpr const char* kMap = "map.map";
+inline constexpr const char* kObservations = "observations.csv";
+inline constexpr const char* kLog = "run.mcap";
+inline constexpr const char* kTruePoses = "truth_poses.csv";
+inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
+inline constexpr const char* kTrueTrajectory = "truth.tum";
+inline constexpr const char* kTrajectory = "trajectory.tum";
+inline constexpr const char* kCommands = "commands.csv";
+inline constexpr const char* kLandmarks = "landmarks.csv";
+inline constexpr const char* kLandmarksPly = "landmarks.ply";
+inline constexpr const char* kMatches = "matches.csv";
+inline constexpr const char* kSubmaps = "submaps.csv";
+inline constexpr const char* kTiming = "timing.csv";
+
+}  // namespace hallway::record::files

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "record/plugin_json.hpp"
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+
+namespace hallway::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string origin_of(const std::vector<ParameterOrigin>& origins, const std::string& plugin,
+                      const std::string& parameter) {
+  std::string origin = "default";
+  for (const ParameterOrigin& known : origins) {
+    if (known.plugin == plugin && known.name == parameter) origin = known.origin;  // the last one counts
+  }
+  return origin;
+}
+
+}  // namespace
+
+Json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin) {
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
+    const host::Parameter& parameter = plugin.parameters()[i];
+    parameters.push_back({{"name", parameter.name},
+                          {"value", plugin.parameter_text(i)},
+                          {"unit", parameter.unit},
+                          {"origin", origin_of(origins, plugin.info().id, parameter.name)}});
+  }
+  return {{"id", plugin.info().id},
+          {"version", plugin.info().version},
+          {"hash", content_hash(read_file(plugin.file()))},
+          {"parameters", parameters}};
+}
+
+Json print_verdict(const host::Verdict& verdict, std::optional<std::uint32_t> iteration) {
+  Json json{{"what", host::misdeed_name(verdict.what)}, {"plugin", verdict.plugin}};
+  json["signal"] = verdict.what == host::Misdeed::kCrash ? Json(verdict.signal) : Json(nullptr);
+  json["exit_status"] = verdict.what == host::Misdeed::kExit ? Json(verdict.exit_status) : Json(nullptr);
+  json["iteration"] = iteration ? Json(*iteration) : Json(nullptr);
+  json["call"] = verdict.call;
+  json["message"] = verdict.message;
+  json["backtrace"] = verdict.backtrace;
+  return json;
+}
+
+}  // namespace hallway::record

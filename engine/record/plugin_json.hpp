@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/stage.hpp"
+#include "host/verdict.hpp"
+
+namespace hallway::record {
+
+/// Where a plugin's parameter got its value, when it was not left at its default.
+struct ParameterOrigin {
+  std::string plugin;  ///< id
+  std::string name;
+  std::string origin;  ///< "office.toml:12", "command line", "run.json"
+};
+
+/// A plugin as run.json has it: id, version, hash of its file, parameters. Throws Error{kIo} if the file cannot be read.
+nlohmann::ordered_json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin);
+
+/// A verdict, as run.json and the command line's documents have it.
+/// @param iteration  of its frame; unset where it was no call of process()
+nlohmann::ordered_json print_verdict(const host::Verdict& verdict, std::optional<std::uint32_t> iteration);
+
+}  // namespace hallway::record
