@@ -127,8 +127,9 @@ bool HostChannel::is_answered() const {
 bool HostChannel::wait(std::chrono::nanoseconds limit) {
   if (spin_until([&] { return is_answered(); })) return true;
   // Not for each of many: half of them are taken at once, while the other side has the other half to do.
+  // One order of all four: either the answer is seen here, or its writer sees from which one on it has to wake us.
   request_area_->wake_at.store(answered_ + std::max(1u, under_way() / 2), std::memory_order_seq_cst);
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (reply_area_->answered.load(std::memory_order_seq_cst) != answered_) return true;
   futex_wait(reply_area_->answered, answered_, limit);
   return is_answered();
 }
@@ -172,10 +173,9 @@ void PluginChannel::answer(Reply reply, std::size_t size, std::int64_t wall_ns, 
   reply_area_->entries[received_ % kSlots] = {static_cast<std::uint32_t>(reply), slot_, size, wall_ns,
                                               cpu_ns};
   reply_area_->answered.store(++received_, std::memory_order_seq_cst);
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  const auto beyond =  // as numbers that go round
+      static_cast<std::int32_t>(received_ - request_area_->wake_at.load(std::memory_order_seq_cst));
   const bool last = request_area_->submitted.load(std::memory_order_acquire) == received_;
-  // As numbers that go round.
-  const auto beyond = static_cast<std::int32_t>(received_ - request_area_->wake_at.load());
   if (last || beyond >= 0) futex_wake(reply_area_->answered);
 }
 
