@@ -58,6 +58,7 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
       host().put_associations(k, ids);
     }
     host().put_pose({{x_sum, 0, 0}, {1, 0, 0, 0}});
+    host().put_drive_command(0.5, -x_sum);
     const hw_counter_t counters[] = {
         {"sensor_sum", sensor_sum_},
         {"last_noise", last_noise_},

@@ -83,6 +83,7 @@ TEST_P(Growth, OutputsOfAFrameArrive) {
   const Outputs& outputs = process_three_samples();
   ASSERT_TRUE(outputs.pose());
   EXPECT_EQ(outputs.pose()->T_map_body.position[0], 14);
+  EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -14}));
   const auto ids = outputs.associations(2);
   ASSERT_TRUE(ids);
   EXPECT_EQ(std::vector<std::uint64_t>(ids->begin(), ids->end()), std::vector<std::uint64_t>({2, 2, 2}));
@@ -117,6 +118,7 @@ TEST_P(Growth, ReasonsOfFailuresArrive) {
 
 INSTANTIATE_TEST_SUITE_P(Plugins, Growth,
                          testing::Values(Build{"OfToday", GROWTH_PLUGIN_TODAY, false},
+                                         Build{"OfVersion1_0", GROWTH_PLUGIN_FROZEN, false},
                                          Build{"Grown", GROWTH_PLUGIN_GROWN, true}),
                          [](const auto& instance) { return instance.param.name; });
 

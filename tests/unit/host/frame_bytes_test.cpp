@@ -187,7 +187,7 @@ TEST(FrameBytes, WildNumbersAreRefused) {
   };
   const Case cases[] = {{"no frame", 0, 0, 4},
                         {"another layout", 4, 2, 4},
-                        {"another ABI", 16, 1, 4},
+                        {"another ABI", 16, 7, 4},
                         {"frame too small", kFrame, 24, 4},
                         {"frame of an odd size", kFrame, 33, 4},
                         {"frame larger than all", kFrame, 0xfffffff8, 4},

@@ -63,6 +63,21 @@ TEST(Outputs, ALostPoseIsTheIdentityWhateverStandsInIt) {
   EXPECT_EQ(collector.outputs().pose()->T_map_body.orientation[0], 1);
 }
 
+TEST(Outputs, ADriveCommandAnswersAFrame) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  OutputCollector collector;
+  collector.begin(&builder.finish(), {});
+  hw_drive_command_t command{};
+  command.linear_m_s = 0.5;
+  EXPECT_EQ(put(collector, HW_OUTPUT_DRIVE_COMMAND, command), HW_OK);
+  EXPECT_EQ(collector.finish(), "");
+  EXPECT_EQ(collector.outputs().drive_command(), (DriveCommand{0.5, 0.0}));
+  collector.begin(nullptr, {});
+  EXPECT_EQ(put(collector, HW_OUTPUT_DRIVE_COMMAND, command), HW_ERROR_DATA);
+  EXPECT_FALSE(collector.outputs().drive_command());
+}
+
 TEST(Outputs, LandmarksAreReadByTheirStride) {
   OutputCollector collector;
   collector.begin(nullptr, {});

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdint.h>
+
+#include "growth.h"
+#include "pose.h"
+
+/// Kinds of outputs, and what hw_output_t.payload points to. Numbers without a payload type are reserved. A
+/// host skips kinds that it does not know.
+enum {
+  HW_OUTPUT_POSE = 1,           ///< hw_pose_output_t; at most one in a call
+  HW_OUTPUT_LANDMARKS = 2,      ///< hw_landmarks_t; several in a call are one list
+  HW_OUTPUT_ASSOCIATIONS = 3,   ///< hw_associations_t; at most one for a sample, in process() only
+  HW_OUTPUT_SUBMAPS = 4,        ///< hw_submaps_t; several in a call are one list
+  HW_OUTPUT_COUNTERS = 5,       ///< hw_counters_t; several in a call are one list
+  HW_OUTPUT_PLANES = 6,         ///< reserved
+  HW_OUTPUT_SEGMENTS = 7,       ///< reserved
+  HW_OUTPUT_TOPOLOGY = 8,       ///< reserved
+  HW_OUTPUT_DRIVE_COMMAND = 9,  ///< hw_drive_command_t; at most one in a call, in process() only
+  HW_OUTPUT_DRAWING = 10        ///< reserved
+};
+
+/// One answer of a plugin, handed to hw_host_vtable_t.put(). The host copies it before put() returns.
+typedef struct hw_output_t {
+  uint32_t size;        ///< sizeof(hw_output_t) of the writer
+  uint32_t kind;        ///< HW_OUTPUT_…
+  uint32_t flags;       ///< 0
+  uint32_t reserved;    ///< 0
+  const void* payload;  ///< by kind; never null
+} hw_output_t;
+
+/// hw_pose_output_t.status.
+enum {
+  HW_POSE_LOST = 0,  ///< the frame does not determine the pose; T_map_body is not read
+  HW_POSE_VALID = 1  ///< T_map_body is the pose at this frame
+};
+
+/// Payload of HW_OUTPUT_POSE: where the body is at the time of this frame. The map's frame is the plugin's
+/// choice; usually the body frame of the first frame.
+typedef struct hw_pose_output_t {
+  uint32_t size;         ///< sizeof(hw_pose_output_t) of the writer
+  uint32_t status;       ///< HW_POSE_…
+  hw_pose_t T_map_body;  ///< finite, unit quaternion (to 1e-6)
+} hw_pose_output_t;
+
+/// Payload of HW_OUTPUT_DRIVE_COMMAND: how the robot shall move from now on, until the next command. A host that has no
+/// robot to drive takes it down and does nothing with it.
+typedef struct hw_drive_command_t {
+  uint32_t size;         ///< sizeof(hw_drive_command_t) of the writer
+  uint32_t reserved;     ///< 0
+  double linear_m_s;     ///< along the body's x axis, forward positive; finite
+  double angular_rad_s;  ///< about the body's z axis, to the left positive; finite
+} hw_drive_command_t;
+
+/// Stands for "no landmark"; never the id of one.
+#define HW_NO_LANDMARK UINT64_MAX
+
+/// hw_landmark_t.status.
+enum {
+  HW_LANDMARK_TEMPORARY = 0,  ///< seen too seldom yet to be relied on
+  HW_LANDMARK_MAPPED = 1,     ///< part of the map
+  HW_LANDMARK_DYNAMIC = 2     ///< found to move; not part of the map
+};
+
+/// One landmark of the map. Frozen.
+typedef struct hw_landmark_t {
+  uint64_t id;            ///< names the landmark for the life of the plugin; not HW_NO_LANDMARK
+  double position[3];     ///< x, y, z in the map's frame, metres; finite
+  uint32_t observations;  ///< how many observations it was made from
+  uint32_t status;        ///< HW_LANDMARK_…
+} hw_landmark_t;
+
+/// Payload of HW_OUTPUT_LANDMARKS.
+typedef struct hw_landmarks_t {
+  uint32_t size;          ///< sizeof(hw_landmarks_t) of the writer
+  uint32_t stride;        ///< bytes from one landmark to the next, a multiple of 8
+  uint64_t count;         ///< number of landmarks
+  const void* landmarks;  ///< hw_landmark_t by `stride`; ids are distinct within a call
+} hw_landmarks_t;
+
+/// Payload of HW_OUTPUT_ASSOCIATIONS: for each element of one sample, in its order, the landmark that it was
+/// taken for.
+typedef struct hw_associations_t {
+  uint32_t size;                 ///< sizeof(hw_associations_t) of the writer
+  uint32_t sample;               ///< index of the sample in hw_frame_t.samples
+  uint64_t count;                ///< the sample's own number of elements
+  const uint64_t* landmark_ids;  ///< `count` ids, HW_NO_LANDMARK where it was taken for none
+} hw_associations_t;
+
+/// A part of the map that is rigid in itself. Frozen.
+typedef struct hw_submap_t {
+  uint64_t id;             ///< names the submap for the life of the plugin
+  hw_pose_t T_map_submap;  ///< finite, unit quaternion (to 1e-6)
+  uint64_t first_member;   ///< its landmarks are members[first_member … first_member + n_members - 1]
+  uint64_t n_members;      ///< number of its landmarks
+} hw_submap_t;
+
+/// Payload of HW_OUTPUT_SUBMAPS. A landmark may be a member of several submaps.
+typedef struct hw_submaps_t {
+  uint32_t size;            ///< sizeof(hw_submaps_t) of the writer
+  uint32_t stride;          ///< bytes from one submap to the next, a multiple of 8
+  uint64_t count;           ///< number of submaps
+  const void* submaps;      ///< hw_submap_t by `stride`
+  uint64_t n_members;       ///< number of entries in `members`
+  const uint64_t* members;  ///< landmark ids
+} hw_submaps_t;
+
+/// A number worth watching. Frozen.
+typedef struct hw_counter_t {
+  const char* name;  ///< snake_case ASCII with its unit where it has one, e.g. "submaps_closed"
+  double value;      ///< finite
+} hw_counter_t;
+
+/// Payload of HW_OUTPUT_COUNTERS.
+typedef struct hw_counters_t {
+  uint32_t size;         ///< sizeof(hw_counters_t) of the writer
+  uint32_t stride;       ///< bytes from one counter to the next, a multiple of 8
+  uint64_t count;        ///< number of counters
+  const void* counters;  ///< hw_counter_t by `stride`
+} hw_counters_t;

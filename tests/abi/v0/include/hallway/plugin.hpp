@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Turns a C++ class into a plugin. Header only, C++17; nothing of C++ crosses the border: every exception becomes
+// a status and a message.
+//
+//     class Mapper final : public hallway::sdk::Plugin {
+//      public:
+//       static const hw_plugin_info_t* info();           // see plugin_info()
+//       explicit Mapper(const hw_host_t* host) : Plugin(host) {
+//         parameters().add("noise_m", &noise_m_, 1e-3, 10.0, "m", "Standard deviation of an observation.");
+//       }
+//       void reset() override;
+//       void process(const hw_frame_t& frame) override;  // host().put_pose(…), host().put_associations(…)
+//       void report(bool refine) override;               // host().put_landmarks(…), host().put_submaps(…)
+//      private:
+//       double noise_m_ = 0.05;
+//     };
+//     HALLWAY_PLUGINS(Mapper);
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hallway.h"
+
+namespace hallway::sdk {
+
+/// A failure with a status of its own choice; any other exception is given one by guard().
+class Failure : public std::runtime_error {
+ public:
+  Failure(hw_status_t status, const std::string& message) : std::runtime_error(message), status_(status) {}
+  hw_status_t status() const noexcept { return status_; }
+
+ private:
+  hw_status_t status_;
+};
+
+/// Calls `work` and turns what it throws into a status and a message: Failure keeps its status,
+/// std::invalid_argument is HW_ERROR_ARGUMENT, std::bad_alloc HW_ERROR_MEMORY, all else HW_ERROR_INTERNAL.
+template <typename Work>
+hw_status_t guard(hw_error_t* error, Work&& work) noexcept {
+  const auto fail = [error](hw_status_t status, const char* message) {
+    return hw_error_set(error, status, message && *message ? message : "an exception without a message");
+  };
+  try {
+    work();
+    return HW_OK;
+  } catch (const Failure& failure) {
+    return fail(failure.status() == HW_OK ? HW_ERROR_INTERNAL : failure.status(), failure.what());
+  } catch (const std::invalid_argument& exception) {
+    return fail(HW_ERROR_ARGUMENT, exception.what());
+  } catch (const std::bad_alloc&) {
+    return fail(HW_ERROR_MEMORY, "out of memory");
+  } catch (const std::exception& exception) {
+    return fail(HW_ERROR_INTERNAL, exception.what());
+  } catch (...) {
+    return fail(HW_ERROR_INTERNAL, "an exception that is no std::exception");
+  }
+}
+
+/// The host, seen from the plugin. The put functions throw Failure if the host refuses; use them in process()
+/// and report().
+class Host {
+ public:
+  explicit Host(const hw_host_t* host)
+      : host_(host),
+        log_(static_cast<const hw_log_t*>(host->vtable->get_extension(host->self, HW_EXT_LOG))) {}
+
+  /// The C form.
+  const hw_host_t& c_host() const { return *host_; }
+
+  /// Answers where the body is: T_map_body.
+  void put_pose(const hw_pose_t& T_map_body) const {
+    hw_pose_output_t payload{};
+    payload.status = HW_POSE_VALID;
+    payload.T_map_body = T_map_body;
+    put(HW_OUTPUT_POSE, payload);
+  }
+
+  /// Answers that this frame does not determine the pose.
+  void put_lost() const {
+    hw_pose_output_t payload{};
+    payload.status = HW_POSE_LOST;
+    payload.T_map_body.orientation[0] = 1.0;
+    put(HW_OUTPUT_POSE, payload);
+  }
+
+  /// Answers, for each element of sample `sample` of the frame, which landmark it was taken for.
+  void put_associations(std::uint32_t sample, const std::vector<std::uint64_t>& landmark_ids) const {
+    hw_associations_t payload{};
+    payload.sample = sample;
+    payload.count = landmark_ids.size();
+    payload.landmark_ids = landmark_ids.data();
+    put(HW_OUTPUT_ASSOCIATIONS, payload);
+  }
+
+  /// Answers the landmarks of the map.
+  void put_landmarks(const std::vector<hw_landmark_t>& landmarks) const {
+    hw_landmarks_t payload{};
+    payload.stride = sizeof(hw_landmark_t);
+    payload.count = landmarks.size();
+    payload.landmarks = landmarks.data();
+    put(HW_OUTPUT_LANDMARKS, payload);
+  }
+
+  /// Answers the submaps, whose members are ranges of `members`.
+  void put_submaps(const std::vector<hw_submap_t>& submaps, const std::vector<std::uint64_t>& members) const {
+    hw_submaps_t payload{};
+    payload.stride = sizeof(hw_submap_t);
+    payload.count = submaps.size();
+    payload.submaps = submaps.data();
+    payload.n_members = members.size();
+    payload.members = members.data();
+    put(HW_OUTPUT_SUBMAPS, payload);
+  }
+
+  /// Answers how the robot shall move from now on: forward, and to the left about its vertical axis.
+  void put_drive_command(double linear_m_s, double angular_rad_s) const {
+    hw_drive_command_t payload{};
+    payload.linear_m_s = linear_m_s;
+    payload.angular_rad_s = angular_rad_s;
+    put(HW_OUTPUT_DRIVE_COMMAND, payload);
+  }
+
+  /// Answers numbers worth watching.
+  template <std::size_t N>
+  void put_counters(const hw_counter_t (&counters)[N]) const {
+    hw_counters_t payload{};
+    payload.stride = sizeof(hw_counter_t);
+    payload.count = N;
+    payload.counters = counters;
+    put(HW_OUTPUT_COUNTERS, payload);
+  }
+
+  /// Tells a person something; does nothing where the host keeps no log. `level` is HW_LOG_….
+  void log(std::uint32_t level, const std::string& message) const {
+    if (log_) log_->write(host_->self, level, message.c_str());
+  }
+
+ private:
+  template <typename Payload>
+  void put(std::uint32_t kind, Payload& payload) const {
+    payload.size = sizeof(Payload);
+    hw_output_t output{};
+    output.size = sizeof output;
+    output.kind = kind;
+    output.payload = &payload;
+    const hw_status_t status = host_->vtable->put(host_->self, &output);
+    if (status != HW_OK) {
+      throw Failure(status, std::string("the host refused an output: ") + hw_status_name(status));
+    }
+  }
+
+  const hw_host_t* host_;
+  const hw_log_t* log_;
+};
+
+/// The parameters of a plugin: variables of it that the host may set before activation. Their values when
+/// they are added are the defaults.
+class Parameters {
+ public:
+  Parameters() = default;
+  Parameters(const Parameters&) = delete;
+  Parameters& operator=(const Parameters&) = delete;
+
+  /// Declares a number. `name` ends with the unit where it has one.
+  void add(const char* name, double* variable, double minimum, double maximum, const char* unit,
+           const char* help) {
+    Row& row = add_row(name, variable, HW_PARAM_DOUBLE, unit, help);
+    row.info.minimum = real_value(minimum);
+    row.info.maximum = real_value(maximum);
+  }
+  /// Declares a whole number.
+  void add(const char* name, int* variable, int minimum, int maximum, const char* unit, const char* help) {
+    Row& row = add_row(name, variable, HW_PARAM_INT, unit, help);
+    row.info.minimum = whole_value(HW_PARAM_INT, minimum);
+    row.info.maximum = whole_value(HW_PARAM_INT, maximum);
+  }
+  /// Declares a switch.
+  void add(const char* name, bool* variable, const char* help) {
+    Row& row = add_row(name, variable, HW_PARAM_BOOL, "", help);
+    row.info.maximum.as.integer = 1;
+  }
+  /// Declares a choice; `variable` is an index into `choices`, which must live as long as the plugin.
+  template <std::size_t N>
+  void add_choice(const char* name, int* variable, const char* const (&choices)[N], const char* help) {
+    Row& row = add_row(name, variable, HW_PARAM_CHOICE, "", help);
+    row.info.maximum.as.integer = static_cast<std::int64_t>(N) - 1;
+    row.info.choices = choices;
+    row.info.n_choices = static_cast<std::uint32_t>(N);
+  }
+
+  /// Number of parameters.
+  std::uint32_t count() const { return static_cast<std::uint32_t>(rows_.size()); }
+  /// What parameter `index` is; null if there is none.
+  const hw_param_info_t* describe(std::uint32_t index) const {
+    return index < rows_.size() ? &rows_[index].info : nullptr;
+  }
+  /// The value of parameter `index`. Throws Failure.
+  hw_param_value_t get(std::uint32_t index) const { return read(at(index)); }
+  /// Sets parameter `index`. Throws Failure; the old value then stays.
+  void set(std::uint32_t index, const hw_param_value_t& value) {
+    const Row& row = at(index);
+    if (value.type != row.info.type) throw Failure(HW_ERROR_ARGUMENT, row.name + ": a value of another type");
+    const bool allowed =
+        row.info.type == HW_PARAM_DOUBLE
+            ? value.as.real >= row.info.minimum.as.real && value.as.real <= row.info.maximum.as.real
+            : value.as.integer >= row.info.minimum.as.integer &&
+                  value.as.integer <= row.info.maximum.as.integer;
+    if (!allowed) throw Failure(HW_ERROR_RANGE, row.name + ": outside of its range");
+    if (double* const* real = std::get_if<double*>(&row.variable)) **real = value.as.real;
+    if (int* const* whole = std::get_if<int*>(&row.variable)) **whole = static_cast<int>(value.as.integer);
+    if (bool* const* flag = std::get_if<bool*>(&row.variable)) **flag = value.as.integer != 0;
+  }
+
+ private:
+  using Variable = std::variant<double*, int*, bool*>;
+  struct Row {
+    std::string name, unit, help;
+    Variable variable;
+    hw_param_info_t info{};
+  };
+
+  static hw_param_value_t real_value(double value) {
+    hw_param_value_t result{};
+    result.type = HW_PARAM_DOUBLE;
+    result.as.real = value;
+    return result;
+  }
+  static hw_param_value_t whole_value(std::uint32_t type, std::int64_t value) {
+    hw_param_value_t result{};
+    result.type = type;
+    result.as.integer = value;
+    return result;
+  }
+  static hw_param_value_t read(const Row& row) {
+    if (double* const* real = std::get_if<double*>(&row.variable)) return real_value(**real);
+    if (int* const* whole = std::get_if<int*>(&row.variable)) return whole_value(row.info.type, **whole);
+    return whole_value(row.info.type, *std::get<bool*>(row.variable) ? 1 : 0);
+  }
+  const Row& at(std::uint32_t index) const {
+    if (index >= rows_.size()) throw Failure(HW_ERROR_NOT_FOUND, "no parameter has that index");
+    return rows_[index];
+  }
+  Row& add_row(const char* name, Variable variable, std::uint32_t type, const char* unit, const char* help) {
+    rows_.push_back(Row{name, unit, help, variable, {}});
+    Row& row = rows_.back();
+    row.info.size = sizeof(hw_param_info_t);
+    row.info.type = type;
+    row.info.name = row.name.c_str();
+    row.info.unit = row.unit.c_str();
+    row.info.help = row.help.c_str();
+    row.info.default_value = read(row);
+    row.info.minimum = row.info.maximum = whole_value(type, 0);
+    return row;
+  }
+
+  std::deque<Row> rows_;  ///< rows keep their addresses, which `info` and the host point to
+};
+
+/// What a plugin is, for Plugin::info(). Everything given must live as long as the library: literals and
+/// static arrays.
+template <std::size_t N, std::size_t M>
+constexpr hw_plugin_info_t plugin_info(const char* id, const char* name, const char* version,
+                                       const char* vendor, const char* description,
+                                       const std::uint32_t (&inputs)[N], const std::uint32_t (&outputs)[M]) {
+  hw_plugin_info_t info{};
+  info.size = sizeof info;
+  info.id = id;
+  info.name = name;
+  info.version = version;
+  info.vendor = vendor;
+  info.description = description;
+  info.inputs = inputs;
+  info.n_inputs = static_cast<std::uint32_t>(N);
+  info.outputs = outputs;
+  info.n_outputs = static_cast<std::uint32_t>(M);
+  return info;
+}
+
+/// Base of a plugin's class. A derived class has, besides, a constructor from `const hw_host_t*` and
+/// `static const hw_plugin_info_t* info()`. What these functions throw reaches the host as a status and a
+/// message.
+class Plugin {
+ public:
+  virtual ~Plugin() = default;
+  Plugin(const Plugin&) = delete;
+  Plugin& operator=(const Plugin&) = delete;
+
+  /// Makes ready for frames; the parameters stand.
+  virtual void activate(const hw_activation_t&) {}
+  /// Ends what activate() began. Must not throw.
+  virtual void deactivate() {}
+  /// Forgets the map.
+  virtual void reset() = 0;
+  /// Takes a frame and puts the answers to it.
+  virtual void process(const hw_frame_t& frame) = 0;
+  /// Puts the map, as it stands or refined.
+  virtual void report(bool refine) = 0;
+  /// A further extension of the plugin, or null.
+  virtual const void* get_extension(const char*) { return nullptr; }
+
+ protected:
+  explicit Plugin(const hw_host_t* host) : host_(host) {}
+  const Host& host() const { return host_; }
+  Parameters& parameters() { return parameters_; }
+
+ private:
+  friend struct Border;
+  Host host_;
+  Parameters parameters_;
+  bool active_ = false;
+};
+
+/// The C functions in front of a Plugin: no exception passes, and calls out of order are refused.
+struct Border {
+  static Plugin& plugin(void* self) { return *static_cast<Plugin*>(self); }
+
+  static void demand(bool condition, hw_status_t status, const char* message) {
+    if (!condition) throw Failure(status, message);
+  }
+
+  static hw_status_t activate(void* self, const hw_activation_t* activation, hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(activation != nullptr, HW_ERROR_ARGUMENT, "activate: the activation is null");
+      demand(!plugin(self).active_, HW_ERROR_STATE, "activate: the plugin is active");
+      plugin(self).activate(*activation);
+      plugin(self).active_ = true;
+    });
+  }
+
+  static void deactivate(void* self) noexcept {
+    guard(nullptr, [&] {
+      if (std::exchange(plugin(self).active_, false)) plugin(self).deactivate();
+    });
+  }
+
+  static hw_status_t reset(void* self, hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(plugin(self).active_, HW_ERROR_STATE, "reset: the plugin is not active");
+      plugin(self).reset();
+    });
+  }
+
+  static hw_status_t process(void* self, const hw_frame_t* frame, hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(frame != nullptr, HW_ERROR_ARGUMENT, "process: the frame is null");
+      demand(plugin(self).active_, HW_ERROR_STATE, "process: the plugin is not active");
+      plugin(self).process(*frame);
+    });
+  }
+
+  static hw_status_t report(void* self, const hw_report_request_t* request, hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(request != nullptr, HW_ERROR_ARGUMENT, "report: the request is null");
+      demand(plugin(self).active_, HW_ERROR_STATE, "report: the plugin is not active");
+      plugin(self).report((request->flags & HW_REPORT_REFINE) != 0);
+    });
+  }
+
+  static const void* get_extension(void* self, const char* id) noexcept {
+    const void* extension = nullptr;
+    guard(nullptr, [&] {
+      if (!id) return;
+      const bool params = std::strcmp(id, HW_EXT_PARAMS) == 0;
+      extension = params ? &kParams : plugin(self).get_extension(id);
+    });
+    return extension;
+  }
+
+  static void destroy(void* self) noexcept { delete &plugin(self); }
+
+  static std::uint32_t params_count(void* self) noexcept { return plugin(self).parameters_.count(); }
+
+  static const hw_param_info_t* params_describe(void* self, std::uint32_t index) noexcept {
+    return plugin(self).parameters_.describe(index);
+  }
+
+  static hw_status_t params_get(void* self, std::uint32_t index, hw_param_value_t* value,
+                                hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(value != nullptr, HW_ERROR_ARGUMENT, "get: the value is null");
+      *value = plugin(self).parameters_.get(index);
+    });
+  }
+
+  static hw_status_t params_set(void* self, std::uint32_t index, const hw_param_value_t* value,
+                                hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(value != nullptr, HW_ERROR_ARGUMENT, "set: the value is null");
+      demand(!plugin(self).active_, HW_ERROR_STATE, "set: the plugin is active");
+      plugin(self).parameters_.set(index, *value);
+    });
+  }
+
+  static constexpr hw_params_t kParams{&params_count, &params_describe, &params_get, &params_set};
+  static constexpr hw_plugin_vtable_t kVtable{&activate, &deactivate,    &reset,  &process,
+                                              &report,   &get_extension, &destroy};
+};
+
+/// The factory and entry of a library whose plugins are the classes `Plugins`.
+template <typename... Plugins>
+struct Factory {
+  struct Row {
+    const hw_plugin_info_t* (*info)();
+    std::unique_ptr<Plugin> (*make)(const hw_host_t* host);
+  };
+  template <typename Class>
+  static std::unique_ptr<Plugin> make(const hw_host_t* host) {
+    return std::make_unique<Class>(host);
+  }
+  static constexpr Row kRows[] = {{&Plugins::info, &make<Plugins>}...};
+
+  static std::uint32_t count() noexcept { return static_cast<std::uint32_t>(sizeof...(Plugins)); }
+
+  static const hw_plugin_info_t* describe(std::uint32_t index) noexcept {
+    const hw_plugin_info_t* info = nullptr;
+    guard(nullptr, [&] { info = index < count() ? kRows[index].info() : nullptr; });
+    return info;
+  }
+
+  static hw_status_t create(const hw_host_t* host, const char* id, hw_plugin_t* plugin,
+                            hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      Border::demand(host && id && plugin, HW_ERROR_ARGUMENT, "create: an argument is null");
+      const Row* row = kRows;
+      while (row != kRows + count() && std::strcmp(id, row->info()->id) != 0) ++row;
+      Border::demand(row != kRows + count(), HW_ERROR_NOT_FOUND,
+                     "create: no plugin of this library has that id");
+      plugin->self = row->make(host).release();
+      plugin->vtable = &Border::kVtable;
+    });
+  }
+
+  static hw_status_t init(const char*, hw_error_t*) noexcept { return HW_OK; }
+  static void deinit() noexcept {}
+
+  static const void* get_factory(const char* id) noexcept {
+    return id && std::strcmp(id, HW_PLUGIN_FACTORY_ID) == 0 ? &kFactory : nullptr;
+  }
+
+  static constexpr hw_plugin_factory_t kFactory{&count, &describe, &create};
+  static constexpr hw_entry_t kEntry{{HW_ABI_MAJOR, HW_ABI_MINOR}, &init, &deinit, &get_factory};
+};
+
+}  // namespace hallway::sdk
+
+/// Defines the exported symbol of a library whose plugins are the given classes. Once per library, outside of
+/// namespaces.
+#define HALLWAY_PLUGINS(...) \
+  extern "C" HW_EXPORT constexpr hw_entry_t hw_entry = ::hallway::sdk::Factory<__VA_ARGS__>::kEntry
