@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -13,6 +14,7 @@
 #include "log_input.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
+#include "run/paced_source.hpp"
 #include "run/record.hpp"
 #include "run/run.hpp"
 #include "sim/scenario.hpp"
@@ -30,6 +32,7 @@ struct ReplayOptions {
   std::string true_poses;
   std::string true_landmarks;
   std::optional<double> period_s;
+  std::optional<double> rate;
   std::string out;
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
@@ -118,7 +121,12 @@ int replay(const ReplayOptions& options) {
                               .true_landmarks = options.true_landmarks,
                               .period_s = options.period_s,
                               .steps = options.steps});
-  run::Source& source = *input.source;
+  std::optional<run::PacedSource> paced;
+  if (options.rate) {
+    paced.emplace(*input.source, *options.rate,
+                  [](run::PacedSource::Clock::time_point due) { std::this_thread::sleep_until(due); });
+  }
+  run::Source& source = paced ? *paced : *input.source;
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
@@ -137,7 +145,7 @@ int replay(const ReplayOptions& options) {
       .attachments = {},
       .pictures = {},
       .write_observations = false,
-      .lock_step = false,
+      .lock_step = options.rate.has_value(),  // else frames would be waited for while answers are there
       .on_failure = limits.on_failure};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
                             {.json = options.json, .quiet = options.quiet});
@@ -181,6 +189,12 @@ void add_replay_command(CLI::App& app, Action& chosen) {
   command->add_option("--period", options->period_s, "Seconds from frame to frame [the run's, else 0.1]")
       ->type_name("S")
       ->check(CLI::Range(1e-6, 1e6));
+  command
+      ->add_option(
+          "--rate", options->rate,
+          "Feed frames at their own pace: 1 as recorded, 2 twice as fast [as fast as the plugin answers]")
+      ->type_name("X")
+      ->check(CLI::Range(1e-3, 1e3));
   command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
   add_plugin_path_option(*command, options->plugin_path);
   add_isolation_options(*command, options->isolation);
