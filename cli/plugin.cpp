@@ -58,7 +58,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
 
 int list(const ListOptions& options) {
   const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
-  const std::vector<host::Listed> files = host::list_plugins(folders);
+  const std::vector<host::Listed> files = host::list_libraries(folders);
   if (!options.json) {
     print_result(table(files, folders));
     return 0;
