@@ -115,8 +115,10 @@ int run_scenario(const RunOptions& options) {
   run::SimulatedSource source(simulator);
   const Stages stages = stages_of(scenario);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
-                          isolation_of(options.isolation, scenario.limits));
+  host::Pipeline pipeline =
+      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+                                isolation_of(options.isolation, scenario.limits));
+  std::vector<run::Failure> start_failures = run::start_plugins(pipeline, scenario.limits.on_failure);
 
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",
@@ -138,7 +140,8 @@ int run_scenario(const RunOptions& options) {
                     .pictures = scenario.pictures,
                     .write_observations = true,
                     .lock_step = true,
-                    .on_failure = scenario.limits.on_failure};
+                    .on_failure = scenario.limits.on_failure,
+                    .start_failures = std::move(start_failures)};
   for (const run::Attachment& model : models) plan.attachments.push_back(model);
   return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
                             {.json = options.json, .quiet = options.quiet});

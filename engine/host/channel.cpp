@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "host/byte_stream.hpp"
+#include "host/load_step.hpp"
 
 namespace hallway::host {
 namespace {
@@ -93,6 +94,10 @@ const char* call_name(Request request) {
       return "close";
   }
   return "?";
+}
+
+const char* call_name(Request request, std::uint32_t load_step) {
+  return request == Request::kStart ? load_step_name(load_step) : call_name(request);
 }
 
 HostChannel::HostChannel()

@@ -25,13 +25,16 @@ enum class Request : std::uint32_t {
 /// The name of the plugin's function that a request calls, for messages: "process".
 const char* call_name(Request request);
 
+/// The same, of kStart the step that was begun last (load_step.hpp): "init".
+const char* call_name(Request request, std::uint32_t load_step);
+
 /// How the plugin's process answers.
 enum class Reply : std::uint32_t {
   kDone = 1,  ///< with what was asked for
   kError,     ///< with an Error
 };
 
-inline constexpr std::uint32_t kChannelVersion = 2;
+inline constexpr std::uint32_t kChannelVersion = 3;
 
 /// Calls that may be under way at a time. Eight would do for two processors that have nothing else to do; more carry over the times in which a busy
 /// machine lets one side wait.

@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "host/elf.hpp"
 #include "host/error_text.hpp"
+#include "host/load_step.hpp"
 
 namespace hallway::host {
 namespace {
@@ -35,6 +36,7 @@ auto guarded(const char* name, Call&& call) {
 }
 
 void* open_library(const std::filesystem::path& file) {
+  enter(LoadStep::kLoad);
   // An absolute path: a bare name would be looked for in the system's folders.
   if (void* handle = ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
   const char* reason = ::dlerror();
@@ -100,10 +102,12 @@ struct Library::Loaded {
   Loaded& operator=(const Loaded&) = delete;
 
   void start(const std::filesystem::path& file) {
+    enter(LoadStep::kInit);
     hw_error_t error = empty_error();
     const hw_status_t status = guarded("init", [&] { return entry->init(file.c_str(), &error); });
     if (status != HW_OK) fail("its init() failed: " + error_text(error, status));
     try {
+      enter(LoadStep::kDescribe);
       factory = &find_factory(*entry);
       plugins = describe_all(*factory);
     } catch (...) {
@@ -187,6 +191,7 @@ hw_plugin_t Library::create(const PluginInfo& info, const hw_host_t& host) const
   const Where where{file_.string(), 0, fmt::format("plugin `{}`", info.id)};
   hw_plugin_t plugin{};
   hw_error_t error = empty_error();
+  enter(LoadStep::kCreate);
   try {
     const hw_status_t status =
         guarded("create", [&] { return loaded_->factory->create(&host, info.id.c_str(), &plugin, &error); });

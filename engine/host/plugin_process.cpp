@@ -203,8 +203,9 @@ void PluginProcess::fail(Request request, Verdict verdict, const std::string& wh
   if (verdict.what == Misdeed::kCrash || verdict.what == Misdeed::kTimeout) {
     verdict.backtrace = read_crash_record(channel_.crash());
   }
+  const std::uint32_t load_step = channel_.crash().load_step;
   end();
-  verdict.call = call_name(request);
+  verdict.call = call_name(request, load_step);
   verdict.plugin = plugin_;
   verdict.message = fmt::format("{}(): {}", verdict.call, what);
   throw PluginFailure(ErrorCode::kPluginFault, verdict.message, where_, verdict);

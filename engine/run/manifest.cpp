@@ -10,6 +10,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/text.hpp"
+#include "sim/scenario.hpp"
 
 namespace hallway::run {
 namespace {
@@ -36,10 +37,10 @@ std::string compiler_name() {
 #endif
 }
 
-Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
+Json describe_host(const ManifestFacts& facts, const host::Pipeline& pipeline) {
   Json files = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    files.push_back(printable(pipeline.stage(i).file().string(), 4096));
+  for (const host::StageFacts& plugin : pipeline.facts())
+    files.push_back(printable(plugin.file.string(), 4096));
   return {{"cpu", cpu_name()},
           {"threads", facts.threads},
           {"trace", trace::backend_description(facts.trace)},
@@ -57,19 +58,48 @@ std::string origin_of(const ManifestFacts& facts, const std::string& plugin, con
   return origin;
 }
 
-Json describe_plugin(const ManifestFacts& facts, host::Stage& plugin) {
+Json describe_plugin(const ManifestFacts& facts, const host::StageFacts& plugin) {
   Json parameters = Json::array();
-  for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
-    const host::Parameter& parameter = plugin.parameters()[i];
+  for (std::size_t i = 0; i < plugin.values.size(); ++i) {
+    const host::Parameter& parameter = plugin.parameters[i];
     parameters.push_back({{"name", parameter.name},
-                          {"value", plugin.parameter_text(i)},
+                          {"value", plugin.values[i]},
                           {"unit", parameter.unit},
-                          {"origin", origin_of(facts, plugin.info().id, parameter.name)}});
+                          {"origin", origin_of(facts, plugin.info.id, parameter.name)}});
   }
-  return {{"id", plugin.info().id},
-          {"version", plugin.info().version},
-          {"hash", content_hash(read_file(plugin.file()))},
+  return {{"id", plugin.info.id},
+          {"version", plugin.info.version},
+          {"hash", content_hash(read_file(plugin.file))},
           {"parameters", parameters}};
+}
+
+/// One that ended before it could say what it is: what was asked for.
+Json describe_plugin(const ManifestFacts& facts, const host::StageSpec& wanted) {
+  const std::string id = printable(sim::short_plugin_name(wanted.plugin));
+  Json parameters = Json::array();
+  for (const host::ParameterSetting& setting : wanted.parameters) {
+    parameters.push_back({{"name", printable(setting.name)},
+                          {"value", printable(setting.value)},
+                          {"unit", ""},
+                          {"origin", origin_of(facts, id, setting.name)}});
+  }
+  return {{"id", id}, {"version", ""}, {"hash", nullptr}, {"parameters", parameters}};
+}
+
+Json describe_plugins(const ManifestFacts& facts, const host::Pipeline& pipeline) {
+  Json plugins = Json::array();
+  for (std::size_t i = 0; i < pipeline.specs().size(); ++i) {
+    const bool known = i < pipeline.facts().size();
+    const bool asked = known && pipeline.facts()[i].values.size() == pipeline.facts()[i].parameters.size();
+    Json plugin = describe_plugin(facts, pipeline.specs()[i]);
+    if (known) {
+      Json said = describe_plugin(facts, pipeline.facts()[i]);
+      if (!asked) said["parameters"] = plugin["parameters"];
+      plugin = std::move(said);
+    }
+    plugins.push_back(std::move(plugin));
+  }
+  return plugins;
 }
 
 }  // namespace
@@ -78,7 +108,7 @@ std::string version() {
   return HALLWAY_VERSION;
 }
 
-Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
+Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
   Json inputs = Json::array();
   for (const Attachment& input : facts.inputs) {
     inputs.push_back({{"file", printable(input.name)}, {"hash", content_hash(input.content)}});
@@ -87,13 +117,10 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   for (const sim::Setting& setting : facts.settings) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
-  Json plugins = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    plugins.push_back(describe_plugin(facts, pipeline.stage(i)));
   return {{"schema", "hallway.run/1"},  {"hallway", version()},
           {"command", facts.command},   {"name", facts.name},
           {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", plugins},
+          {"settings", settings},       {"plugins", describe_plugins(facts, pipeline)},
           {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
 }
 
