@@ -30,4 +30,7 @@ std::vector<sim::Override> overrides_of(const IsolationOptions& options);
 /// How plugins are kept within these limits; unset with --in-process. Their scratch folders stand in the system's folder for temporary files.
 std::optional<host::Isolation> isolation_of(const IsolationOptions& options, const sim::PluginLimits& limits);
 
+/// For libraries that are only asked what is in them: with less time than a plugin that is run.
+host::Isolation listing_isolation();
+
 }  // namespace hallway::cli

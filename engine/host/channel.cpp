@@ -77,6 +77,7 @@ bool spin_until(Condition&& condition) {
 const char* call_name(Request request) {
   switch (request) {
     case Request::kStart:
+    case Request::kDescribe:
       return "load";
     case Request::kSetParameter:
       return "set";
@@ -97,7 +98,8 @@ const char* call_name(Request request) {
 }
 
 const char* call_name(Request request, std::uint32_t load_step) {
-  return request == Request::kStart ? load_step_name(load_step) : call_name(request);
+  const bool loads = request == Request::kStart || request == Request::kDescribe;
+  return loads ? load_step_name(load_step) : call_name(request);
 }
 
 HostChannel::HostChannel()

@@ -76,6 +76,11 @@ void open_packets(Pair& pair) {
 
 }  // namespace
 
+std::uint64_t data_limit(const Isolation& isolation) {
+  constexpr std::uint64_t kMargin = std::uint64_t{256} << 20;
+  return isolation.memory_bytes + kMargin;
+}
+
 ScratchFolder::ScratchFolder(const fs::path& parent) {
   if (parent.empty()) return;
   std::string name = (fs::absolute(parent) / "hallway-plugin-XXXXXX").string();

@@ -82,8 +82,12 @@ class Server {
       case Request::kReport:
         write_outputs(writer, plugin_->report(reader.get<std::uint64_t>() != 0), 0);
         return plugin_->last_call();
+      case Request::kDescribe:
+        describe(read_start(reader), writer);
+        return {};
       case Request::kClose:
         plugin_.reset();  // and with it the library
+        library_.reset();
         return {};
       case Request::kProcess:
         break;
@@ -91,12 +95,22 @@ class Server {
     throw Error(ErrorCode::kPluginFault, "an unknown request");
   }
 
+  static std::vector<std::string> confine_as(const StartRequest& request) {
+    return confine({.data_bytes = request.data_bytes,
+                    .file_bytes = request.file_bytes,
+                    .open_files = 256,
+                    .scratch = request.scratch});
+  }
+
+  void describe(const StartRequest& request, ByteWriter& writer) {
+    confine_as(request);
+    library_ = Library::load(request.wanted);
+    write_infos(writer, library_->plugins());
+  }
+
   void start(const StartRequest& request, ByteWriter& writer) {
     StartReply reply;
-    reply.missing = confine({.data_bytes = request.data_bytes,
-                             .file_bytes = request.file_bytes,
-                             .open_files = 256,
-                             .scratch = request.scratch});
+    reply.missing = confine_as(request);
     const std::vector<std::filesystem::path> folders(request.folders.begin(), request.folders.end());
     plugin_ =
         std::make_unique<Plugin>(find_plugin(request.wanted, folders),
@@ -139,6 +153,7 @@ class Server {
   PluginChannel& channel_;
   FrameReader frames_;
   std::unique_ptr<Plugin> plugin_;
+  std::shared_ptr<const Library> library_;  ///< of kDescribe
 };
 
 }  // namespace

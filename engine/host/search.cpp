@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_file_name(std::string_view wanted) {
-  return wanted.find('/') != std::string_view::npos || wanted.ends_with(".so") ||
-         wanted.find(".so:") != std::string_view::npos;
-}
-
 std::vector<std::string> ids_of(const Library& library) {
   std::vector<std::string> ids;
   for (const PluginInfo& info : library.plugins()) ids.push_back(info.id);
@@ -49,39 +44,17 @@ Found find_in_file(std::string_view wanted) {
               {file.string()});
 }
 
-std::vector<fs::path> library_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code problem;
-  for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
-    if (it->path().extension() == ".so") files.push_back(it->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 std::string folder_text(const fs::path& folder) {
   std::error_code problem;
   return printable(folder.string()) + (fs::is_directory(folder, problem) ? "" : " (there is no such folder)");
 }
 
-[[noreturn]] void fail_not_found(std::string_view id, std::span<const fs::path> folders,
-                                 const std::vector<Listed>& listed) {
-  std::vector<std::string> places, ids, problems;
-  for (const fs::path& folder : folders) places.push_back(folder_text(folder));
-  for (const Listed& file : listed) {
-    for (const PluginInfo& info : file.plugins) ids.push_back(info.id);
-    if (!file.problem.empty()) problems.push_back(file.problem);
-  }
-  const auto list = [](const std::vector<std::string>& items) {
-    return items.empty() ? std::string("none") : fmt::format("{}", fmt::join(items, ", "));
-  };
-  std::string message = fmt::format("there is no plugin `{}`{}; folders searched: {}; ids found: {}",
-                                    printable(id), suggestion(id, ids), list(places), list(ids));
-  if (!problems.empty()) message += "; not loadable: " + list(problems);
-  throw Error(ErrorCode::kPluginLoad, message);
-}
-
 }  // namespace
+
+bool is_plugin_file(std::string_view wanted) {
+  return wanted.find('/') != std::string_view::npos || wanted.ends_with(".so") ||
+         wanted.find(".so:") != std::string_view::npos;
+}
 
 fs::path default_plugin_folder() {
   std::error_code problem;
@@ -91,7 +64,7 @@ fs::path default_plugin_folder() {
 }
 
 Found find_plugin(std::string_view wanted, std::span<const fs::path> folders) {
-  if (is_file_name(wanted)) return find_in_file(wanted);
+  if (is_plugin_file(wanted)) return find_in_file(wanted);
   for (const fs::path& folder : folders) {
     const fs::path file = folder / (std::string(wanted) + ".so");
     std::error_code problem;
@@ -110,19 +83,48 @@ Found find_plugin(std::string_view wanted, std::span<const fs::path> folders) {
   fail_not_found(wanted, folders, listed);
 }
 
+std::vector<fs::path> library_files(std::span<const fs::path> folders) {
+  std::vector<fs::path> all;
+  for (const fs::path& folder : folders) {
+    std::vector<fs::path> files;
+    std::error_code problem;
+    for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
+      if (it->path().extension() == ".so") files.push_back(it->path());
+    }
+    std::sort(files.begin(), files.end());
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  return all;
+}
+
 std::vector<Listed> list_plugins(std::span<const fs::path> folders) {
   std::vector<Listed> listed;
-  for (const fs::path& folder : folders) {
-    for (const fs::path& file : library_files(folder)) {
-      Listed& entry = listed.emplace_back(Listed{file, {}, {}});
-      try {
-        entry.plugins = Library::load(file)->plugins();
-      } catch (const Error& error) {
-        entry.problem = error.what();
-      }
+  for (const fs::path& file : library_files(folders)) {
+    Listed& entry = listed.emplace_back(Listed{.file = file});
+    try {
+      entry.plugins = Library::load(file)->plugins();
+    } catch (const Error& error) {
+      entry.problem = error.what();
     }
   }
   return listed;
+}
+
+void fail_not_found(std::string_view id, std::span<const fs::path> folders,
+                    const std::vector<Listed>& listed) {
+  std::vector<std::string> places, ids, problems;
+  for (const fs::path& folder : folders) places.push_back(folder_text(folder));
+  for (const Listed& file : listed) {
+    for (const PluginInfo& info : file.plugins) ids.push_back(info.id);
+    if (!file.problem.empty()) problems.push_back(file.problem);
+  }
+  const auto list = [](const std::vector<std::string>& items) {
+    return items.empty() ? std::string("none") : fmt::format("{}", fmt::join(items, ", "));
+  };
+  std::string message = fmt::format("there is no plugin `{}`{}; folders searched: {}; ids found: {}",
+                                    printable(id), suggestion(id, ids), list(places), list(ids));
+  if (!problems.empty()) message += "; not loadable: " + list(problems);
+  throw Error(ErrorCode::kPluginLoad, message);
 }
 
 }  // namespace hallway::host

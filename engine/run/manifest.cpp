@@ -124,6 +124,10 @@ Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
           {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
 }
 
+Json print_verdict(const host::Verdict& verdict) {
+  return print_failure({verdict, std::nullopt});
+}
+
 Json print_failure(const Failure& failure) {
   const host::Verdict& verdict = failure.verdict;
   Json json{{"what", host::misdeed_name(verdict.what)}, {"plugin", verdict.plugin}};
