@@ -13,9 +13,9 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "host/isolated_list.hpp"
 #include "host/isolated_plugin.hpp"
 #include "host/machine_profile.hpp"
-#include "host/search.hpp"
 #include "isolation_options.hpp"
 #include "record/version.hpp"
 #include "render/draw.hpp"
@@ -127,7 +127,7 @@ void look_at_helpers(Check& result) {
 void look_at_plugins(Check& result, const std::vector<fs::path>& folders) {
   std::size_t loadable = 0;
   std::string found;
-  for (const host::Listed& listed : host::list_libraries(folders)) {
+  for (const host::Listed& listed : host::list_plugins_isolated(folders, listing_isolation())) {
     for (const host::PluginInfo& info : listed.plugins) {
       ++loadable;
       found += fmt::format("{}{} {}", found.empty() ? "" : ", ", info.id, info.version);

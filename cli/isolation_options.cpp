@@ -64,4 +64,10 @@ std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
       .temporary = std::filesystem::temp_directory_path(problem)};
 }
 
+host::Isolation listing_isolation() {
+  host::Isolation isolation = *isolation_of({}, {});
+  isolation.call_time = std::chrono::seconds(10);
+  return isolation;
+}
+
 }  // namespace hallway::cli

@@ -32,4 +32,7 @@ std::vector<Override> overrides_of(const IsolationOptions& options);
 std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
                                             const host::PluginLimits& limits);
 
+/// For libraries that are only asked what is in them: with less time than a plugin that is run.
+host::Isolation listing_isolation();
+
 }  // namespace hallway::cli

@@ -7,7 +7,9 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "host/search.hpp"
+#include "host/isolated_list.hpp"
+#include "isolation_options.hpp"
+#include "run/manifest.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -37,6 +39,7 @@ Json describe(const host::Listed& listed) {
   }
   Json entry{{"file", printable(listed.file.string(), 4096)}, {"plugins", plugins}};
   if (!listed.problem.empty()) entry["problem"] = listed.problem;
+  if (listed.verdict) entry["verdict"] = run::print_verdict(*listed.verdict);
   return entry;
 }
 
@@ -47,8 +50,9 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
       text += fmt::format("{:<20} {:<10} {}\n{:<31} {}\n", info.id, info.version, info.description, "",
                           printable(listed.file.string(), 4096));
     }
-    if (!listed.problem.empty())
-      text += fmt::format("{:<20} {:<10} {}\n", "(not loadable)", "", listed.problem);
+    if (listed.problem.empty()) continue;
+    const std::string what = listed.verdict ? host::misdeed_name(listed.verdict->what) : "not loadable";
+    text += fmt::format("{:<20} {:<10} {}\n", "(" + what + ")", "", listed.problem);
   }
   if (!text.empty()) return text;
   text = "no plugins found; searched:\n";
@@ -58,7 +62,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
 
 int list(const ListOptions& options) {
   const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
-  const std::vector<host::Listed> files = host::list_libraries(folders);
+  const std::vector<host::Listed> files = host::list_plugins_isolated(folders, listing_isolation());
   if (!options.json) {
     print_result(table(files, folders));
     return 0;

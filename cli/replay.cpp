@@ -130,8 +130,10 @@ int replay(const ReplayOptions& options) {
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
-                          isolation_of(options.isolation, limits));
+  host::Pipeline pipeline =
+      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+                                isolation_of(options.isolation, limits));
+  std::vector<record::Failure> start_failures = record::start_plugins(pipeline, limits.on_failure);
   const run::ManifestFacts facts{.command = "replay",
                                  .name = input.name,
                                  .inputs = std::move(input.inputs),
@@ -146,7 +148,8 @@ int replay(const ReplayOptions& options) {
       .pictures = {},
       .write_observations = false,
       .lock_step = options.rate.has_value(),  // else frames would be waited for while answers are there
-      .on_failure = limits.on_failure};
+      .on_failure = limits.on_failure,
+      .start_failures = std::move(start_failures)};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
                             {.json = options.json, .quiet = options.quiet});
 }

@@ -108,11 +108,13 @@ std::string table_of(const Outcome& outcome) {
          table.text();
 }
 
-/// "slam_point 0.1.0" for each plugin of the pipeline.
-std::vector<std::string> plugin_names(host::Pipeline& pipeline) {
+/// "slam_point 0.1.0" for each plugin; of one that ended before it said its version its name alone.
+std::vector<std::string> plugin_names(const nlohmann::ordered_json& manifest) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < pipeline.size(); ++i) {
-    names.push_back(pipeline.stage(i).info().id + " " + pipeline.stage(i).info().version);
+  for (const auto& plugin : manifest.at("plugins")) {
+    names.push_back(plugin.at("id").get<std::string>());
+    const auto version = plugin.at("version").get<std::string>();
+    if (!version.empty()) names.back() += " " + version;
   }
   return names;
 }
@@ -125,7 +127,7 @@ int status_of(const run::RunResult& result) {
 
 /// Prints each failure and where it happened on standard error.
 void print_failures(const run::RunResult& result) {
-  for (const run::Failure& failure : result.verdicts) {
+  for (const record::Failure& failure : result.verdicts) {
     const std::string at = failure.iteration ? fmt::format("iteration {}: ", *failure.iteration) : "";
     fmt::print(stderr, "hallway: {}{}\n", at, failure.verdict.message);
     for (const std::string& line : failure.verdict.backtrace) fmt::print(stderr, "    {}\n", line);
@@ -170,7 +172,7 @@ int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run:
                      {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
   print_failures(result);
-  const Outcome outcome{report, plugin_names(pipeline), plan.folder, result};
+  const Outcome outcome{report, plugin_names(plan.manifest), plan.folder, result};
   if (style.json) {
     print_json(document_of(outcome));
   } else if (!style.quiet) {

@@ -86,8 +86,10 @@ int run_scenario(const RunOptions& options) {
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
   run::SimulatedSource source(simulator);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
-  host::Pipeline pipeline(scenario.pipeline, plugin_folders(options.plugin_path), sensors, print_plugin_log,
-                          isolation_of(options.isolation, scenario.limits));
+  host::Pipeline pipeline =
+      host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), sensors,
+                                print_plugin_log, isolation_of(options.isolation, scenario.limits));
+  std::vector<record::Failure> start_failures = record::start_plugins(pipeline, scenario.limits.on_failure);
 
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",
@@ -109,7 +111,8 @@ int run_scenario(const RunOptions& options) {
                     .pictures = scenario.pictures,
                     .write_observations = true,
                     .lock_step = true,
-                    .on_failure = scenario.limits.on_failure};
+                    .on_failure = scenario.limits.on_failure,
+                    .start_failures = std::move(start_failures)};
   for (const run::Attachment& model : models) plan.attachments.push_back(model);
   return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
                             {.json = options.json, .quiet = options.quiet});

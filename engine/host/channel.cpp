@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "host/byte_stream.hpp"
+#include "host/load_step.hpp"
 
 namespace hallway::host {
 namespace {
@@ -76,6 +77,7 @@ bool spin_until(Condition&& condition) {
 const char* call_name(Request request) {
   switch (request) {
     case Request::kStart:
+    case Request::kDescribe:
       return "load";
     case Request::kSetParameter:
       return "set";
@@ -93,6 +95,11 @@ const char* call_name(Request request) {
       return "close";
   }
   return "?";
+}
+
+const char* call_name(Request request, std::uint32_t load_step) {
+  const bool loads = request == Request::kStart || request == Request::kDescribe;
+  return loads ? load_step_name(load_step) : call_name(request);
 }
 
 HostChannel::HostChannel()

@@ -20,10 +20,14 @@ enum class Request : std::uint32_t {
   kProcess,       ///< a frame (frame_bytes.hpp)
   kReport,        ///< whether to refine
   kClose,         ///< end in good order
+  kDescribe,      ///< instead of kStart: confine yourself, load one file and say what is in it
 };
 
 /// The name of the plugin's function that a request calls, for messages: "process".
 const char* call_name(Request request);
+
+/// The same, of kStart and kDescribe the step that was begun last (load_step.hpp): "init".
+const char* call_name(Request request, std::uint32_t load_step);
 
 /// How the plugin's process answers.
 enum class Reply : std::uint32_t {
@@ -31,7 +35,7 @@ enum class Reply : std::uint32_t {
   kError,     ///< with an Error
 };
 
-inline constexpr std::uint32_t kChannelVersion = 2;
+inline constexpr std::uint32_t kChannelVersion = 4;
 
 /// Calls that may be under way at a time. Eight would do for two processors that have nothing else to do; more carry over the times in which a busy
 /// machine lets one side wait.

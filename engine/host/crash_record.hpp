@@ -14,6 +14,7 @@ struct CrashRecord {
   std::atomic<std::uint32_t> lines;            ///< of `text` that are complete
   std::atomic<std::uint32_t> complete;         ///< 1: there will be no more
   std::atomic<std::uint32_t> out_of_memory;    ///< 1: operator new has failed
+  std::atomic<std::uint32_t> load_step;        ///< a LoadStep: the last one that was begun
   std::array<std::array<char, 320>, 48> text;  ///< a backtrace, innermost first, each line ending with 0
 };
 

@@ -8,13 +8,11 @@
 
 #include "base/text.hpp"
 #include "host/frame_bytes.hpp"
+#include "host/isolated_list.hpp"
 #include "host/outputs_bytes.hpp"
 
 namespace hallway::host {
 namespace {
-
-/// Above the memory that is watched, so that a breach is seen before an allocation fails, but not by much.
-constexpr std::uint64_t kDataMargin = std::uint64_t{256} << 20;
 
 constexpr std::size_t kMaxText = 20'000;
 
@@ -23,9 +21,9 @@ constexpr std::size_t kMaxText = 20'000;
 IsolatedPlugin::IsolatedPlugin(const std::string& wanted, std::span<const std::filesystem::path> folders,
                                const Isolation& isolation, const LogSink& log)
     : process_(isolation, log, wanted) {
-  StartRequest request{.wanted = wanted,
+  StartRequest request{.wanted = find_plugin_file(wanted, folders, isolation),
                        .folders = {},
-                       .data_bytes = isolation.memory_bytes + kDataMargin,
+                       .data_bytes = data_limit(isolation),
                        .file_bytes = isolation.file_bytes,
                        .scratch = process_.scratch().string()};
   for (const std::filesystem::path& folder : folders) request.folders.push_back(folder.string());

@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "host/elf.hpp"
 #include "host/error_text.hpp"
+#include "host/load_step.hpp"
 
 namespace hallway::host {
 namespace {
@@ -35,6 +36,7 @@ auto guarded(const char* name, Call&& call) {
 }
 
 void* open_library(const std::filesystem::path& file) {
+  enter(LoadStep::kLoad);
   // An absolute path: a bare name would be looked for in the system's folders.
   if (void* handle = ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
   const char* reason = ::dlerror();
@@ -128,10 +130,12 @@ struct Library::Loaded {
   Loaded& operator=(const Loaded&) = delete;
 
   void start(const std::filesystem::path& file) {
+    enter(LoadStep::kInit);
     hw_error_t error = empty_error();
     const hw_status_t status = guarded("init", [&] { return entry->init(file.c_str(), &error); });
     if (status != HW_OK) fail("its init() failed: " + error_text(error, status));
     try {
+      enter(LoadStep::kDescribe);
       factory = find_factory<hw_plugin_factory_t>(*entry, HW_PLUGIN_FACTORY_ID);
       driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
       if (!factory && !driver_factory) {
@@ -223,6 +227,7 @@ const std::vector<DriverInfo>& Library::drivers() const {
 }
 
 hw_plugin_t Library::create(const PluginInfo& info, const hw_host_t& host) const {
+  enter(LoadStep::kCreate);
   return located(file_, fmt::format("plugin `{}`", info.id), [&] {
     const auto plugin = make<hw_plugin_t>(loaded_->factory, info.id, host);
     const hw_plugin_vtable_t* v = plugin.vtable;

@@ -33,13 +33,22 @@ void check_producers(const Stage& plugin, std::span<const SensorInfo> sensors) {
 
 Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
                    std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
-    : specs_(std::move(stages)),
-      folders_(std::move(folders)),
-      sensors_(std::move(sensors)),
-      log_(std::move(log)),
-      isolation_(std::move(isolation)) {
-  if (specs_.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
+    : Pipeline(unstarted(std::move(stages), std::move(folders), std::move(sensors), std::move(log),
+                         std::move(isolation))) {
   start();
+}
+
+Pipeline Pipeline::unstarted(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
+                             std::vector<SensorInfo> sensors, LogSink log,
+                             std::optional<Isolation> isolation) {
+  if (stages.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
+  Pipeline pipeline;
+  pipeline.specs_ = std::move(stages);
+  pipeline.folders_ = std::move(folders);
+  pipeline.sensors_ = std::move(sensors);
+  pipeline.log_ = std::move(log);
+  pipeline.isolation_ = std::move(isolation);
+  return pipeline;
 }
 
 std::unique_ptr<Stage> Pipeline::make_stage(const std::string& plugin) {
@@ -54,14 +63,30 @@ std::unique_ptr<Stage> Pipeline::make_stage(const std::string& plugin) {
 }
 
 void Pipeline::start() {
+  facts_.clear();
+  try {
+    prepare_stages();
+    for (const auto& plugin : stages_) plugin->activate(sensors_);
+  } catch (...) {
+    stages_.clear();
+    throw;
+  }
+  started_ = true;
+}
+
+void Pipeline::prepare_stages() {
   for (const StageSpec& spec : specs_) {
     Stage& plugin = *stages_.emplace_back(make_stage(spec.plugin));
+    const auto parameters = plugin.parameters();
+    facts_.push_back({plugin.info(), plugin.file(), {parameters.begin(), parameters.end()}, {}});
     for (const ParameterSetting& setting : spec.parameters) {
       plugin.set_parameter(setting.name, setting.value, setting.where);
     }
     check_producers(plugin, sensors_);
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < parameters.size(); ++i) values.push_back(plugin.parameter_text(i));
+    facts_.back().values = std::move(values);
   }
-  for (const auto& plugin : stages_) plugin->activate(sensors_);
 }
 
 std::size_t Pipeline::capacity() const {
@@ -101,6 +126,7 @@ void Pipeline::reset() {
 }
 
 void Pipeline::restart() {
+  started_ = false;
   stages_.clear();
   start();
 }

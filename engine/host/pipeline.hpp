@@ -26,6 +26,14 @@ struct StageSpec {
   std::vector<ParameterSetting> parameters;
 };
 
+/// What is known of a plugin that was made, also when it has ended.
+struct StageFacts {
+  PluginInfo info{};
+  std::filesystem::path file{};
+  std::vector<Parameter> parameters{};
+  std::vector<std::string> values{};  ///< of the parameters at activation; empty where it never came to that
+};
+
 /// Plugins in order, each fed with the samples of the kinds it needs. The last one's outputs are the
 /// pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
 class Pipeline {
@@ -37,6 +45,17 @@ class Pipeline {
   ///                   does not keep them from is logged once, as a warning
   Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
            std::vector<SensorInfo> sensors, LogSink log = {}, std::optional<Isolation> isolation = {});
+
+  /// The same, but starts nothing: restart() does.
+  static Pipeline unstarted(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
+                            std::vector<SensorInfo> sensors, LogSink log = {},
+                            std::optional<Isolation> isolation = {});
+
+  /// Whether the last start brought all plugins to activation.
+  bool started() const { return started_; }
+  const std::vector<StageSpec>& specs() const { return specs_; }
+  /// Of the plugins that the last start made, in order: fewer than specs() where it failed.
+  const std::vector<StageFacts>& facts() const { return facts_; }
 
   std::size_t size() const { return stages_.size(); }
   Stage& stage(std::size_t i) { return *stages_[i]; }
@@ -56,7 +75,8 @@ class Pipeline {
   const Outputs& report(bool refine);
   /// Forgets the maps.
   void reset();
-  /// Ends all plugins and makes new ones of the same files and parameters. Frames under way are forgotten. Throws as the constructor does.
+  /// Ends all plugins and makes new ones of the same files and parameters. Frames under way are forgotten. Throws as the constructor does; then
+  /// there are none.
   void restart();
   /// Ends all plugins in good order. Throws the PluginFailure of the first that does not end so.
   void close();
@@ -64,7 +84,9 @@ class Pipeline {
   const CallTime& last_call() const { return last_call_; }
 
  private:
+  Pipeline() = default;
   void start();
+  void prepare_stages();
   std::unique_ptr<Stage> make_stage(const std::string& plugin);
 
   std::vector<StageSpec> specs_;
@@ -73,6 +95,8 @@ class Pipeline {
   LogSink log_;
   std::optional<Isolation> isolation_;
   bool warned_ = false;
+  bool started_ = false;
+  std::vector<StageFacts> facts_;
   std::vector<std::unique_ptr<Stage>> stages_;
   CallTime last_call_;
 };

@@ -12,6 +12,7 @@
 
 #include "base/text.hpp"
 #include "host/error_text.hpp"
+#include "host/load_step.hpp"
 
 namespace hallway::host {
 namespace {
@@ -125,6 +126,7 @@ const Outputs& Plugin::timed(const char* name, Call&& call) {
 void Plugin::read_parameters() {
   const auto& vtable = *plugin_.vtable;
   const Where where{file().string(), 0, fmt::format("plugin `{}`", info().id)};
+  enter(LoadStep::kParameters);
   try {
     params_ = static_cast<const hw_params_t*>(vtable.get_extension(plugin_.self, HW_EXT_PARAMS));
     if (params_ == nullptr) return;

@@ -115,6 +115,18 @@ StartReply read_started(ByteReader& reader) {
   return reply;
 }
 
+void write_infos(ByteWriter& writer, std::span<const PluginInfo> infos) {
+  writer.put<std::uint64_t>(infos.size());
+  for (const PluginInfo& info : infos) write_info(writer, info);
+}
+
+std::vector<PluginInfo> read_infos(ByteReader& reader) {
+  std::vector<PluginInfo> infos(reader.get_count());
+  for (PluginInfo& info : infos) info = read_info(reader);
+  reader.expect_end();
+  return infos;
+}
+
 void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors) {
   writer.put<std::uint64_t>(sensors.size());
   for (const SensorInfo& sensor : sensors) {

@@ -36,6 +36,10 @@ struct StartReply {
 void write_started(ByteWriter& writer, const StartReply& reply);
 StartReply read_started(ByteReader& reader);
 
+/// The answer to kDescribe.
+void write_infos(ByteWriter& writer, std::span<const PluginInfo> infos);
+std::vector<PluginInfo> read_infos(ByteReader& reader);
+
 void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors);
 std::vector<SensorInfo> read_sensors(ByteReader& reader);
 

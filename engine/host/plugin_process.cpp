@@ -76,6 +76,11 @@ void open_packets(Pair& pair) {
 
 }  // namespace
 
+std::uint64_t data_limit(const Isolation& isolation) {
+  constexpr std::uint64_t kMargin = std::uint64_t{256} << 20;
+  return isolation.memory_bytes + kMargin;
+}
+
 ScratchFolder::ScratchFolder(const fs::path& parent) {
   if (parent.empty()) return;
   std::string name = (fs::absolute(parent) / "hallway-plugin-XXXXXX").string();
@@ -203,8 +208,9 @@ void PluginProcess::fail(Request request, Verdict verdict, const std::string& wh
   if (verdict.what == Misdeed::kCrash || verdict.what == Misdeed::kTimeout) {
     verdict.backtrace = read_crash_record(channel_.crash());
   }
+  const std::uint32_t load_step = channel_.crash().load_step;
   end();
-  verdict.call = call_name(request);
+  verdict.call = call_name(request, load_step);
   verdict.plugin = plugin_;
   verdict.message = fmt::format("{}(): {}", verdict.call, what);
   throw PluginFailure(ErrorCode::kPluginFault, verdict.message, where_, verdict);

@@ -17,6 +17,9 @@ namespace hallway::host {
 /// The program that PluginProcess starts, found by find_helper().
 inline constexpr const char* kPluginProgram = "hallway-plugin";
 
+/// The limit on private memory of a plugin's process: above what is watched, so that a breach is seen before an allocation fails, but not by much.
+std::uint64_t data_limit(const Isolation& isolation);
+
 /// A folder of our own that is removed with everything in it.
 class ScratchFolder {
  public:

@@ -15,6 +15,7 @@
 #include "base/sandbox.hpp"
 #include "host/channel.hpp"
 #include "host/frame_bytes.hpp"
+#include "host/load_step.hpp"
 #include "host/outputs_bytes.hpp"
 #include "host/plugin.hpp"
 #include "host/plugin_messages.hpp"
@@ -49,13 +50,13 @@ class Server {
       } else {
         time = perform(call.request, reader, writer);
       }
-      if (!writer.fits()) throw too_much(call);
+      if (!writer.fits())
+        throw failure(call, fmt::format("put more than {} bytes in one call", call.room.size()));
       channel_.answer(Reply::kDone, writer.size(), time->wall_ns, time->cpu_ns);
     } catch (const Error& error) {
       answer_error(call, error);
     } catch (const std::bad_alloc&) {
-      answer_error(call, Error(ErrorCode::kPluginFault,
-                               fmt::format("{}(): there is no memory left", call_name(call.request))));
+      answer_error(call, failure(call, "there is no memory left"));
     }
     return call.request != Request::kClose;
   }
@@ -81,8 +82,12 @@ class Server {
       case Request::kReport:
         write_outputs(writer, plugin_->report(reader.get<std::uint64_t>() != 0), 0);
         return plugin_->last_call();
+      case Request::kDescribe:
+        describe(read_start(reader), writer);
+        return {};
       case Request::kClose:
         plugin_.reset();  // and with it the library
+        library_.reset();
         return {};
       case Request::kProcess:
         break;
@@ -90,12 +95,22 @@ class Server {
     throw Error(ErrorCode::kPluginFault, "an unknown request");
   }
 
+  static std::vector<std::string> confine_as(const StartRequest& request) {
+    return confine({.data_bytes = request.data_bytes,
+                    .file_bytes = request.file_bytes,
+                    .open_files = 256,
+                    .scratch = request.scratch});
+  }
+
+  void describe(const StartRequest& request, ByteWriter& writer) {
+    confine_as(request);
+    library_ = Library::load(request.wanted);
+    write_infos(writer, library_->plugins());
+  }
+
   void start(const StartRequest& request, ByteWriter& writer) {
     StartReply reply;
-    reply.missing = confine({.data_bytes = request.data_bytes,
-                             .file_bytes = request.file_bytes,
-                             .open_files = 256,
-                             .scratch = request.scratch});
+    reply.missing = confine_as(request);
     const std::vector<std::filesystem::path> folders(request.folders.begin(), request.folders.end());
     plugin_ =
         std::make_unique<Plugin>(find_plugin(request.wanted, folders),
@@ -120,13 +135,13 @@ class Server {
     return plugin_->last_call();
   }
 
-  PluginFailure too_much(const PluginChannel::Call& call) const {
-    const std::string message =
-        fmt::format("{}(): put more than {} bytes in one call", call_name(call.request), call.room.size());
-    return {ErrorCode::kPluginFault,
-            message,
-            {plugin_->file().string(), 0, fmt::format("plugin `{}`", plugin_->info().id)},
-            {.what = Misdeed::kFault, .call = call_name(call.request), .message = message}};
+  PluginFailure failure(const PluginChannel::Call& call, const std::string& what) const {
+    const std::string name = call_name(call.request, channel_.crash().load_step);
+    const std::string message = fmt::format("{}(): {}", name, what);
+    Where where;
+    if (plugin_) where = {plugin_->file().string(), 0, fmt::format("plugin `{}`", plugin_->info().id)};
+    return {
+        ErrorCode::kPluginFault, message, where, {.what = Misdeed::kFault, .call = name, .message = message}};
   }
 
   void answer_error(const PluginChannel::Call& call, const Error& error) {
@@ -138,6 +153,7 @@ class Server {
   PluginChannel& channel_;
   FrameReader frames_;
   std::unique_ptr<Plugin> plugin_;
+  std::shared_ptr<const Library> library_;  ///< of kDescribe
 };
 
 }  // namespace
@@ -147,6 +163,7 @@ void serve_plugin(long parent) {
     if (!end_with_parent(parent)) ::_exit(1);
     PluginChannel channel(kRequestDescriptor, kReplyDescriptor);
     keep_crash_record(channel.crash());
+    note_load_steps_in(&channel.crash().load_step);
     ::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is an error of write()
     Server server(channel);
     while (server.serve()) {

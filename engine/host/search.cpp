@@ -66,24 +66,14 @@ typename Kind::Result find_in_file(std::string_view wanted) {
               {file.string()});
 }
 
-std::vector<fs::path> library_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code problem;
-  for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
-    if (it->path().extension() == ".so") files.push_back(it->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 std::string folder_text(const fs::path& folder) {
   std::error_code problem;
   return printable(folder.string()) + (fs::is_directory(folder, problem) ? "" : " (there is no such folder)");
 }
 
 template <typename Kind>
-[[noreturn]] void fail_not_found(std::string_view id, std::span<const fs::path> folders,
-                                 const std::vector<Listed>& listed) {
+[[noreturn]] void fail_to_find(std::string_view id, std::span<const fs::path> folders,
+                               const std::vector<Listed>& listed) {
   std::vector<std::string> places, ids, problems;
   for (const fs::path& folder : folders) places.push_back(folder_text(folder));
   for (const Listed& file : listed) {
@@ -112,7 +102,7 @@ typename Kind::Result find_wanted(std::string_view wanted, std::span<const fs::p
     auto library = Library::load(file.file);
     if (const auto* info = with_id(Kind::of(*library), wanted)) return {library, info};
   }
-  fail_not_found<Kind>(wanted, folders, listed);
+  fail_to_find<Kind>(wanted, folders, listed);
 }
 
 /// A folder that lies so to that of the executable.
@@ -146,21 +136,38 @@ FoundDriver find_driver(std::string_view wanted, std::span<const fs::path> folde
   return find_wanted<Drivers>(wanted, folders);
 }
 
+std::vector<fs::path> library_files(std::span<const fs::path> folders) {
+  std::vector<fs::path> all;
+  for (const fs::path& folder : folders) {
+    std::vector<fs::path> files;
+    std::error_code problem;
+    for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
+      if (it->path().extension() == ".so") files.push_back(it->path());
+    }
+    std::sort(files.begin(), files.end());
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  return all;
+}
+
 std::vector<Listed> list_libraries(std::span<const fs::path> folders) {
   std::vector<Listed> listed;
-  for (const fs::path& folder : folders) {
-    for (const fs::path& file : library_files(folder)) {
-      Listed& entry = listed.emplace_back(Listed{file, {}, {}, {}});
-      try {
-        const auto library = Library::load(file);
-        entry.plugins = library->plugins();
-        entry.drivers = library->drivers();
-      } catch (const Error& error) {
-        entry.problem = error.what();
-      }
+  for (const fs::path& file : library_files(folders)) {
+    Listed& entry = listed.emplace_back(Listed{.file = file});
+    try {
+      const auto library = Library::load(file);
+      entry.plugins = library->plugins();
+      entry.drivers = library->drivers();
+    } catch (const Error& error) {
+      entry.problem = error.what();
     }
   }
   return listed;
+}
+
+void fail_not_found(std::string_view id, std::span<const fs::path> folders,
+                    const std::vector<Listed>& listed) {
+  fail_to_find<Plugins>(id, folders, listed);
 }
 
 }  // namespace hallway::host

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/library.hpp"
+#include "host/verdict.hpp"
 
 namespace hallway::host {
 
@@ -43,16 +45,23 @@ struct FoundDriver {
 /// Finds a driver as find_plugin() finds a plugin.
 FoundDriver find_driver(std::string_view wanted, std::span<const std::filesystem::path> folders);
 
+/// All .so files of the folders, in the order of the folders and of their names. A folder that does not exist has none.
+std::vector<std::filesystem::path> library_files(std::span<const std::filesystem::path> folders);
+
 /// One library file of a folder.
 struct Listed {
-  std::filesystem::path file;
-  std::vector<PluginInfo> plugins;  ///< empty where it could not be loaded
-  std::vector<DriverInfo> drivers;  ///< the same
-  std::string problem;              ///< why it could not be loaded; else empty
+  std::filesystem::path file{};
+  std::vector<PluginInfo> plugins{};  ///< empty where it could not be loaded
+  std::vector<DriverInfo> drivers{};  ///< the same
+  std::string problem{};              ///< why it could not be loaded, or what it did then; else empty
+  std::optional<Verdict> verdict{};   ///< where it misbehaved in a process of its own
 };
 
-/// All .so files of the folders, in the order of the folders and of their names. A folder that does not exist
-/// has none.
+/// What is in library_files(), each loaded into this process and unloaded.
 std::vector<Listed> list_libraries(std::span<const std::filesystem::path> folders);
+
+/// Throws the Error{kPluginLoad} of find_plugin() for an id that is in none of them.
+[[noreturn]] void fail_not_found(std::string_view id, std::span<const std::filesystem::path> folders,
+                                 const std::vector<Listed>& listed);
 
 }  // namespace hallway::host

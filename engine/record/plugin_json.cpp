@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/table_reader.hpp"
+#include "base/text.hpp"
 #include "host/plugin_table.hpp"
 
 namespace hallway::record {
@@ -20,6 +21,34 @@ std::string origin_of(const std::vector<ParameterOrigin>& origins, const std::st
   return origin;
 }
 
+Json describe(const std::vector<ParameterOrigin>& origins, const host::StageFacts& plugin) {
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < plugin.values.size(); ++i) {
+    const host::Parameter& parameter = plugin.parameters[i];
+    parameters.push_back({{"name", parameter.name},
+                          {"value", plugin.values[i]},
+                          {"unit", parameter.unit},
+                          {"origin", origin_of(origins, plugin.info.id, parameter.name)}});
+  }
+  return {{"id", plugin.info.id},
+          {"version", plugin.info.version},
+          {"hash", content_hash(read_file(plugin.file))},
+          {"parameters", parameters}};
+}
+
+/// One that ended before it could say what it is: what was asked for.
+Json describe(const std::vector<ParameterOrigin>& origins, const host::StageSpec& wanted) {
+  const std::string id = printable(host::short_plugin_name(wanted.plugin));
+  Json parameters = Json::array();
+  for (const host::ParameterSetting& setting : wanted.parameters) {
+    parameters.push_back({{"name", printable(setting.name)},
+                          {"value", printable(setting.value)},
+                          {"unit", ""},
+                          {"origin", origin_of(origins, id, setting.name)}});
+  }
+  return {{"id", id}, {"version", ""}, {"hash", nullptr}, {"parameters", parameters}};
+}
+
 }  // namespace
 
 std::vector<ParameterOrigin> origins_of(std::span<const host::StageSpec> stages) {
@@ -34,19 +63,20 @@ std::vector<ParameterOrigin> origins_of(std::span<const host::StageSpec> stages)
   return origins;
 }
 
-Json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin) {
-  Json parameters = Json::array();
-  for (std::size_t i = 0; i < plugin.parameters().size(); ++i) {
-    const host::Parameter& parameter = plugin.parameters()[i];
-    parameters.push_back({{"name", parameter.name},
-                          {"value", plugin.parameter_text(i)},
-                          {"unit", parameter.unit},
-                          {"origin", origin_of(origins, plugin.info().id, parameter.name)}});
+Json print_plugins(const std::vector<ParameterOrigin>& origins, const host::Pipeline& pipeline) {
+  Json plugins = Json::array();
+  for (std::size_t i = 0; i < pipeline.specs().size(); ++i) {
+    const bool known = i < pipeline.facts().size();
+    const bool asked = known && pipeline.facts()[i].values.size() == pipeline.facts()[i].parameters.size();
+    Json plugin = describe(origins, pipeline.specs()[i]);
+    if (known) {
+      Json said = describe(origins, pipeline.facts()[i]);
+      if (!asked) said["parameters"] = plugin["parameters"];
+      plugin = std::move(said);
+    }
+    plugins.push_back(std::move(plugin));
   }
-  return {{"id", plugin.info().id},
-          {"version", plugin.info().version},
-          {"hash", content_hash(read_file(plugin.file()))},
-          {"parameters", parameters}};
+  return plugins;
 }
 
 Json print_verdict(const host::Verdict& verdict, std::optional<std::uint32_t> iteration) {

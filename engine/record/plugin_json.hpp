@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "host/pipeline.hpp"
-#include "host/stage.hpp"
 #include "host/verdict.hpp"
 
 namespace hallway::record {
@@ -24,8 +23,10 @@ struct ParameterOrigin {
 /// Where the parameters of a pipeline's plugins were set, by the file and line of each.
 std::vector<ParameterOrigin> origins_of(std::span<const host::StageSpec> stages);
 
-/// A plugin as run.json has it: id, version, hash of its file, parameters. Throws Error{kIo} if the file cannot be read.
-nlohmann::ordered_json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin);
+/// The plugins of a pipeline as run.json has them: id, version, hash of the file, parameters. Of one that ended before it could
+/// say what it is, what was asked for. Throws Error{kIo} if a file cannot be read.
+nlohmann::ordered_json print_plugins(const std::vector<ParameterOrigin>& origins,
+                                     const host::Pipeline& pipeline);
 
 /// A verdict, as run.json and the command line's documents have it.
 /// @param iteration  of its frame; unset where it was no call of process()

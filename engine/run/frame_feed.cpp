@@ -8,24 +8,17 @@
 
 namespace hallway::run {
 
-const char* on_failure_name(sim::OnFailure policy) {
-  switch (policy) {
-    case sim::OnFailure::kStop:
-      return "stop";
-    case sim::OnFailure::kContinue:
-      return "continue";
-    case sim::OnFailure::kRestart:
-      return "restart";
-  }
-  return "stop";
-}
-
 FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& plan)
     : source_(source),
       pipeline_(pipeline),
       policy_(plan.on_failure),
-      window_(plan.lock_step ? 1 : static_cast<std::uint32_t>(pipeline.capacity())),
-      frames_(window_) {}
+      window_(plan.lock_step || !pipeline.started() ? 1 : static_cast<std::uint32_t>(pipeline.capacity())),
+      alive_(pipeline.started()),
+      frames_(window_) {
+  told_.verdicts = plan.start_failures;
+  told_.failures = plan.start_failures.size();
+  told_.restarts = alive_ && told_.failures != 0 ? 1 : 0;
+}
 
 bool FrameFeed::has_next() const {
   const bool ended = !alive_ && policy_ == sim::OnFailure::kStop;
@@ -43,7 +36,7 @@ void FrameFeed::submit() {
 void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& take) {
   const std::uint32_t end = last ? done_ + 1 : std::min(source_.iterations() - done_, window_) + done_;
   FrameAnswer answer{.iteration = done_, .frame = frames_[done_ % window_]};
-  std::optional<host::Verdict> failure = guarded([&] {
+  std::optional<host::Verdict> failure = record::verdict_of([&] {
     while (submitted_ < end) submit();
     if (!alive_) return;
     answer.outputs = &pipeline_.collect();
@@ -59,26 +52,15 @@ void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& t
 }
 
 void FrameFeed::restart() {
-  if (auto failure = guarded([&] { pipeline_.restart(); })) {
-    note(std::move(*failure), std::nullopt);
-    return;
-  }
-  ++told_.restarts;
-  alive_ = true;
-}
-
-std::optional<host::Verdict> FrameFeed::guarded(const std::function<void()>& work) {
+  std::vector<Failure> failures;
   try {
-    work();
-    return std::nullopt;
-  } catch (const host::PluginFailure& failure) {
-    host::Verdict verdict = failure.verdict();
-    verdict.message = failure.what();
-    return verdict;
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kPluginFault) throw;
-    return host::Verdict{.message = error.what()};
+    failures = record::start_plugins(pipeline_, policy_);
+  } catch (const Error& error) {  // its file is another one now, or it refuses what it took before
+    failures.push_back({{.call = "load", .message = error.what()}, std::nullopt});
   }
+  for (Failure& failure : failures) note(std::move(failure.verdict), std::nullopt);
+  alive_ = pipeline_.started();
+  if (alive_) ++told_.restarts;
 }
 
 void FrameFeed::note(host::Verdict verdict, std::optional<std::uint32_t> iteration) {
@@ -92,13 +74,13 @@ void FrameFeed::note(host::Verdict verdict, std::optional<std::uint32_t> iterati
 const host::Outputs* FrameFeed::report(bool refine) {
   if (!alive_) return nullptr;
   const host::Outputs* outputs = nullptr;
-  if (auto failure = guarded([&] { outputs = &pipeline_.report(refine); }))
+  if (auto failure = record::verdict_of([&] { outputs = &pipeline_.report(refine); }))
     note(std::move(*failure), std::nullopt);
   return outputs;
 }
 
 void FrameFeed::close() {
-  if (auto failure = guarded([&] { pipeline_.close(); })) note(std::move(*failure), std::nullopt);
+  if (auto failure = record::verdict_of([&] { pipeline_.close(); })) note(std::move(*failure), std::nullopt);
 }
 
 void FrameFeed::tell(RunResult& result) const {

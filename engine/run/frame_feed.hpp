@@ -46,7 +46,6 @@ class FrameFeed {
 
  private:
   void submit();
-  std::optional<host::Verdict> guarded(const std::function<void()>& work);
   void note(host::Verdict verdict, std::optional<std::uint32_t> iteration);
   void restart();
 
@@ -54,7 +53,7 @@ class FrameFeed {
   host::Pipeline& pipeline_;
   sim::OnFailure policy_;
   std::uint32_t window_;
-  bool alive_ = true;
+  bool alive_;
   std::uint32_t submitted_ = 0;
   std::uint32_t done_ = 0;
   host::FrameBuilder builder_;

@@ -37,10 +37,10 @@ std::string compiler_name() {
 #endif
 }
 
-Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
+Json describe_host(const ManifestFacts& facts, const host::Pipeline& pipeline) {
   Json files = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    files.push_back(printable(pipeline.stage(i).file().string(), 4096));
+  for (const host::StageFacts& plugin : pipeline.facts())
+    files.push_back(printable(plugin.file.string(), 4096));
   return {{"cpu", cpu_name()},
           {"threads", facts.threads},
           {"trace", trace::backend_description(facts.trace)},
@@ -52,7 +52,7 @@ Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
 
 }  // namespace
 
-Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
+Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
   Json inputs = Json::array();
   for (const Attachment& input : facts.inputs) {
     inputs.push_back({{"file", printable(input.name)}, {"hash", content_hash(input.content)}});
@@ -61,14 +61,15 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   for (const sim::Setting& setting : facts.settings) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
-  Json plugins = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    plugins.push_back(record::print_plugin(facts.parameters, pipeline.stage(i)));
   return {{"schema", "hallway.run/1"},  {"hallway", record::version()},
           {"command", facts.command},   {"name", facts.name},
           {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", plugins},
+          {"settings", settings},       {"plugins", record::print_plugins(facts.parameters, pipeline)},
           {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
+}
+
+Json print_verdict(const host::Verdict& verdict) {
+  return print_failure({verdict, std::nullopt});
 }
 
 Json print_failure(const Failure& failure) {
@@ -76,7 +77,7 @@ Json print_failure(const Failure& failure) {
 }
 
 void describe_failures(sim::OnFailure policy, const RunResult& result, Json& manifest) {
-  manifest["on_failure"] = on_failure_name(policy);
+  manifest["on_failure"] = host::on_failure_name(policy);
   manifest["failures"] = result.failures;
   manifest["restarts"] = result.restarts;
   manifest["verdict"] = result.verdicts.empty() ? Json(nullptr) : print_failure(result.verdicts.front());

@@ -32,7 +32,10 @@ struct ManifestFacts {
 
 /// run.json, schema "hallway.run/1", as far as it is known before the first iteration (docs/formats.md). Everything that
 /// may differ between two runs of the same input stands under `host`.
-nlohmann::ordered_json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline);
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline);
+
+/// A verdict on a plugin in no iteration, as documents have it.
+nlohmann::ordered_json print_verdict(const host::Verdict& verdict);
 
 /// A verdict, as run.json and the command line's documents have it.
 nlohmann::ordered_json print_failure(const Failure& failure);

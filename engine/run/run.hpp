@@ -10,7 +10,7 @@
 
 #include "eval/metrics.hpp"
 #include "host/pipeline.hpp"
-#include "host/verdict.hpp"
+#include "record/failure.hpp"
 #include "run/source.hpp"
 #include "sim/scenario.hpp"
 
@@ -22,8 +22,7 @@ struct Attachment {
   std::string content;
 };
 
-/// "stop", "continue", "restart".
-const char* on_failure_name(sim::OnFailure policy);
+using record::Failure;
 
 /// What a run leaves behind, and where.
 struct RunPlan {
@@ -36,18 +35,13 @@ struct RunPlan {
   bool write_observations = false;  ///< also the input, in the form that replay reads
   bool lock_step = true;            ///< one frame at a time; else as many as the pipeline takes are under way
   sim::OnFailure on_failure = sim::OnFailure::kStop;  ///< what becomes of it when a plugin fails
+  std::vector<Failure> start_failures{};              ///< what start_plugins() has given
 };
 
 /// What the caller is told and asked while a run goes on.
 struct RunHooks {
   std::function<void(std::uint32_t done)> progress;  ///< after each iteration
   std::function<bool()> stop;  ///< true ends the run after the iterations so far, in good order
-};
-
-/// A failure of the pipeline.
-struct Failure {
-  host::Verdict verdict;
-  std::optional<std::uint32_t> iteration;  ///< of its frame; unset where it was no call of process()
 };
 
 /// How a run went.
@@ -67,7 +61,8 @@ struct RunResult {
 ///
 /// The folder appears whole or not at all. Same source, pipeline and plan give the same bytes, but for timing.csv,
 /// metrics.json: iteration_ms, iteration_cpu_ms and run.json: host.
-/// A plugin that fails ends the run or not, as the plan says; the folder is written in any case, with the verdict in run.json.
+/// A plugin that fails ends the run or not, as the plan says; the folder is written in any case, with the verdict in run.json. A pipeline that
+/// start_plugins() could not start answers no frame.
 /// Throws Error{kIo} if the folder cannot be written, which is checked first.
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks);
 

@@ -236,17 +236,20 @@ TEST_F(DeadlyPlugins, WhatItChangesOfItsSurroundingsIsNotOurs) {
 }
 
 TEST_F(DeadlyPlugins, FaultsBeforeThereIsAPluginNameTheFile) {
-  const std::vector<std::pair<std::string, Misdeed>> files{
-      {"crashes_in_static_constructor.so", Misdeed::kCrash},
-      {"crashes_in_init.so", Misdeed::kCrash},
-      {"exits_in_init.so", Misdeed::kExit},
-      {"hangs_in_init.so", Misdeed::kTimeout}};
-  for (const auto& [file, what] : files) {
+  struct File {
+    const char* name;
+    Misdeed what;
+    const char* call;
+  };
+  for (const auto& [file, what, call] :
+       {File{"crashes_in_static_constructor.so", Misdeed::kCrash, "load"},
+        File{"crashes_in_init.so", Misdeed::kCrash, "init"}, File{"exits_in_init.so", Misdeed::kExit, "init"},
+        File{"hangs_in_init.so", Misdeed::kTimeout, "init"}}) {
     hangs_ = what == Misdeed::kTimeout;
     const Run run = this->run(file);
     ASSERT_TRUE(run.failure) << file;
     EXPECT_STREQ(misdeed_name(run.failure->verdict().what), misdeed_name(what)) << file;
-    EXPECT_EQ(run.failure->verdict().call, "load");
+    EXPECT_EQ(run.failure->verdict().call, call);
     EXPECT_NE(std::string(run.failure->what()).find(file), std::string::npos) << run.failure->what();
   }
 }

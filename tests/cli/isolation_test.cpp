@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -179,13 +180,98 @@ TEST(Isolation, WhatAPluginWritesNeverReachesStandardOutput) {
   EXPECT_LT(ended.err.size(), 100'000u);
 }
 
-TEST(Isolation, APluginThatDiesWhileItIsLoadedIsAFailureWithoutAFolder) {
+/// A run of the plugin `dies_in_call`, which does so in that way.
+test::Ended run_dying(const test::SmallWorld& world, const std::string& call, const std::string& how,
+                      std::vector<std::string> more = {}, const std::string& name = "run") {
+  ::setenv("HALLWAY_DIES_IN", call.c_str(), 1);
+  ::setenv("HALLWAY_DIES_BY", how.c_str(), 1);
+  more.insert(more.end(), {"--plugin", fixture("dies_in_call")});
+  const test::Ended ended = world.run(more, name);
+  ::unsetenv("HALLWAY_DIES_IN");
+  ::unsetenv("HALLWAY_DIES_BY");
+  return ended;
+}
+
+TEST(Isolation, APluginThatDiesBeforeTheFirstFrameLeavesARunFolderThatSaysWhere) {
   const test::SmallWorld world;
-  const test::Ended ended = world.run({"--plugin", fixture("crashes_in_init")});
-  EXPECT_EQ(ended.status, 5);
-  EXPECT_NE(ended.err.find("load(): crashed with signal 6"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("crashes_in_init.so"), std::string::npos) << ended.err;
-  EXPECT_FALSE(fs::exists(world.out()));
+  for (const char* call : {"load", "init", "describe", "create", "parameters", "set", "get", "activate"}) {
+    const test::Ended ended =
+        run_dying(world, call, "abort", {"--set", "dies_in_call.flag=true", "--json"}, call);
+    EXPECT_EQ(ended.status, 5) << call << ": " << ended.err;
+    EXPECT_NE(ended.err.find(std::string(call) + "(): crashed with signal 6"), std::string::npos)
+        << ended.err;
+    EXPECT_EQ(Json::parse(ended.out).at("verdict").at("call"), call);
+    const Json run = read_json(fs::path(world.out(call)) / "run.json");
+    EXPECT_EQ(run.at("failures"), 1);
+    EXPECT_EQ(run.at("iterations"), 0);
+    EXPECT_EQ(run.at("verdict").at("what"), "crash");
+    EXPECT_EQ(run.at("verdict").at("call"), call);
+    EXPECT_EQ(run.at("verdict").at("iteration"), nullptr);
+    EXPECT_EQ(run.at("plugins").at(0).at("id"), "dies_in_call");
+    EXPECT_EQ(run.at("plugins").at(0).at("parameters").at(0).at("value"), "true") << "what it was given";
+    EXPECT_EQ(test::hallway({"log", "info", world.out(call)}).status, 0);
+  }
+}
+
+TEST(Isolation, EveryWayOfDyingBeforeTheFirstFrameIsAVerdict) {
+  const test::SmallWorld world;
+  for (const std::string call : {"init", "create", "activate"}) {
+    const auto what_of = [&](const char* how) {
+      const std::string name = call + "-" + how;
+      EXPECT_EQ(run_dying(world, call, how, {"--call-timeout", "2"}, name).status, 5) << name;
+      const Json verdict = read_json(fs::path(world.out(name)) / "run.json").at("verdict");
+      // One that writes over the memory in which it answers writes over the step of loading that it is in.
+      const bool hidden = std::string_view(how) == "scribble" && call != "activate";
+      EXPECT_EQ(verdict.at("call"), hidden ? "load" : call);
+      return verdict.at("what").get<std::string>();
+    };
+    EXPECT_EQ(what_of("exit"), "exit");
+    if (call == "create") {
+      EXPECT_EQ(what_of("hang"), "timeout");
+    }
+    EXPECT_EQ(what_of("scribble"), "protocol");
+  }
+  EXPECT_EQ(run_dying(world, "activate", "fail").status, 5);
+  EXPECT_EQ(read_json(fs::path(world.out()) / "run.json").at("verdict").at("what"), "fault");
+  EXPECT_EQ(run_dying(world, "create", "fail", {}, "refused").status, 4) << "it says that it cannot be made";
+  EXPECT_FALSE(fs::exists(world.out("refused")));
+}
+
+TEST(Isolation, AFailedStartIsPartOfReplaysAndIsReplayed) {
+  const test::SmallWorld world;
+  ASSERT_EQ(world.run({"--quiet"}, "good").status, 0);
+  ::setenv("HALLWAY_DIES_IN", "activate", 1);
+  ::setenv("HALLWAY_DIES_BY", "exit", 1);
+  const test::Ended ended = test::hallway({"replay", world.out("good") + "/run.mcap", "--plugin",
+                                           fixture("dies_in_call"), "--out", world.out("again")});
+  ::unsetenv("HALLWAY_DIES_IN");
+  ::unsetenv("HALLWAY_DIES_BY");
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const Json run = read_json(fs::path(world.out("again")) / "run.json");
+  EXPECT_EQ(run.at("verdict").at("call"), "activate");
+  EXPECT_EQ(run.at("verdict").at("exit_status"), 3);
+  EXPECT_EQ(test::hallway({"render", world.out("again"), "--out", world.out("a.png")}).status, 0);
+}
+
+TEST(Isolation, ContinueRecordsTheInputOfAPluginThatDidNotStart) {
+  const test::SmallWorld world;
+  EXPECT_EQ(run_dying(world, "activate", "abort", {"--on-failure", "continue"}).status, 5);
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("iterations"), 60);
+  EXPECT_EQ(run.at("failures"), 1);
+  EXPECT_EQ(read_json(fs::path(world.out()) / "metrics.json").at("lost_iterations"), 60);
+  EXPECT_EQ(test::hallway({"replay", world.out(), "--plugin", "slam_point", "--out", world.out("b")}).status,
+            0);
+}
+
+TEST(Isolation, APluginThatDoesNotStartIsTriedThreeTimesAndNoMore) {
+  const test::SmallWorld world;
+  EXPECT_EQ(run_dying(world, "create", "exit", {"--on-failure", "restart"}).status, 5);
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("failures"), 3);
+  EXPECT_EQ(run.at("restarts"), 0);
+  EXPECT_EQ(run.at("verdicts").size(), 3u);
+  EXPECT_EQ(run.at("iterations"), 60) << "as with continue";
 }
 
 TEST(Isolation, WrongLimitsAreWrongUse) {

@@ -112,6 +112,59 @@ TEST(PluginList, AsJson) {
   EXPECT_TRUE(found);
 }
 
+/// A folder of plugins of which two end the process that loads or unloads them, and one is no plugin.
+void write_bad_company(const TempFolder& folder) {
+  for (const char* name : {"crashes_in_static_constructor", "crashes_in_shutdown", "minimal"}) {
+    std::filesystem::copy_file(fixture(name), folder / ("a_" + std::string(name) + ".so"));
+  }
+  folder.write("a_text.so", "text");
+}
+
+TEST(PluginList, ALibraryThatCrashesIsALineAndTheOthersAreListed) {
+  const TempFolder folder;
+  write_bad_company(folder);
+  const Ended ended = hallway({"plugin", "list", "--plugin-path", folder.path()});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("a_crashes_in_static_constructor.so: load(): crashed with signal 6"),
+            std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("a_crashes_in_shutdown.so: close(): crashed with signal 6"), std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("\n(crash) "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("\n(not loadable) "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("slam_point"), std::string::npos) << ended.out;
+  const auto files =
+      nlohmann::json::parse(hallway({"plugin", "list", "--plugin-path", folder.path(), "--json"}).out)
+          .at("files");
+  EXPECT_EQ(files.at(0).at("verdict").at("what"), "crash");
+  EXPECT_EQ(files.at(0).at("verdict").at("call"), "close");
+  EXPECT_EQ(files.at(0).at("plugins").at(0).at("id"), "minimal");
+  EXPECT_EQ(files.at(1).at("verdict").at("signal"), 6);
+  EXPECT_TRUE(files.at(1).at("plugins").empty());
+  EXPECT_FALSE(files.at(2).contains("problem"));
+  EXPECT_FALSE(files.at(3).contains("verdict")) << "it was never run";
+  EXPECT_NE(hallway({"doctor", "--plugin-path", folder.path()}).out.find("crashed with signal 6"),
+            std::string::npos);
+}
+
+TEST(PluginOption, AnIdIsFoundAmongLibrariesThatCrash) {
+  const SmallWorld world;
+  const TempFolder folder;
+  write_bad_company(folder);
+  std::filesystem::remove(folder / "a_crashes_in_shutdown.so");  // of the same id
+  EXPECT_EQ(world.run({"--plugin", "minimal", "--plugin-path", folder.path()}).status, 0);
+  EXPECT_EQ(hallway({"plugin", "info", "minimal", "--plugin-path", folder.path()}).status, 0);
+  const Ended ended = world.run({"--plugin", "minimum", "--plugin-path", folder.path()}, "none");
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_NE(ended.err.find("crashed with signal 6"), std::string::npos) << ended.err;
+}
+
+TEST(PluginInfo, OfOneThatCrashesIsAVerdict) {
+  const Ended ended = hallway({"plugin", "info", fixture("crashes_in_static_constructor")});
+  EXPECT_EQ(ended.status, 5);
+  EXPECT_NE(ended.err.find("load(): crashed with signal 6"), std::string::npos) << ended.err;
+}
+
 TEST(PluginCheck, SaysThatAPluginLoadsHereAndWhatItNeeds) {
   const TempFolder folder;
   const std::string file = binary_folder() / "lib/hallway/plugins/slam_point.so";
