@@ -33,6 +33,7 @@ struct ReplayOptions {
   std::string out;
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
+  bool foxglove = false;
   bool force = false;
   bool json = false;
   bool quiet = false;
@@ -122,7 +123,9 @@ int replay(const ReplayOptions& options) {
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+  const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
+  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors,
+                          plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                           isolation_of(options.isolation, limits));
   const run::ManifestFacts facts{.command = "replay",
                                  .name = input.name,
@@ -137,8 +140,9 @@ int replay(const ReplayOptions& options) {
       .attachments = {},
       .pictures = {},
       .write_observations = false,
-      .lock_step = false,
-      .on_failure = limits.on_failure};
+      .lock_step = options.foxglove,  // so that what a plugin logs belongs to its frame
+      .on_failure = limits.on_failure,
+      .foxglove = plugin_log};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
                             {.json = options.json, .quiet = options.quiet});
 }
@@ -184,6 +188,8 @@ void add_replay_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
   add_plugin_path_option(*command, options->plugin_path);
   add_isolation_options(*command, options->isolation);
+  command->add_flag("--foxglove", options->foxglove,
+                    "Add channels to run.mcap that show the run in Foxglove");
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");

@@ -49,10 +49,16 @@ const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iterati
 }
 
 LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source, const Json& manifest)
-    : writer_(output, "hallway " + version(), manifest_text(manifest)),
-      has_identities_(source.has_identities()) {
+    : writer_(output, "hallway " + version(), manifest_text(manifest)), source_(source) {
   writer_.add_activation(activation_text(source, manifest));
   if (source.true_landmarks()) writer_.add_true_landmarks(*source.true_landmarks());
+}
+
+void LogRecorder::add_view(bool has_answers) {
+  view_.emplace(writer_.file(),
+                foxglove::ViewOptions{.first_id = log::kFirstOtherId, .has_answers = has_answers});
+  view_->set_sensors({&source_.sensor(), 1});
+  if (source_.true_landmarks()) view_->set_true_landmarks(*source_.true_landmarks());
 }
 
 void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth) {
@@ -60,30 +66,39 @@ void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth
   bytes_.resize(host::frame_bytes_size(given));
   host::write_frame_bytes(given, std::as_writable_bytes(std::span(bytes_)));
   writer_.add_frame(stamp_, bytes_);
-  if (has_identities_) {
+  if (view_) view_->add_frame(stamp_, given);
+  if (source_.has_identities()) {
     ids_.clear();
     for (const log::Observation& seen : truth.observations) ids_.push_back(seen.landmark);
     writer_.add_identities(stamp_, ids_);
   }
   if (!truth.T_world_body) return;
   const Pose& pose = *truth.T_world_body;
-  writer_.add_true_pose(stamp_, {.iteration = stamp_.iteration,
-                                 .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
-                                 .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()},
-                                 .orientation_known = truth.orientation_known});
+  const log::IterationPose true_pose{.iteration = stamp_.iteration,
+                                     .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
+                                     .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()},
+                                     .orientation_known = truth.orientation_known};
+  writer_.add_true_pose(stamp_, true_pose);
+  if (view_) view_->add_true_pose(stamp_, true_pose);
 }
 
 void LogRecorder::record_answer(const host::Outputs& outputs) {
-  if (outputs.pose()) writer_.add_pose(stamp_, answer_of(*outputs.pose()));
+  if (outputs.pose()) {
+    const log::PoseAnswer pose = answer_of(*outputs.pose());
+    writer_.add_pose(stamp_, pose);
+    if (view_) view_->add_pose(stamp_, pose);
+  }
   if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
 }
 
 void LogRecorder::record_map(std::span<const log::MapLandmark> landmarks,
                              std::span<const log::IdPair> submap_members) {
   writer_.add_map(stamp_, landmarks, submap_members);
+  if (view_) view_->add_map(stamp_, landmarks, submap_members);
 }
 
 void LogRecorder::finish() {
+  if (view_) view_->finish();
   writer_.finish();
 }
 

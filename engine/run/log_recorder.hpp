@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "foxglove/view.hpp"
 #include "host/frame_builder.hpp"
 #include "host/outputs.hpp"
 #include "log/run_log.hpp"
@@ -20,9 +22,15 @@ const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iterati
 /// own, what is true. Same run, same bytes. All functions throw Error{kIo}.
 class LogRecorder {
  public:
-  /// Writes the facts of the run. Keeps a reference to `output`.
+  /// Writes the facts of the run. Keeps references to `output` and `source`.
   /// @param manifest  run.json as known before the first frame; its member `host` is left out
   LogRecorder(log::ByteOutput& output, const Source& source, const nlohmann::ordered_json& manifest);
+
+  /// Shows the run in Foxglove too, in channels beside its own; before the first frame.
+  /// @param has_answers  whether record_answer() will be called
+  void add_view(bool has_answers);
+  /// What add_view() made, for what is shown and not recorded; null without it.
+  foxglove::View* view() { return view_ ? &*view_ : nullptr; }
 
   /// A frame as the plugins get it, and what is true of it.
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
@@ -35,7 +43,8 @@ class LogRecorder {
 
  private:
   log::RunLogWriter writer_;
-  bool has_identities_;
+  const Source& source_;
+  std::optional<foxglove::View> view_;
   log::FrameStamp stamp_;
   std::string bytes_;
   std::vector<log::LandmarkId> ids_;
