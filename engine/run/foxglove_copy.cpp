@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "run/foxglove_copy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -45,10 +47,11 @@ Survey survey(const log::ByteInput& input) {
     found.has_frames = found.has_frames || channel->topic == log::topics::kFrame;
     found.options.has_answers = found.options.has_answers || channel->topic == log::topics::kPose;
   }
-  if (last_id >= found.options.first_id) {
-    found.options.first_id = last_id;
-    if (last_id != std::numeric_limits<std::uint16_t>::max()) ++found.options.first_id;
+  constexpr std::uint16_t kRoom = 1000;
+  if (last_id > std::numeric_limits<std::uint16_t>::max() - kRoom) {
+    bad(fmt::format("has a channel or schema {}, above which no view has room", last_id));
   }
+  if (last_id >= found.options.first_id) found.options.first_id = static_cast<std::uint16_t>(last_id + 1);
   return found;
 }
 
