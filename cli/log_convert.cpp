@@ -10,6 +10,7 @@
 #include "log/landmarks.hpp"
 #include "log/poses.hpp"
 #include "log_command.hpp"
+#include "log_foxglove.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
 #include "record/output_folder.hpp"
@@ -28,8 +29,15 @@ using Json = nlohmann::ordered_json;
 struct ConvertOptions {
   LogChoice choice;
   std::string out;
+  bool foxglove = false;
   bool force = false;
   bool json = false;
+};
+
+/// What was written.
+struct Converted {
+  std::uint32_t frames = 0;
+  std::vector<std::string> warnings{};
 };
 
 /// The facts of the run that wrote the log or, where nobody knows them, those of the log itself.
@@ -43,6 +51,7 @@ Json manifest_of(const OpenedLog& opened) {
 void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
   NewFile file(options.out, options.force);
   run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
+  if (options.foxglove) recorder.add_view(false);
   host::FrameBuilder builder;
   run::SourceFrame frame;
   for (std::uint32_t i = 0; i < opened.source->iterations(); ++i) {
@@ -96,21 +105,40 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   folder.commit();
 }
 
-int convert(const ConvertOptions& options) {
+/// An MCAP log is not recorded anew for a view of it, but copied: the view shows the answers, too.
+Converted copy_with_view(const ConvertOptions& options, const fs::path& log) {
+  NewFile file(options.out, options.force);
+  Converted converted;
+  converted.frames = write_with_foxglove(options.choice, log, file.output(), converted.warnings);
+  file.commit();
+  return converted;
+}
+
+Converted convert_input(const ConvertOptions& options) {
+  const bool to_mcap = fs::path(options.out).extension() == ".mcap";
+  if (options.foxglove && !to_mcap) throw Error(ErrorCode::kUsage, "--foxglove is for an .mcap file");
+  if (options.foxglove) {
+    if (const auto log = recorded_log(options.choice.log)) return copy_with_view(options, *log);
+  }
   OpenedLog opened = open_log(options.choice);
-  if (fs::path(options.out).extension() == ".mcap") {
+  if (to_mcap) {
     write_mcap(opened, options);
   } else {
     write_folder(opened, options);
   }
+  return {opened.source->iterations(), opened.warnings};
+}
+
+int convert(const ConvertOptions& options) {
+  const Converted converted = convert_input(options);
   if (options.json) {
     print_json({{"schema", "hallway.log_convert/1"},
                 {"status", 0},
                 {"written", printable(options.out, 4096)},
-                {"frames", opened.source->iterations()},
-                {"warnings", opened.warnings}});
+                {"frames", converted.frames},
+                {"warnings", converted.warnings}});
   } else {
-    print_result(fmt::format("{}: {} frames\n", printable(options.out, 4096), opened.source->iterations()));
+    print_result(fmt::format("{}: {} frames\n", printable(options.out, 4096), converted.frames));
   }
   return 0;
 }
@@ -141,12 +169,15 @@ void add_log_convert_command(CLI::App& group, Action& chosen) {
                    "Seconds from frame to frame of a CSV log [the run's, else 0.1]")
       ->type_name("S")
       ->check(CLI::Range(1e-6, 1e6));
+  command->add_flag("--foxglove", options->foxglove,
+                    "Add channels that show the log in Foxglove; of an MCAP log all that it has is kept");
   command->add_flag("--force", options->force, "Replace what is there");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
-      "What plugins answered is not carried over: it is the replay that answers anew.\n"
+      "Without --foxglove, what plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
-      "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap");
+      "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
+      "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap");
   command->callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
 }
 

@@ -123,11 +123,7 @@ OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
 }
 
 OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string content) {
-  if (!choice.true_poses.empty() || !choice.true_landmarks.empty() || choice.period_s) {
-    throw Error(ErrorCode::kUsage,
-                "an MCAP log holds its own truth and times: --truth-poses, --truth-landmarks and --period "
-                "are for CSV");
-  }
+  check_no_csv_options(choice);
   OpenedLog opened;
   opened.inputs.push_back({path.filename().string(), std::move(content)});
   run::RecordedRun run;
@@ -153,6 +149,14 @@ OpenedLog open_log(const LogChoice& choice) {
   const fs::path path = log_file(choice.log);
   if (path.extension() != ".mcap") return open_csv(choice, path);
   return open_mcap(choice, path, read_file(path));
+}
+
+void check_no_csv_options(const LogChoice& choice) {
+  if (!choice.true_poses.empty() || !choice.true_landmarks.empty() || choice.period_s) {
+    throw Error(ErrorCode::kUsage,
+                "an MCAP log holds its own truth and times: --truth-poses, --truth-landmarks and --period "
+                "are for CSV");
+  }
 }
 
 fs::path mcap_file(const std::string& path) {

@@ -37,6 +37,9 @@ struct OpenedLog {
 /// the form of the log do not fit.
 OpenedLog open_log(const LogChoice& choice);
 
+/// Throws Error{kUsage} where options are given that an MCAP log has no use for.
+void check_no_csv_options(const LogChoice& choice);
+
 /// The MCAP file that a path names: itself, or the log of a run folder.
 std::filesystem::path mcap_file(const std::string& path);
 

@@ -36,6 +36,7 @@ struct ReplayOptions {
   std::string out;
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
+  bool foxglove = false;
   bool force = false;
   bool json = false;
   bool quiet = false;
@@ -130,8 +131,10 @@ int replay(const ReplayOptions& options) {
   Stages stages = stages_of(options, input);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
+  const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
-      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), sensors,
+                                plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, limits.on_failure);
   const run::ManifestFacts facts{.command = "replay",
@@ -147,9 +150,11 @@ int replay(const ReplayOptions& options) {
       .attachments = {},
       .pictures = {},
       .write_observations = false,
-      .lock_step = options.rate.has_value(),  // else frames would be waited for while answers are there
+      // At their own pace frames would be waited for while answers are there; what a plugin logs belongs to its frame.
+      .lock_step = options.rate.has_value() || options.foxglove,
       .on_failure = limits.on_failure,
-      .start_failures = std::move(start_failures)};
+      .start_failures = std::move(start_failures),
+      .foxglove = plugin_log};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
                             {.json = options.json, .quiet = options.quiet});
 }
@@ -201,6 +206,8 @@ void add_replay_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
   add_plugin_path_option(*command, options->plugin_path);
   add_isolation_options(*command, options->isolation);
+  command->add_flag("--foxglove", options->foxglove,
+                    "Add channels to run.mcap that show the run in Foxglove");
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");

@@ -35,6 +35,7 @@ struct RunOptions {
   unsigned threads = hardware_threads();
   IsolationOptions isolation;
   bool strict = false;
+  bool foxglove = false;
   bool force = false;
   bool json = false;
   bool quiet = false;
@@ -86,9 +87,11 @@ int run_scenario(const RunOptions& options) {
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
   run::SimulatedSource source(simulator);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
+  const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
       host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), sensors,
-                                print_plugin_log, isolation_of(options.isolation, scenario.limits));
+                                plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
+                                isolation_of(options.isolation, scenario.limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, scenario.limits.on_failure);
 
   const std::string name = fs::path(scenario.file).stem().string();
@@ -112,7 +115,8 @@ int run_scenario(const RunOptions& options) {
                     .write_observations = true,
                     .lock_step = true,
                     .on_failure = scenario.limits.on_failure,
-                    .start_failures = std::move(start_failures)};
+                    .start_failures = std::move(start_failures),
+                    .foxglove = plugin_log};
   for (const run::Attachment& model : models) plan.attachments.push_back(model);
   return execute_and_report(source, pipeline, plan, {.name = name, .warnings = warnings},
                             {.json = options.json, .quiet = options.quiet});
@@ -151,6 +155,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1u, 1024u));
   add_isolation_options(*command, options->isolation);
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
+  command->add_flag("--foxglove", options->foxglove,
+                    "Add channels to run.mcap that show the run in Foxglove");
   command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");

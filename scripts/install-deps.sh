@@ -8,8 +8,8 @@ packages=(
   # build
   cmake g++ clang libclang-rt-14-dev make ninja-build pkg-config
   # libraries
-  libassimp-dev libedit-dev libeigen3-dev libembree-dev libgmp-dev libmuparser-dev libosmesa6-dev libtbb-dev libtinygltf-dev libcli11-dev libfmt-dev libtomlplusplus-dev
-  nlohmann-json3-dev libpng-dev libstb-dev libxxhash-dev libzstd-dev zlib1g-dev fonts-dejavu-core
+  libassimp-dev libedit-dev libeigen3-dev libembree-dev libgmp-dev libmuparser-dev libosmesa6-dev libprotobuf-dev libtbb-dev libtinygltf-dev libcli11-dev libfmt-dev libtomlplusplus-dev
+  nlohmann-json3-dev libpng-dev libstb-dev libxxhash-dev libzstd-dev protobuf-compiler zlib1g-dev fonts-dejavu-core
   # tests and benchmarks
   libgtest-dev libbenchmark-dev python3 python3-numpy binutils
   # make format, make lint

@@ -35,6 +35,9 @@ inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< ho
 inline constexpr std::string_view kMap = "/hallway/output/map";          ///< at the end, as re-solved
 }  // namespace topics
 
+/// Ids of channels and schemas below this one are the run's own.
+inline constexpr std::uint16_t kFirstOtherId = 1000;
+
 /// Whether the messages of a topic are of the whole log and not of a moment.
 bool is_of_whole_log(std::string_view topic);
 
@@ -82,6 +85,9 @@ class RunLogWriter {
   /// Writes what is left and the index.
   void finish();
 
+  /// The file itself, for channels beside the run's own: their ids and those of their schemas are kFirstOtherId or more.
+  McapWriter& file() { return writer_; }
+
  private:
   void add(std::string_view topic, const FrameStamp& stamp, std::string_view data);
 
@@ -114,6 +120,21 @@ using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage,
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.
 RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message);
+
+struct PoseMessage {
+  std::uint32_t iteration = 0;
+  PoseAnswer pose;
+};
+struct MapMessage {
+  std::vector<MapLandmark> landmarks;
+  std::vector<IdPair> submap_members;
+};
+
+/// What a plugin answered; std::monostate for all else.
+using AnswerMessage = std::variant<std::monostate, PoseMessage, MapMessage>;
+
+/// What a message says, by its channel's topic. Throws as parse_run_message() does.
+AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message);
 
 /// The manifest that RunLogWriter was given, from its metadata record; empty for one of another name.
 std::optional<std::string> manifest_of(const McapMetadata& metadata);

@@ -75,6 +75,37 @@ TrueLandmarksMessage true_landmarks(const Json& json) {
   return message;
 }
 
+PoseMessage pose_answer(const Json& json) {
+  PoseMessage message{.iteration = iteration_of(json), .pose = {}};
+  const std::string status = json.at("status").get<std::string>();
+  if (status != "valid" && status != "lost") bad("a status that is none");
+  message.pose.valid = status == "valid";
+  if (!message.pose.valid) return message;
+  const Json& pose = json.at("T_map_body");
+  message.pose.position_m = numbers<3>(pose.at("position_m"));
+  message.pose.orientation = numbers<4>(pose.at("orientation_wxyz"));
+  if (!is_unit(message.pose.orientation)) bad("a quaternion that is not of unit length");
+  return message;
+}
+
+MapMessage map_answer(const Json& json) {
+  MapMessage message;
+  for (const Json& entry : json.at("landmarks")) {
+    const auto status = landmark_status(entry.at("status").get<std::string>());
+    if (!status) bad("a status that is none");
+    message.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
+                                 .position_m = numbers<3>(entry.at("position_m")),
+                                 .observations = whole(entry.at("observations"), UINT64_MAX),
+                                 .status = *status});
+  }
+  for (const Json& submap : json.at("submaps")) {
+    const std::uint64_t id = whole(submap.at("id"), UINT64_MAX);
+    for (const Json& landmark : submap.at("landmark_ids"))
+      message.submap_members.push_back({id, whole(landmark, kNoLandmark - 1)});
+  }
+  return message;
+}
+
 RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kFrame) return FrameMessage{data};
   if (topic == topics::kActivation) return ActivationMessage{std::string(data)};
@@ -84,6 +115,24 @@ RunMessage parse(std::string_view topic, std::string_view data) {
   return {};
 }
 
+AnswerMessage parse_answer(std::string_view topic, std::string_view data) {
+  if (topic == topics::kPose) return pose_answer(parse_json(data));
+  if (topic == topics::kMap) return map_answer(parse_json(data));
+  return {};
+}
+
+/// Whatever goes wrong names the topic.
+template <typename Parse>
+auto parse_message(const McapChannel& channel, const McapMessage& message, Parse parse) {
+  try {
+    return parse(std::string_view(channel.topic), message.data);
+  } catch (const Json::exception& failure) {
+    bad(printable(channel.topic) + ": " + printable(failure.what()));
+  } catch (const Error& error) {
+    bad(printable(channel.topic) + ": " + error.message());
+  }
+}
+
 }  // namespace
 
 bool is_of_whole_log(std::string_view topic) {
@@ -91,13 +140,11 @@ bool is_of_whole_log(std::string_view topic) {
 }
 
 RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message) {
-  try {
-    return parse(channel.topic, message.data);
-  } catch (const Json::exception& failure) {
-    bad(printable(channel.topic) + ": " + printable(failure.what()));
-  } catch (const Error& error) {
-    bad(printable(channel.topic) + ": " + error.message());
-  }
+  return parse_message(channel, message, parse);
+}
+
+AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message) {
+  return parse_message(channel, message, parse_answer);
 }
 
 std::optional<std::string> manifest_of(const McapMetadata& metadata) {

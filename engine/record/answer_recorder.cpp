@@ -32,13 +32,13 @@ std::string activation_text(const LogFacts& facts) {
                   {"sensors", std::move(sensors)}});
 }
 
-log::PoseAnswer answer_of(const host::PoseOutput& pose) {
+}  // namespace
+
+log::PoseAnswer pose_answer(const host::PoseOutput& pose) {
   const auto& t = pose.T_map_body.position;
   const auto& q = pose.T_map_body.orientation;
   return {pose.valid, {t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}};
 }
-
-}  // namespace
 
 AnswerRecorder::AnswerRecorder(log::ByteOutput& output, const LogFacts& facts)
     : writer_(output, "hallway " + version(), manifest_text(facts.manifest)) {
@@ -53,7 +53,7 @@ void AnswerRecorder::record_frame(const hw_frame_t& frame) {
 }
 
 void AnswerRecorder::record_answer(const host::Outputs& outputs) {
-  if (outputs.pose()) writer_.add_pose(stamp_, answer_of(*outputs.pose()));
+  if (outputs.pose()) writer_.add_pose(stamp_, pose_answer(*outputs.pose()));
   if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
   if (const auto& command = outputs.drive_command())
     writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});

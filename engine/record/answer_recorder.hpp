@@ -24,6 +24,9 @@ struct LogFacts {
   bool has_identities = false;  ///< whether the observations' true landmarks are recorded too
 };
 
+/// A pose as logs have it.
+log::PoseAnswer pose_answer(const host::PoseOutput& pose);
+
 /// Records into an MCAP log (docs/formats.md) what plugins are given and what they answer. Same calls, same bytes. All functions
 /// throw Error{kIo}.
 class AnswerRecorder {

@@ -41,7 +41,9 @@ class FrameFeed {
   /// Ends the pipeline in good order.
   void close();
 
-  /// The failures so far, in `result`.
+  /// The failures so far, RunResult::kMaxVerdicts at most.
+  const std::vector<Failure>& failures() const { return told_.verdicts; }
+  /// The same and their number, in `result`.
   void tell(RunResult& result) const;
 
  private:

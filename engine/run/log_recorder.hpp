@@ -2,8 +2,10 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
+#include "foxglove/view.hpp"
 #include "host/frame_builder.hpp"
 #include "host/outputs.hpp"
 #include "record/answer_recorder.hpp"
@@ -19,22 +21,29 @@ const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iterati
 /// own, what is true. Same run, same bytes. All functions throw Error{kIo}.
 class LogRecorder {
  public:
-  /// Writes the facts of the run. Keeps a reference to `output`.
+  /// Writes the facts of the run. Keeps references to `output` and `source`.
   /// @param manifest  run.json as known before the first frame; its member `host` is left out
   LogRecorder(log::ByteOutput& output, const Source& source, const nlohmann::ordered_json& manifest);
+
+  /// Shows the run in Foxglove too, in channels beside its own; before the first frame.
+  /// @param has_answers  whether record_answer() will be called
+  void add_view(bool has_answers);
+  /// What add_view() made, for what is shown and not recorded; null without it.
+  foxglove::View* view() { return view_ ? &*view_ : nullptr; }
 
   /// A frame as the plugins get it, and what is true of it.
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
   /// What the pipeline answered to the frame that was recorded last.
-  void record_answer(const host::Outputs& outputs) { recorder_.record_answer(outputs); }
+  void record_answer(const host::Outputs& outputs);
   /// The map at the end.
-  void record_map(const record::FinalMap& map) { recorder_.record_map(map); }
+  void record_map(const record::FinalMap& map);
   /// Writes what is left and the index.
-  void finish() { recorder_.finish(); }
+  void finish();
 
  private:
   record::AnswerRecorder recorder_;
-  bool has_identities_;
+  const Source& source_;
+  std::optional<foxglove::View> view_;
   std::vector<log::LandmarkId> ids_;
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "run/run.hpp"
 
+#include <hallway/ext/log.h>
+
 #include <algorithm>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -150,6 +153,50 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
   return manifest;
 }
 
+/// Shows in Foxglove what plugins log and how they fail, where the plan wants that.
+class EventView {
+ public:
+  EventView(const RunPlan& plan, const FrameFeed& feed, LogRecorder& recorder)
+      : log_(plan.foxglove.get()), feed_(feed), recorder_(recorder) {
+    if (log_ != nullptr) recorder.add_view(true);
+  }
+
+  /// What is new since the last call, at the time of the last frame.
+  void update() {
+    if (log_ == nullptr) return;
+    foxglove::View& view = *recorder_.view();
+    for (const foxglove::LogLine& line : log_->take()) view.add_log(line);
+    for (; shown_ < feed_.failures().size(); ++shown_) {
+      const host::Verdict& verdict = feed_.failures()[shown_].verdict;
+      view.add_log({HW_LOG_ERROR, verdict.plugin, verdict.message});
+    }
+  }
+
+  /// By name, which is the order in which `hallway log convert` finds them.
+  void add_pictures(const std::map<std::string, std::string>& pictures) {
+    if (log_ == nullptr) return;
+    for (const auto& [name, png] : pictures) recorder_.view()->add_picture(name, png);
+  }
+
+ private:
+  PluginLog* log_;
+  const FrameFeed& feed_;
+  LogRecorder& recorder_;
+  std::size_t shown_ = 0;  ///< failures
+};
+
+/// The pictures that the plan wants, by name.
+std::map<std::string, std::string> draw_pictures(const fs::path& folder, const RunPlan& plan) {
+  std::map<std::string, std::string> pictures;
+  if (plan.pictures.empty()) return pictures;
+  const Record record = read_record(folder);
+  for (const sim::PictureSpec& picture : plan.pictures) {
+    pictures[picture.file] = draw_run_picture(record, picture);
+    write_file_atomically(folder / picture.file, pictures[picture.file]);
+  }
+  return pictures;
+}
+
 }  // namespace
 
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
@@ -160,6 +207,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   host::FrameBuilder builder;
   Tally tally(source, plan.write_observations);
   FrameFeed feed(source, pipeline, plan);
+  EventView events(plan, feed, recorder);
   RunResult result;
   while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
     feed.next(result.stopped, [&](const FrameAnswer& answer) {
@@ -167,6 +215,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
       if (answer.outputs != nullptr) recorder.record_answer(*answer.outputs);
       tally.add(answer);
     });
+    events.update();
     if (hooks.progress) hooks.progress(feed.done());
     result.stopped = result.stopped || (hooks.stop && hooks.stop());
   }
@@ -174,9 +223,9 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const host::Outputs* refined_outputs = feed.report(true);
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
-  recorder.finish();
   feed.close();
   feed.tell(result);
+  events.update();
   result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
   result.submaps = refined.submaps;
 
@@ -187,13 +236,10 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   log::write_timing(folder / files::kTiming, tally.collected().times);
   write_json(folder / files::kMetrics, eval::to_json(result.metrics));
   write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
-  if (!plan.pictures.empty()) {
-    const Record record = read_record(folder);
-    for (const sim::PictureSpec& picture : plan.pictures) {
-      write_file_atomically(folder / picture.file, draw_run_picture(record, picture));
-      result.pictures.push_back(output.path() / picture.file);
-    }
-  }
+  events.add_pictures(draw_pictures(folder, plan));
+  for (const sim::PictureSpec& picture : plan.pictures)
+    result.pictures.push_back(output.path() / picture.file);
+  recorder.finish();
   output.commit();
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "eval/metrics.hpp"
 #include "host/pipeline.hpp"
 #include "record/failure.hpp"
+#include "run/plugin_log.hpp"
 #include "run/source.hpp"
 #include "sim/scenario.hpp"
 
@@ -36,6 +38,8 @@ struct RunPlan {
   bool lock_step = true;            ///< one frame at a time; else as many as the pipeline takes are under way
   sim::OnFailure on_failure = sim::OnFailure::kStop;  ///< what becomes of it when a plugin fails
   std::vector<Failure> start_failures{};              ///< what start_plugins() has given
+  /// Set: the log shows the run in Foxglove too, with what the plugins have logged here.
+  std::shared_ptr<PluginLog> foxglove{};
 };
 
 /// What the caller is told and asked while a run goes on.

@@ -33,11 +33,12 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "host"}},
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
+    {"engine/foxglove", {"base", "geom", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
-      "eval", "render", "hallway"}},
+      "foxglove", "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
     {"robot", {"base", "host", "log", "record", "hallway"}},
@@ -47,7 +48,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
+                                       "log",   "record", "foxglove", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
 
 struct Include {
   fs::path file;
@@ -96,10 +97,12 @@ TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
       if (include.target == "muParser.h") users["muParser"].insert(include.file.string());
       if (include.target.starts_with("editline/")) users["libedit"].insert(include.file.string());
       if (include.target == "zstd.h") users["zstd"].insert(include.file.string());
+      if (include.target.starts_with("google/protobuf/") || include.target.ends_with(".pb.h"))
+        users["Protobuf"].insert(include.file.string());
       if (include.target == "gmp.h") users["GMP"].insert(include.file.string());
     }
   }
-  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd"}) {
+  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd", "Protobuf"}) {
     EXPECT_EQ(users[library].size(), 1u) << library;
   }
 }

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "foxglove/messages.hpp"
+
+#include <google/protobuf/descriptor.pb.h>
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <hallway/ext/log.h>
+
+#include <bit>
+#include <set>
+
+#include "base/error.hpp"
+#include "foxglove/CompressedImage.pb.h"
+#include "foxglove/FrameTransform.pb.h"
+#include "foxglove/Log.pb.h"
+#include "foxglove/PointCloud.pb.h"
+#include "foxglove/PoseInFrame.pb.h"
+#include "foxglove/SceneUpdate.pb.h"
+
+namespace hallway::foxglove {
+namespace {
+
+namespace pb = ::google::protobuf;
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+const pb::Descriptor& descriptor_of(Schema schema) {
+  switch (schema) {
+    case Schema::kPointCloud:
+      return *::foxglove::PointCloud::descriptor();
+    case Schema::kFrameTransform:
+      return *::foxglove::FrameTransform::descriptor();
+    case Schema::kPoseInFrame:
+      return *::foxglove::PoseInFrame::descriptor();
+    case Schema::kSceneUpdate:
+      return *::foxglove::SceneUpdate::descriptor();
+    case Schema::kLog:
+      return *::foxglove::Log::descriptor();
+    case Schema::kCompressedImage:
+      return *::foxglove::CompressedImage::descriptor();
+  }
+  throw Error(ErrorCode::kInternal, "an unknown schema");
+}
+
+/// Protobuf promises the same bytes for the same message only when asked to.
+std::string bytes_of(const pb::MessageLite& message) {
+  std::string bytes;
+  pb::io::StringOutputStream stream(&bytes);
+  pb::io::CodedOutputStream coded(&stream);
+  coded.SetSerializationDeterministic(true);
+  if (!message.SerializeToCodedStream(&coded)) {
+    throw Error(ErrorCode::kInternal, "a message that Protobuf does not write");
+  }
+  coded.Trim();
+  return bytes;
+}
+
+void add_file(const pb::FileDescriptor& file, std::set<std::string>& added, pb::FileDescriptorSet& files) {
+  if (!added.insert(file.name()).second) return;
+  for (int i = 0; i < file.dependency_count(); ++i) add_file(*file.dependency(i), added, files);
+  file.CopyTo(files.add_file());
+}
+
+void set(pb::Timestamp& time, std::int64_t t_ns) {
+  time.set_seconds(t_ns / kNanosecondsPerSecond);
+  time.set_nanos(static_cast<std::int32_t>(t_ns % kNanosecondsPerSecond));
+}
+
+/// A foxglove.Vector3 or foxglove.Point3.
+template <typename Vector>
+void set(Vector& vector, const Vec3& value) {
+  vector.set_x(value.x());
+  vector.set_y(value.y());
+  vector.set_z(value.z());
+}
+
+void set(::foxglove::Quaternion& quaternion, const Quat& value) {
+  quaternion.set_x(value.x());
+  quaternion.set_y(value.y());
+  quaternion.set_z(value.z());
+  quaternion.set_w(value.w());
+}
+
+void set(::foxglove::Pose& pose, const Pose& value) {
+  set(*pose.mutable_position(), value.t);
+  set(*pose.mutable_orientation(), value.q);
+}
+
+void set(::foxglove::Color& colour, const Colour& value) {
+  colour.set_r(value.red);
+  colour.set_g(value.green);
+  colour.set_b(value.blue);
+  colour.set_a(1.0);
+}
+
+void add_field(::foxglove::PointCloud& cloud, const char* name) {
+  ::foxglove::PackedElementField& field = *cloud.add_fields();
+  field.set_name(name);
+  field.set_offset(cloud.point_stride());
+  field.set_type(::foxglove::PackedElementField::FLOAT32);
+  cloud.set_point_stride(cloud.point_stride() + static_cast<std::uint32_t>(sizeof(float)));
+}
+
+void append(std::string& bytes, double value) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  for (unsigned i = 0; i < sizeof bits; ++i) bytes += static_cast<char>(bits >> (8 * i) & 0xff);
+}
+
+void set(::foxglove::LinePrimitive& line, const Line& value) {
+  const bool strip = value.kind == Line::Kind::kStrip;
+  line.set_type(strip ? ::foxglove::LinePrimitive::LINE_STRIP : ::foxglove::LinePrimitive::LINE_LIST);
+  set(*line.mutable_pose(), Pose());
+  line.set_thickness(value.width_px);
+  line.set_scale_invariant(true);
+  line.mutable_points()->Reserve(static_cast<int>(value.points.size()));
+  for (const Vec3& point : value.points) set(*line.add_points(), point);
+  set(*line.mutable_color(), value.colour);
+}
+
+void set(::foxglove::SpherePrimitive& sphere, const Ball& value) {
+  set(*sphere.mutable_pose(), Pose{Quat::Identity(), value.centre});
+  set(*sphere.mutable_size(), Vec3(Vec3::Constant(value.diameter_m)));
+  set(*sphere.mutable_color(), value.colour);
+}
+
+::foxglove::Log::Level level_of(std::uint32_t level) {
+  switch (level) {
+    case HW_LOG_DEBUG:
+      return ::foxglove::Log::DEBUG;
+    case HW_LOG_INFO:
+      return ::foxglove::Log::INFO;
+    case HW_LOG_WARNING:
+      return ::foxglove::Log::WARNING;
+    case HW_LOG_ERROR:
+      return ::foxglove::Log::ERROR;
+    default:
+      return ::foxglove::Log::UNKNOWN;
+  }
+}
+
+}  // namespace
+
+std::string schema_name(Schema schema) {
+  return descriptor_of(schema).full_name();
+}
+
+std::string schema_descriptors(Schema schema) {
+  pb::FileDescriptorSet files;
+  std::set<std::string> added;
+  add_file(*descriptor_of(schema).file(), added, files);
+  return bytes_of(files);
+}
+
+std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const hw_points_t& points) {
+  ::foxglove::PointCloud cloud;
+  set(*cloud.mutable_timestamp(), t_ns);
+  cloud.set_frame_id(frame);
+  set(*cloud.mutable_pose(), Pose());
+  for (const char* name : {"x", "y", "z"}) add_field(cloud, name);
+  std::string& data = *cloud.mutable_data();
+  data.reserve(points.count * cloud.point_stride());
+  for (std::uint64_t i = 0; i < points.count; ++i) {
+    const hw_point3_t& point = *hw_point_at(&points, i);
+    for (const double value : {point.x, point.y, point.z}) append(data, value);
+  }
+  return bytes_of(cloud);
+}
+
+std::string print_transform(std::int64_t t_ns, const std::string& parent, const std::string& child,
+                            const Pose& T_parent_child) {
+  ::foxglove::FrameTransform transform;
+  set(*transform.mutable_timestamp(), t_ns);
+  transform.set_parent_frame_id(parent);
+  transform.set_child_frame_id(child);
+  set(*transform.mutable_translation(), T_parent_child.t);
+  set(*transform.mutable_rotation(), T_parent_child.q);
+  return bytes_of(transform);
+}
+
+std::string print_pose(std::int64_t t_ns, const std::string& frame, const Pose& T_frame_body) {
+  ::foxglove::PoseInFrame pose;
+  set(*pose.mutable_timestamp(), t_ns);
+  pose.set_frame_id(frame);
+  set(*pose.mutable_pose(), T_frame_body);
+  return bytes_of(pose);
+}
+
+std::string print_scene(std::int64_t t_ns, const Entity& entity) {
+  ::foxglove::SceneUpdate scene;
+  ::foxglove::SceneEntity& drawn = *scene.add_entities();
+  set(*drawn.mutable_timestamp(), t_ns);
+  drawn.set_frame_id(entity.frame);
+  drawn.set_id(entity.id);
+  drawn.set_frame_locked(true);
+  for (const Line& line : entity.lines) set(*drawn.add_lines(), line);
+  for (const Ball& ball : entity.balls) set(*drawn.add_spheres(), ball);
+  return bytes_of(scene);
+}
+
+std::string print_log(std::int64_t t_ns, const LogLine& line) {
+  ::foxglove::Log log;
+  set(*log.mutable_timestamp(), t_ns);
+  log.set_level(level_of(line.level));
+  log.set_message(line.text);
+  log.set_name(line.name);
+  return bytes_of(log);
+}
+
+std::string print_picture(std::int64_t t_ns, std::string_view png) {
+  ::foxglove::CompressedImage image;
+  set(*image.mutable_timestamp(), t_ns);
+  image.set_frame_id("picture");  // of itself: it is no view of a camera in the world
+  image.set_data(png.data(), png.size());
+  image.set_format("png");
+  return bytes_of(image);
+}
+
+}  // namespace hallway::foxglove

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/sample.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/pose.hpp"
+
+namespace hallway::foxglove {
+
+// Messages in the well-known schemas of Foxglove (third_party/foxglove), as Protobuf bytes. The same values give the same
+// bytes. Times are nanoseconds, not below 0; lengths are metres; texts are UTF-8.
+
+/// The schemas that are written.
+enum class Schema : std::uint8_t {
+  kPointCloud,
+  kFrameTransform,
+  kPoseInFrame,
+  kSceneUpdate,
+  kLog,
+  kCompressedImage,
+};
+
+/// The schema's name: "foxglove.PointCloud", ….
+std::string schema_name(Schema schema);
+
+/// What an MCAP schema record of the encoding "protobuf" holds: a serialized google.protobuf.FileDescriptorSet of the
+/// schema's file and all that it imports, each after those that it imports itself.
+std::string schema_descriptors(Schema schema);
+
+/// An opaque colour, each part from 0 to 1.
+struct Colour {
+  double red = 0.0;
+  double green = 0.0;
+  double blue = 0.0;
+};
+
+/// A line as wide as `width_px` from wherever it is seen.
+struct Line {
+  enum class Kind : std::uint8_t {
+    kStrip,  ///< from each point to the next
+    kPairs,  ///< from the first to the second, from the third to the fourth, …
+  };
+  Kind kind = Kind::kStrip;
+  std::vector<Vec3> points{};
+  double width_px = 1.0;
+  Colour colour{};
+};
+
+struct Ball {
+  Vec3 centre = Vec3::Zero();
+  double diameter_m = 0.0;
+  Colour colour{};
+};
+
+/// Something that is drawn until another entity of the same channel and id takes its place.
+struct Entity {
+  std::string frame{};  ///< that its coordinates are in, and with which it moves
+  std::string id{};
+  std::vector<Line> lines{};
+  std::vector<Ball> balls{};
+};
+
+/// What a plugin has logged, or what is said of it.
+struct LogLine {
+  std::uint32_t level = 0;  ///< HW_LOG_…
+  std::string name{};       ///< the plugin's id
+  std::string text{};       ///< safe to print
+};
+
+/// foxglove.PointCloud: x, y, z in single precision.
+std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const hw_points_t& points);
+/// foxglove.FrameTransform: where `child` stands in `parent`.
+std::string print_transform(std::int64_t t_ns, const std::string& parent, const std::string& child,
+                            const Pose& T_parent_child);
+/// foxglove.PoseInFrame.
+std::string print_pose(std::int64_t t_ns, const std::string& frame, const Pose& T_frame_body);
+/// foxglove.SceneUpdate of one entity.
+std::string print_scene(std::int64_t t_ns, const Entity& entity);
+/// foxglove.Log.
+std::string print_log(std::int64_t t_ns, const LogLine& line);
+/// foxglove.CompressedImage.
+/// @param png  the bytes of a PNG file
+std::string print_picture(std::int64_t t_ns, std::string_view png);
+
+}  // namespace hallway::foxglove

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "foxglove/messages.hpp"
+#include "log/id_pairs.hpp"
+#include "log/landmarks.hpp"
+#include "log/map_landmarks.hpp"
+
+namespace hallway::foxglove {
+
+// What is drawn of a run, in the colours of its pictures.
+
+inline constexpr Colour kTruthColour{0.0, 0.408, 0.659};
+inline constexpr Colour kEstimateColour{0.835, 0.369, 0.0};
+
+/// True landmarks as balls, in the frame "world".
+Entity true_landmark_balls(std::span<const log::Landmark> landmarks);
+
+/// A plugin's landmarks as balls, coloured by status, in the frame "map": mapped ones orange, temporary ones grey, dynamic
+/// ones purple.
+Entity landmark_balls(std::span<const log::MapLandmark> landmarks);
+
+/// The mapped landmarks of each submap, joined to its middle by lines of one colour, in the frame "map".
+Entity submap_stars(std::span<const log::MapLandmark> landmarks, std::span<const log::IdPair> members);
+
+}  // namespace hallway::foxglove

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "foxglove/view.hpp"
+
+#include <fmt/format.h>
+#include <hallway/ext/log.h>
+
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "foxglove/frames.hpp"
+#include "foxglove/scenes.hpp"
+
+namespace hallway::foxglove {
+namespace {
+
+namespace topics {
+constexpr const char* kTransforms = "/foxglove/tf/";  ///< and the child's name
+constexpr const char* kPoints = "/foxglove/points";
+constexpr const char* kPose = "/foxglove/pose";
+constexpr const char* kPath = "/foxglove/path";
+constexpr const char* kLandmarks = "/foxglove/landmarks";
+constexpr const char* kSubmaps = "/foxglove/submaps";
+constexpr const char* kTruePose = "/foxglove/truth/pose";
+constexpr const char* kTruePath = "/foxglove/truth/path";
+constexpr const char* kTrueLandmarks = "/foxglove/truth/landmarks";
+constexpr const char* kLog = "/foxglove/log";
+constexpr const char* kPictures = "/foxglove/pictures/";  ///< and the picture's name
+}  // namespace topics
+
+constexpr double kTruePathWidth_px = 4.0;
+constexpr double kPathWidth_px = 2.0;
+
+/// Bit by bit, also where the quaternion is not quite a unit one.
+Pose pose_of(const std::array<double, 3>& t, const std::array<double, 4>& q) {
+  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+}
+
+Pose pose_of(const hw_pose_t& pose) {
+  const auto& q = pose.orientation;
+  const auto& t = pose.position;
+  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+}
+
+}  // namespace
+
+View::View(log::McapWriter& log, const ViewOptions& options)
+    : log_(log), options_(options), next_id_(options.first_id) {}
+
+void View::set_sensors(std::span<const host::SensorInfo> sensors) {
+  for (const host::SensorInfo& sensor : sensors) T_body_sensor_[sensor.id] = pose_of(sensor.T_body_sensor);
+}
+
+void View::set_true_landmarks(std::span<const log::Landmark> landmarks) {
+  true_landmarks_.assign(landmarks.begin(), landmarks.end());
+}
+
+void View::add_frame(const log::FrameStamp& stamp, const hw_frame_t& frame) {
+  now_ = stamp;
+  begin();
+  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
+    const hw_sample_t& sample = *frame.samples[i];
+    if (sample.kind != HW_SAMPLE_POINTS) continue;
+    const std::string name = frames::sensor(sample.sensor_id);
+    if (placed_sensors_.insert(sample.sensor_id).second) {
+      put_transform(stamp, frames::kBody, name, T_body_sensor_[sample.sensor_id]);
+    }
+    put(topics::kPoints, Schema::kPointCloud, stamp,
+        print_point_cloud(stamp.t_ns, name, *static_cast<const hw_points_t*>(sample.payload)));
+  }
+}
+
+/// What holds from the first frame on.
+void View::begin() {
+  if (std::exchange(begun_, true)) return;
+  if (!options_.has_answers) put_transform(now_, frames::kTrueBody, frames::kBody, Pose());
+  if (!true_landmarks_.empty()) {
+    put(topics::kTrueLandmarks, Schema::kSceneUpdate, now_,
+        print_scene(now_.t_ns, true_landmark_balls(true_landmarks_)));
+  }
+  for (const LogLine& line : early_) put_log(line);
+}
+
+void View::add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose) {
+  const Pose T_world_body = pose_of(pose.position_m, pose.orientation);
+  if (pose.orientation_known) {
+    put_transform(stamp, frames::kWorld, frames::kTrueBody, T_world_body);
+    put(topics::kTruePose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kWorld, T_world_body));
+    truth_ = {stamp.iteration, {T_world_body.q.normalized(), T_world_body.t}};
+  }
+  true_path_.add(stamp.iteration, T_world_body.t);
+  if (true_path_.is_due()) put_true_path(stamp);
+}
+
+void View::add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose) {
+  if (!pose.valid) return;
+  const Pose T_map_body = pose_of(pose.position_m, pose.orientation);
+  place_map(stamp, T_map_body);
+  put_transform(stamp, frames::kMap, frames::kBody, T_map_body);
+  put(topics::kPose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kMap, T_map_body));
+  path_.add(stamp.iteration, T_map_body.t);
+  if (path_.is_due()) put_path(stamp);
+}
+
+/// The map lies where the first pose that both sides know makes them agree. Until then it is the world itself.
+void View::place_map(const log::FrameStamp& stamp, const Pose& T_map_body) {
+  if (map_place_ == MapPlace::kFromTruth) return;
+  if (truth_ && truth_->iteration == stamp.iteration) {
+    const Pose T_body_map = Pose{T_map_body.q.normalized(), T_map_body.t}.inverse();
+    put_transform(stamp, frames::kWorld, frames::kMap, truth_->T_world_body * T_body_map);
+    map_place_ = MapPlace::kFromTruth;
+  } else if (map_place_ == MapPlace::kNone) {
+    put_transform(stamp, frames::kWorld, frames::kMap, Pose());
+    map_place_ = MapPlace::kAssumed;
+  }
+}
+
+void View::add_map(const log::FrameStamp& stamp, std::span<const log::MapLandmark> landmarks,
+                   std::span<const log::IdPair> submap_members) {
+  put(topics::kLandmarks, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, landmark_balls(landmarks)));
+  put(topics::kSubmaps, Schema::kSceneUpdate, stamp,
+      print_scene(stamp.t_ns, submap_stars(landmarks, submap_members)));
+}
+
+void View::add_log(const LogLine& line) {
+  if (begun_) {
+    put_log(line);
+  } else {
+    early_.push_back(line);
+  }
+}
+
+void View::add_picture(const std::string& name, std::string_view png) {
+  put(topics::kPictures + name, Schema::kCompressedImage, now_, print_picture(now_.t_ns, png));
+}
+
+void View::finish() {
+  begin();
+  if (true_path_.has_news()) put_true_path(now_);
+  if (path_.has_news()) put_path(now_);
+}
+
+void View::put_log(const LogLine& line) {
+  put(topics::kLog, Schema::kLog, now_, print_log(now_.t_ns, line));
+}
+
+void View::put_transform(const log::FrameStamp& stamp, const std::string& parent, const std::string& child,
+                         const Pose& T_parent_child) {
+  put(topics::kTransforms + child, Schema::kFrameTransform, stamp,
+      print_transform(stamp.t_ns, parent, child, T_parent_child));
+}
+
+void View::put_path(const log::FrameStamp& stamp) {
+  const Entity entity{
+      .frame = frames::kMap, .id = "path", .lines = path_.show(kPathWidth_px, kEstimateColour), .balls = {}};
+  put(topics::kPath, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, entity));
+}
+
+void View::put_true_path(const log::FrameStamp& stamp) {
+  const Entity entity{.frame = frames::kWorld,
+                      .id = "true path",
+                      .lines = true_path_.show(kTruePathWidth_px, kTruthColour),
+                      .balls = {}};
+  put(topics::kTruePath, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, entity));
+}
+
+void View::put(const std::string& topic, Schema schema, const log::FrameStamp& stamp,
+               std::string_view bytes) {
+  if (bytes.size() > log::kMaxMcapMessageBytes) {
+    put_log({HW_LOG_WARNING, "hallway",
+             fmt::format("{}: a message of {} bytes is left out; a log takes {}", topic, bytes.size(),
+                         log::kMaxMcapMessageBytes)});
+    return;
+  }
+  const auto t_ns = static_cast<std::uint64_t>(stamp.t_ns);
+  log_.add(log::McapMessage{.channel_id = channel_of(topic, schema),
+                            .sequence = stamp.iteration,
+                            .log_time_ns = t_ns,
+                            .publish_time_ns = t_ns,
+                            .data = bytes});
+}
+
+std::uint16_t View::channel_of(const std::string& topic, Schema schema) {
+  const auto take_id = [this] {
+    if (next_id_ == std::numeric_limits<std::uint16_t>::max()) {
+      throw Error(ErrorCode::kBadInput, "the log has no channels left for the view");
+    }
+    return next_id_++;
+  };
+  if (const auto known = channels_.find(topic); known != channels_.end()) return known->second;
+  if (!schemas_.contains(schema)) {
+    const std::uint16_t id = take_id();
+    log_.add(log::McapSchema{
+        .id = id, .name = schema_name(schema), .encoding = "protobuf", .data = schema_descriptors(schema)});
+    schemas_.emplace(schema, id);
+  }
+  const std::uint16_t id = take_id();
+  log_.add(log::McapChannel{
+      .id = id, .schema_id = schemas_.at(schema), .topic = topic, .encoding = "protobuf", .metadata = {}});
+  channels_.emplace(topic, id);
+  return id;
+}
+
+}  // namespace hallway::foxglove

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "foxglove/messages.hpp"
+#include "foxglove/path_line.hpp"
+#include "host/stage.hpp"
+#include "log/mcap_writer.hpp"
+#include "log/run_log.hpp"
+
+namespace hallway::foxglove {
+
+/// What the topics of the view begin with.
+inline constexpr std::string_view kTopicPrefix = "/foxglove/";
+
+/// How a view fits into its log.
+struct ViewOptions {
+  /// Its channels and schemas have ids from here on; none of them may be in use.
+  std::uint16_t first_id = 1000;
+  /// Whether a plugin's poses will come. Without them the body is shown where it truly is.
+  bool has_answers = true;
+};
+
+/// Shows a run in Foxglove: beside what stands in a log already, the same once more in messages of the well-known schemas
+/// (docs/formats.md). Each function is called after the message of the run's own channel was written. Same calls, same bytes;
+/// all times are those of the frames. A message that is too large for a log is left out, and the log channel says so. All functions throw
+/// Error{kIo}.
+class View {
+ public:
+  /// Keeps a reference to `log`.
+  View(log::McapWriter& log, const ViewOptions& options);
+
+  /// Where the sensors are; before the first frame.
+  void set_sensors(std::span<const host::SensorInfo> sensors);
+  /// Where the true landmarks are; before the first frame.
+  void set_true_landmarks(std::span<const log::Landmark> landmarks);
+
+  /// What the sensors saw. Samples that are no points are passed over.
+  void add_frame(const log::FrameStamp& stamp, const hw_frame_t& frame);
+  void add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose);
+  void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
+  void add_map(const log::FrameStamp& stamp, std::span<const log::MapLandmark> landmarks,
+               std::span<const log::IdPair> submap_members);
+
+  /// Something that was said, at the time of the frame that was added last or, before there is one, of the first.
+  void add_log(const LogLine& line);
+  /// A picture of the run, at the time of the frame that was added last.
+  /// @param name  tells it from others; as it stands in the topic
+  void add_picture(const std::string& name, std::string_view png);
+  /// The paths as they are at the end.
+  void finish();
+
+ private:
+  void begin();
+  void put(const std::string& topic, Schema schema, const log::FrameStamp& stamp, std::string_view bytes);
+  void put_log(const LogLine& line);
+  void put_transform(const log::FrameStamp& stamp, const std::string& parent, const std::string& child,
+                     const Pose& T_parent_child);
+  void put_path(const log::FrameStamp& stamp);
+  void put_true_path(const log::FrameStamp& stamp);
+  void place_map(const log::FrameStamp& stamp, const Pose& T_map_body);
+  std::uint16_t channel_of(const std::string& topic, Schema schema);
+
+  log::McapWriter& log_;
+  ViewOptions options_;
+  std::uint16_t next_id_;
+  std::map<std::string, std::uint16_t> channels_;
+  std::map<Schema, std::uint16_t> schemas_;
+
+  bool begun_ = false;
+  log::FrameStamp now_;         ///< of the last frame
+  std::vector<LogLine> early_;  ///< said before the first frame
+  std::vector<log::Landmark> true_landmarks_;
+  std::map<std::uint32_t, Pose> T_body_sensor_;  ///< by the sensor's id
+  std::set<std::uint32_t> placed_sensors_;
+
+  /// The last true pose whose orientation is known.
+  struct TruePose {
+    std::uint32_t iteration = 0;
+    Pose T_world_body;
+  };
+  std::optional<TruePose> truth_;
+  /// Whether the map has a place in the world, and why.
+  enum class MapPlace : std::uint8_t { kNone, kAssumed, kFromTruth };
+  MapPlace map_place_ = MapPlace::kNone;
+  PathLine true_path_;
+  PathLine path_;
+};
+
+}  // namespace hallway::foxglove

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "foxglove/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hallway::foxglove {
+namespace {
+
+bool same(const Colour& a, const Colour& b) {
+  return a.red == b.red && a.green == b.green && a.blue == b.blue;
+}
+
+std::vector<log::MapLandmark> landmarks_of_each_status() {
+  return {{.id = 5, .position_m = {1, 2, 3}, .status = log::LandmarkStatus::kMapped},
+          {.id = 6, .position_m = {4, 2, 3}, .status = log::LandmarkStatus::kTemporary},
+          {.id = 7, .position_m = {7, 2, 3}, .status = log::LandmarkStatus::kDynamic},
+          {.id = 8, .position_m = {1, 2, 9}, .status = log::LandmarkStatus::kMapped}};
+}
+
+TEST(FoxgloveScenes, ALandmarksColourIsItsStatus) {
+  const auto landmarks = landmarks_of_each_status();
+  const Entity entity = landmark_balls(landmarks);
+  EXPECT_EQ(entity.frame, "map");
+  ASSERT_EQ(entity.balls.size(), landmarks.size());
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    for (std::size_t k = 0; k < landmarks.size(); ++k) {
+      EXPECT_EQ(same(entity.balls[i].colour, entity.balls[k].colour),
+                landmarks[i].status == landmarks[k].status);
+    }
+    EXPECT_EQ(entity.balls[i].centre.x(), landmarks[i].position_m[0]);
+    EXPECT_EQ(entity.balls[i].centre.z(), landmarks[i].position_m[2]);
+  }
+}
+
+TEST(FoxgloveScenes, BallsGrowWithTheExtent) {
+  const auto diameter = [](double extent_m) {
+    const std::vector<log::Landmark> landmarks{{.id = 0, .position_m = {0, 0, 0}},
+                                               {.id = 1, .position_m = {0, extent_m, 0}}};
+    return true_landmark_balls(landmarks).balls.front().diameter_m;
+  };
+  EXPECT_EQ(diameter(0), diameter(1)) << "seen at all";
+  EXPECT_LT(diameter(10), diameter(100));
+  EXPECT_LE(diameter(1e9), 2.0);
+  EXPECT_TRUE(true_landmark_balls({}).balls.empty());
+  EXPECT_EQ(true_landmark_balls({}).frame, "world");
+}
+
+TEST(FoxgloveScenes, ASubmapJoinsItsMappedLandmarksToTheirMiddle) {
+  const auto landmarks = landmarks_of_each_status();
+  const std::vector<log::IdPair> members{{2, 8}, {1, 5}, {1, 6}, {2, 5}, {1, 99}};
+  const Entity entity = submap_stars(landmarks, members);
+  EXPECT_EQ(entity.frame, "map");
+  ASSERT_EQ(entity.lines.size(), 2u);
+  ASSERT_EQ(entity.lines[0].points.size(), 2u) << "6 is not mapped, 99 is not there";
+  EXPECT_EQ(entity.lines[0].points[1], Vec3(1, 2, 3));
+  ASSERT_EQ(entity.lines[1].points.size(), 4u);
+  EXPECT_EQ(entity.lines[1].points[0], Vec3(1, 2, 6));
+  EXPECT_EQ(entity.lines[1].points[1], Vec3(1, 2, 9));
+  EXPECT_EQ(entity.lines[1].points[2], Vec3(1, 2, 6));
+  EXPECT_EQ(entity.lines[1].points[3], Vec3(1, 2, 3));
+  EXPECT_EQ(entity.lines[1].kind, Line::Kind::kPairs);
+  EXPECT_FALSE(same(entity.lines[0].colour, entity.lines[1].colour));
+}
+
+}  // namespace
+}  // namespace hallway::foxglove

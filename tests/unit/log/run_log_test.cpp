@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "log/run_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include "log/mcap_reader.hpp"
+#include "support/errors.hpp"
+
+namespace hallway::log {
+namespace {
+
+namespace test = hallway::test;
+
+/// The answers in a log, in its order.
+std::vector<AnswerMessage> answers_of(const std::string& bytes) {
+  const MemoryInput input(bytes);
+  McapReader reader(input);
+  std::vector<AnswerMessage> answers;
+  while (const McapItem* item = reader.next()) {
+    const auto* message = std::get_if<McapMessage>(item);
+    if (message != nullptr)
+      answers.push_back(parse_answer_message(reader.channels().at(message->channel_id), *message));
+  }
+  return answers;
+}
+
+AnswerMessage parse(std::string_view topic, std::string_view data) {
+  return parse_answer_message(
+      {.id = 1, .schema_id = 0, .topic = std::string(topic), .encoding = "json", .metadata = {}},
+      {.channel_id = 1, .data = data});
+}
+
+/// The text is refused, and the message says on which topic it stood.
+void expect_refused(std::string_view topic, const std::string& text) {
+  const auto error = test::error_of([&] { parse(topic, text); });
+  ASSERT_TRUE(error) << text;
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput) << text;
+  EXPECT_NE(error->message().find(topic), std::string::npos) << error->message();
+}
+
+TEST(RunLog, AnswersReadBackToTheSameBits) {
+  const PoseAnswer pose{true, {0.1, -1e-300, 1.0 / 3.0}, {0.5, -0.5, 0.5, -0.5}};
+  const std::vector<MapLandmark> landmarks{
+      {.id = 7, .position_m = {0.1, 0.2, 0.3}, .observations = 9, .status = LandmarkStatus::kDynamic},
+      {.id = kNoLandmark - 1, .position_m = {-0.0, 2, 3}, .status = LandmarkStatus::kTemporary}};
+  const std::vector<IdPair> members{{4, 7}, {4, 8}, {5, 7}};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  writer.add_frame({3, 10}, "bytes");
+  writer.add_pose({3, 10}, pose);
+  writer.add_pose({4, 20}, {});
+  writer.add_map({4, 20}, landmarks, members);
+  writer.finish();
+  const std::vector<AnswerMessage> answers = answers_of(out.text());
+  ASSERT_EQ(answers.size(), 4u);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(answers[0])) << "a frame is no answer";
+  const auto& valid = std::get<PoseMessage>(answers[1]);
+  EXPECT_EQ(valid.iteration, 3u);
+  EXPECT_TRUE(valid.pose.valid);
+  EXPECT_EQ(valid.pose.position_m, pose.position_m);
+  EXPECT_EQ(valid.pose.orientation, pose.orientation);
+  EXPECT_FALSE(std::get<PoseMessage>(answers[2]).pose.valid);
+  const auto& map = std::get<MapMessage>(answers[3]);
+  ASSERT_EQ(map.landmarks.size(), landmarks.size());
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    EXPECT_EQ(map.landmarks[i].id, landmarks[i].id);
+    EXPECT_EQ(map.landmarks[i].position_m, landmarks[i].position_m);
+    EXPECT_EQ(map.landmarks[i].observations, landmarks[i].observations);
+    EXPECT_EQ(map.landmarks[i].status, landmarks[i].status);
+  }
+  ASSERT_EQ(map.submap_members.size(), members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    EXPECT_EQ(map.submap_members[i].first, members[i].first);
+    EXPECT_EQ(map.submap_members[i].second, members[i].second);
+  }
+}
+
+TEST(RunLog, AnswersThatAreNoneAreRefusedWithTheirTopic) {
+  const std::string pose = R"({"iteration": 1, "status": "valid", "T_map_body": )";
+  for (const std::string& text :
+       {std::string("{"), std::string("[]"), std::string(R"({"iteration": -1, "status": "lost"})"),
+        std::string(R"({"iteration": 1, "status": "found"})"),
+        std::string(R"({"iteration": 1, "status": 7})"), pose + "null}",
+        pose + R"({"position_m": [1, 2], "orientation_wxyz": [1, 0, 0, 0]}})",
+        pose + R"({"position_m": [1, 2, 3], "orientation_wxyz": [2, 0, 0, 0]}})",
+        pose + R"({"position_m": [1, 2, "x"], "orientation_wxyz": [1, 0, 0, 0]}})"}) {
+    expect_refused(topics::kPose, text);
+  }
+  const std::string landmark = R"({"id": 1, "position_m": [1, 2, 3], "observations": 1, "status": "mapped"})";
+  EXPECT_NO_THROW(parse(topics::kMap, R"({"landmarks": [)" + landmark + R"(], "submaps": []})"));
+  for (
+      const std::string& text :
+      {std::string("null"), R"({"landmarks": [)" + landmark + "]}",
+       std::string(R"({"landmarks": 3, "submaps": []})"),
+       std::string(
+           R"({"landmarks": [{"id": 1, "position_m": [1, 2, 3], "observations": 1, "status": "gone"}], "submaps": []})"),
+       std::string(
+           R"({"landmarks": [{"id": -2, "position_m": [1, 2, 3], "observations": 1, "status": "mapped"}], "submaps": []})"),
+       std::string(R"({"landmarks": [], "submaps": [{"id": 1, "landmark_ids": [-1]}]})")}) {
+    expect_refused(topics::kMap, text);
+  }
+}
+
+}  // namespace
+}  // namespace hallway::log
