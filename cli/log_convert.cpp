@@ -10,6 +10,7 @@
 #include "log/landmarks.hpp"
 #include "log/poses.hpp"
 #include "log_command.hpp"
+#include "log_import.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
 #include "run/log_recorder.hpp"
@@ -26,6 +27,8 @@ using Json = nlohmann::ordered_json;
 
 struct ConvertOptions {
   LogChoice choice;
+  std::string from;  ///< kind of the log; empty: what it looks like
+  ImportChoice import;
   std::string out;
   bool force = false;
   bool json = false;
@@ -39,14 +42,22 @@ Json manifest_of(const OpenedLog& opened) {
           {"settings", Json::array()}, {"plugins", Json::array()},  {"warnings", opened.warnings}};
 }
 
+/// A recording may take its time to read.
+void stop_if_interrupted() {
+  if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
+}
+
 void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
   NewFile file(options.out, options.force);
   run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
   host::FrameBuilder builder;
   run::SourceFrame frame;
+  Progress progress("convert", opened.source->iterations(), options.json);
   for (std::uint32_t i = 0; i < opened.source->iterations(); ++i) {
+    stop_if_interrupted();
     opened.source->read(i, frame);
     recorder.record_input(run::build_frame(builder, i, frame), frame);
+    progress.update(i + 1);
   }
   recorder.finish();
   file.commit();
@@ -76,6 +87,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   run::SourceFrame frame;
   bool regular = true;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    stop_if_interrupted();
     source.read(i, frame);
     observations.add_frame(i, frame.observations);
     if (frame.T_world_body) poses.push_back(pose_of(i, frame));
@@ -95,12 +107,33 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   folder.commit();
 }
 
+std::optional<import::Kind> kind_of(const ConvertOptions& options) {
+  if (options.from.empty()) return import::tell_kind(options.choice.log);
+  return import::kind_named(options.from);
+}
+
+OpenedLog open_input(const ConvertOptions& options) {
+  const auto kind = kind_of(options);
+  check_import_options(kind, options.choice, options.import);
+  if (kind) return open_recording(*kind, options.choice, options.import);
+  LogChoice choice = options.choice;
+  choice.form = options.from;
+  return open_log(choice);
+}
+
 int convert(const ConvertOptions& options) {
-  OpenedLog opened = open_log(options.choice);
+  catch_interrupts();
+  OpenedLog opened = open_input(options);
   if (fs::path(options.out).extension() == ".mcap") {
     write_mcap(opened, options);
   } else {
     write_folder(opened, options);
+  }
+  if (opened.missing) {
+    for (std::string& line : opened.missing()) {
+      print_warning(line);
+      opened.warnings.push_back(std::move(line));
+    }
   }
   if (options.json) {
     print_json({{"schema", "hallway.log_convert/1"},
@@ -117,13 +150,20 @@ int convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_log_convert_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand(
-      "convert", "Turn an MCAP log into the CSV files of replay, or those into an MCAP log");
+  CLI::App* command = group.add_subcommand("convert",
+                                           "Turn an MCAP log into the CSV files of replay, and those or a "
+                                           "recording of other programs into an MCAP log");
   const auto options = std::make_shared<ConvertOptions>();
   command
-      ->add_option("log", options->choice.log, "An .mcap file, a CSV file of observations, or a run folder")
+      ->add_option("log", options->choice.log,
+                   "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
+                   "(.ply, .pcd) or one "
+                   "of them, a TUM RGB-D folder, the folder of Victoria Park, a ROS 1 .bag")
       ->required()
       ->type_name("LOG");
+  command->add_option("--from", options->from, "What it is [what it looks like]")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"csv", "mcap", "clouds", "tum", "victoria-park", "bag"}));
   command->add_option("--out", options->out, "File to write if it ends in .mcap, else a folder for CSV files")
       ->required()
       ->type_name("FILE|DIR");
@@ -136,16 +176,19 @@ void add_log_convert_command(CLI::App& group, Action& chosen) {
                    "CSV file of true landmarks, for a log that is CSV")
       ->type_name("FILE");
   command
-      ->add_option("--period", options->choice.period_s,
-                   "Seconds from frame to frame of a CSV log [the run's, else 0.1]")
+      ->add_option(
+          "--period", options->choice.period_s,
+          "Seconds from frame to frame of a CSV log [the run's, else 0.1] and of clouds without times [0.1]")
       ->type_name("S")
       ->check(CLI::Range(1e-6, 1e6));
+  add_import_options(*command, options->import);
   command->add_flag("--force", options->force, "Replace what is there");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
       "What plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
-      "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap");
+      "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
+      "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap");
   command->callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
 }
 

@@ -32,6 +32,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense"}},
     {"engine/host", {"base", "hallway"}},
     {"engine/log", {"base"}},
+    {"engine/import", {"base", "geom", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
@@ -39,13 +40,13 @@ const std::map<std::string, std::set<std::string>> kAllowed{
       "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
-    {"loaders", {"base", "geom", "mesh"}},
+    {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "eval", "render", "run",   "editor",  "hallway", "slam_point"};
+                                       "log",   "import", "eval", "render", "run",   "editor",  "hallway", "slam_point"};
 
 struct Include {
   fs::path file;
