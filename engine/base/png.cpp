@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 
@@ -119,9 +120,21 @@ bool read_rows(Reading& reading, png_bytepp rows) {
   throw Error(ErrorCode::kBadInput, "cannot be read as PNG: " + cause);
 }
 
+/// libpng takes memory for as many bytes as a chunk says that it has, before it looks whether they are there.
+void check_chunk_lengths(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8, kAround = 12;  // length, kind and check sum of a chunk
+  bytes.remove_prefix(std::min(bytes.size(), kSignature));
+  while (bytes.size() >= kAround) {
+    const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));
+    if (length > bytes.size() - kAround) refuse_png("the file is cut off");
+    bytes.remove_prefix(kAround + length);
+  }
+}
+
 }  // namespace
 
 Gray16 decode_gray16(std::string_view png, std::uint64_t max_pixels) {
+  check_chunk_lengths(png);
   Reading reading(png);
   if (reading.info == nullptr) throw Error(ErrorCode::kInternal, "libpng: " + reading.message);
   if (!read_header(reading)) refuse_png(printable(reading.message));
