@@ -11,6 +11,7 @@
 #include "log/poses.hpp"
 #include "log_command.hpp"
 #include "log_foxglove.hpp"
+#include "log_import.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
 #include "record/output_folder.hpp"
@@ -28,6 +29,8 @@ using Json = nlohmann::ordered_json;
 
 struct ConvertOptions {
   LogChoice choice;
+  std::string from;  ///< kind of the log; empty: what it looks like
+  ImportChoice import;
   std::string out;
   bool foxglove = false;
   bool force = false;
@@ -48,15 +51,23 @@ Json manifest_of(const OpenedLog& opened) {
           {"settings", Json::array()}, {"plugins", Json::array()},     {"warnings", opened.warnings}};
 }
 
+/// A recording may take its time to read.
+void stop_if_interrupted() {
+  if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
+}
+
 void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
   NewFile file(options.out, options.force);
   run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
   if (options.foxglove) recorder.add_view(false);
   host::FrameBuilder builder;
   run::SourceFrame frame;
+  Progress progress("convert", opened.source->iterations(), options.json);
   for (std::uint32_t i = 0; i < opened.source->iterations(); ++i) {
+    stop_if_interrupted();
     opened.source->read(i, frame);
     recorder.record_input(run::build_frame(builder, i, frame), frame);
+    progress.update(i + 1);
   }
   recorder.finish();
   file.commit();
@@ -86,6 +97,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   run::SourceFrame frame;
   bool regular = true;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    stop_if_interrupted();
     source.read(i, frame);
     observations.add_frame(i, frame.observations);
     if (frame.T_world_body) poses.push_back(pose_of(i, frame));
@@ -105,6 +117,20 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   folder.commit();
 }
 
+std::optional<import::Kind> kind_of(const ConvertOptions& options) {
+  if (options.from.empty()) return import::tell_kind(options.choice.log);
+  return import::kind_named(options.from);
+}
+
+OpenedLog open_input(const ConvertOptions& options) {
+  const auto kind = kind_of(options);
+  check_import_options(kind, options.choice, options.import);
+  if (kind) return open_recording(*kind, options.choice, options.import);
+  LogChoice choice = options.choice;
+  choice.form = options.from;
+  return open_log(choice);
+}
+
 /// An MCAP log is not recorded anew for a view of it, but copied: the view shows the answers, too.
 Converted copy_with_view(const ConvertOptions& options, const fs::path& log) {
   NewFile file(options.out, options.force);
@@ -114,22 +140,33 @@ Converted copy_with_view(const ConvertOptions& options, const fs::path& log) {
   return converted;
 }
 
+/// What could be told only when everything had been read.
+void add_missing(OpenedLog& opened) {
+  if (!opened.missing) return;
+  for (std::string& line : opened.missing()) {
+    print_warning(line);
+    opened.warnings.push_back(std::move(line));
+  }
+}
+
 Converted convert_input(const ConvertOptions& options) {
   const bool to_mcap = fs::path(options.out).extension() == ".mcap";
   if (options.foxglove && !to_mcap) throw Error(ErrorCode::kUsage, "--foxglove is for an .mcap file");
-  if (options.foxglove) {
+  if (options.foxglove && !kind_of(options)) {
     if (const auto log = recorded_log(options.choice.log)) return copy_with_view(options, *log);
   }
-  OpenedLog opened = open_log(options.choice);
+  OpenedLog opened = open_input(options);
   if (to_mcap) {
     write_mcap(opened, options);
   } else {
     write_folder(opened, options);
   }
+  add_missing(opened);
   return {opened.source->iterations(), opened.warnings};
 }
 
 int convert(const ConvertOptions& options) {
+  catch_interrupts();
   const Converted converted = convert_input(options);
   if (options.json) {
     print_json({{"schema", "hallway.log_convert/1"},
@@ -146,13 +183,20 @@ int convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_log_convert_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand(
-      "convert", "Turn an MCAP log into the CSV files of replay, or those into an MCAP log");
+  CLI::App* command = group.add_subcommand("convert",
+                                           "Turn an MCAP log into the CSV files of replay, and those or a "
+                                           "recording of other programs into an MCAP log");
   const auto options = std::make_shared<ConvertOptions>();
   command
-      ->add_option("log", options->choice.log, "An .mcap file, a CSV file of observations, or a run folder")
+      ->add_option("log", options->choice.log,
+                   "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
+                   "(.ply, .pcd) or one "
+                   "of them, a TUM RGB-D folder, the folder of Victoria Park, a ROS 1 .bag")
       ->required()
       ->type_name("LOG");
+  command->add_option("--from", options->from, "What it is [what it looks like]")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"csv", "mcap", "clouds", "tum", "victoria-park", "bag"}));
   command->add_option("--out", options->out, "File to write if it ends in .mcap, else a folder for CSV files")
       ->required()
       ->type_name("FILE|DIR");
@@ -165,19 +209,22 @@ void add_log_convert_command(CLI::App& group, Action& chosen) {
                    "CSV file of true landmarks, for a log that is CSV")
       ->type_name("FILE");
   command
-      ->add_option("--period", options->choice.period_s,
-                   "Seconds from frame to frame of a CSV log [the run's, else 0.1]")
+      ->add_option(
+          "--period", options->choice.period_s,
+          "Seconds from frame to frame of a CSV log [the run's, else 0.1] and of clouds without times [0.1]")
       ->type_name("S")
       ->check(CLI::Range(1e-6, 1e6));
   command->add_flag("--foxglove", options->foxglove,
                     "Add channels that show the log in Foxglove; of an MCAP log all that it has is kept");
+  add_import_options(*command, options->import);
   command->add_flag("--force", options->force, "Replace what is there");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
       "Without --foxglove, what plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
       "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
-      "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap");
+      "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap\n"
+      "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap");
   command->callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
 }
 

@@ -147,7 +147,8 @@ OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string c
 
 OpenedLog open_log(const LogChoice& choice) {
   const fs::path path = log_file(choice.log);
-  if (path.extension() != ".mcap") return open_csv(choice, path);
+  const bool mcap = choice.form.empty() ? path.extension() == ".mcap" : choice.form == "mcap";
+  if (!mcap) return open_csv(choice, path);
   return open_mcap(choice, path, read_file(path));
 }
 

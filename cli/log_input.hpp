@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,6 +21,7 @@ struct LogChoice {
   std::string true_landmarks{};      ///< CSV, as above
   std::optional<double> period_s{};  ///< from frame to frame, where the log itself does not say
   std::uint32_t steps = 0;           ///< how many frames; 0 for all
+  std::string form{};                ///< "csv" or "mcap"; empty: .mcap files are MCAP, others CSV
 };
 
 /// A recorded log of either form, with what is known of it.
@@ -30,6 +32,8 @@ struct OpenedLog {
   std::int64_t period_ns = 0;
   std::vector<run::Attachment> inputs;  ///< the files that were read
   std::vector<std::string> warnings;    ///< such as damage; already printed
+  /// What the frames that were read so far lacked; empty where nobody counts that.
+  std::function<std::vector<std::string>()> missing;
 };
 
 /// Opens a log. A CSV file that stands in a run folder brings the run's facts and truth with it; an MCAP log holds them.

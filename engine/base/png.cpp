@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
+#include <cstring>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 
 namespace hallway {
 namespace {
@@ -73,7 +76,88 @@ void check(const Pixels& pixels) {
                                                 pixels.height_px, pixels.bytes.size()));
 }
 
+/// A PNG file that is being read.
+struct Reading {
+  explicit Reading(std::string_view bytes)
+      : rest(bytes),
+        png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning)) {
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  ~Reading() { png_destroy_read_struct(&png, &info, nullptr); }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+  std::string_view rest;
+  std::string message = "no memory";
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+};
+
+void take(png_structp png, png_bytep bytes, std::size_t count) {
+  auto& reading = *static_cast<Reading*>(png_get_io_ptr(png));
+  if (count > reading.rest.size()) png_error(png, "the file is cut off");
+  std::memcpy(bytes, reading.rest.data(), count);
+  reading.rest.remove_prefix(count);
+}
+
+/// Like write_all(), these two are left by longjmp on an error.
+bool read_header(Reading& reading) {
+  if (setjmp(png_jmpbuf(reading.png)) != 0) return false;
+  png_set_read_fn(reading.png, &reading, take);
+  png_read_info(reading.png, reading.info);
+  return true;
+}
+
+bool read_rows(Reading& reading, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(reading.png)) != 0) return false;
+  png_set_swap(reading.png);  // values stand there with their high byte first
+  png_read_image(reading.png, rows);
+  png_read_end(reading.png, nullptr);
+  return true;
+}
+
+[[noreturn]] void refuse_png(const std::string& cause) {
+  throw Error(ErrorCode::kBadInput, "cannot be read as PNG: " + cause);
+}
+
+/// libpng takes memory for as many bytes as a chunk says that it has, before it looks whether they are there.
+void check_chunk_lengths(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8, kAround = 12;  // length, kind and check sum of a chunk
+  bytes.remove_prefix(std::min(bytes.size(), kSignature));
+  while (bytes.size() >= kAround) {
+    const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));
+    if (length > bytes.size() - kAround) refuse_png("the file is cut off");
+    bytes.remove_prefix(kAround + length);
+  }
+}
+
 }  // namespace
+
+Gray16 decode_gray16(std::string_view png, std::uint64_t max_pixels) {
+  check_chunk_lengths(png);
+  Reading reading(png);
+  if (reading.info == nullptr) throw Error(ErrorCode::kInternal, "libpng: " + reading.message);
+  if (!read_header(reading)) refuse_png(printable(reading.message));
+  Gray16 image{png_get_image_width(reading.png, reading.info),
+               png_get_image_height(reading.png, reading.info)};
+  const int bits = png_get_bit_depth(reading.png, reading.info);
+  if (png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_GRAY || bits != 16) {
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("is no grey PNG picture of 16 bits ({} bits a channel)", bits));
+  }
+  const std::uint64_t pixels = std::uint64_t{image.width_px} * image.height_px;
+  if (pixels > max_pixels) {
+    throw Error(ErrorCode::kBadInput, fmt::format("has {} x {} pixels; at most {} are read", image.width_px,
+                                                  image.height_px, max_pixels));
+  }
+  image.values.resize(static_cast<std::size_t>(pixels));
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < image.height_px; ++y) {
+    rows.push_back(reinterpret_cast<png_bytep>(image.values.data() + y * image.width_px));
+  }
+  if (!read_rows(reading, rows.data())) refuse_png(printable(reading.message));
+  return image;
+}
 
 std::string encode_png(const Pixels& pixels, PngEffort effort) {
   check(pixels);

@@ -34,6 +34,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
     {"engine/foxglove", {"base", "geom", "host", "log", "hallway"}},
+    {"engine/import", {"base", "geom", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
@@ -42,13 +43,13 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
     {"robot", {"base", "host", "log", "record", "hallway"}},
-    {"loaders", {"base", "geom", "mesh"}},
+    {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "foxglove", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
+                                       "log",   "record", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
 
 struct Include {
   fs::path file;

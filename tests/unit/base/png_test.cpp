@@ -8,7 +8,11 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/file.hpp"
 #include "base/random.hpp"
+#include "support/data.hpp"
+#include "support/errors.hpp"
+#include "support/gray_png.hpp"
 
 namespace hallway {
 namespace {
@@ -62,6 +66,66 @@ TEST(Png, RefusesBytesThatDoNotFitTheSize) {
     EXPECT_THROW(encode_png(bad, PngEffort::kQuick), Error);
   }
   EXPECT_NO_THROW(encode_png({4, 4, 3, bytes}, PngEffort::kQuick));
+}
+
+std::vector<std::uint16_t> gray_noise(std::size_t count) {
+  const Random random(2, stream_id("test.gray"));
+  std::vector<std::uint16_t> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    values.push_back(static_cast<std::uint16_t>(random.bits(0, i)[0] & 0xFFFFu));
+  }
+  return values;
+}
+
+TEST(GrayPng, DecodesToTheValuesThatWereWritten) {
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 3u}, {640u, 48u}}) {
+    const auto values = gray_noise(std::size_t{width} * height);
+    const Gray16 image = decode_gray16(test::gray_png(width, height, values), std::uint64_t{width} * height);
+    EXPECT_EQ(image.width_px, width);
+    EXPECT_EQ(image.height_px, height);
+    EXPECT_EQ(image.values, values);
+  }
+}
+
+TEST(GrayPng, RefusesOtherKindsAndTooManyPixels) {
+  const auto bytes = noise(48);
+  const auto colour = test::error_of([&] {
+    decode_gray16(encode_png(Pixels{4, 4, 3, bytes}, PngEffort::kQuick), 100);
+  });
+  ASSERT_TRUE(colour);
+  EXPECT_NE(colour->message().find("16 bits"), std::string::npos);
+  const auto large = test::error_of([&] { decode_gray16(test::gray_png(5, 4, gray_noise(20)), 19); });
+  ASSERT_TRUE(large);
+  EXPECT_EQ(large->message(), "has 5 x 4 pixels; at most 19 are read");
+}
+
+TEST(GrayPng, CutOrDamagedFilesAreErrors) {
+  const std::string whole = test::gray_png(20, 10, gray_noise(200));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const auto error = test::error_of([&] { decode_gray16(whole.substr(0, size), 1000); });
+    ASSERT_TRUE(error) << size;
+    EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  }
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    // A chunk that need not be understood may be damaged unnoticed; the values may not.
+    const auto error =
+        test::error_of([&] { EXPECT_EQ(decode_gray16(damaged, 1000).values, gray_noise(200)) << at; });
+    EXPECT_TRUE(!error || error->code() == ErrorCode::kBadInput);
+  }
+}
+
+TEST(GrayPng, FilesThatCrashedDecodersAreErrorsOrPictures) {
+  HALLWAY_DATA_OR_SKIP(folder, "models/bad_png");
+  std::size_t seen = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".png") continue;
+    ++seen;
+    const auto error = test::error_of([&] { decode_gray16(read_file(entry.path()), 1 << 24); });
+    EXPECT_TRUE(!error || error->code() == ErrorCode::kBadInput) << entry.path();
+  }
+  EXPECT_GT(seen, 0u);
 }
 
 }  // namespace

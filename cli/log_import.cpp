@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "log_import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "import/bag.hpp"
+#include "import/cloud_folder.hpp"
+#include "import/tum_folder.hpp"
+#include "import/victoria_park.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using import::Kind;
+
+std::optional<std::int64_t> nanoseconds(std::optional<double> seconds) {
+  if (!seconds) return std::nullopt;
+  return std::llround(*seconds * 1e9);
+}
+
+/// A recording as a source of frames that counts what is missing in those it gives.
+class ImportedSource : public run::Source {
+ public:
+  explicit ImportedSource(std::unique_ptr<import::Recording> recording) : recording_(std::move(recording)) {
+    sensor_.name = recording_->sensor();
+  }
+
+  std::uint32_t iterations() const override { return recording_->frames(); }
+  void read(std::uint32_t iteration, run::SourceFrame& frame) override {
+    recording_->read(iteration, frame_);
+    frame.t_ns = frame_.t_ns;
+    frame.observations.clear();
+    for (const auto& point : frame_.points) frame.observations.push_back({.point = point});
+    frame.T_world_body = frame_.T_world_body;
+    frame.orientation_known = frame_.orientation_known;
+    not_finite_ += frame_.not_finite;
+    if (frame_.not_finite > 0) ++frames_not_finite_;
+    if (!frame_.T_world_body) ++frames_without_truth_;
+  }
+  const host::SensorInfo& sensor() const override { return sensor_; }
+  bool has_identities() const override { return false; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return no_landmarks_; }
+
+  /// About the frames that were read, each of them once.
+  std::vector<std::string> missing() const {
+    std::vector<std::string> lines;
+    if (not_finite_ > 0) {
+      lines.push_back(fmt::format("{} points that are not finite were left out, in {} of {} frames",
+                                  not_finite_, frames_not_finite_, iterations()));
+    }
+    if (recording_->has_truth() && frames_without_truth_ > 0) {
+      lines.push_back(fmt::format("{} of {} frames have no true pose near enough in time (--truth-within)",
+                                  frames_without_truth_, iterations()));
+    }
+    return lines;
+  }
+
+ private:
+  std::unique_ptr<import::Recording> recording_;
+  host::SensorInfo sensor_;
+  std::optional<std::vector<log::Landmark>> no_landmarks_;
+  import::Frame frame_;
+  std::uint64_t not_finite_ = 0;
+  std::uint64_t frames_not_finite_ = 0;
+  std::uint64_t frames_without_truth_ = 0;
+};
+
+/// The folder's name, or the file's without its end.
+std::string name_of(const fs::path& path) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(path, code).lexically_normal();
+  return whole.has_filename() ? whole.stem().string() : whole.parent_path().filename().string();
+}
+
+std::optional<import::Camera> camera_of(const ImportChoice& choice) {
+  if (choice.camera.empty()) return std::nullopt;
+  const bool finite =
+      std::all_of(choice.camera.begin(), choice.camera.end(), [](double v) { return std::isfinite(v); });
+  if (choice.camera.size() != 4 || !finite || choice.camera[0] <= 0.0 || choice.camera[1] <= 0.0) {
+    throw Error(ErrorCode::kUsage, "--camera takes fx,fy,cx,cy in pixels, the first two above 0");
+  }
+  return import::Camera{choice.camera[0], choice.camera[1], choice.camera[2], choice.camera[3]};
+}
+
+std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const ImportChoice& choice) {
+  const std::uint32_t stride = choice.stride.value_or(1);
+  const auto within_ns = nanoseconds(choice.truth_within_s);
+  switch (kind) {
+    case Kind::kClouds:
+      return import::open_clouds(
+          log.log, {.times = choice.times, .period_ns = nanoseconds(log.period_s), .stride = stride});
+    case Kind::kTum: {
+      import::TumOptions options{.list = choice.times, .camera = camera_of(choice), .stride = stride};
+      options.truth_within_ns = within_ns.value_or(options.truth_within_ns);
+      return import::open_tum(log.log, options);
+    }
+    case Kind::kVictoriaPark: {
+      import::VictoriaParkOptions options;
+      options.truth_within_ns = within_ns.value_or(options.truth_within_ns);
+      return import::open_victoria_park(log.log, options);
+    }
+    case Kind::kBag:
+      break;
+  }
+  import::BagOptions options{.topic = choice.topic, .truth_topic = choice.truth_topic, .stride = stride};
+  options.truth_within_ns = within_ns.value_or(options.truth_within_ns);
+  return import::open_bag(log.log, options);
+}
+
+}  // namespace
+
+void add_import_options(CLI::App& command, ImportChoice& choice) {
+  command
+      .add_option(
+          "--stride", choice.stride,
+          "Of clouds and bags take each n-th point, of depth images each n-th pixel of each n-th row [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1'000'000u));
+  command
+      .add_option(
+          "--times", choice.times,
+          "List of SECONDS FILE, the frames of a folder [clouds: timestamps.txt, if it is there; tum: "
+          "depth.txt, else associations.txt]")
+      ->type_name("FILE");
+  command
+      .add_option("--camera", choice.camera,
+                  "Of depth images: fx,fy,cx,cy in pixels [525,525,319.5,239.5, for 640 x 480]")
+      ->type_name("FX,FY,CX,CY")
+      ->delimiter(',')
+      ->expected(4);
+  command
+      .add_option("--truth-within", choice.truth_within_s,
+                  "Seconds from a frame to the true poses that are taken for it [tum 0.02, bag 0.1, "
+                  "victoria-park 0.2]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e6));
+  command.add_option("--topic", choice.topic, "Of a bag: PointCloud2 or LaserScan [the one there is]")
+      ->type_name("TOPIC");
+  command.add_option("--truth-topic", choice.truth_topic, "Of a bag: Odometry or PoseStamped, as true poses")
+      ->type_name("TOPIC");
+}
+
+void check_import_options(std::optional<Kind> kind, const LogChoice& log, const ImportChoice& choice) {
+  struct Rule {
+    const char* option;
+    bool given;
+    std::set<Kind> kinds;
+  };
+  const Rule rules[] = {
+      {"--stride", choice.stride.has_value(), {Kind::kClouds, Kind::kTum, Kind::kBag}},
+      {"--times", !choice.times.empty(), {Kind::kClouds, Kind::kTum}},
+      {"--camera", !choice.camera.empty(), {Kind::kTum}},
+      {"--truth-within", choice.truth_within_s.has_value(), {Kind::kTum, Kind::kVictoriaPark, Kind::kBag}},
+      {"--topic", !choice.topic.empty(), {Kind::kBag}},
+      {"--truth-topic", !choice.truth_topic.empty(), {Kind::kBag}},
+      {"--period", kind && log.period_s, {Kind::kClouds}},
+      {"--truth-poses", kind && !log.true_poses.empty(), {}},
+      {"--truth-landmarks", kind && !log.true_landmarks.empty(), {}},
+  };
+  for (const Rule& rule : rules) {
+    if (!rule.given || (kind && rule.kinds.contains(*kind))) continue;
+    throw Error(ErrorCode::kUsage, fmt::format("{} does not belong to a log of kind {}", rule.option,
+                                               kind ? import::kind_name(*kind) : "csv or mcap"));
+  }
+}
+
+OpenedLog open_recording(Kind kind, const LogChoice& log, const ImportChoice& choice) {
+  std::unique_ptr<import::Recording> recording = open(kind, log, choice);
+  OpenedLog opened;
+  opened.name = name_of(log.log);
+  opened.period_ns = recording->period_ns();
+  auto source = std::make_unique<ImportedSource>(std::move(recording));
+  opened.missing = [counts = source.get()] { return counts->missing(); };
+  opened.source = std::move(source);
+  return opened;
+}
+
+}  // namespace hallway::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "import/kind.hpp"
+#include "log_input.hpp"
+
+namespace hallway::cli {
+
+/// How a recording of other programs is to be read; what was not said is empty.
+struct ImportChoice {
+  std::optional<std::uint32_t> stride{};
+  std::string times{};
+  std::vector<double> camera{};  ///< fx, fy, cx, cy
+  std::optional<double> truth_within_s{};
+  std::string topic{};
+  std::string truth_topic{};
+};
+
+/// Adds the options of ImportChoice.
+void add_import_options(CLI::App& command, ImportChoice& choice);
+
+/// Throws Error{kUsage} for options that do not belong to the kind, or to logs of our own where there is none.
+void check_import_options(std::optional<import::Kind> kind, const LogChoice& log, const ImportChoice& choice);
+
+/// Opens a recording of other programs. Throws Error{kUsage, kBadInput, kIo}.
+OpenedLog open_recording(import::Kind kind, const LogChoice& log, const ImportChoice& choice);
+
+}  // namespace hallway::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "import/kind.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "import/cloud_folder.hpp"
+#include "log/byte_io.hpp"
+
+namespace hallway::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kKinds{Kind::kClouds, Kind::kTum, Kind::kVictoriaPark, Kind::kBag};
+
+std::optional<Kind> kind_of_file(const fs::path& path) {
+  constexpr std::uint64_t kFirstBytes = 16;
+  std::string begin;
+  const log::FileInput file(path);
+  file.read(0, std::min(kFirstBytes, file.size()), begin);
+  if (begin.starts_with("#ROSBAG")) return Kind::kBag;
+  if (begin.starts_with("ply\n") || begin.starts_with("ply\r") || begin.starts_with("# .PCD")) {
+    return Kind::kClouds;
+  }
+  if (path.extension() == ".bag") return Kind::kBag;
+  return is_cloud_file(path) ? std::optional(Kind::kClouds) : std::nullopt;
+}
+
+std::optional<Kind> kind_of_folder(const fs::path& folder) {
+  const auto holds = [&](const char* name) {
+    std::error_code code;
+    return fs::exists(folder / name, code);
+  };
+  if (holds("run.json") || holds("run.mcap")) return std::nullopt;
+  if (holds("depth.txt") || holds("associations.txt")) return Kind::kTum;
+  if (holds("observations.csv")) {
+    return holds("scans.csv") ? std::optional(Kind::kVictoriaPark) : std::nullopt;
+  }
+  std::error_code code;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+    if (is_cloud_file(entry->path())) return Kind::kClouds;
+  }
+  throw Error(code ? ErrorCode::kIo : ErrorCode::kBadInput,
+              code ? "cannot read the folder: " + code.message()
+                   : "holds no log (run.mcap, observations.csv) and no known recording (.ply or .pcd files, "
+                     "depth.txt, associations.txt, scans.csv)",
+              {.file = printable(folder.string(), 4096)});
+}
+
+}  // namespace
+
+const char* kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::kClouds:
+      return "clouds";
+    case Kind::kTum:
+      return "tum";
+    case Kind::kVictoriaPark:
+      return "victoria-park";
+    case Kind::kBag:
+      break;
+  }
+  return "bag";
+}
+
+std::optional<Kind> kind_named(std::string_view name) {
+  for (const Kind kind : kKinds) {
+    if (name == kind_name(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+std::optional<Kind> tell_kind(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::directory) return kind_of_folder(path);
+  if (status.type() == fs::file_type::regular) return kind_of_file(path);
+  return std::nullopt;
+}
+
+}  // namespace hallway::import

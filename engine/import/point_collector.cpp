@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "import/point_collector.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace hallway::import {
+
+PointCollector::PointCollector(Frame& frame, std::uint32_t stride) : frame_(frame), stride_(stride) {
+  frame_.points.clear();
+  frame_.not_finite = 0;
+}
+
+void PointCollector::add(double x, double y, double z) {
+  if (until_next_ > 0) {
+    --until_next_;
+    return;
+  }
+  until_next_ = stride_ - 1;
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+    ++frame_.not_finite;
+    return;
+  }
+  if (frame_.points.size() == kMaxFramePoints) {
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("has more than {} points, which is what a frame holds; --stride takes each n-th",
+                            kMaxFramePoints));
+  }
+  frame_.points.push_back({x, y, z});
+}
+
+}  // namespace hallway::import

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/pose.hpp"
+
+namespace hallway::import {
+
+/// Points in the sensor's frame (x forward, y left, z up), metres.
+using PointList = std::vector<std::array<double, 3>>;
+
+/// One moment of a recording.
+struct Frame {
+  std::int64_t t_ns = 0;             ///< as recorded; not below 0
+  PointList points;                  ///< all finite
+  std::uint64_t not_finite = 0;      ///< points that were left out since a coordinate is none
+  std::optional<Pose> T_world_body;  ///< the true pose, where it is known
+  bool orientation_known = true;     ///< false: only the position of T_world_body is meant
+};
+
+/// What other programs have recorded, frame by frame. A frame is a pure function of its number as long as the files stay as they are.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+
+  /// How many frames there are, at least one.
+  virtual std::uint32_t frames() const = 0;
+  /// Replaces `frame` by frame `index`, below frames(). Times do not decrease from frame to frame. Throws Error{kBadInput, kIo} naming the file.
+  virtual void read(std::uint32_t index, Frame& frame) = 0;
+  /// Mean time from frame to frame.
+  virtual std::int64_t period_ns() const = 0;
+  /// What the sensor is called, for people.
+  virtual std::string sensor() const = 0;
+  /// Whether a true pose is known for any frame.
+  virtual bool has_truth() const = 0;
+};
+
+/// Mean time between so many frames from the first time to the last; `otherwise` where there is none.
+std::int64_t mean_period_ns(std::int64_t first_ns, std::int64_t last_ns, std::uint64_t frames,
+                            std::int64_t otherwise);
+
+}  // namespace hallway::import
