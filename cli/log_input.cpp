@@ -10,6 +10,7 @@
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"
 #include "log/poses.hpp"
+#include "log/unfinished_input.hpp"
 #include "run/log_source.hpp"
 #include "run/record.hpp"
 #include "run/recorded_run.hpp"
@@ -152,7 +153,11 @@ OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string c
 OpenedLog open_log(const LogChoice& choice) {
   const fs::path path = log_file(choice.log);
   if (path.extension() != ".mcap") return open_csv(choice, path);
-  return open_mcap(choice, path, read_file(path));
+  const log::UnfinishedInput input(path);
+  if (input.written() == input.size()) return open_mcap(choice, path, read_file(path));
+  std::string content;
+  input.read(0, input.size(), content);
+  return open_mcap(choice, path, std::move(content));
 }
 
 fs::path mcap_file(const std::string& path) {

@@ -73,6 +73,10 @@ void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth
                                  .orientation_known = truth.orientation_known});
 }
 
+void LogRecorder::keep() {
+  writer_.keep();
+}
+
 void LogRecorder::record_answer(const host::Outputs& outputs) {
   if (outputs.pose()) writer_.add_pose(stamp_, answer_of(*outputs.pose()));
   if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);

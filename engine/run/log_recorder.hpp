@@ -24,6 +24,8 @@ class LogRecorder {
   /// @param manifest  run.json as known before the first frame; its member `host` is left out
   LogRecorder(log::ByteOutput& output, const Source& source, const nlohmann::ordered_json& manifest);
 
+  /// Makes sure that what was recorded survives the end of the program, however it ends.
+  void keep();
   /// A frame as the plugins get it, and what is true of it.
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
   /// What the pipeline answered to the frame that was recorded last.
