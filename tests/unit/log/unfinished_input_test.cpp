@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -67,8 +68,9 @@ class UnfinishedLog : public testing::Test {
     moments_.push_back({read_file(path()), kept ? read_file(tail_path(path())) : "", safe});
   }
   std::vector<std::string> read_of(const std::string& file, const std::string& tail) const {
-    const fs::path log = folder_.write("b.mcap", file);
-    folder_.write("b.mcap.tail", tail);
+    const fs::path log = folder_ / "b.mcap";
+    std::ofstream(log, std::ios::binary) << file;  // unlike TempFolder::write() without waiting for the disk
+    std::ofstream(folder_ / "b.mcap.tail", std::ios::binary) << tail;
     return messages_of(UnfinishedInput(log));
   }
   void expect_prefix(const std::vector<std::string>& texts, std::size_t least) const {
@@ -99,7 +101,7 @@ TEST_F(UnfinishedLog, AChunkThatIsHalfWrittenLosesNothingThatWasKept) {
     const Moment& before = moments_[i - 1];
     const std::string& after = moments_[i].file;
     if (before.tail.empty()) continue;
-    for (std::size_t size = before.file.size(); size <= after.size(); ++size) {
+    for (std::size_t size = before.file.size(); size <= after.size(); size += 5) {
       expect_prefix(read_of(after.substr(0, size), before.tail), before.safe);
     }
   }
