@@ -24,6 +24,7 @@
 #include "host/frame_builder.hpp"
 #include "host/isolated_plugin.hpp"
 #include "support/errors.hpp"
+#include "support/marked_processes.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::host {
@@ -31,26 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMark = "HALLWAY_DEADLY_TEST";
-
 std::size_t open_descriptors() {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator{}));
-}
-
-/// Processes other than this one that were started, by whomever, with this test's mark in their environment.
-std::vector<std::string> marked_processes() {
-  const std::string mark = std::string(kMark) + "=" + std::to_string(::getpid());
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(::getpid()))
-      continue;
-    std::ifstream file(entry.path() / "environ", std::ios::binary);
-    const std::string environment{std::istreambuf_iterator<char>(file), {}};
-    if (environment.find(mark) != std::string::npos) found.push_back(name);
-  }
-  return found;
 }
 
 bool has_shared_memory() {
@@ -63,11 +47,11 @@ bool has_shared_memory() {
 class DeadlyPlugins : public testing::Test {
  protected:
   void SetUp() override {
-    ::setenv(kMark, std::to_string(::getpid()).c_str(), 1);
+    test::mark_processes();
     descriptors_ = open_descriptors();
   }
   void TearDown() override {
-    EXPECT_EQ(marked_processes(), std::vector<std::string>{}) << "processes are left";
+    EXPECT_EQ(test::marked_processes(), std::vector<std::string>{}) << "processes are left";
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process was not reaped";
     EXPECT_EQ(open_descriptors(), descriptors_) << "descriptors are left";
     EXPECT_FALSE(has_shared_memory());
@@ -232,7 +216,7 @@ TEST_F(DeadlyPlugins, WhatItChangesOfItsSurroundingsIsNotOurs) {
   EXPECT_EQ(fs::current_path().string(), folder);
   EXPECT_EQ(::setlocale(LC_ALL, nullptr), locale);
   EXPECT_EQ(std::fegetround(), FE_TONEAREST);
-  EXPECT_NE(std::getenv(kMark), nullptr);
+  EXPECT_NE(std::getenv(test::kProcessMark), nullptr);
 }
 
 TEST_F(DeadlyPlugins, FaultsBeforeThereIsAPluginNameTheFile) {
