@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "log/mcap_copy.hpp"
 #include "log/run_log.hpp"
+#include "log/unfinished_input.hpp"
 #include "log_command.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
@@ -51,7 +52,7 @@ bool is_ours(const log::McapChannel& channel) {
 
 /// The times of the frames of a span of iterations, for the channels that do not count iterations.
 void find_times(const fs::path& path, Span& span) {
-  const log::FileInput input(path);
+  const log::UnfinishedInput input(path);
   log::McapReader reader(input);
   std::uint64_t first = UINT64_MAX;
   std::uint64_t last = 0;
@@ -122,7 +123,7 @@ using CopyBytes = std::function<log::McapCopy(const log::ByteInput&, log::ByteOu
 
 int copy(const CopyOptions& options, const fs::path& out, const CopyBytes& copy_bytes) {
   const fs::path path = mcap_file(options.log);
-  const log::FileInput input(path);
+  const log::UnfinishedInput input(path);
   NewFile file(out, options.force);
   log::McapCopy copied;
   try {

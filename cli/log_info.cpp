@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "log/mcap_reader.hpp"
+#include "log/unfinished_input.hpp"
 #include "log_command.hpp"
 #include "log_input.hpp"
 
@@ -48,7 +49,7 @@ void count(ChannelFacts& facts, const log::McapMessage& message) {
 }
 
 Facts facts_of(const fs::path& path) {
-  const log::FileInput input(path);
+  const log::UnfinishedInput input(path);
   Facts facts;
   facts.file = printable(path.string(), 4096);
   facts.bytes = input.size();

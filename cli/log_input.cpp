@@ -11,6 +11,7 @@
 #include "log/observations.hpp"
 #include "log/poses.hpp"
 #include "record/sensor_json.hpp"
+#include "log/unfinished_input.hpp"
 #include "run/log_source.hpp"
 #include "run/record.hpp"
 #include "run/recorded_run.hpp"
@@ -149,7 +150,11 @@ OpenedLog open_log(const LogChoice& choice) {
   const fs::path path = log_file(choice.log);
   const bool mcap = choice.form.empty() ? path.extension() == ".mcap" : choice.form == "mcap";
   if (!mcap) return open_csv(choice, path);
-  return open_mcap(choice, path, read_file(path));
+  const log::UnfinishedInput input(path);
+  if (input.written() == input.size()) return open_mcap(choice, path, read_file(path));
+  std::string content;
+  input.read(0, input.size(), content);
+  return open_mcap(choice, path, std::move(content));
 }
 
 void check_no_csv_options(const LogChoice& choice) {

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -20,6 +21,15 @@ namespace {
 
 [[noreturn]] void fail(const std::string& file, const std::string& what, int error_number) {
   fail(file, what + ": " + std::generic_category().message(error_number));
+}
+
+void write_all(int fd, std::string_view bytes, const std::string& name) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(name, "cannot write", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
 }
 
 }  // namespace
@@ -58,29 +68,57 @@ void FileInput::read(std::uint64_t offset, std::uint64_t count, std::string& out
   }
 }
 
-FileOutput::FileOutput(const std::filesystem::path& path) : name_(printable(path.string())) {
+std::filesystem::path tail_path(const std::filesystem::path& path) {
+  return path.string() + ".tail";
+}
+
+FileOutput::FileOutput(const std::filesystem::path& path)
+    : name_(printable(path.string())), tail_path_(tail_path(path)) {
   fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) fail(name_, "cannot write", errno);
 }
 
 FileOutput::~FileOutput() {
   if (fd_ >= 0) ::close(fd_);
+  if (tail_fd_ >= 0) ::close(tail_fd_);
 }
 
 void FileOutput::write(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(name_, "cannot write", errno);
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+  write_all(fd_, bytes, name_);
+  written_ += bytes.size();
+  drop_kept();
+}
+
+void FileOutput::keep(std::string_view bytes) {
+  if (tail_fd_ < 0) {
+    tail_fd_ =
+        ::open(tail_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (tail_fd_ < 0) fail(printable(tail_path_.string()), "cannot write", errno);
   }
+  std::string all;
+  if (!has_kept_) {
+    all = kTailMagic;
+    for (std::size_t i = 0; i < sizeof written_; ++i) all += static_cast<char>(written_ >> (8 * i) & 0xff);
+  }
+  all += bytes;  // in one call, so that no head stands there alone
+  write_all(tail_fd_, all, printable(tail_path_.string()));
+  has_kept_ = true;
+}
+
+/// After the write that makes it needless, so that at any moment one of the two is there.
+void FileOutput::drop_kept() {
+  if (!has_kept_) return;
+  if (::ftruncate(tail_fd_, 0) != 0) fail(printable(tail_path_.string()), "cannot write", errno);
+  has_kept_ = false;
 }
 
 void FileOutput::close() {
   if (::fsync(fd_) != 0) fail(name_, "cannot write", errno);
-  const int fd = fd_;
-  fd_ = -1;
-  if (::close(fd) != 0) fail(name_, "cannot write", errno);
+  if (tail_fd_ >= 0) {
+    ::close(std::exchange(tail_fd_, -1));
+    ::unlink(tail_path_.c_str());
+  }
+  if (::close(std::exchange(fd_, -1)) != 0) fail(name_, "cannot write", errno);
 }
 
 }  // namespace hallway::log

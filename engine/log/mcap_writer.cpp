@@ -39,6 +39,7 @@ McapWriter::McapWriter(ByteOutput& output, const McapHeader& header, const McapW
 
 void McapWriter::write(std::string_view bytes) {
   output_.write(bytes);
+  chunk_.kept = 0;
   at_ += bytes.size();
   crc_ = crc32(bytes, crc_);
 }
@@ -118,6 +119,20 @@ std::string McapWriter::chunk_record(const std::string& packed) const {
                                   .compression = options_.compress ? "zstd" : "",
                                   .records = packed});
   return record;
+}
+
+void McapWriter::keep_chunk() {
+  const std::string_view records = std::string_view(chunk_.records).substr(chunk_.kept);
+  if (records.empty()) return;
+  std::string record;
+  append_record(record, McapChunk{.start_time_ns = chunk_.start_time_ns,
+                                  .end_time_ns = chunk_.end_time_ns,
+                                  .uncompressed_size = records.size(),
+                                  .uncompressed_crc = crc32(records),
+                                  .compression = "",
+                                  .records = records});
+  output_.keep(record);
+  chunk_.kept = chunk_.records.size();
 }
 
 void McapWriter::end_chunk() {

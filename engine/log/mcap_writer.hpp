@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kMaxMcapMessageBytes = 128u << 20;
 
 /// Writes an MCAP file: chunks with their check sums and message indices, then a summary with statistics and an index of
 /// all chunks. A chunk reaches the output as soon as it ends: what is lost when the program is killed is the chunk under way
-/// and the summary, which recover_mcap() makes again. The same calls give the same bytes.
+/// and the summary, which copy_mcap() makes again. The same calls give the same bytes.
 class McapWriter {
  public:
   /// Writes the head of the file. Keeps a reference to `output`. Throws Error{kIo}, as all that write do.
@@ -44,6 +44,9 @@ class McapWriter {
   /// Adds facts, at once.
   void add(const McapMetadata& metadata);
 
+  /// Has the output keep what is in the chunk under way (ByteOutput::keep), so that it is not lost if the program ends before the chunk does: as
+  /// small chunks of their own, which follow what was written.
+  void keep_chunk();
   /// Ends the chunk under way, if there is one.
   void end_chunk();
   /// Writes what is left and the summary, and closes the output. Nothing can be added after it.
@@ -57,6 +60,7 @@ class McapWriter {
     std::uint64_t end_time_ns = 0;
     std::uint64_t last_time_ns = 0;
     std::uint64_t messages = 0;
+    std::size_t kept = 0;  ///< bytes of `records` that the output keeps
   };
 
   void write(std::string_view bytes);

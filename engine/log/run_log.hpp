@@ -82,6 +82,8 @@ class RunLogWriter {
   /// The map at the end, under the stamp of the last frame.
   void add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
                std::span<const IdPair> submap_members);
+  /// Makes sure that what was added survives the end of the program (McapWriter::keep_chunk).
+  void keep();
   /// Writes what is left and the index.
   void finish();
 

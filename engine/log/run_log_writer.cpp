@@ -135,6 +135,10 @@ void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark>
   add(topics::kMap, stamp, text_of({{"landmarks", list}, {"submaps", submaps_json(submap_members)}}));
 }
 
+void RunLogWriter::keep() {
+  writer_.keep_chunk();
+}
+
 void RunLogWriter::finish() {
   writer_.finish();
 }

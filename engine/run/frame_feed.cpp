@@ -25,19 +25,21 @@ bool FrameFeed::has_next() const {
   return !ended && done_ < source_.iterations();
 }
 
-void FrameFeed::submit() {
+void FrameFeed::submit(const std::function<void(const hw_frame_t&, const SourceFrame&)>& give) {
   SourceFrame& frame = frames_[submitted_ % window_];
   source_.read(submitted_, frame);
   const hw_frame_t& built = build_frame(builder_, submitted_, frame);
+  give(built, frame);
   ++submitted_;
   if (alive_) pipeline_.submit(built);
 }
 
-void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& take) {
+void FrameFeed::next(bool last, const std::function<void(const hw_frame_t&, const SourceFrame&)>& give,
+                     const std::function<void(const FrameAnswer&)>& take) {
   const std::uint32_t end = last ? done_ + 1 : std::min(source_.iterations() - done_, window_) + done_;
   FrameAnswer answer{.iteration = done_, .frame = frames_[done_ % window_]};
   std::optional<host::Verdict> failure = record::verdict_of([&] {
-    while (submitted_ < end) submit();
+    while (submitted_ < end) submit(give);
     if (!alive_) return;
     answer.outputs = &pipeline_.collect();
     answer.time = pipeline_.last_call();

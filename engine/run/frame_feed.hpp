@@ -31,8 +31,12 @@ class FrameFeed {
   std::uint32_t done() const { return done_; }
   /// Whether there is a next one: not at the end, not after a failure that stops the run.
   bool has_next() const;
-  /// Waits for the answer to the next frame and shows it to `take`. With `last`, no frames are submitted that are not yet under way.
-  void next(bool last, const std::function<void(const FrameAnswer&)>& take);
+  /// Whether a frame is submitted only when the one before it has been answered.
+  bool one_at_a_time() const { return window_ == 1; }
+  /// Submits frames, each shown to `give` before the plugins get it, and waits for the answer to the next one, which is shown to `take`. With `last`,
+  /// no frames are submitted that are not yet under way.
+  void next(bool last, const std::function<void(const hw_frame_t&, const SourceFrame&)>& give,
+            const std::function<void(const FrameAnswer&)>& take);
   /// Frames that were submitted and not yet answered.
   std::uint32_t under_way() const { return submitted_ - done_; }
 
@@ -47,7 +51,7 @@ class FrameFeed {
   void tell(RunResult& result) const;
 
  private:
-  void submit();
+  void submit(const std::function<void(const hw_frame_t&, const SourceFrame&)>& give);
   void note(host::Verdict verdict, std::optional<std::uint32_t> iteration);
   void restart();
 

@@ -55,6 +55,10 @@ void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth
   if (view_) view_->add_true_pose(stamp, true_pose);
 }
 
+void LogRecorder::keep() {
+  recorder_.writer().keep();
+}
+
 void LogRecorder::record_answer(const host::Outputs& outputs) {
   recorder_.record_answer(outputs);
   if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(*outputs.pose()));

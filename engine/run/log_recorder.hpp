@@ -31,6 +31,8 @@ class LogRecorder {
   /// What add_view() made, for what is shown and not recorded; null without it.
   foxglove::View* view() { return view_ ? &*view_ : nullptr; }
 
+  /// Makes sure that what was recorded survives the end of the program, however it ends.
+  void keep();
   /// A frame as the plugins get it, and what is true of it.
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
   /// What the pipeline answered to the frame that was recorded last.

@@ -210,11 +210,18 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   EventView events(plan, feed, recorder);
   RunResult result;
   while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
-    feed.next(result.stopped, [&](const FrameAnswer& answer) {
-      recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
+    const auto give = [&](const hw_frame_t& frame, const SourceFrame& truth) {
+      if (!feed.one_at_a_time()) return;
+      recorder.record_input(frame, truth);
+      recorder.keep();  // a plugin in this process may end it
+    };
+    const auto take = [&](const FrameAnswer& answer) {
+      if (!feed.one_at_a_time())
+        recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
       if (answer.outputs != nullptr) recorder.record_answer(*answer.outputs);
       tally.add(answer);
-    });
+    };
+    feed.next(result.stopped, give, take);
     events.update();
     if (hooks.progress) hooks.progress(feed.done());
     result.stopped = result.stopped || (hooks.stop && hooks.stop());

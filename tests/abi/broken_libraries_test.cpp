@@ -129,6 +129,19 @@ TEST(BrokenLibraries, NeedsALibraryThatIsMissing) {
   EXPECT_TRUE(says(problem, "libmissing_library.so"));
 }
 
+/// Of a library whose code would end the process: its file, with a symbol version that no C library has.
+TEST(BrokenLibraries, NeedsANewerCLibraryIsSeenBeforeItsCodeRuns) {
+  const test::TempFolder folder;
+  std::string bytes = read_file(fixture("crashes_in_static_constructor"));
+  const std::string version("GLIBC_2.2.5", 12);
+  ASSERT_NE(bytes.find(version), std::string::npos);
+  for (std::size_t at = 0; (at = bytes.find(version, at)) != std::string::npos;)
+    bytes.replace(at, 11, "GLIBC_9.9.9");
+  const std::string problem = load_problem(folder.write("a.so", bytes));
+  EXPECT_TRUE(says(problem, "cannot be loaded"));
+  EXPECT_TRUE(says(problem, "version `GLIBC_9.9.9' not found"));
+}
+
 TEST(BrokenLibraries, NullFunctionsInTheEntry) {
   EXPECT_TRUE(says(load_problem(fixture("null_entry_functions")), "null functions in its entry"));
 }

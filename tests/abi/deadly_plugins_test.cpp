@@ -21,9 +21,13 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/helper.hpp"
 #include "host/frame_builder.hpp"
 #include "host/isolated_plugin.hpp"
+#include "host/process_use.hpp"
 #include "support/errors.hpp"
+#include "support/long_mode.hpp"
+#include "support/marked_processes.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::host {
@@ -31,26 +35,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMark = "HALLWAY_DEADLY_TEST";
-
 std::size_t open_descriptors() {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator{}));
-}
-
-/// Processes other than this one that were started, by whomever, with this test's mark in their environment.
-std::vector<std::string> marked_processes() {
-  const std::string mark = std::string(kMark) + "=" + std::to_string(::getpid());
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(::getpid()))
-      continue;
-    std::ifstream file(entry.path() / "environ", std::ios::binary);
-    const std::string environment{std::istreambuf_iterator<char>(file), {}};
-    if (environment.find(mark) != std::string::npos) found.push_back(name);
-  }
-  return found;
 }
 
 bool has_shared_memory() {
@@ -63,11 +50,11 @@ bool has_shared_memory() {
 class DeadlyPlugins : public testing::Test {
  protected:
   void SetUp() override {
-    ::setenv(kMark, std::to_string(::getpid()).c_str(), 1);
+    test::mark_processes();
     descriptors_ = open_descriptors();
   }
   void TearDown() override {
-    EXPECT_EQ(marked_processes(), std::vector<std::string>{}) << "processes are left";
+    EXPECT_EQ(test::marked_processes(), std::vector<std::string>{}) << "processes are left";
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process was not reaped";
     EXPECT_EQ(open_descriptors(), descriptors_) << "descriptors are left";
     EXPECT_FALSE(has_shared_memory());
@@ -114,6 +101,25 @@ class DeadlyPlugins : public testing::Test {
       result.failure = failure;
     }
     return result;
+  }
+
+  /// A whole life, with every call that there is. @return how it failed
+  std::optional<PluginFailure> live(const std::string& wanted) {
+    try {
+      IsolatedPlugin plugin(std::string(FIXTURES) + "/" + wanted, {}, isolation());
+      plugin.set_parameter("flag", "true");
+      EXPECT_EQ(plugin.parameter_text(0), "true");
+      plugin.activate({});
+      FrameBuilder builder;
+      builder.add_points(0) = {{1, 2, 3}};
+      plugin.process(builder.finish());
+      plugin.report(true);
+      plugin.reset();
+      plugin.close();
+    } catch (const PluginFailure& failure) {
+      return failure;
+    }
+    return std::nullopt;
   }
 
   Run breaks(const std::string& how, int at = 3) {
@@ -232,7 +238,7 @@ TEST_F(DeadlyPlugins, WhatItChangesOfItsSurroundingsIsNotOurs) {
   EXPECT_EQ(fs::current_path().string(), folder);
   EXPECT_EQ(::setlocale(LC_ALL, nullptr), locale);
   EXPECT_EQ(std::fegetround(), FE_TONEAREST);
-  EXPECT_NE(std::getenv(kMark), nullptr);
+  EXPECT_NE(std::getenv(test::kProcessMark), nullptr);
 }
 
 TEST_F(DeadlyPlugins, FaultsBeforeThereIsAPluginNameTheFile) {
@@ -261,6 +267,32 @@ TEST_F(DeadlyPlugins, FaultsAtTheEndAreToldByClose) {
     EXPECT_EQ(run.failure->verdict().signal, SIGABRT) << file;
     EXPECT_EQ(run.failure->verdict().call, "close") << file;
     EXPECT_EQ(run.frames, 6u) << file;
+  }
+}
+
+TEST_F(DeadlyPlugins, EveryCallMayBeTheLast) {
+  struct Call {
+    const char* name;
+    const char* told;  ///< the call that the verdict names
+  };
+  for (const auto& [name, told] :
+       {Call{"load", "load"}, Call{"init", "init"}, Call{"describe", "describe"}, Call{"create", "create"},
+        Call{"parameters", "parameters"}, Call{"set", "set"}, Call{"get", "get"},
+        Call{"activate", "activate"}, Call{"process", "process"}, Call{"report", "report"},
+        Call{"reset", "reset"}, Call{"deactivate", "close"}, Call{"destroy", "close"},
+        Call{"deinit", "close"}}) {
+    for (const char* how : {"abort", "exit"}) {
+      ::setenv("HALLWAY_DIES_IN", name, 1);
+      ::setenv("HALLWAY_DIES_BY", how, 1);
+      const auto failure = live("dies_in_call.so");
+      ::unsetenv("HALLWAY_DIES_IN");
+      ::unsetenv("HALLWAY_DIES_BY");
+      ASSERT_TRUE(failure) << name << " " << how;
+      EXPECT_EQ(failure->verdict().call, told) << name << " " << how;
+      const bool aborts = std::strcmp(how, "abort") == 0;
+      EXPECT_STREQ(misdeed_name(failure->verdict().what), aborts ? "crash" : "exit") << name;
+      EXPECT_EQ(aborts ? failure->verdict().signal : failure->verdict().exit_status, aborts ? SIGABRT : 3);
+    }
   }
 }
 
@@ -326,11 +358,16 @@ TEST_F(DeadlyPlugins, AFileThatIsCutWhileItRunsIsItsOwnLoss) {
 
 TEST_F(DeadlyPlugins, ManyAreMadeAndEnded) {
   const std::string slam_point = std::string(PLUGINS) + "/slam_point.so";
-  for (int cycle = 0; cycle < 30; ++cycle) {
+  std::uint64_t memory = 0;
+  for (int cycle = 0; cycle < test::sized(30, 1000); ++cycle) {
     IsolatedPlugin a(EXAMPLE, {}, isolation());
     IsolatedPlugin b(slam_point, {}, isolation());
     IsolatedPlugin again(EXAMPLE, {}, isolation());
     EXPECT_EQ(a.info().id, again.info().id);
+    if (cycle == 5) memory = read_process_use(::getpid())->memory_bytes;
+  }
+  if (!reserves_addresses()) {  // a sanitizer keeps what was freed
+    EXPECT_LT(read_process_use(::getpid())->memory_bytes, memory + (std::uint64_t{4} << 20));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs whose plugins fail: what is said, what is written, what goes on.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <set>
 
 #include "cli/small_world.hpp"
+#include "support/marked_processes.hpp"
 
 namespace hallway {
 namespace {
@@ -38,7 +40,40 @@ std::size_t lines_of(const fs::path& path) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST(Isolation, ACrashIsAVerdictAndWhatWasRecordedStays) {
+/// Shared memory with a name, and files of it that are left in /dev/shm.
+std::set<std::string> shared_memory() {
+  std::set<std::string> names;
+  std::error_code none;
+  for (fs::directory_iterator it("/dev/shm", none), end; !none && it != end; it.increment(none)) {
+    if (it->path().filename().string().find("hallway") != std::string::npos) names.insert(it->path());
+  }
+  return names;
+}
+
+/// Nothing of a plugin may be left when a test ends: no process, nobody to be reaped, no shared memory, no scratch folder.
+class Isolation : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::mark_processes();
+    if (const char* folder = std::getenv("TMPDIR")) outer_ = folder;
+    ::setenv("TMPDIR", temporary_.path().c_str(), 1);
+    shared_ = shared_memory();
+  }
+  void TearDown() override {
+    EXPECT_EQ(test::lasting_processes(), std::vector<std::string>{}) << "processes are left";
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a process was not reaped";
+    EXPECT_EQ(shared_memory(), shared_);
+    EXPECT_TRUE(fs::is_empty(temporary_.path())) << "a scratch folder is left";
+    outer_.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", outer_.c_str(), 1);
+  }
+
+ private:
+  std::string outer_;
+  std::set<std::string> shared_;
+  test::TempFolder temporary_;
+};
+
+TEST_F(Isolation, ACrashIsAVerdictAndWhatWasRecordedStays) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "segv", {"--json"});
   EXPECT_EQ(ended.status, 5) << ended.err;
@@ -63,7 +98,7 @@ TEST(Isolation, ACrashIsAVerdictAndWhatWasRecordedStays) {
   EXPECT_TRUE(fs::exists(fs::path(world.out()) / "run.mcap"));
 }
 
-TEST(Isolation, AFrameThatKillsAPluginDoesSoAgainInReplay) {
+TEST_F(Isolation, AFrameThatKillsAPluginDoesSoAgainInReplay) {
   const test::SmallWorld world;
   run_breaking(world, "_exit");
   const test::Ended ended = test::hallway({"replay", world.out(), "--plugin", fixture("breaks"), "--out",
@@ -75,7 +110,7 @@ TEST(Isolation, AFrameThatKillsAPluginDoesSoAgainInReplay) {
   EXPECT_EQ(run.at("verdict").at("iteration"), 20);
 }
 
-TEST(Isolation, APluginThatHangsIsEndedInTime) {
+TEST_F(Isolation, APluginThatHangsIsEndedInTime) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "deadlock", {"--call-timeout", "3"});
   EXPECT_EQ(ended.status, 5) << ended.err;
@@ -84,7 +119,7 @@ TEST(Isolation, APluginThatHangsIsEndedInTime) {
   EXPECT_EQ(run.at("verdict").at("iteration"), 20);
 }
 
-TEST(Isolation, TheScenarioSaysTheLimitsToo) {
+TEST_F(Isolation, TheScenarioSaysTheLimitsToo) {
   test::TempFolder folder;
   folder.write("small.map", test::small_map());
   const fs::path scenario =
@@ -98,7 +133,7 @@ TEST(Isolation, TheScenarioSaysTheLimitsToo) {
   EXPECT_EQ(run.at("iterations"), 60);
 }
 
-TEST(Isolation, ContinueGoesOnWithoutAnswers) {
+TEST_F(Isolation, ContinueGoesOnWithoutAnswers) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "abort", {"--on-failure", "continue"});
   EXPECT_EQ(ended.status, 5) << ended.err;
@@ -109,7 +144,7 @@ TEST(Isolation, ContinueGoesOnWithoutAnswers) {
   EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 20u);
 }
 
-TEST(Isolation, RestartGoesOnWithANewInstance) {
+TEST_F(Isolation, RestartGoesOnWithANewInstance) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "abort", {"--on-failure", "restart"});
   EXPECT_EQ(ended.status, 5) << ended.err;
@@ -120,7 +155,7 @@ TEST(Isolation, RestartGoesOnWithANewInstance) {
   EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 59u);
 }
 
-TEST(Isolation, AFaultHasTheSameVerdictInBothPlaces) {
+TEST_F(Isolation, AFaultHasTheSameVerdictInBothPlaces) {
   const test::SmallWorld world;
   const std::vector<std::string> plugin{"--plugin", fixture("misbehaves") + ":misbehaves", "--set",
                                         "misbehaves.fault=nan_position"};
@@ -157,7 +192,7 @@ void expect_same_folder(const fs::path& a, const fs::path& b) {
   }
 }
 
-TEST(Isolation, IsolatedOrNotTheFolderHasTheSameBytes) {
+TEST_F(Isolation, IsolatedOrNotTheFolderHasTheSameBytes) {
   const test::SmallWorld world;
   ASSERT_EQ(world.run({}, "isolated").status, 0);
   ASSERT_EQ(world.run({"--in-process"}, "in_process").status, 0);
@@ -171,7 +206,7 @@ TEST(Isolation, IsolatedOrNotTheFolderHasTheSameBytes) {
             read_file(world.out("replay_isolated") + "/trajectory.tum"));
 }
 
-TEST(Isolation, WhatAPluginWritesNeverReachesStandardOutput) {
+TEST_F(Isolation, WhatAPluginWritesNeverReachesStandardOutput) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "stdout", {"--json"});
   EXPECT_EQ(ended.status, 0) << ended.err;
@@ -192,7 +227,7 @@ test::Ended run_dying(const test::SmallWorld& world, const std::string& call, co
   return ended;
 }
 
-TEST(Isolation, APluginThatDiesBeforeTheFirstFrameLeavesARunFolderThatSaysWhere) {
+TEST_F(Isolation, APluginThatDiesBeforeTheFirstFrameLeavesARunFolderThatSaysWhere) {
   const test::SmallWorld world;
   for (const char* call : {"load", "init", "describe", "create", "parameters", "set", "get", "activate"}) {
     const test::Ended ended =
@@ -213,7 +248,7 @@ TEST(Isolation, APluginThatDiesBeforeTheFirstFrameLeavesARunFolderThatSaysWhere)
   }
 }
 
-TEST(Isolation, EveryWayOfDyingBeforeTheFirstFrameIsAVerdict) {
+TEST_F(Isolation, EveryWayOfDyingBeforeTheFirstFrameIsAVerdict) {
   const test::SmallWorld world;
   for (const std::string call : {"init", "create", "activate"}) {
     const auto what_of = [&](const char* how) {
@@ -237,7 +272,7 @@ TEST(Isolation, EveryWayOfDyingBeforeTheFirstFrameIsAVerdict) {
   EXPECT_FALSE(fs::exists(world.out("refused")));
 }
 
-TEST(Isolation, AFailedStartIsPartOfReplaysAndIsReplayed) {
+TEST_F(Isolation, AFailedStartIsPartOfReplaysAndIsReplayed) {
   const test::SmallWorld world;
   ASSERT_EQ(world.run({"--quiet"}, "good").status, 0);
   ::setenv("HALLWAY_DIES_IN", "activate", 1);
@@ -253,7 +288,7 @@ TEST(Isolation, AFailedStartIsPartOfReplaysAndIsReplayed) {
   EXPECT_EQ(test::hallway({"render", world.out("again"), "--out", world.out("a.png")}).status, 0);
 }
 
-TEST(Isolation, ContinueRecordsTheInputOfAPluginThatDidNotStart) {
+TEST_F(Isolation, ContinueRecordsTheInputOfAPluginThatDidNotStart) {
   const test::SmallWorld world;
   EXPECT_EQ(run_dying(world, "activate", "abort", {"--on-failure", "continue"}).status, 5);
   const Json run = read_json(fs::path(world.out()) / "run.json");
@@ -264,7 +299,7 @@ TEST(Isolation, ContinueRecordsTheInputOfAPluginThatDidNotStart) {
             0);
 }
 
-TEST(Isolation, APluginThatDoesNotStartIsTriedThreeTimesAndNoMore) {
+TEST_F(Isolation, APluginThatDoesNotStartIsTriedThreeTimesAndNoMore) {
   const test::SmallWorld world;
   EXPECT_EQ(run_dying(world, "create", "exit", {"--on-failure", "restart"}).status, 5);
   const Json run = read_json(fs::path(world.out()) / "run.json");
@@ -274,7 +309,33 @@ TEST(Isolation, APluginThatDoesNotStartIsTriedThreeTimesAndNoMore) {
   EXPECT_EQ(run.at("iterations"), 60) << "as with continue";
 }
 
-TEST(Isolation, WrongLimitsAreWrongUse) {
+TEST_F(Isolation, AFaultInShutdownIsAVerdictAndTheFolderIsWhole) {
+  const test::SmallWorld world;
+  EXPECT_EQ(world.run({"--plugin", fixture("crashes_in_shutdown")}).status, 5);
+  const Json run = read_json(fs::path(world.out()) / "run.json");
+  EXPECT_EQ(run.at("verdict").at("call"), "close");
+  EXPECT_EQ(run.at("verdict").at("signal"), 6);
+  EXPECT_EQ(run.at("iterations"), 60);
+}
+
+TEST_F(Isolation, WhatCannotBeLoadedIsNoFailureOfARun) {
+  const test::SmallWorld world;
+  for (const char* name :
+       {"no_entry", "other_abi_major", "null_entry_functions", "no_factory", "null_factory_functions",
+        "null_vtable_functions", "init_fails", "init_fails_silently", "duplicate_ids", "null_name", "bad_id",
+        "needs_missing_library"}) {
+    for (const bool in_process : {false, true}) {
+      std::vector<std::string> arguments{"--plugin", fixture(name)};
+      if (in_process) arguments.push_back("--in-process");
+      const test::Ended ended = world.run(arguments);
+      EXPECT_EQ(ended.status, 4) << name << ": " << ended.err;
+      EXPECT_NE(ended.err.find(std::string(name) + ".so"), std::string::npos) << ended.err;
+      EXPECT_FALSE(fs::exists(world.out())) << name;
+    }
+  }
+}
+
+TEST_F(Isolation, WrongLimitsAreWrongUse) {
   const test::SmallWorld world;
   EXPECT_EQ(world.run({"--on-failure", "hope"}).status, 2);
   EXPECT_EQ(world.run({"--call-timeout", "0"}).status, 2);

@@ -232,5 +232,36 @@ TEST_F(Log, ARunThatIsKilledLeavesALogThatCanBeRecovered) {
   EXPECT_EQ(hallway({"replay", path("mended.mcap"), "--quiet", "--out", path("run")}).status, 0);
 }
 
+TEST_F(Log, TheFrameThatKilledARunInItsOwnProcessIsTheLastOneInItsLog) {
+  for (const std::string how : {"segv", "_exit", "exit"}) {
+    const fs::path out = path("killed-" + how);
+    Process process({hallway_program(), "run", world_->scenario(), "--in-process", "--plugin",
+                     binary_folder() / "tests/abi/fixtures/breaks.so", "--set", "breaks.how=" + how, "--set",
+                     "breaks.at=17", "--quiet", "--out", out});
+    const fs::path left = out.string() + ".part-" + std::to_string(process.pid());
+    const int status = process.wait().status;
+    EXPECT_TRUE(how == "segv" ? status == 128 + SIGSEGV || status == 1 : status == (how == "exit" ? 0 : 7))
+        << status;
+    EXPECT_FALSE(fs::exists(out));
+    const std::string mended = path(how + ".mcap");
+    ASSERT_EQ(hallway({"log", "recover", left, "--out", mended}).status, 0);
+    const Json facts = info(mended);
+    EXPECT_TRUE(facts.at("damage").is_null());
+    EXPECT_EQ(messages(facts, "/hallway/frame"), 18u) << "17 and the deadly one";
+    EXPECT_EQ(messages(facts, "/hallway/truth/identities"), 18u);
+    EXPECT_EQ(messages(facts, "/hallway/output/pose"), 17u);
+    EXPECT_EQ(messages(info(left), "/hallway/frame"), 18u) << "info reads what was kept, too";
+    for (const std::string& log :
+         {mended, left.string()}) {  // and it kills again, where that can be looked at
+      const Ended ended =
+          hallway({"replay", log, "--plugin", binary_folder() / "tests/abi/fixtures/breaks.so", "--set",
+                   "how=" + how, "--set", "at=17", "--force", "--out", path("again")});
+      EXPECT_EQ(ended.status, 5) << ended.err;
+      EXPECT_EQ(Json::parse(read_file(fs::path(path("again")) / "run.json")).at("verdict").at("iteration"),
+                17);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hallway::test

@@ -3,8 +3,13 @@
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <iterator>
+
+#include "base/helper.hpp"
 #include "fixtures.hpp"
+#include "host/process_use.hpp"
 
 namespace hallway::host {
 namespace {
@@ -26,8 +31,23 @@ TEST(Library, IsUnloadedWithItsLastUser) {
   EXPECT_FALSE(is_loaded(kMinimal));
 }
 
-TEST(Library, LoadsAgainAndAgain) {
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(Library::load(kMinimal)->plugins().size(), 1u);
+std::size_t open_descriptors() {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                                                std::filesystem::directory_iterator{}));
+}
+
+TEST(Library, LoadsAgainAndAgainWithoutGrowth) {
+  const std::size_t descriptors = open_descriptors();
+  std::uint64_t memory = 0;
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(Library::load(kMinimal)->plugins().size(), 1u);
+    EXPECT_NE(Library::load(EXAMPLE)->find("example_c"), nullptr);
+    if (i == 100) memory = read_process_use(::getpid())->memory_bytes;
+  }
+  EXPECT_EQ(open_descriptors(), descriptors);
+  if (!reserves_addresses()) {  // a sanitizer keeps what was freed
+    EXPECT_LT(read_process_use(::getpid())->memory_bytes, memory + (std::uint64_t{2} << 20));
+  }
 }
 
 TEST(Library, TwoLibrariesInTurn) {
