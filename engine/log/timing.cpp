@@ -3,7 +3,6 @@
 
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
-#include "log/row_writer.hpp"
 
 namespace hallway::log {
 namespace {
@@ -34,12 +33,14 @@ std::vector<IterationTime> read_timing(const std::filesystem::path& path) {
   return parse_timing(read_file(path), path.string());
 }
 
+void add_row(RowWriter& out, const IterationTime& time) {
+  out.whole(time.iteration).number(time.wall_ms).number(time.cpu_ms).end_row();
+}
+
 std::string print_timing(std::span<const IterationTime> times) {
   RowWriter out(',');
-  out.word("iteration,wall_ms,cpu_ms").end_row();
-  for (const IterationTime& time : times) {
-    out.whole(time.iteration).number(time.wall_ms).number(time.cpu_ms).end_row();
-  }
+  out.word(kTimingColumns).end_row();
+  for (const IterationTime& time : times) add_row(out, time);
   return out.take();
 }
 

@@ -15,9 +15,9 @@ FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& pl
       window_(plan.lock_step || !pipeline.started() ? 1 : static_cast<std::uint32_t>(pipeline.capacity())),
       alive_(pipeline.started()),
       frames_(window_) {
-  told_.verdicts = plan.start_failures;
-  told_.failures = plan.start_failures.size();
-  told_.restarts = alive_ && told_.failures != 0 ? 1 : 0;
+  failures_.verdicts = plan.start_failures;
+  failures_.count = plan.start_failures.size();
+  failures_.restarts = alive_ && failures_.count != 0 ? 1 : 0;
 }
 
 bool FrameFeed::has_next() const {
@@ -38,7 +38,7 @@ void FrameFeed::next(bool last, const std::function<void(const hw_frame_t&, cons
                      const std::function<void(const FrameAnswer&)>& take) {
   const std::uint32_t end = last ? done_ + 1 : std::min(source_.iterations() - done_, window_) + done_;
   FrameAnswer answer{.iteration = done_, .frame = frames_[done_ % window_]};
-  std::optional<host::Verdict> failure = record::verdict_of([&] {
+  std::optional<host::Verdict> failure = record::catch_failure([&] {
     while (submitted_ < end) submit(give);
     if (!alive_) return;
     answer.outputs = &pipeline_.collect();
@@ -54,41 +54,33 @@ void FrameFeed::next(bool last, const std::function<void(const hw_frame_t&, cons
 }
 
 void FrameFeed::restart() {
-  std::vector<Failure> failures;
+  std::vector<record::Failure> failures;
   try {
     failures = record::start_plugins(pipeline_, policy_);
   } catch (const Error& error) {  // its file is another one now, or it refuses what it took before
     failures.push_back({{.call = "load", .message = error.what()}, std::nullopt});
   }
-  for (Failure& failure : failures) note(std::move(failure.verdict), std::nullopt);
+  for (record::Failure& failure : failures) note(std::move(failure.verdict), std::nullopt);
   alive_ = pipeline_.started();
-  if (alive_) ++told_.restarts;
+  if (alive_) ++failures_.restarts;
 }
 
 void FrameFeed::note(host::Verdict verdict, std::optional<std::uint32_t> iteration) {
   alive_ = false;
-  ++told_.failures;
-  if (told_.verdicts.size() < RunResult::kMaxVerdicts) {
-    told_.verdicts.push_back({std::move(verdict), iteration});
-  }
+  failures_.note(std::move(verdict), iteration);
 }
 
 const host::Outputs* FrameFeed::report(bool refine) {
   if (!alive_) return nullptr;
   const host::Outputs* outputs = nullptr;
-  if (auto failure = record::verdict_of([&] { outputs = &pipeline_.report(refine); }))
+  if (auto failure = record::catch_failure([&] { outputs = &pipeline_.report(refine); }))
     note(std::move(*failure), std::nullopt);
   return outputs;
 }
 
 void FrameFeed::close() {
-  if (auto failure = record::verdict_of([&] { pipeline_.close(); })) note(std::move(*failure), std::nullopt);
-}
-
-void FrameFeed::tell(RunResult& result) const {
-  result.failures = told_.failures;
-  result.verdicts = told_.verdicts;
-  result.restarts = told_.restarts;
+  if (auto failure = record::catch_failure([&] { pipeline_.close(); }))
+    note(std::move(*failure), std::nullopt);
 }
 
 }  // namespace hallway::run

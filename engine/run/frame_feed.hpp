@@ -45,10 +45,8 @@ class FrameFeed {
   /// Ends the pipeline in good order.
   void close();
 
-  /// The failures so far, RunResult::kMaxVerdicts at most.
-  const std::vector<Failure>& failures() const { return told_.verdicts; }
-  /// The same and their number, in `result`.
-  void tell(RunResult& result) const;
+  /// The failures so far.
+  const record::Failures& failures() const { return failures_; }
 
  private:
   void submit(const std::function<void(const hw_frame_t&, const SourceFrame&)>& give);
@@ -64,7 +62,7 @@ class FrameFeed {
   std::uint32_t done_ = 0;
   host::FrameBuilder builder_;
   std::vector<SourceFrame> frames_;  ///< under way, by iteration modulo window_
-  RunResult told_;
+  record::Failures failures_;
 };
 
 }  // namespace hallway::run

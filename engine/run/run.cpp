@@ -12,8 +12,10 @@
 #include "eval/metrics_json.hpp"
 #include "host/frame_builder.hpp"
 #include "log/poses.hpp"
-#include "log/timing.hpp"
+#include "log/tum.hpp"
+#include "record/answer_tables.hpp"
 #include "record/final_map.hpp"
+#include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "run/abi_pose.hpp"
@@ -28,15 +30,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMillisecondsPerNanosecond = 1e-6;
-
 /// Everything that is collected while a run goes on and written at its end.
 struct Collected {
   log::ObservationLog observations{true};
   std::vector<log::IterationPose> true_poses;
   std::vector<log::StampedPose> truth;
-  std::vector<log::StampedPose> trajectory;
-  std::vector<log::IterationTime> times;
 };
 
 log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
@@ -81,13 +79,9 @@ class Tally {
 
  private:
   void add_answer(const FrameAnswer& answer, eval::Iteration& iteration) {
-    iteration.wall_ms = static_cast<double>(answer.time.wall_ns) * kMillisecondsPerNanosecond;
-    iteration.cpu_ms = static_cast<double>(answer.time.cpu_ns) * kMillisecondsPerNanosecond;
+    iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
+    iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
-    collected_.times.push_back(
-        {.iteration = answer.iteration, .wall_ms = *iteration.wall_ms, .cpu_ms = *iteration.cpu_ms});
-    if (iteration.T_map_body)
-      collected_.trajectory.push_back(stamped(answer.frame.t_ns, *iteration.T_map_body));
   }
 
   std::span<const log::LandmarkId> associations(const FrameAnswer& answer) {
@@ -117,10 +111,6 @@ class Tally {
   Collected collected_;
 };
 
-void write_json(const fs::path& path, const nlohmann::ordered_json& document) {
-  write_file_atomically(path, document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
 void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
                  const Collected& collected) {
   for (const Attachment& attachment : plan.attachments) {
@@ -149,7 +139,7 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
   manifest["sensors"] = nlohmann::ordered_json::array({record::print_sensor(source.sensor())});
   manifest["iterations"] = done;
   manifest["stopped_early"] = result.stopped;
-  describe_failures(plan.on_failure, result, manifest);
+  record::describe_failures(plan.on_failure, result.failures, manifest);
   return manifest;
 }
 
@@ -166,8 +156,8 @@ class EventView {
     if (log_ == nullptr) return;
     foxglove::View& view = *recorder_.view();
     for (const foxglove::LogLine& line : log_->take()) view.add_log(line);
-    for (; shown_ < feed_.failures().size(); ++shown_) {
-      const host::Verdict& verdict = feed_.failures()[shown_].verdict;
+    for (; shown_ < feed_.failures().verdicts.size(); ++shown_) {
+      const host::Verdict& verdict = feed_.failures().verdicts[shown_].verdict;
       view.add_log({HW_LOG_ERROR, verdict.plugin, verdict.message});
     }
   }
@@ -204,6 +194,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const fs::path& folder = output.working_path();
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
+  record::AnswerTables tables(folder);
   host::FrameBuilder builder;
   Tally tally(source, plan.write_observations);
   FrameFeed feed(source, pipeline, plan);
@@ -218,7 +209,10 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
     const auto take = [&](const FrameAnswer& answer) {
       if (!feed.one_at_a_time())
         recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
-      if (answer.outputs != nullptr) recorder.record_answer(*answer.outputs);
+      if (answer.outputs != nullptr) {
+        recorder.record_answer(*answer.outputs);
+        tables.add(answer.iteration, answer.frame.t_ns, *answer.outputs, answer.time);
+      }
       tally.add(answer);
     };
     feed.next(result.stopped, give, take);
@@ -230,19 +224,18 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const host::Outputs* refined_outputs = feed.report(true);
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
+  tables.close();
   feed.close();
-  feed.tell(result);
+  result.failures = feed.failures();
   events.update();
   result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
   result.submaps = refined.submaps;
 
   write_input(folder, plan, source, tally.collected());
-  log::write_tum(folder / files::kTrajectory, tally.collected().trajectory);
   record::write_map(folder, refined);
   write_matches(folder, tally.evaluator());
-  log::write_timing(folder / files::kTiming, tally.collected().times);
-  write_json(folder / files::kMetrics, eval::to_json(result.metrics));
-  write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
+  record::write_json(folder / files::kMetrics, eval::to_json(result.metrics));
+  record::write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
   events.add_pictures(draw_pictures(folder, plan));
   for (const sim::PictureSpec& picture : plan.pictures)
     result.pictures.push_back(output.path() / picture.file);

@@ -11,7 +11,8 @@
 
 #include "eval/metrics.hpp"
 #include "host/pipeline.hpp"
-#include "record/failure.hpp"
+#include "record/failures.hpp"
+#include "record/manifest.hpp"
 #include "run/plugin_log.hpp"
 #include "run/source.hpp"
 #include "sim/scenario.hpp"
@@ -19,11 +20,7 @@
 namespace hallway::run {
 
 /// A file that is kept in the run folder as it was read, so that the folder says all of what was run.
-struct Attachment {
-  std::string name;
-  std::string content;
-};
-
+using record::Attachment;
 using record::Failure;
 
 /// What a run leaves behind, and where.
@@ -54,11 +51,7 @@ struct RunResult {
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names
   bool stopped = false;                         ///< by RunHooks::stop
-  std::uint64_t failures = 0;                   ///< of the pipeline
-  std::vector<Failure> verdicts;                ///< of the first of them, kMaxVerdicts at most
-  std::uint64_t restarts = 0;                   ///< of the pipeline
-
-  static constexpr std::size_t kMaxVerdicts = 100;
+  record::Failures failures;                    ///< of the pipeline
 };
 
 /// Feeds every frame of the source to the pipeline, scores what it answers and writes the run folder (docs/formats.md).
