@@ -61,7 +61,7 @@ std::vector<host::SensorInfo> sensors_of(const std::string& activation) {
     std::vector<host::SensorInfo> sensors;
     const Json json = Json::parse(activation);
     for (const Json& sensor : json.at("sensors")) {
-      sensors.push_back(read_sensor(sensor));
+      sensors.push_back(record::read_sensor(sensor));
       sensors.back().id = sensor.value("id", std::uint32_t{0});
     }
     return sensors;
