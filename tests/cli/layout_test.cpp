@@ -95,10 +95,11 @@ TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
       if (include.target == "muParser.h") users["muParser"].insert(include.file.string());
       if (include.target.starts_with("editline/")) users["libedit"].insert(include.file.string());
       if (include.target == "zstd.h") users["zstd"].insert(include.file.string());
+      if (include.target.starts_with("rosbag/")) users["ROS"].insert(include.file.string());
       if (include.target == "gmp.h") users["GMP"].insert(include.file.string());
     }
   }
-  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd"}) {
+  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd", "ROS"}) {
     EXPECT_EQ(users[library].size(), 1u) << library;
   }
 }
