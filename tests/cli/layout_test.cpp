@@ -39,14 +39,15 @@ const std::map<std::string, std::set<std::string>> kAllowed{
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log",
       "eval", "render", "hallway"}},
     {"editor",
-     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
+     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render",
+      "run"}},
     {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 
-const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
-                                       "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "import", "eval", "render", "run",   "editor",  "hallway", "slam_point"};
+const std::set<std::string> kLibraries{"base", "geom",   "map",   "csg",    "bsp",     "pvs",       "trace",
+                                       "mesh", "world",  "sense", "sim",    "host",    "log",       "import",
+                                       "eval", "render", "run",   "editor", "hallway", "slam_point"};
 
 struct Include {
   fs::path file;
@@ -99,7 +100,8 @@ TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
       if (include.target == "gmp.h") users["GMP"].insert(include.file.string());
     }
   }
-  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd", "ROS"}) {
+  for (const char* library :
+       {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd", "ROS"}) {
     EXPECT_EQ(users[library].size(), 1u) << library;
   }
 }
