@@ -122,6 +122,11 @@ void look_at_helpers(Check& result) {
   for (const char* name : {"hallway-plugin", "hallway-mesh-loader"}) {
     result.text += (result.text.empty() ? "" : ", ") + printable(find_helper(name).string(), 4096);
   }
+  try {
+    result.text += ", " + printable(find_helper("hallway-bag").string(), 4096);
+  } catch (const Error&) {
+    result.text += "; built without ROS 1: bags are not read";
+  }
 }
 
 void look_at_plugins(Check& result, const std::vector<fs::path>& folders) {

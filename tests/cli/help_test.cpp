@@ -33,7 +33,9 @@ TEST(Help, OfLog) {
   expect_help({"log", "info", "--help"}, {"--json", "status 1", "Example"});
   expect_help({"log", "cut", "--help"}, {"--from", "--to-iteration", "--out", "--force", "Example"});
   expect_help({"log", "recover", "--help"}, {"--out", "part-PID", "Example"});
-  expect_help({"log", "convert", "--help"}, {"--truth-poses", "--period", "Example"});
+  expect_help({"log", "convert", "--help"},
+              {"--truth-poses", "--period", "--from", "--stride", "--times", "--camera", "--truth-within",
+               "--topic", "--truth-topic", "Example"});
 }
 
 TEST(Help, OfRender) {
