@@ -33,11 +33,12 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/host", {"base", "hallway"}},
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
+    {"engine/link", {"base", "host", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
-      "eval", "render", "hallway"}},
+      "link", "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
     {"loaders", {"base", "geom", "mesh"}},
@@ -46,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "eval", "render", "run",   "editor",  "hallway", "slam_point"};
+                                       "log",   "record", "link", "eval", "render", "run",   "editor",  "hallway", "slam_point"};
 
 struct Include {
   fs::path file;
