@@ -37,22 +37,19 @@ std::string compiler_name() {
 #endif
 }
 
-Json describe_host(const ManifestFacts& facts, host::Pipeline& pipeline) {
-  Json files = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    files.push_back(printable(pipeline.stage(i).file().string(), 4096));
+Json describe_host(const ManifestFacts& facts) {
   return {{"cpu", cpu_name()},
           {"threads", facts.threads},
           {"trace", trace::backend_description(facts.trace)},
           {"compiler", compiler_name()},
-          {"plugin_files", files},
-          {"isolated", pipeline.isolated()},
+          {"plugin_files", Json::array()},
+          {"isolated", nullptr},
           {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 
 }  // namespace
 
-Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
+Json make_manifest(const ManifestFacts& facts) {
   Json inputs = Json::array();
   for (const Attachment& input : facts.inputs) {
     inputs.push_back({{"file", printable(input.name)}, {"hash", content_hash(input.content)}});
@@ -61,14 +58,22 @@ Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
   for (const sim::Setting& setting : facts.settings) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
-  Json plugins = Json::array();
-  for (std::size_t i = 0; i < pipeline.size(); ++i)
-    plugins.push_back(record::print_plugin(facts.parameters, pipeline.stage(i)));
   return {{"schema", "hallway.run/1"},  {"hallway", record::version()},
           {"command", facts.command},   {"name", facts.name},
           {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", plugins},
-          {"warnings", facts.warnings}, {"host", describe_host(facts, pipeline)}};
+          {"settings", settings},       {"plugins", Json::array()},
+          {"warnings", facts.warnings}, {"host", describe_host(facts)}};
+}
+
+Json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline) {
+  Json manifest = make_manifest(facts);
+  for (std::size_t i = 0; i < pipeline.size(); ++i) {
+    host::Stage& stage = pipeline.stage(i);
+    manifest["plugins"].push_back(record::print_plugin(facts.parameters, stage));
+    manifest["host"]["plugin_files"].push_back(printable(stage.file().string(), 4096));
+  }
+  manifest["host"]["isolated"] = pipeline.isolated();
+  return manifest;
 }
 
 Json print_failure(const Failure& failure) {
