@@ -42,6 +42,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render", "run"}},
     {"loaders", {"base", "geom", "mesh"}},
+    {"robot/drivers", {"base", "host", "link", "hallway"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 

@@ -65,7 +65,7 @@ void mend(Bytes& datagram) {
 std::vector<Bytes> split(std::span<const std::uint8_t> data, bool mended) {
   std::vector<Bytes> datagrams;
   while (data.size() >= 2) {
-    const std::size_t length = std::min<std::size_t>(data[0] | data[1] << 8, data.size() - 2);
+    const std::size_t length = std::min<std::size_t>(data[0] + 256u * data[1], data.size() - 2);
     Bytes& datagram = datagrams.emplace_back(length);
     for (std::size_t i = 0; i < length; ++i) datagram[i] = std::byte{data[i + 2]};
     if (mended) mend(datagram);
