@@ -9,6 +9,7 @@ namespace hallway::cli {
 /// Each adds its subcommand to `app`, which sets `chosen` when it is the one that is asked for.
 void add_run_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
+void add_serve_command(CLI::App& app, Action& chosen);
 void add_log_command(CLI::App& app, Action& chosen);
 void add_render_command(CLI::App& app, Action& chosen);
 void add_batch_command(CLI::App& app, Action& chosen);

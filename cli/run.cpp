@@ -17,6 +17,7 @@
 #include "run/manifest.hpp"
 #include "run/record.hpp"
 #include "run/simulated_source.hpp"
+#include "scenario_input.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {
@@ -41,14 +42,6 @@ struct RunOptions {
   bool quiet = false;
 };
 
-sim::Override parse_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set takes key=value, not \"{}\"", printable(text)));
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 std::vector<sim::Override> overrides_of(const RunOptions& options) {
   std::vector<sim::Override> overrides;
   if (!options.plugin.empty()) overrides.push_back({"plugin", options.plugin});
@@ -57,28 +50,6 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
   for (const sim::Override& limit : overrides_of(options.isolation)) overrides.push_back(limit);
   return overrides;
-}
-
-/// What the user should know of the map; with --strict the first of it ends the run.
-std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {
-  std::vector<std::string> warnings;
-  for (const Error& problem : simulator.problems()) {
-    if (strict) throw problem;
-    warnings.emplace_back(problem.what());
-    print_warning(warnings.back());
-  }
-  return warnings;
-}
-
-/// The files of the map's models, named as the map names them.
-std::vector<run::Attachment> model_files(const sim::Simulator& simulator) {
-  const fs::path folder = simulator.scenario().map_file.parent_path();
-  std::vector<run::Attachment> files;
-  for (const fs::path& file : simulator.models().files) {
-    files.push_back(
-        {file.lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string(), read_file(file)});
-  }
-  return files;
 }
 
 int run_scenario(const RunOptions& options) {

@@ -37,20 +37,17 @@ std::string compiler_name() {
 #endif
 }
 
-Json describe_host(const host::Pipeline& pipeline) {
-  Json files = Json::array();
-  for (const host::StageFacts& plugin : pipeline.facts())
-    files.push_back(printable(plugin.file.string(), 4096));
+Json describe_host() {
   return {{"cpu", cpu_name()},
           {"compiler", compiler_name()},
-          {"plugin_files", files},
-          {"isolated", pipeline.isolated()},
+          {"plugin_files", Json::array()},
+          {"isolated", nullptr},
           {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 
 }  // namespace
 
-Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
+Json make_manifest(const ManifestFacts& facts) {
   Json inputs = Json::array();
   for (const Attachment& input : facts.inputs) {
     inputs.push_back({{"file", printable(input.name)}, {"hash", content_hash(input.content)}});
@@ -62,8 +59,17 @@ Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
   return {{"schema", "hallway.run/1"},  {"hallway", version()},
           {"command", facts.command},   {"name", facts.name},
           {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", print_plugins(facts.parameters, pipeline)},
-          {"warnings", facts.warnings}, {"host", describe_host(pipeline)}};
+          {"settings", settings},       {"plugins", Json::array()},
+          {"warnings", facts.warnings}, {"host", describe_host()}};
+}
+
+Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
+  Json manifest = make_manifest(facts);
+  manifest["plugins"] = print_plugins(facts.parameters, pipeline);
+  for (const host::StageFacts& plugin : pipeline.facts())
+    manifest["host"]["plugin_files"].push_back(printable(plugin.file.string(), 4096));
+  manifest["host"]["isolated"] = pipeline.isolated();
+  return manifest;
 }
 
 void write_json(const std::filesystem::path& path, const Json& document) {

@@ -33,6 +33,8 @@ struct ManifestFacts {
 /// run.json, schema "hallway.run/1", as far as it is known before the first iteration (docs/formats.md). Everything that
 /// may differ between two runs of the same input stands under `host`.
 nlohmann::ordered_json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline);
+/// The same of a command that runs no plugins: `plugins` is empty.
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts);
 
 /// Writes a document as the files of a run folder have it. Throws Error{kIo}.
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& document);

@@ -37,6 +37,8 @@ class LogRecorder {
   void record_input(const hw_frame_t& given, const SourceFrame& truth);
   /// What the pipeline answered to the frame that was recorded last.
   void record_answer(const host::Outputs& outputs);
+  /// For what else there is to record of the same frames.
+  log::RunLogWriter& writer() { return recorder_.writer(); }
   /// The map at the end.
   void record_map(const record::FinalMap& map);
   /// Writes what is left and the index.

@@ -3,18 +3,32 @@
 
 namespace hallway::run {
 
-nlohmann::ordered_json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
-  nlohmann::ordered_json manifest = record::make_manifest({.command = facts.command,
-                                                           .name = facts.name,
-                                                           .inputs = facts.inputs,
-                                                           .settings = facts.settings,
-                                                           .parameters = facts.parameters,
-                                                           .warnings = facts.warnings,
-                                                           .period_ns = facts.period_ns},
-                                                          pipeline);
+namespace {
+
+record::ManifestFacts common(const ManifestFacts& facts) {
+  return {.command = facts.command,
+          .name = facts.name,
+          .inputs = facts.inputs,
+          .settings = facts.settings,
+          .parameters = facts.parameters,
+          .warnings = facts.warnings,
+          .period_ns = facts.period_ns};
+}
+
+nlohmann::ordered_json with_machine(nlohmann::ordered_json manifest, const ManifestFacts& facts) {
   manifest["host"]["threads"] = facts.threads;
   manifest["host"]["trace"] = trace::backend_description(facts.trace);
   return manifest;
+}
+
+}  // namespace
+
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {
+  return with_machine(record::make_manifest(common(facts), pipeline), facts);
+}
+
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts) {
+  return with_machine(record::make_manifest(common(facts)), facts);
 }
 
 }  // namespace hallway::run

@@ -33,5 +33,7 @@ struct ManifestFacts {
 /// run.json, schema "hallway.run/1", as far as it is known before the first iteration (docs/formats.md). Everything that
 /// may differ between two runs of the same input stands under `host`.
 nlohmann::ordered_json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline);
+/// The same of a command that runs no plugins: `plugins` is empty.
+nlohmann::ordered_json make_manifest(const ManifestFacts& facts);
 
 }  // namespace hallway::run

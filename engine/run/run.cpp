@@ -11,8 +11,6 @@
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
 #include "host/frame_builder.hpp"
-#include "log/poses.hpp"
-#include "log/tum.hpp"
 #include "record/answer_tables.hpp"
 #include "record/final_map.hpp"
 #include "record/manifest.hpp"
@@ -24,6 +22,8 @@
 #include "run/manifest.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
+#include "run/run_files.hpp"
+#include "run/truth_tables.hpp"
 
 namespace hallway::run {
 namespace {
@@ -33,15 +33,8 @@ namespace fs = std::filesystem;
 /// Everything that is collected while a run goes on and written at its end.
 struct Collected {
   log::ObservationLog observations{true};
-  std::vector<log::IterationPose> true_poses;
-  std::vector<log::StampedPose> truth;
+  TruthTables truth;
 };
-
-log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
-  return {.t_s = static_cast<double>(t_ns) / 1e9,
-          .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
-          .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
-}
 
 std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   if (!outputs.pose() || !outputs.pose()->valid) return std::nullopt;
@@ -94,13 +87,7 @@ class Tally {
 
   void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
     if (keep_observations_) collected_.observations.add_frame(iteration, frame.observations);
-    if (!frame.T_world_body) return;
-    const log::StampedPose pose = stamped(frame.t_ns, *frame.T_world_body);
-    collected_.truth.push_back(pose);
-    collected_.true_poses.push_back({.iteration = iteration,
-                                     .position_m = pose.position_m,
-                                     .orientation = pose.orientation,
-                                     .orientation_known = frame.orientation_known});
+    collected_.truth.add(iteration, frame);
   }
 
   const Source& source_;
@@ -113,15 +100,8 @@ class Tally {
 
 void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
                  const Collected& collected) {
-  for (const Attachment& attachment : plan.attachments) {
-    make_folder((folder / attachment.name).parent_path());
-    write_file_atomically(folder / attachment.name, attachment.content);
-  }
-  if (!collected.truth.empty()) {
-    log::write_tum(folder / files::kTrueTrajectory, collected.truth);
-    log::write_poses(folder / files::kTruePoses, collected.true_poses);
-  }
-  if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
+  write_attachments(folder, plan.attachments);
+  collected.truth.write(folder, source);
   if (plan.write_observations) log::write_observations(folder / files::kObservations, collected.observations);
 }
 

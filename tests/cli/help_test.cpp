@@ -28,6 +28,11 @@ TEST(Help, OfReplay) {
               {"--plugin", "--steps", "--truth-poses", "--truth-landmarks", "--out", "--json", "Example"});
 }
 
+TEST(Help, OfServe) {
+  expect_help({"serve", "--help"},
+              {"--udp", "--lockstep", "--rate", "--loss", "--give-up", "--out", "Example"});
+}
+
 TEST(Help, OfLog) {
   expect_help({"log", "--help"}, {"info", "cut", "recover", "convert", "Example"});
   expect_help({"log", "info", "--help"}, {"--json", "status 1", "Example"});

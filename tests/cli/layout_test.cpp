@@ -33,24 +33,25 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "host"}},
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
+    {"engine/link", {"base", "host", "hallway"}},
     {"engine/foxglove", {"base", "geom", "host", "log", "hallway"}},
     {"engine/import", {"base", "geom", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/run",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
-      "foxglove", "eval", "render", "hallway"}},
+      "link", "foxglove", "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render",
       "run"}},
-    {"robot", {"base", "host", "log", "record", "hallway"}},
+    {"robot", {"base", "host", "log", "record", "link", "hallway"}},
     {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
+                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
 
 struct Include {
   fs::path file;

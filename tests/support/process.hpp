@@ -59,6 +59,9 @@ class Process {
 
   pid_t pid() const { return pid_; }
 
+  /// What it has printed on standard error so far.
+  std::string err_so_far() const { return read_file(captured_.path() / "err"); }
+
   /// Waits for its end.
   Ended wait() {
     int status = 0;

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "run/serve.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <random>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "link/lossy_wire.hpp"
+#include "link/udp_wire.hpp"
+#include "log/observations.hpp"
+#include "log_input.hpp"
+#include "run/manifest.hpp"
+#include "run/record.hpp"
+#include "run/simulated_source.hpp"
+#include "scenario_input.hpp"
+#include "sim/scenario.hpp"
+#include "sim/simulator.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kGiveUpSeconds = 10;
+
+struct ServeOptions {
+  std::string input;
+  std::string udp;
+  bool lock_step = false;
+  double rate = 1.0;
+  double loss = 0;
+  std::uint64_t loss_seed = 1;
+  double give_up_s = kGiveUpSeconds;
+  std::optional<std::uint32_t> steps;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> settings;
+  unsigned threads = hardware_threads();
+  std::string out;
+  bool strict = false;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// What is served, with all that it stands on.
+struct Input {
+  std::unique_ptr<sim::Simulator> simulator{};
+  std::unique_ptr<run::Source> source{};
+  run::ManifestFacts facts{};
+  std::vector<run::Attachment> attachments{};
+};
+
+Input open_scenario(const ServeOptions& options) {
+  std::vector<sim::Override> overrides;
+  for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
+  if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
+  if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
+  const sim::Scenario scenario = sim::load_scenario(options.input, overrides);
+  Input input;
+  input.simulator = std::make_unique<sim::Simulator>(scenario, options.threads, trace::Backend::kEmbree);
+  input.facts.warnings = take_warnings(*input.simulator, options.strict);
+  input.source = std::make_unique<run::SimulatedSource>(*input.simulator);
+  input.facts.name = fs::path(scenario.file).stem().string();
+  input.facts.settings = input.simulator->scenario().settings;
+  input.facts.period_ns = scenario.period_ns;
+  input.facts.threads = options.threads;
+  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+                        {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
+  input.attachments = {{run::files::kScenario, input.facts.inputs[0].content},
+                       {run::files::kMap, input.facts.inputs[1].content}};
+  for (const run::Attachment& model : model_files(*input.simulator)) {
+    input.facts.inputs.push_back(model);
+    input.attachments.push_back(model);
+  }
+  return input;
+}
+
+Input open_recording(const ServeOptions& options) {
+  if (options.seed || !options.settings.empty()) {
+    throw Error(ErrorCode::kUsage, "--seed and --set are for scenarios, not for logs");
+  }
+  OpenedLog log = open_log({.log = options.input, .steps = options.steps.value_or(0)});
+  Input input;
+  input.source = std::move(log.source);
+  input.facts.name = log.name;
+  input.facts.warnings = log.warnings;
+  input.facts.period_ns = log.period_ns;
+  input.facts.inputs = std::move(log.inputs);
+  return input;
+}
+
+std::string round_trip_text(const std::optional<eval::TimeSummary>& times) {
+  if (!times) return "unknown";
+  return fmt::format("{:.3f} ms mean, {:.3f} median, {:.3f} p99, {:.3f} worst", times->mean, times->p50,
+                     times->p99, times->max);
+}
+
+std::string end_text(const run::ServeResult& result, double give_up_s) {
+  switch (result.end) {
+    case run::ServeResult::End::kAllSent:
+      return "";
+    case run::ServeResult::End::kLeft:
+      return " (the robot program left)";
+    case run::ServeResult::End::kSilent:
+      return fmt::format(" (nothing was heard from the robot program for {} s)", give_up_s);
+    case run::ServeResult::End::kStopped:
+      return " (stopped early)";
+  }
+  return "";
+}
+
+std::string table_of(const std::string& name, const ServeOptions& options, const run::ServeResult& result) {
+  std::string text = fmt::format("{}{}\n", name, end_text(result, options.give_up_s));
+  const auto row = [&](const char* label, const std::string& value) {
+    text += fmt::format("  {:<28} {}\n", label, value);
+  };
+  const link::RobotCounters& counters = result.counters;
+  row("frames", fmt::format("{} sent, {} answered, {} with a command", result.frames, result.answered,
+                            result.commands));
+  row("answers",
+      fmt::format("{} late, {} failed, {} repeated", result.late, result.failed, counters.repeated_answers));
+  row("datagrams", fmt::format("{} sent, {} sent again; {} malformed, {} foreign", counters.datagrams,
+                               counters.resent, counters.malformed, counters.foreign));
+  if (!options.lock_step) row("sent late", fmt::format("{} frames", result.sent_late));
+  row("round trip", round_trip_text(result.round_trip_ms));
+  if (!options.out.empty()) row("written to", printable(options.out, 4096));
+  return text;
+}
+
+/// 0 if the robot program had all or left of its own will, 1 if it was given up.
+int status_of(const run::ServeResult& result) {
+  if (result.end == run::ServeResult::End::kSilent) return 1;
+  return result.end == run::ServeResult::End::kStopped ? interrupt_status() : 0;
+}
+
+int serve(const ServeOptions& options) {
+  const link::Address listen = link::parse_address(options.udp);
+  const bool is_scenario = fs::path(options.input).extension() == ".toml";
+  Input input = is_scenario ? open_scenario(options) : open_recording(options);
+  input.facts.command = "serve";
+  run::ServePlan plan{.lock_step = options.lock_step, .rate = options.rate, .replace = options.force};
+  if (!options.out.empty()) plan.folder = options.out;
+  plan.manifest = run::make_manifest(input.facts);
+  plan.attachments = std::move(input.attachments);
+
+  link::UdpWire socket(listen);
+  link::LossyWire lossy(socket, options.loss, options.loss_seed);
+  std::random_device random;
+  link::RobotEnd robot(lossy, run::describe_robot(*input.source, plan, input.facts.name), random(),
+                       std::chrono::milliseconds(static_cast<std::int64_t>(options.give_up_s * 1000)));
+  const std::string address = link::print_address(socket.address());
+  catch_interrupts();
+  if (!options.quiet) fmt::print(stderr, "hallway: serving {} on {}\n", input.facts.name, address);
+  run::ServeResult result;
+  {
+    Progress progress(input.facts.name, input.source->iterations(), options.quiet);
+    result =
+        run::serve(*input.source, robot, plan,
+                   {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
+  }
+  if (options.json) {
+    nlohmann::ordered_json document{{"schema", "hallway.serve/1"},
+                                    {"status", status_of(result)},
+                                    {"name", input.facts.name},
+                                    {"address", address},
+                                    {"lock_step", options.lock_step}};
+    document["folder"] = nullptr;
+    if (!options.out.empty()) document["folder"] = printable(options.out, 4096);
+    document["warnings"] = input.facts.warnings;
+    document["serving"] = run::print_serving(result);
+    print_json(document);
+  } else if (!options.quiet) {
+    print_result(table_of(input.facts.name, options, result));
+  }
+  return status_of(result);
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "serve", "Be the robot at the other end of a datagram protocol: a simulated one, or a log");
+  const auto options = std::make_shared<ServeOptions>();
+  command
+      ->add_option("input", options->input,
+                   "Scenario file (.toml), or a log as of `replay`: .mcap, .csv, a run folder")
+      ->required()
+      ->type_name("SCENARIO|LOG");
+  command
+      ->add_option("--udp", options->udp,
+                   "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")
+      ->required()
+      ->type_name("IP:PORT");
+  CLI::Option* lock_step =
+      command->add_flag("--lockstep", options->lock_step,
+                        "Wait for the answer to each frame, and lose nothing; else in real time");
+  command->add_option("--rate", options->rate, "Seconds of the input that pass in one [1]")
+      ->type_name("X")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->excludes(lock_step);
+  command->add_option("--loss", options->loss, "Share of datagrams to lose on purpose [0]")
+      ->type_name("P")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--loss-seed", options->loss_seed, "Seed of what is lost on purpose [1]")
+      ->type_name("N");
+  command
+      ->add_option("--give-up", options->give_up_s,
+                   "Seconds for which the robot program may be silent once it has come; 0: for ever [10]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--steps", options->steps, "Number of frames, instead of the input's")
+      ->type_name("N")
+      ->check(CLI::Range(1u, log::kMaxIteration));
+  command->add_option("--seed", options->seed, "Seed of all random numbers, instead of the scenario's")
+      ->type_name("N");
+  command->add_option("--set", options->settings, "Set a scenario value; may be given several times")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
+  command->add_option("--out", options->out, "Folder to write: the log, the truth, the commands [none]")
+      ->type_name("DIR");
+  command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
+  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->add_flag("--quiet", options->quiet, "Print no address, no progress and no table");
+  command->footer("Example: hallway serve maps/office.toml --udp 127.0.0.1:7000 --lockstep --out out/served");
+  command->callback([&chosen, options] { chosen = [options] { return serve(*options); }; });
+}
+
+}  // namespace hallway::cli

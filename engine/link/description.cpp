@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "link/description.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "host/byte_stream.hpp"
+
+namespace hallway::link {
+namespace {
+
+constexpr std::uint32_t kLockStep = 1;
+constexpr double kUnitTolerance = 1e-6;
+
+struct RobotBytes {
+  std::uint32_t flags = 0;
+  std::uint32_t sensors = 0;
+  std::int64_t period_ns = 0;
+};
+static_assert(sizeof(RobotBytes) == 16);
+
+struct SensorBytes {
+  std::uint32_t id = 0;
+  std::uint32_t kind = 0;
+  hw_pose_t T_body_sensor{};
+  double horizontal_fov = 0;
+  double vertical_fov = 0;
+  double min_range_m = 0;
+  double max_range_m = 0;
+  double noise_m[3]{};
+};
+static_assert(sizeof(SensorBytes) == 120);
+
+[[noreturn]] void bad(const std::string& cause) {
+  throw Error(ErrorCode::kBadInput, cause, {.element = "description of the robot"});
+}
+
+void check_name(const std::string& name) {
+  if (name.size() > kMaxNameBytes) bad(fmt::format("a name of more than {} bytes", kMaxNameBytes));
+  if (printable(name, name.size() + 1) != name) {
+    bad(fmt::format("a name that is no plain text: \"{}\"", printable(name)));
+  }
+}
+
+void check_mount(const host::SensorInfo& sensor) {
+  double squared = 0;
+  for (const double q : sensor.T_body_sensor.orientation) squared += q * q;
+  const auto& t = sensor.T_body_sensor.position;
+  const bool placed = std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2]);
+  if (!placed || !std::isfinite(squared) || std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) {
+    bad(fmt::format("the mount of sensor {} is no pose", sensor.id));
+  }
+}
+
+void check(const Description& description) {
+  if (description.period_ns < 0) bad("a period below 0");
+  if (description.sensors.size() > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
+  check_name(description.name);
+  std::set<std::uint32_t> ids;
+  for (const host::SensorInfo& sensor : description.sensors) {
+    check_name(sensor.name);
+    check_mount(sensor);
+    if (!ids.insert(sensor.id).second) bad(fmt::format("two sensors have the id {}", sensor.id));
+  }
+}
+
+SensorBytes bytes_of(const host::SensorInfo& sensor) {
+  SensorBytes bytes{.id = sensor.id,
+                    .kind = sensor.kind,
+                    .T_body_sensor = sensor.T_body_sensor,
+                    .horizontal_fov = sensor.horizontal_fov,
+                    .vertical_fov = sensor.vertical_fov,
+                    .min_range_m = sensor.min_range_m,
+                    .max_range_m = sensor.max_range_m,
+                    .noise_m = {}};
+  std::copy_n(sensor.noise_m, 3, bytes.noise_m);
+  return bytes;
+}
+
+host::SensorInfo sensor_of(const SensorBytes& bytes) {
+  host::SensorInfo sensor;
+  sensor.id = bytes.id;
+  sensor.kind = bytes.kind;
+  sensor.T_body_sensor = bytes.T_body_sensor;
+  sensor.horizontal_fov = bytes.horizontal_fov;
+  sensor.vertical_fov = bytes.vertical_fov;
+  sensor.min_range_m = bytes.min_range_m;
+  sensor.max_range_m = bytes.max_range_m;
+  std::copy_n(bytes.noise_m, 3, sensor.noise_m);
+  return sensor;
+}
+
+Description read_parts(std::span<const std::byte> message) {
+  host::ByteReader reader(message);
+  const auto robot = reader.get<RobotBytes>();
+  Description description;
+  description.lock_step = (robot.flags & kLockStep) != 0;
+  description.period_ns = robot.period_ns;
+  description.name = reader.get_text();
+  if (robot.sensors > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
+  for (std::uint32_t i = 0; i < robot.sensors; ++i) {
+    description.sensors.push_back(sensor_of(reader.get<SensorBytes>()));
+    description.sensors.back().name = reader.get_text();
+  }
+  reader.expect_end();
+  return description;
+}
+
+}  // namespace
+
+Bytes write_description(const Description& description) {
+  check(description);
+  Bytes message(kMaxDescriptionFragments * kFragmentBytes);
+  host::ByteWriter writer(message);
+  writer.put(RobotBytes{.flags = description.lock_step ? kLockStep : 0,
+                        .sensors = static_cast<std::uint32_t>(description.sensors.size()),
+                        .period_ns = description.period_ns});
+  writer.put_text(description.name);
+  for (const host::SensorInfo& sensor : description.sensors) {
+    writer.put(bytes_of(sensor));
+    writer.put_text(sensor.name);
+  }
+  if (!writer.fits()) bad(fmt::format("it has more than {} bytes", message.size()));
+  message.resize(writer.size());
+  return message;
+}
+
+Description read_description(std::span<const std::byte> message) {
+  try {
+    Description description = read_parts(message);
+    check(description);
+    return description;
+  } catch (const host::BadBytes& fault) {
+    bad(fault.what);
+  }
+}
+
+}  // namespace hallway::link

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/stage.hpp"
+#include "link/datagram.hpp"
+
+namespace hallway::link {
+
+inline constexpr std::size_t kMaxSensors = 64;
+/// Of the robot's name, and of a sensor's.
+inline constexpr std::size_t kMaxNameBytes = 255;
+
+/// What a robot says of itself.
+struct Description {
+  bool lock_step = false;      ///< time is the robot's own: it waits for the answer to each frame
+  std::int64_t period_ns = 0;  ///< from frame to frame; 0 where it is not regular
+  std::string name;
+  std::vector<host::SensorInfo> sensors;
+};
+
+/// The message that says it. Throws Error{kBadInput} for what read_description() would refuse.
+Bytes write_description(const Description& description);
+
+/// Reads it. Throws Error{kBadInput}: less or more than it says, more than kMaxSensors sensors, ids that stand twice, names that are too long or
+/// no plain UTF-8, a mount that is no pose, a period below 0.
+Description read_description(std::span<const std::byte> message);
+
+}  // namespace hallway::link

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "run/truth_tables.hpp"
+
+#include "log/landmarks.hpp"
+#include "record/files.hpp"
+
+namespace hallway::run {
+
+namespace files = record::files;
+
+log::StampedPose stamped_pose(std::int64_t t_ns, const Pose& pose) {
+  return {.t_s = static_cast<double>(t_ns) / 1e9,
+          .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
+          .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+}
+
+void TruthTables::add(std::uint32_t iteration, const SourceFrame& frame) {
+  if (!frame.T_world_body) return;
+  const log::StampedPose pose = stamped_pose(frame.t_ns, *frame.T_world_body);
+  trajectory_.push_back(pose);
+  poses_.push_back({.iteration = iteration,
+                    .position_m = pose.position_m,
+                    .orientation = pose.orientation,
+                    .orientation_known = frame.orientation_known});
+}
+
+void TruthTables::write(const std::filesystem::path& folder, const Source& source) const {
+  if (!trajectory_.empty()) {
+    log::write_tum(folder / files::kTrueTrajectory, trajectory_);
+    log::write_poses(folder / files::kTruePoses, poses_);
+  }
+  if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "link/messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "support/errors.hpp"
+#include "unit/link/datagrams.hpp"
+
+namespace hallway::link {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Answer> through(const Answer& answer) {
+  Bytes payload;
+  write_answer(answer, payload);
+  const Bytes bytes = datagram_of({.type = Type::kAnswer, .sequence = answer.sequence}, payload);
+  return read_answer(std::get<Datagram>(read_datagram(bytes)));
+}
+
+TEST(Answer, IsReadBack) {
+  Answer answer{.number = 5, .status = HW_ANSWER_LATE, .sequence = 77, .t_ns = -3};
+  auto back = through(answer);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->number, 5u);
+  EXPECT_EQ(back->status, unsigned{HW_ANSWER_LATE});
+  EXPECT_EQ(back->sequence, 77u);
+  EXPECT_EQ(back->t_ns, -3);
+  EXPECT_FALSE(back->command);
+  EXPECT_FALSE(back->pose);
+  answer.command = {0.25, -1e-300};
+  answer.pose = host::PoseOutput{true, {{1, 2, 3}, {0.6, 0, 0, 0.8}}};
+  back = through(answer);
+  ASSERT_TRUE(back && back->command && back->pose);
+  EXPECT_EQ(*back->command, *answer.command);
+  EXPECT_TRUE(back->pose->valid);
+  EXPECT_EQ(std::memcmp(&back->pose->T_map_body, &answer.pose->T_map_body, sizeof(hw_pose_t)), 0);
+  answer.pose = host::PoseOutput{};
+  back = through(answer);
+  ASSERT_TRUE(back && back->pose);
+  EXPECT_FALSE(back->pose->valid);
+}
+
+TEST(Answer, WithoutSenseIsRefused) {
+  EXPECT_FALSE(through({.status = HW_ANSWER_END + 1}));
+  EXPECT_FALSE(through({.command = host::DriveCommand{kNan, 0}}));
+  EXPECT_FALSE(through({.command = host::DriveCommand{0, std::numeric_limits<double>::infinity()}}));
+  EXPECT_FALSE(through({.pose = host::PoseOutput{true, {{0, kNan, 0}, {1, 0, 0, 0}}}}));
+  EXPECT_FALSE(through({.pose = host::PoseOutput{true, {{0, 0, 0}, {1, 1, 0, 0}}}}));
+  for (std::size_t size = 0; size < 120; ++size) {
+    const Bytes bytes = datagram_of({.type = Type::kAnswer}, Bytes(size));
+    EXPECT_FALSE(read_answer(std::get<Datagram>(read_datagram(bytes)))) << size << " zeros are no rotation";
+  }
+}
+
+TEST(Missing, IsReadBack) {
+  for (const std::size_t fragments : {1u, 7u, 8u, 9u, 351u, 8192u}) {
+    for (const std::size_t every : {1u, 3u, 100u, 100'000u}) {
+      std::vector<bool> missing(fragments);
+      for (std::size_t i = every - 1; i < fragments; i += every) missing[i] = true;
+      Bytes payload;
+      write_missing(missing, payload);
+      EXPECT_LE(payload.size(), kFragmentBytes);
+      EXPECT_EQ(read_missing(payload, fragments), missing) << fragments << " " << every;
+      EXPECT_FALSE(read_missing(payload, fragments + 1));
+      payload.push_back(std::byte{0});
+      EXPECT_FALSE(read_missing(payload, fragments) && payload.size() != 2 + (fragments + 7) / 8);
+    }
+  }
+  EXPECT_FALSE(read_missing({}, 1));
+  EXPECT_FALSE(read_missing(Bytes(1), 1));
+}
+
+TEST(Description, IsReadBackToTheLastBit) {
+  Description robot = description(true);
+  host::SensorInfo& sensor = robot.sensors.emplace_back(robot.sensors.front());
+  sensor.id = 9;
+  sensor.kind = 77;
+  sensor.name = "schräg";
+  sensor.T_body_sensor = {{0.1, 0.2, -0.3}, {0.6, 0, 0, 0.8}};
+  sensor.noise_m[1] = 0.02;
+  sensor.max_range_m = std::numeric_limits<double>::infinity();
+  const Description back = read_description(write_description(robot));
+  EXPECT_TRUE(back.lock_step);
+  EXPECT_EQ(back.period_ns, robot.period_ns);
+  EXPECT_EQ(back.name, robot.name);
+  ASSERT_EQ(back.sensors.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const host::SensorInfo& a = robot.sensors[i];
+    const host::SensorInfo& b = back.sensors[i];
+    EXPECT_EQ(b.id, a.id);
+    EXPECT_EQ(b.kind, a.kind);
+    EXPECT_EQ(b.name, a.name);
+    EXPECT_EQ(std::memcmp(&b.T_body_sensor, &a.T_body_sensor, sizeof a.T_body_sensor), 0);
+    EXPECT_EQ(std::memcmp(&b.horizontal_fov, &a.horizontal_fov, 7 * sizeof(double)), 0) << "unknown is NaN";
+  }
+  EXPECT_FALSE(read_description(write_description(description(false))).lock_step);
+}
+
+TEST(Description, EveryTruncationIsRefusedAndNoChangedByteCrashes) {
+  const Bytes whole = write_description(description(true));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::span<const std::byte> cut(whole.data(), size);
+    EXPECT_TRUE(hallway::test::error_of([&] { read_description(cut); })) << size;
+  }
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const std::byte value : {std::byte{0}, std::byte{0x7f}, std::byte{0x80}, std::byte{0xff}}) {
+      Bytes changed = whole;
+      changed[i] = value;
+      hallway::test::error_of([&] { read_description(changed); });
+    }
+  }
+}
+
+TEST(Description, RefusesWhatNoRobotIs) {
+  const auto refused = [](const std::function<void(Description&)>& change) {
+    Description robot = description(false);
+    change(robot);
+    const auto error = hallway::test::error_of([&] { write_description(robot); });
+    return error && error->code() == ErrorCode::kBadInput;
+  };
+  EXPECT_FALSE(refused([](Description&) {}));
+  EXPECT_TRUE(refused([](Description& robot) { robot.period_ns = -1; }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.name = std::string(256, 'x'); }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.name = "\x1b[31m"; }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.name = "\xff"; }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.sensors.push_back(robot.sensors.front()); }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.sensors[0].T_body_sensor.orientation[0] = 2; }));
+  EXPECT_TRUE(refused([](Description& robot) { robot.sensors[0].T_body_sensor.position[0] = kNan; }));
+  const auto fill = [](Description& robot, std::size_t n, const std::string& name) {
+    robot.sensors.assign(n, robot.sensors.front());
+    for (std::size_t i = 0; i < n; ++i) {
+      robot.sensors[i].id = static_cast<std::uint32_t>(i);
+      robot.sensors[i].name = name;
+    }
+  };
+  EXPECT_FALSE(refused([&](Description& robot) { fill(robot, kMaxSensors, std::string(255, 'x')); }));
+  EXPECT_TRUE(refused([&](Description& robot) { fill(robot, kMaxSensors + 1, "x"); }));
+}
+
+}  // namespace
+}  // namespace hallway::link
