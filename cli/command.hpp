@@ -30,6 +30,7 @@ void add_edit_command(CLI::App& app, Action& chosen);
 void add_plugin_check_command(CLI::App& plugin, Action& chosen);
 void add_plugin_info_command(CLI::App& plugin, Action& chosen);
 void add_plugin_new_command(CLI::App& plugin, Action& chosen);
+void add_plugin_validate_command(CLI::App& plugin, Action& chosen);
 
 /// Adds `--plugin-path DIR`, which may stand several times.
 void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders);
