@@ -40,13 +40,13 @@ void survives_no_sensors(const Subject& subject, Remains&) {
 void skips_unknown_sensors(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
-  plugin.activate();  // skips the test where it needs more than points
-  plugin.deactivate();
   hw_sensor_info_t unknown = ordinary_sensor(1);
   unknown.kind = 4711;
   hw_sensor_info_t last = ordinary_sensor(2);
   last.kind = UINT32_MAX;
-  plugin.activate({unknown, ordinary_sensor(0), last}).demand_good();
+  const Ended ended = plugin.activate({unknown, ordinary_sensor(0), last});
+  if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
+  ended.demand_good();
   look(plugin, subject, {0});
 }
 

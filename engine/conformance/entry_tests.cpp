@@ -61,7 +61,7 @@ std::vector<const hw_plugin_info_t*> descriptions(const LoadedLibrary& library) 
 void counts_the_same(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   const std::uint32_t first = count_of(library);
-  { const Instance plugin(library, subject); }
+  Instance(library, subject).parameters();
   for (int i = 0; i < 3; ++i) demand(count_of(library) == first, "count() has changed");
 }
 
@@ -89,7 +89,7 @@ void describes_the_same(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   const hw_plugin_info_t& info = library.info(subject.plugin);
   const std::string before = text_of(info);
-  { const Instance plugin(library, subject); }
+  Instance(library, subject).parameters();
   demand(text_of(info) == before, "a description has changed after a plugin was made");
   demand(text_of(library.info(subject.plugin)) == before, "a plugin was described otherwise the next time");
 }

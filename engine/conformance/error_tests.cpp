@@ -83,18 +83,11 @@ void needs_no_error(const Subject& subject, Remains&) {
   Failures(subject).each([](const char*, const Attempt& attempt) { attempt(nullptr); });
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
+  plugin.give_no_errors();
   plugin.activate();
-  const hw_plugin_t& raw = plugin.raw();
-  InputMemory memory;
-  const hw_frame_t& frame = memory.put_frame(walk_frame(subject.seed, 0));
-  hw_report_request_t request{};
-  request.size = sizeof request;
-  const auto good = [](const char* name, hw_status_t status) {
-    demand(status == HW_OK, std::string(name) + "() without an hw_error_t gave " + hw_status_name(status));
-  };
-  good("reset", marked("reset", [&] { return raw.vtable->reset(raw.self, nullptr); }));
-  good("process", marked("process", [&] { return raw.vtable->process(raw.self, &frame, nullptr); }));
-  good("report", marked("report", [&] { return raw.vtable->report(raw.self, &request, nullptr); }));
+  walk(plugin, subject, 0, 3);
+  plugin.must_reset();
+  walk(plugin, subject, 3, 4);
 }
 
 void takes_a_larger_error(const Subject& subject, Remains&) {

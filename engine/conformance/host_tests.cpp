@@ -25,7 +25,8 @@ void needs_no_extensions(const Subject& subject, Remains&) {
 
 void survives_refusals(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  for (const hw_status_t answer : std::initializer_list<hw_status_t>{HW_ERROR_MEMORY, HW_ERROR_DATA, HW_ERROR_ARGUMENT, 4711}) {
+  for (const hw_status_t answer :
+       std::initializer_list<hw_status_t>{HW_ERROR_MEMORY, HW_ERROR_DATA, HW_ERROR_ARGUMENT, 4711}) {
     Instance plugin(library, subject, {.answer = answer});
     plugin.activate();
     const Answer processed = plugin.process(walk_frame(subject.seed, 0));

@@ -103,8 +103,8 @@ const hw_params_t* Instance::parameters() {
 Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape) {
   Ended ended{.call = "activate", .error = host::empty_error()};
   const hw_activation_t& activation = activation_.put_activation(sensors, shape);
-  ended.status =
-      marked("activate", [&] { return plugin_.vtable->activate(plugin_.self, &activation, &ended.error); });
+  ended.status = marked("activate",
+                        [&] { return plugin_.vtable->activate(plugin_.self, &activation, error_of(ended)); });
   active_ = ended.good();
   return ended;
 }
@@ -125,7 +125,7 @@ void Instance::deactivate() {
 
 Ended Instance::reset() {
   Ended ended{.call = "reset", .error = host::empty_error()};
-  ended.status = marked("reset", [&] { return plugin_.vtable->reset(plugin_.self, &ended.error); });
+  ended.status = marked("reset", [&] { return plugin_.vtable->reset(plugin_.self, error_of(ended)); });
   return ended;
 }
 
@@ -135,7 +135,7 @@ Answer Instance::process(const hw_frame_t& frame, std::vector<std::uint32_t> ind
   answer.error = host::empty_error();
   host_.begin(&frame, std::move(indices));
   answer.status =
-      marked("process", [&] { return plugin_.vtable->process(plugin_.self, &frame, &answer.error); });
+      marked("process", [&] { return plugin_.vtable->process(plugin_.self, &frame, error_of(answer)); });
   answer.put = host_.finish();
   return answer;
 }
@@ -157,7 +157,7 @@ Answer Instance::report(std::uint32_t flags, std::uint32_t growth) {
   answer.error = host::empty_error();
   host_.begin(nullptr, {});
   answer.status =
-      marked("report", [&] { return plugin_.vtable->report(plugin_.self, &request, &answer.error); });
+      marked("report", [&] { return plugin_.vtable->report(plugin_.self, &request, error_of(answer)); });
   answer.put = host_.finish();
   return answer;
 }

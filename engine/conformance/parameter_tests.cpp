@@ -372,7 +372,7 @@ constexpr Test kTests[] = {
     {"params-described",
      "Every parameter has a distinct snake_case name, texts, a range, and a default within it.",
      are_described},
-    {"params-end", "describe() gives null for every index from count() on.",
+    {"params-end", "describe() of parameters gives null for every index from count() on.",
      are_not_described_behind_the_end},
     {"params-index", "get() and set() of an index that does not exist fail with a reason.",
      do_not_exist_behind_the_end},

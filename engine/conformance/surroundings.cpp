@@ -16,7 +16,6 @@
 #include <fstream>
 #include <thread>
 
-#include "base/helper.hpp"
 #include "base/text.hpp"
 #include "host/process_use.hpp"
 
@@ -83,7 +82,6 @@ void end_children() {
 }
 
 std::size_t heap_bytes() {
-  if (reserves_addresses()) return 0;
   const struct mallinfo2 info = ::mallinfo2();
   return info.uordblks + info.hblkhd;
 }

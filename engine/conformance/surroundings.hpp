@@ -19,7 +19,7 @@ bool has_children();
 /// Ends all of them.
 void end_children();
 
-/// Bytes that malloc() has given out; nothing known under a sanitizer: 0.
+/// Bytes that malloc() has given out.
 std::size_t heap_bytes();
 /// Bytes of memory that stand behind the addresses of this process.
 std::size_t resident_bytes();

@@ -87,7 +87,7 @@ void judge(const std::string& name, const Subject& subject) {
   } catch (const Failed& failed) {
     leave(Word::kFailed, failed.what());
   } catch (const NotLoadable& problem) {
-    leave(Word::kNotLoadable, std::string("it ") + problem.what());
+    leave(Word::kNotLoadable, problem.what());
   } catch (const Error& error) {
     leave(word_of(error), error.message());
   } catch (const std::exception& problem) {

@@ -31,6 +31,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/sense", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world"}},
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense"}},
     {"engine/host", {"base", "hallway"}},
+    {"engine/conformance", {"base", "host", "hallway"}},
     {"engine/log", {"base"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
@@ -45,7 +46,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "eval", "render", "run",   "editor",  "hallway", "slam_point"};
+                                       "log",   "eval", "render", "run",   "editor",  "hallway", "slam_point", "conformance"};
 
 struct Include {
   fs::path file;
