@@ -27,7 +27,7 @@ struct ValidateOptions {
   std::vector<std::string> settings;
   std::string plugin;
   std::uint64_t seed = 1;
-  double timeout_s = 60.0;
+  double timeout_s = 20.0;
   unsigned jobs = hardware_threads();
   bool list = false;
   bool json = false;

@@ -75,6 +75,15 @@ Outcome read_note(const Note& note) {
   return outcome;
 }
 
+/// A backtrace without what stands between the test and main().
+std::vector<std::string> plugin_part(std::vector<std::string> backtrace) {
+  const auto ours = std::find_if(backtrace.begin(), backtrace.end(), [](const std::string& line) {
+    return line.starts_with(std::string(kTestProgram) + "+");
+  });
+  backtrace.erase(ours, backtrace.end());
+  return backtrace;
+}
+
 /// Runs the test of that name, or kInspection, in a process.
 Outcome run_process(const std::string& test, const SuiteSetup& setup) {
   const host::ScratchFolder scratch(setup.temporary);
@@ -98,33 +107,33 @@ Outcome run_process(const std::string& test, const SuiteSetup& setup) {
   Outcome outcome = read_note(note);
   outcome.hung = hung;
   outcome.end = end;
-  if (hung || end.signalled) outcome.backtrace = host::read_crash_record(note.crash);
+  if (hung || end.signalled) outcome.backtrace = plugin_part(host::read_crash_record(note.crash));
   return outcome;
 }
 
-/// " in process()", or nothing.
-std::string in_call(const Outcome& outcome) {
-  return outcome.call.empty() ? "" : " in " + outcome.call + "()";
+/// What is wrong with how a process ended: "crashed with signal 11 (Segmentation fault) in process()"; empty: nothing.
+std::string ending(const Outcome& outcome, const SuiteSetup& setup) {
+  const std::string in_call = outcome.call.empty() ? "" : " in " + outcome.call + "()";
+  if (outcome.hung) {
+    return fmt::format("did not end within {} s{}", static_cast<double>(setup.timeout.count()) / 1e3,
+                       in_call);
+  }
+  if (outcome.end.signalled) return describe({ChildFate::kSignalled, outcome.end.number}, {}) + in_call;
+  if (outcome.word != Word::kNone && outcome.end.number == 0) return "";
+  return fmt::format("ended its process with status {}{}", outcome.end.number, in_call);
 }
 
 Result judge(const Test& test, const Outcome& outcome, const SuiteSetup& setup) {
   Result result{
       .test = &test, .verdict = Verdict::kFailed, .reason = outcome.text, .backtrace = outcome.backtrace};
-  const std::string crash = outcome.end.signalled
-                                ? describe({ChildFate::kSignalled, outcome.end.number}, {}) + in_call(outcome)
-                                : "";
+  const std::string end = ending(outcome, setup);
   if (outcome.word == Word::kFailed || outcome.word == Word::kNotLoadable ||
       outcome.word == Word::kBadInput) {
-    if (!crash.empty()) result.reason += "; then it " + crash;
-  } else if (outcome.hung) {
-    result.verdict = Verdict::kTimedOut;
-    result.reason = fmt::format("did not end within {} s{}", static_cast<double>(setup.timeout.count()) / 1e3,
-                                in_call(outcome));
-  } else if (outcome.end.signalled) {
-    result.verdict = Verdict::kCrashed;
-    result.reason = crash;
-  } else if (outcome.word == Word::kNone || outcome.end.number != 0) {
-    result.reason = fmt::format("the process ended with status {}{}", outcome.end.number, in_call(outcome));
+    if (!end.empty()) result.reason += "; then it " + end;
+  } else if (!end.empty()) {
+    result.reason = end;
+    if (outcome.end.signalled) result.verdict = Verdict::kCrashed;
+    if (outcome.hung) result.verdict = Verdict::kTimedOut;
   } else {
     result.verdict = outcome.word == Word::kSkipped ? Verdict::kSkipped : Verdict::kPassed;
   }
@@ -198,8 +207,10 @@ std::string inspect_plugin(const SuiteSetup& setup) {
   const Where where{.file = printable(setup.subject.file.string(), 4096)};
   if (outcome.word == Word::kNotLoadable) throw Error(ErrorCode::kPluginLoad, outcome.text, where);
   if (outcome.word == Word::kBadInput) throw Error(ErrorCode::kBadInput, outcome.text, where);
-  if (outcome.word == Word::kUsage) throw Error(ErrorCode::kUsage, outcome.text + " (--plugin)", where);
-  return outcome.word == Word::kFailed ? "" : outcome.text;
+  if (outcome.word == Word::kUsage) throw Error(ErrorCode::kUsage, outcome.text, where);
+  if (outcome.word == Word::kFailed) throw Error(ErrorCode::kPluginFault, outcome.text, where);
+  if (outcome.word != Word::kPassed) throw Error(ErrorCode::kPluginFault, ending(outcome, setup), where);
+  return outcome.text;
 }
 
 std::vector<Result> run_suite(const SuiteSetup& setup) {

@@ -40,14 +40,14 @@ struct SuiteSetup {
   Subject subject{};                          ///< without a scratch folder
   std::vector<std::string> only{};            ///< names of tests; empty: all
   unsigned jobs = 1;                          ///< how many run at a time
-  std::chrono::milliseconds timeout{60'000};  ///< after which a test has hung
+  std::chrono::milliseconds timeout{20'000};  ///< after which a test has hung
   std::filesystem::path temporary{};  ///< folder in which each test gets a scratch folder; empty: none
   std::function<void()> progress{};   ///< called after each test, on any thread
 };
 
 /// Looks at the file before any test: throws Error{kPluginLoad} where it cannot be loaded at all, Error{kUsage} where it holds several plugins and none
-/// is chosen or there is no test of a name, Error{kBadInput} where a setting does not suit. @return the plugin's id; empty where it crashed or hung over
-/// that question, which the tests will tell
+/// is chosen or there is no test of a name, Error{kBadInput} where a setting does not suit, Error{kPluginFault} where it crashes or hangs over these
+/// questions. @return the plugin's id
 std::string inspect_plugin(const SuiteSetup& setup);
 
 /// Runs tests, each in a process of its own: whatever a plugin does, the others go on. @return results in the order of all_tests()

@@ -39,6 +39,17 @@ void leave(Word word, const std::string& text) {
   note->word.store(word);
 }
 
+/// The ids of the first few plugins, between commas.
+std::string ids_of(const LoadedLibrary& library, std::uint32_t count) {
+  constexpr std::uint32_t kShown = 20;
+  std::string ids;
+  for (std::uint32_t i = 0; i < std::min(count, kShown); ++i) {
+    const hw_plugin_info_t* info = marked("describe", [&] { return library.factory().describe(i); });
+    ids += (i == 0 ? "" : ", ") + std::string(info != nullptr && info->id != nullptr ? info->id : "?");
+  }
+  return count > kShown ? ids + ", ..." : ids;
+}
+
 /// Throws Error, Failed or NotLoadable.
 void inspect(const Subject& subject) {
   const LoadedLibrary library(subject.file);
@@ -46,9 +57,8 @@ void inspect(const Subject& subject) {
   const hw_plugin_info_t& info = library.info(subject.plugin);
   if (subject.plugin.empty() && count > 1) {
     throw Error(ErrorCode::kUsage,
-                "the file holds " + std::to_string(count) + " plugins: say which by its id");
+                "holds several plugins, say which with --plugin: " + ids_of(library, count));
   }
-  leave(Word::kNone, info.id);
   if (!subject.settings.empty()) const Instance plugin(library, subject);
   leave(Word::kPassed, info.id);
 }

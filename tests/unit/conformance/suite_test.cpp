@@ -57,7 +57,7 @@ TEST(Suite, ACrashNamesSignalAndFunction) {
 TEST(Suite, AnExitIsAFailure) {
   const Result result = run_one("exits_for_tracks", "frame-tracks");
   EXPECT_EQ(result.verdict, Verdict::kFailed);
-  EXPECT_EQ(result.reason, "the process ended with status 0 in process()");
+  EXPECT_EQ(result.reason, "ended its process with status 0 in process()");
 }
 
 TEST(Suite, AnExceptionThatEscapesIsAFailure) {
@@ -130,10 +130,20 @@ TEST(Inspection, TellsWhyThereIsNothingToTest) {
   EXPECT_EQ(refusal(missing).first, ErrorCode::kPluginLoad);
 }
 
+TEST(Inspection, ACrashWhileLoadingIsThePluginsFault) {
+  const DefectivePlugin plugin("defective");
+  SuiteSetup setup = plugin.setup();
+  setup.subject.file = FIXTURES "/crashes_in_init.so";
+  const auto [code, text] = refusal(setup);
+  EXPECT_EQ(code, ErrorCode::kPluginFault);
+  EXPECT_NE(text.find(" in init()"), std::string::npos) << text;
+}
+
 TEST(Inspection, WantsToKnowWhichOfSeveralPlugins) {
   const DefectivePlugin plugin("id_twice");
   SuiteSetup setup = plugin.setup();
   EXPECT_EQ(refusal(setup).first, ErrorCode::kUsage);
+  EXPECT_NE(refusal(setup).second.find("--plugin: defective, defective"), std::string::npos);
   setup.subject.plugin = "defective";
   EXPECT_EQ(inspect_plugin(setup), "defective");
   setup.subject.plugin = "another";
