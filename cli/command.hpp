@@ -25,5 +25,6 @@ void add_edit_command(CLI::App& app, Action& chosen);
 void add_plugin_check_command(CLI::App& plugin, Action& chosen);
 void add_plugin_info_command(CLI::App& plugin, Action& chosen);
 void add_plugin_new_command(CLI::App& plugin, Action& chosen);
+void add_plugin_validate_command(CLI::App& plugin, Action& chosen);
 
 }  // namespace hallway::cli

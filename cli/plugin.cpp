@@ -87,6 +87,7 @@ void add_plugin_command(CLI::App& app, Action& chosen) {
   listing->callback([&chosen, options] { chosen = [options] { return list(*options); }; });
   add_plugin_info_command(*command, chosen);
   add_plugin_check_command(*command, chosen);
+  add_plugin_validate_command(*command, chosen);
   add_plugin_new_command(*command, chosen);
 }
 

@@ -30,6 +30,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/world", {"base", "geom", "map", "csg", "bsp", "pvs", "mesh"}},
     {"engine/sense", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world"}},
     {"engine/host", {"base", "hallway"}},
+    {"engine/conformance", {"base", "host", "hallway"}},
     {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "host"}},
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
@@ -51,7 +52,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point"};
+                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance"};
 
 struct Include {
   fs::path file;

@@ -216,6 +216,70 @@ TEST(PluginInfo, ListsParametersWithUnitsAndRanges) {
   EXPECT_EQ(hallway({"plugin", "info", "slam_poin"}).status, 4);
 }
 
+std::string good_plugin() {
+  return binary_folder() / "lib/hallway/plugins/slam_point.so";
+}
+
+TEST(PluginValidate, ListsWhatEachTestDemands) {
+  const Ended ended = hallway({"plugin", "validate", "--list"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("reset-forgets "), std::string::npos) << ended.out;
+  const auto json = nlohmann::json::parse(hallway({"plugin", "validate", "--list", "--json"}).out);
+  EXPECT_EQ(json["schema"], "hallway.plugin_tests/1");
+  EXPECT_GE(json["tests"].size(), 40u);
+}
+
+TEST(PluginValidate, PassesWhatKeepsTheRules) {
+  const Ended ended =
+      hallway({"plugin", "validate", good_plugin(), "--test", "reset-forgets", "--test", "stride"});
+  EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+  EXPECT_EQ(ended.out, "passed     reset-forgets\npassed     stride\n2 tests: 2 passed\n");
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST(PluginValidate, SaysWhatFailedAndHowToSeeItAgain) {
+  const TempFolder folder;
+  const auto file = folder / "writes_stdout.so";
+  std::filesystem::create_symlink(binary_folder() / "tests/abi/fixtures/defects/defective.so", file);
+  const Ended ended = hallway({"plugin", "validate", file, "--set", "bound_m=2", "--test", "silent", "--test",
+                               "threads", "--seed", "9"});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const std::string again =
+      "again: hallway plugin validate " + file.string() + " --set bound_m=2 --test silent --seed 9\n";
+  for (const std::string& part :
+       {std::string("failed     silent\n"), std::string("it wrote 6 bytes to standard output\n"),
+        std::string("demanded: Nothing is written"), again, std::string("2 tests: 1 passed, 1 failed\n")}) {
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+  }
+  const auto json =
+      nlohmann::json::parse(hallway({"plugin", "validate", file, "--test", "silent", "--json"}).out);
+  EXPECT_EQ(json["schema"], "hallway.plugin_validate/1");
+  EXPECT_EQ(json["good"], false);
+  EXPECT_EQ(json["plugin"], "defective");
+  EXPECT_EQ(json["counts"]["failed"], 1);
+  EXPECT_EQ(json["tests"][0]["verdict"], "failed");
+}
+
+TEST(PluginValidate, RefusesWhatItCannotTest) {
+  const TempFolder folder;
+  EXPECT_EQ(hallway({"plugin", "validate"}).status, 2);
+  EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--test", "none"}).status, 2);
+  EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--set", "noise_m"}).status, 2);
+  EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--set", "noise_m=-1"}).status, 3);
+  EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--plugin", "other"}).status, 4);
+  EXPECT_EQ(hallway({"plugin", "validate", folder / "none.so"}).status, 4);
+  EXPECT_EQ(hallway({"plugin", "validate", fixture("other_abi_major")}).status, 4);
+  const Ended text = hallway({"plugin", "validate", folder.write("a.so", "text"), "--json"});
+  EXPECT_EQ(text.status, 4);
+  EXPECT_EQ(nlohmann::json::parse(text.out)["status"], 4);
+}
+
+TEST(PluginValidate, APluginThatCrashesWhenItIsLoadedIsAtFault) {
+  const Ended ended = hallway({"plugin", "validate", fixture("crashes_in_init")});
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  EXPECT_NE(ended.err.find("in init()"), std::string::npos) << ended.err;
+}
+
 TEST(PluginNew, WritesAProjectAndNothingOverIt) {
   const TempFolder folder;
   const Ended ended = hallway({"plugin", "new", "my_slam"}, folder.path());

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// Frames as a robot may give them.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/random.hpp"
+#include "conformance/instance.hpp"
+#include "conformance/walk.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+using Points = std::vector<hw_point3_t>;
+
+constexpr std::uint64_t kBefore = 3;  ///< ordinary frames before the one that a test is about
+constexpr std::size_t kManyPoints = 100'000;
+
+/// An active plugin of a library.
+struct Fed {
+  explicit Fed(const Subject& subject) : library(subject.file), plugin(library, subject) {
+    plugin.activate();
+  }
+  LoadedLibrary library;
+  Instance plugin;
+};
+
+/// Gives `frame` (of step 0) to a new plugin first, and to another one at step kBefore of the walk, which then goes on. The answers are valid; with
+/// `may_fail` they may be failures with a reason.
+void try_frame(const Subject& subject, Frame frame, bool may_fail = false) {
+  for (const std::uint64_t before : {std::uint64_t{0}, kBefore}) {
+    Fed fed(subject);
+    for (std::uint64_t step = 0; step < before; ++step) {
+      fed.plugin.process(walk_frame(subject.seed, step)).demand_valid();
+    }
+    frame.sequence = before;
+    frame.t_ns = walk_frame(subject.seed, before).t_ns;
+    for (Reading& reading : frame.readings) reading.sequence = before;
+    const Answer answer = fed.plugin.process(frame);
+    if (may_fail) answer.demand_survived();
+    if (!answer.good() && may_fail) continue;
+    answer.demand_valid();
+    for (std::uint64_t step = before + 1; step < before + 3; ++step) {
+      fed.plugin.process(walk_frame(subject.seed, step)).demand_valid();
+    }
+    fed.plugin.report(0).demand_valid();
+  }
+}
+
+void try_points(const Subject& subject, Points points, bool may_fail = false) {
+  try_frame(subject, frame_of(0, std::move(points)), may_fail);
+}
+
+void takes_no_samples(const Subject& subject, Remains&) {
+  try_frame(subject, {});
+}
+
+void takes_no_points(const Subject& subject, Remains&) {
+  try_points(subject, {});
+}
+
+void takes_one_point(const Subject& subject, Remains&) {
+  try_points(subject, {{1.0, 2.0, 0.5}});
+}
+
+/// After an ordinary frame alone: what a plugin makes of its first frame may cost more than what it makes of later ones.
+void takes_many_points(const Subject& subject, Remains&) {
+  Fed fed(subject);
+  fed.plugin.process(walk_frame(subject.seed, 0)).demand_valid();
+  const Points points = random_points(subject.seed, stream_id("conformance.many"), kManyPoints);
+  fed.plugin.process(frame_of(1, points)).demand_valid();
+  fed.plugin.process(walk_frame(subject.seed, 2)).demand_valid();
+  fed.plugin.report(0).demand_valid();
+}
+
+void survives_equal_points(const Subject& subject, Remains&) {
+  try_points(subject, Points(10, {1.0, 2.0, 0.5}), true);
+  Points twice = walk_points(subject.seed, 0);
+  twice.insert(twice.end(), twice.begin(), twice.end());
+  try_points(subject, twice, true);
+}
+
+void takes_far_points(const Subject& subject, Remains&) {
+  Points far = random_points(subject.seed, stream_id("conformance.far"), 20);
+  for (hw_point3_t& point : far) point = {1e5 * point.x, 1e5 * point.y, 1e5 * point.z};  // up to 1e6 m
+  far.push_back({1e6, -1e6, 1e6});
+  try_points(subject, far);
+}
+
+void takes_points_in_a_line(const Subject& subject, Remains&) {
+  Points line;
+  for (int i = 0; i < 20; ++i) line.push_back({1.0 + 0.25 * i, 0.0, 0.0});
+  try_points(subject, line);
+}
+
+void takes_points_in_a_plane(const Subject& subject, Remains&) {
+  Points plane = walk_points(subject.seed, 0);
+  for (hw_point3_t& point : plane) point.z = 0.0;
+  try_points(subject, plane);
+}
+
+void survives_points_that_are_not_finite(const Subject& subject, Remains&) {
+  Points points = walk_points(subject.seed, 0);
+  points[1].x = std::numeric_limits<double>::quiet_NaN();
+  points[2].y = std::numeric_limits<double>::infinity();
+  points[3] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), 0.0};
+  try_points(subject, points, true);
+}
+
+/// What is put for three frames where each has `extra` at `place`, counted as if it had not.
+std::string with_extra(const LoadedLibrary& library, const Subject& subject, const Reading* extra,
+                       std::size_t place) {
+  Instance plugin(library, subject, {.counters = false});
+  plugin.activate();
+  std::string bytes;
+  for (std::uint64_t step = 0; step < 3; ++step) {
+    Frame frame = walk_frame(subject.seed, step);
+    std::vector<std::uint32_t> indices{0};
+    if (extra != nullptr) {
+      frame.readings.insert(frame.readings.begin() + static_cast<std::ptrdiff_t>(place), *extra);
+      indices = place == 0 ? std::vector<std::uint32_t>{1, 0} : std::vector<std::uint32_t>{0, 1};
+    }
+    InputMemory memory;
+    bytes += plugin.process(memory.put_frame(frame), indices).demand_valid().bytes;
+  }
+  return bytes;
+}
+
+void skips_unknown_kinds(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  const std::string expected = with_extra(library, subject, nullptr, 0);
+  for (const std::uint32_t kind : {0u, 4711u, UINT32_MAX}) {
+    const Reading unknown{.kind = kind};
+    for (std::size_t place = 0; place < 2; ++place) {
+      // The collector writes how many samples there were: what is put for the known one is compared.
+      std::string bytes = with_extra(library, subject, &unknown, place);
+      demand_same(bytes, expected,
+                  "a sample of the unknown kind " + std::to_string(kind) + " changes the answer");
+    }
+  }
+}
+
+/// Frames of the walk, each changed by `change`.
+template <typename Change>
+void try_walk(const Subject& subject, bool may_fail, Change&& change) {
+  Fed fed(subject);
+  for (std::uint64_t step = 0; step < 6; ++step) {
+    Frame frame = walk_frame(subject.seed, step);
+    change(frame);
+    const Answer answer = fed.plugin.process(frame);
+    if (!may_fail) answer.demand_valid();
+    answer.demand_survived();
+    if (!answer.good()) return;
+  }
+  fed.plugin.report(0).demand_valid();
+}
+
+void takes_tracks(const Subject& subject, Remains&) {
+  try_walk(subject, false, [](Frame& frame) {
+    Reading& reading = frame.readings.front();
+    for (std::size_t i = 0; i < reading.points.size(); ++i) {
+      reading.track.push_back(i % 3 == 0 ? UINT64_MAX - i : (i + 7 * frame.sequence) % kWalkPoints);
+    }
+  });
+}
+
+void takes_equal_times(const Subject& subject, Remains&) {
+  try_walk(subject, false, [](Frame& frame) { frame.t_ns = 1'000'000'000; });
+}
+
+void takes_any_time(const Subject& subject, Remains&) {
+  try_walk(subject, false,
+           [](Frame& frame) { frame.t_ns = -1'000'000'000 + static_cast<std::int64_t>(frame.sequence); });
+  try_walk(subject, false, [](Frame& frame) {
+    frame.t_ns = std::numeric_limits<std::int64_t>::max() - 10 + static_cast<std::int64_t>(frame.sequence);
+  });
+}
+
+void survives_gaps(const Subject& subject, Remains&) {
+  try_walk(subject, true, [](Frame& frame) {
+    if (frame.sequence >= 2) frame.sequence += 1'000'000'000'000;
+    if (frame.sequence % 2 == 1) frame.sequence += 1;
+    for (Reading& reading : frame.readings) reading.sequence = frame.sequence;
+  });
+}
+
+void survives_unannounced_sensors(const Subject& subject, Remains&) {
+  Frame frame = walk_frame(subject.seed, 0);
+  frame.readings.front().sensor = 77;
+  try_frame(subject, frame, true);
+  frame.readings.push_back(walk_frame(subject.seed, 0).readings.front());
+  try_frame(subject, frame, true);
+}
+
+void survives_two_readings(const Subject& subject, Remains&) {
+  Frame frame = walk_frame(subject.seed, 0);
+  frame.readings.push_back(frame.readings.front());
+  try_frame(subject, frame, true);
+}
+
+constexpr Test kTests[] = {
+    {"frame-no-samples", "A frame without samples is a valid one.", takes_no_samples},
+    {"frame-no-points", "A sample without points is a valid one.", takes_no_points},
+    {"frame-one-point", "A sample of one point is a valid one.", takes_one_point},
+    {"frame-many-points", "A sample of 100 000 points is answered.", takes_many_points},
+    {"frame-equal-points", "Points that are equal are answered, or refused with a reason.",
+     survives_equal_points},
+    {"frame-far-points", "Points at 1e6 m are answered.", takes_far_points},
+    {"frame-line", "Points in a line are answered.", takes_points_in_a_line},
+    {"frame-plane", "Points in a plane are answered.", takes_points_in_a_plane},
+    {"frame-not-finite", "Points that are not finite are answered, or refused with a reason.",
+     survives_points_that_are_not_finite},
+    {"frame-unknown-kind",
+     "Samples of an unknown kind are skipped: the answer is that to the frame without them.",
+     skips_unknown_kinds},
+    {"frame-tracks", "Points may come with the ids under which the sensor follows them.", takes_tracks},
+    {"frame-equal-times", "Frames may have the same time.", takes_equal_times},
+    {"frame-any-time", "The host's clock may begin anywhere, also before 0.", takes_any_time},
+    {"frame-gaps", "Sequence numbers with gaps are answered, or refused with a reason.", survives_gaps},
+    {"frame-unannounced", "A sample of a sensor that was not announced is skipped, or refused with a reason.",
+     survives_unannounced_sensors},
+    {"frame-two-readings", "Two samples of one sensor are answered, or refused with a reason.",
+     survives_two_readings},
+};
+
+}  // namespace
+
+std::span<const Test> frame_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Hosts of later minor versions, whose structs are larger and whose flags are more.
+#include <string>
+
+#include "conformance/instance.hpp"
+#include "conformance/walk.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+constexpr std::uint32_t kGrowth = 48;
+constexpr std::uint64_t kFrames = 4;
+constexpr std::uint32_t kUnknownFlag = 1u << 31;
+
+/// What is put for a few frames by a new plugin of a host that is as the shapes say.
+std::string put_by(const LoadedLibrary& library, const Subject& subject, const InputShape& shape,
+                   const HostShape& host = {}, std::uint32_t sample_flags = 0) {
+  Instance plugin(library, subject, host);
+  const Ended ended = plugin.activate({ordinary_sensor()}, shape);
+  if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
+  ended.demand_good();
+  std::string bytes;
+  for (std::uint64_t step = 0; step < kFrames; ++step) {
+    Frame frame = walk_frame(subject.seed, step);
+    frame.readings.front().flags = sample_flags;
+    const Answer answer = plugin.process(frame, shape);
+    answer.demand_good();
+    bytes += answer.put.bytes;
+  }
+  const Answer report = plugin.report(0);
+  report.demand_good();
+  return bytes + report.put.bytes;
+}
+
+void compare(const Subject& subject, const std::string& what, const InputShape& shape,
+             const HostShape& host = {}, std::uint32_t sample_flags = 0) {
+  const LoadedLibrary library(subject.file);
+  demand_same(put_by(library, subject, shape, host, sample_flags), put_by(library, subject, {}), what);
+}
+
+void takes_a_larger_frame(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_frame_t changes the answer", {.frame_growth = kGrowth});
+}
+void takes_a_larger_sample(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_sample_t changes the answer", {.sample_growth = kGrowth});
+}
+void takes_larger_points(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_points_t changes the answer", {.points_growth = kGrowth});
+}
+void honours_the_stride(const Subject& subject, Remains&) {
+  compare(subject, "a larger stride changes the answer", {.stride = sizeof(hw_point3_t) + 16});
+}
+void takes_a_larger_activation(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_activation_t changes the answer", {.activation_growth = kGrowth});
+}
+void takes_a_larger_sensor(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_sensor_info_t changes the answer", {.sensor_growth = kGrowth});
+}
+void takes_a_larger_host(const Subject& subject, Remains&) {
+  compare(subject, "a larger hw_host_t changes the answer", {}, {.growth = kGrowth});
+}
+void ignores_unknown_flags(const Subject& subject, Remains&) {
+  compare(subject, "an unknown flag of a sample changes the answer", {}, {}, kUnknownFlag);
+}
+void ignores_reserved_members(const Subject& subject, Remains&) {
+  compare(subject, "a reserved member that is not 0 changes the answer", {.reserved = 0xdeadbeef},
+          {.reserved = 0xdeadbeef});
+}
+
+/// Throws Failed unless report() gives the same for an unusual request.
+void compare_reports(const Subject& subject, const std::string& what, std::uint32_t flags,
+                     std::uint32_t growth) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  walk(plugin, subject, 0, kFrames);
+  const Answer plain = plugin.report(0);
+  const Answer unusual = plugin.report(flags, growth);
+  plain.demand_good();
+  unusual.demand_good();
+  demand_same(unusual.put.bytes, plain.put.bytes, what);
+}
+
+void takes_a_larger_request(const Subject& subject, Remains&) {
+  compare_reports(subject, "a larger hw_report_request_t changes the report", 0, kGrowth);
+}
+void ignores_unknown_requests(const Subject& subject, Remains&) {
+  compare_reports(subject, "an unknown flag of a request changes the report", kUnknownFlag, 0);
+}
+
+constexpr Test kTests[] = {
+    {"grown-frame", "A hw_frame_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_frame},
+    {"grown-sample", "A hw_sample_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_sample},
+    {"grown-points", "A hw_points_t of a later version, which is larger, is read as today's.",
+     takes_larger_points},
+    {"grown-activation", "A hw_activation_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_activation},
+    {"grown-sensor", "A hw_sensor_info_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_sensor},
+    {"grown-request", "A hw_report_request_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_request},
+    {"grown-host", "A hw_host_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_host},
+    {"stride", "Points stand as far apart as their stride says.", honours_the_stride},
+    {"unknown-sample-flags", "Flags of a sample that the plugin does not know are ignored.",
+     ignores_unknown_flags},
+    {"unknown-request-flags", "Flags of a report that the plugin does not know are ignored.",
+     ignores_unknown_requests},
+    {"reserved-members", "Members called `reserved` are not read.", ignores_reserved_members},
+};
+
+}  // namespace
+
+std::span<const Test> growth_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/hallway.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hallway::conformance {
+
+/// Memory of whole pages that can be taken away from whoever still points to it, with a page behind it that nobody may touch.
+class Block {
+ public:
+  /// `bytes` filled with rubbish (0xa5), aligned to 8. With `tight` they end at the page that nobody may touch; else with rubbish before it.
+  Block(std::size_t bytes, bool tight);
+  ~Block();
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
+
+  void* data() const { return data_; }
+  /// PROT_READ, PROT_NONE, …
+  void protect(int protection) const;
+
+ private:
+  void* pages_;
+  std::size_t page_bytes_;  ///< without the last page
+  void* data_;
+};
+
+/// What may be unusual about the memory of inputs, all of it as the ABI allows.
+struct InputShape {
+  std::uint32_t frame_growth = 0;       ///< bytes that hw_frame_t has more than today
+  std::uint32_t sample_growth = 0;      ///< hw_sample_t
+  std::uint32_t points_growth = 0;      ///< hw_points_t
+  std::uint32_t activation_growth = 0;  ///< hw_activation_t
+  std::uint32_t sensor_growth = 0;      ///< hw_sensor_info_t
+  std::uint32_t stride = sizeof(hw_point3_t);
+  std::uint32_t reserved = 0;  ///< what members called `reserved` are
+  bool tight = false;          ///< see Block
+};
+
+/// One reading. Readings of an unknown kind get a payload that means nothing.
+struct Reading {
+  std::uint32_t kind = HW_SAMPLE_POINTS;
+  std::uint32_t flags = 0;
+  std::uint32_t sensor = 0;
+  std::uint64_t sequence = 0;
+  std::vector<hw_point3_t> points{};  ///< sensor frame, metres
+  std::vector<std::uint64_t> track{};
+};
+
+/// A frame as values.
+struct Frame {
+  std::uint64_t sequence = 0;
+  std::int64_t t_ns = 0;
+  std::vector<Reading> readings{};
+};
+
+/// Inputs of one call, each struct and list in a Block of its own.
+class InputMemory {
+ public:
+  /// The frame that stands in this memory.
+  const hw_frame_t& put_frame(const Frame& frame, const InputShape& shape = {});
+  /// The activation that stands in this memory. `sensors` and their names are copied.
+  const hw_activation_t& put_activation(const std::vector<hw_sensor_info_t>& sensors,
+                                        const InputShape& shape = {});
+  void protect(int protection) const;
+
+ private:
+  template <typename T>
+  T& put(const T& value, std::uint32_t growth, const InputShape& shape);
+  template <typename T>
+  const T* put_list(const std::vector<T>& list, std::uint32_t stride, const InputShape& shape);
+  const hw_sample_t* put_reading(const Reading& reading, const Frame& frame, const InputShape& shape);
+
+  std::vector<std::unique_ptr<Block>> blocks_;
+};
+
+}  // namespace hallway::conformance

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a plugin may do with the memory of its inputs.
+#include <sys/mman.h>
+
+#include <string>
+#include <vector>
+
+#include "conformance/instance.hpp"
+#include "conformance/walk.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+constexpr std::uint64_t kFrames = 5;
+
+void does_not_keep_frames(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  std::vector<InputMemory> memories(kFrames);
+  for (std::uint64_t step = 0; step < kFrames; ++step) {
+    const hw_frame_t& frame = memories[step].put_frame(walk_frame(subject.seed, step));
+    plugin.process(frame, {0}).demand_good();
+    memories[step].protect(PROT_NONE);
+  }
+  plugin.report(HW_REPORT_REFINE).demand_good();
+  plugin.must_reset();
+  plugin.close();
+}
+
+void does_not_keep_the_activation(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  plugin.poison_activation();
+  walk(plugin, subject, 0, kFrames);
+  plugin.must_reset();
+  walk(plugin, subject, kFrames, kFrames + 1);
+  plugin.close();
+}
+
+void does_not_write(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  for (std::uint64_t step = 0; step < kFrames; ++step) {
+    InputMemory memory;
+    const hw_frame_t& frame = memory.put_frame(walk_frame(subject.seed, step));
+    memory.protect(PROT_READ);
+    plugin.process(frame, {0}).demand_good();
+  }
+}
+
+void does_not_read_on(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  const InputShape tight{.tight = true};
+  const Ended ended = plugin.activate({ordinary_sensor()}, tight);
+  if (!ended.good()) plugin.activate();
+  for (std::uint64_t step = 0; step < kFrames; ++step) {
+    Frame frame = walk_frame(subject.seed, step);
+    if (step == 1) frame.readings.front().points.clear();
+    plugin.process(frame, tight).demand_good();
+  }
+}
+
+constexpr Test kTests[] = {
+    {"input-not-kept", "A frame is not looked at after process() has returned.", does_not_keep_frames},
+    {"activation-not-kept", "The activation is not looked at after activate() has returned.",
+     does_not_keep_the_activation},
+    {"input-not-written", "A frame is not written to.", does_not_write},
+    {"input-not-overrun", "Nothing is read behind the end of what was given.", does_not_read_on},
+};
+
+}  // namespace
+
+std::span<const Test> input_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "conformance/instance.hpp"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "conformance/call_mark.hpp"
+#include "conformance/walk.hpp"
+#include "host/error_text.hpp"
+#include "host/parameter.hpp"
+
+namespace hallway::conformance {
+
+std::string Ended::text() const {
+  return call + "() failed: " + host::error_text(error, status);
+}
+
+void Ended::demand_good() const {
+  demand(good(), text());
+}
+
+void Ended::demand_reason() const {
+  demand(good() || error.message[0] != '\0',
+         call + "() failed with " + hw_status_name(status) + " and gave no reason");
+}
+
+const Collected& Answer::demand_valid() const {
+  demand_good();
+  demand(put.problem.empty(), call + "() put a wrong output: " + put.problem);
+  return put;
+}
+
+void Answer::demand_survived() const {
+  demand_reason();
+  if (good()) demand_valid();
+}
+
+hw_sensor_info_t ordinary_sensor(std::uint32_t id) {
+  hw_sensor_info_t sensor{};
+  sensor.id = id;
+  sensor.kind = HW_SAMPLE_POINTS;
+  sensor.name = "sensor";
+  sensor.T_body_sensor.orientation[0] = 1.0;
+  sensor.horizontal_fov = 6.283185307179586;
+  sensor.vertical_fov = 3.0;
+  sensor.min_range_m = 0.1;
+  sensor.max_range_m = 30.0;
+  for (double& noise : sensor.noise_m) noise = 0.01;
+  return sensor;
+}
+
+Instance::Instance(const LoadedLibrary& library, const Subject& subject, const HostShape& shape)
+    : host_(shape) {
+  const hw_plugin_info_t& info = library.info(subject.plugin);
+  inputs_ = inputs_of(info);
+  Ended ended{.call = "create", .error = host::empty_error()};
+  ended.status = marked(
+      "create", [&] { return library.factory().create(&host_.host(), info.id, &plugin_, &ended.error); });
+  ended.demand_good();
+  demand(plugin_.vtable != nullptr, "create() left the vtable null");
+  apply_settings(subject);
+}
+
+Instance::~Instance() {
+  try {
+    close();
+  } catch (...) {  // a test that was to notice has called close() itself
+  }
+}
+
+void Instance::apply_settings(const Subject& subject) {
+  if (subject.settings.empty()) return;
+  const hw_params_t* params = parameters();
+  for (const auto& [name, value] : subject.settings) {
+    const std::uint32_t count = params ? marked("count", [&] { return params->count(plugin_.self); }) : 0;
+    bool found = false;
+    for (std::uint32_t i = 0; i < count && !found; ++i) {
+      const hw_param_info_t* info = marked("describe", [&] { return params->describe(plugin_.self, i); });
+      if (info == nullptr || info->name == nullptr || name != info->name) continue;
+      found = true;
+      const hw_param_value_t parsed = host::read_parameter(info).parse(value);
+      Ended ended{.call = "set", .error = host::empty_error()};
+      ended.status = marked("set", [&] { return params->set(plugin_.self, i, &parsed, &ended.error); });
+      if (!ended.good())
+        throw Error(ErrorCode::kBadInput, "parameter `" + printable(name) + "`: " + ended.text());
+    }
+    if (!found) throw Error(ErrorCode::kBadInput, "the plugin has no parameter `" + printable(name) + "`");
+  }
+}
+
+const hw_params_t* Instance::parameters() {
+  const auto* params = static_cast<const hw_params_t*>(
+      marked("get_extension", [&] { return plugin_.vtable->get_extension(plugin_.self, HW_EXT_PARAMS); }));
+  demand(!params || (params->count && params->describe && params->get && params->set),
+         "has null functions in " HW_EXT_PARAMS);
+  return params;
+}
+
+Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape) {
+  Ended ended{.call = "activate", .error = host::empty_error()};
+  const hw_activation_t& activation = activation_.put_activation(sensors, shape);
+  ended.status = marked("activate",
+                        [&] { return plugin_.vtable->activate(plugin_.self, &activation, error_of(ended)); });
+  active_ = ended.good();
+  return ended;
+}
+
+void Instance::activate() {
+  const Ended ended = activate({ordinary_sensor()});
+  if (ended.good()) return;
+  const bool points_alone =
+      std::all_of(inputs_.begin(), inputs_.end(), [](auto kind) { return kind == HW_SAMPLE_POINTS; });
+  if (!points_alone) throw Skipped("the plugin needs other samples than points: " + ended.text());
+  throw Failed("a sensor of points with all facts known was refused: " + ended.text());
+}
+
+void Instance::deactivate() {
+  active_ = false;
+  marked("deactivate", [&] { plugin_.vtable->deactivate(plugin_.self); });
+}
+
+Ended Instance::reset() {
+  Ended ended{.call = "reset", .error = host::empty_error()};
+  ended.status = marked("reset", [&] { return plugin_.vtable->reset(plugin_.self, error_of(ended)); });
+  return ended;
+}
+
+Answer Instance::process(const hw_frame_t& frame, std::vector<std::uint32_t> indices) {
+  Answer answer;
+  answer.call = "process";
+  answer.error = host::empty_error();
+  host_.begin(&frame, std::move(indices));
+  answer.status =
+      marked("process", [&] { return plugin_.vtable->process(plugin_.self, &frame, error_of(answer)); });
+  answer.put = host_.finish();
+  return answer;
+}
+
+Answer Instance::process(const Frame& frame, const InputShape& shape) {
+  InputMemory memory;
+  std::vector<std::uint32_t> indices(frame.readings.size());
+  std::iota(indices.begin(), indices.end(), 0u);
+  return process(memory.put_frame(frame, shape), std::move(indices));
+}
+
+Answer Instance::report(std::uint32_t flags, std::uint32_t growth) {
+  const Block block(sizeof(hw_report_request_t) + growth, false);
+  auto& request = *static_cast<hw_report_request_t*>(block.data());
+  request.size = static_cast<std::uint32_t>(sizeof request) + growth;
+  request.flags = flags;
+  Answer answer;
+  answer.call = "report";
+  answer.error = host::empty_error();
+  host_.begin(nullptr, {});
+  answer.status =
+      marked("report", [&] { return plugin_.vtable->report(plugin_.self, &request, error_of(answer)); });
+  answer.put = host_.finish();
+  return answer;
+}
+
+void Instance::close() {
+  if (plugin_.vtable == nullptr) return;
+  const hw_plugin_t plugin = std::exchange(plugin_, {});
+  if (std::exchange(active_, false)) marked("deactivate", [&] { plugin.vtable->deactivate(plugin.self); });
+  marked("destroy", [&] { plugin.vtable->destroy(plugin.self); });
+}
+
+std::string walk(Instance& instance, const Subject& subject, std::uint64_t begin, std::uint64_t end) {
+  std::string bytes;
+  for (std::uint64_t step = begin; step < end; ++step) {
+    const Answer answer = instance.process(walk_frame(subject.seed, step));
+    answer.demand_good();
+    bytes += answer.put.bytes;
+  }
+  const Answer report = instance.report(0);
+  report.demand_good();
+  return bytes + report.put.bytes;
+}
+
+void demand_same(const std::string& a, const std::string& b, const std::string& what) {
+  if (a == b) return;
+  const auto differs = std::mismatch(
+      a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+  throw Failed(what + " (byte " + std::to_string(differs.first - a.begin()) + " of what was put differs)");
+}
+
+}  // namespace hallway::conformance

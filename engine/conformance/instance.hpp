@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/hallway.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "conformance/input_memory.hpp"
+#include "conformance/loaded_library.hpp"
+#include "conformance/test.hpp"
+#include "conformance/test_host.hpp"
+
+namespace hallway::conformance {
+
+/// How a call ended.
+struct Ended {
+  std::string call{};  ///< the function's name
+  hw_status_t status = HW_OK;
+  hw_error_t error{};
+
+  bool good() const { return status == HW_OK; }
+  /// "process() failed: no room (HW_ERROR_MEMORY)".
+  std::string text() const;
+  /// Throws Failed unless it ended well.
+  void demand_good() const;
+  /// Throws Failed where it failed without a reason.
+  void demand_reason() const;
+};
+
+/// How process() or report() ended, and what it put.
+struct Answer : Ended {
+  Collected put{};
+
+  /// Throws Failed unless it ended well and put nothing wrong. @return what was put
+  const Collected& demand_valid() const;
+  /// Throws Failed if it failed without a reason, or ended well and put something wrong.
+  void demand_survived() const;
+};
+
+/// The sensor of tests that are about something else: points, all facts known.
+hw_sensor_info_t ordinary_sensor(std::uint32_t id = 0);
+
+/// One instance of the plugin with the settings of the subject. Every function is called as the host calls it.
+class Instance {
+ public:
+  /// Makes one. Throws Failed.
+  Instance(const LoadedLibrary& library, const Subject& subject, const HostShape& shape = {});
+  /// close(), if nobody has.
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const hw_plugin_t& raw() const { return plugin_; }
+  const TestHost& host() const { return host_; }
+  /// From now on calls get null instead of an hw_error_t.
+  void give_no_errors() { gives_errors_ = false; }
+  /// Its parameters, or null. Throws Failed if one of its functions is null.
+  const hw_params_t* parameters();
+
+  Ended activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape = {});
+  /// With the ordinary sensor. Throws Failed where it is refused; Skipped where the plugin needs kinds of samples that this suite does not make.
+  void activate();
+  void deactivate();
+  /// Takes the activation's memory away.
+  void poison_activation() const { activation_.protect(0); }
+  Ended reset();
+  /// Throws Failed where it fails.
+  void must_reset() { reset().demand_good(); }
+  Answer process(const Frame& frame, const InputShape& shape = {});
+  /// In memory that the caller has; `indices` says how the samples count in what is put.
+  Answer process(const hw_frame_t& frame, std::vector<std::uint32_t> indices);
+  Answer report(std::uint32_t flags, std::uint32_t growth = 0);
+  /// Deactivates it, if it is active, and destroys it.
+  void close();
+
+ private:
+  void apply_settings(const Subject& subject);
+  hw_error_t* error_of(Ended& ended) const { return gives_errors_ ? &ended.error : nullptr; }
+
+  TestHost host_;
+  hw_plugin_t plugin_{};
+  std::vector<std::uint32_t> inputs_;
+  InputMemory activation_;
+  bool active_ = false;
+  bool gives_errors_ = true;
+};
+
+/// Bytes of everything that was put from frame `begin` to before `end` of the ordinary walk, with a report at the end. Throws Failed where
+/// a call fails.
+std::string walk(Instance& instance, const Subject& subject, std::uint64_t begin, std::uint64_t end);
+
+/// Throws Failed with `what` unless both are the same.
+void demand_same(const std::string& a, const std::string& b, const std::string& what);
+
+}  // namespace hallway::conformance

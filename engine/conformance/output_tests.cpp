@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What process() puts.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "conformance/instance.hpp"
+#include "conformance/walk.hpp"
+#include "host/plugin_info.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+/// More than any other test feeds, so that what comes late is seen.
+constexpr std::uint64_t kLongWalk = 25;
+
+/// The long walk; `check` looks at each answer.
+template <typename Check>
+void check_walk(const Subject& subject, Check&& check) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  for (std::uint64_t step = 0; step < kLongWalk; ++step) {
+    check(library, plugin.process(walk_frame(subject.seed, step)));
+  }
+  check(library, plugin.report(0));
+  check(library, plugin.report(HW_REPORT_REFINE));
+}
+
+void puts_valid_outputs(const Subject& subject, Remains&) {
+  check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
+    if (answer.call == "process") answer.demand_valid();
+  });
+}
+
+void puts_what_it_declares(const Subject& subject, Remains&) {
+  check_walk(subject, [&](const LoadedLibrary& library, const Answer& answer) {
+    const std::vector<std::uint32_t> declared = outputs_of(library.info(subject.plugin));
+    for (const std::uint32_t kind : answer.put.kinds) {
+      demand(std::find(declared.begin(), declared.end(), kind) != declared.end(),
+             answer.call + "() put " + host::output_kind_name(kind) +
+                 ", which is not among the plugin's outputs");
+    }
+  });
+}
+
+void writes_zeros(const Subject& subject, Remains&) {
+  check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
+    demand(!answer.put.reserved_written,
+           answer.call + "() put an output whose flags or reserved member are not 0");
+  });
+}
+
+void puts_in_turn(const Subject& subject, Remains&) {
+  const LoadedLibrary library(subject.file);
+  Instance plugin(library, subject);
+  plugin.activate();
+  walk(plugin, subject, 0, 3);
+  plugin.must_reset();
+  walk(plugin, subject, 3, 5);
+  plugin.deactivate();
+  plugin.close();
+  demand(plugin.host().out_of_turn() == 0, "it called put() outside of process() and report()");
+}
+
+constexpr Test kTests[] = {
+    {"outputs-valid",
+     "What process() puts is as output.h says: finite, unit quaternions, distinct ids, counts that match.",
+     puts_valid_outputs},
+    {"outputs-declared", "Only outputs are put whose kinds the plugin declares.", puts_what_it_declares},
+    {"outputs-reserved", "Flags and reserved members of what is put are 0.", writes_zeros},
+    {"outputs-in-turn", "Outputs are put during process() and report(), and at no other time.", puts_in_turn},
+};
+
+}  // namespace
+
+std::span<const Test> output_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance

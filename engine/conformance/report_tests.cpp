@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The whole map, when it is asked for.
+#include <string>
+
+#include "conformance/instance.hpp"
+#include "conformance/walk.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+constexpr std::uint64_t kFrames = 12;
+
+struct Walked {
+  explicit Walked(const Subject& subject, std::uint64_t frames)
+      : library(subject.file), plugin(library, subject) {
+    plugin.activate();
+    for (std::uint64_t step = 0; step < frames; ++step) {
+      plugin.process(walk_frame(subject.seed, step)).demand_good();
+    }
+  }
+  LoadedLibrary library;
+  Instance plugin;
+};
+
+void reports_a_valid_map(const Subject& subject, Remains&) {
+  Walked(subject, kFrames).plugin.report(0).demand_valid();
+}
+
+void reports_a_valid_refined_map(const Subject& subject, Remains&) {
+  Walked(subject, kFrames).plugin.report(HW_REPORT_REFINE).demand_valid();
+}
+
+void reports_before_frames(const Subject& subject, Remains&) {
+  Walked walked(subject, 0);
+  walked.plugin.report(0).demand_valid();
+  walked.plugin.report(HW_REPORT_REFINE).demand_valid();
+  walk(walked.plugin, subject, 0, 2);
+}
+
+void reports_the_same_twice(const Subject& subject, Remains&) {
+  for (const std::uint32_t flags : {0u, HW_REPORT_REFINE}) {
+    Walked walked(subject, kFrames);
+    const Answer first = walked.plugin.report(flags);
+    const Answer second = walked.plugin.report(flags);
+    first.demand_good();
+    second.demand_good();
+    demand_same(second.put.bytes, first.put.bytes,
+                "the second of two reports without a frame between is another one");
+  }
+}
+
+/// What process() puts for some frames, with reports in between or without.
+std::string answers(const Subject& subject, bool reports) {
+  Walked walked(subject, 0);
+  std::string bytes;
+  for (std::uint64_t step = 0; step < kFrames; ++step) {
+    const Answer answer = walked.plugin.process(walk_frame(subject.seed, step));
+    answer.demand_good();
+    bytes += answer.put.bytes;
+    if (reports) walked.plugin.report(step % 2 == 0 ? HW_REPORT_REFINE : 0).demand_good();
+  }
+  return bytes;
+}
+
+void reporting_changes_nothing(const Subject& subject, Remains&) {
+  demand_same(answers(subject, true), answers(subject, false),
+              "frames are answered otherwise after report()");
+}
+
+constexpr Test kTests[] = {
+    {"report-valid", "The map that report() puts is as output.h says, without associations.",
+     reports_a_valid_map},
+    {"report-refined", "report() with HW_REPORT_REFINE succeeds, and puts a map that is as output.h says.",
+     reports_a_valid_refined_map},
+    {"report-first", "report() succeeds before there was a frame.", reports_before_frames},
+    {"report-twice", "Two reports without a frame between are the same, to the last bit.",
+     reports_the_same_twice},
+    {"report-aside", "Frames are answered the same whether or not reports are asked for in between.",
+     reporting_changes_nothing},
+};
+
+}  // namespace
+
+std::span<const Test> report_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "conformance/test_host.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "host/outputs_bytes.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+constexpr std::uint64_t kRubbish = 0xa5a5a5a5a5a5a5a5u;
+
+void write_log(void*, std::uint32_t, const char*) {}
+
+std::string bytes_of(const host::Outputs& outputs, std::uint32_t n_samples) {
+  host::ByteWriter counting{std::span<std::byte>()};
+  host::write_outputs(counting, outputs, n_samples);
+  std::string bytes(counting.size(), '\0');
+  host::ByteWriter writer{std::as_writable_bytes(std::span(bytes))};
+  host::write_outputs(writer, outputs, n_samples);
+  return bytes;
+}
+
+}  // namespace
+
+TestHost::TestHost(const HostShape& shape)
+    : shape_(shape),
+      vtable_{&TestHost::put, &TestHost::get_extension},
+      memory_((sizeof(hw_host_t) + shape.growth + 7) / 8, kRubbish) {
+  hw_host_t host{};
+  host.size = static_cast<std::uint32_t>(sizeof host) + shape.growth;
+  host.reserved = shape.reserved;
+  host.abi = {HW_ABI_MAJOR, HW_ABI_MINOR};
+  host.vtable = &vtable_;
+  host.self = this;
+  host.name = shape.name;
+  host.version = shape.version;
+  std::memcpy(memory_.data(), &host, sizeof host);
+}
+
+void TestHost::begin(const hw_frame_t* frame, std::vector<std::uint32_t> indices) {
+  indices_ = std::move(indices);
+  n_samples_ = indices_.empty() ? 0 : *std::max_element(indices_.begin(), indices_.end()) + 1;
+  collected_ = {};
+  collector_.begin(frame, indices_);
+  open_ = true;
+}
+
+Collected TestHost::finish() {
+  open_ = false;
+  collected_.problem = collector_.finish();
+  collected_.bytes = bytes_of(collector_.outputs(), n_samples_) + collected_.problem;
+  return std::move(collected_);
+}
+
+hw_status_t TestHost::put(void* self, const hw_output_t* output) {
+  return static_cast<TestHost*>(self)->take(output);
+}
+
+hw_status_t TestHost::take(const hw_output_t* output) {
+  if (!open_) {
+    ++out_of_turn_;
+    return HW_ERROR_STATE;
+  }
+  if (output != nullptr && HW_HAS(output, hw_output_t, payload)) {
+    collected_.kinds.insert(output->kind);
+    if (output->flags != 0 || output->reserved != 0) collected_.reserved_written = true;
+    if (output->kind == HW_OUTPUT_COUNTERS && !shape_.counters) return shape_.answer;
+  }
+  collector_.put(output);
+  return shape_.answer;
+}
+
+const void* TestHost::get_extension(void* self, const char* id) {
+  static constexpr hw_log_t kLog{&write_log};
+  const bool wanted = id != nullptr && std::strcmp(id, HW_EXT_LOG) == 0;
+  return wanted && static_cast<const TestHost*>(self)->shape_.extensions ? &kLog : nullptr;
+}
+
+}  // namespace hallway::conformance

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Every test of the suite finds what it is there to find, and nothing else: a plugin with one defect fails the tests of that defect alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/helper.hpp"
+#include "support/long_mode.hpp"
+#include "unit/conformance/defective_plugin.hpp"
+
+namespace hallway::conformance::test {
+namespace {
+
+enum class Others {
+  kPass,
+  kMayFailToo,  ///< a function is missing, or memory may or may not still be there: who meets it fails
+};
+
+struct Defect {
+  const char* name;
+  std::set<std::string> fails;
+  Others others = Others::kPass;
+  friend void PrintTo(const Defect& defect, std::ostream* out) { *out << defect.name; }
+};
+
+const std::vector<Defect> kDefects{
+    {"aborts_for_tracks", {"frame-tracks"}},
+    {"activates_once", {"deactivate-forgets"}},
+    {"any_extension", {"extension-unknown"}},
+    {"any_factory", {"factory-unknown"}},
+    {"associations_in_report", {"report-valid", "report-refined"}},
+    {"blocks_signal", {"keeps-signals"}},
+    {"changes_folder", {"keeps-folder"}},
+    {"closes_stdin", {"descriptors"}},
+    {"count_grows", {"factory-count", "factory-end"}},
+    {"counts_all_samples", {"activate-two-sensors", "frame-unknown-kind", "frame-two-readings"}},
+    {"counts_neighbours", {"instances-independent", "same-at-once"}},
+    {"crashes_after_refusal",
+     {"refused-destroy", "activate-no-sensors", "errors-reasons", "errors-null", "grown-error"}},
+    {"crashes_at_maximum", {"params-extremes"}},
+    {"crashes_for_equal_points", {"frame-equal-points"}},
+    {"crashes_for_far_points", {"frame-far-points"}},
+    {"crashes_for_gaps", {"frame-gaps"}},
+    {"crashes_for_line", {"frame-line"}},
+    {"crashes_for_many_points", {"frame-many-points"}},
+    {"crashes_for_nan", {"frame-not-finite"}},
+    {"crashes_for_no_points", {"frame-no-points", "input-not-overrun"}},
+    {"crashes_for_no_samples", {"frame-no-samples"}},
+    {"crashes_for_one_point", {"frame-one-point"}},
+    {"crashes_for_plane", {"frame-plane"}},
+    {"crashes_for_tracks", {"frame-tracks"}},
+    {"crashes_for_two_readings", {"frame-two-readings"}},
+    {"crashes_for_unannounced", {"frame-unannounced"}},
+    {"crashes_untouched", {"create-destroy"}},
+    {"crashes_when_refused", {"host-refuses"}},
+    {"crashes_with_two_sensors", {"activate-two-sensors"}},
+    {"crashes_without_frames", {"activate-deactivate"}},
+    {"crashes_without_sensors",
+     {"refused-destroy", "refused-activate", "activate-no-sensors", "errors-reasons", "errors-null",
+      "grown-error"}},
+    {"creates_any", {"create-unknown"}},
+    {"creates_silently", {"create-unknown", "errors-reasons", "grown-error"}},
+    {"creates_wrong_status", {"create-unknown"}},
+    {"describes_all", {"factory-end"}},
+    {"description_changes", {"factory-constant"}},
+    {"equal_landmarks", {"report-valid", "report-refined"}},
+    {"errors_endless", {"errors-reasons"}},
+    {"errors_latin1", {"errors-reasons"}},
+    {"errors_line_end", {"errors-reasons"}},
+    {"errors_null_written", {"errors-null"}},
+    {"errors_other_status", {"errors-reasons"}},
+    {"fails_for_early_times", {"frame-any-time"}},
+    {"fails_for_equal_times", {"frame-equal-times"}},
+    {"fails_for_unknown_flags", {"unknown-sample-flags"}},
+    {"fails_for_unknown_kind", {"frame-unknown-kind"}},
+    {"fails_for_unknown_requests", {"unknown-request-flags"}},
+    {"few_associations", {"outputs-valid"}},
+    {"flags_in_output", {"outputs-reserved"}},
+    {"flushes_to_zero", {"keeps-rounding"}},
+    {"grown_activation", {"grown-activation"}},
+    {"grown_error_overrun", {"grown-error"}},
+    {"grown_error_refused", {"grown-error"}},
+    {"grown_frame", {"grown-frame"}},
+    {"grown_host", {"grown-host"}},
+    {"grown_points", {"grown-points"}},
+    {"grown_request", {"grown-request"}},
+    {"grown_sample", {"grown-sample"}},
+    {"grown_sensor", {"grown-sensor"}},
+    {"id_twice", {"plugin-ids"}},
+    {"id_with_space", {"plugin-ids"}},
+    {"keeps_activation", {"activation-not-kept"}},
+    {"keeps_input", {"input-not-kept"}, Others::kMayFailToo},
+    {"kind_twice", {"plugin-kinds"}},
+    {"leaks_on_activate", {"use-memory"}},
+    {"leaks_on_create", {"create-memory", "use-memory"}},
+    {"leaves_descriptor", {"descriptors"}},
+    {"leaves_process", {"processes"}},
+    {"leaves_thread", {"threads"}},
+    {"loads_once", {"load-again"}},
+    {"long_quaternion", {"outputs-valid"}},
+    {"nan_counter", {"outputs-valid"}},
+    {"nan_for_nan", {"frame-not-finite"}},
+    {"nan_for_no_points", {"frame-no-points"}},
+    {"nan_pose", {"outputs-valid"}},
+    {"needs_log", {"host-no-extensions"}},
+    {"null_param_function", {"create-functions"}, Others::kMayFailToo},
+    {"null_reset", {"create-functions"}, Others::kMayFailToo},
+    {"param_any_bool", {"params-below", "params-above"}},
+    {"param_any_index", {"params-index"}},
+    {"param_any_type", {"params-type"}},
+    {"param_clamps", {"params-below", "params-not-finite"}},
+    {"param_default_outside",
+     {"params-described", "params-round-trip", "params-inactive", "params-instances"}},
+    {"param_described_behind_end", {"params-end"}},
+    {"param_name_of_spaces", {"params-described"}},
+    {"param_name_twice", {"params-described"}},
+    {"param_no_maximum", {"params-above"}},
+    {"param_no_minimum", {"params-below"}},
+    {"param_other_default", {"params-defaults"}},
+    {"param_rounds", {"params-round-trip", "params-instances"}},
+    {"param_set_once", {"params-inactive"}},
+    {"param_set_while_active", {"params-active"}},
+    {"param_shared", {"params-instances"}},
+    {"param_takes_nan", {"params-not-finite"}},
+    {"param_wrong_status", {"params-below", "params-above"}},
+    {"puts_in_reset", {"outputs-in-turn"}},
+    {"reads_environment", {"same-environment"}},
+    {"reads_folder", {"same-folder"}},
+    {"reads_host_name", {"same-host-name"}},
+    {"reads_locale", {"same-locale"}},
+    {"reads_on", {"input-not-overrun"}},
+    {"reads_process_id", {"same-processes"}},
+    {"reads_reserved_host", {"reserved-members"}},
+    {"reads_reserved_sensor", {"reserved-members"}},
+    {"reads_thread", {"same-threads", "same-at-once"}},
+    {"refined_to_nan", {"report-refined"}},
+    {"refuses_large_ids", {"activate-any-id"}},
+    {"refuses_mounts", {"activate-any-mount"}},
+    {"refuses_nan_facts", {"activate-unknown-facts"}},
+    {"refuses_silently", {"activate-no-sensors", "errors-reasons", "grown-error"}},
+    {"refuses_unknown_kind", {"activate-unknown-kind"}},
+    {"remembers_after_deactivate", {"deactivate-forgets"}},
+    {"remembers_after_reset", {"reset-forgets"}},
+    {"report_changes_answers", {"report-aside"}},
+    {"report_counts_reports", {"report-twice"}},
+    {"report_needs_frames", {"report-first"}},
+    {"reserved_in_info", {"plugin-kinds"}},
+    {"reserved_in_output", {"outputs-reserved"}},
+    {"reset_needs_frames", {"reset-at-once"}},
+    {"sets_locale", {"keeps-locale"}},
+    {"sets_rounding", {"keeps-rounding"}},
+    {"sets_signal_handler", {"keeps-signals"}},
+    {"sets_umask", {"keeps-umask"}},
+    {"sets_variable", {"keeps-environment"}},
+    {"shares_state", {"same-at-once"}},
+    {"silent_when_refused", {"host-refuses"}},
+    {"stride_ignored", {"stride"}},
+    {"stuck_after_refusal", {"refused-activate"}},
+    {"text_latin1", {"plugin-texts"}},
+    {"text_null", {"plugin-texts"}},
+    {"third_differs", {"instances-independent", "frame-unknown-kind", "same-again", "same-at-once"}},
+    {"throws_for_tracks", {"frame-tracks"}},
+    {"two_poses", {"outputs-valid"}},
+    {"undeclared_output", {"outputs-declared"}},
+    {"unknown_pose_status", {"outputs-valid"}},
+    {"writes_stderr", {"silent"}},
+    {"writes_stdout", {"silent"}},
+    {"writes_to_input", {"input-not-written"}},
+};
+
+/// Every fifth test, others for each defect; all of them in long mode.
+std::vector<std::string> sample_of_tests(const Defect& defect) {
+  constexpr std::size_t kShare = 5;
+  const auto number = static_cast<std::size_t>(
+      std::find_if(kDefects.begin(), kDefects.end(), [&](const Defect& d) { return d.name == defect.name; }) -
+      kDefects.begin());
+  std::vector<std::string> names(defect.fails.begin(), defect.fails.end());
+  for (std::size_t i = 0; i < all_tests().size(); ++i) {
+    const std::string name = all_tests()[i].name;
+    const bool chosen = hallway::test::long_mode() || i % kShare == number % kShare;
+    if (chosen && !defect.fails.contains(name)) names.push_back(name);
+  }
+  return names;
+}
+
+class Defects : public testing::TestWithParam<Defect> {};
+
+TEST_P(Defects, FailTheirTestsAndNoOthers) {
+  const Defect& defect = GetParam();
+  if (reserves_addresses() && std::string(defect.name).starts_with("leaks_")) {
+    GTEST_SKIP() << "under a sanitizer memory cannot be counted";
+  }
+  const DefectivePlugin plugin(defect.name);
+  SuiteSetup setup = plugin.setup();
+  setup.subject.plugin = std::string(defect.name) == "id_with_space" ? "has a space" : "defective";
+  setup.only = sample_of_tests(defect);
+  std::set<std::string> failed;
+  std::string reasons;
+  for (const Result& result : run_suite(setup)) {
+    if (result.good()) continue;
+    failed.insert(result.test->name);
+    reasons += std::string(result.test->name) + ": " + result.reason + "\n";
+    EXPECT_FALSE(result.reason.empty()) << result.test->name;
+  }
+  if (defect.others == Others::kPass) {
+    EXPECT_EQ(failed, defect.fails) << reasons;
+  } else {
+    EXPECT_TRUE(std::includes(failed.begin(), failed.end(), defect.fails.begin(), defect.fails.end()))
+        << reasons;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Defects, testing::ValuesIn(kDefects),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(Suite, EveryTestHasADefectThatItFinds) {
+  std::set<std::string> found{"entry-alone"};  // by another file, below
+  for (const Defect& defect : kDefects) found.insert(defect.fails.begin(), defect.fails.end());
+  for (const conformance::Test& test : all_tests()) EXPECT_TRUE(found.contains(test.name)) << test.name;
+}
+
+TEST(Suite, FindsSymbolsThatAreShownBesideTheEntry) {
+  const DefectivePlugin plugin("defective");
+  SuiteSetup setup = plugin.setup();
+  setup.subject.file = FIXTURES "/defects/shows_more.so";
+  for (const Result& result : run_suite(setup)) {
+    EXPECT_EQ(result.good(), std::string(result.test->name) != "entry-alone")
+        << result.test->name << result.reason;
+  }
+}
+
+class GoodPlugins : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoodPlugins, PassEveryTest) {
+  const DefectivePlugin none("defective");
+  SuiteSetup setup = none.setup();
+  setup.subject.file = GetParam();
+  setup.subject.plugin = inspect_plugin(setup);
+  for (const Result& result : run_suite(setup)) {
+    const bool uncounted = result.verdict == Verdict::kSkipped && reserves_addresses();
+    EXPECT_TRUE(result.verdict == Verdict::kPassed || uncounted)
+        << result.test->name << ": " << verdict_name(result.verdict) << ": " << result.reason;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, GoodPlugins,
+                         testing::Values(FIXTURES "/defects/defective.so", EXAMPLE, PLUGINS "/slam_point.so"),
+                         [](const auto& instance) {
+                           return std::filesystem::path(instance.param).stem().string();
+                         });
+
+}  // namespace
+}  // namespace hallway::conformance::test
