@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/helper.hpp"
 #include "base/text.hpp"
+#include "batch/runner.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "run/manifest.hpp"
@@ -22,6 +25,13 @@ constexpr const char* kAbout =
 constexpr const char* kFooter =
     "Exit status: 0 done; 1 ran, and the answer is no; 2 usage; 3 bad input or I/O; 4 plugin not loadable;\n"
     "5 plugin misbehaved; 6 a bug in Hallway; 130 interrupted.";
+
+/// A run that a batch has started ends with it. @return false if that is gone already
+bool end_with_starter() {
+  const char* starter = std::getenv(hallway::batch::kStartedBy);
+  const auto number = starter != nullptr ? hallway::parse_uint(starter) : std::nullopt;
+  return !number || hallway::end_with_parent(static_cast<std::int64_t>(*number));
+}
 
 bool asks_for_json(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
@@ -69,6 +79,7 @@ int report_parse(const CLI::App& app, const CLI::ParseError& stop, bool json) {
 
 int main(int argc, char** argv) {
   hallway::cli::prepare_standard_streams();
+  if (!end_with_starter()) return 1;
   const bool json = asks_for_json(argc, argv);
   try {
     CLI::App app(kAbout, "hallway");
