@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/file.hpp"
@@ -45,12 +46,15 @@ int run_batch(const BatchOptions& options) {
   document["violations"] = violations;
   write_file_atomically(folder / "results.csv", batch::print_csv(results));
   write_file_atomically(folder / "results.json", document.dump(1) + "\n");
+  const auto reused =
+      std::count_if(results.begin(), results.end(), [](const auto& result) { return result.reused; });
   if (options.json) {
+    document["reused"] = reused;  // of this batch, not of what it gave: not in the file
     print_json(document);
   } else if (!options.quiet) {
     print_result(results_table(results) + failures_text(results, violations) +
-                 fmt::format("{} of {} runs, in {}\n", results.size(), plan.cells.size(),
-                             printable(folder.string(), 4096)));
+                 fmt::format("{} of {} runs, {} of them taken over, in {}\n", results.size(),
+                             plan.cells.size(), reused, printable(folder.string(), 4096)));
   }
   if (results.size() < plan.cells.size()) return interrupt_status();
   const bool good = violations.empty() && std::all_of(results.begin(), results.end(),

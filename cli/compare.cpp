@@ -103,7 +103,12 @@ int compare(const CompareOptions& options) {
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   if (results.size() < plan.cells.size()) return interrupt_status();
-  const fs::path picture = draw(options, folder, results);
+  fs::path picture;
+  try {
+    picture = draw(options, folder, results);
+  } catch (const Error& error) {  // what the runs came to is worth more than their picture
+    print_warning(std::string("no picture: ") + error.what());
+  }
   Json document = batch::to_json(results);
   document["picture"] = printable(picture.string(), 4096);
   write_file_atomically(folder / "results.csv", batch::print_csv(results));

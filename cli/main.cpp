@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <cstdlib>
+
+#include "base/helper.hpp"
+#include "base/text.hpp"
+#include "batch/runner.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "record/version.hpp"
@@ -12,10 +17,18 @@ constexpr const char* kAbout =
     "truth, and\n"
     "look at pictures of it.";
 
+/// A run that a batch has started ends with it. @return false if that is gone already
+bool end_with_starter() {
+  const char* starter = std::getenv(hallway::batch::kStartedBy);
+  const auto number = starter != nullptr ? hallway::parse_uint(starter) : std::nullopt;
+  return !number || hallway::end_with_parent(static_cast<std::int64_t>(*number));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   hallway::cli::prepare_standard_streams();
+  if (!end_with_starter()) return 1;
   const bool json = hallway::cli::asks_for_json(argc, argv);
   try {
     CLI::App app(kAbout, "hallway");

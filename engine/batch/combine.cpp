@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
 #include "batch/plan.hpp"
@@ -83,14 +85,13 @@ std::vector<Cell> with_plugins(const std::vector<Cell>& cells, const std::vector
 
 /// Names from the labels that differ between cells, so that they are as short as they can be.
 void give_names(std::vector<Cell>& cells) {
-  std::set<std::string> varied;
+  std::map<std::pair<std::string, std::string>, std::size_t> cells_with;
   for (const Cell& cell : cells) {
-    for (const Label& label : cell.labels) {
-      const bool same = std::all_of(cells.begin(), cells.end(), [&](const Cell& other) {
-        return std::find(other.labels.begin(), other.labels.end(), label) != other.labels.end();
-      });
-      if (!same) varied.insert(label.name);
-    }
+    for (const Label& label : cell.labels) ++cells_with[{label.name, label.value}];
+  }
+  std::set<std::string> varied;
+  for (const auto& [label, n] : cells_with) {
+    if (n < cells.size()) varied.insert(label.first);
   }
   std::set<std::string> taken;
   for (Cell& cell : cells) {

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "base/error.hpp"
@@ -18,6 +19,7 @@
 #include "base/hash.hpp"
 #include "base/spawn.hpp"
 #include "base/text.hpp"
+#include "batch/content.hpp"
 
 namespace hallway::batch {
 namespace {
@@ -26,8 +28,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-/// Of results that are read back, and of what runs wrote.
-constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20;
+/// Of what runs say.
+constexpr std::size_t kMaxLogBytes = std::size_t{64} << 20;
 
 /// One batch at a time works in a folder.
 class FolderLock {
@@ -50,41 +52,6 @@ class FolderLock {
   int file_ = -1;
 };
 
-Json json_file(const fs::path& file) {
-  try {
-    Json json = Json::parse(read_file(file, kMaxJsonBytes), nullptr, false);
-    return json.is_object() ? json : Json();
-  } catch (const Error&) {
-    return {};
-  }
-}
-
-/// The content of what a cell reads, by name; a file that is not there has none.
-std::string input_hash(const fs::path& file) {
-  std::error_code none;
-  if (fs::is_directory(file, none)) return content_hash(json_file(file / "run.json").dump());
-  try {
-    return content_hash(read_file(file));
-  } catch (const Error&) {
-    return "none";
-  }
-}
-
-/// Decides whether a result is still what a run would give.
-std::string cell_hash(const Cell& cell, const std::string& program_hash) {
-  std::string all = program_hash;
-  for (const std::string& argument : cell.arguments) all += '\0' + argument;
-  for (const fs::path& input : cell.inputs) {
-    all += '\0' + input_hash(input);
-    // A scenario's map, which it names, is the input that is most often changed.
-    std::error_code none;
-    if (input.extension() != ".toml") continue;
-    fs::path map = input;
-    all += '\0' + input_hash(map.replace_extension(".map"));
-  }
-  return content_hash(all);
-}
-
 Json to_json(const Result& result, const std::string& hash) {
   Json labels = Json::object();
   for (const Label& label : result.labels) labels[label.name] = label.value;
@@ -99,7 +66,7 @@ Json to_json(const Result& result, const std::string& hash) {
 std::string last_line(const fs::path& file) {
   std::string text;
   try {
-    text = read_file(file, kMaxJsonBytes);
+    text = read_file(file, kMaxLogBytes);
   } catch (const Error&) {
     return "what it said cannot be read";
   }
@@ -110,22 +77,34 @@ std::string last_line(const fs::path& file) {
   return printable(line, 500);
 }
 
+/// Whether a name is that of the folder in which a run works that has not come to its end.
+bool is_working_folder(const std::string& name, const std::string& cell) {
+  constexpr std::string_view kPart = ".part-";
+  if (!name.starts_with(cell + std::string(kPart))) return false;
+  const std::string number = name.substr(cell.size() + kPart.size());
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 /// A cell that is under way: its run, then its pictures, one process after the other.
 class Job {
  public:
-  Job(const Cell& cell, std::size_t index, const Plan& plan, const RunnerSetup& setup)
+  /// @param hash  of what it is given
+  Job(const Cell& cell, std::size_t index, std::string hash, const Plan& plan, const RunnerSetup& setup)
       : cell_(cell),
         index_(index),
+        hash_(std::move(hash)),
         plan_(plan),
         setup_(setup),
         folder_(setup.folder / "cells" / cell.name),
         begin_(Clock::now()) {
+    remove_old();
     std::vector<std::string> arguments = cell.arguments;
     arguments.insert(arguments.end(), {"--out", folder_.string(), "--force", "--quiet"});
     start(arguments);
   }
 
   std::size_t index() const { return index_; }
+  const std::string& hash() const { return hash_; }
 
   /// Whether it has ended, with all that follows it.
   bool step() {
@@ -140,9 +119,7 @@ class Job {
     const PictureRequest& picture = plan_.pictures[next_picture_++];
     std::vector<std::string> arguments{"render", folder_.string()};
     arguments.insert(arguments.end(), picture.arguments.begin(), picture.arguments.end());
-    fs::path file = folder_;
-    file += "." + picture.name + ".png";
-    arguments.insert(arguments.end(), {"--out", file.string()});
+    arguments.insert(arguments.end(), {"--out", picture_file(picture).string()});
     start(arguments);
     return false;
   }
@@ -159,6 +136,18 @@ class Job {
   }
 
  private:
+  fs::path picture_file(const PictureRequest& picture) const {
+    fs::path file = folder_;
+    return file += "." + picture.name + ".png";
+  }
+
+  /// What an earlier batch made, which is not to be taken for what this one does not come to make.
+  void remove_old() const {
+    std::error_code none;
+    if (fs::exists(folder_ / "run.json", none)) fs::remove_all(folder_, none);
+    for (const PictureRequest& picture : plan_.pictures) fs::remove(picture_file(picture), none);
+  }
+
   fs::path log_file() const {
     fs::path file = folder_;
     return file += ".log";
@@ -173,6 +162,7 @@ class Job {
     ProcessSetup setup;
     setup.arguments = arguments;
     setup.descriptors = {-1, -1, log};
+    setup.environment = {std::string(kStartedBy) + "=" + std::to_string(::getpid())};
     try {
       process_ = std::make_unique<ProcessGroup>(setup_.program, setup);
     } catch (...) {
@@ -184,6 +174,7 @@ class Job {
 
   const Cell& cell_;
   std::size_t index_;
+  std::string hash_;
   const Plan& plan_;
   const RunnerSetup& setup_;
   fs::path folder_;
@@ -205,6 +196,7 @@ class Runner {
   std::vector<Result> run() {
     make_folder(setup_.folder / "cells");
     const FolderLock lock(setup_.folder);
+    remove_working_folders();
     if (setup_.resume) take_over_results();
     while (!stopped() && (start_jobs() || !jobs_.empty())) {
       if (!step_jobs()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -222,15 +214,32 @@ class Runner {
 
   fs::path result_file(const Cell& cell) const { return setup_.folder / "cells" / (cell.name + ".json"); }
 
+  /// Those of runs that were killed, with a batch or without.
+  void remove_working_folders() const {
+    std::set<std::string> cells;
+    for (const Cell& cell : plan_.cells) cells.insert(cell.name);
+    std::error_code none;
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(setup_.folder / "cells", none)) {
+      const std::string name = entry.path().filename().string();
+      const std::string cell = name.substr(0, name.rfind(".part-"));
+      if (cells.contains(cell) && is_working_folder(name, cell)) left.push_back(entry.path());
+    }
+    for (const fs::path& folder : left) fs::remove_all(folder, none);
+  }
+
   void take_over_results() {
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
-      const Json json = json_file(result_file(plan_.cells[i]));
-      if (json.is_null() || json.value("hash", "") != cell_hash(plan_.cells[i], program_hash_)) continue;
+      const Cell& cell = plan_.cells[i];
+      const Json json = json_file(result_file(cell));
+      if (json.is_null() || json.value("hash", "") != cell_hash(cell, plan_, program_hash_)) continue;
+      // What is not there, or did not come to say what it read, cannot be known to be the same.
+      if (!reads_the_same(cell, json_file(setup_.folder / "cells" / cell.name / "run.json"))) continue;
       // What was interrupted was not its own fault.
       const int status = json.value("status", -1);
       if (status < 0 || status >= 128) continue;
-      results_[i] = Result{.name = plan_.cells[i].name,
-                           .labels = plan_.cells[i].labels,
+      results_[i] = Result{.name = cell.name,
+                           .labels = cell.labels,
                            .status = status,
                            .problem = json.value("problem", ""),
                            .metrics = json.value("metrics", Json()),
@@ -249,13 +258,16 @@ class Runner {
       if (next_ == plan_.cells.size()) return any;
       any = true;
       const std::size_t index = next_++;
+      // As it is before the run: what is changed while that reads it shall not be taken for what it has read.
+      const std::string hash = cell_hash(plan_.cells[index], plan_, program_hash_);
       try {
-        jobs_.push_back(std::make_unique<Job>(plan_.cells[index], index, plan_, setup_));
+        jobs_.push_back(std::make_unique<Job>(plan_.cells[index], index, hash, plan_, setup_));
       } catch (const Error& error) {
-        keep(index, Result{.name = plan_.cells[index].name,
-                           .labels = plan_.cells[index].labels,
-                           .status = exit_status(error.code()),
-                           .problem = error.what()});
+        keep(index, hash,
+             Result{.name = plan_.cells[index].name,
+                    .labels = plan_.cells[index].labels,
+                    .status = exit_status(error.code()),
+                    .problem = error.what()});
       }
     }
     return any;
@@ -267,12 +279,13 @@ class Runner {
     std::erase_if(jobs_, [&](const std::unique_ptr<Job>& job) {
       try {
         if (!job->step()) return false;
-        keep(job->index(), job->result());
+        keep(job->index(), job->hash(), job->result());
       } catch (const Error& error) {
-        keep(job->index(), Result{.name = plan_.cells[job->index()].name,
-                                  .labels = plan_.cells[job->index()].labels,
-                                  .status = exit_status(error.code()),
-                                  .problem = error.what()});
+        keep(job->index(), job->hash(),
+             Result{.name = plan_.cells[job->index()].name,
+                    .labels = plan_.cells[job->index()].labels,
+                    .status = exit_status(error.code()),
+                    .problem = error.what()});
       }
       return true;
     });
@@ -280,11 +293,10 @@ class Runner {
   }
 
   /// A result that cannot be written is one all the same, and is run again by the next batch.
-  void keep(std::size_t index, Result result) {
+  void keep(std::size_t index, const std::string& hash, Result result) {
     const Cell& cell = plan_.cells[index];
     try {
-      write_file_atomically(result_file(cell),
-                            to_json(result, cell_hash(cell, program_hash_)).dump(1) + "\n");
+      write_file_atomically(result_file(cell), to_json(result, hash).dump(1) + "\n");
     } catch (const Error& error) {
       if (result.status == 0) result.status = exit_status(error.code());
       if (result.problem.empty()) result.problem = error.what();

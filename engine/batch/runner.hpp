@@ -26,12 +26,16 @@ struct Result {
   bool good() const { return status == 0; }
 };
 
+/// The environment variable that tells a run the number of the process that started it, with which it has to end: a batch that is killed shall not
+/// leave runs behind that write into the folders of the next one.
+inline constexpr const char* kStartedBy = "HALLWAY_STARTED_BY";
+
 /// How a batch is run, and where.
 struct RunnerSetup {
   std::filesystem::path program{};  ///< `hallway`
   std::filesystem::path folder{};   ///< of the batch: a folder for each run is in its `cells`
   unsigned jobs = 1;                ///< how many runs at a time
-  bool resume = false;  ///< keep results whose program, arguments and input files are the same as now
+  bool resume = false;              ///< keep results whose program, arguments and files are the same as now
   std::function<void(std::size_t done)> progress{};
   std::function<bool()> stop{};  ///< true: ends what runs and returns what there is
 };

@@ -96,7 +96,6 @@ Json to_json(const std::vector<Result>& results) {
                      {"problem", result.problem},
                      {"verdict", result.verdict},
                      {"wall_s", result.wall_s},
-                     {"reused", result.reused},
                      {"metrics", result.metrics}});
   }
   return {{"schema", "hallway.batch_results/1"}, {"cells", cells}};

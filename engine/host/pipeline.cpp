@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host/pipeline.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "host/isolated_plugin.hpp"
+#include "host/pipeline_kinds.hpp"
 #include "host/plugin.hpp"
 
 namespace hallway::host {
-namespace {
-
-/// Sensors are the only producers: no kind of output is a kind of sample.
-void check_producers(const Stage& plugin, std::span<const SensorInfo> sensors) {
-  std::set<std::uint32_t> produced;
-  for (const SensorInfo& sensor : sensors) produced.insert(sensor.kind);
-  for (const std::uint32_t kind : plugin.info().inputs) {
-    if (produced.contains(kind)) continue;
-    std::vector<std::string> names;
-    for (const std::uint32_t there : produced) names.push_back(sample_kind_name(there));
-    throw Error(ErrorCode::kBadInput,
-                fmt::format("plugin `{}` needs {}, which no sensor gives; the sensors give: {}",
-                            plugin.info().id, sample_kind_name(kind),
-                            names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "))));
-  }
-}
-
-}  // namespace
-
 Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
                    std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
     : Pipeline(unstarted(std::move(stages), std::move(folders), std::move(sensors), std::move(log),
@@ -66,6 +44,7 @@ void Pipeline::start() {
   facts_.clear();
   try {
     prepare_stages();
+    check_kinds();
     for (const auto& plugin : stages_) plugin->activate(sensors_);
   } catch (...) {
     stages_.clear();
@@ -82,11 +61,16 @@ void Pipeline::prepare_stages() {
     for (const ParameterSetting& setting : spec.parameters) {
       plugin.set_parameter(setting.name, setting.value, setting.where);
     }
-    check_producers(plugin, sensors_);
     std::vector<std::string> values;
     for (std::size_t i = 0; i < parameters.size(); ++i) values.push_back(plugin.parameter_text(i));
     facts_.back().values = std::move(values);
   }
+}
+
+void Pipeline::check_kinds() const {
+  std::vector<PluginInfo> plugins;
+  for (const StageFacts& plugin : facts_) plugins.push_back(plugin.info);
+  host::check_kinds(plugins, sensors_);
 }
 
 std::size_t Pipeline::capacity() const {

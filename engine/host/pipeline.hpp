@@ -39,8 +39,7 @@ struct StageFacts {
 class Pipeline {
  public:
   /// Finds, makes, sets and activates the plugins. Before any of them is activated, checks that each kind of
-  /// sample that one needs is given by a sensor: Error{kBadInput} names the plugin, the kind and what there
-  /// is. Throws what find_plugin(), Plugin and IsolatedPlugin throw, and Error{kBadInput} if `stages` is empty.
+  /// sample that one needs is given by a sensor or by a plugin before it (check_kinds()). Throws what find_plugin(), Plugin and IsolatedPlugin throw, and Error{kBadInput} if `stages` is empty.
   /// @param isolation  unset: the plugins run in this process. Set: each has a process of its own, and what the kernel
   ///                   does not keep them from is logged once, as a warning
   Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
@@ -87,6 +86,7 @@ class Pipeline {
   Pipeline() = default;
   void start();
   void prepare_stages();
+  void check_kinds() const;
   std::unique_ptr<Stage> make_stage(const std::string& plugin);
 
   std::vector<StageSpec> specs_;

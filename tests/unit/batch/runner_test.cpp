@@ -33,7 +33,7 @@ case $word in
 esac
 mkdir -p "$out"
 echo "{\"length\": ${#word}}" > "$out/metrics.json"
-echo "{\"verdict\": null}" > "$out/run.json"
+echo '{"command": "run", "inputs": [], "settings": [], "plugins": [], "host": {"plugin_files": []}, "verdict": null}' > "$out/run.json"
 )");
     fs::permissions(program_, fs::perms::owner_all);
   }
@@ -89,17 +89,35 @@ TEST_F(RunnerTest, ResumeRunsOnlyWhatIsNewOrChanged) {
   EXPECT_EQ(calls(), 3u);
   plan.cells.push_back({.name = "new", .arguments = {"run", "new"}});
   auto results = run_cells(plan, setup(2, true));
-  EXPECT_EQ(calls(), 5u);  // the new one, and the one that was killed
+  EXPECT_EQ(calls(), 6u);  // the new one, the one that was killed, and the one that does not say what it read
   EXPECT_TRUE(results[0].reused);
   EXPECT_EQ(results[0].metrics["length"], 1);
   EXPECT_EQ(results[1].status, 5);
   EXPECT_FALSE(results[3].reused);
   folder_.write("input.csv", "2");
   results = run_cells(plan, setup(2, true));
-  EXPECT_EQ(calls(), 7u);  // what reads the input, and the killed one again
+  EXPECT_EQ(calls(), 9u);  // what reads the input, and those two again
   EXPECT_FALSE(results[0].reused);
   run_cells(plan, setup(2, false));
-  EXPECT_EQ(calls(), 11u);
+  EXPECT_EQ(calls(), 13u);
+  fs::remove_all(folder_ / "batch" / "cells" / "cell_a");
+  run_cells(plan, setup(2, true));
+  EXPECT_EQ(calls(), 16u) << "its folder is gone";
+  plan.pictures.push_back({.name = "top", .arguments = {}});
+  EXPECT_FALSE(run_cells(plan, setup(2, true))[0].reused) << "its picture is missing";
+}
+
+TEST_F(RunnerTest, WhatAnEarlierBatchLeftIsNotTakenForAResult) {
+  fs::create_directories(folder_ / "batch" / "cells" / "cell_fails");
+  folder_.write("batch/cells/cell_fails/run.json", R"({"verdict": {"what": "crash"}})");
+  folder_.write("batch/cells/cell_fails/metrics.json", R"({"length": 7})");
+  fs::create_directories(folder_ / "batch" / "cells" / "cell_fails.part-123");
+  fs::create_directories(folder_ / "batch" / "cells" / "somebody.part-else");
+  const auto results = run_cells(plan_of({"fails"}), setup());
+  EXPECT_TRUE(results[0].metrics.is_null());
+  EXPECT_TRUE(results[0].verdict.is_null());
+  EXPECT_FALSE(fs::exists(folder_ / "batch" / "cells" / "cell_fails.part-123"));
+  EXPECT_TRUE(fs::exists(folder_ / "batch" / "cells" / "somebody.part-else"));
 }
 
 TEST_F(RunnerTest, IsStoppedWithWhatIsDone) {

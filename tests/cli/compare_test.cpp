@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The same input for several plugins, and what is said of them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "cli/batch_results.hpp"
+#include "cli/small_world.hpp"
+
+namespace hallway::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string fixture(const std::string& name) {
+  return binary_folder() / "tests/abi/fixtures" / (name + ".so");
+}
+
+Ended compare(const SmallWorld& world, const std::string& input, std::vector<std::string> more,
+              const std::string& out = "compared") {
+  more.insert(more.begin(), {"compare", input, "--out", world.out(out)});
+  return hallway(more);
+}
+
+TEST(Compare, GivesEachTheSameInputAndSaysWhatSingleRunsSay) {
+  const SmallWorld world;
+  const Ended ended =
+      compare(world, world.scenario(),
+              {"--plugin", "slam_point:noise_m=0.05,0.2", "--plugin", fixture("minimal"), "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const fs::path folder = world.out("compared");
+  const Json results = read_json(folder / "results.json");
+  EXPECT_EQ(Json::parse(ended.out), results);
+  ASSERT_EQ(results.at("cells").size(), 3u);
+  std::set<std::string> inputs;
+  for (const Json& cell : results.at("cells")) {
+    const fs::path run = folder / "cells" / cell.at("name").get<std::string>();
+    inputs.insert(read_file(run / "observations.csv"));
+    EXPECT_EQ(cell.at("metrics"), read_json(run / "metrics.json"));
+  }
+  EXPECT_EQ(inputs.size(), 1u) << "not the same input";
+  ASSERT_EQ(world.run({"--set", "slam_point.noise_m=0.2"}, "single").status, 0);
+  const Json single = read_json(fs::path(world.out("single")) / "metrics.json");
+  const Json& swept = results.at("cells").at(1);
+  EXPECT_EQ(swept.at("labels").at("slam_point.noise_m"), "0.2");
+  EXPECT_EQ(without_times(swept.at("metrics")), without_times(single));
+  EXPECT_NE(without_times(results.at("cells").at(0).at("metrics")), without_times(single))
+      << "nothing was swept";
+  EXPECT_TRUE(read_file(folder / "comparison.png").starts_with("\x89PNG"));
+  EXPECT_EQ(read_csv(folder / "results.csv").size(), 4u);
+}
+
+TEST(Compare, ATableIsPrintedForPeople) {
+  const SmallWorld world;
+  const Ended ended =
+      compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", fixture("minimal")});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  for (const char* part :
+       {"map RMSE m", "ms mean", "verdict", "+slam_point", "+minimal", "  ok", "comparison.png"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
+TEST(Compare, OneThatFailsIsInTheTableWithItsVerdictAndTheOthersAreThere) {
+  const SmallWorld world;
+  ::setenv("HALLWAY_DIES_IN", "activate", 1);
+  ::setenv("HALLWAY_DIES_BY", "abort", 1);
+  const Ended ended = compare(world, world.scenario(),
+                              {"--plugin", fixture("dies_in_call"), "--plugin", "slam_point", "--plugin",
+                               fixture("breaks") + ":breaks:how=segv:at=20", "--plugin", "nobody"});
+  ::unsetenv("HALLWAY_DIES_IN");
+  ::unsetenv("HALLWAY_DIES_BY");
+  EXPECT_EQ(ended.status, 5) << ended.err;
+  const fs::path folder = world.out("compared");
+  const Json results = read_json(folder / "results.json");
+  ASSERT_EQ(results.at("cells").size(), 4u);
+  EXPECT_EQ(results.at("cells").at(0).at("verdict").at("call"), "activate");
+  EXPECT_EQ(results.at("cells").at(0).at("status"), 5);
+  EXPECT_EQ(results.at("cells").at(1).at("status"), 0);
+  EXPECT_EQ(results.at("cells").at(2).at("verdict").at("iteration"), 20);
+  EXPECT_EQ(results.at("cells").at(3).at("status"), 4);
+  EXPECT_NE(results.at("cells").at(3).at("problem").get<std::string>().find("there is no plugin `nobody`"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "comparison.png"));
+  EXPECT_NE(ended.out.find("  crash\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("  status 4\n"), std::string::npos) << ended.out;
+}
+
+TEST(Compare, TakesLogsAndFoldersOfRuns) {
+  const SmallWorld world;
+  ASSERT_EQ(world.run({"--quiet"}, "recorded").status, 0);
+  const Json single = read_json(fs::path(world.out("recorded")) / "metrics.json");
+  for (const std::string& input : {world.out("recorded"), world.out("recorded") + "/run.mcap"}) {
+    const std::string out = "compared-" + fs::path(input).filename().string();
+    const Ended ended = compare(
+        world, input, {"--plugin", "slam_point", "--plugin", "slam_point:noise_m=0.3", "--quiet"}, out);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const Json results = read_json(fs::path(world.out(out)) / "results.json");
+    EXPECT_EQ(without_times(results.at("cells").at(0).at("metrics")), without_times(single)) << input;
+    EXPECT_TRUE(fs::exists(fs::path(world.out(out)) / "comparison.png"));
+  }
+}
+
+TEST(Compare, AnEarlierComparisonIsReplaced) {
+  const SmallWorld world;
+  ASSERT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--quiet"}).status, 0);
+  ASSERT_EQ(
+      compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", "nobody", "--quiet"}).status,
+      4);
+  EXPECT_EQ(read_json(fs::path(world.out("compared")) / "results.json").at("cells").size(), 2u);
+}
+
+TEST(Compare, WrongUse) {
+  const SmallWorld world;
+  EXPECT_EQ(compare(world, world.scenario(), {}).status, 2);
+  EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point:noise_m=1:x"}).status, 2);
+  EXPECT_EQ(compare(world, world.scenario(), {"--plugin", ":noise_m=1"}).status, 2);
+  EXPECT_EQ(compare(world, world.folder() / "nowhere.toml", {"--plugin", "slam_point", "--quiet"}).status, 3);
+}
+
+}  // namespace
+}  // namespace hallway::test
