@@ -143,8 +143,7 @@ void skips_unknown_kinds(const Subject& subject, Remains&) {
   for (const std::uint32_t kind : {0u, 4711u, UINT32_MAX}) {
     const Reading unknown{.kind = kind};
     for (std::size_t place = 0; place < 2; ++place) {
-      // The collector writes how many samples there were: what is put for the known one is compared.
-      std::string bytes = with_extra(library, subject, &unknown, place);
+      const std::string bytes = with_extra(library, subject, &unknown, place);
       demand_same(bytes, expected,
                   "a sample of the unknown kind " + std::to_string(kind) + " changes the answer");
     }
