@@ -15,10 +15,11 @@ export PATH="$work/opt/hallway/bin:$PATH"
 unset HALLWAY_PLUGIN_PATH
 hallway plugin list | grep -q '^slam_point ' || fail "the installed program does not find the installed plugin"
 
-# A new plugin: written, built in one command, checked, described, run, and run again on the same input.
+# A new plugin: written, built in one command, checked, validated, described, run, and run again on the same input.
 hallway plugin new my_slam
 (cd my_slam && cmake --workflow --preset release > build.log) || fail "a new project does not build"
 hallway plugin check my_slam/build/my_slam.so | grep -q 'it will load on' || fail "check"
+hallway plugin validate my_slam/build/my_slam.so > validate.log || { cat validate.log; fail "validate"; }
 hallway plugin info my_slam/build/my_slam.so | grep -q 'match_m = 0.1 m' || fail "info"
 cat > standing.map <<'END'
 {
