@@ -171,6 +171,34 @@ TEST(RealTime, LossIsCountedAndHoldsNothingUp) {
   EXPECT_GT(counters.frames, kFrames / 10);
 }
 
+TEST(RealTime, AnotherThreadMayAnswerWhileOneReads) {
+  MemoryNet net;
+  MemoryWire robot_wire(net, 1);
+  MemoryWire host_wire(net, 2);
+  RobotEnd robot(robot_wire, description(false), kSession, kGiveUp);
+  HostEnd host(host_wire, robot_wire.address(), 42, kGiveUp);
+  std::atomic<bool> stop = false;
+  std::thread serves([&] {
+    while (!robot.wanted()) robot.wait(soon());
+    for (std::uint64_t k = 0; !stop; ++k) {
+      robot.send(k, frame_of(k, 100, static_cast<std::int64_t>(k)));
+      robot.wait(soon());
+    }
+  });
+  host.describe();
+  std::thread answers([&] {
+    for (std::uint64_t k = 0; k < 300; ++k) host.answer({.status = HW_ANSWER_LATE, .sequence = k});
+  });
+  for (int frames = 0; frames < 20;) frames += host.read(seconds{20}).found == HostEnd::Found::kFrame ? 1 : 0;
+  answers.join();
+  stop = true;
+  serves.join();
+  std::uint64_t next = 0;
+  while (robot.wait(RobotEnd::Clock::now())) continue;
+  while (const auto came = robot.next_answer()) EXPECT_EQ(came->answer.number, next++);
+  EXPECT_EQ(next, 300u);
+}
+
 TEST(RealTime, WhatIsNoFrameIsPassedOver) {
   MemoryNet net;
   MemoryWire robot_wire(net, 1);
@@ -185,7 +213,10 @@ TEST(RealTime, WhatIsNoFrameIsPassedOver) {
   listens.join();
   const auto give = [&](std::uint64_t sequence, const Bytes& bytes) {
     robot.send(sequence, bytes);
-    return host.read(milliseconds{200});
+    const auto limit = RobotEnd::Clock::now() + seconds{20};
+    while (host.counters().frames.frames <= sequence && RobotEnd::Clock::now() < limit)
+      std::this_thread::sleep_for(milliseconds{1});
+    return host.read(milliseconds{0});
   };
   EXPECT_EQ(give(0, some_bytes(100)).found, HostEnd::Found::kNothing);
   EXPECT_EQ(give(1, frame_of(2, 3, 5)).found, HostEnd::Found::kNothing) << "another number";
