@@ -58,6 +58,7 @@ bool inputs_are_the_same(const Cell& cell, const Json& run) {
 
 bool plugins_are_the_same(const Json& run) {
   const Json& files = run.at("host").at("plugin_files");
+  if (files.size() != run.at("plugins").size()) return false;  // one that ended before it was known
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (file_hash(files.at(i).get<std::string>()) != run.at("plugins").at(i).at("hash")) return false;
   }

@@ -145,6 +145,23 @@ TEST_F(Batch, ResumeSeesAMapOfAnotherNameAndAPluginThatTheScenarioNames) {
   EXPECT_EQ(taken_over(file), 1);
 }
 
+TEST_F(Batch, APluginThatEndedWhileItWasLoadedIsTriedAgain) {
+  world_.folder().write(
+      "small.toml",
+      replaced(small_scenario(), "\"slam_point\"",
+               "\"" + (binary_folder() / "tests/abi/fixtures/dies_in_call.so").string() + "\""));
+  const std::string file = plan("steps = 20\n");
+  ::setenv("HALLWAY_DIES_IN", "init", 1);
+  ::setenv("HALLWAY_DIES_BY", "abort", 1);
+  EXPECT_EQ(batch(file).status, 1);
+  EXPECT_EQ(results().at("cells").at(0).at("verdict").at("call"), "init");
+  ::unsetenv("HALLWAY_DIES_IN");
+  ::unsetenv("HALLWAY_DIES_BY");
+  EXPECT_EQ(taken_over(file), 0);
+  EXPECT_EQ(results().at("cells").at(0).at("status"), 0);
+  EXPECT_EQ(taken_over(file), 1);
+}
+
 /// What a batch has left, by the names of its files, without what clocks and the machine decide.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
