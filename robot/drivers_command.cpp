@@ -83,7 +83,8 @@ void add_drivers_command(CLI::App& app, cli::Action& chosen) {
 
 void add_profile_command(CLI::App& app, cli::Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "profile", "Print what this machine offers to plugins, for `hallway plugin check FILE --for PROFILE`");
+      "profile",
+      "Print what this machine offers to plugins, for `hallway plugin check FILE --profile PROFILE`");
   command->footer("Example: hallway-robot profile > robot-profile.toml");
   command->callback([&chosen] {
     chosen = [] {

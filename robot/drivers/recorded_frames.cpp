@@ -23,8 +23,13 @@ namespace {
 
 RecordedFrames::RecordedFrames(const std::filesystem::path& file)
     : name_(printable(file.string(), 4096)), input_(file) {
-  begin();
-  first_ = read();
+  try {
+    begin();
+    first_ = read();
+  } catch (const Error& error) {
+    if (error.where().file.empty()) bad(name_, error.message());
+    throw;
+  }
   if (!described_) bad(name_, "does not say which sensors its robot had");
   if (first_ == nullptr) bad(name_, "holds no frames of Hallway");
 }
