@@ -4,6 +4,7 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <atomic>
 #include <mutex>
@@ -27,6 +28,16 @@ void take_end_request(XmlRpc::XmlRpcValue& parameters, XmlRpc::XmlRpcValue& resu
   say(HW_LOG_WARNING, "this ROS node was asked to end: " + printable(reason));
   node_end_asked = true;
   result = ros::xmlrpc::responseInt(1, "", 0);
+}
+
+/// Makes every later call of roscpp to the master fail at once: all go through one client that is used again and again, and one
+/// that is in the middle of a call refuses another.
+void keep_from_master() {
+  ros::XMLRPCManager& manager = *ros::XMLRPCManager::instance();
+  XmlRpc::XmlRpcClient* client =
+      manager.getXMLRPCClient(ros::master::getHost(), static_cast<int>(ros::master::getPort()), "/");
+  client->_executing = true;
+  manager.releaseXMLRPCClient(client);
 }
 
 void initialise(const Settings& settings) {
@@ -75,12 +86,13 @@ Node::Node(const Settings& settings) {
 }
 
 Node::~Node() {
-  shut_down();
+  shut_down(true);
   ::sigaction(SIGPIPE, &previous_sigpipe_, nullptr);
   node_exists = false;
 }
 
-void Node::shut_down() {
+void Node::shut_down(bool tell_master) {
+  if (ros::isStarted() && !tell_master) keep_from_master();
   ros::shutdown();
 }
 

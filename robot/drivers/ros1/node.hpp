@@ -17,8 +17,9 @@ class Node {
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  /// Leaves the graph. Takes as long as the master does to answer.
-  void shut_down();
+  /// Leaves the graph.
+  /// @param tell_master  false: it does not answer, and telling it would take as long as the system keeps a connection
+  void shut_down(bool tell_master);
 
   /// Whether somebody asked this node to end: `rosnode kill`, or the master because another node took the name.
   static bool end_asked();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,8 +23,6 @@ using namespace std::chrono_literals;
 constexpr std::chrono::nanoseconds kLookPeriod = 50ms;
 /// How long roscpp gets to send the last command, which nothing says was sent.
 constexpr auto kLastCommandTime = 100ms;
-/// How long close() waits for roscpp to take leave of the master.
-constexpr auto kFarewellTime = 2s;
 
 class Ros1 final : public sdk::Driver {
  public:
@@ -89,7 +86,7 @@ class Ros1 final : public sdk::Driver {
   void close() override {
     session_->outputs().stop();
     std::this_thread::sleep_for(kLastCommandTime);
-    take_leave();
+    session_.reset();
     close_console();
   }
 
@@ -142,23 +139,6 @@ class Ros1 final : public sdk::Driver {
   bool log_has_ended() {
     const bool gone = settings_.lock_step && frames_ > 0 && !session_->inputs().has_publishers();
     return std::exchange(publishers_gone_, gone) && gone;
-  }
-
-  /// Ends the session by a thread of its own: a master that is there but does not answer would keep roscpp for as long as the
-  /// system keeps a connection.
-  void take_leave() {
-    std::promise<void> done;
-    std::future<void> finished = done.get_future();
-    std::thread farewell([session = std::move(session_), done = std::move(done)]() mutable {
-      session.reset();
-      done.set_value();
-    });
-    if (finished.wait_for(kFarewellTime) == std::future_status::ready) {
-      farewell.join();
-      return;
-    }
-    say(HW_LOG_WARNING, "the ROS master does not answer; this node leaves without telling it");
-    farewell.detach();
   }
 
   Settings settings_;

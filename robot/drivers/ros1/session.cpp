@@ -6,20 +6,26 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "ros1/console.hpp"
 #include "ros1/mounts.hpp"
 
 namespace hallway::ros1 {
+namespace {
 
-Session::Session(const Settings& settings) {
-  const MasterAddress address = parse_master(settings.master);
-  const MasterAnswer answer = wait_for_master(address, settings.wait);
+/// How long the master gets to answer before this node leaves without telling it.
+constexpr std::chrono::milliseconds kFarewellTime{1000};
+
+}  // namespace
+
+Session::Session(const Settings& settings) : address_(parse_master(settings.master)) {
+  const MasterAnswer answer = wait_for_master(address_, settings.wait);
   if (!answer.pid) {
-    throw sdk::Failure(HW_ERROR_IO, "no ROS master answers at " + address.uri + " within " +
+    throw sdk::Failure(HW_ERROR_IO, "no ROS master answers at " + address_.uri + " within " +
                                         format_double(std::chrono::duration<double>(settings.wait).count()) +
                                         " s (" + answer.problem + "); is roscore running there?");
   }
   Settings at_master = settings;
-  at_master.master = address.uri;
+  at_master.master = address_.uri;
   try {
     node_.emplace(at_master);
     handle_.emplace();
@@ -32,14 +38,17 @@ Session::Session(const Settings& settings) {
   spinner_.emplace(1, &callbacks_);
   spinner_->start();
   find_mounts(settings);
-  watch_.emplace(address, *answer.pid);
+  watch_.emplace(address_, *answer.pid);
 }
 
 Session::~Session() {
   watch_.reset();
-  if (spinner_) spinner_->stop();
-  // First, so that nothing that ends below asks the master anything.
-  if (node_) node_->shut_down();
+  spinner_->stop();
+  const bool tell_master = ask_master(address_, kFarewellTime).pid.has_value();
+  if (!tell_master)
+    say(HW_LOG_WARNING, "the ROS master does not answer; this node leaves without telling it");
+  // Before all that ends below, so that it asks the master nothing.
+  node_->shut_down(tell_master);
 }
 
 void Session::find_mounts(const Settings& settings) {

@@ -20,7 +20,6 @@ class Session {
  public:
   /// Throws sdk::Failure: the master does not answer, tf says nothing of a sensor, a name is not valid.
   explicit Session(const Settings& settings);
-  /// Takes as long as the master does to answer.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -36,6 +35,7 @@ class Session {
  private:
   void find_mounts(const Settings& settings);
 
+  MasterAddress address_;
   std::optional<Node> node_;
   ros::CallbackQueue callbacks_;
   std::optional<ros::NodeHandle> handle_;
