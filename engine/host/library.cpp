@@ -133,7 +133,7 @@ struct Library::Loaded {
     if (status != HW_OK) fail("its init() failed: " + error_text(error, status));
     try {
       factory = find_factory<hw_plugin_factory_t>(*entry, HW_PLUGIN_FACTORY_ID);
-      driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
+      find_driver_factory();
       if (!factory && !driver_factory) {
         fail("has no factory " HW_PLUGIN_FACTORY_ID " and no " HW_DRIVER_FACTORY_ID);
       }
@@ -143,6 +143,13 @@ struct Library::Loaded {
       stop();
       throw;
     }
+  }
+
+  /// A library that gives its one factory for every id has plugins, and no drivers.
+  void find_driver_factory() {
+    const void* found = guarded("get_factory", [&] { return entry->get_factory(HW_DRIVER_FACTORY_ID); });
+    if (found == nullptr || found == factory) return;
+    driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
   }
 
   void stop() noexcept {
