@@ -137,7 +137,7 @@ struct Library::Loaded {
     try {
       enter(LoadStep::kDescribe);
       factory = find_factory<hw_plugin_factory_t>(*entry, HW_PLUGIN_FACTORY_ID);
-      driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
+      find_driver_factory();
       if (!factory && !driver_factory) {
         fail("has no factory " HW_PLUGIN_FACTORY_ID " and no " HW_DRIVER_FACTORY_ID);
       }
@@ -147,6 +147,13 @@ struct Library::Loaded {
       stop();
       throw;
     }
+  }
+
+  /// A library that gives its one factory for every id has plugins, and no drivers.
+  void find_driver_factory() {
+    const void* found = guarded("get_factory", [&] { return entry->get_factory(HW_DRIVER_FACTORY_ID); });
+    if (found == nullptr || found == factory) return;
+    driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
   }
 
   void stop() noexcept {

@@ -44,8 +44,4 @@ std::string print_timing(std::span<const IterationTime> times) {
   return out.take();
 }
 
-void write_timing(const std::filesystem::path& path, std::span<const IterationTime> times) {
-  write_file_atomically(path, print_timing(times));
-}
-
 }  // namespace hallway::log

@@ -38,7 +38,4 @@ void add_row(RowWriter& out, const IterationTime& time);
 /// The text that parse_timing() reads back to the same values. Throws Error{kInternal} for a number that is not finite.
 std::string print_timing(std::span<const IterationTime> times);
 
-/// print_timing() to a file, atomically. Throws Error{kIo}.
-void write_timing(const std::filesystem::path& path, std::span<const IterationTime> times);
-
 }  // namespace hallway::log
