@@ -16,17 +16,6 @@
 
 namespace hallway::test {
 
-/// The `hallway-robot` program.
-inline std::string robot_program() {
-  return binary_folder() / "bin" / "hallway-robot";
-}
-
-/// Runs `hallway-robot` with these arguments to its end.
-inline Ended hallway_robot(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), robot_program());
-  return Process(arguments).wait();
-}
-
 /// One line that the fake driver wrote down.
 struct Note {
   std::int64_t t_ns = 0;

@@ -109,4 +109,15 @@ inline Ended hallway(std::vector<std::string> arguments, const std::filesystem::
   return Process(arguments, folder, environment).wait();
 }
 
+/// The `hallway-robot` program.
+inline std::string robot_program() {
+  return binary_folder() / "bin" / "hallway-robot";
+}
+
+/// Runs `hallway-robot` with these arguments to its end.
+inline Ended hallway_robot(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), robot_program());
+  return Process(arguments).wait();
+}
+
 }  // namespace hallway::test

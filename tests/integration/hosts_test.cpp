@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// One plugin binary in every host: the simulator, a log, a robot that replays a log, and a robot at the other end of a network give the same
+// bytes for the same input, whatever is lost on the way, isolated or not, on any number of threads.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "log/byte_io.hpp"
+#include "log/mcap_reader.hpp"
+#include "support/data.hpp"
+#include "support/long_mode.hpp"
+#include "support/process.hpp"
+
+namespace hallway::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// What plugins answer, as tables; those that a pipeline does not fill are in no folder.
+constexpr const char* kTables[] = {"trajectory.tum", "landmarks.csv", "landmarks.ply",
+                                   "submaps.csv",    "commands.csv",  "planes.csv"};
+
+std::string content(const fs::path& file) {
+  return fs::exists(file) ? read_file(file) : "(not there)";
+}
+
+/// What plugins answered, by channel: iteration, time and bytes of each message.
+std::map<std::string, std::string> answers(const fs::path& folder) {
+  const log::FileInput input(folder / "run.mcap");
+  log::McapReader reader(input);
+  std::map<std::string, std::string> channels;
+  while (const log::McapItem* item = reader.next()) {
+    const auto* message = std::get_if<log::McapMessage>(item);
+    if (message == nullptr) continue;
+    const std::string& topic = reader.channels().at(message->channel_id).topic;
+    if (!topic.starts_with("/hallway/output/")) continue;
+    channels[topic] += std::to_string(message->sequence) + " " + std::to_string(message->log_time_ns) + " " +
+                       std::string(message->data) + "\n";
+  }
+  EXPECT_FALSE(reader.damage()) << folder;
+  return channels;
+}
+
+Json manifest_of(const fs::path& folder) {
+  return Json::parse(read_file(folder / "run.json"));
+}
+
+void expect_same_answers(const fs::path& a, const fs::path& b) {
+  for (const char* table : kTables)
+    EXPECT_TRUE(content(a / table) == content(b / table)) << table << " in " << b;
+  const auto here = answers(a);
+  const auto there = answers(b);
+  EXPECT_GE(here.size(), 2u) << "a pose or a command, and the map";
+  EXPECT_EQ(here.size(), there.size()) << b;
+  for (const auto& [topic, messages] : here) {
+    ASSERT_TRUE(there.contains(topic)) << topic << " in " << b;
+    EXPECT_TRUE(messages == there.at(topic)) << topic << " in " << b;
+  }
+  const Json hash = manifest_of(a).at("plugins").at(0).at("hash");
+  EXPECT_TRUE(hash.is_string());
+  EXPECT_EQ(hash, manifest_of(b).at("plugins").at(0).at("hash")) << "the same file in both";
+}
+
+/// `hallway serve` of a scenario, started and listening.
+class Served {
+ public:
+  explicit Served(std::vector<std::string> more) : process_(arguments(std::move(more))) {
+    for (int i = 0; i < 6000 && address_.empty(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const std::string printed = process_.err_so_far();
+      const std::size_t at = printed.find(" on 127.0.0.1:");
+      const std::size_t end = printed.find('\n', at);
+      if (at != std::string::npos && end != std::string::npos)
+        address_ = printed.substr(at + 4, end - at - 4);
+    }
+  }
+  const std::string& address() const { return address_; }
+  Ended wait() { return process_.wait(); }
+
+ private:
+  static std::vector<std::string> arguments(std::vector<std::string> more) {
+    std::vector<std::string> all{hallway_program(), "serve",       source_folder() / "maps/office.toml",
+                                 "--udp",           "127.0.0.1:0", "--lockstep",
+                                 "--quiet"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  Process process_;
+  std::string address_;
+};
+
+/// A pipeline that drives the office.
+class Hosts : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { run("run", {"--threads", "1"}); }
+
+  fs::path out(const std::string& name) const { return folder_ / name; }
+  static std::string steps() { return std::to_string(sized(150, 2020)); }
+
+  void run(const std::string& name, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"run",      source_folder() / "maps/office.toml",
+                                       "--quiet",  "--plugin",
+                                       GetParam(), "--steps",
+                                       steps(),    "--out",
+                                       out(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = hallway(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+  }
+
+  /// A robot's configuration: the driver's settings, and the plugin as `run` had it.
+  std::string config(const std::string& driver) const {
+    std::string text = "[driver]\n" + driver + "[[plugin]]\nname = \"" + GetParam() + "\"\n";
+    std::string params;
+    for (const Json& parameter : manifest_of(out("run")).at("plugins").at(0).at("parameters")) {
+      if (parameter.at("origin") == "default") continue;
+      params += (params.empty() ? "" : ", ") + parameter.at("name").get<std::string>() + " = " +
+                parameter.at("value").get<std::string>();
+    }
+    if (!params.empty()) text += "params = { " + params + " }\n";
+    return text;
+  }
+
+  void robot(const std::string& name, const std::string& driver, std::vector<std::string> more = {}) const {
+    const fs::path file = out(name + ".toml");
+    std::ofstream(file) << config(driver);
+    std::vector<std::string> arguments{"run", file, "--quiet", "--out", out(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = hallway_robot(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+  }
+
+  /// The simulator at one end of a network, the robot's program at the other.
+  void rehearse(const std::string& name, double loss) const {
+    const std::string share = std::to_string(loss);
+    Served served({"--steps", steps(), "--out", out(name + "_served"), "--loss", share, "--loss-seed", "3"});
+    ASSERT_NE(served.address(), "") << served.wait().err;
+    robot(name, "name = \"udp\"\naddress = \"" + served.address() + "\"\nlockstep = true\nloss = " + share +
+                    "\nseed = 5\n");
+    const Ended ended = served.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_P(Hosts, Replay) {
+  ASSERT_EQ(
+      hallway({"replay", out("run") / "run.mcap", "--plugin", GetParam(), "--quiet", "--out", out("replay")})
+          .status,
+      0);
+  expect_same_answers(out("run"), out("replay"));
+}
+
+TEST_P(Hosts, ARobotThatReplaysALog) {
+  robot("robot", "name = \"replay\"\nlog = \"run/run.mcap\"\npace = \"fast\"\n");
+  expect_same_answers(out("run"), out("robot"));
+}
+
+TEST_P(Hosts, TheReplayOfARobotsLog) {
+  robot("robot", "name = \"replay\"\nlog = \"run/run.mcap\"\npace = \"fast\"\n");
+  ASSERT_EQ(
+      hallway({"replay", out("robot") / "run.mcap", "--plugin", GetParam(), "--quiet", "--out", out("again")})
+          .status,
+      0);
+  expect_same_answers(out("run"), out("again"));
+}
+
+TEST_P(Hosts, ARobotAtTheOtherEndOfANetwork) {
+  rehearse("far", 0.0);
+  expect_same_answers(out("run"), out("far"));
+  EXPECT_EQ(content(out("run") / "commands.csv"), content(out("far_served") / "commands.csv"))
+      << "what the robot was told";
+  EXPECT_EQ(content(out("run") / "truth.tum"), content(out("far_served") / "truth.tum"));
+}
+
+TEST_P(Hosts, ANetworkThatLosesOneInAHundred) {
+  rehearse("lossy", 0.01);
+  expect_same_answers(out("run"), out("lossy"));
+  EXPECT_EQ(content(out("run") / "commands.csv"), content(out("lossy_served") / "commands.csv"));
+}
+
+TEST_P(Hosts, InOneProcess) {
+  run("in_process", {"--in-process"});
+  expect_same_answers(out("run"), out("in_process"));
+  EXPECT_TRUE(content(out("run") / "run.mcap") == content(out("in_process") / "run.mcap")) << "the whole log";
+}
+
+TEST_P(Hosts, FourThreads) {
+  run("threads", {"--threads", "4"});
+  expect_same_answers(out("run"), out("threads"));
+  EXPECT_TRUE(content(out("run") / "run.mcap") == content(out("threads") / "run.mcap")) << "the whole log";
+}
+
+/// Every plugin that belongs to the program, and one that drives. Each plugin that is added joins.
+std::vector<std::string> pipelines() {
+  std::vector<std::string> all{FIXTURES "/drives.so"};
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
+    if (entry.path().extension() == ".so") all.push_back(entry.path().stem());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Office, Hosts, testing::ValuesIn(pipelines()),
+                         [](const auto& each) { return fs::path(each.param).stem().string(); });
+
+}  // namespace
+}  // namespace hallway::test
