@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
+#include "plugin_path.hpp"
+#include "program.hpp"
 
 namespace hallway::cli {
-
-/// What the command line asks for; called once it is parsed. @return the exit status
-using Action = std::function<int()>;
 
 /// Each adds its subcommand to `app`, which sets `chosen` when it is the one that is asked for.
 void add_run_command(CLI::App& app, Action& chosen);
@@ -30,12 +24,5 @@ void add_edit_command(CLI::App& app, Action& chosen);
 void add_plugin_check_command(CLI::App& plugin, Action& chosen);
 void add_plugin_info_command(CLI::App& plugin, Action& chosen);
 void add_plugin_new_command(CLI::App& plugin, Action& chosen);
-
-/// Adds `--plugin-path DIR`, which may stand several times.
-void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders);
-
-/// Where plugins are looked for: the folders given, those of the environment variable HALLWAY_PLUGIN_PATH (separated by
-/// colons), then the program's own.
-std::vector<std::filesystem::path> plugin_folders(const std::vector<std::string>& given);
 
 }  // namespace hallway::cli

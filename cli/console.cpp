@@ -20,8 +20,15 @@ namespace {
 
 volatile std::sig_atomic_t caught_signal = 0;
 
+volatile std::sig_atomic_t wake_descriptor = -1;
+
 void on_signal(int number) {
   caught_signal = number;
+  if (wake_descriptor < 0) return;
+  const int error = errno;
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(static_cast<int>(wake_descriptor), &one, sizeof one);
+  errno = error;
 }
 
 std::int64_t now_ns() {
@@ -93,7 +100,8 @@ void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-void catch_interrupts() {
+void catch_interrupts(int wake) {
+  wake_descriptor = wake;
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);

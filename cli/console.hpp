@@ -25,7 +25,8 @@ void print_warning(const std::string& text);
 void prepare_standard_streams();
 
 /// From now on Ctrl-C and SIGTERM set a flag instead of ending the program at once; the second one ends it.
-void catch_interrupts();
+/// @param wake  an eventfd that is counted up when one comes; -1 for none
+void catch_interrupts(int wake = -1);
 /// Whether one came.
 bool interrupted();
 /// 130 after Ctrl-C, 143 after SIGTERM.

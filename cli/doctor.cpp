@@ -127,7 +127,7 @@ void look_at_helpers(Check& result) {
 void look_at_plugins(Check& result, const std::vector<fs::path>& folders) {
   std::size_t loadable = 0;
   std::string found;
-  for (const host::Listed& listed : host::list_plugins(folders)) {
+  for (const host::Listed& listed : host::list_libraries(folders)) {
     for (const host::PluginInfo& info : listed.plugins) {
       ++loadable;
       found += fmt::format("{}{} {}", found.empty() ? "" : ", ", info.id, info.version);

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "base/text.hpp"
-#include "sim/schema.hpp"
 
 namespace hallway::cli {
 
@@ -32,21 +31,21 @@ void add_isolation_options(CLI::App& command, IsolationOptions& options) {
                   "new instance with "
                   "an empty map); the exit status is 5 in any case [the scenario's, else stop]")
       ->type_name("WHAT")
-      ->check(CLI::IsMember(sim::kOnFailure));
+      ->check(CLI::IsMember(host::kOnFailure));
 }
 
-sim::PluginLimits apply(const IsolationOptions& options, sim::PluginLimits limits) {
+host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits) {
   if (options.call_timeout_s) limits.call_timeout_s = *options.call_timeout_s;
   if (options.memory_limit_mib) limits.memory_mib = *options.memory_limit_mib;
   if (options.on_failure) {
-    const auto at = std::find(sim::kOnFailure.begin(), sim::kOnFailure.end(), *options.on_failure);
-    limits.on_failure = static_cast<sim::OnFailure>(at - sim::kOnFailure.begin());
+    const auto at = std::find(host::kOnFailure.begin(), host::kOnFailure.end(), *options.on_failure);
+    limits.on_failure = static_cast<host::OnFailure>(at - host::kOnFailure.begin());
   }
   return limits;
 }
 
-std::vector<sim::Override> overrides_of(const IsolationOptions& options) {
-  std::vector<sim::Override> overrides;
+std::vector<Override> overrides_of(const IsolationOptions& options) {
+  std::vector<Override> overrides;
   if (options.call_timeout_s) overrides.push_back({"call_timeout_s", format_double(*options.call_timeout_s)});
   if (options.memory_limit_mib) {
     overrides.push_back({"memory_limit_mib", fmt::to_string(*options.memory_limit_mib)});
@@ -56,7 +55,7 @@ std::vector<sim::Override> overrides_of(const IsolationOptions& options) {
 }
 
 std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
-                                            const sim::PluginLimits& limits) {
+                                            const host::PluginLimits& limits) {
   if (options.in_process) return std::nullopt;
   std::error_code problem;
   return host::Isolation{

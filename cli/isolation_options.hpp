@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "base/setting.hpp"
 #include "host/isolation.hpp"
-#include "sim/scenario.hpp"
+#include "host/plugin_limits.hpp"
 
 namespace hallway::cli {
 
@@ -22,12 +23,13 @@ struct IsolationOptions {
 void add_isolation_options(CLI::App& command, IsolationOptions& options);
 
 /// `limits` with what the command line says above them.
-sim::PluginLimits apply(const IsolationOptions& options, sim::PluginLimits limits);
+host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits);
 
 /// The same as settings of a scenario.
-std::vector<sim::Override> overrides_of(const IsolationOptions& options);
+std::vector<Override> overrides_of(const IsolationOptions& options);
 
 /// How plugins are kept within these limits; unset with --in-process. Their scratch folders stand in the system's folder for temporary files.
-std::optional<host::Isolation> isolation_of(const IsolationOptions& options, const sim::PluginLimits& limits);
+std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
+                                            const host::PluginLimits& limits);
 
 }  // namespace hallway::cli

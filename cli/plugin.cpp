@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "base/text.hpp"
@@ -58,7 +57,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
 
 int list(const ListOptions& options) {
   const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
-  const std::vector<host::Listed> files = host::list_plugins(folders);
+  const std::vector<host::Listed> files = host::list_libraries(folders);
   if (!options.json) {
     print_result(table(files, folders));
     return 0;
@@ -72,28 +71,6 @@ int list(const ListOptions& options) {
 }
 
 }  // namespace
-
-void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders) {
-  command
-      .add_option("--plugin-path", folders,
-                  "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may "
-                  "be given "
-                  "several times")
-      ->type_name("DIR")
-      ->take_all()
-      ->expected(1);
-}
-
-std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
-  std::vector<fs::path> folders(given.begin(), given.end());
-  if (const char* from_environment = std::getenv("HALLWAY_PLUGIN_PATH")) {
-    for (const std::string_view folder : split(from_environment, ':')) {
-      if (!folder.empty()) folders.emplace_back(folder);
-    }
-  }
-  folders.push_back(host::default_plugin_folder());
-  return folders;
-}
 
 void add_plugin_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("plugin", "Look at plugins, check them, and begin new ones");

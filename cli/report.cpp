@@ -100,39 +100,24 @@ std::string table_of(const Outcome& outcome) {
   add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
   table.row("written to", printable(outcome.folder.string(), 4096));
   for (const auto& picture : result.pictures) table.row("picture", printable(picture.string(), 4096));
-  if (result.failures != 0) {
-    table.row("plugin failures", fmt::format("{}, {} restarts", result.failures, result.restarts));
+  if (result.failures.count != 0) {
+    table.row("plugin failures",
+              fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
   }
   return fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
                      result.stopped ? " (stopped early)" : "") +
          table.text();
 }
 
-/// "slam_point 0.1.0" for each plugin of the pipeline.
-std::vector<std::string> plugin_names(host::Pipeline& pipeline) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < pipeline.size(); ++i) {
-    names.push_back(pipeline.stage(i).info().id + " " + pipeline.stage(i).info().version);
-  }
-  return names;
-}
-
 /// 5 where a plugin failed, whatever became of the run then.
 int status_of(const run::RunResult& result) {
-  if (result.failures != 0) return exit_status(ErrorCode::kPluginFault);
+  if (result.failures.count != 0) return exit_status(ErrorCode::kPluginFault);
   return result.stopped ? interrupt_status() : 0;
 }
 
-/// Prints each failure and where it happened on standard error.
-void print_failures(const run::RunResult& result) {
-  for (const run::Failure& failure : result.verdicts) {
-    const std::string at = failure.iteration ? fmt::format("iteration {}: ", *failure.iteration) : "";
-    fmt::print(stderr, "hallway: {}{}\n", at, failure.verdict.message);
-    for (const std::string& line : failure.verdict.backtrace) fmt::print(stderr, "    {}\n", line);
-  }
-  if (result.failures > result.verdicts.size()) {
-    fmt::print(stderr, "hallway: {} failures more\n", result.failures - result.verdicts.size());
-  }
+nlohmann::ordered_json print_first(const record::Failures& failures) {
+  if (failures.verdicts.empty()) return nullptr;
+  return record::print_verdict(failures.verdicts.front().verdict, failures.verdicts.front().iteration);
 }
 
 nlohmann::ordered_json document_of(const Outcome& outcome) {
@@ -145,19 +130,14 @@ nlohmann::ordered_json document_of(const Outcome& outcome) {
           {"folder", printable(outcome.folder.string(), 4096)},
           {"pictures", pictures},
           {"warnings", outcome.report.warnings},
-          {"verdict",
-           outcome.result.verdicts.empty() ? nullptr : run::print_failure(outcome.result.verdicts.front())},
-          {"failures", outcome.result.failures},
-          {"restarts", outcome.result.restarts},
+          {"verdict", print_first(outcome.result.failures)},
+          {"failures", outcome.result.failures.count},
+          {"restarts", outcome.result.failures.restarts},
           {"submaps", outcome.result.submaps},
           {"metrics", eval::to_json(outcome.result.metrics)}};
 }
 
 }  // namespace
-
-void print_plugin_log(const std::string& plugin, std::uint32_t level, const std::string& message) {
-  if (level >= HW_LOG_WARNING) fmt::print(stderr, "hallway: {}: {}\n", plugin, message);
-}
 
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
                        const Report& report, const OutputStyle& style) {
@@ -169,7 +149,7 @@ int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run:
         run::execute(source, pipeline, plan,
                      {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
-  print_failures(result);
+  print_failures(result.failures);
   const Outcome outcome{report, plugin_names(pipeline), plan.folder, result};
   if (style.json) {
     print_json(document_of(outcome));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "host/pipeline.hpp"
+#include "plugin_report.hpp"
 #include "run/run.hpp"
 
 namespace hallway::cli {
@@ -15,9 +15,6 @@ struct Report {
   std::string name;                   ///< of the scenario or log
   std::vector<std::string> warnings;  ///< already shown on standard error
 };
-
-/// Prints on standard error what a plugin logs as a warning or an error.
-void print_plugin_log(const std::string& plugin, std::uint32_t level, const std::string& message);
 
 /// How results are printed.
 struct OutputStyle {

@@ -58,34 +58,6 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
   return overrides;
 }
 
-/// Where a plugin's parameter was set, by the scenario's own record of its settings.
-std::string origin_of(const sim::Scenario& scenario, const std::string& key) {
-  for (const sim::Setting& setting : scenario.settings) {
-    if (setting.key == key) return setting.origin;
-  }
-  return {};
-}
-
-/// The stages to build and, for the record, where their parameters come from.
-struct Stages {
-  std::vector<host::StageSpec> specs;
-  std::vector<run::ParameterOrigin> origins;
-};
-
-Stages stages_of(const sim::Scenario& scenario) {
-  Stages stages;
-  for (const sim::PluginSpec& plugin : scenario.pipeline) {
-    host::StageSpec spec{.plugin = plugin.name, .parameters = {}};
-    const std::string id = sim::short_plugin_name(plugin.name);
-    for (const sim::PluginParameter& parameter : plugin.params) {
-      spec.parameters.push_back({parameter.name, parameter.value, parameter.where});
-      stages.origins.push_back({id, parameter.name, origin_of(scenario, id + "." + parameter.name)});
-    }
-    stages.specs.push_back(std::move(spec));
-  }
-  return stages;
-}
-
 /// What the user should know of the map; with --strict the first of it ends the run.
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {
   std::vector<std::string> warnings;
@@ -113,16 +85,15 @@ int run_scenario(const RunOptions& options) {
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
   run::SimulatedSource source(simulator);
-  const Stages stages = stages_of(scenario);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
-  host::Pipeline pipeline(stages.specs, plugin_folders(options.plugin_path), sensors, print_plugin_log,
+  host::Pipeline pipeline(scenario.pipeline, plugin_folders(options.plugin_path), sensors, print_plugin_log,
                           isolation_of(options.isolation, scenario.limits));
 
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",
                            .name = name,
                            .settings = simulator.scenario().settings,
-                           .parameters = stages.origins,
+                           .parameters = record::origins_of(scenario.pipeline),
                            .warnings = warnings,
                            .period_ns = scenario.period_ns,
                            .threads = options.threads};

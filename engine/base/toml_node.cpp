@@ -2,6 +2,7 @@
 #include "base/toml_node.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hallway {
 
@@ -15,6 +16,25 @@ const TomlNode* find(const TomlTable& table, std::string_view key) {
   const auto found =
       std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
   return found == table.end() ? nullptr : &found->node;
+}
+
+void assign(TomlTable& table, std::string_view key, TomlNode value) {
+  if (TomlNode* node = find(table, key)) {
+    *node = std::move(value);
+  } else {
+    table.push_back({std::string(key), std::move(value)});
+  }
+}
+
+TomlTable* table_in(TomlTable& parent, std::string_view key) {
+  if (find(parent, key) == nullptr) parent.push_back({std::string(key), {.value = TomlTable{}, .line = 0}});
+  return std::get_if<TomlTable>(&find(parent, key)->value);
+}
+
+std::vector<std::string> keys_of(const TomlTable& table) {
+  std::vector<std::string> keys;
+  for (const TomlEntry& entry : table) keys.push_back(entry.key);
+  return keys;
 }
 
 const char* kind_name(const TomlNode& node) {

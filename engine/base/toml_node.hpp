@@ -35,6 +35,15 @@ struct TomlEntry {
 const TomlNode* find(const TomlTable& table, std::string_view key);
 TomlNode* find(TomlTable& table, std::string_view key);
 
+/// Gives `key` a value, in the place where it has one already, else at the end.
+void assign(TomlTable& table, std::string_view key, TomlNode value);
+
+/// The table `key`, made where it is missing; null where something else stands there.
+TomlTable* table_in(TomlTable& parent, std::string_view key);
+
+/// The keys of a table, in their order.
+std::vector<std::string> keys_of(const TomlTable& table);
+
 /// What kind of value it is, for messages: "a number", "a table", …
 const char* kind_name(const TomlNode& node);
 

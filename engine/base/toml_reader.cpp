@@ -97,4 +97,9 @@ std::optional<TomlNode> parse_toml_value(std::string_view text) {
   return std::move(table.front().node);
 }
 
+TomlNode toml_value_or_text(const std::string& text) {
+  if (auto value = parse_toml_value(text)) return std::move(*value);
+  return {.value = text, .line = 0};
+}
+
 }  // namespace hallway

@@ -17,4 +17,7 @@ TomlTable parse_toml(std::string_view text, const std::string& file);
 /// The one value that `text` is in TOML; empty if it is none. Its line is 0.
 std::optional<TomlNode> parse_toml_value(std::string_view text);
 
+/// The value of a setting of the command line: a TOML value; what is none is taken as text. Its line is 0.
+TomlNode toml_value_or_text(const std::string& text);
+
 }  // namespace hallway

@@ -55,28 +55,56 @@ const hw_entry_t& find_entry(void* handle) {
   return entry;
 }
 
-const hw_plugin_factory_t& find_factory(const hw_entry_t& entry) {
-  const void* found = guarded("get_factory", [&] { return entry.get_factory(HW_PLUGIN_FACTORY_ID); });
-  if (found == nullptr) fail("has no factory " HW_PLUGIN_FACTORY_ID);
-  const auto& factory = *static_cast<const hw_plugin_factory_t*>(found);
-  if (!factory.count || !factory.describe || !factory.create) fail("has null functions in its factory");
+/// The factory of that id, null where the library has none.
+template <typename Factory>
+const Factory* find_factory(const hw_entry_t& entry, const char* id) {
+  const void* found = guarded("get_factory", [&] { return entry.get_factory(id); });
+  const auto* factory = static_cast<const Factory*>(found);
+  if (factory != nullptr && (!factory->count || !factory->describe || !factory->create)) {
+    fail("has null functions in its factory");
+  }
   return factory;
 }
 
-std::vector<PluginInfo> describe_all(const hw_plugin_factory_t& factory) {
-  const std::uint32_t count = guarded("count", [&] { return factory.count(); });
+/// What a factory makes.
+/// @param noun  "plugin" or "driver"
+template <typename Factory, typename Read>
+auto describe_all(const Factory* factory, const char* noun, Read read) {
+  std::vector<decltype(read(nullptr))> infos;
+  if (factory == nullptr) return infos;
+  const std::uint32_t count = guarded("count", [&] { return factory->count(); });
   if (count > kMaxPlugins) {
-    fail(fmt::format("says that it holds {} plugins, more than {}", count, kMaxPlugins));
+    fail(fmt::format("says that it holds {} {}s, more than {}", count, noun, kMaxPlugins));
   }
-  std::vector<PluginInfo> plugins;
   std::set<std::string> ids;
   for (std::uint32_t i = 0; i < count; ++i) {
-    plugins.push_back(read_plugin_info(guarded("describe", [&] { return factory.describe(i); })));
-    if (!ids.insert(plugins.back().id).second) {
-      fail(fmt::format("has two plugins of the id `{}`", plugins.back().id));
+    infos.push_back(read(guarded("describe", [&] { return factory->describe(i); })));
+    if (!ids.insert(infos.back().id).second) {
+      fail(fmt::format("has two {}s of the id `{}`", noun, infos.back().id));
     }
   }
-  return plugins;
+  return infos;
+}
+
+/// Makes the plugin or driver of that id. Throws Error{kPluginLoad}.
+template <typename Made, typename Factory>
+Made make(const Factory* factory, const std::string& id, const hw_host_t& host) {
+  Made made{};
+  hw_error_t error = empty_error();
+  const hw_status_t status =
+      guarded("create", [&] { return factory->create(&host, id.c_str(), &made, &error); });
+  if (status != HW_OK) fail("its create() failed: " + error_text(error, status));
+  return made;
+}
+
+/// Calls `work` and says in what it throws which part of which file is meant.
+template <typename Work>
+auto located(const std::filesystem::path& file, const std::string& element, Work&& work) {
+  try {
+    return work();
+  } catch (const Error& failure) {
+    throw Error(failure.code(), failure.message(), {file.string(), 0, element});
+  }
 }
 
 }  // namespace
@@ -104,12 +132,24 @@ struct Library::Loaded {
     const hw_status_t status = guarded("init", [&] { return entry->init(file.c_str(), &error); });
     if (status != HW_OK) fail("its init() failed: " + error_text(error, status));
     try {
-      factory = &find_factory(*entry);
-      plugins = describe_all(*factory);
+      factory = find_factory<hw_plugin_factory_t>(*entry, HW_PLUGIN_FACTORY_ID);
+      find_driver_factory();
+      if (!factory && !driver_factory) {
+        fail("has no factory " HW_PLUGIN_FACTORY_ID " and no " HW_DRIVER_FACTORY_ID);
+      }
+      plugins = describe_all(factory, "plugin", read_plugin_info);
+      drivers = describe_all(driver_factory, "driver", read_driver_info);
     } catch (...) {
       stop();
       throw;
     }
+  }
+
+  /// A library that gives its one factory for every id has plugins, and no drivers.
+  void find_driver_factory() {
+    const void* found = guarded("get_factory", [&] { return entry->get_factory(HW_DRIVER_FACTORY_ID); });
+    if (found == nullptr || found == factory) return;
+    driver_factory = find_factory<hw_driver_factory_t>(*entry, HW_DRIVER_FACTORY_ID);
   }
 
   void stop() noexcept {
@@ -122,7 +162,9 @@ struct Library::Loaded {
   void* handle;
   const hw_entry_t* entry = nullptr;
   const hw_plugin_factory_t* factory = nullptr;
+  const hw_driver_factory_t* driver_factory = nullptr;
   std::vector<PluginInfo> plugins;
+  std::vector<DriverInfo> drivers;
   std::size_t users = 0;
 };
 
@@ -183,23 +225,32 @@ const PluginInfo* Library::find(std::string_view id) const {
   return found == plugins().end() ? nullptr : &*found;
 }
 
+const std::vector<DriverInfo>& Library::drivers() const {
+  return loaded_->drivers;
+}
+
 hw_plugin_t Library::create(const PluginInfo& info, const hw_host_t& host) const {
-  const Where where{file_.string(), 0, fmt::format("plugin `{}`", info.id)};
-  hw_plugin_t plugin{};
-  hw_error_t error = empty_error();
-  try {
-    const hw_status_t status =
-        guarded("create", [&] { return loaded_->factory->create(&host, info.id.c_str(), &plugin, &error); });
-    if (status != HW_OK) fail("its create() failed: " + error_text(error, status));
-  } catch (const Error& failure) {
-    throw Error(failure.code(), failure.message(), where);
-  }
-  const hw_plugin_vtable_t* v = plugin.vtable;
-  if (!v || !v->activate || !v->deactivate || !v->reset || !v->process || !v->report || !v->get_extension ||
-      !v->destroy) {
-    throw Error(ErrorCode::kPluginLoad, "has null functions in its vtable", where);
-  }
-  return plugin;
+  return located(file_, fmt::format("plugin `{}`", info.id), [&] {
+    const auto plugin = make<hw_plugin_t>(loaded_->factory, info.id, host);
+    const hw_plugin_vtable_t* v = plugin.vtable;
+    if (!v || !v->activate || !v->deactivate || !v->reset || !v->process || !v->report || !v->get_extension ||
+        !v->destroy) {
+      fail("has null functions in its vtable");
+    }
+    return plugin;
+  });
+}
+
+hw_driver_t Library::create(const DriverInfo& info, const hw_host_t& host) const {
+  return located(file_, fmt::format("driver `{}`", info.id), [&] {
+    const auto driver = make<hw_driver_t>(loaded_->driver_factory, info.id, host);
+    const hw_driver_vtable_t* v = driver.vtable;
+    if (!v || !v->open || !v->describe || !v->read || !v->write || !v->counters || !v->get_extension ||
+        !v->close || !v->destroy) {
+      fail("has null functions in its vtable");
+    }
+    return driver;
+  });
 }
 
 }  // namespace hallway::host

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "host/c_sensor.hpp"
 #include "host/error_text.hpp"
 
 namespace hallway::host {
@@ -27,21 +28,6 @@ std::int64_t thread_cpu_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
-
-hw_sensor_info_t to_c(const SensorInfo& sensor) {
-  hw_sensor_info_t info{};
-  info.size = sizeof info;
-  info.id = sensor.id;
-  info.kind = sensor.kind;
-  info.name = sensor.name.c_str();
-  info.T_body_sensor = sensor.T_body_sensor;
-  info.horizontal_fov = sensor.horizontal_fov;
-  info.vertical_fov = sensor.vertical_fov;
-  info.min_range_m = sensor.min_range_m;
-  info.max_range_m = sensor.max_range_m;
-  std::copy(std::begin(sensor.noise_m), std::end(sensor.noise_m), info.noise_m);
-  return info;
 }
 
 /// Whether an activation that failed so was refused for what it was given, not for a fault of the plugin.
@@ -190,7 +176,7 @@ void Plugin::set_parameter(std::string_view name, std::string_view value, const 
 void Plugin::activate(std::span<const SensorInfo> sensors) {
   std::vector<hw_sensor_info_t> infos;
   std::vector<const hw_sensor_info_t*> pointers;
-  for (const SensorInfo& sensor : sensors) infos.push_back(to_c(sensor));
+  for (const SensorInfo& sensor : sensors) infos.push_back(c_sensor(sensor));
   for (const hw_sensor_info_t& sensor : infos) pointers.push_back(&sensor);
   hw_activation_t activation{};
   activation.size = sizeof activation;

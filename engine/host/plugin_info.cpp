@@ -5,44 +5,18 @@
 #include <hallway/output.h>
 #include <hallway/sample.h>
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 
-#include "base/error.hpp"
-#include "base/text.hpp"
+#include "host/info_text.hpp"
 
 namespace hallway::host {
 namespace {
 
-constexpr std::size_t kMaxIdBytes = 64;
-constexpr std::size_t kMaxTextBytes = 1000;
 constexpr std::uint32_t kMaxKinds = 64;
 
-[[noreturn]] void fail(const std::string& message) {
-  throw Error(ErrorCode::kPluginLoad, "describes itself badly: " + message);
-}
-
-std::string read_text(const char* text, const char* member) {
-  if (text == nullptr) fail(fmt::format("its {} is null", member));
-  return printable({text, strnlen(text, kMaxTextBytes)}, kMaxTextBytes);
-}
-
-std::string read_id(const char* text) {
-  std::string id = read_text(text, "id");
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  if (id.empty() || id.size() > kMaxIdBytes || !std::all_of(id.begin(), id.end(), allowed)) {
-    fail(fmt::format("its id `{}` is not 1 to {} letters, digits and _ - .", printable(id), kMaxIdBytes));
-  }
-  return id;
-}
-
 std::vector<std::uint32_t> read_kinds(const std::uint32_t* kinds, std::uint32_t count, const char* member) {
-  if (count > kMaxKinds) fail(fmt::format("it has {} {}, more than {}", count, member, kMaxKinds));
-  if (count > 0 && kinds == nullptr) fail(fmt::format("its {} are null", member));
+  if (count > kMaxKinds) fail_info(fmt::format("it has {} {}, more than {}", count, member, kMaxKinds));
+  if (count > 0 && kinds == nullptr) fail_info(fmt::format("its {} are null", member));
   return {kinds, kinds + count};
 }
 
@@ -54,16 +28,16 @@ std::string kind_name(std::uint32_t kind, const std::array<const char*, N>& name
 }  // namespace
 
 PluginInfo read_plugin_info(const hw_plugin_info_t* info) {
-  if (info == nullptr) fail("the description is null");
+  if (info == nullptr) fail_info("the description is null");
   if (!HW_HAS(info, hw_plugin_info_t, n_outputs)) {
-    fail(fmt::format("its size of {} bytes is too small", info->size));
+    fail_info(fmt::format("its size of {} bytes is too small", info->size));
   }
   PluginInfo result;
-  result.id = read_id(info->id);
-  result.name = read_text(info->name, "name");
-  result.version = read_text(info->version, "version");
-  result.vendor = read_text(info->vendor, "vendor");
-  result.description = read_text(info->description, "description");
+  result.id = read_info_id(info->id);
+  result.name = read_info_text(info->name, "name");
+  result.version = read_info_text(info->version, "version");
+  result.vendor = read_info_text(info->vendor, "vendor");
+  result.description = read_info_text(info->description, "description");
   result.inputs = read_kinds(info->inputs, info->n_inputs, "inputs");
   result.outputs = read_kinds(info->outputs, info->n_outputs, "outputs");
   return result;

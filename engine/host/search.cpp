@@ -15,37 +15,54 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_file_name(std::string_view wanted) {
-  return wanted.find('/') != std::string_view::npos || wanted.ends_with(".so") ||
-         wanted.find(".so:") != std::string_view::npos;
+/// What is looked for: plugins or drivers.
+struct Plugins {
+  using Result = Found;
+  static constexpr const char* kNoun = "plugin";
+  static const std::vector<PluginInfo>& of(const Library& library) { return library.plugins(); }
+  static const std::vector<PluginInfo>& of(const Listed& listed) { return listed.plugins; }
+};
+struct Drivers {
+  using Result = FoundDriver;
+  static constexpr const char* kNoun = "driver";
+  static const std::vector<DriverInfo>& of(const Library& library) { return library.drivers(); }
+  static const std::vector<DriverInfo>& of(const Listed& listed) { return listed.drivers; }
+};
+
+template <typename Info>
+const Info* with_id(const std::vector<Info>& infos, std::string_view id) {
+  const auto found =
+      std::find_if(infos.begin(), infos.end(), [&](const Info& info) { return info.id == id; });
+  return found == infos.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> ids_of(const Library& library) {
-  std::vector<std::string> ids;
-  for (const PluginInfo& info : library.plugins()) ids.push_back(info.id);
-  return ids;
+std::string list_of(const std::vector<std::string>& items) {
+  return items.empty() ? std::string("none") : fmt::format("{}", fmt::join(items, ", "));
 }
 
-Found find_in_file(std::string_view wanted) {
+template <typename Kind>
+typename Kind::Result find_in_file(std::string_view wanted) {
   const std::size_t colon = wanted.rfind(".so:");
   const bool has_id = colon != std::string_view::npos;
   const fs::path file = has_id ? wanted.substr(0, colon + 3) : wanted;
   const std::string id(has_id ? wanted.substr(colon + 4) : std::string_view());
 
   auto library = Library::load(file);
-  const std::vector<std::string> ids = ids_of(*library);
-  if (!has_id && ids.size() == 1) return {library, &library->plugins().front()};
-  if (const PluginInfo* info = library->find(id)) return {library, info};
-  const std::string found =
-      fmt::format("ids found: {}", ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", ")));
+  const auto& infos = Kind::of(*library);
+  if (!has_id && infos.size() == 1) return {library, &infos.front()};
+  if (const auto* info = with_id(infos, id)) return {library, info};
+  std::vector<std::string> ids;
+  for (const auto& info : infos) ids.push_back(info.id);
+  const std::string found = "ids found: " + list_of(ids);
   if (!has_id) {
-    throw Error(
-        ErrorCode::kPluginLoad,
-        ids.empty() ? "holds no plugin" : "holds several plugins, say which with FILE.so:ID; " + found,
-        {file.string()});
+    throw Error(ErrorCode::kPluginLoad,
+                ids.empty()
+                    ? fmt::format("holds no {}", Kind::kNoun)
+                    : fmt::format("holds several {}s, say which with FILE.so:ID; {}", Kind::kNoun, found),
+                {file.string()});
   }
   throw Error(ErrorCode::kPluginLoad,
-              fmt::format("has no plugin `{}`{}; {}", printable(id), suggestion(id, ids), found),
+              fmt::format("has no {} `{}`{}; {}", Kind::kNoun, printable(id), suggestion(id, ids), found),
               {file.string()});
 }
 
@@ -64,59 +81,80 @@ std::string folder_text(const fs::path& folder) {
   return printable(folder.string()) + (fs::is_directory(folder, problem) ? "" : " (there is no such folder)");
 }
 
+template <typename Kind>
 [[noreturn]] void fail_not_found(std::string_view id, std::span<const fs::path> folders,
                                  const std::vector<Listed>& listed) {
   std::vector<std::string> places, ids, problems;
   for (const fs::path& folder : folders) places.push_back(folder_text(folder));
   for (const Listed& file : listed) {
-    for (const PluginInfo& info : file.plugins) ids.push_back(info.id);
+    for (const auto& info : Kind::of(file)) ids.push_back(info.id);
     if (!file.problem.empty()) problems.push_back(file.problem);
   }
-  const auto list = [](const std::vector<std::string>& items) {
-    return items.empty() ? std::string("none") : fmt::format("{}", fmt::join(items, ", "));
-  };
-  std::string message = fmt::format("there is no plugin `{}`{}; folders searched: {}; ids found: {}",
-                                    printable(id), suggestion(id, ids), list(places), list(ids));
-  if (!problems.empty()) message += "; not loadable: " + list(problems);
+  std::string message = fmt::format("there is no {} `{}`{}; folders searched: {}; ids found: {}", Kind::kNoun,
+                                    printable(id), suggestion(id, ids), list_of(places), list_of(ids));
+  if (!problems.empty()) message += "; not loadable: " + list_of(problems);
   throw Error(ErrorCode::kPluginLoad, message);
 }
 
-}  // namespace
-
-fs::path default_plugin_folder() {
-  std::error_code problem;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", problem);
-  if (problem) throw Error(ErrorCode::kIo, "cannot be read: " + problem.message(), {"/proc/self/exe"});
-  return (executable.parent_path() / "../lib/hallway/plugins").lexically_normal();
-}
-
-Found find_plugin(std::string_view wanted, std::span<const fs::path> folders) {
-  if (is_file_name(wanted)) return find_in_file(wanted);
+template <typename Kind>
+typename Kind::Result find_wanted(std::string_view wanted, std::span<const fs::path> folders) {
+  if (is_library_file(wanted)) return find_in_file<Kind>(wanted);
   for (const fs::path& folder : folders) {
     const fs::path file = folder / (std::string(wanted) + ".so");
     std::error_code problem;
     if (wanted.empty() || !fs::exists(file, problem)) continue;
     auto library = Library::load(file);
-    if (const PluginInfo* info = library->find(wanted)) return {library, info};
+    if (const auto* info = with_id(Kind::of(*library), wanted)) return {library, info};
   }
-  const std::vector<Listed> listed = list_plugins(folders);
+  const std::vector<Listed> listed = list_libraries(folders);
   for (const Listed& file : listed) {
-    for (const PluginInfo& info : file.plugins) {
-      if (info.id != wanted) continue;
-      auto library = Library::load(file.file);
-      if (const PluginInfo* found = library->find(wanted)) return {library, found};
-    }
+    if (with_id(Kind::of(file), wanted) == nullptr) continue;
+    auto library = Library::load(file.file);
+    if (const auto* info = with_id(Kind::of(*library), wanted)) return {library, info};
   }
-  fail_not_found(wanted, folders, listed);
+  fail_not_found<Kind>(wanted, folders, listed);
 }
 
-std::vector<Listed> list_plugins(std::span<const fs::path> folders) {
+/// A folder that lies so to that of the executable.
+fs::path program_folder(const char* relative) {
+  std::error_code problem;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", problem);
+  if (problem) throw Error(ErrorCode::kIo, "cannot be read: " + problem.message(), {"/proc/self/exe"});
+  return (executable.parent_path() / relative).lexically_normal();
+}
+
+}  // namespace
+
+bool is_library_file(std::string_view wanted) {
+  return wanted.find('/') != std::string_view::npos || wanted.ends_with(".so") ||
+         wanted.find(".so:") != std::string_view::npos;
+}
+
+fs::path default_plugin_folder() {
+  return program_folder("../lib/hallway/plugins");
+}
+
+fs::path default_driver_folder() {
+  return program_folder("../lib/hallway/drivers");
+}
+
+Found find_plugin(std::string_view wanted, std::span<const fs::path> folders) {
+  return find_wanted<Plugins>(wanted, folders);
+}
+
+FoundDriver find_driver(std::string_view wanted, std::span<const fs::path> folders) {
+  return find_wanted<Drivers>(wanted, folders);
+}
+
+std::vector<Listed> list_libraries(std::span<const fs::path> folders) {
   std::vector<Listed> listed;
   for (const fs::path& folder : folders) {
     for (const fs::path& file : library_files(folder)) {
-      Listed& entry = listed.emplace_back(Listed{file, {}, {}});
+      Listed& entry = listed.emplace_back(Listed{file, {}, {}, {}});
       try {
-        entry.plugins = Library::load(file)->plugins();
+        const auto library = Library::load(file);
+        entry.plugins = library->plugins();
+        entry.drivers = library->drivers();
       } catch (const Error& error) {
         entry.problem = error.what();
       }

@@ -16,6 +16,12 @@ namespace hallway::host {
 /// the executable, in the build tree as well as installed.
 std::filesystem::path default_plugin_folder();
 
+/// The same of the drivers: ../lib/hallway/drivers.
+std::filesystem::path default_driver_folder();
+
+/// Whether `wanted` names a file and not an id: it contains a "/" or ends in ".so", or is "FILE.so:ID".
+bool is_library_file(std::string_view wanted);
+
 /// A plugin that was found.
 struct Found {
   std::shared_ptr<const Library> library;
@@ -28,15 +34,25 @@ struct Found {
 /// the folders searched, the ids found and the files that could not be loaded.
 Found find_plugin(std::string_view wanted, std::span<const std::filesystem::path> folders);
 
+/// A driver that was found.
+struct FoundDriver {
+  std::shared_ptr<const Library> library;
+  const DriverInfo* info;  ///< within `library`
+};
+
+/// Finds a driver as find_plugin() finds a plugin.
+FoundDriver find_driver(std::string_view wanted, std::span<const std::filesystem::path> folders);
+
 /// One library file of a folder.
 struct Listed {
   std::filesystem::path file;
   std::vector<PluginInfo> plugins;  ///< empty where it could not be loaded
+  std::vector<DriverInfo> drivers;  ///< the same
   std::string problem;              ///< why it could not be loaded; else empty
 };
 
 /// All .so files of the folders, in the order of the folders and of their names. A folder that does not exist
 /// has none.
-std::vector<Listed> list_plugins(std::span<const std::filesystem::path> folders);
+std::vector<Listed> list_libraries(std::span<const std::filesystem::path> folders);
 
 }  // namespace hallway::host

@@ -22,8 +22,10 @@ class RowWriter {
   RowWriter& number(double value);
   RowWriter& numbers(std::span<const double> values);
   void end_row();
+  /// Bytes of the text so far.
+  std::size_t size() const { return text_.size(); }
   /// The text so far, which is given away.
-  std::string take() { return std::move(text_); }
+  std::string take() { return std::exchange(text_, {}); }
 
  private:
   void separate();

@@ -3,7 +3,6 @@
 
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
-#include "log/row_writer.hpp"
 
 namespace hallway::log {
 namespace {
@@ -34,17 +33,15 @@ std::vector<IterationTime> read_timing(const std::filesystem::path& path) {
   return parse_timing(read_file(path), path.string());
 }
 
-std::string print_timing(std::span<const IterationTime> times) {
-  RowWriter out(',');
-  out.word("iteration,wall_ms,cpu_ms").end_row();
-  for (const IterationTime& time : times) {
-    out.whole(time.iteration).number(time.wall_ms).number(time.cpu_ms).end_row();
-  }
-  return out.take();
+void add_row(RowWriter& out, const IterationTime& time) {
+  out.whole(time.iteration).number(time.wall_ms).number(time.cpu_ms).end_row();
 }
 
-void write_timing(const std::filesystem::path& path, std::span<const IterationTime> times) {
-  write_file_atomically(path, print_timing(times));
+std::string print_timing(std::span<const IterationTime> times) {
+  RowWriter out(',');
+  out.word(kTimingColumns).end_row();
+  for (const IterationTime& time : times) add_row(out, time);
+  return out.take();
 }
 
 }  // namespace hallway::log

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "log/row_writer.hpp"
+
 namespace hallway::log {
 
 /// What the plugins of an iteration took.
@@ -27,10 +29,13 @@ std::vector<IterationTime> parse_timing(std::string_view text, const std::string
 /// parse_timing() of a file. Throws Error{kIo} if it cannot be read.
 std::vector<IterationTime> read_timing(const std::filesystem::path& path);
 
+/// The first line of the table.
+inline constexpr std::string_view kTimingColumns = "iteration,wall_ms,cpu_ms";
+
+/// Adds a row. Throws Error{kInternal} for a number that is not finite.
+void add_row(RowWriter& out, const IterationTime& time);
+
 /// The text that parse_timing() reads back to the same values. Throws Error{kInternal} for a number that is not finite.
 std::string print_timing(std::span<const IterationTime> times);
-
-/// print_timing() to a file, atomically. Throws Error{kIo}.
-void write_timing(const std::filesystem::path& path, std::span<const IterationTime> times);
 
 }  // namespace hallway::log

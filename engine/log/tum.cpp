@@ -8,7 +8,6 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "log/line_reader.hpp"
-#include "log/row_writer.hpp"
 #include "log/unit_quaternion.hpp"
 
 namespace hallway::log {
@@ -58,12 +57,14 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& path) {
   return parse_tum(read_file(path), path.string());
 }
 
+void add_row(RowWriter& out, const StampedPose& pose) {
+  const auto& [w, x, y, z] = pose.orientation;
+  out.number(pose.t_s).numbers(pose.position_m).number(x).number(y).number(z).number(w).end_row();
+}
+
 std::string print_tum(std::span<const StampedPose> poses) {
   RowWriter out(' ');
-  for (const StampedPose& pose : poses) {
-    const auto& [w, x, y, z] = pose.orientation;
-    out.number(pose.t_s).numbers(pose.position_m).number(x).number(y).number(z).number(w).end_row();
-  }
+  for (const StampedPose& pose : poses) add_row(out, pose);
   return out.take();
 }
 

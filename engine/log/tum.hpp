@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "log/row_writer.hpp"
+
 namespace hallway::log {
 
 /// A pose at a time: the body in the world (or in a map), T_world_body.
@@ -27,6 +29,9 @@ std::vector<StampedPose> parse_tum(std::string_view text, const std::string& fil
 
 /// parse_tum() of a file. Throws Error{kIo} if it cannot be read.
 std::vector<StampedPose> read_tum(const std::filesystem::path& path);
+
+/// Adds a line. Throws Error{kInternal} for a number that is not finite.
+void add_row(RowWriter& out, const StampedPose& pose);
 
 /// The text that parse_tum() reads back to the same values. Throws Error{kInternal} for a number that is not finite.
 std::string print_tum(std::span<const StampedPose> poses);

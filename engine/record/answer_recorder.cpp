@@ -46,10 +46,14 @@ AnswerRecorder::AnswerRecorder(log::ByteOutput& output, const LogFacts& facts)
 }
 
 void AnswerRecorder::record_frame(const hw_frame_t& frame) {
-  stamp_ = {static_cast<std::uint32_t>(frame.sequence), frame.t_ns};
   bytes_.resize(host::frame_bytes_size(frame));
   host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes_)));
-  writer_.add_frame(stamp_, bytes_);
+  record_frame({static_cast<std::uint32_t>(frame.sequence), frame.t_ns}, bytes_);
+}
+
+void AnswerRecorder::record_frame(const log::FrameStamp& stamp, std::string_view bytes) {
+  stamp_ = stamp;
+  writer_.add_frame(stamp_, bytes);
 }
 
 void AnswerRecorder::record_answer(const host::Outputs& outputs) {

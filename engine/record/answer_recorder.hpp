@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "host/outputs.hpp"
 #include "host/stage.hpp"
@@ -33,6 +34,8 @@ class AnswerRecorder {
 
   /// A frame as the plugins get it.
   void record_frame(const hw_frame_t& frame);
+  /// The same, of a frame in the form of host/frame_bytes.hpp.
+  void record_frame(const log::FrameStamp& stamp, std::string_view bytes);
   /// What the pipeline answered to the frame that was recorded last.
   void record_answer(const host::Outputs& outputs);
   /// The map at the end.

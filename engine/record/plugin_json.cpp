@@ -3,6 +3,8 @@
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/table_reader.hpp"
+#include "host/plugin_table.hpp"
 
 namespace hallway::record {
 namespace {
@@ -19,6 +21,18 @@ std::string origin_of(const std::vector<ParameterOrigin>& origins, const std::st
 }
 
 }  // namespace
+
+std::vector<ParameterOrigin> origins_of(std::span<const host::StageSpec> stages) {
+  std::vector<ParameterOrigin> origins;
+  for (const host::StageSpec& stage : stages) {
+    const std::string plugin = host::short_plugin_name(stage.plugin);
+    for (const host::ParameterSetting& parameter : stage.parameters) {
+      origins.push_back(
+          {plugin, parameter.name, hallway::origin_of(parameter.where.file, parameter.where.line)});
+    }
+  }
+  return origins;
+}
 
 Json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin) {
   Json parameters = Json::array();

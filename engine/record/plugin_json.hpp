@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "host/pipeline.hpp"
 #include "host/stage.hpp"
 #include "host/verdict.hpp"
 
@@ -18,6 +20,9 @@ struct ParameterOrigin {
   std::string name;
   std::string origin;  ///< "office.toml:12", "command line", "run.json"
 };
+
+/// Where the parameters of a pipeline's plugins were set, by the file and line of each.
+std::vector<ParameterOrigin> origins_of(std::span<const host::StageSpec> stages);
 
 /// A plugin as run.json has it: id, version, hash of its file, parameters. Throws Error{kIo} if the file cannot be read.
 nlohmann::ordered_json print_plugin(const std::vector<ParameterOrigin>& origins, host::Stage& plugin);

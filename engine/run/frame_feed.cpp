@@ -8,18 +8,6 @@
 
 namespace hallway::run {
 
-const char* on_failure_name(sim::OnFailure policy) {
-  switch (policy) {
-    case sim::OnFailure::kStop:
-      return "stop";
-    case sim::OnFailure::kContinue:
-      return "continue";
-    case sim::OnFailure::kRestart:
-      return "restart";
-  }
-  return "stop";
-}
-
 FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& plan)
     : source_(source),
       pipeline_(pipeline),
@@ -43,7 +31,7 @@ void FrameFeed::submit() {
 void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& take) {
   const std::uint32_t end = last ? done_ + 1 : std::min(source_.iterations() - done_, window_) + done_;
   FrameAnswer answer{.iteration = done_, .frame = frames_[done_ % window_]};
-  std::optional<host::Verdict> failure = guarded([&] {
+  std::optional<host::Verdict> failure = record::catch_failure([&] {
     while (submitted_ < end) submit();
     if (!alive_) return;
     answer.outputs = &pipeline_.collect();
@@ -59,52 +47,30 @@ void FrameFeed::next(bool last, const std::function<void(const FrameAnswer&)>& t
 }
 
 void FrameFeed::restart() {
-  if (auto failure = guarded([&] { pipeline_.restart(); })) {
+  if (auto failure = record::catch_failure([&] { pipeline_.restart(); })) {
     note(std::move(*failure), std::nullopt);
     return;
   }
-  ++told_.restarts;
+  ++failures_.restarts;
   alive_ = true;
-}
-
-std::optional<host::Verdict> FrameFeed::guarded(const std::function<void()>& work) {
-  try {
-    work();
-    return std::nullopt;
-  } catch (const host::PluginFailure& failure) {
-    host::Verdict verdict = failure.verdict();
-    verdict.message = failure.what();
-    return verdict;
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kPluginFault) throw;
-    return host::Verdict{.message = error.what()};
-  }
 }
 
 void FrameFeed::note(host::Verdict verdict, std::optional<std::uint32_t> iteration) {
   alive_ = false;
-  ++told_.failures;
-  if (told_.verdicts.size() < RunResult::kMaxVerdicts) {
-    told_.verdicts.push_back({std::move(verdict), iteration});
-  }
+  failures_.note(std::move(verdict), iteration);
 }
 
 const host::Outputs* FrameFeed::report(bool refine) {
   if (!alive_) return nullptr;
   const host::Outputs* outputs = nullptr;
-  if (auto failure = guarded([&] { outputs = &pipeline_.report(refine); }))
+  if (auto failure = record::catch_failure([&] { outputs = &pipeline_.report(refine); }))
     note(std::move(*failure), std::nullopt);
   return outputs;
 }
 
 void FrameFeed::close() {
-  if (auto failure = guarded([&] { pipeline_.close(); })) note(std::move(*failure), std::nullopt);
-}
-
-void FrameFeed::tell(RunResult& result) const {
-  result.failures = told_.failures;
-  result.verdicts = told_.verdicts;
-  result.restarts = told_.restarts;
+  if (auto failure = record::catch_failure([&] { pipeline_.close(); }))
+    note(std::move(*failure), std::nullopt);
 }
 
 }  // namespace hallway::run

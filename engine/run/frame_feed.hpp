@@ -41,12 +41,11 @@ class FrameFeed {
   /// Ends the pipeline in good order.
   void close();
 
-  /// The failures so far, in `result`.
-  void tell(RunResult& result) const;
+  /// The failures so far.
+  const record::Failures& failures() const { return failures_; }
 
  private:
   void submit();
-  std::optional<host::Verdict> guarded(const std::function<void()>& work);
   void note(host::Verdict verdict, std::optional<std::uint32_t> iteration);
   void restart();
 
@@ -59,7 +58,7 @@ class FrameFeed {
   std::uint32_t done_ = 0;
   host::FrameBuilder builder_;
   std::vector<SourceFrame> frames_;  ///< under way, by iteration modulo window_
-  RunResult told_;
+  record::Failures failures_;
 };
 
 }  // namespace hallway::run

@@ -34,10 +34,4 @@ struct ManifestFacts {
 /// may differ between two runs of the same input stands under `host`.
 nlohmann::ordered_json make_manifest(const ManifestFacts& facts, host::Pipeline& pipeline);
 
-/// A verdict, as run.json and the command line's documents have it.
-nlohmann::ordered_json print_failure(const Failure& failure);
-
-/// Adds to run.json what became of the plugins: on_failure, verdict (null: nothing), and of several failures all.
-void describe_failures(sim::OnFailure policy, const RunResult& result, nlohmann::ordered_json& manifest);
-
 }  // namespace hallway::run

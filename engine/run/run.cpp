@@ -9,8 +9,10 @@
 #include "eval/metrics_json.hpp"
 #include "host/frame_builder.hpp"
 #include "log/poses.hpp"
-#include "log/timing.hpp"
+#include "log/tum.hpp"
+#include "record/answer_tables.hpp"
 #include "record/final_map.hpp"
+#include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "run/abi_pose.hpp"
@@ -25,15 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMillisecondsPerNanosecond = 1e-6;
-
 /// Everything that is collected while a run goes on and written at its end.
 struct Collected {
   log::ObservationLog observations{true};
   std::vector<log::IterationPose> true_poses;
   std::vector<log::StampedPose> truth;
-  std::vector<log::StampedPose> trajectory;
-  std::vector<log::IterationTime> times;
 };
 
 log::StampedPose stamped(std::int64_t t_ns, const Pose& pose) {
@@ -78,13 +76,9 @@ class Tally {
 
  private:
   void add_answer(const FrameAnswer& answer, eval::Iteration& iteration) {
-    iteration.wall_ms = static_cast<double>(answer.time.wall_ns) * kMillisecondsPerNanosecond;
-    iteration.cpu_ms = static_cast<double>(answer.time.cpu_ns) * kMillisecondsPerNanosecond;
+    iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
+    iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
-    collected_.times.push_back(
-        {.iteration = answer.iteration, .wall_ms = *iteration.wall_ms, .cpu_ms = *iteration.cpu_ms});
-    if (iteration.T_map_body)
-      collected_.trajectory.push_back(stamped(answer.frame.t_ns, *iteration.T_map_body));
   }
 
   std::span<const log::LandmarkId> associations(const FrameAnswer& answer) {
@@ -114,10 +108,6 @@ class Tally {
   Collected collected_;
 };
 
-void write_json(const fs::path& path, const nlohmann::ordered_json& document) {
-  write_file_atomically(path, document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
 void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
                  const Collected& collected) {
   for (const Attachment& attachment : plan.attachments) {
@@ -146,7 +136,7 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
   manifest["sensors"] = nlohmann::ordered_json::array({record::print_sensor(source.sensor())});
   manifest["iterations"] = done;
   manifest["stopped_early"] = result.stopped;
-  describe_failures(plan.on_failure, result, manifest);
+  record::describe_failures(plan.on_failure, result.failures, manifest);
   return manifest;
 }
 
@@ -157,6 +147,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const fs::path& folder = output.working_path();
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
+  record::AnswerTables tables(folder);
   host::FrameBuilder builder;
   Tally tally(source, plan.write_observations);
   FrameFeed feed(source, pipeline, plan);
@@ -164,7 +155,10 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
     feed.next(result.stopped, [&](const FrameAnswer& answer) {
       recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
-      if (answer.outputs != nullptr) recorder.record_answer(*answer.outputs);
+      if (answer.outputs != nullptr) {
+        recorder.record_answer(*answer.outputs);
+        tables.add(answer.iteration, answer.frame.t_ns, *answer.outputs, answer.time);
+      }
       tally.add(answer);
     });
     if (hooks.progress) hooks.progress(feed.done());
@@ -175,18 +169,17 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
   recorder.finish();
+  tables.close();
   feed.close();
-  feed.tell(result);
+  result.failures = feed.failures();
   result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
   result.submaps = refined.submaps;
 
   write_input(folder, plan, source, tally.collected());
-  log::write_tum(folder / files::kTrajectory, tally.collected().trajectory);
   record::write_map(folder, refined);
   write_matches(folder, tally.evaluator());
-  log::write_timing(folder / files::kTiming, tally.collected().times);
-  write_json(folder / files::kMetrics, eval::to_json(result.metrics));
-  write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
+  record::write_json(folder / files::kMetrics, eval::to_json(result.metrics));
+  record::write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
   if (!plan.pictures.empty()) {
     const Record record = read_record(folder);
     for (const sim::PictureSpec& picture : plan.pictures) {

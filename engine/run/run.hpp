@@ -10,20 +10,15 @@
 
 #include "eval/metrics.hpp"
 #include "host/pipeline.hpp"
-#include "host/verdict.hpp"
+#include "record/failures.hpp"
+#include "record/manifest.hpp"
 #include "run/source.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::run {
 
 /// A file that is kept in the run folder as it was read, so that the folder says all of what was run.
-struct Attachment {
-  std::string name;
-  std::string content;
-};
-
-/// "stop", "continue", "restart".
-const char* on_failure_name(sim::OnFailure policy);
+using record::Attachment;
 
 /// What a run leaves behind, and where.
 struct RunPlan {
@@ -44,23 +39,13 @@ struct RunHooks {
   std::function<bool()> stop;  ///< true ends the run after the iterations so far, in good order
 };
 
-/// A failure of the pipeline.
-struct Failure {
-  host::Verdict verdict;
-  std::optional<std::uint32_t> iteration;  ///< of its frame; unset where it was no call of process()
-};
-
 /// How a run went.
 struct RunResult {
   eval::Metrics metrics;
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names
   bool stopped = false;                         ///< by RunHooks::stop
-  std::uint64_t failures = 0;                   ///< of the pipeline
-  std::vector<Failure> verdicts;                ///< of the first of them, kMaxVerdicts at most
-  std::uint64_t restarts = 0;                   ///< of the pipeline
-
-  static constexpr std::size_t kMaxVerdicts = 100;
+  record::Failures failures;                    ///< of the pipeline
 };
 
 /// Feeds every frame of the source to the pipeline, scores what it answers and writes the run folder (docs/formats.md).

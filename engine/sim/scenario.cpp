@@ -22,8 +22,6 @@ namespace {
 
 constexpr const char* kSchema = "hallway.scenario/1";
 constexpr std::int64_t kMaxSteps = 10'000'000;
-constexpr std::size_t kMaxPlugins = 64;
-constexpr std::size_t kMaxParameters = 1000;
 constexpr std::size_t kMaxPictures = 1000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
@@ -34,18 +32,10 @@ constexpr Range kSpeed_m_s{0.0, 1e3};
 constexpr Range kBodySize_m{0.001, 100.0};
 constexpr Range kBodyHeight_m{-100.0, 100.0};
 constexpr Range kPeriod_s{1e-6, 60.0};
-constexpr Range kCallTimeout_s{0.01, 1e6};
-constexpr std::int64_t kMinMemory_mib = 16;
-constexpr std::int64_t kMaxMemory_mib = std::int64_t{1} << 24;
 
 const std::vector<std::string> kViews{"top", "perspective"};  // in the order of PictureView
 const std::vector<std::string> kLayers{"map",    "truth",   "estimate", "landmarks",
                                        "errors", "submaps", "frustum"};  // in the order of PictureLayer
-
-bool is_plugin_file(std::string_view plugin) {
-  return plugin.find('/') != std::string_view::npos || plugin.ends_with(".so") ||
-         plugin.find(".so:") != std::string_view::npos;
-}
 
 /// Reads one scenario, table by table.
 class ScenarioReader {
@@ -57,18 +47,17 @@ class ScenarioReader {
   Scenario read() {
     TableReader top = reader("", root_, 1, kTopKeys);
     if (top.has("schema")) read_schema(top);
-    scenario_.map_file = beside(top.text("map"), top.line("map"));
+    scenario_.map_file = host::beside(path_, top.text("map"), top.line("map"));
     scenario_.seed =
         static_cast<std::uint64_t>(top.whole("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
     scenario_.steps = static_cast<std::uint32_t>(top.whole("steps", 1, kMaxSteps));
     scenario_.period_ns = std::llround(top.number("period_s", kPeriod_s, scenario_.period_s()) * 1e9);
-    read_limits(top);
+    scenario_.limits = host::read_plugin_limits(top, scenario_.limits);
     read_robot(top);
     read_sensors(top);
-    read_list(top, "plugin", kMaxPlugins,
-              [&](const TomlTable& table, int line) { read_plugin(table, line); });
-    read_list(top, "picture", kMaxPictures,
-              [&](const TomlTable& table, int line) { read_picture(table, line); });
+    scenario_.pipeline = host::read_plugin_tables(path_, root_, scenario_.settings);
+    for_each_table(top, root_, "picture", kMaxPictures,
+                   [&](const TomlTable& table, int line) { read_picture(table, line); });
     return std::move(scenario_);
   }
 
@@ -78,25 +67,12 @@ class ScenarioReader {
     return TableReader(scenario_.file, prefix, table, line, known, scenario_.settings);
   }
 
-  /// A path in the file counts from the file's folder, one on the command line from the current folder.
-  std::filesystem::path beside(const std::string& name, int line) const {
-    return line == 0 ? std::filesystem::path(name) : path_.parent_path() / name;
-  }
-
   void read_schema(TableReader& top) {
     const std::string schema = top.text("schema");
     if (schema != kSchema) {
       throw top.error("schema", "\"" + printable(schema) + "\" is not read by this version; it reads \"" +
                                     kSchema + "\"");
     }
-  }
-
-  void read_limits(TableReader& top) {
-    PluginLimits& limits = scenario_.limits;
-    limits.call_timeout_s = top.number("call_timeout_s", kCallTimeout_s, limits.call_timeout_s);
-    limits.memory_mib = static_cast<std::uint64_t>(top.whole(
-        "memory_limit_mib", kMinMemory_mib, kMaxMemory_mib, static_cast<std::int64_t>(limits.memory_mib)));
-    limits.on_failure = static_cast<OnFailure>(top.choice("on_failure", kOnFailure, 0));
   }
 
   void read_robot(const TableReader& top) {
@@ -160,73 +136,6 @@ class ScenarioReader {
     }
   }
 
-  template <typename Read>
-  void read_list(const TableReader& top, const std::string& key, std::size_t most, const Read& read_one) {
-    const TomlNode* node = find(root_, key);
-    if (node == nullptr) return;
-    const auto* items = std::get_if<TomlArray>(&node->value);
-    if (items == nullptr) throw top.error(key, "must be written as [[" + key + "]]");
-    if (items->size() > most) {
-      throw top.error(key, "stands " + std::to_string(items->size()) + " times; at most " +
-                               std::to_string(most) + " are allowed");
-    }
-    for (const TomlNode& item : *items) {
-      const auto* table = std::get_if<TomlTable>(&item.value);
-      if (table == nullptr) throw top.error(key, "must be written as [[" + key + "]]");
-      read_one(*table, item.line);
-    }
-  }
-
-  void read_plugin(const TomlTable& table, int line) {
-    const std::string prefix = "plugin[" + std::to_string(scenario_.pipeline.size() + 1) + "]";
-    TableReader plugin = reader(prefix, table, line, kPluginKeys);
-    const std::string written = plugin.text("name");
-    const std::string short_name = short_plugin_name(written);
-    for (const PluginSpec& other : scenario_.pipeline) {
-      if (short_plugin_name(other.name) == short_name) {
-        throw plugin.error("name",
-                           "the plugin \"" + printable(short_name) + "\" stands twice in the pipeline");
-      }
-    }
-    PluginSpec spec;
-    spec.name = is_plugin_file(written) ? beside(written, plugin.line("name")).string() : written;
-    const TomlTable& params = plugin.table("params");
-    if (params.size() > kMaxParameters) {
-      throw plugin.error("params", "has more than " + std::to_string(kMaxParameters) + " parameters");
-    }
-    spec.params = read_parameters(short_name, params);
-    scenario_.pipeline.push_back(std::move(spec));
-  }
-
-  std::vector<PluginParameter> read_parameters(const std::string& plugin, const TomlTable& params) {
-    const TableReader table = reader(plugin, params, 0, keys_of(params));
-    std::vector<PluginParameter> read;
-    for (const TomlEntry& param : params) {
-      const std::optional<std::string> value = parameter_text(param.node);
-      if (!value) {
-        throw table.error(param.key, std::string("a parameter is a number, a text or true or false, not ") +
-                                         kind_name(param.node));
-      }
-      scenario_.settings.push_back({table.full_key(param.key), *value, table.origin(param.key)});
-      read.push_back({param.key, *value, table.error(param.key, "").where()});
-    }
-    return read;
-  }
-
-  static std::optional<std::string> parameter_text(const TomlNode& node) {
-    if (const auto* flag = std::get_if<bool>(&node.value)) return *flag ? "true" : "false";
-    if (const auto* whole = std::get_if<std::int64_t>(&node.value)) return std::to_string(*whole);
-    if (const auto* number = std::get_if<double>(&node.value)) return format_double(*number);
-    if (const auto* text = std::get_if<std::string>(&node.value)) return *text;
-    return std::nullopt;
-  }
-
-  static std::vector<std::string> keys_of(const TomlTable& table) {
-    std::vector<std::string> keys;
-    for (const TomlEntry& entry : table) keys.push_back(entry.key);
-    return keys;
-  }
-
   void read_picture(const TomlTable& table, int line) {
     const std::string prefix = "picture[" + std::to_string(scenario_.pictures.size() + 1) + "]";
     TableReader picture = reader(prefix, table, line, kPictureKeys);
@@ -280,13 +189,6 @@ class ScenarioReader {
 };
 
 }  // namespace
-
-std::string short_plugin_name(const std::string& plugin) {
-  if (!is_plugin_file(plugin)) return plugin;
-  if (const std::size_t at = plugin.rfind(".so:"); at != std::string::npos) return plugin.substr(at + 4);
-  const std::string name = std::filesystem::path(plugin).filename().string();
-  return name.ends_with(".so") ? name.substr(0, name.size() - 3) : name;
-}
 
 const std::vector<std::string>& picture_layer_names() {
   return kLayers;

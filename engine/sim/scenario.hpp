@@ -11,6 +11,8 @@
 #include "base/error.hpp"
 #include "bsp/body.hpp"
 #include "geom/pose.hpp"
+#include "host/plugin_limits.hpp"
+#include "host/plugin_table.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/setting.hpp"
 
@@ -25,36 +27,9 @@ struct RobotSpec {
   std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point
 };
 
-/// A value for a plugin's parameter. Whether there is such a parameter is for the plugin to say.
-struct PluginParameter {
-  std::string name;
-  std::string value;  ///< numbers as shortest round-trip decimals, truth values as "true" and "false"
-  Where where;        ///< where it was said, for messages about it
-};
-
-/// One plugin of the pipeline with what it is told at its start.
-struct PluginSpec {
-  std::string name;  ///< a name on the plugin search path, or a file usable from the current folder
-  std::vector<PluginParameter> params{};  ///< in the order of the scenario
-};
-
-/// The name under which `--set NAME.parameter=value` finds a plugin: of a file ("x/slam.so", "x/some.so:slam") that of the
-/// plugin in it, without folder and `.so`.
-std::string short_plugin_name(const std::string& plugin);
-
-/// What becomes of a run when a plugin fails.
-enum class OnFailure {
-  kStop,      ///< it ends, and what there is so far is written
-  kContinue,  ///< the frames after it have no answer
-  kRestart,   ///< a new instance, with an empty map, goes on with the frame after it
-};
-
-/// What plugins are held to.
-struct PluginLimits {
-  double call_timeout_s = 60.0;     ///< wall clock; 0.01 at least
-  std::uint64_t memory_mib = 4096;  ///< of a plugin's process
-  OnFailure on_failure = OnFailure::kStop;
-};
+using host::OnFailure;
+using host::PluginLimits;
+using host::short_plugin_name;
 
 enum class PictureView { kTop, kPerspective };
 
@@ -90,7 +65,7 @@ struct Scenario {
   PluginLimits limits{};
   RobotSpec robot;
   std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file; none: those of the map count
-  std::vector<PluginSpec> pipeline;             ///< in the order of the file
+  std::vector<host::StageSpec> pipeline;        ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order
 

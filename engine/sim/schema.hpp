@@ -15,15 +15,11 @@ inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_
 inline const std::vector<std::string> kSensorKeys{
     "kind",    "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
     "noise_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};
-inline const std::vector<std::string> kPluginKeys{"name", "params"};
 inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",
                                                    "cut_z_m", "eye_m", "target_m", "show"};
 
 /// Those at the top that the command line may set as they are.
 inline const std::vector<std::string> kTopOverrideKeys{
     "map", "seed", "steps", "period_s", "call_timeout_s", "memory_limit_mib", "on_failure"};
-
-/// What `on_failure` may be, in the order of OnFailure.
-inline const std::vector<std::string> kOnFailure{"stop", "continue", "restart"};
 
 }  // namespace hallway::sim

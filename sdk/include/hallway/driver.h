@@ -26,7 +26,7 @@ typedef struct hw_setting_t {
 typedef struct hw_driver_settings_t {
   uint32_t size;                 ///< sizeof(hw_driver_settings_t) of the host
   uint32_t n_settings;           ///< number of settings
-  const hw_setting_t* settings;  ///< keys are distinct; a driver refuses keys that it does not know
+  const hw_setting_t* settings;  ///< keys are distinct and among hw_driver_info_t.settings
   const char* folder;            ///< that relative file names in settings are relative to; never null
 } hw_driver_settings_t;
 
@@ -68,9 +68,10 @@ typedef struct hw_answer_t {
   int64_t t_ns;                       ///< time of the frame
   const hw_drive_command_t* command;  ///< how to move from now on
   const hw_pose_output_t* pose;       ///< where the body is
-  const hw_landmarks_t* landmarks;    ///< the map as it stands, where the host has asked for it at this frame
-  const hw_counters_t* counters;      ///< of the plugins and of the host
-  const char* message;                ///< UTF-8: what went wrong, for people
+  const hw_landmarks_t*
+      landmarks;  ///< the map, where the host has asked for it since the answer before; of the frame before this one
+  const hw_counters_t* counters;  ///< of the plugins and of the host
+  const char* message;            ///< UTF-8: what went wrong, for people
 } hw_answer_t;
 
 /// The functions of a driver. Frozen; more is reached through get_extension(). No exception or exit may cross, and nothing is
@@ -116,7 +117,9 @@ typedef struct hw_driver_info_t {
   const char* version;      ///< of the driver
   const char* vendor;       ///< who made it
   const char* description;  ///< one sentence
-  const char* settings;     ///< for people: a line for each setting, "key  what it means [default]"
+  const char*
+      settings;  ///< a line for each setting: its key, a blank, and for people what it means, with its default.
+                 ///< The host refuses settings of other keys
 } hw_driver_info_t;
 
 /// Counts, describes and makes the drivers of a library. Frozen.

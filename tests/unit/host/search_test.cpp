@@ -108,7 +108,7 @@ TEST_F(Search, AListHasPluginsAndProblemsInOrderOfNames) {
   folder_.write("a_text.so", "text");
   folder_.write("z_text.txt", "no library");
   const std::vector<fs::path> folders = {folder_.path(), "/nowhere/at/all"};
-  const auto listed = list_plugins(folders);
+  const auto listed = list_libraries(folders);
   ASSERT_EQ(listed.size(), 2u);
   EXPECT_EQ(listed[0].file, folder_ / "a_text.so");
   EXPECT_TRUE(says(listed[0].problem, "is not an ELF file"));

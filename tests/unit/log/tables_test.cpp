@@ -8,10 +8,12 @@
 #include <string>
 
 #include "base/random.hpp"
+#include "log/commands.hpp"
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
 #include "log/poses.hpp"
+#include "log/row_file.hpp"
 #include "log/timing.hpp"
 #include "support/data.hpp"
 #include "support/errors.hpp"
@@ -127,11 +129,53 @@ TEST(Timing, IsPrintedInTheDocumentedForm) {
             "iteration,wall_ms,cpu_ms\n2,0.25,0.125\n");
 }
 
+TEST(Commands, ReadBackToTheSameBits) {
+  std::vector<IterationCommand> commands;
+  const std::vector<double> values = test::random_doubles(600, 9);
+  for (std::uint32_t i = 0; i < 300; ++i) commands.push_back({3 * i, values[2 * i], values[2 * i + 1]});
+  const std::vector<IterationCommand> back = parse_commands(print_commands(commands), "commands.csv");
+  ASSERT_EQ(back.size(), commands.size());
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    EXPECT_EQ(back[i].iteration, commands[i].iteration);
+    EXPECT_TRUE(same_bits(back[i].linear_m_s, commands[i].linear_m_s));
+    EXPECT_TRUE(same_bits(back[i].angular_rad_s, commands[i].angular_rad_s));
+  }
+}
+
+TEST(Commands, ArePrintedInTheDocumentedForm) {
+  EXPECT_EQ(print_commands(std::vector<IterationCommand>{{2, 0.25, -0.5}}),
+            "iteration,linear_m_s,angular_rad_s\n2,0.25,-0.5\n");
+}
+
+TEST(Commands, WhatIsWrongIsNamedWithItsLine) {
+  const std::string head = "iteration,linear_m_s,angular_rad_s\n0,1,0\n";
+  for (const char* row : {"0,1,0\n", "1,nan,0\n", "1,1\n", "1,1,x\n", "1,1,0"}) {
+    const auto error = test::error_of([&] { parse_commands(head + row, "c.csv"); });
+    ASSERT_TRUE(error) << row;
+    EXPECT_EQ(error->where().line, 3) << row;
+  }
+}
+
+TEST(RowFile, HoldsMoreRowsThanItsMemory) {
+  const test::TempFolder folder;
+  RowFile file(folder / "commands.csv", ',', kCommandColumns);
+  std::vector<IterationCommand> commands;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    commands.push_back({i, 0.1 * i, -0.3 * i});
+    add_row(file.next_row(), commands.back());
+  }
+  file.close();
+  EXPECT_EQ(read_file(folder / "commands.csv"), print_commands(commands));
+  EXPECT_EQ(read_commands(folder / "commands.csv").size(), commands.size());
+}
+
 TEST(Tables, GoThroughFiles) {
   const test::TempFolder folder;
   write_poses(folder / "poses.csv", std::vector<IterationPose>{{1, {1, 2, 3}, {1, 0, 0, 0}}});
   write_landmarks(folder / "landmarks.csv", std::vector<Landmark>{{4, {1, 2, 3}}});
-  write_timing(folder / "timing.csv", std::vector<IterationTime>{{6, 1.5, 0.5}});
+  RowFile times(folder / "timing.csv", ',', kTimingColumns);
+  add_row(times.next_row(), IterationTime{6, 1.5, 0.5});
+  times.close();
   EXPECT_EQ(read_poses(folder / "poses.csv").at(0).iteration, 1u);
   EXPECT_EQ(read_landmarks(folder / "landmarks.csv").at(0).id, 4u);
   EXPECT_EQ(read_timing(folder / "timing.csv").at(0).wall_ms, 1.5);

@@ -86,32 +86,32 @@ TEST(Overrides, AMapCountsFromTheCurrentFolder) {
 TEST(Overrides, SetAPluginsParameter) {
   const Scenario scenario =
       load_with({{"slam_point.noise_m", "0.1"}, {"slam_point.window", "20"}, {"em.mode", "fast"}});
-  const auto& params = scenario.pipeline.at(1).params;
+  const auto& params = scenario.pipeline.at(1).parameters;
   ASSERT_EQ(params.size(), 2u);
   EXPECT_EQ(params[0].value, "0.1");
   EXPECT_EQ(params[0].where.file, "command line");
   EXPECT_EQ(params[1].name, "window");
-  EXPECT_EQ(scenario.pipeline.at(0).params.at(0).value, "fast");
+  EXPECT_EQ(scenario.pipeline.at(0).parameters.at(0).value, "fast");
   EXPECT_EQ(origin_of(scenario, "slam_point.noise_m"), "command line");
 }
 
 TEST(Overrides, APluginReplacesThePipeline) {
   const Scenario scenario = load_with({{"plugin", "other"}});
   ASSERT_EQ(scenario.pipeline.size(), 1u);
-  EXPECT_EQ(scenario.pipeline[0].name, "other");
-  EXPECT_TRUE(scenario.pipeline[0].params.empty());
+  EXPECT_EQ(scenario.pipeline[0].plugin, "other");
+  EXPECT_TRUE(scenario.pipeline[0].parameters.empty());
   EXPECT_EQ(origin_of(scenario, "plugin[1].name"), "command line");
 }
 
 TEST(Overrides, AnotherBuildOfAPluginKeepsItsParameters) {
   const Scenario scenario = load_with({{"slam_point.noise_m", "0.2"}, {"plugin", "build/slam_point.so"}});
   ASSERT_EQ(scenario.pipeline.size(), 1u);
-  EXPECT_EQ(scenario.pipeline[0].name, "build/slam_point.so");
-  EXPECT_EQ(scenario.pipeline[0].params.at(0).value, "0.2");
+  EXPECT_EQ(scenario.pipeline[0].plugin, "build/slam_point.so");
+  EXPECT_EQ(scenario.pipeline[0].parameters.at(0).value, "0.2");
 }
 
 TEST(Overrides, ANewPluginCanBeGivenParameters) {
-  EXPECT_EQ(load_with({{"other.a", "1"}, {"plugin", "other"}}).pipeline.at(0).params.at(0).value, "1");
+  EXPECT_EQ(load_with({{"other.a", "1"}, {"plugin", "other"}}).pipeline.at(0).parameters.at(0).value, "1");
 }
 
 TEST(Overrides, RefuseUnknownKeysWithASuggestion) {

@@ -108,8 +108,8 @@ TEST(LoadScenario, ReadsThePipeline) {
       load(test::scenario_text("[[plugin]]\nname = 'em'\n[[plugin]]\nname = 'slam'\nparams = {b = 0.5, a = "
                                "3, on = true, mode = 'x y'}\n"));
   ASSERT_EQ(scenario.pipeline.size(), 2u);
-  EXPECT_EQ(scenario.pipeline[0].name, "em");
-  const auto& params = scenario.pipeline[1].params;
+  EXPECT_EQ(scenario.pipeline[0].plugin, "em");
+  const auto& params = scenario.pipeline[1].parameters;
   ASSERT_EQ(params.size(), 4u);
   EXPECT_EQ(params[0].name + "=" + params[0].value, "b=0.5");
   EXPECT_EQ(params[1].name + "=" + params[1].value, "a=3");
@@ -121,7 +121,7 @@ TEST(LoadScenario, ReadsThePipeline) {
 TEST(LoadScenario, LooksForAPluginFileBesideTheScenario) {
   const test::TempFolder folder;
   const auto file = folder.write("s.toml", test::scenario_text("[[plugin]]\nname = 'sub/slam.so'\n"));
-  EXPECT_EQ(load_scenario(file).pipeline.at(0).name, (folder / "sub/slam.so").string());
+  EXPECT_EQ(load_scenario(file).pipeline.at(0).plugin, (folder / "sub/slam.so").string());
 }
 
 TEST(ShortPluginName, IsThatOfThePluginInTheFile) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/table_reader.hpp"
+#include "base/table_reader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 
-namespace hallway::sim {
+namespace hallway {
 namespace {
 
 std::string describe(const Range& range) {
@@ -32,9 +32,9 @@ std::string origin_of(const std::string& file, int line) {
   return printable(std::filesystem::path(file).filename().string()) + ":" + std::to_string(line);
 }
 
-std::string format_vector(const Vec3& vector) {
-  return "[" + format_double(vector.x()) + ", " + format_double(vector.y()) + ", " +
-         format_double(vector.z()) + "]";
+std::string format_numbers(const Numbers3& numbers) {
+  return "[" + format_double(numbers[0]) + ", " + format_double(numbers[1]) + ", " +
+         format_double(numbers[2]) + "]";
 }
 
 TableReader::TableReader(std::string file, std::string prefix, const TomlTable& table, int line,
@@ -169,7 +169,17 @@ std::int64_t TableReader::whole(std::string_view key, std::int64_t low, std::int
   return value;
 }
 
-Vec3 TableReader::vector_of(std::string_view key, const TomlNode& node, const Range& range) const {
+bool TableReader::flag(std::string_view key, const std::optional<bool>& fallback) {
+  const TomlNode* node = require(key, fallback.has_value());
+  if (node != nullptr && !std::holds_alternative<bool>(node->value)) {
+    throw error(key, std::string("must be true or false, not ") + kind_name(*node));
+  }
+  const bool value = node != nullptr ? std::get<bool>(node->value) : *fallback;
+  note(key, value ? "true" : "false");
+  return value;
+}
+
+Numbers3 TableReader::numbers_of(std::string_view key, const TomlNode& node, const Range& range) const {
   const auto* items = std::get_if<TomlArray>(&node.value);
   if (items == nullptr)
     throw error(key, std::string("must be a list of three numbers, not ") + kind_name(node));
@@ -180,22 +190,42 @@ Vec3 TableReader::vector_of(std::string_view key, const TomlNode& node, const Ra
           number_of(key, (*items)[2], range)};
 }
 
-Vec3 TableReader::vector(std::string_view key, const Range& range, const std::optional<Vec3>& fallback) {
+Numbers3 TableReader::numbers(std::string_view key, const Range& range,
+                              const std::optional<Numbers3>& fallback) {
   const TomlNode* node = require(key, fallback.has_value());
-  const Vec3 value = node != nullptr ? vector_of(key, *node, range) : *fallback;
-  note(key, format_vector(value));
+  const Numbers3 value = node != nullptr ? numbers_of(key, *node, range) : *fallback;
+  note(key, format_numbers(value));
   return value;
 }
 
-Vec3 TableReader::vector_or_one(std::string_view key, const Range& range, const Vec3& fallback) {
+Numbers3 TableReader::numbers_or_one(std::string_view key, const Range& range, const Numbers3& fallback) {
   const TomlNode* node = find(table_, key);
-  Vec3 value = fallback;
-  if (node != nullptr) {
-    value = std::holds_alternative<TomlArray>(node->value) ? vector_of(key, *node, range)
-                                                           : Vec3::Constant(number_of(key, *node, range));
+  Numbers3 value = fallback;
+  if (node != nullptr && std::holds_alternative<TomlArray>(node->value)) {
+    value = numbers_of(key, *node, range);
+  } else if (node != nullptr) {
+    value.fill(number_of(key, *node, range));
   }
-  const bool all_equal = value.x() == value.y() && value.y() == value.z();
-  note(key, all_equal ? format_double(value.x()) : format_vector(value));
+  const bool all_equal = value[0] == value[1] && value[1] == value[2];
+  note(key, all_equal ? format_double(value[0]) : format_numbers(value));
+  return value;
+}
+
+std::string TableReader::any_text(std::string_view key) {
+  const TomlNode* node = require(key, false);
+  std::string value;
+  if (const auto* flag = std::get_if<bool>(&node->value)) {
+    value = *flag ? "true" : "false";
+  } else if (const auto* whole = std::get_if<std::int64_t>(&node->value)) {
+    value = std::to_string(*whole);
+  } else if (const auto* number = std::get_if<double>(&node->value)) {
+    value = format_double(*number);
+  } else if (const auto* text = std::get_if<std::string>(&node->value)) {
+    value = *text;
+  } else {
+    throw error(key, std::string("must be a number, a text or true or false, not ") + kind_name(*node));
+  }
+  note(key, value);
   return value;
 }
 
@@ -208,4 +238,21 @@ const TomlTable& TableReader::table(std::string_view key) const {
   return *inner;
 }
 
-}  // namespace hallway::sim
+void for_each_table(const TableReader& top, const TomlTable& root, const std::string& key, std::size_t most,
+                    const std::function<void(const TomlTable& table, int line)>& read_one) {
+  const TomlNode* node = find(root, key);
+  if (node == nullptr) return;
+  const auto* items = std::get_if<TomlArray>(&node->value);
+  if (items == nullptr) throw top.error(key, "must be written as [[" + key + "]]");
+  if (items->size() > most) {
+    throw top.error(key, "stands " + std::to_string(items->size()) + " times; at most " +
+                             std::to_string(most) + " are allowed");
+  }
+  for (const TomlNode& item : *items) {
+    const auto* table = std::get_if<TomlTable>(&item.value);
+    if (table == nullptr) throw top.error(key, "must be written as [[" + key + "]]");
+    read_one(*table, item.line);
+  }
+}
+
+}  // namespace hallway

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "record/answer_tables.hpp"
+
+#include "log/commands.hpp"
+#include "log/timing.hpp"
+#include "log/tum.hpp"
+#include "record/files.hpp"
+
+namespace hallway::record {
+namespace {
+
+log::StampedPose stamped(std::int64_t t_ns, const hw_pose_t& pose) {
+  const auto& t = pose.position;
+  const auto& q = pose.orientation;
+  return {.t_s = static_cast<double>(t_ns) / 1e9,
+          .position_m = {t[0], t[1], t[2]},
+          .orientation = {q[0], q[1], q[2], q[3]}};
+}
+
+}  // namespace
+
+AnswerTables::AnswerTables(const std::filesystem::path& folder)
+    : folder_(folder),
+      trajectory_(folder / files::kTrajectory, ' ', {}),
+      times_(folder / files::kTiming, ',', log::kTimingColumns) {}
+
+void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::Outputs& outputs,
+                       const host::CallTime& time) {
+  log::add_row(times_.next_row(), log::IterationTime{.iteration = iteration,
+                                                     .wall_ms = milliseconds(time.wall_ns),
+                                                     .cpu_ms = milliseconds(time.cpu_ns)});
+  if (const auto& pose = outputs.pose(); pose && pose->valid)
+    log::add_row(trajectory_.next_row(), stamped(t_ns, pose->T_map_body));
+  if (const auto& command = outputs.drive_command()) {
+    if (!commands_) commands_.emplace(folder_ / files::kCommands, ',', log::kCommandColumns);
+    log::add_row(commands_->next_row(), log::IterationCommand{.iteration = iteration,
+                                                              .linear_m_s = command->linear_m_s,
+                                                              .angular_rad_s = command->angular_rad_s});
+  }
+}
+
+void AnswerTables::close() {
+  trajectory_.close();
+  times_.close();
+  if (commands_) commands_->close();
+}
+
+}  // namespace hallway::record

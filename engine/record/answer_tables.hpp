@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "host/outputs.hpp"
+#include "host/stage.hpp"
+#include "log/row_file.hpp"
+
+namespace hallway::record {
+
+/// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first command on,
+/// commands.csv. Memory does not grow with the run. All functions throw Error{kIo}.
+class AnswerTables {
+ public:
+  explicit AnswerTables(const std::filesystem::path& folder);
+
+  /// The answer to a frame; iterations increase.
+  void add(std::uint32_t iteration, std::int64_t t_ns, const host::Outputs& outputs,
+           const host::CallTime& time);
+  /// No more answers come.
+  void close();
+
+ private:
+  std::filesystem::path folder_;
+  log::RowFile trajectory_;
+  log::RowFile times_;
+  std::optional<log::RowFile> commands_;
+};
+
+/// Nanoseconds as the milliseconds of timing.csv.
+inline double milliseconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-6;
+}
+
+}  // namespace hallway::record

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+
+#include "base/text.hpp"
+#include "console.hpp"
+#include "host/isolated_plugin.hpp"
+#include "host/plugin_info.hpp"
+#include "robot/command.hpp"
+#include "robot/session.hpp"
+
+namespace hallway::robot {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What is found out about a configuration, and all that is wrong with it.
+struct Findings {
+  std::vector<Error> problems{};
+  std::string driver{};
+  std::optional<host::RobotInfo> robot{};
+  Timing timing{};
+  std::vector<std::string> plugins{};
+};
+
+void note_problem(Findings& findings, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& problem) {
+    findings.problems.push_back(problem);
+  }
+}
+
+/// Opens the robot and closes it; no frame is read and nothing written.
+void check_driver(Findings& findings, const Config& config, const Surroundings& surroundings) {
+  note_problem(findings, [&] {
+    host::Driver driver(host::find_driver(config.driver.name, surroundings.driver_folders), surroundings.log);
+    findings.driver = driver.info().id + " " + driver.info().version;
+    driver.open(config.driver.settings, config.folder());
+    findings.robot = driver.describe();
+    findings.timing = timing_of(config, *findings.robot);
+  });
+}
+
+/// Loads a plugin, in a process of its own, and gives it its parameters and the sensors.
+void check_plugin(Findings& findings, const host::StageSpec& spec, const Surroundings& surroundings) {
+  note_problem(findings, [&] {
+    const auto isolation = surroundings.isolation.value_or(host::Isolation{});
+    if (findings.robot) {
+      host::Pipeline pipeline({spec}, surroundings.plugin_folders, findings.robot->sensors, surroundings.log,
+                              isolation);
+      findings.plugins.push_back(pipeline.stage(0).info().id + " " + pipeline.stage(0).info().version);
+      return;
+    }
+    // What it would say of sensors that nobody knows is not asked for.
+    host::IsolatedPlugin plugin(spec.plugin, surroundings.plugin_folders, isolation, surroundings.log);
+    for (const host::ParameterSetting& setting : spec.parameters) {
+      plugin.set_parameter(setting.name, setting.value, setting.where);
+    }
+    findings.plugins.push_back(plugin.info().id + " " + plugin.info().version);
+  });
+}
+
+std::string time_text(const Timing& timing, const host::RobotInfo& robot) {
+  if (robot.lock_step) return "lock-step: every frame is answered before the next one is read";
+  const std::string period = timing.period_ns > 0
+                                 ? fmt::format("{:g} ms", static_cast<double>(timing.period_ns) * 1e-6)
+                                 : "not known";
+  return fmt::format("real time{}; period {}; watchdog {:g} ms", timing.tick ? ", on a schedule" : "", period,
+                     std::chrono::duration<double, std::milli>(timing.watchdog).count());
+}
+
+std::string table_of(const Findings& findings) {
+  const auto row = [](const char* label, const std::string& value) {
+    return fmt::format("  {:<10} {}\n", label, value);
+  };
+  std::string text;
+  if (!findings.driver.empty()) text += row("driver", findings.driver);
+  if (findings.robot) {
+    text += row("robot", findings.robot->name);
+    text += row("time", time_text(findings.timing, *findings.robot));
+    for (const host::SensorInfo& sensor : findings.robot->sensors) {
+      text += row("sensor",
+                  fmt::format("{}: {} ({})", sensor.id, sensor.name, host::sample_kind_name(sensor.kind)));
+    }
+  }
+  for (const std::string& plugin : findings.plugins) text += row("plugin", plugin);
+  return text;
+}
+
+Json document_of(const Findings& findings, int status) {
+  Json problems = Json::array();
+  for (const Error& problem : findings.problems) problems.push_back(problem.what());
+  Json sensors = Json::array();
+  if (findings.robot) {
+    for (const host::SensorInfo& sensor : findings.robot->sensors) {
+      sensors.push_back(
+          {{"id", sensor.id}, {"name", sensor.name}, {"kind", host::sample_kind_name(sensor.kind)}});
+    }
+  }
+  return {{"schema", "hallway.robot-check/1"},
+          {"status", status},
+          {"driver", findings.driver},
+          {"robot", findings.robot ? Json(findings.robot->name) : Json()},
+          {"lock_step", findings.robot ? Json(findings.robot->lock_step) : Json()},
+          {"sensors", sensors},
+          {"plugins", findings.plugins},
+          {"warnings", findings.timing.warnings},
+          {"problems", problems}};
+}
+
+int check(const ConfigOptions& options) {
+  const Config config = load_config(options.config, overrides_of(options));
+  const Surroundings surroundings = surroundings_of(options, config.limits);
+  Findings findings;
+  check_driver(findings, config, surroundings);
+  for (const host::StageSpec& spec : config.pipeline) check_plugin(findings, spec, surroundings);
+  const int status = findings.problems.empty() ? 0 : exit_status(findings.problems.front().code());
+  for (const std::string& warning : findings.timing.warnings) cli::print_warning(warning);
+  if (options.json) {
+    cli::print_json(document_of(findings, status));
+    return status;
+  }
+  for (const Error& problem : findings.problems) fmt::print(stderr, "hallway: {}\n", problem.what());
+  cli::print_result(table_of(findings) + (status == 0 ? "ready to run\n" : ""));
+  return status;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, cli::Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "Say all that is wrong with a configuration: opens the robot, reads no frame and writes no command");
+  const auto options = std::make_shared<ConfigOptions>();
+  add_config_options(*command, *options);
+  command->footer("Example: hallway-robot check robot.toml");
+  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+}
+
+}  // namespace hallway::robot

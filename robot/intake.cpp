@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "robot/intake.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace hallway::robot {
+namespace {
+
+/// A driver that always has one more frame must not keep the loop from answering.
+constexpr int kMostAtOnce = 256;
+
+bool is_finite(const hw_points_t& points) {
+  for (std::uint64_t i = 0; i < points.count; ++i) {
+    const hw_point3_t& point = *hw_point_at(&points, i);
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Intake::Intake(host::Driver& driver, const host::RobotInfo& robot) : driver_(driver), robot_(robot) {}
+
+std::optional<TakenFrame> Intake::take(std::chrono::nanoseconds wait, std::uint32_t iteration,
+                                       std::string& bytes) {
+  bool taken = false;
+  for (int i = 0; i < kMostAtOnce && !ended_; ++i) {
+    const host::Driver::Reading reading = driver_.read(wait);
+    if (reading.found == host::Driver::Found::kEnd) ended_ = true;
+    if (reading.found != host::Driver::Found::kFrame) break;
+    ++counts_.read;
+    const bool kept = keep(*reading.frame, iteration, bytes);
+    if (kept && taken) ++counts_.dropped;
+    taken = taken || kept;
+    if (robot_.lock_step) break;
+    if (taken) wait = std::chrono::nanoseconds(0);  // whether there is a newer one
+  }
+  return taken ? last_ : std::nullopt;
+}
+
+bool Intake::keep(const hw_frame_t& frame, std::uint32_t iteration, std::string& bytes) {
+  hw_frame_t given = frame;
+  given.sequence = iteration;
+  try {
+    // This also looks at the struct itself, before its samples are looked at.
+    const std::size_t size = host::frame_bytes_size(given);
+    if (const char* problem = problem_of(frame)) throw Error(ErrorCode::kBadInput, problem);
+    bytes.resize(size);
+    host::write_frame_bytes(given, std::as_writable_bytes(std::span(bytes)));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kBadInput) throw;
+    refuse(frame.sequence, error.message());
+    return false;
+  }
+  if (last_) counts_.lost += frame.sequence - last_->sequence - 1;
+  last_ = {.sequence = frame.sequence, .t_ns = frame.t_ns};
+  return true;
+}
+
+void Intake::refuse(std::uint64_t sequence, const std::string& reason) {
+  const std::string message = fmt::format("frame {}: {}", sequence, reason);
+  if (robot_.lock_step) {
+    throw Error(ErrorCode::kBadInput, message,
+                {driver_.file().string(), 0, fmt::format("driver `{}`", driver_.info().id)});
+  }
+  if (counts_.refused++ == 0) first_refusal_ = message;
+}
+
+const char* Intake::problem_of(const hw_frame_t& frame) const {
+  if (frame.t_ns < 0) return "a time below 0";
+  if (last_ && frame.sequence <= last_->sequence) return "a number that is not above the one before";
+  if (last_ && frame.t_ns < last_->t_ns) return "a time before that of the frame before";
+  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
+    if (const char* problem = problem_of(*frame.samples[i])) return problem;
+  }
+  return nullptr;
+}
+
+const char* Intake::problem_of(const hw_sample_t& sample) const {
+  const auto sensor = std::find_if(robot_.sensors.begin(), robot_.sensors.end(),
+                                   [&](const auto& info) { return info.id == sample.sensor_id; });
+  if (sensor == robot_.sensors.end()) return "a sample of a sensor that was not described";
+  if (sensor->kind != sample.kind) return "a sample of another kind than its sensor gives";
+  if (sample.kind != HW_SAMPLE_POINTS) return nullptr;
+  return is_finite(*static_cast<const hw_points_t*>(sample.payload)) ? nullptr : "a point that is not finite";
+}
+
+}  // namespace hallway::robot

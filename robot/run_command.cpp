@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "base/text.hpp"
+#include "console.hpp"
+#include "plugin_report.hpp"
+#include "robot/command.hpp"
+#include "robot/session.hpp"
+
+namespace hallway::robot {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct RunOptions {
+  ConfigOptions config;
+  std::string out;
+  std::optional<double> duration_s;
+  bool force = false;
+  bool quiet = false;
+};
+
+int status_of(const SessionResult& result) {
+  if (result.driver_failure) return exit_status(result.driver_failure->code());
+  if (result.failures.count != 0) return exit_status(ErrorCode::kPluginFault);
+  return result.end == LoopEnd::kInterrupt ? cli::interrupt_status() : 0;
+}
+
+void add_row(std::string& text, const char* label, const std::string& value) {
+  text += fmt::format("  {:<28} {}\n", label, value);
+}
+
+std::string deadline_text(const Json& timing) {
+  if (timing.at("deadline_ms").is_null()) return "none";
+  return fmt::format("{} missed ({:.4f} %), {:g} ms each", timing.at("deadline_misses").get<std::uint64_t>(),
+                     100.0 * timing.at("deadline_miss_share").get<double>(),
+                     timing.at("deadline_ms").get<double>());
+}
+
+std::string table_of(const SessionResult& result, const std::string& name, const fs::path& folder) {
+  const Json& robot = result.manifest.at("robot");
+  const Json& frames = robot.at("frames");
+  const Json& timing = robot.at("timing");
+  std::string text = fmt::format("{}: {} on {}{}\n", name, fmt::join(result.plugins, " + "),
+                                 result.manifest.at("driver").at("id").get<std::string>(),
+                                 result.end == LoopEnd::kInterrupt ? " (stopped early)" : "");
+  const auto count = [&](const char* key) { return frames.at(key).get<std::uint64_t>(); };
+  add_row(
+      text, "frames",
+      fmt::format("{} given, {} answered; {} lost, {} dropped, {} refused, {} unrecorded", count("given"),
+                  count("answered"), count("lost"), count("dropped"), count("refused"), count("unrecorded")));
+  add_row(text, "landmarks mapped", fmt::format("{} in {} submaps", result.landmarks, result.submaps));
+  if (const Json& latency = timing.at("latency_ms"); !latency.is_null()) {
+    add_row(text, "latency",
+            fmt::format("{:.4f} ms median, {:.4f} p99, {:.4f} worst", latency.at("median").get<double>(),
+                        latency.at("p99").get<double>(), latency.at("worst").get<double>()));
+  }
+  add_row(text, "deadlines", deadline_text(timing));
+  if (!robot.at("watchdog_ms").is_null()) {
+    add_row(text, "watchdog",
+            fmt::format("stopped the robot {} times; {:g} ms, {:.1f} ms at the worst; {} late answers",
+                        timing.at("watchdog_trips").get<std::uint64_t>(),
+                        robot.at("watchdog_ms").get<double>(), timing.at("worst_stop_ms").get<double>(),
+                        timing.at("late_answers").get<std::uint64_t>()));
+  }
+  if (result.failures.count != 0) {
+    add_row(text, "plugin failures",
+            fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
+  }
+  add_row(text, "written to", printable(folder.string(), 4096));
+  return text;
+}
+
+Json document_of(const SessionResult& result, const std::string& name, const fs::path& folder) {
+  Json document{{"schema", "hallway.robot-result/1"},
+                {"status", status_of(result)},
+                {"name", name},
+                {"plugins", result.plugins},
+                {"folder", printable(folder.string(), 4096)},
+                {"landmarks", result.landmarks},
+                {"submaps", result.submaps}};
+  for (const char* key : {"warnings", "driver", "verdict", "failures", "restarts", "robot"}) {
+    document[key] = result.manifest.at(key);
+  }
+  if (result.driver_failure) document["error"] = result.driver_failure->what();
+  return document;
+}
+
+int run(const RunOptions& options) {
+  const Config config = load_config(options.config.config, overrides_of(options.config));
+  SessionPlan plan{.folder = options.out.empty() ? fs::path("out") / config.name() : fs::path(options.out),
+                   .replace = options.force};
+  if (options.duration_s) {
+    plan.duration = std::chrono::nanoseconds(static_cast<std::int64_t>(*options.duration_s * 1e9));
+  }
+  const SessionResult result =
+      run_session(config, surroundings_of(options.config, config.limits), plan,
+                  {.started = [](int wake) { cli::catch_interrupts(wake); },
+                   .stop = cli::interrupted,
+                   .notice = [](const std::string& message) { cli::print_warning(message); }});
+  cli::print_failures(result.failures);
+  if (options.config.json) {
+    cli::print_json(document_of(result, config.name(), plan.folder));
+  } else if (!options.quiet) {
+    cli::print_result(table_of(result, config.name(), plan.folder));
+  }
+  if (result.driver_failure) fmt::print(stderr, "hallway: {}\n", result.driver_failure->what());
+  return status_of(result);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, cli::Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "run", "Run plugins on a robot: its frames in, their commands out, until the robot ends or Ctrl-C");
+  const auto options = std::make_shared<RunOptions>();
+  add_config_options(*command, options->config);
+  command->add_option("--out", options->out, "Folder to write [out/<config>]")->type_name("DIR");
+  command->add_option("--duration", options->duration_s, "Seconds after which to end [until the robot ends]")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1e9));
+  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
+  command->add_flag("--quiet", options->quiet, "Print no table");
+  command->footer("Example: hallway-robot run robot.toml --out out/monday");
+  command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace hallway::robot
