@@ -11,7 +11,7 @@ deps:
 
 ## also the packages of ROS 1, for the driver ros1
 deps-ros:
-	@HALLWAY_ROS=1 scripts/install-deps.sh
+	@scripts/install-deps.sh --with-ros
 
 build-release: deps
 	cmake --preset release

@@ -2,7 +2,21 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that building, running and testing Hallway needs. The one list of them.
 # Does nothing, and needs neither network nor root, when all are there.
+#
+#   install-deps.sh             what is needed
+#   install-deps.sh --with-ros  and what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
 set -euo pipefail
+
+optional=()
+case "${1-}" in
+  "") ;;
+  --with-ros) optional=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev
+                         libdiagnostic-msgs-dev libtf2-msgs-dev python3-rosmaster) ;;
+  *)
+    echo "install-deps: unknown option $1; there is --with-ros" >&2
+    exit 2
+    ;;
+esac
 
 packages=(
   # build
@@ -17,7 +31,7 @@ packages=(
 )
 
 missing=()
-for package in "${packages[@]}"; do
+for package in "${packages[@]}" ${optional[@]+"${optional[@]}"}; do
   status=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
   [[ $status == ii* || $status == hi* ]] || missing+=("$package")
 done
