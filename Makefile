@@ -3,11 +3,15 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo install test test-long check fuzz bench renders format lint clean build-release deps
+.PHONY: demo install test test-long check fuzz bench renders format lint clean build-release deps deps-ros
 .DEFAULT_GOAL := demo
 
 deps:
 	@scripts/install-deps.sh
+
+## also the packages of ROS 1, for the driver ros1
+deps-ros:
+	@scripts/install-deps.sh --with-ros
 
 build-release: deps
 	cmake --preset release

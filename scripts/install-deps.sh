@@ -4,13 +4,14 @@
 # Does nothing, and needs neither network nor root, when all are there.
 #
 #   install-deps.sh             what is needed
-#   install-deps.sh --with-ros  and what `hallway log convert` reads ROS 1 bags with; everything else works without
+#   install-deps.sh --with-ros  and what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
 set -euo pipefail
 
 optional=()
 case "${1-}" in
   "") ;;
-  --with-ros) optional=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev) ;;
+  --with-ros) optional=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev
+                         libdiagnostic-msgs-dev libtf2-msgs-dev python3-rosmaster) ;;
   *)
     echo "install-deps: unknown option $1; there is --with-ros" >&2
     exit 2

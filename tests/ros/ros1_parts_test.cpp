@@ -139,20 +139,33 @@ TEST(ReadScan, GivesPointsInItsPlaneWithinItsLimits) {
   EXPECT_THROW(read_scan(scan), Malformed);
 }
 
+Reading reading(std::uint32_t sensor, std::int64_t t_ns) {
+  Reading result;
+  result.sensor = sensor;
+  result.t_ns = t_ns;
+  return result;
+}
+
 TEST(ReadingQueue, KeepsTheNewestInOrder) {
   using std::chrono::nanoseconds;
   ReadingQueue queue(2);
   EXPECT_FALSE(queue.pop(nanoseconds(0)));
-  EXPECT_EQ(queue.push({0, 10, {}}), Pushed::kTaken);
-  EXPECT_EQ(queue.push({1, 10, {}}), Pushed::kTaken);
-  EXPECT_EQ(queue.push({0, 9, {}}), Pushed::kOutOfOrder);
-  EXPECT_EQ(queue.push({0, 20, {}}), Pushed::kOverflow);
+  EXPECT_EQ(queue.push(reading(0, 10)), Pushed::kTaken);
+  EXPECT_EQ(queue.push(reading(1, 10)), Pushed::kTaken);
+  EXPECT_EQ(queue.push(reading(0, 9)), Pushed::kOutOfOrder);
+  EXPECT_EQ(queue.push(reading(0, 20)), Pushed::kOverflow);
   const auto first = queue.pop(nanoseconds(0));
   ASSERT_TRUE(first);
   EXPECT_EQ(first->sensor, 1u);
-  EXPECT_EQ(queue.pop(nanoseconds(0))->t_ns, 20);
+  EXPECT_EQ(first->sequence, 1u);
+  EXPECT_EQ(first->sensor_sequence, 0u);
+  const auto second = queue.pop(nanoseconds(0));
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->t_ns, 20);
+  EXPECT_EQ(second->sequence, 2u);
+  EXPECT_EQ(second->sensor_sequence, 1u);
   EXPECT_FALSE(queue.pop(nanoseconds(1)));
-  EXPECT_EQ(queue.push({0, 19, {}}), Pushed::kOutOfOrder);
+  EXPECT_EQ(queue.push(reading(0, 19)), Pushed::kOutOfOrder);
 }
 
 TEST(TransformTree, JoinsFramesOverTheirCommonAncestor) {

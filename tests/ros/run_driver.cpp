@@ -93,12 +93,20 @@ class Run {
     last_.size = sizeof last_;
   }
 
+  ~Run() {
+    if (open_) driver_.vtable->close(driver_.self);
+    driver_.vtable->destroy(driver_.self);
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
   void open() {
     std::vector<hw_setting_t> settings;
     for (const auto& [key, value] : options_.settings) settings.push_back({key.c_str(), value.c_str()});
     const hw_driver_settings_t given{sizeof given, static_cast<std::uint32_t>(settings.size()),
                                      settings.data(), "."};
     check(driver_.vtable->open(driver_.self, &given, &error_));
+    open_ = true;
     const hw_robot_info_t* robot = nullptr;
     check(driver_.vtable->describe(driver_.self, &robot, &error_));
     write_line("robot " + std::string(robot->name) + " " + std::to_string(robot->flags) + " " +
@@ -131,6 +139,7 @@ class Run {
       write_line(std::string("counter ") + counter.name + " " + hallway::format_double(counter.value));
     }
     driver_.vtable->close(driver_.self);
+    open_ = false;
     ::signal(SIGTERM, SIG_DFL);
     write_line(is_default(SIGPIPE) ? "closed" : "closed SIGPIPE CHANGED");
   }
@@ -198,6 +207,7 @@ class Run {
   const Options& options_;
   hw_error_t error_{};
   hw_answer_t last_{};
+  bool open_ = false;
 };
 
 void run(const Options& options) {

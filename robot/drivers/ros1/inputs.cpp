@@ -69,7 +69,7 @@ void Inputs::note(Sensor& sensor, const std_msgs::Header& header, const std::str
 
 void Inputs::push(std::uint32_t sensor, const std_msgs::Header& header, Points points) {
   counts_.points_dropped += points.dropped;
-  switch (readings_.push({sensor, nanoseconds_of(header.stamp), std::move(points.points)})) {
+  switch (readings_.push({sensor, nanoseconds_of(header.stamp), std::move(points.points), 0, 0})) {
     case Pushed::kTaken:
       return;
     case Pushed::kOverflow:

@@ -9,6 +9,8 @@ Pushed ReadingQueue::push(Reading reading) {
   const std::lock_guard lock(mutex_);
   if (last_t_ns_ && reading.t_ns < *last_t_ns_) return Pushed::kOutOfOrder;
   last_t_ns_ = reading.t_ns;
+  reading.sequence = taken_++;
+  reading.sensor_sequence = taken_of_sensor_[reading.sensor]++;
   readings_.push_back(std::move(reading));
   filled_.notify_one();
   if (readings_.size() <= capacity_) return Pushed::kTaken;

@@ -45,8 +45,7 @@ class Ros1 final : public sdk::Driver {
       close_console();
       throw;
     }
-    frames_ = 0;
-    sensor_readings_.assign(settings_.sensors.size(), 0);
+    has_read_ = false;
     publishers_gone_ = false;
     make_robot();
   }
@@ -126,18 +125,19 @@ class Ros1 final : public sdk::Driver {
     sample_.size = sizeof sample_;
     sample_.kind = HW_SAMPLE_POINTS;
     sample_.sensor_id = current_.sensor;
-    sample_.sequence = sensor_readings_[current_.sensor]++;
+    sample_.sequence = current_.sensor_sequence;
     sample_.t_begin_ns = sample_.t_end_ns = current_.t_ns;
     sample_.payload = &points_;
     samples_ = &sample_;
-    frame_ = {sizeof frame_, 1, frames_++, current_.t_ns, &samples_};
+    frame_ = {sizeof frame_, 1, current_.sequence, current_.t_ns, &samples_};
+    has_read_ = true;
     return frame_;
   }
 
   /// In lock-step, what is read is a log that ends: its publisher has gone. It is asked twice, for the last message may still be on
   /// its way from the connection that ended to the queue.
   bool log_has_ended() {
-    const bool gone = settings_.lock_step && frames_ > 0 && !session_->inputs().has_publishers();
+    const bool gone = settings_.lock_step && has_read_ && !session_->inputs().has_publishers();
     return std::exchange(publishers_gone_, gone) && gone;
   }
 
@@ -146,8 +146,7 @@ class Ros1 final : public sdk::Driver {
   hw_robot_info_t robot_{};
   std::vector<hw_sensor_info_t> sensor_infos_;
   std::vector<const hw_sensor_info_t*> sensors_;
-  std::uint64_t frames_ = 0;
-  std::vector<std::uint64_t> sensor_readings_;
+  bool has_read_ = false;
   bool publishers_gone_ = false;
   ros1::Reading current_;
   hw_points_t points_{};
