@@ -62,7 +62,7 @@ void publish_log(const char* log, const char* topic, const char* diagnostics, in
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "publish_log", ros::init_options::NoRosout);
+  ros::init(ros::M_string{{"__log", "/dev/null"}}, "publish_log", ros::init_options::NoRosout);
   if (argc != 4 && argc != 5) {
     std::fprintf(stderr, "publish_log LOG TOPIC DIAGNOSTICS_TOPIC [PAUSE_MS]\n");
     return 2;

@@ -165,8 +165,8 @@ class Ros1 : public testing::Test {
     network_problem = test::enter_private_network();
     if (!network_problem.empty()) return;
     master_ = std::make_unique<Master>(kPort);
-    ros::init(ros::M_string{{"__master", uri_of(kPort)}, {"__hostname", "127.0.0.1"}}, "tester",
-              ros::init_options::NoRosout);
+    ros::init(ros::M_string{{"__master", uri_of(kPort)}, {"__hostname", "127.0.0.1"}, {"__log", "/dev/null"}},
+              "tester", ros::init_options::NoRosout);
     ros::start();
   }
   static void TearDownTestSuite() {

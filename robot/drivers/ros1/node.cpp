@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ros1/node.hpp"
 
+#include <ros/exceptions.h>
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/xmlrpc_manager.h>
@@ -49,12 +50,13 @@ void initialise(const Settings& settings) {
                            (first_identity.empty() ? "of the host" : printable(first_identity)) +
                            "); roscpp can be one only");
   }
-  ros::M_string remappings{{"__master", settings.master}};
+  // With a name for a log that nobody writes, roscpp makes no folder for one.
+  ros::M_string remappings{{"__master", settings.master}, {"__log", "/dev/null"}};
   if (!settings.address.empty()) remappings["__hostname"] = settings.address;
   try {
     // Without rosout: what is worth reading goes to the host's log.
     ros::init(remappings, settings.node, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
-  } catch (const std::exception& failure) {
+  } catch (const ros::Exception& failure) {
     throw sdk::Failure(HW_ERROR_ARGUMENT, "node: " + printable(failure.what(), 500));
   }
   first_identity = identity;
