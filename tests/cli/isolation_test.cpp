@@ -210,7 +210,7 @@ TEST_F(Isolation, WhatAPluginWritesNeverReachesStandardOutput) {
   const test::SmallWorld world;
   const test::Ended ended = run_breaking(world, "stdout", {"--json"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NO_THROW(Json::parse(ended.out));
+  EXPECT_TRUE(Json::accept(ended.out));
   EXPECT_NE(ended.err.find("hallway: breaks: wrote: xxx"), std::string::npos);
   EXPECT_LT(ended.err.size(), 100'000u);
 }
