@@ -57,7 +57,15 @@ void AnswerRecorder::record_frame(const log::FrameStamp& stamp, std::string_view
 }
 
 void AnswerRecorder::record_answer(const host::Outputs& outputs) {
+  record_pose(outputs);
+  record_the_rest(outputs);
+}
+
+void AnswerRecorder::record_pose(const host::Outputs& outputs) {
   if (outputs.pose()) writer_.add_pose(stamp_, pose_answer(*outputs.pose()));
+}
+
+void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
   if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
   if (const auto& command = outputs.drive_command())
     writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});

@@ -39,8 +39,10 @@ class AnswerRecorder {
   void record_frame(const hw_frame_t& frame);
   /// The same, of a frame in the form of host/frame_bytes.hpp.
   void record_frame(const log::FrameStamp& stamp, std::string_view bytes);
-  /// What the pipeline answered to the frame that was recorded last.
+  /// What the pipeline answered to the frame that was recorded last: record_pose() and record_the_rest().
   void record_answer(const host::Outputs& outputs);
+  void record_pose(const host::Outputs& outputs);
+  void record_the_rest(const host::Outputs& outputs);
   /// The map at the end.
   void record_map(const FinalMap& map);
   /// Writes what is left and the index.
