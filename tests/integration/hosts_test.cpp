@@ -2,6 +2,7 @@
 // One plugin binary in every host: the simulator, a log, a robot that replays a log, and a robot at the other end of a network give the same
 // bytes for the same input, whatever is lost on the way, isolated or not, on any number of threads.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <chrono>
 #include <fstream>
@@ -80,20 +81,31 @@ class Served {
         address_ = printed.substr(at + 4, end - at - 4);
     }
   }
+  ~Served() {
+    if (!waited_) stop();
+  }
   const std::string& address() const { return address_; }
-  Ended wait() { return process_.wait(); }
+  Ended wait() {
+    waited_ = true;
+    return process_.wait();
+  }
+  /// Where no robot has come.
+  Ended stop() {
+    ::kill(process_.pid(), SIGTERM);
+    return wait();
+  }
 
  private:
   static std::vector<std::string> arguments(std::vector<std::string> more) {
     std::vector<std::string> all{hallway_program(), "serve",       source_folder() / "maps/office.toml",
-                                 "--udp",           "127.0.0.1:0", "--lockstep",
-                                 "--quiet"};
+                                 "--udp",           "127.0.0.1:0", "--lockstep"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
 
   Process process_;
   std::string address_;
+  bool waited_ = false;
 };
 
 /// A pipeline that drives the office.
@@ -119,7 +131,8 @@ class Hosts : public testing::TestWithParam<std::string> {
   std::string config(const std::string& driver) const {
     std::string text = "[driver]\n" + driver + "[[plugin]]\nname = \"" + GetParam() + "\"\n";
     std::string params;
-    for (const Json& parameter : manifest_of(out("run")).at("plugins").at(0).at("parameters")) {
+    const Json manifest = manifest_of(out("run"));
+    for (const Json& parameter : manifest.at("plugins").at(0).at("parameters")) {
       if (parameter.at("origin") == "default") continue;
       params += (params.empty() ? "" : ", ") + parameter.at("name").get<std::string>() + " = " +
                 parameter.at("value").get<std::string>();
@@ -141,9 +154,10 @@ class Hosts : public testing::TestWithParam<std::string> {
   void rehearse(const std::string& name, double loss) const {
     const std::string share = std::to_string(loss);
     Served served({"--steps", steps(), "--out", out(name + "_served"), "--loss", share, "--loss-seed", "3"});
-    ASSERT_NE(served.address(), "") << served.wait().err;
+    ASSERT_NE(served.address(), "") << served.stop().err;
     robot(name, "name = \"udp\"\naddress = \"" + served.address() + "\"\nlockstep = true\nloss = " + share +
                     "\nseed = 5\n");
+    if (HasFatalFailure()) return;
     const Ended ended = served.wait();
     EXPECT_EQ(ended.status, 0) << ended.err;
   }
