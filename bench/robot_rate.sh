@@ -23,9 +23,7 @@ loop = true
 
 [[plugin]]
 name = "slam_point"
-
-[robot]
-rate_hz = $hz
+params = { noise_m = 0.05 }
 TOML
 "$build/bin/hallway-robot" run "$out/robot.toml" --out "$out/run" --duration "$seconds" &
 robot=$!

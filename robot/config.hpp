@@ -31,6 +31,7 @@ struct Config {
   host::PluginLimits limits{.call_timeout_s = 10.0};    ///< shorter than a simulator's: a robot waits
   std::optional<std::chrono::milliseconds> watchdog{};  ///< unset: by the period
   std::optional<double> rate_hz{};                      ///< unset: as frames come
+  std::size_t backlog = 8;                              ///< frames that may wait while the plugins are busy
   double report_every_s = 0.0;    ///< how often the map is asked for and given to the robot; 0: never
   bool record = true;             ///< whether a log is written
   std::vector<Setting> settings;  ///< every effective setting, in the order of the file

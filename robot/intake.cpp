@@ -11,9 +11,6 @@
 namespace hallway::robot {
 namespace {
 
-/// A driver that always has one more frame must not keep the loop from answering.
-constexpr int kMostAtOnce = 256;
-
 bool is_finite(const hw_points_t& points) {
   for (std::uint64_t i = 0; i < points.count; ++i) {
     const hw_point3_t& point = *hw_point_at(&points, i);
@@ -26,32 +23,22 @@ bool is_finite(const hw_points_t& points) {
 
 Intake::Intake(host::Driver& driver, const host::RobotInfo& robot) : driver_(driver), robot_(robot) {}
 
-std::optional<TakenFrame> Intake::take(std::chrono::nanoseconds wait, std::uint32_t iteration,
-                                       std::string& bytes) {
-  bool taken = false;
-  for (int i = 0; i < kMostAtOnce && !ended_; ++i) {
-    const host::Driver::Reading reading = driver_.read(wait);
-    if (reading.found == host::Driver::Found::kEnd) ended_ = true;
-    if (reading.found != host::Driver::Found::kFrame) break;
-    ++counts_.read;
-    const bool kept = keep(*reading.frame, iteration, bytes);
-    if (kept && taken) ++counts_.dropped;
-    taken = taken || kept;
-    if (robot_.lock_step) break;
-    if (taken) wait = std::chrono::nanoseconds(0);  // whether there is a newer one
-  }
-  return taken ? last_ : std::nullopt;
+std::optional<TakenFrame> Intake::take(std::chrono::nanoseconds wait, std::string& bytes) {
+  if (ended_) return std::nullopt;
+  const host::Driver::Reading reading = driver_.read(wait);
+  if (reading.found == host::Driver::Found::kEnd) ended_ = true;
+  if (reading.found != host::Driver::Found::kFrame) return std::nullopt;
+  ++counts_.read;
+  return keep(*reading.frame, bytes) ? last_ : std::nullopt;
 }
 
-bool Intake::keep(const hw_frame_t& frame, std::uint32_t iteration, std::string& bytes) {
-  hw_frame_t given = frame;
-  given.sequence = iteration;
+bool Intake::keep(const hw_frame_t& frame, std::string& bytes) {
   try {
     // This also looks at the struct itself, before its samples are looked at.
-    const std::size_t size = host::frame_bytes_size(given);
+    const std::size_t size = host::frame_bytes_size(frame);
     if (const char* problem = problem_of(frame)) throw Error(ErrorCode::kBadInput, problem);
     bytes.resize(size);
-    host::write_frame_bytes(given, std::as_writable_bytes(std::span(bytes)));
+    host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kBadInput) throw;
     refuse(frame.sequence, error.message());

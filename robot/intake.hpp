@@ -16,7 +16,7 @@ namespace hallway::robot {
 struct IntakeCounts {
   std::uint64_t read = 0;     ///< that the driver gave
   std::uint64_t lost = 0;     ///< that are missing in the driver's sequence
-  std::uint64_t dropped = 0;  ///< that were passed over for a newer one
+  std::uint64_t dropped = 0;  ///< that were passed over for newer ones, or never got their turn
   std::uint64_t refused = 0;  ///< that are not as sample.h says
 };
 
@@ -26,17 +26,16 @@ struct TakenFrame {
   std::int64_t t_ns = 0;
 };
 
-/// Takes frames from a driver, checks them, copies them, and numbers those that plugins are given from 0.
+/// Takes frames from a driver, checks and copies them. One thread.
 class Intake {
  public:
   /// Keeps references. In lock-step a frame that is not as sample.h says is an Error{kBadInput}, else it is refused and counted.
   Intake(host::Driver& driver, const host::RobotInfo& robot);
 
-  /// Waits for a frame, `wait` at most; without lock-step takes the newest that is there. Its bytes replace `bytes`. Throws what the driver
+  /// Waits for a frame, `wait` at most. Its bytes (host/frame_bytes.hpp, under the driver's number) replace `bytes`. Throws what the driver
   /// throws.
-  /// @param iteration  the number that it is given
-  /// @return nothing where there is no frame
-  std::optional<TakenFrame> take(std::chrono::nanoseconds wait, std::uint32_t iteration, std::string& bytes);
+  /// @return nothing where there is no frame, or one that is refused
+  std::optional<TakenFrame> take(std::chrono::nanoseconds wait, std::string& bytes);
 
   /// The driver has said that there are no more frames.
   bool ended() const { return ended_; }
@@ -47,7 +46,7 @@ class Intake {
  private:
   const char* problem_of(const hw_frame_t& frame) const;
   const char* problem_of(const hw_sample_t& sample) const;
-  bool keep(const hw_frame_t& frame, std::uint32_t iteration, std::string& bytes);
+  bool keep(const hw_frame_t& frame, std::string& bytes);
   void refuse(std::uint64_t sequence, const std::string& reason);
 
   host::Driver& driver_;

@@ -31,9 +31,20 @@ hw_drive_command_t command_of(const host::DriveCommand& command) {
 }  // namespace
 
 Loop::Loop(const Parts& parts, const LoopPlan& plan, LoopHooks hooks)
-    : parts_(parts), plan_(plan), hooks_(std::move(hooks)), intake_(parts.driver, parts.robot) {}
+    : parts_(parts),
+      plan_(plan),
+      hooks_(std::move(hooks)),
+      arrivals_(parts.driver, parts.robot, plan.backlog) {}
 
 LoopEnd Loop::run() {
+  struct Stopper {
+    Arrivals& arrivals;
+    ~Stopper() { arrivals.stop(); }
+  } stopper{arrivals_};
+  return run_until_end();
+}
+
+LoopEnd Loop::run_until_end() {
   const Clock::time_point begin = Clock::now();
   for (;;) {
     if (hooks_.stop()) return LoopEnd::kInterrupt;
@@ -42,7 +53,7 @@ LoopEnd Loop::run() {
     tell();
     if (take_frame()) answer_frame();
     if (!alive_ && plan_.on_failure == host::OnFailure::kStop) return LoopEnd::kPlugin;
-    if (intake_.ended() || counts_.iterations > log::kMaxIteration) return LoopEnd::kDriver;
+    if (arrivals_.ended() || counts_.iterations > log::kMaxIteration) return LoopEnd::kDriver;
   }
 }
 
@@ -57,14 +68,17 @@ bool Loop::take_frame() {
     }
     wait = std::chrono::nanoseconds(0);
   }
-  const auto frame = intake_.take(wait, counts_.iterations, current_.bytes);
-  if (!frame) return false;
+  std::swap(arrival_.bytes, current_.bytes);
+  const bool taken = arrivals_.take(wait, tick.has_value(), arrival_);
+  std::swap(arrival_.bytes, current_.bytes);
+  if (!taken) return false;
+  host::set_frame_sequence(std::as_writable_bytes(std::span(current_.bytes)), counts_.iterations);
   const Clock::time_point now = Clock::now();
   if (plan_.tick && !schedule_) schedule_.emplace(now, *plan_.tick).next(now);
-  due_from_ = tick.value_or(now);
-  parts_.gate.frame_came(frame->sequence, frame->t_ns, now);
+  due_from_ = tick.value_or(arrival_.came);
+  parts_.gate.frame_came(arrival_.frame.sequence, arrival_.frame.t_ns, arrival_.came);
   current_.iteration = counts_.iterations;
-  current_.t_ns = frame->t_ns;
+  current_.t_ns = arrival_.frame.t_ns;
   return true;
 }
 
@@ -123,8 +137,9 @@ void Loop::add_counters(const host::Outputs& outputs) {
   for (const host::Counter& counter : outputs.counters())
     counters_.push_back({counter.name.c_str(), counter.value});
   const GateCounts gate = parts_.gate.counts();
-  counters_.push_back({"hallway_frames_lost", static_cast<double>(intake().lost)});
-  counters_.push_back({"hallway_frames_dropped", static_cast<double>(intake().dropped)});
+  const IntakeCounts intake = arrivals_.counts();
+  counters_.push_back({"hallway_frames_lost", static_cast<double>(intake.lost)});
+  counters_.push_back({"hallway_frames_dropped", static_cast<double>(intake.dropped)});
   counters_.push_back({"hallway_deadline_misses", static_cast<double>(counts_.misses)});
   counters_.push_back({"hallway_watchdog_trips", static_cast<double>(gate.trips)});
 }
@@ -160,9 +175,11 @@ void Loop::ask_for_map() {
 
 void Loop::tell() {
   for (const std::string& message : parts_.gate.take_messages()) hooks_.notice(message);
-  if (!intake_.first_refusal().empty() && !std::exchange(told_refusal_, true)) {
-    hooks_.notice("the driver's frames are refused, the first one: " + intake_.first_refusal());
-  }
+  if (told_refusal_) return;
+  const std::string refusal = arrivals_.first_refusal();
+  if (refusal.empty()) return;
+  told_refusal_ = true;
+  hooks_.notice("the driver's frames are refused, the first one: " + refusal);
 }
 
 record::FinalMap Loop::final_map() {

@@ -12,8 +12,8 @@
 #include "host/pipeline.hpp"
 #include "host/plugin_limits.hpp"
 #include "record/failures.hpp"
+#include "robot/arrivals.hpp"
 #include "robot/gate.hpp"
-#include "robot/intake.hpp"
 #include "robot/latency.hpp"
 #include "robot/recorder.hpp"
 #include "robot/schedule.hpp"
@@ -24,7 +24,8 @@ namespace hallway::robot {
 struct LoopPlan {
   std::optional<Clock::duration> tick{};      ///< the schedule's, where the loop has one
   std::optional<Clock::duration> deadline{};  ///< for an answer, from its frame or tick; unset: there is none
-  std::int64_t report_every_ns = 0;           ///< of the frames' time; 0: the map is not asked for
+  std::size_t backlog = 8;           ///< frames that may wait while the plugins are busy; not with a schedule
+  std::int64_t report_every_ns = 0;  ///< of the frames' time; 0: the map is not asked for
   std::optional<Clock::duration> duration{};  ///< after which it ends
   host::OnFailure on_failure = host::OnFailure::kStop;
 };
@@ -60,11 +61,11 @@ class Loop {
 
   Loop(const Parts& parts, const LoopPlan& plan, LoopHooks hooks);
 
-  /// Throws what the driver and the recorder throw. The counts, and what was recorded, stand all the same.
+  /// Throws what the driver and the recorder throw. The counts, and what was recorded, stand all the same. The driver is read only in here.
   LoopEnd run();
 
   const LoopCounts& counts() const { return counts_; }
-  const IntakeCounts& intake() const { return intake_.counts(); }
+  IntakeCounts intake() const { return arrivals_.counts(); }
   const record::Failures& failures() const { return failures_; }
   /// The map at the end: refined, as it stands where that fails, empty where the pipeline has failed before.
   record::FinalMap final_map();
@@ -72,6 +73,7 @@ class Loop {
   void close();
 
  private:
+  LoopEnd run_until_end();
   bool take_frame();
   void answer_frame();
   void hand_on(const host::Outputs& outputs, Clock::time_point now);
@@ -84,9 +86,10 @@ class Loop {
   Parts parts_;
   LoopPlan plan_;
   LoopHooks hooks_;
-  Intake intake_;
+  Arrivals arrivals_;
   std::optional<Schedule> schedule_;
   host::FrameReader reader_;
+  Arrival arrival_;
   FrameRecord current_;
   Clock::time_point due_from_{};  ///< what the current frame's deadline counts from
   bool alive_ = true;

@@ -77,7 +77,7 @@ std::string loop_end_name(LoopEnd end) {
 }
 
 Json print_robot(const RobotFacts& facts) {
-  const IntakeCounts& intake = facts.loop.intake();
+  const IntakeCounts intake = facts.loop.intake();
   Json counters = Json::object();
   for (const host::Counter& counter : facts.driver_counters) counters[counter.name] = counter.value;
   const bool watched = facts.timing.watchdog > Clock::duration::zero();

@@ -77,6 +77,7 @@ class Session {
   LoopPlan loop_plan() const {
     return {.tick = timing_.tick,
             .deadline = timing_.deadline,
+            .backlog = config_.backlog,
             .report_every_ns = static_cast<std::int64_t>(config_.report_every_s * 1e9),
             .duration = plan_.duration,
             .on_failure = config_.limits.on_failure};

@@ -250,6 +250,12 @@ void check_head(const Head& head, std::size_t size) {
 
 }  // namespace
 
+void set_frame_sequence(std::span<std::byte> bytes, std::uint64_t sequence) {
+  constexpr std::size_t kAt = sizeof(Head) + offsetof(hw_frame_t, sequence);
+  if (bytes.size() < kAt + sizeof sequence) throw Error(ErrorCode::kInternal, "these bytes hold no frame");
+  std::memcpy(bytes.data() + kAt, &sequence, sizeof sequence);
+}
+
 const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
   if (bytes.size() > kMaxFrameBytes || bytes.size() % 8 != 0) {
     damaged(0, "head", fmt::format("{} bytes are no frame", bytes.size()));

@@ -41,6 +41,9 @@ std::size_t frame_bytes_size(const hw_frame_t& frame);
 /// element, that these headers do not know are left out. Throws as frame_bytes_size() does, and Error{kInternal} if `bytes` has another size.
 void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes);
 
+/// Gives a frame that write_frame_bytes() wrote another number. Throws Error{kInternal} if `bytes` is too short for a frame.
+void set_frame_sequence(std::span<std::byte> bytes, std::uint64_t sequence);
+
 /// Reads frames from bytes that nobody vouches for, in memory that is used again for the next one.
 class FrameReader {
  public:

@@ -179,5 +179,26 @@ TEST(Pacing, ASlowPluginMissesDeadlinesAndFramesAreDropped) {
   EXPECT_GE(robot.at("timing").at("latency_ms").at("median"), 30.0);
 }
 
+/// Frames of a robot whose plugin takes 100 ms for one of them, ten times as long as the next one needs to come.
+nlohmann::json frames_with_one_slow(const std::string& backlog) {
+  const RobotWorld world("frames = 60\nperiod_ms = 10",
+                         drives("slow_from = 20, slow_frames = 1, slow_ms = 100"),
+                         "[robot]\nwatchdog_ms = 20000\n" + backlog);
+  EXPECT_EQ(world.run().status, 0);
+  return world.manifest().at("robot").at("frames");
+}
+
+TEST(Backlog, FramesThatCameMeanwhileAreAnsweredToo) {
+  const auto frames = frames_with_one_slow("backlog = 60\n");
+  EXPECT_EQ(frames.at("given"), 60);
+  EXPECT_EQ(frames.at("dropped"), 0);
+}
+
+TEST(Backlog, OfMoreThanMayWaitTheOldestAreDropped) {
+  const auto frames = frames_with_one_slow("backlog = 2\n");
+  EXPECT_GE(frames.at("dropped"), 1);
+  EXPECT_EQ(frames.at("given").get<int>() + frames.at("dropped").get<int>(), 60);
+}
+
 }  // namespace
 }  // namespace hallway::test
