@@ -64,6 +64,19 @@ hallway run standing.toml --plugin my_slam/build/my_slam.so --out out --quiet
 hallway replay out/observations.csv --plugin my_slam/build/my_slam.so --out again --quiet
 cmp out/landmarks.csv again/landmarks.csv
 
+# And on a robot, with the installed drivers.
+cat > robot.toml <<'END'
+[driver]
+name = "replay"
+log = "out/run.mcap"
+pace = "fast"
+[[plugin]]
+name = "my_slam/build/my_slam.so"
+END
+hallway-robot run robot.toml --out robot --quiet
+cmp out/landmarks.csv robot/landmarks.csv
+cmp out/trajectory.tum robot/trajectory.tum
+
 # The same source by pkg-config, without CMake.
 export PKG_CONFIG_PATH="$work/opt/hallway/lib/pkgconfig"
 # shellcheck disable=SC2046
@@ -74,8 +87,9 @@ hallway plugin check by_hand.so | grep -q 'exports *hw_entry$' || fail "a plugin
 # A plugin of the repository, out of tree: the same answers as the one that was built with the program.
 cmake -S "$source/tests/package/slam_point" -B slam_point "-DSOURCES=$source/plugins/slam_point" > slam_point.log
 cmake --build slam_point >> slam_point.log
-hallway run "$source/maps/office.toml" --steps 60 --out inside --quiet
-hallway run "$source/maps/office.toml" --steps 60 --plugin slam_point/slam_point.so --out outside --quiet
+office=$work/opt/hallway/share/hallway/maps/office.toml
+hallway run "$office" --steps 60 --out inside --quiet
+hallway run "$office" --steps 60 --plugin slam_point/slam_point.so --out outside --quiet
 for file in trajectory.tum landmarks.csv; do
   cmp "inside/$file" "outside/$file"
 done
