@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/text.hpp"
@@ -45,8 +46,11 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
     for (const host::DriverInfo& info : listed.drivers) {
       text += fmt::format("{:<12} {:<8} {}\n{:<21} {}\n", info.id, info.version, info.description, "",
                           printable(listed.file.string(), 4096));
+      std::size_t width = 0;
+      for (const host::DriverSettingInfo& setting : info.settings)
+        width = std::max(width, setting.key.size());
       for (const host::DriverSettingInfo& setting : info.settings) {
-        text += fmt::format("  {:<10} {}\n", setting.key, setting.help);
+        text += fmt::format("  {:<{}}  {}\n", setting.key, width, setting.help);
       }
     }
     if (!listed.problem.empty())

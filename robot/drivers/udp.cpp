@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "host/c_sensor.hpp"
 #include "link/host_end.hpp"
 #include "link/lossy_wire.hpp"
 #include "link/udp_wire.hpp"
@@ -100,19 +101,8 @@ class RobotInfo {
  public:
   explicit RobotInfo(const link_::Description& description) {
     sensors_.reserve(description.sensors.size());
-    for (const hallway::host::SensorInfo& sensor : description.sensors) {
-      hw_sensor_info_t& info = sensors_.emplace_back();
-      info.size = sizeof info;
-      info.id = sensor.id;
-      info.kind = sensor.kind;
-      info.name = sensor.name.c_str();
-      info.T_body_sensor = sensor.T_body_sensor;
-      info.horizontal_fov = sensor.horizontal_fov;
-      info.vertical_fov = sensor.vertical_fov;
-      info.min_range_m = sensor.min_range_m;
-      info.max_range_m = sensor.max_range_m;
-      std::copy_n(sensor.noise_m, 3, info.noise_m);
-    }
+    for (const hallway::host::SensorInfo& sensor : description.sensors)
+      sensors_.push_back(hallway::host::c_sensor(sensor));
     for (const hw_sensor_info_t& info : sensors_) pointers_.push_back(&info);
     info_.size = sizeof info_;
     info_.flags = description.lock_step ? HW_ROBOT_LOCK_STEP : 0;
