@@ -4,22 +4,8 @@
 
 #include <cstdlib>
 
+#include "host/no_leak_check.hpp"
 #include "host/plugin_server.hpp"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define HALLWAY_ADDRESS_SANITIZER
-#endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define HALLWAY_ADDRESS_SANITIZER
-#endif
-
-#ifdef HALLWAY_ADDRESS_SANITIZER
-/// Looking for leaks takes what a confined process may not do: one that ends itself would end with another status than its own.
-extern "C" const char* __asan_default_options() {
-  return "detect_leaks=0";
-}
-#endif
 
 int main(int argc, char** argv) {
   if (argc != 2) {
