@@ -251,8 +251,9 @@ TEST_F(Batch, AFullDiskIsAResultLikeAnyOther) {
                               " --quiet --out " + world_.out("batch");
   const Ended ended = Process({"/bin/sh", "-c", command}).wait();
   EXPECT_EQ(ended.status, 1) << ended.err;
-  ASSERT_EQ(results().at("cells").size(), 2u);
-  for (const Json& cell : results().at("cells")) {
+  const Json table = results();
+  ASSERT_EQ(table.at("cells").size(), 2u);
+  for (const Json& cell : table.at("cells")) {
     EXPECT_EQ(cell.at("status"), 3) << cell.dump(1);
     EXPECT_TRUE(cell.at("metrics").is_null());
   }
