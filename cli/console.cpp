@@ -98,6 +98,7 @@ void prepare_standard_streams() {
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) == -1) return;
   }
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void catch_interrupts(int wake) {

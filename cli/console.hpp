@@ -21,7 +21,7 @@ void print_json(const nlohmann::ordered_json& document);
 void print_warning(const std::string& text);
 
 /// Makes sure that descriptors 0, 1 and 2 are open, so that no file of ours takes their place, and that a reader that goes
-/// away is an error of write() and not the end of the program.
+/// away, and a file that becomes larger than it may, are errors of write() and not the end of the program.
 void prepare_standard_streams();
 
 /// From now on Ctrl-C and SIGTERM set a flag instead of ending the program at once; the second one ends it.
