@@ -62,6 +62,7 @@ TEST(Futex, WakesTheOneWhoWaits) {
   EXPECT_EQ(word, 1u);
 }
 
+// Of these two the test is that they return: one that slept would be ended by ctest.
 TEST(Futex, DoesNotSleepWhereTheWordHasChanged) {
   const FutexWord word{7};
   futex_wait(word, 6, std::chrono::hours(1));
