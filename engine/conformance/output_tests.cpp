@@ -65,7 +65,8 @@ void puts_in_turn(const Subject& subject, Remains&) {
 
 constexpr Test kTests[] = {
     {"outputs-valid",
-     "What process() puts is as output.h says: finite, unit quaternions, distinct ids, counts that match.",
+     "What process() puts is as output.h and planes.h say: finite, unit quaternions and normals, distinct "
+     "ids, counts that match.",
      puts_valid_outputs},
     {"outputs-declared", "Only outputs are put whose kinds the plugin declares.", puts_what_it_declares},
     {"outputs-reserved", "Flags and reserved members of what is put are 0.", writes_zeros},

@@ -7,29 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <limits>
 
 #include "host/plugin_info.hpp"
+#include "host/strided.hpp"
 
 namespace hallway::host {
 namespace {
 
-// More than this is taken for a wild number. A landmark takes 40 bytes.
-constexpr std::uint64_t kMaxElements = 1ull << 26;
 constexpr std::size_t kMaxCounterName = 64;
-constexpr double kUnitTolerance = 1e-6;
-
-struct Malformed {
-  std::string text;
-};
-
-void demand(bool condition, const char* text) {
-  if (!condition) throw Malformed{text};
-}
-
-bool is_finite(const double (&numbers)[3]) {
-  return std::isfinite(numbers[0]) && std::isfinite(numbers[1]) && std::isfinite(numbers[2]);
-}
 
 /// What is wrong with a pose, null if nothing.
 const char* pose_problem(const hw_pose_t& pose) {
@@ -40,33 +25,6 @@ const char* pose_problem(const hw_pose_t& pose) {
   if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return "a quaternion that is not of unit length";
   return nullptr;
 }
-
-/// A list as a plugin hands it over: `count` elements of type T, `stride` bytes apart.
-template <typename T>
-class Strided {
- public:
-  Strided(const void* first, std::uint64_t count, std::uint64_t stride)
-      : first_(static_cast<const char*>(first)), count_(count), stride_(stride) {
-    if (count > kMaxElements) {
-      throw Malformed{fmt::format("a list of {} elements, more than {}", count, kMaxElements)};
-    }
-    if (stride % 8 != 0 || stride < sizeof(T)) {
-      throw Malformed{fmt::format("a list with a stride of {} bytes", stride)};
-    }
-    demand(first != nullptr || count == 0, "a list that is null");
-  }
-  std::size_t size() const { return count_; }
-  T operator[](std::size_t i) const {
-    T value;
-    std::memcpy(&value, first_ + i * stride_, sizeof value);
-    return value;
-  }
-
- private:
-  const char* first_;
-  std::size_t count_;
-  std::size_t stride_;
-};
 
 template <typename Payload>
 const Payload& payload_of(const hw_output_t& output) {
@@ -95,6 +53,7 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   outputs_.landmarks_.clear();
   outputs_.association_ranges_.clear();
   outputs_.association_ids_.clear();
+  outputs_.planes_.clear();
   outputs_.submaps_.clear();
   outputs_.submap_members_.clear();
   outputs_.n_counters_ = 0;
@@ -130,6 +89,8 @@ hw_status_t OutputCollector::copy(const hw_output_t& output) {
       return copy_associations(payload_of<hw_associations_t>(output));
     case HW_OUTPUT_SUBMAPS:
       return copy_submaps(payload_of<hw_submaps_t>(output));
+    case HW_OUTPUT_PLANES:
+      return copy_planes(payload_of<hw_planes_t>(output));
     case HW_OUTPUT_COUNTERS:
       return copy_counters(payload_of<hw_counters_t>(output));
     default:
@@ -181,15 +142,17 @@ hw_status_t OutputCollector::copy_landmarks(const hw_landmarks_t& landmarks) {
   return HW_OK;
 }
 
+std::uint64_t OutputCollector::elements_of(std::uint32_t sample) const {
+  demand(frame_ != nullptr, "they belong to a frame, and this call has none");
+  if (sample >= frame_->n_samples)
+    throw Malformed{fmt::format("sample {} of a frame of {}", sample, frame_->n_samples)};
+  demand(frame_->samples[sample]->kind == HW_SAMPLE_POINTS, "for a sample that has no elements");
+  return static_cast<const hw_points_t*>(frame_->samples[sample]->payload)->count;
+}
+
 hw_status_t OutputCollector::copy_associations(const hw_associations_t& associations) {
   demand(HW_HAS(&associations, hw_associations_t, landmark_ids), "a payload that is too small");
-  demand(frame_ != nullptr, "they belong to a frame, and this call has none");
-  if (associations.sample >= frame_->n_samples) {
-    throw Malformed{fmt::format("sample {} of a frame of {}", associations.sample, frame_->n_samples)};
-  }
-  const hw_sample_t& sample = *frame_->samples[associations.sample];
-  demand(sample.kind == HW_SAMPLE_POINTS, "for a sample that has no elements");
-  const std::uint64_t expected = static_cast<const hw_points_t*>(sample.payload)->count;
+  const std::uint64_t expected = elements_of(associations.sample);
   if (associations.count != expected) {
     throw Malformed{fmt::format("{} for a sample of {} points", associations.count, expected)};
   }
@@ -200,6 +163,13 @@ hw_status_t OutputCollector::copy_associations(const hw_associations_t& associat
   outputs_.association_ids_.resize(first + ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) outputs_.association_ids_[first + i] = ids[i];
   outputs_.association_ranges_.push_back({index, first, ids.size()});
+  return HW_OK;
+}
+
+hw_status_t OutputCollector::copy_planes(const hw_planes_t& planes) {
+  demand(HW_HAS(&planes, hw_planes_t, members), "a payload that is too small");
+  const std::uint64_t elements = elements_of(planes.sample);
+  outputs_.planes_.add(planes, sample_indices_[planes.sample], elements);
   return HW_OK;
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "host/plane_lists.hpp"
+
 namespace hallway::host {
 
 /// The pose that a plugin put.
@@ -45,6 +47,8 @@ class Outputs {
   /// Per element of that sample of the frame, the landmark it was taken for, or HW_NO_LANDMARK; nothing if
   /// not put.
   std::optional<std::span<const std::uint64_t>> associations(std::uint32_t sample) const;
+  /// The planes found in that sample of the frame; nothing if not put.
+  std::optional<PlaneList> planes(std::uint32_t sample) const { return planes_.of(sample); }
   /// The submaps, in the order put.
   std::span<const hw_submap_t> submaps() const { return submaps_; }
   /// The landmarks of a submap of this object.
@@ -66,6 +70,7 @@ class Outputs {
   std::vector<hw_landmark_t> landmarks_;
   std::vector<AssociationRange> association_ranges_;
   std::vector<std::uint64_t> association_ids_;
+  PlaneLists planes_;
   std::vector<hw_submap_t> submaps_;
   std::vector<std::uint64_t> submap_members_;
   std::vector<Counter> counters_;  ///< the first n_counters_ count; the others keep their memory
@@ -93,9 +98,12 @@ class OutputCollector {
   hw_status_t copy_drive_command(const hw_drive_command_t& command);
   hw_status_t copy_landmarks(const hw_landmarks_t& landmarks);
   hw_status_t copy_associations(const hw_associations_t& associations);
+  hw_status_t copy_planes(const hw_planes_t& planes);
   hw_status_t copy_submaps(const hw_submaps_t& submaps);
   hw_status_t copy_counters(const hw_counters_t& counters);
   hw_status_t fault(hw_status_t status, std::string text);
+  /// The number of elements of a sample that an output is about. Throws Malformed where there is no such sample.
+  std::uint64_t elements_of(std::uint32_t sample) const;
   void check_distinct_landmarks();
 
   Outputs outputs_;

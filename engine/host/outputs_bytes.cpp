@@ -65,6 +65,26 @@ void read_associations(ByteReader& reader, OutputCollector& collector) {
   }
 }
 
+void read_planes(ByteReader& reader, OutputCollector& collector) {
+  const std::size_t n = reader.get_count();
+  for (std::size_t i = 0; i < n; ++i) {
+    auto planes = sized<hw_planes_t>();
+    planes.sample = reader.get<std::uint32_t>();
+    planes.stride = sizeof(hw_plane_t);
+    planes.hull_stride = sizeof(hw_point3_t);
+    const auto list = reader.get_list<hw_plane_t>();
+    const auto hull_points = reader.get_list<hw_point3_t>();
+    const auto members = reader.get_list<std::uint32_t>();
+    planes.count = list.count;
+    planes.planes = list.first;
+    planes.n_hull_points = hull_points.count;
+    planes.hull_points = hull_points.first;
+    planes.n_members = members.count;
+    planes.members = static_cast<const std::uint32_t*>(members.first);
+    put(collector, HW_OUTPUT_PLANES, &planes);
+  }
+}
+
 void read_submaps(ByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_submap_t>();
   const auto members = reader.get_list<std::uint64_t>();
@@ -103,6 +123,20 @@ void write_associations(ByteWriter& writer, const Outputs& outputs, std::uint32_
   }
 }
 
+void write_planes(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
+  std::uint64_t n = 0;
+  for (std::uint32_t sample = 0; sample < n_samples; ++sample) n += outputs.planes(sample) ? 1u : 0u;
+  writer.put(n);
+  for (std::uint32_t sample = 0; sample < n_samples; ++sample) {
+    const auto list = outputs.planes(sample);
+    if (!list) continue;
+    writer.put(sample);
+    writer.put_list(list->planes);
+    writer.put_list(list->hull_points);
+    writer.put_list(list->members);
+  }
+}
+
 }  // namespace
 
 void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
@@ -117,6 +151,7 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
   }
   writer.put_list(outputs.landmarks());
   write_associations(writer, outputs, n_samples);
+  write_planes(writer, outputs, n_samples);
   writer.put_list(outputs.submaps());
   writer.put_list(outputs.all_members());
   writer.put<std::uint64_t>(outputs.counters().size());
@@ -131,6 +166,7 @@ void read_outputs(ByteReader& reader, OutputCollector& collector) {
   read_drive_command(reader, collector);
   read_landmarks(reader, collector);
   read_associations(reader, collector);
+  read_planes(reader, collector);
   read_submaps(reader, collector);
   read_counters(reader, collector);
 }

@@ -15,6 +15,7 @@
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
 #include "log/mcap_writer.hpp"
+#include "log/planes.hpp"
 #include "log/poses.hpp"
 
 namespace hallway::log {
@@ -32,6 +33,7 @@ inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
 inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
+inline constexpr std::string_view kPlanes = "/hallway/output/planes";    ///< found in the readings
 inline constexpr std::string_view kMap = "/hallway/output/map";          ///< at the end, as re-solved
 }  // namespace topics
 
@@ -79,6 +81,8 @@ class RunLogWriter {
   void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
   void add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids);
   void add_command(const FrameStamp& stamp, const CommandAnswer& command);
+  /// The planes that were found in the frame's reading.
+  void add_planes(const FrameStamp& stamp, std::span<const PlaneAnswer> planes);
   /// The map at the end, under the stamp of the last frame.
   void add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
                std::span<const IdPair> submap_members);

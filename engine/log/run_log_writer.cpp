@@ -41,6 +41,28 @@ Json submaps_json(std::span<const IdPair> members) {
   return submaps;
 }
 
+template <typename List>
+Json points_json(const List& points) {
+  Json list = Json::array();
+  for (const std::array<double, 3>& point : points) list.push_back(numbers(point));
+  return list;
+}
+
+Json plane_json(const PlaneAnswer& answer) {
+  const Plane& plane = answer.plane;
+  const auto scalars = numbers(std::array{plane.offset_m, plane.rms_m, plane.exclusive_share});
+  return {{"id", plane.id},
+          {"normal", numbers(plane.normal)},
+          {"offset_m", scalars[0]},
+          {"centroid_m", numbers(plane.centroid_m)},
+          {"corners_m", points_json(plane.corners_m)},
+          {"points", plane.points},
+          {"rms_m", scalars[1]},
+          {"exclusive_share", scalars[2]},
+          {"hull_m", points_json(answer.hull_m)},
+          {"members", answer.members}};
+}
+
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -121,6 +143,12 @@ void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& com
     throw Error(ErrorCode::kInternal, "a number for a log is not finite");
   add(topics::kCommand, stamp,
       text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
+}
+
+void RunLogWriter::add_planes(const FrameStamp& stamp, std::span<const PlaneAnswer> planes) {
+  Json list = Json::array();
+  for (const PlaneAnswer& plane : planes) list.push_back(plane_json(plane));
+  add(topics::kPlanes, stamp, text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"planes", list}}));
 }
 
 void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,

@@ -5,6 +5,7 @@
 #include "log/timing.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
+#include "record/plane_answers.hpp"
 
 namespace hallway::record {
 namespace {
@@ -37,12 +38,20 @@ void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::O
                                                               .linear_m_s = command->linear_m_s,
                                                               .angular_rad_s = command->angular_rad_s});
   }
+  if (const auto planes = outputs.planes(0)) add_planes(iteration, *planes);
+}
+
+void AnswerTables::add_planes(std::uint32_t iteration, const host::PlaneList& list) {
+  if (!planes_) planes_.emplace(folder_ / files::kPlanes, ',', log::kPlaneColumns);
+  for (const hw_plane_t& plane : list.planes)
+    log::add_row(planes_->next_row(), log::IterationPlane{iteration, plane_row(plane)});
 }
 
 void AnswerTables::close() {
   trajectory_.close();
   times_.close();
   if (commands_) commands_->close();
+  if (planes_) planes_->close();
 }
 
 }  // namespace hallway::record

@@ -15,6 +15,7 @@ inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
 inline constexpr const char* kTrueTrajectory = "truth.tum";
 inline constexpr const char* kTrajectory = "trajectory.tum";
 inline constexpr const char* kCommands = "commands.csv";
+inline constexpr const char* kPlanes = "planes.csv";
 inline constexpr const char* kLandmarks = "landmarks.csv";
 inline constexpr const char* kLandmarksPly = "landmarks.ply";
 inline constexpr const char* kMatches = "matches.csv";

@@ -103,6 +103,32 @@ AT(hw_submaps_t, submaps, 16);
 AT(hw_submaps_t, n_members, 24);
 AT(hw_submaps_t, members, 32);
 
+SIZE(hw_plane_t, 216);
+AT(hw_plane_t, id, 0);
+AT(hw_plane_t, normal, 8);
+AT(hw_plane_t, offset_m, 32);
+AT(hw_plane_t, centroid, 40);
+AT(hw_plane_t, corners, 64);
+AT(hw_plane_t, n_points, 160);
+AT(hw_plane_t, rms_m, 168);
+AT(hw_plane_t, exclusive_share, 176);
+AT(hw_plane_t, first_hull, 184);
+AT(hw_plane_t, n_hull, 192);
+AT(hw_plane_t, first_member, 200);
+AT(hw_plane_t, n_members, 208);
+
+SIZE(hw_planes_t, 64);
+AT(hw_planes_t, size, 0);
+AT(hw_planes_t, stride, 4);
+AT(hw_planes_t, count, 8);
+AT(hw_planes_t, planes, 16);
+AT(hw_planes_t, sample, 24);
+AT(hw_planes_t, hull_stride, 28);
+AT(hw_planes_t, n_hull_points, 32);
+AT(hw_planes_t, hull_points, 40);
+AT(hw_planes_t, n_members, 48);
+AT(hw_planes_t, members, 56);
+
 SIZE(hw_counter_t, 16);
 AT(hw_counter_t, name, 0);
 AT(hw_counter_t, value, 8);
@@ -232,6 +258,7 @@ static_assert(HW_PARAM_BOOL == 1 && HW_PARAM_INT == 2 && HW_PARAM_DOUBLE == 3 &&
 static_assert(HW_LOG_DEBUG == 0 && HW_LOG_INFO == 1 && HW_LOG_WARNING == 2 && HW_LOG_ERROR == 3,
               "log levels");
 static_assert(HW_SAMPLE_TRACKED == 1u && HW_REPORT_REFINE == 1u && HW_NO_LANDMARK == UINT64_MAX, "flags");
+static_assert(HW_NO_SAMPLE == UINT32_MAX, "no sample");
 
 SIZE(hw_setting_t, 16);
 AT(hw_setting_t, key, 0);

@@ -32,6 +32,20 @@ TEST(Layout, PointsAreReachedByStride) {
   EXPECT_EQ(hw_point_at(&points, 1)->z, 6);
 }
 
+TEST(Layout, PlanesAreReachedByStride) {
+  struct {
+    hw_plane_t plane;
+    double more;
+  } list[2] = {};
+  list[1].plane.id = 5;
+  hw_planes_t planes{};
+  planes.size = sizeof planes;
+  planes.stride = sizeof list[0];
+  planes.count = 2;
+  planes.planes = list;
+  EXPECT_EQ(hw_plane_at(&planes, 1)->id, 5u);
+}
+
 TEST(Status, EveryCodeHasItsOwnName) {
   EXPECT_STREQ(hw_status_name(HW_OK), "HW_OK");
   EXPECT_STREQ(hw_status_name(HW_ERROR_RANGE), "HW_ERROR_RANGE");

@@ -71,6 +71,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"too_many_landmarks", "landmarks: a list of 2147483648 elements"},
                     Case{"bad_stride", "landmarks: a list with a stride of 36 bytes"},
                     Case{"null_list", "landmarks: a list that is null"},
+                    Case{"nan_plane", "planes: plane 7 has a number that is not finite"},
+                    Case{"long_normal", "plane 7 has a normal that is not of unit length"},
+                    Case{"normal_away", "plane 7 has a normal that points away"},
+                    Case{"share_above_one", "plane 7 has an exclusive_share outside"},
+                    Case{"centroid_off_plane", "plane 7 has a centroid that is not on it"},
+                    Case{"corner_off_plane", "plane 7 has a corner that is not on it"},
+                    Case{"clockwise_corners", "plane 7 has corners that run clockwise"},
+                    Case{"hull_off_plane", "plane 8 has a hull point that is not on it"},
+                    Case{"hull_beyond_points", "plane 8 has hull points beyond their list"},
+                    Case{"members_beyond_list", "plane 8 has members beyond their list"},
+                    Case{"members_of_another", "plane 8 has members of the plane before it"},
+                    Case{"members_not_counted", "plane 7 has 1 members and 2 points"},
+                    Case{"member_of_no_point", "plane 8 has member 2 of a sample of 2"},
+                    Case{"members_descend", "plane 7 has members that do not ascend"},
+                    Case{"same_plane_twice", "planes: two of them have the id 7"},
+                    Case{"planes_of_no_sample", "planes: sample 1 of a frame of 1"},
+                    Case{"planes_twice", "planes: a second time for one sample"},
                     Case{"submap_beyond_members", "submap 1 has members beyond"},
                     Case{"nan_submap", "submap 1 has a position that is not finite"},
                     Case{"nan_counter", "fill_level is not finite"},
@@ -82,6 +99,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(MisbehavingPlugins, OneThatDoesNothingWrongPasses) {
   EXPECT_FALSE(run_with_fault("none"));
+}
+
+TEST(MisbehavingPlugins, PlanesThatAreRightPass) {
+  EXPECT_FALSE(run_with_fault("good_planes"));
 }
 
 TEST(MisbehavingPlugins, AnOutputOfAnUnknownKindIsSkipped) {

@@ -20,6 +20,7 @@
 #include "growth.h"
 #include "host.h"
 #include "output.h"
+#include "planes.h"
 #include "plugin.h"
 #include "pose.h"
 #include "robot.h"

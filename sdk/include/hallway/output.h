@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "growth.h"
+#include "planes.h"
 #include "pose.h"
 
 /// Kinds of outputs, and what hw_output_t.payload points to. Numbers without a payload type are reserved. A
@@ -14,7 +15,7 @@ enum {
   HW_OUTPUT_ASSOCIATIONS = 3,   ///< hw_associations_t; at most one for a sample, in process() only
   HW_OUTPUT_SUBMAPS = 4,        ///< hw_submaps_t; several in a call are one list
   HW_OUTPUT_COUNTERS = 5,       ///< hw_counters_t; several in a call are one list
-  HW_OUTPUT_PLANES = 6,         ///< reserved
+  HW_OUTPUT_PLANES = 6,         ///< hw_planes_t; at most one for a sample, in process() only; since 1.1
   HW_OUTPUT_SEGMENTS = 7,       ///< reserved
   HW_OUTPUT_TOPOLOGY = 8,       ///< reserved
   HW_OUTPUT_DRIVE_COMMAND = 9,  ///< hw_drive_command_t; at most one in a call, in process() only

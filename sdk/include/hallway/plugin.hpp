@@ -124,6 +124,24 @@ class Host {
     put(HW_OUTPUT_SUBMAPS, payload);
   }
 
+  /// Answers the planes found in sample `sample` of the frame; their hulls are ranges of `hull_points`, their points
+  /// ranges of `members`.
+  void put_planes(std::uint32_t sample, const std::vector<hw_plane_t>& planes,
+                  const std::vector<hw_point3_t>& hull_points,
+                  const std::vector<std::uint32_t>& members) const {
+    hw_planes_t payload{};
+    payload.stride = sizeof(hw_plane_t);
+    payload.count = planes.size();
+    payload.planes = planes.data();
+    payload.sample = sample;
+    payload.hull_stride = sizeof(hw_point3_t);
+    payload.n_hull_points = hull_points.size();
+    payload.hull_points = hull_points.data();
+    payload.n_members = members.size();
+    payload.members = members.data();
+    put(HW_OUTPUT_PLANES, payload);
+  }
+
   /// Answers how the robot shall move from now on: forward, and to the left about its vertical axis.
   void put_drive_command(double linear_m_s, double angular_rad_s) const {
     hw_drive_command_t payload{};

@@ -12,7 +12,7 @@ extern "C" {
 /// Kinds of samples, and what hw_sample_t.payload points to. Numbers without a payload type are reserved.
 enum {
   HW_SAMPLE_POINTS = 1,      ///< hw_points_t
-  HW_SAMPLE_PLANES = 2,      ///< reserved
+  HW_SAMPLE_PLANES = 2,      ///< hw_planes_t (planes.h); since 1.1
   HW_SAMPLE_SEGMENTS = 3,    ///< reserved
   HW_SAMPLE_RANGE_SCAN = 4,  ///< reserved
   HW_SAMPLE_BUMP = 5,        ///< reserved

@@ -57,6 +57,9 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
       for (std::uint64_t i = 0; i < points.count; ++i) x_sum += hw_point_at(&points, i)->x;
       host().put_associations(k, ids);
     }
+#if HW_ABI_MINOR >= 1
+    put_plane();
+#endif
     host().put_pose({{x_sum, 0, 0}, {1, 0, 0, 0}});
     host().put_drive_command(0.5, -x_sum);
     const hw_counter_t counters[] = {
@@ -77,6 +80,20 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
   }
 
  private:
+#if HW_ABI_MINOR >= 1
+  /// Of the first reading's only point.
+  void put_plane() const {
+    hw_plane_t plane{};
+    plane.id = 3;
+    plane.normal[0] = -1;
+    plane.offset_m = -1;
+    plane.centroid[0] = 1;
+    for (auto& corner : plane.corners) corner[0] = 1;
+    plane.n_points = plane.n_members = 1;
+    host().put_planes(0, {plane}, {}, {0});
+  }
+#endif
+
   int first_ = 1;
   double second_ = 2;
   double host_has_grown_ = 0, activation_has_grown_ = 0, sensor_has_grown_ = 0;

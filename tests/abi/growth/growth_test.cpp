@@ -25,6 +25,7 @@ struct Build {
   const char* name;
   const char* file;
   bool has_grown;
+  bool knows_planes = true;
 };
 
 class Growth : public testing::TestWithParam<Build> {
@@ -89,6 +90,16 @@ TEST_P(Growth, OutputsOfAFrameArrive) {
   EXPECT_EQ(std::vector<std::uint64_t>(ids->begin(), ids->end()), std::vector<std::uint64_t>({2, 2, 2}));
 }
 
+TEST_P(Growth, PlanesArriveWhereTheyAreKnown) {
+  plugin_.activate(three_sensors());
+  const auto planes = process_three_samples().planes(0);
+  ASSERT_EQ(planes.has_value(), GetParam().knows_planes);
+  if (!planes) return;
+  ASSERT_EQ(planes->planes.size(), 1u);
+  EXPECT_EQ(planes->planes[0].id, 3u);
+  EXPECT_EQ(planes->members_of(planes->planes[0]).size(), 1u);
+}
+
 TEST_P(Growth, TheMapArrives) {
   plugin_.activate(three_sensors());
   const Outputs& map = plugin_.report(true);
@@ -118,7 +129,7 @@ TEST_P(Growth, ReasonsOfFailuresArrive) {
 
 INSTANTIATE_TEST_SUITE_P(Plugins, Growth,
                          testing::Values(Build{"OfToday", GROWTH_PLUGIN_TODAY, false},
-                                         Build{"OfVersion1_0", GROWTH_PLUGIN_FROZEN, false},
+                                         Build{"OfVersion1_0", GROWTH_PLUGIN_FROZEN, false, false},
                                          Build{"Grown", GROWTH_PLUGIN_GROWN, true}),
                          [](const auto& instance) { return instance.param.name; });
 

@@ -34,6 +34,19 @@ void put_everything(OutputCollector& collector) {
   const std::uint64_t ids[]{7, HW_NO_LANDMARK, 9};
   hw_associations_t associations{sizeof associations, 0, 3, ids};
   put(collector, HW_OUTPUT_ASSOCIATIONS, &associations);
+  hw_plane_t planes[2]{};
+  for (hw_plane_t& plane : planes) {
+    plane.normal[1] = 1;
+    plane.n_points = 2;
+  }
+  planes[1].id = 4;
+  planes[1].n_members = 2;
+  planes[1].n_hull = 1;
+  const hw_point3_t hull[]{{0, 0, 0}};
+  const std::uint32_t elements[]{0, 2};
+  const hw_planes_t in_planes{
+      sizeof in_planes, sizeof(hw_plane_t), 2, planes, 0, sizeof(hw_point3_t), 1, hull, 2, elements};
+  put(collector, HW_OUTPUT_PLANES, &in_planes);
   const std::uint64_t members[]{7, 9, 7};
   const hw_submap_t parts[]{{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}, {2, {{0, 0, 1}, {0, 0, 0, 1}}, 2, 1}};
   hw_submaps_t submaps{sizeof submaps, sizeof(hw_submap_t), 2, parts, 3, members};
@@ -85,6 +98,12 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   ASSERT_EQ(outputs.landmarks().size(), 2u);
   EXPECT_EQ(outputs.landmarks()[1].position[2], 6);
   EXPECT_TRUE(std::ranges::equal(*outputs.associations(0), std::vector<std::uint64_t>{7, HW_NO_LANDMARK, 9}));
+  const auto planes = outputs.planes(0);
+  ASSERT_TRUE(planes && planes->planes.size() == 2);
+  EXPECT_EQ(planes->planes[1].id, 4u);
+  EXPECT_EQ(planes->planes[1].normal[1], 1);
+  EXPECT_TRUE(std::ranges::equal(planes->members_of(planes->planes[1]), std::vector<std::uint32_t>{0, 2}));
+  EXPECT_EQ(planes->hull_of(planes->planes[1]).size(), 1u);
   ASSERT_EQ(outputs.submaps().size(), 2u);
   EXPECT_TRUE(std::ranges::equal(outputs.members(outputs.submaps()[1]), std::vector<std::uint64_t>{7}));
   EXPECT_EQ(outputs.counters()[1].name, "a_long_name_of_a_counter");
@@ -119,6 +138,12 @@ TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
     }
     for (const hw_landmark_t& landmark : reader_.outputs().landmarks()) {
       EXPECT_TRUE(std::isfinite(landmark.position[0]));
+    }
+    if (const auto planes = reader_.outputs().planes(0)) {
+      for (const hw_plane_t& plane : planes->planes) {
+        EXPECT_TRUE(std::isfinite(plane.offset_m));
+        for (const std::uint32_t member : planes->members_of(plane)) EXPECT_LT(member, 3u);
+      }
     }
     for (const hw_submap_t& submap : reader_.outputs().submaps()) {
       EXPECT_LE(reader_.outputs().members(submap).size(), 3u);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "host/frame_builder.hpp"
@@ -24,6 +25,41 @@ hw_status_t put_associations(OutputCollector& collector, std::uint32_t sample,
   payload.count = ids.size();
   payload.landmark_ids = ids.data();
   return put(collector, HW_OUTPUT_ASSOCIATIONS, payload);
+}
+
+/// A plane two metres above the sensor with one member and one point of its hull, both the first of their lists.
+hw_plane_t ceiling(std::uint64_t id) {
+  hw_plane_t plane{};
+  plane.id = id;
+  plane.normal[2] = -1;
+  plane.offset_m = -2;
+  plane.centroid[2] = 2;
+  const double corners[4][3] = {{0, 0, 2}, {0, 1, 2}, {1, 1, 2}, {1, 0, 2}};
+  std::copy(&corners[0][0], &corners[0][0] + 12, &plane.corners[0][0]);
+  plane.n_points = plane.n_members = plane.n_hull = 1;
+  return plane;
+}
+
+/// Planes as a later version might have them, with a member more.
+struct LongerPlane {
+  hw_plane_t plane;
+  double more;
+};
+
+hw_status_t put_planes(OutputCollector& collector, std::uint32_t sample,
+                       const std::vector<LongerPlane>& planes, const std::vector<std::uint32_t>& members) {
+  const std::vector<hw_point3_t> hull(planes.size(), {0.5, 0.5, 2});
+  hw_planes_t payload{};
+  payload.stride = sizeof(LongerPlane);
+  payload.count = planes.size();
+  payload.planes = planes.data();
+  payload.sample = sample;
+  payload.hull_stride = sizeof(hw_point3_t);
+  payload.n_hull_points = hull.size();
+  payload.hull_points = hull.data();
+  payload.n_members = members.size();
+  payload.members = members.data();
+  return put(collector, HW_OUTPUT_PLANES, payload);
 }
 
 /// Landmarks as a later version might have them, with a member more.
@@ -134,6 +170,95 @@ TEST(Outputs, MembersOfSeveralListsOfSubmapsAreKeptApart) {
   ASSERT_EQ(outputs.submaps().size(), 2u);
   EXPECT_EQ(outputs.members(outputs.submaps()[0])[0], 1u);
   EXPECT_EQ(outputs.members(outputs.submaps()[1])[0], 11u);
+}
+
+/// A frame of a reading of one point and one of three, known as samples 4 and 9.
+class Planes : public testing::Test {
+ protected:
+  Planes() {
+    builder_.begin(0, 0);
+    builder_.add_points(0) = {{0, 0, 2}};
+    builder_.add_points(1) = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+    collector_.begin(&builder_.finish(), indices_);
+  }
+
+  FrameBuilder builder_;
+  std::vector<std::uint32_t> indices_{4, 9};
+  OutputCollector collector_;
+};
+
+TEST_F(Planes, AreReadByTheirStrideAndKnownByTheIndexInTheWholeFrame) {
+  std::vector<LongerPlane> planes = {{ceiling(7), -1}, {ceiling(3), -1}};
+  planes[1].plane.first_hull = 1;
+  planes[1].plane.first_member = 1;
+  planes[1].plane.n_points = planes[1].plane.n_members = 2;
+  EXPECT_EQ(put_planes(collector_, 0, {{ceiling(1), -1}}, {0}), HW_OK);
+  EXPECT_EQ(put_planes(collector_, 1, planes, {2, 0, 1}), HW_OK);
+  EXPECT_EQ(collector_.finish(), "");
+  EXPECT_FALSE(collector_.outputs().planes(1));
+  ASSERT_TRUE(collector_.outputs().planes(4));
+  const PlaneList list = *collector_.outputs().planes(9);
+  ASSERT_EQ(list.planes.size(), 2u);
+  EXPECT_EQ(list.planes[1].id, 3u);
+  EXPECT_EQ(list.planes[1].corners[2][1], 1);
+  EXPECT_TRUE(std::ranges::equal(list.members_of(list.planes[0]), std::vector<std::uint32_t>{2}));
+  EXPECT_TRUE(std::ranges::equal(list.members_of(list.planes[1]), std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(list.hull_of(list.planes[1])[0].x, 0.5);
+}
+
+TEST_F(Planes, MayBeNone) {
+  EXPECT_EQ(put_planes(collector_, 0, {}, {}), HW_OK);
+  EXPECT_EQ(collector_.finish(), "");
+  EXPECT_TRUE(collector_.outputs().planes(4)->planes.empty());
+  EXPECT_FALSE(collector_.outputs().planes(9));
+}
+
+TEST_F(Planes, APointMayBelongToSeveral) {
+  std::vector<LongerPlane> planes = {{ceiling(0), 0}, {ceiling(1), 0}};
+  planes[1].plane.first_hull = planes[1].plane.first_member = 1;
+  EXPECT_EQ(put_planes(collector_, 0, planes, {0, 0}), HW_OK);
+}
+
+TEST_F(Planes, WhereAnEmptyRangeBeginsDoesNotMatter) {
+  std::vector<LongerPlane> planes = {{ceiling(0), 0}};
+  planes[0].plane.n_members = planes[0].plane.n_hull = 0;
+  planes[0].plane.first_member = planes[0].plane.first_hull = UINT64_MAX;
+  EXPECT_EQ(put_planes(collector_, 0, planes, {}), HW_OK);
+  const PlaneList list = *collector_.outputs().planes(4);
+  EXPECT_TRUE(list.members_of(list.planes[0]).empty());
+  EXPECT_TRUE(list.hull_of(list.planes[0]).empty());
+}
+
+TEST_F(Planes, RangesThatWrapAroundAreBeyondTheirList) {
+  std::vector<LongerPlane> planes = {{ceiling(0), 0}};
+  planes[0].plane.first_hull = UINT64_MAX;
+  planes[0].plane.n_hull = 2;
+  EXPECT_EQ(put_planes(collector_, 0, planes, {0}), HW_ERROR_DATA);
+  EXPECT_EQ(collector_.finish(), "planes: plane 0 has hull points beyond their list");
+}
+
+TEST_F(Planes, BelongToAFrame) {
+  collector_.begin(nullptr, {});
+  EXPECT_EQ(put_planes(collector_, 0, {}, {}), HW_ERROR_DATA);
+  EXPECT_EQ(collector_.finish(), "planes: they belong to a frame, and this call has none");
+}
+
+TEST_F(Planes, AreForgottenWithTheNextCall) {
+  EXPECT_EQ(put_planes(collector_, 0, {{ceiling(1), 0}}, {0}), HW_OK);
+  collector_.finish();
+  collector_.begin(&builder_.finish(), indices_);
+  EXPECT_FALSE(collector_.outputs().planes(4));
+}
+
+TEST_F(Planes, FarAwayAreCheckedByWhatTheirNumbersCanHold) {
+  LongerPlane plane{ceiling(1), 0};
+  for (auto& corner : plane.plane.corners) corner[2] = 1e9;
+  plane.plane.n_hull = 0;
+  plane.plane.offset_m = -1e9;
+  plane.plane.centroid[2] = 1e9 + 100;
+  EXPECT_EQ(put_planes(collector_, 0, {plane}, {0}), HW_OK);
+  plane.plane.centroid[2] = 1e9 + 1e5;
+  EXPECT_EQ(put_planes(collector_, 1, {plane}, {0}), HW_ERROR_DATA);
 }
 
 TEST(Outputs, TheFirstFaultStands) {

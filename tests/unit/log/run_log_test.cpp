@@ -75,6 +75,31 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   }
 }
 
+TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {
+  const PlaneAnswer plane{
+      .plane = {.id = 5, .normal = {0, 0, -1}, .offset_m = -2, .points = 3, .exclusive_share = 0.5},
+      .hull_m = {{1, 2, 2}},
+      .members = {0, 4, 7}};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  writer.add_planes({3, 10}, std::vector<PlaneAnswer>{plane});
+  writer.finish();
+  const MemoryInput input(out.text());
+  McapReader reader(input);
+  std::string text;
+  while (const McapItem* item = reader.next()) {
+    const auto* message = std::get_if<McapMessage>(item);
+    if (message == nullptr) continue;
+    EXPECT_EQ(reader.channels().at(message->channel_id).topic, topics::kPlanes);
+    text = message->data;
+  }
+  EXPECT_EQ(
+      text,
+      R"({"iteration":3,"sample":0,"planes":[{"id":5,"normal":[0.0,0.0,-1.0],"offset_m":-2.0,)"
+      R"("centroid_m":[0.0,0.0,0.0],"corners_m":[[0.0,0.0,0.0],[0.0,0.0,0.0],[0.0,0.0,0.0],[0.0,0.0,0.0]],)"
+      R"("points":3,"rms_m":0.0,"exclusive_share":0.5,"hull_m":[[1.0,2.0,2.0]],"members":[0,4,7]}]})");
+}
+
 TEST(RunLog, AnswersThatAreNoneAreRefusedWithTheirTopic) {
   const std::string pose = R"({"iteration": 1, "status": "valid", "T_map_body": )";
   for (const std::string& text :

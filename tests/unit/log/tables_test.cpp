@@ -12,6 +12,7 @@
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
+#include "log/planes.hpp"
 #include "log/poses.hpp"
 #include "log/row_file.hpp"
 #include "log/timing.hpp"
@@ -153,6 +154,46 @@ TEST(Commands, WhatIsWrongIsNamedWithItsLine) {
     const auto error = test::error_of([&] { parse_commands(head + row, "c.csv"); });
     ASSERT_TRUE(error) << row;
     EXPECT_EQ(error->where().line, 3) << row;
+  }
+}
+
+TEST(Planes, ReadBackToTheSameBits) {
+  const std::vector<double> values = test::random_doubles(100 * 21, 9);
+  std::vector<IterationPlane> planes;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const double* v = &values[21 * i];
+    planes.push_back(
+        {i / 3,
+         {.id = UINT64_MAX - i,
+          .normal = {v[0], v[1], v[2]},
+          .offset_m = v[3],
+          .centroid_m = {v[4], v[5], v[6]},
+          .corners_m =
+              {{{v[7], v[8], v[9]}, {v[10], v[11], v[12]}, {v[13], v[14], v[15]}, {v[16], v[17], v[18]}}},
+          .points = i,
+          .rms_m = v[19],
+          .exclusive_share = v[20]}});
+  }
+  const std::string text = print_planes(planes);
+  const std::vector<IterationPlane> back = parse_planes(text, "planes.csv");
+  ASSERT_EQ(back.size(), planes.size());
+  EXPECT_EQ(print_planes(back), text);
+  EXPECT_EQ(back[50].iteration, 16u);
+  EXPECT_EQ(back[50].plane.id, UINT64_MAX - 50);
+  EXPECT_TRUE(same_bits(back[50].plane.normal[1], values[21 * 50 + 1]));
+  EXPECT_TRUE(same_bits(back[50].plane.corners_m[3][2], values[21 * 50 + 18]));
+  EXPECT_TRUE(same_bits(back[50].plane.exclusive_share, values[21 * 50 + 20]));
+}
+
+TEST(Planes, WhatIsWrongIsNamedWithItsLine) {
+  const std::string good = print_planes(std::vector<IterationPlane>{{2, {.id = 1}}});
+  const std::string row = good.substr(good.find('\n') + 1);
+  EXPECT_EQ(parse_planes(good + row, "p.csv").size(), 2u) << "several of one iteration";
+  for (const std::string& bad : {"1" + row.substr(1), "x" + row.substr(1), row.substr(0, row.size() - 1),
+                                 row.substr(0, row.size() - 3) + "\n"}) {
+    const auto error = test::error_of([&] { parse_planes(good + bad, "p.csv"); });
+    ASSERT_TRUE(error) << bad;
+    EXPECT_EQ(error->where().line, 3) << bad;
   }
 }
 
