@@ -17,6 +17,8 @@ void add_compare_command(CLI::App& app, Action& chosen);
 void add_doctor_command(CLI::App& app, Action& chosen);
 void add_plugin_command(CLI::App& app, Action& chosen);
 void add_import_command(CLI::App& app, Action& chosen);
+void add_planes_command(CLI::App& app, Action& chosen);
+void add_bench_em_command(CLI::App& app, Action& chosen);
 void add_compile_command(CLI::App& app, Action& chosen);
 void add_map_command(CLI::App& app, Action& chosen);
 void add_edit_command(CLI::App& app, Action& chosen);

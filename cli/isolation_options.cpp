@@ -11,7 +11,7 @@
 
 namespace hallway::cli {
 
-void add_isolation_options(CLI::App& command, IsolationOptions& options) {
+void add_limit_options(CLI::App& command, IsolationOptions& options) {
   command.add_flag(
       "--in-process", options.in_process,
       "Run plugins in this process, for debuggers and benchmarks: no limits, and a crash is a crash of all");
@@ -25,6 +25,10 @@ void add_isolation_options(CLI::App& command, IsolationOptions& options) {
                   "MiB of memory that a plugin's process may hold [the scenario's, else 4096]")
       ->type_name("MIB")
       ->check(CLI::Range(16u, 1u << 24));
+}
+
+void add_isolation_options(CLI::App& command, IsolationOptions& options) {
+  add_limit_options(command, options);
   command
       .add_option("--on-failure", options.on_failure,
                   "When a plugin fails: stop (write what there is), continue (without answers) or restart (a "

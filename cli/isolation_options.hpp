@@ -19,7 +19,10 @@ struct IsolationOptions {
   std::optional<std::string> on_failure;
 };
 
-/// Adds --in-process, --call-timeout, --memory-limit and --on-failure.
+/// Adds --in-process, --call-timeout and --memory-limit.
+void add_limit_options(CLI::App& command, IsolationOptions& options);
+
+/// The same and --on-failure.
 void add_isolation_options(CLI::App& command, IsolationOptions& options);
 
 /// `limits` with what the command line says above them.

@@ -44,6 +44,8 @@ int main(int argc, char** argv) {
     hallway::cli::add_log_command(app, chosen);
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);
+    hallway::cli::add_planes_command(app, chosen);
+    hallway::cli::add_bench_em_command(app, chosen);
     hallway::cli::add_import_command(app, chosen);
     hallway::cli::add_compile_command(app, chosen);
     hallway::cli::add_map_command(app, chosen);

@@ -9,12 +9,15 @@
 
 namespace hallway::import {
 
-PointCollector::PointCollector(Frame& frame, std::uint32_t stride) : frame_(frame), stride_(stride) {
+PointCollector::PointCollector(Frame& frame, std::uint32_t stride, std::vector<std::uint64_t>* rows)
+    : frame_(frame), stride_(stride), rows_(rows) {
+  if (rows_ != nullptr) rows_->clear();
   frame_.points.clear();
   frame_.not_finite = 0;
 }
 
 void PointCollector::add(double x, double y, double z) {
+  const std::uint64_t row = given_++;
   if (until_next_ > 0) {
     --until_next_;
     return;
@@ -29,6 +32,7 @@ void PointCollector::add(double x, double y, double z) {
                 fmt::format("has more than {} points, which is what a frame holds; --stride takes each n-th",
                             kMaxFramePoints));
   }
+  if (rows_ != nullptr) rows_->push_back(row);
   frame_.points.push_back({x, y, z});
 }
 

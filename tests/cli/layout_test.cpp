@@ -39,6 +39,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/import", {"base", "geom", "host", "log", "hallway"}},
     {"engine/eval", {"base", "geom", "log"}},
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
+    {"engine/planes", {"base", "geom", "host", "log", "import", "render", "hallway"}},
     {"engine/run",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
       "link", "foxglove", "eval", "render", "hallway"}},
@@ -52,7 +53,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance"};
+                                       "log",   "planes", "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance"};
 
 struct Include {
   fs::path file;

@@ -157,7 +157,7 @@ TEST(Commands, WhatIsWrongIsNamedWithItsLine) {
   }
 }
 
-TEST(Planes, ReadBackToTheSameBits) {
+TEST(PlaneTable, ReadBackToTheSameBits) {
   const std::vector<double> values = test::random_doubles(100 * 21, 9);
   std::vector<IterationPlane> planes;
   for (std::uint32_t i = 0; i < 100; ++i) {
@@ -185,7 +185,7 @@ TEST(Planes, ReadBackToTheSameBits) {
   EXPECT_TRUE(same_bits(back[50].plane.exclusive_share, values[21 * 50 + 20]));
 }
 
-TEST(Planes, WhatIsWrongIsNamedWithItsLine) {
+TEST(PlaneTable, WhatIsWrongIsNamedWithItsLine) {
   const std::string good = print_planes(std::vector<IterationPlane>{{2, {.id = 1}}});
   const std::string row = good.substr(good.find('\n') + 1);
   EXPECT_EQ(parse_planes(good + row, "p.csv").size(), 2u) << "several of one iteration";

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "bench_em_report.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "isolation_options.hpp"
+#include "plane_plugin.hpp"
+#include "planes/files.hpp"
+#include "planes/finder.hpp"
+#include "planes/picture.hpp"
+#include "planes/scene_files.hpp"
+#include "plugin_report.hpp"
+#include "render/png.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct BenchOptions {
+  std::vector<std::string> plugins;
+  std::uint32_t scenes = 20;
+  std::uint64_t seed = 1;
+  std::string planes = "3..40";
+  std::string points = "300..30000";
+  std::string sigma = "0.005..0.05";
+  double outliers = 0.1;
+  std::string scenes_dir;
+  unsigned repeat = 1;
+  std::string out;
+  std::uint32_t pictures = 3;
+  bool write_scenes = false;
+  std::string view = "perspective";
+  std::vector<std::string> plugin_path;
+  IsolationOptions isolation;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// "LOW..HIGH", or one number for both.
+planes::Range<double> parse_range(const char* option, const std::string& text) {
+  const std::size_t dots = text.find("..");
+  const auto low = parse_double(text.substr(0, dots));
+  const auto high = dots == std::string::npos ? low : parse_double(text.substr(dots + 2));
+  if (low && high && *low <= *high) return {*low, *high};
+  throw Error(ErrorCode::kUsage, fmt::format("{} takes LOW..HIGH, not \"{}\"", option, printable(text)));
+}
+
+planes::Range<std::uint32_t> parse_counts(const char* option, const std::string& text) {
+  const planes::Range<double> range = parse_range(option, text);
+  constexpr double kMost = 5e6;
+  const auto whole = [](double number) {
+    return static_cast<double>(static_cast<std::uint32_t>(number)) == number;
+  };
+  if (range.low < 1 || range.high > kMost || !whole(range.low) || !whole(range.high))
+    throw Error(ErrorCode::kUsage, fmt::format("{} takes whole numbers from 1 to 5000000", option));
+  return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
+}
+
+/// Scenes by number: generated, or those of a folder.
+class Scenes {
+ public:
+  explicit Scenes(const BenchOptions& options) : seed_(options.seed), count_(options.scenes) {
+    if (!options.scenes_dir.empty()) {
+      files_ = planes::list_scenes(options.scenes_dir);
+      count_ = static_cast<std::uint32_t>(files_.size());
+      return;
+    }
+    shape_.planes = parse_counts("--planes", options.planes);
+    shape_.points = parse_counts("--points", options.points);
+    shape_.noise = parse_range("--sigma", options.sigma);
+    shape_.outliers = options.outliers;
+    planes::make_scene(seed_, 0, shape_);  // what is wrong with the options is said before any work
+  }
+
+  std::uint32_t count() const { return count_; }
+  std::string name(std::uint32_t i) const {
+    return files_.empty() ? fmt::format("scene_{:02}", i) : files_[i].name;
+  }
+  planes::LabelledCloud get(std::uint32_t i) const {
+    return files_.empty() ? planes::as_read(planes::make_scene(seed_, i, shape_))
+                          : planes::read_scene(files_[i]);
+  }
+  bool generated() const { return files_.empty(); }
+  void write(std::uint32_t i, const fs::path& folder) const {
+    const planes::Scene scene = planes::make_scene(seed_, i, shape_);
+    write_file_atomically(folder / (name(i) + ".csv"), planes::print_scene_points(scene));
+    write_file_atomically(folder / (name(i) + "_planes.csv"), planes::print_scene_planes(scene));
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t count_;
+  planes::SceneOptions shape_{};
+  std::vector<planes::SceneFile> files_;
+};
+
+/// A plugin and what it has made of the scenes so far.
+struct Contender {
+  std::unique_ptr<planes::PlaneFinder> finder;
+  PluginResult result;
+};
+
+std::vector<Contender> contenders(const BenchOptions& options) {
+  std::vector<Contender> list;
+  for (const std::string& plugin : options.plugins) {
+    Contender contender{.finder = std::make_unique<planes::PlaneFinder>(
+                            parse_plane_plugin(plugin), plugin_folders(options.plugin_path), print_plugin_log,
+                            isolation_of(options.isolation, apply(options.isolation, {}))),
+                        .result = {}};
+    contender.result = {.plugin = printable(plugin),
+                        .id = contender.finder->info().id,
+                        .version = contender.finder->info().version};
+    list.push_back(std::move(contender));
+  }
+  return list;
+}
+
+void try_scene(Contender& contender, const std::string& name, const planes::LabelledCloud& scene,
+               unsigned repeat) {
+  const planes::Answer answer = contender.finder->find(scene.cloud.points, repeat);
+  contender.result.scenes.push_back(
+      {.scene = name,
+       .points = scene.cloud.points.size(),
+       .noise = scene.truth.noise,
+       .ms = answer.ms,
+       .cpu_ms = answer.cpu_ms,
+       .score = planes::score_planes(scene.cloud.points, scene.truth, answer.planes)});
+}
+
+/// The scenes with most faults, first of all; ties by number.
+std::vector<std::uint32_t> worst(const PluginResult& result, std::size_t most) {
+  std::vector<std::uint32_t> order(result.scenes.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return result.scenes[a].score.faults.size() > result.scenes[b].score.faults.size();
+  });
+  order.resize(std::min(order.size(), most));
+  return order;
+}
+
+/// A name of files for a plugin as it was asked for.
+std::string file_name(const std::string& plugin) {
+  std::string name = plugin;
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-' || c == '.' || c == '=';
+    if (!plain) c = '_';
+  }
+  return name;
+}
+
+void draw_worst(const BenchOptions& options, const Scenes& scenes, Contender& contender) {
+  for (const std::uint32_t i : worst(contender.result, options.pictures)) {
+    const planes::LabelledCloud scene = scenes.get(i);
+    const planes::Answer answer = contender.finder->find(scene.cloud.points);
+    const planes::Score score = planes::score_planes(scene.cloud.points, scene.truth, answer.planes);
+    const render::Image image =
+        planes::draw_comparison({scene.cloud.points, answer.planes, contender.result.plugin,
+                                 fmt::format("{} · {} of {} planes at IoU 0.8 · {} faults", scenes.name(i),
+                                             score.matched[0], score.truths, score.faults.size())},
+                                scene.truth, score, plane_view(options.view), {});
+    write_file_atomically(
+        fs::path(options.out) / fmt::format("{}-{}.png", scenes.name(i), file_name(contender.result.plugin)),
+        render::encode_png(image));
+  }
+}
+
+Json document_of(const BenchOptions& options, const Scenes& scenes,
+                 const std::vector<PluginResult>& results) {
+  Json json{{"schema", "hallway.bench_em/1"}, {"scenes", scenes.count()}};
+  if (scenes.generated()) {
+    json["seed"] = options.seed;
+    json["options"] = {{"planes", options.planes},
+                       {"points", options.points},
+                       {"sigma", options.sigma},
+                       {"outliers", options.outliers}};
+  } else {
+    json["scenes_dir"] = printable(options.scenes_dir, 4096);
+  }
+  json["plugins"] = bench_em_json(results);
+  return json;
+}
+
+int bench_em(const BenchOptions& options) {
+  if (options.write_scenes && (options.out.empty() || !options.scenes_dir.empty()))
+    throw Error(ErrorCode::kUsage, "--write-scenes writes generated scenes to the folder of --out");
+  const Scenes scenes(options);
+  std::vector<Contender> plugins = contenders(options);
+  if (!options.out.empty()) make_folder(options.out);
+  catch_interrupts();
+  {
+    Progress progress("scenes", scenes.count(), options.quiet || options.json);
+    for (std::uint32_t i = 0; i < scenes.count(); ++i) {
+      if (interrupted()) return interrupt_status();
+      const planes::LabelledCloud scene = scenes.get(i);
+      for (Contender& contender : plugins) try_scene(contender, scenes.name(i), scene, options.repeat);
+      if (options.write_scenes) scenes.write(i, options.out);
+      progress.update(i + 1);
+    }
+  }
+  std::vector<PluginResult> results;
+  for (Contender& contender : plugins) results.push_back(contender.result);
+  const Json document = document_of(options, scenes, results);
+  if (!options.out.empty()) {
+    for (Contender& contender : plugins) draw_worst(options, scenes, contender);
+    write_file_atomically(fs::path(options.out) / "results.json", document.dump(1) + "\n");
+  }
+  if (options.json) {
+    print_json(document);
+  } else if (!options.quiet) {
+    print_result(bench_em_table(results));
+  }
+  return 0;
+}
+
+void add_scene_options(CLI::App& command, BenchOptions& options) {
+  command.add_option("--scenes", options.scenes, "Number of scenes")
+      ->check(CLI::Range(1u, 1'000'000u))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of the scenes")->type_name("S")->capture_default_str();
+  command.add_option("--planes", options.planes, "Planes of a scene")
+      ->type_name("LOW..HIGH")
+      ->capture_default_str();
+  command.add_option("--points", options.points, "Points of a scene")
+      ->type_name("LOW..HIGH")
+      ->capture_default_str();
+  command.add_option("--sigma", options.sigma, "Noise of a scene, metres along each axis")
+      ->type_name("LOW..HIGH")
+      ->capture_default_str();
+  command.add_option("--outliers", options.outliers, "Most outliers of a scene, as a share of its points")
+      ->check(CLI::Range(0.0, 0.9))
+      ->type_name("X")
+      ->capture_default_str();
+  command
+      .add_option("--scenes-dir", options.scenes_dir,
+                  "Scenes NAME.csv (x,y,z,label) and NAME_planes.csv of a folder instead")
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_bench_em_command(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("bench-em", "Try plugins that find planes on scenes whose planes are known");
+  const auto options = std::make_shared<BenchOptions>();
+  command
+      ->add_option(
+          "--plugin", options->plugins,
+          "A plugin that finds planes, an id or a file, and its parameters; may be given several times")
+      ->type_name("NAME[:parameter=value]...")
+      ->required()
+      ->take_all()
+      ->expected(1);
+  add_scene_options(*command, *options);
+  command
+      ->add_option("--repeat", options->repeat,
+                   "How often a plugin is asked for each scene; the time is the median")
+      ->check(CLI::Range(1u, 10'000u))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder to write results.json and pictures to")
+      ->type_name("DIR");
+  command
+      ->add_option("--pictures", options->pictures,
+                   "Of how many scenes, those with most faults, for each plugin")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--write-scenes", options->write_scenes, "Write the scenes too");
+  command->add_option("--view", options->view, "Of the pictures")
+      ->check(CLI::IsMember({"top", "perspective"}))
+      ->capture_default_str();
+  add_plugin_path_option(*command, options->plugin_path);
+  add_limit_options(*command, options->isolation);
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
+  command->footer(
+      "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
+      "Example: hallway bench-em --plugin em --plugin em:mode=em2 --scenes 200 --seed 7 --out out/bench");
+  command->callback([&chosen, options] { chosen = [options] { return bench_em(*options); }; });
+}
+
+}  // namespace hallway::cli

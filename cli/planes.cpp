@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "isolation_options.hpp"
+#include "plane_plugin.hpp"
+#include "planes/files.hpp"
+#include "planes/finder.hpp"
+#include "planes/picture.hpp"
+#include "plugin_report.hpp"
+#include "render/png.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PlanesOptions {
+  std::string cloud;
+  std::string plugin;
+  std::string columns;
+  std::string intrinsics;
+  double depth_scale = import::kDepthUnitsPerMetre;
+  std::string labels;
+  std::int64_t unlabelled = planes::kNoLabel;
+  unsigned repeat = 1;
+  std::string out;
+  std::string view = "perspective";
+  std::vector<std::string> plugin_path;
+  IsolationOptions isolation;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// A cloud, what a plugin made of it, and how well, where labels are known.
+struct Found {
+  planes::Cloud cloud{};
+  planes::Answer answer{};
+  host::PluginInfo plugin{};
+  std::optional<planes::Truth> truth{};
+  std::optional<planes::Score> score{};
+};
+
+import::Camera parse_intrinsics(const std::string& text){std::vector<double> numbers;
+for (const std::string_view part : split(text, ',')) {
+  const auto number = parse_double(trim(part));
+  if (number) numbers.push_back(*number);
+}
+if (numbers.size() != 4 || split(text, ',').size() != 4 || numbers[0] <= 0 || numbers[1] <= 0) {
+  throw Error(ErrorCode::kUsage,
+              fmt::format("--intrinsics takes fx,fy,cx,cy in pixels, not \"{}\"", printable(text)));
+}
+return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}  // namespace
+
+planes::CloudColumns parse_columns(const std::string& text) {
+  std::vector<std::string> names;
+  for (const std::string_view name : split(text, ',')) names.emplace_back(trim(name));
+  if (names.size() < 3 || names.size() > 4)
+    throw Error(ErrorCode::kUsage, "--columns takes the names of x, y, z and, where there is one, the label");
+  return {names[0], names[1], names[2], names.size() == 4 ? names[3] : "label"};
+}
+
+planes::CloudOptions cloud_options(const PlanesOptions& options) {
+  planes::CloudOptions cloud{.unlabelled = options.unlabelled, .units_per_metre = options.depth_scale};
+  if (!options.columns.empty()) cloud.columns = parse_columns(options.columns);
+  if (!options.intrinsics.empty()) cloud.camera = parse_intrinsics(options.intrinsics);
+  return cloud;
+}
+
+Found find(const PlanesOptions& options) {
+  Found found{.cloud = planes::read_cloud(options.cloud, cloud_options(options))};
+  if (!options.labels.empty())
+    found.cloud.labels = planes::read_labels(options.labels, found.cloud, options.unlabelled);
+  planes::PlaneFinder finder(parse_plane_plugin(options.plugin), plugin_folders(options.plugin_path),
+                             print_plugin_log, isolation_of(options.isolation, apply(options.isolation, {})));
+  found.plugin = finder.info();
+  found.answer = finder.find(found.cloud.points, options.repeat);
+  if (!found.cloud.labels.empty()) {
+    found.truth = planes::truth_of_labels(found.cloud);
+    found.score = planes::score_planes(found.cloud.points, *found.truth, found.answer.planes);
+  }
+  return found;
+}
+
+Json document_of(const PlanesOptions& options, const Found& found) {
+  return {{"schema", "hallway.planes/1"},
+          {"cloud", printable(options.cloud, 4096)},
+          {"rows", found.cloud.n_rows},
+          {"points", found.cloud.points.size()},
+          {"not_finite", found.cloud.not_finite},
+          {"plugin", {{"id", found.plugin.id}, {"version", found.plugin.version}}},
+          {"ms", found.answer.ms},
+          {"cpu_ms", found.answer.cpu_ms},
+          {"planes", planes::planes_json(found.cloud, found.answer.planes)},
+          {"score", found.score ? planes::score_json(*found.score, *found.truth) : Json()}};
+}
+
+std::string draw(const PlanesOptions& options, const Found& found) {
+  const planes::PictureContent content{found.cloud.points, found.answer.planes,
+                                       printable(fs::path(options.cloud).filename().string()),
+                                       fmt::format("{} · {} planes of {} points", found.plugin.id,
+                                                   found.answer.planes.size(), found.cloud.points.size())};
+  const render::View view = plane_view(options.view);
+  return render::encode_png(found.score
+                                ? planes::draw_comparison(content, *found.truth, *found.score, view, {})
+                                : planes::draw_planes(content, view, {}));
+}
+
+void write_files(const PlanesOptions& options, const Found& found, const Json& document) {
+  const fs::path folder = options.out;
+  make_folder(folder);
+  write_file_atomically(folder / "planes.json", document.dump(1) + "\n");
+  write_file_atomically(folder / "planes.ply", planes::print_ply(found.cloud, found.answer.planes));
+  write_file_atomically(folder / "planes.png", draw(options, found));
+}
+
+std::string table(const Found& found) {
+  std::string text = fmt::format("{:>5} {:>8} {:>27} {:>10} {:>9} {:>6}\n", "plane", "points", "normal",
+                                 "offset", "rms", "excl");
+  for (std::size_t i = 0; i < found.answer.planes.size(); ++i) {
+    const planes::FoundPlane& plane = found.answer.planes[i];
+    const Vec3& n = plane.plane.normal;
+    text += fmt::format("{:>5} {:>8} {:>9.4f}{:>9.4f}{:>9.4f} {:>10.4g} {:>9.3g} {:>6.2f}\n", i, plane.points,
+                        n.x(), n.y(), n.z(), plane.plane.offset, plane.rms, plane.exclusive_share);
+  }
+  text += fmt::format("{} planes in {} points, {:.2f} ms\n", found.answer.planes.size(),
+                      found.cloud.points.size(), found.answer.ms);
+  if (!found.score) return text;
+  const planes::Score& score = *found.score;
+  text += fmt::format("{} of {} labelled planes found at IoU 0.8, {} at 0.9, {} at 0.95; {} counted apart\n",
+                      score.matched[0], score.truths, score.matched[1], score.matched[2], score.apart);
+  for (const planes::Fault& fault : score.faults)
+    text += "  " + planes::fault_text(fault, *found.truth) + "\n";
+  return text;
+}
+
+int planes_of(const PlanesOptions& options) {
+  const Found found = find(options);
+  const Json document = document_of(options, found);
+  if (!options.out.empty()) write_files(options, found, document);
+  if (found.cloud.not_finite > 0)
+    print_warning(fmt::format("{} of {} rows are no points: a coordinate is not finite",
+                              found.cloud.not_finite, found.cloud.n_rows));
+  if (options.json) {
+    print_json(document);
+  } else if (!options.quiet) {
+    print_result(table(found));
+  }
+  return 0;
+}
+
+void add_input_options(CLI::App& command, PlanesOptions& options) {
+  command
+      .add_option("cloud", options.cloud,
+                  "Points: PLY, PCD, CSV with a header (x, y, z, label), OBJ, or a depth image in PNG")
+      ->required()
+      ->type_name("CLOUD");
+  command.add_option("--columns", options.columns, "Names of the columns of a CSV file [x,y,z,label]")
+      ->type_name("X,Y,Z[,LABEL]");
+  command.add_option("--intrinsics", options.intrinsics, "Camera of a depth image, pixels")
+      ->type_name("FX,FY,CX,CY");
+  command.add_option("--depth-scale", options.depth_scale, "Units of a depth image in one metre")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("--labels", options.labels,
+                  "Labels to score against: a whole number for each row of the cloud")
+      ->type_name("FILE");
+  command
+      .add_option("--unlabelled", options.unlabelled,
+                  "Label of points that belong to no plane, beside all negative ones")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace hallway::cli
+
+void add_planes_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("planes", "Find planes in a point cloud with a plugin");
+  const auto options = std::make_shared<PlanesOptions>();
+  add_input_options(*command, *options);
+  command
+      ->add_option("--plugin", options->plugin,
+                   "A plugin that finds planes, an id or a file, and its parameters")
+      ->type_name("NAME[:parameter=value]...")
+      ->required();
+  command->add_option("--repeat", options->repeat, "How often the plugin is asked; the time is the median")
+      ->check(CLI::Range(1u, 10'000u))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder to write planes.json, planes.ply and planes.png to")
+      ->type_name("DIR");
+  command->add_option("--view", options->view, "Of the picture")
+      ->check(CLI::IsMember({"top", "perspective"}))
+      ->capture_default_str();
+  add_plugin_path_option(*command, options->plugin_path);
+  add_limit_options(*command, options->isolation);
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->add_flag("--quiet", options->quiet, "Print no table");
+  command->footer(
+      "With labels (a column of the file, or --labels) the planes are scored, and the picture shows the "
+      "labelled ones beside "
+      "them.\n"
+      "Example: hallway planes room.pcd --plugin em --out out/room");
+  command->callback([&chosen, options] { chosen = [options] { return planes_of(*options); }; });
+}
+
+}  // namespace hallway::cli
