@@ -32,6 +32,7 @@ struct BenchOptions {
   std::string planes = "3..40";
   std::string points = "300..30000";
   std::string sigma = "0.005..0.05";
+  std::string half_size = "0.3..2";
   double outliers = 0.1;
   std::string scenes_dir;
   unsigned repeat = 1;
@@ -77,6 +78,7 @@ class Scenes {
     shape_.planes = parse_counts("--planes", options.planes);
     shape_.points = parse_counts("--points", options.points);
     shape_.noise = parse_range("--sigma", options.sigma);
+    shape_.half_size = parse_range("--half-size", options.half_size);
     shape_.outliers = options.outliers;
     planes::make_scene(seed_, 0, shape_);  // what is wrong with the options is said before any work
   }
@@ -182,6 +184,7 @@ Json document_of(const BenchOptions& options, const Scenes& scenes,
     json["options"] = {{"planes", options.planes},
                        {"points", options.points},
                        {"sigma", options.sigma},
+                       {"half_size", options.half_size},
                        {"outliers", options.outliers}};
   } else {
     json["scenes_dir"] = printable(options.scenes_dir, 4096);
@@ -235,6 +238,9 @@ void add_scene_options(CLI::App& command, BenchOptions& options) {
       ->type_name("LOW..HIGH")
       ->capture_default_str();
   command.add_option("--sigma", options.sigma, "Noise of a scene, metres along each axis")
+      ->type_name("LOW..HIGH")
+      ->capture_default_str();
+  command.add_option("--half-size", options.half_size, "Half sides of a scene's rectangles, metres")
       ->type_name("LOW..HIGH")
       ->capture_default_str();
   command.add_option("--outliers", options.outliers, "Most outliers of a scene, as a share of its points")

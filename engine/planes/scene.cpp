@@ -12,8 +12,7 @@
 namespace hallway::planes {
 namespace {
 
-constexpr Range<double> kHalfSize{0.03, 0.2};  // of a rectangle, as shares of the box
-constexpr Range<double> kPairGap{4.0, 20.0};   // sigma
+constexpr Range<double> kPairGap{4.0, 20.0};  // sigma
 constexpr double kDensityRange = 9.0;
 constexpr double kHoleShare = 0.25;
 constexpr Range<double> kHoleSize{0.2, 0.5};  // radius, as a share of the shorter half side
@@ -106,7 +105,8 @@ class SceneMaker {
     do {
       rectangle = propose();
     } while (!fits(rectangle) && ++attempts < kPlacements);
-    if (!fits(rectangle)) rectangle = random_rectangle(kHalfSize.low, Vec3::Constant(options_.box / 2));
+    if (!fits(rectangle))
+      rectangle = random_rectangle(options_.half_size.low, Vec3::Constant(options_.box / 2));
     rectangle.label = static_cast<std::int64_t>(scene_.rectangles.size());
     rectangle.noise = noise_;
     scene_.rectangles.push_back(rectangle);
@@ -124,13 +124,13 @@ class SceneMaker {
     Vec3 u = shape_.direction();
     u -= u.dot(rectangle.normal) * rectangle.normal;
     rectangle.u = u.norm() > 1e-6 ? Vec3(u.normalized()) : Vec3(rectangle.normal.unitOrthogonal());
-    rectangle.half_u = options_.box * shape_.uniform(kHalfSize.low, largest);
-    rectangle.half_v = options_.box * shape_.uniform(kHalfSize.low, largest);
+    rectangle.half_u = shape_.uniform(options_.half_size.low, largest);
+    rectangle.half_v = shape_.uniform(options_.half_size.low, largest);
     return rectangle;
   }
 
   void place_free() {
-    place([&] { return random_rectangle(kHalfSize.high, anywhere(shape_)); });
+    place([&] { return random_rectangle(options_.half_size.high, anywhere(shape_)); });
   }
 
   /// One before the last one, parallel to it.
@@ -151,7 +151,7 @@ class SceneMaker {
       SceneRectangle rectangle = other;
       rectangle.u = v_of(other);
       rectangle.half_u = other.half_v;
-      rectangle.half_v = options_.box * shape_.uniform(kHalfSize.low, kHalfSize.high);
+      rectangle.half_v = shape_.uniform(options_.half_size.low, options_.half_size.high);
       rectangle.normal = other.u;
       const double side = shape_.uniform(0, 1) < 0.5 ? -1.0 : 1.0;
       const double where = shape_.uniform(0, 1) < 0.5 ? 1.0 : shape_.uniform(-0.6, 0.6);
@@ -236,6 +236,9 @@ void check(const SceneOptions& options) {
   demand(options.noise.low > 0 && options.noise.low <= options.noise.high &&
              options.noise.high < options.box / 40,
          "--sigma: above 0, below a fortieth of the box, LOW..HIGH");
+  demand(options.half_size.low > 0 && options.half_size.low <= options.half_size.high &&
+             options.half_size.high <= options.box / 4,
+         "--half-size: above 0, at most a quarter of the box, LOW..HIGH");
   demand(options.outliers >= 0 && options.outliers <= 0.9, "--outliers: 0 to 0.9");
 }
 

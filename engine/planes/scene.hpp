@@ -21,9 +21,10 @@ struct SceneOptions {
   Range<std::uint32_t> planes{3, 40};  ///< number of planes, at least 1
   Range<std::uint32_t> points{
       300, 30'000};  ///< number of points, evenly by its logarithm; at least 25 for each plane are wished for
-  Range<double> noise{0.005, 0.05};  ///< standard deviation along each axis, evenly by its logarithm, m
-  double outliers = 0.1;             ///< most outliers, as a share of the points; every other scene has none
-  double box = 10.0;                 ///< side of the cube that holds all planes, from the origin on, m
+  Range<double> noise{0.005, 0.05};   ///< standard deviation along each axis, evenly by its logarithm, m
+  Range<double> half_size{0.3, 2.0};  ///< half sides of a rectangle, m
+  double outliers = 0.1;              ///< most outliers, as a share of the points; every other scene has none
+  double box = 10.0;                  ///< side of the cube that holds all planes, from the origin on, m
 };
 
 /// A rectangle of a scene.

@@ -53,7 +53,7 @@ SceneRectangle read_rectangle(const log::CsvReader& row) {
   constexpr double kUnit = 1e-3;
   if (std::abs(rectangle.normal.norm() - 1) > kUnit || std::abs(rectangle.u.norm() - 1) > kUnit)
     throw row.error("a normal and an axis have unit length");
-  rectangle.normal.normalize();
+  if (std::abs(rectangle.normal.norm() - 1) > 1e-9) rectangle.normal.normalize();  // else keeps its bits
   return rectangle;
 }
 

@@ -51,6 +51,13 @@ TEST(Help, OfCompile) {
   expect_help({"compile", "--help"}, {"--level", "--threads", "--no-cache", "--strict", "--json", "Example"});
 }
 
+TEST(Help, OfPlanes) {
+  expect_help({"planes", "--help"}, {"--plugin", "--columns", "--intrinsics", "--depth-scale", "--labels",
+                                     "--out", "--json", "Example"});
+  expect_help({"bench-em", "--help"}, {"--plugin", "--scenes", "--seed", "--planes", "--points", "--sigma",
+                                       "--scenes-dir", "--out", "--json", "Example"});
+}
+
 TEST(Help, OfPluginList) {
   expect_help({"plugin", "list", "--help"}, {"--plugin-path", "--json"});
 }

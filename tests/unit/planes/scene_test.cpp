@@ -98,7 +98,8 @@ TEST(Scenes, ThatCannotBeAreRefused) {
   for (const SceneOptions& options :
        {SceneOptions{.planes = {0, 3}}, SceneOptions{.planes = {5, 3}},
         SceneOptions{.planes = {9, 9}, .points = {5, 30}}, SceneOptions{.noise = {0, 0.1}},
-        SceneOptions{.noise = {0.1, 3}}, SceneOptions{.outliers = 1}}) {
+        SceneOptions{.noise = {0.1, 3}}, SceneOptions{.half_size = {0, 1}}, SceneOptions{.half_size = {1, 6}},
+        SceneOptions{.outliers = 1}}) {
     const auto error = test::error_of([&] { make_scene(1, 0, options); });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->code(), ErrorCode::kUsage);
