@@ -108,7 +108,7 @@ std::vector<T> of_points(const std::vector<std::uint64_t>& rows, const std::vect
   return values;
 }
 
-Cloud parse_cloud(std::string_view content, const fs::path& path, const CloudOptions& options) {
+Cloud parse_named(std::string_view content, const fs::path& path, const CloudOptions& options) {
   const std::string file = printable(path.string(), 4096);
   const auto kind = kind_of(content, path);
   if (content.empty() || !kind) {
@@ -149,9 +149,12 @@ auto naming(const fs::path& path, Work&& work) {
 
 }  // namespace
 
+Cloud parse_cloud(std::string_view content, const fs::path& name, const CloudOptions& options) {
+  return naming(name, [&] { return parse_named(content, name, options); });
+}
+
 Cloud read_cloud(const fs::path& path, const CloudOptions& options) {
-  const std::string content = read_file(path, import::kMaxCloudBytes);
-  return naming(path, [&] { return parse_cloud(content, path, options); });
+  return parse_cloud(read_file(path, import::kMaxCloudBytes), path, options);
 }
 
 std::vector<std::int64_t> read_labels(const fs::path& path, const Cloud& cloud, std::int64_t unlabelled) {

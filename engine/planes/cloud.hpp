@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "import/depth_camera.hpp"
@@ -37,6 +38,9 @@ struct CloudOptions {
   std::optional<import::Camera> camera{};                ///< of a depth image, which cannot be read without
   double units_per_metre = import::kDepthUnitsPerMetre;  ///< of a depth image
 };
+
+/// The points in a file's content. `name` tells the kind where the content does not, and stands in messages. Throws as read_cloud() does.
+Cloud parse_cloud(std::string_view content, const std::filesystem::path& name, const CloudOptions& options);
 
 /// Reads a cloud: PLY and PCD as `hallway log convert` does, CSV with a header, the `v` lines of OBJ, a depth image (PNG, 16 bits grey) with a camera.
 /// What the file begins with tells the kind, else the end of its name. Throws Error{kBadInput} with file and line, Error{kIo}; Error{kUsage} for a
