@@ -92,7 +92,7 @@ TEST_F(Clouds, WhatIsNoneIsRefusedWithFileAndLine) {
   EXPECT_EQ(refused("a.obj", "v 1 2 3").where().line, 1) << "cut off";
   EXPECT_NE(refused("a.txt", "1 2 3\n").where().file, "");
   EXPECT_NE(refused("a.csv", "").where().file, "");
-  EXPECT_NE(refused("a.png", "no png").where().file, "");
+  EXPECT_NE(refused("a.png", "no png", {.camera = import::Camera{}}).where().file, "");
 }
 
 TEST_F(Clouds, FilesWithoutPointsAreClouds) {

@@ -18,7 +18,7 @@ bool has(const render::Image& image, render::Rgb colour, int begin_x, int end_x)
 }
 
 TEST(PlanePictures, PlanesHaveColoursOfTheirOwn) {
-  const Case two = levels(2, 3);
+  const Case two = levels(2, 40);
   const std::vector<FoundPlane> found = perfect(two.truth);
   const render::Image image = draw_planes({two.points, found, "levels"}, {}, {400, 300});
   EXPECT_EQ(image.width_px, 400);
