@@ -20,29 +20,29 @@ Mat3 symmetric(const std::array<double, 6>& m) {
 
 }  // namespace
 
-Moments& Moments::operator+=(const Moments& other) {
+PointSums& PointSums::operator+=(const PointSums& other) {
   weight += other.weight;
   sum += other.sum;
   for (std::size_t i = 0; i < products.size(); ++i) products[i] += other.products[i];
   return *this;
 }
 
-Moments& Moments::operator-=(const Moments& other) {
+PointSums& PointSums::operator-=(const PointSums& other) {
   weight -= other.weight;
   sum -= other.sum;
   for (std::size_t i = 0; i < products.size(); ++i) products[i] -= other.products[i];
   return *this;
 }
 
-double PlaneFit::rms() const {
+double FittedPlane::rms() const {
   return std::sqrt(std::max(variances[0], 0.0));
 }
 
-std::optional<PlaneFit> fit_plane(const Moments& moments) {
-  if (!(moments.weight >= 3.0)) return std::nullopt;
-  PlaneFit fit;
-  fit.centroid = moments.sum / moments.weight;
-  const Mat3 mean_products = symmetric(moments.products) / moments.weight;
+std::optional<FittedPlane> fit_plane(const PointSums& sums) {
+  if (!(sums.weight >= 3.0)) return std::nullopt;
+  FittedPlane fit;
+  fit.centroid = sums.sum / sums.weight;
+  const Mat3 mean_products = symmetric(sums.products) / sums.weight;
   const Mat3 covariance = mean_products - fit.centroid * fit.centroid.transpose();
   if (!covariance.allFinite()) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(covariance);

@@ -10,7 +10,7 @@ namespace hallway::em {
 
 /// Sums over points from which their plane follows, so that points can be added and taken out without a look at the others.
 /// The sums are about the origin: they resolve a spread of about 1e-7 of the distance from there, so place the origin near.
-struct Moments {
+struct PointSums {
   double weight = 0.0;               ///< number of points, or the sum of their weights
   Vec3 sum = Vec3::Zero();           ///< of the coordinates
   std::array<double, 6> products{};  ///< of xx, xy, xz, yy, yz, zz
@@ -28,12 +28,12 @@ struct Moments {
   }
   void remove(const Vec3& p, double w = 1.0) { add(p, -w); }
 
-  Moments& operator+=(const Moments& other);
-  Moments& operator-=(const Moments& other);
+  PointSums& operator+=(const PointSums& other);
+  PointSums& operator-=(const PointSums& other);
 };
 
 /// The plane with the least sum of squared distances to some points.
-struct PlaneFit {
+struct FittedPlane {
   Vec3 normal = Vec3::UnitZ();   ///< unit; its sign means nothing
   double offset = 0.0;           ///< normal . x = offset on the plane
   Vec3 centroid = Vec3::Zero();  ///< on the plane
@@ -49,6 +49,6 @@ struct PlaneFit {
 /// Total least squares: the normal is the eigenvector of the least eigenvalue of the scatter about the centroid (the last
 /// singular vector of the centred points; thesis 3.5.2, step 7). Empty for fewer than three points and where they coincide,
 /// lie on a line, or are not finite: then no plane is better than another.
-std::optional<PlaneFit> fit_plane(const Moments& moments);
+std::optional<FittedPlane> fit_plane(const PointSums& sums);
 
 }  // namespace hallway::em

@@ -69,12 +69,12 @@ Vec3 orient(const Vec3& normal, const Vec3& on_plane) {
   return normal;
 }
 
-PlaneFrame plane_frame(const Vec3& normal, const Vec3& origin) {
+FlatFrame flat_frame(const Vec3& normal, const Vec3& origin) {
   // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
   const double sign = std::copysign(1.0, normal.z());
   const double a = -1.0 / (sign + normal.z());
   const double b = normal.x() * normal.y() * a;
-  PlaneFrame frame;
+  FlatFrame frame;
   frame.origin = origin;
   frame.u = Vec3(1.0 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
   frame.v = Vec3(b, sign + normal.y() * normal.y() * a, -normal.y());
@@ -136,7 +136,7 @@ Rectangle tightest_rectangle(std::span<const Vec2> hull) {
 
 Outline outline_of(std::span<const Vec3> points, const Vec3& normal, const Vec3& origin) {
   Outline outline;
-  outline.frame = plane_frame(normal, origin);
+  outline.frame = flat_frame(normal, origin);
   std::vector<Vec2> feet;
   feet.reserve(points.size());
   for (const Vec3& p : points) feet.push_back(outline.frame.flat(p));

@@ -14,7 +14,7 @@ namespace hallway::em {
 Vec3 orient(const Vec3& normal, const Vec3& on_plane);
 
 /// Coordinates on a plane: u x v = normal.
-struct PlaneFrame {
+struct FlatFrame {
   Vec3 origin = Vec3::Zero();
   Vec3 u = Vec3::UnitX();
   Vec3 v = Vec3::UnitY();
@@ -26,7 +26,7 @@ struct PlaneFrame {
 };
 
 /// A frame on the plane through `origin`; its axes are a function of the unit normal alone.
-PlaneFrame plane_frame(const Vec3& normal, const Vec3& origin);
+FlatFrame flat_frame(const Vec3& normal, const Vec3& origin);
 
 /// The corners of the smallest convex polygon that holds the points, counter-clockwise from the one with the least (x, y); no three on
 /// a line. Equal points give one, collinear ones two. Coordinates are finite. O(n log n).
@@ -56,7 +56,7 @@ Rectangle tightest_rectangle(std::span<const Vec2> hull);
 
 /// What points cover on a plane.
 struct Outline {
-  PlaneFrame frame;
+  FlatFrame frame;
   std::vector<Vec2> hull;
   Rectangle rectangle;
 };
