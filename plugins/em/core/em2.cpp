@@ -17,6 +17,7 @@ namespace {
 
 // Widening a plane turns it at first; from then on it has ended when it gains no points.
 constexpr int kTurningSteps = 3;
+constexpr double kStripBySpacing = 4.0;
 
 /// The search; the numbers are the steps of thesis 3.5.3.
 class Em2Search {
@@ -26,8 +27,11 @@ class Em2Search {
         options_(options),
         dice_(static_cast<std::uint64_t>(options.seed)),
         tree_(points),  // 1
-        lengths_(lengths_of(options, measure_scale(points, tree_))),
         uses_(points.size(), 0) {
+    const CloudScale scale = measure_scale(points, tree_);
+    lengths_ = lengths_of(options, scale);
+    density_check_ = {options.density_step > 0.0 ? options.density_step : kStripBySpacing * scale.spacing,
+                      options.min_density};
     merge_bounds_ = {std::cos(options.merge_angle_deg * M_PI / 180.0), lengths_.merge_offset,
                      lengths_.expansion};
   }
@@ -108,7 +112,7 @@ class Em2Search {
   bool end_where_sparse(Candidate& plane, const Vec3& start) const {
     if (options_.min_density <= 0.0) return true;
     const std::size_t before = plane.members.size();
-    keep_dense_part(plane, points_, start, {lengths_.expansion, options_.min_density});
+    keep_dense_part(plane, points_, start, density_check_);
     return plane.members.size() == before || (enough(plane) && maximise(plane, points_));
   }
 
@@ -122,6 +126,7 @@ class Em2Search {
   PointTree tree_;
   Lengths lengths_;
   MergeBounds merge_bounds_;
+  DensityCheck density_check_;
   std::vector<Candidate> planes_;
   std::vector<std::uint32_t> uses_;        ///< how many planes have each point
   std::vector<std::uint32_t> unattached_;  ///< points that no plane has

@@ -4,7 +4,7 @@
 namespace hallway::em {
 namespace {
 
-constexpr std::array<OptionRow<Em2Options>, 4> kOwnRows{{
+constexpr std::array<OptionRow<Em2Options>, 5> kOwnRows{{
     {"max_planes", "planes", 1, 1000000, "The search ends after so many planes that were grown and kept.",
      nullptr, &Em2Options::max_planes},
     {"tries", "points", 1, 1000000,
@@ -14,6 +14,9 @@ constexpr std::array<OptionRow<Em2Options>, 4> kOwnRows{{
     {"min_density", "1", 0.0, 1.0,
      "A plane ends where its density falls below this share of that around its seed; 0: no check.",
      &Em2Options::min_density, nullptr},
+    {"density_step", "length", 0.0, 1e9,
+     "Width of the strips in which density is watched; 0: 4 times the spacing of the points.",
+     &Em2Options::density_step, nullptr},
 }};
 
 constexpr auto kRows = joined_rows(common_rows<Em2Options>(), kOwnRows);
