@@ -73,10 +73,9 @@ class Em2Search {
   std::optional<Candidate> next_plane() {
     const std::uint32_t start = unattached_[dice_.below(static_cast<std::uint32_t>(unattached_.size()))];
     auto plane = seed_plane(start);
-    if (!plane || !grow(*plane, points_[start])) return std::nullopt;
-    const auto brought = std::count_if(plane->members.begin(), plane->members.end(),
-                                       [&](std::uint32_t i) { return uses_[i] == 0; });
-    if (brought < options_.min_points) return std::nullopt;
+    if (!plane || !grow(*plane, points_[start]) || own_points(*plane) < options_.min_points) {
+      return std::nullopt;
+    }
     for (const std::uint32_t i : plane->members) ++uses_[i];
     plane->fresh = false;
     return plane;
@@ -89,15 +88,22 @@ class Em2Search {
     return plane_through(points_, {nearest[0].place, nearest[1].place, nearest[2].place});
   }
 
-  /// Widens a plane step by step (5); false if it has too few points on the way.
+  /// Widens a plane step by step (5); false if it has too few points on the way. One that has not even
+  /// three points of its own was found before and is not widened any further.
   bool grow(Candidate& plane, const Vec3& start) const {
     std::size_t most = 0;
     for (int step = 0; step < options_.grow_steps; ++step) {
       if (!match(plane) || !maximise(plane, points_) || !end_where_sparse(plane, start)) return false;
-      if (step >= kTurningSteps && plane.members.size() <= most) return true;
+      if (step >= kTurningSteps && (plane.members.size() <= most || own_points(plane) < 3)) return true;
       most = std::max(most, plane.members.size());
     }
     return true;
+  }
+
+  /// How many of a plane's points belong to no other.
+  std::ptrdiff_t own_points(const Candidate& plane) const {
+    return std::count_if(plane.members.begin(), plane.members.end(),
+                         [&](std::uint32_t i) { return uses_[i] == 0; });
   }
 
   bool match(Candidate& plane) const {

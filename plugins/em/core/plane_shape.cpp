@@ -25,6 +25,30 @@ void extend(std::vector<Vec2>& chain, std::size_t first, const Vec2& p) {
   chain.push_back(p);
 }
 
+// Drops most of what is no corner before it is sorted: what lies within the polygon of the points outermost in eight directions (Akl and
+// Toussaint 1978).
+void drop_inner(std::vector<Vec2>& points) {
+  constexpr std::array<std::array<double, 2>, 8> kDirections{
+      {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  if (points.size() < 4 * kDirections.size()) return;
+  std::array<Vec2, 8> outer;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    const Vec2 direction(kDirections[i][0], kDirections[i][1]);
+    outer[i] = *std::max_element(points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) {
+      return direction.dot(a) < direction.dot(b);
+    });
+  }
+  if (outer[0] == outer[4] && outer[2] == outer[6]) return;  // all are the same
+  std::erase_if(points, [&](const Vec2& p) {
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      const Vec2& a = outer[i];
+      const Vec2& b = outer[(i + 1) % outer.size()];
+      if (a != b && cross(b - a, p - a) <= 0.0) return false;
+    }
+    return true;
+  });
+}
+
 // The corner that lies farthest in a direction, searched onwards from `from`: the directions asked for turn with the edges.
 std::size_t farthest(std::span<const Vec2> hull, const Vec2& direction, std::size_t from) {
   for (std::size_t steps = 0; steps < hull.size(); ++steps) {
@@ -82,6 +106,7 @@ FlatFrame flat_frame(const Vec3& normal, const Vec3& origin) {
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  drop_inner(points);
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;

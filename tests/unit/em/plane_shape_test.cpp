@@ -75,7 +75,26 @@ TEST(ConvexHull, HasExactlyTheCornersThatBruteForceFinds) {
   }
 }
 
+TEST(ConvexHull, OfManyPointsTurnsLeftAtItsOwnPointsAndHoldsAll) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const std::vector<Vec2> points = lattice_points(seed, 30 + 20 * seed, 3 + 7 * seed);
+    const std::vector<Vec2> hull = convex_hull(points);
+    ASSERT_GE(hull.size(), 3u);
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Vec2& a = hull[i];
+      const Vec2& b = hull[(i + 1) % hull.size()];
+      EXPECT_NE(std::find(points.begin(), points.end(), a), points.end());
+      EXPECT_GT(cross(b - a, hull[(i + 2) % hull.size()] - b), 0.0);
+      for (const Vec2& p : points) EXPECT_GE(cross(b - a, p - a), 0.0);
+    }
+  }
+}
+
 TEST(ConvexHull, OfNothingPointsAndLines) {
+  std::vector<Vec2> line;
+  for (int i = 0; i < 100; ++i) line.emplace_back(i, 2 * i);
+  EXPECT_EQ(convex_hull(line), (std::vector<Vec2>{{0, 0}, {99, 198}}));
+  EXPECT_EQ(convex_hull(std::vector<Vec2>(100, Vec2(3, 4))), (std::vector<Vec2>{{3, 4}}));
   EXPECT_TRUE(convex_hull({}).empty());
   EXPECT_EQ(convex_hull({{1, 2}, {1, 2}, {1, 2}}).size(), 1u);
   EXPECT_EQ(convex_hull({{0, 0}, {1, 1}, {3, 3}, {2, 2}}), (std::vector<Vec2>{{0, 0}, {3, 3}}));
