@@ -35,26 +35,30 @@ std::size_t flood(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, s
   return marked;
 }
 
-/// Cells for which any within `radius` along a row (then along a column) is `value`.
+/// Sets to `value` all within `radius` of a cell of that value, along one line of `length` cells that lie `stride` apart.
+void spread_line(const std::uint8_t* from, std::uint8_t* to, int length, std::ptrdiff_t stride, int radius,
+                 std::uint8_t value) {
+  int last = -radius - 1;  // the last cell of that value seen so far
+  for (int k = 0; k < length + radius; ++k) {
+    if (k < length && from[k * stride] == value) last = k;
+    const int here = k - radius;
+    if (here < 0) continue;
+    to[here * stride] = last >= here - radius ? value : from[here * stride];
+  }
+}
+
+/// Cells with one of `value` within a square of `radius` cells become `value` themselves.
 CellMap<std::uint8_t> spread(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius,
                              std::uint8_t value) {
-  CellMap<std::uint8_t> along(cells);
+  CellMap<std::uint8_t> along(cells.size());
+  CellMap<std::uint8_t> result(cells.size());
   for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      if (cells[grid.place(column, row)] != value) continue;
-      for (int c = std::max(column - radius, 0); c <= std::min(column + radius, grid.columns - 1); ++c) {
-        along[grid.place(c, row)] = value;
-      }
-    }
+    const std::size_t begin = grid.place(0, row);
+    spread_line(&cells[begin], &along[begin], grid.columns, 1, radius, value);
   }
-  CellMap<std::uint8_t> result(along);
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      if (along[grid.place(column, row)] != value) continue;
-      for (int r = std::max(row - radius, 0); r <= std::min(row + radius, grid.rows - 1); ++r) {
-        result[grid.place(column, r)] = value;
-      }
-    }
+  for (int column = 0; column < grid.columns; ++column) {
+    const std::size_t begin = grid.place(column, 0);
+    spread_line(&along[begin], &result[begin], grid.rows, grid.columns, radius, value);
   }
   return result;
 }

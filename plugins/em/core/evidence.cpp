@@ -7,8 +7,6 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kRoughest = 1.45;       // RMS by the cloud's noise: uniform over the slab would be 1.73
-constexpr double kContrast = 2.0;        // members by background at least
 constexpr double kPointsForAPlane = 3.0; // three points make a plane: so many powers of n are tried by chance
 constexpr double kFlank = 3.0;           // a flank is as thick as half of the slab times two
 
@@ -42,10 +40,10 @@ Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& c
   return evidence;
 }
 
-bool convincing(const Evidence& evidence, std::size_t points, std::size_t min_points) {
-  if (evidence.members < min_points || evidence.noise_ratio > kRoughest) return false;
+bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points, std::size_t min_points) {
+  if (evidence.members < min_points || evidence.noise_ratio > standard.noise_ratio) return false;
   const double n = static_cast<double>(evidence.members);
-  return n >= kContrast * evidence.background &&
+  return evidence.background <= standard.background * n &&
          evidence.gain >= kPointsForAPlane * std::log(static_cast<double>(points));
 }
 

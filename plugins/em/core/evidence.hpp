@@ -18,7 +18,13 @@ struct Evidence {
 Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& claimed, const Grown& plane,
                      double sigma, double volume_density);
 
-/// Whether the evidence is for a plane in a cloud of `points` points.
-bool convincing(const Evidence& evidence, std::size_t points, std::size_t min_points);
+/// How much a plane may differ from points with the cloud's noise on nothing but one plane.
+struct Standard {
+  double noise_ratio = 0.0;   ///< RMS of the members by the noise of the cloud, at most
+  double background = 0.0;    ///< background by members, at most
+};
+
+/// Whether the evidence, by that standard, is for a plane in a cloud of `points` points.
+bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points, std::size_t min_points);
 
 }  // namespace hallway::em

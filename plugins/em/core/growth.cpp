@@ -13,7 +13,7 @@ constexpr double kWiden = std::numbers::sqrt2;  // of the radius: the area doubl
 constexpr int kMaxSteps = 60;
 constexpr double kSettled = 1.02;     // growth of the number of members below which the plane is complete ...
 constexpr int kSettledSteps = 2;      // ... when it happens so often in a row
-constexpr double kNoiseLeeway = 1.4;  // a plane's own noise against that of the cloud
+constexpr double kNoiseLeeway = 1.05;  // a plane's own noise against that of the cloud
 constexpr double kDense = 1.5;        // cells with more than so many times the median are thinned by weight
 constexpr double kMostCells = 4.0;    // cells per point of the slab at most
 constexpr double kDeviationOfMedian = 1.4826;  // standard deviation by median absolute deviation, normal noise
@@ -91,7 +91,9 @@ void Grower::refit() {
   for (const std::uint32_t k : picked_) {
     const double count = counts_[cell_of_[k]];
     const Vec3 from = field_.points.at(slab_.place[k]) - plane_.frame.origin;
-    moments.add(from, count > full ? full / count : 1.0);
+    const double away = slab_.height[k] / (kSlabSigmas * plane_.sigma);
+    const double inner = std::max(0.0, 1.0 - away * away);
+    moments.add(from, inner * inner * (count > full ? full / count : 1.0));
   }
   const PlaneFit fit = moments.fit(plane_.frame.origin);
   // The origin stays where the seed is, moved onto the new plane, so that the growth goes on from there.

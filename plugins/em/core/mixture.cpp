@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <cstdio>
+#include <cstdlib>
 
 namespace hallway::em {
 namespace {
@@ -13,6 +15,7 @@ constexpr double kFarthest = 4.5;         // standard deviations: beyond no poin
 constexpr double kClearlyBest = 4.0;      // log likelihood by which the best must lead to be a patch's own
 constexpr double kRim = 0.1;              // density at the rim of a patch by that within, at least
 constexpr double kOccupied = 0.2;         // of the median density: a cell with less of its own is no part
+const double RS=getenv("RS")?atof(getenv("RS")):1.0;
 constexpr int kClosing = 2;               // cells; gaps where another plane crosses are closed
 constexpr double kPriorPoints = 20.0;     // weight of the cloud's noise in a patch's own
 constexpr double kNoiseLeeway = 1.4;      // a patch's noise against that of the cloud
@@ -51,7 +54,7 @@ double mean_around(const CellGrid& grid, const CellMap<float>& counts, int colum
 }  // namespace
 
 Mixture::Mixture(const PointField& field, double volume, double sigma)
-    : field_(field), volume_(volume), sigma_(sigma), unassigned_(field.points.count) {
+    : field_(&field), volume_(volume), sigma_(sigma), unassigned_(field.points.count) {
   const std::size_t n = field.points.blocks() * kBlockSize;
   best_.assign(n, kNone);
   second_.assign(n, kNone);
@@ -84,7 +87,7 @@ void Mixture::assign() {
     const double lead = 2.0 * (std::log(patch.density) + peak - static_cast<double>(outlier));
     if (!(lead > 0.0)) continue;
     const double reach = std::min(std::sqrt(lead), kFarthest) * patch.sigma;
-    collect(field_, {patch.frame, reach, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()}, slab_);
+    collect(*field_, {patch.frame, reach, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()}, slab_);
     const double scale = -0.5 / (patch.sigma * patch.sigma);
     for (std::size_t k = 0; k < slab_.size(); ++k) {
       const float density = patch.log_density[grid.at(slab_.a[k], slab_.b[k])];
@@ -103,16 +106,16 @@ void Mixture::assign() {
     }
   }
   unassigned_ = 0;
-  for (std::size_t i = 0; i < field_.points.count; ++i) unassigned_ += best_[i] == kNone ? 1 : 0;
+  for (std::size_t i = 0; i < field_->points.count; ++i) unassigned_ += best_[i] == kNone ? 1 : 0;
 }
 
 void Mixture::refit() {
   std::vector<Moments> moments(patches.size());
   const double outlier = log_outlier();
-  for (std::size_t i = 0; i < field_.points.count; ++i) {
+  for (std::size_t i = 0; i < field_->points.count; ++i) {
     const std::uint32_t j = best_[i];
     if (j == kNone) continue;
-    const Vec3 p = field_.points.at(i);
+    const Vec3 p = field_->points.at(i);
     const double best = static_cast<double>(best_score_[i]);
     double rest = 0.0;
     double other = 0.0;
@@ -143,10 +146,10 @@ void Mixture::refit() {
 void Mixture::cover_patch(std::uint32_t j) {
   Patch& patch = patches[j];
   const CellGrid old = patch.grid;
-  const double margin = 4.0 * old.cell + 0.15 * std::min(old.high_a() - old.low_a, old.high_b() - old.low_b);
+  const double margin = 4.0 * old.cell + 4.0 * patch.sigma + 0.15 * std::min(old.high_a() - old.low_a, old.high_b() - old.low_b);
   const CellGrid grid = grid_over(old.low_a - margin, old.high_a() + margin, old.low_b - margin, old.high_b() + margin,
                                   old.cell, std::numeric_limits<std::size_t>::max());
-  collect(field_, {patch.frame, kSlabSigmas * patch.sigma, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()}, slab_);
+  collect(*field_, {patch.frame, kSlabSigmas * patch.sigma, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()}, slab_);
   CellMap<float> own(grid.size(), 0.0f);       // points clearly its own
   CellMap<float> all(grid.size(), 0.0f);       // points given to it
   CellMap<float> free(grid.size(), 0.0f);      // given to none
@@ -161,12 +164,18 @@ void Mixture::cover_patch(std::uint32_t j) {
     }
   }
   const double area = grid.cell * grid.cell;
-  patch.density = typical_density(own, grid.cell);
+  static const double CS=getenv("CS")?atof(getenv("CS")):1.6, RR=getenv("RR")?atof(getenv("RR")):0.8, CW=getenv("CW")?atof(getenv("CW")):3.0;
+  const double spacing = 1.0/std::sqrt(patch.density);
+  const int closing = std::max(static_cast<int>(std::ceil(CS*spacing/grid.cell)), static_cast<int>(std::ceil(CW * patch.sigma / grid.cell)) + 1);
+  const int ring = std::max(static_cast<int>(std::lround(RR*spacing/grid.cell)), static_cast<int>(std::ceil(RS * patch.sigma / grid.cell)));
   const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * area));
   CellMap<std::uint8_t> occupied(grid.size(), 0);
   for (std::size_t c = 0; c < grid.size(); ++c) occupied[c] = own[c] + free[c] >= enough ? 1 : 0;
-  CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, kClosing));
-  const CellMap<std::uint8_t> rim = dilated(grid, support, 1);
+  CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, closing));
+  const CellMap<std::uint8_t> rim = dilated(grid, support, ring);
+  double inside=0.0, covered=0.0;
+  for (std::size_t c=0;c<grid.size();++c) if (support[c]) { covered+=1.0; if (occupied[c]) inside += static_cast<double>(all[c]); else inside += patch.density*area;}
+  if (covered>0.0 && inside>0.0) patch.density = inside/(covered*area);
   // cut to what is covered
   int c0 = grid.columns, c1 = -1, r0 = grid.rows, r1 = -1;
   for (int row = 0; row < grid.rows; ++row) {
@@ -205,12 +214,12 @@ void Mixture::cover() {
 bool Mixture::cull(std::size_t min_points) {
   std::vector<double> gain(patches.size(), 0.0);
   std::vector<std::size_t> members(patches.size(), 0);
-  for (std::size_t i = 0; i < field_.points.count; ++i) {
+  for (std::size_t i = 0; i < field_->points.count; ++i) {
     if (best_[i] == kNone) continue;
     gain[best_[i]] += static_cast<double>(best_score_[i] - second_score_[i]);
     ++members[best_[i]];
   }
-  const double cost = 0.5 * kParameters * std::log(static_cast<double>(field_.points.count));
+  const double cost = 0.5 * kParameters * std::log(static_cast<double>(field_->points.count));
   // One at a time, the least first: what it leaves may make another one worth its cost.
   std::size_t worst = patches.size();
   for (std::size_t j = 0; j < patches.size(); ++j) {
@@ -225,8 +234,8 @@ bool Mixture::cull(std::size_t min_points) {
 bool Mixture::merge() {
   if (patches.size() < 2) return false;
   std::vector<Moments> moments(patches.size());
-  for (std::size_t i = 0; i < field_.points.count; ++i) {
-    if (best_[i] != kNone) moments[best_[i]].add(field_.points.at(i));
+  for (std::size_t i = 0; i < field_->points.count; ++i) {
+    if (best_[i] != kNone) moments[best_[i]].add(field_->points.at(i));
   }
   bool merged = false;
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -241,6 +250,7 @@ bool Mixture::merge() {
                            joint.weight();
       const PlaneFit fit = joint.fit(Vec3::Zero());
       if (fit.variances[0] > kMergedNoise * kMergedNoise * std::max(parts, 0.5 * sigma_ * sigma_)) continue;
+      if (getenv("D")) fprintf(stderr,"merge %zu %zu: %.0f %.0f rms %.4f parts %.4f\n",i,j,moments[i].weight(),moments[j].weight(),std::sqrt(fit.variances[0]),std::sqrt(parts));
       patches[i] = joined(patches[i], patches[j], fit.frame);
       moments[i] = joint;
       moments.erase(moments.begin() + static_cast<std::ptrdiff_t>(j));

@@ -40,7 +40,7 @@ class Mixture {
   double log_outlier() const;
   void cover_patch(std::uint32_t j);
 
-  const PointField& field_;
+  const PointField* field_;
   double volume_ = 1.0;
   double sigma_ = 1.0;
   std::size_t unassigned_ = 0;

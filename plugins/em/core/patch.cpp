@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <cstdlib>
 
 namespace hallway::em {
 namespace {
 
+double env(const char*n,double d){const char*v=getenv(n);return v?atof(v):d;}
+const double kPointsPerPatchCell = env("KM",1.0);
+const double kPatchCellSigmas = env("KS",1.0);
 constexpr int kMargin = 3;  // cells around what is covered, so that closing and widening find room
 
 CellGrid with_margin(double low_a, double high_a, double low_b, double high_b, double cell) {
@@ -73,13 +77,17 @@ Patch patch_of(const Grown& grown) {
   Patch patch;
   patch.frame = grown.frame;
   patch.sigma = grown.sigma;
-  patch.grid = with_margin(old.low_a, old.high_a(), old.low_b, old.high_b(), old.cell);
   const auto cells = static_cast<double>(std::count(grown.support.begin(), grown.support.end(), 1));
   patch.density = static_cast<double>(grown.members.size()) / (cells * old.cell * old.cell);
+  const double cell = std::max(std::sqrt(kPointsPerPatchCell / patch.density), kPatchCellSigmas * patch.sigma);
+  patch.grid = with_margin(old.low_a, old.high_a(), old.low_b, old.high_b(), cell);
   CellMap<std::uint8_t> support(patch.grid.size(), 0);
-  for (int row = 0; row < old.rows; ++row) {
-    for (int column = 0; column < old.columns; ++column) {
-      support[patch.grid.place(column + kMargin, row + kMargin)] = grown.support[old.place(column, row)];
+  for (int row = 0; row < patch.grid.rows; ++row) {
+    for (int column = 0; column < patch.grid.columns; ++column) {
+      const double a = patch.grid.low_a + (column + 0.5) * cell;
+      const double b = patch.grid.low_b + (row + 0.5) * cell;
+      if (a < old.low_a || b < old.low_b || a > old.high_a() || b > old.high_b()) continue;
+      support[patch.grid.place(column, row)] = grown.support[old.at(a, b)];
     }
   }
   cover(patch, support);

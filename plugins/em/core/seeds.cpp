@@ -18,6 +18,7 @@ constexpr double kOnALine = 1e-6;      // smaller by larger variance along the p
 constexpr double kFlatEnough = 0.01;   // the normal is then known to a hundredth over 100 points: look no wider
 constexpr std::size_t kThinning = 4;   // of a coarser level: half the density along an edge
 constexpr std::size_t kFewest = 400;   // points of the coarsest level
+constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples, modulo 1, lie apart from each other
 constexpr std::size_t kBestShare = 4;  // the best quarter tells the noise
 
 /// A level of the cloud: every 4^l-th point.
@@ -110,14 +111,16 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
 
 }  // namespace
 
-std::vector<Seed> find_seeds(const Points& points, std::size_t wanted) {
+std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round) {
   std::vector<Seed> seeds;
   if (points.count < kScales.front()) return seeds;
   const std::vector<Level> levels = levels_of(points);
   const std::size_t tries = std::min(wanted, points.count);
+  const double shift = std::fmod(0.5 + kGoldenRatio * static_cast<double>(round), 1.0);
   std::vector<Neighbour> near;
   for (std::size_t k = 0; k < tries; ++k) {
-    const auto place = static_cast<std::uint32_t>((2 * k + 1) * points.count / (2 * tries));
+    const double part = (static_cast<double>(k) + shift) / static_cast<double>(tries);
+    const auto place = static_cast<std::uint32_t>(part * static_cast<double>(points.count));
     if (const std::optional<Seed> seed = seed_at(levels, place, near)) seeds.push_back(*seed);
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& left, const Seed& right) {
