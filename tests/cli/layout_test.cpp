@@ -47,12 +47,13 @@ const std::map<std::string, std::set<std::string>> kAllowed{
       "run"}},
     {"robot", {"base", "host", "log", "record", "link", "hallway"}},
     {"loaders", {"base", "geom", "mesh", "import"}},
+    {"plugins/em/core", {"em"}},
     {"plugins/slam_point/core", {"slam_point"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance"};
+                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "em", "slam_point", "conformance"};
 
 struct Include {
   fs::path file;

@@ -2,18 +2,27 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "em/core/option_row.hpp"
 
 namespace hallway::em {
 
-/// Every tunable of `auto`. The defaults are meant to be left alone: lengths derive from the cloud's own spacing and noise.
+/// Every tunable of the algorithm `auto`. The defaults are meant to be left alone: every length derives from the
+/// cloud's own spacing and noise, so the cloud's unit of length does not matter.
 struct AutoOptions {
-  double noise = 0.0;        ///< standard deviation across planes [the cloud's unit of length]; 0: estimated
-  int min_points = 12;       ///< a plane has at least so many different points
-  int sample_points = 20000;  ///< planes are first sought among so many points
-  int seeds = 64;            ///< neighbourhoods tried a round
-  int rounds = 12;           ///< rounds of seeds at most
-  int passes = 4;            ///< passes of expectation and maximisation over the sample, at most
+  double noise = 0.0;         ///< standard deviation of points across their planes [length]; 0: estimated
+  int min_points = 12;        ///< different points that a plane has at least
+  int sample_points = 20000;  ///< in a larger cloud planes are first sought among so many points
+  int seeds = 64;             ///< neighbourhoods tried in a round of the search
+  int rounds = 12;            ///< rounds of a search at most
+  int passes = 4;             ///< passes of expectation and maximisation after a search at most
+  int rougher = 3;            ///< how often surfaces rougher than those found so far are sought; 0: never
+
+  /// Throws std::invalid_argument that names the parameter, its value and its range.
+  void validate() const;
 };
+
+/// All options, in the order of AutoOptions. Defaults are those of default-made AutoOptions.
+std::span<const OptionRow<AutoOptions>> auto_options();
 
 }  // namespace hallway::em

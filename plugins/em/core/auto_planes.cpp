@@ -2,113 +2,115 @@
 #include "em/core/auto_planes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 
 #include "em/core/canonical.hpp"
-#include "em/core/evidence.hpp"
-#include "em/core/growth.hpp"
-#include "em/core/local_search.hpp"
+#include "em/core/extraction.hpp"
 #include "em/core/mixture.hpp"
 #include "em/core/search.hpp"
 
 namespace hallway::em {
 namespace {
-struct Timer { static double now(){timespec t;clock_gettime(CLOCK_THREAD_CPUTIME_ID,&t);return static_cast<double>(t.tv_sec)*1e3+static_cast<double>(t.tv_nsec)*1e-6;} const char* n; double t=now(); explicit Timer(const char*x):n(x){} ~Timer(){ if (getenv("T")) fprintf(stderr,"%s %.3f ms\n",n,now()-t);} };
 
-/// Every so many-th point, so that about `wanted` are left: even in space, for the points are in Morton order.
+constexpr double kThinnest = 20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
+constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
+
+/// Every so many-th point: even in space too, since the points are in Morton order.
 Points sample_of(const Points& points, std::size_t wanted) {
-  if (points.count <= wanted * 3 / 2) return points;
+  if (points.count <= wanted + wanted / 2) return points;
   Points sample;
   sample.resize(wanted);
   for (std::size_t k = 0; k < wanted; ++k) sample.set(k, points.at(k * points.count / wanted));
   return sample;
 }
 
-double volume_of(const Vec3& extent, double sigma) {
-  return extent.cwiseMax(20.0 * sigma).prod();
+void assign_and_cull(Mixture& mixture, std::size_t min_points) {
+  mixture.assign();
+  while (mixture.cull(min_points)) mixture.assign();
 }
-}  // namespace
 
-static void settle(Mixture& mixture, const AutoOptions& options) {
-  Timer t(" settle");
+bool about_equal(const std::vector<std::uint32_t>& left, const std::vector<std::uint32_t>& right) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) different += left[i] != right[i] ? 1u : 0u;
+  return different * kSettled < left.size();
+}
+
+/// Expectation and maximisation in turns until hardly a label changes.
+void settle(Mixture& mixture, const AutoOptions& options) {
+  const auto min_points = static_cast<std::size_t>(options.min_points);
   std::vector<std::uint32_t> before;
   for (int pass = 0; pass < options.passes; ++pass) {
-    { Timer tt("  assign"); mixture.assign();}
-    while (mixture.cull(static_cast<std::size_t>(options.min_points))) { before.clear(); mixture.assign();}
-    std::size_t changed=0;
-    const auto& labels=mixture.labels();
-    if (!before.empty()) for (std::size_t i=0;i<labels.size();++i) changed += labels[i]!=before[i];
-    if (!before.empty() && changed*500 < labels.size()) break;
-    before=labels;
-    { Timer tt("  refit");mixture.refit();}
-    { Timer tt("  cover");mixture.cover();}
-    { Timer tt("  merge");if (mixture.merge()) {before.clear(); mixture.assign();}}
+    const std::size_t patches = mixture.patches.size();
+    assign_and_cull(mixture, min_points);
+    const bool same = !before.empty() && mixture.patches.size() == patches;
+    if (same && about_equal(before, mixture.labels())) return;
+    before = mixture.labels();
+    mixture.refit();
+    mixture.cover();
+    if (mixture.merge()) before.clear();
   }
-  mixture.assign();
-  while (mixture.cull(static_cast<std::size_t>(options.min_points))) mixture.assign();
+  assign_and_cull(mixture, min_points);
+}
+
+/// Searches among the points of no patch with noise `sigma`; true if that gave more patches.
+bool add_planes(PlaneSearch& search, double sigma, int fruitless, Mixture& mixture) {
+  std::vector<std::uint8_t> claimed(mixture.labels().size());
+  std::transform(mixture.labels().begin(), mixture.labels().end(), claimed.begin(),
+                 [](std::uint32_t label) { return static_cast<std::uint8_t>(label != kNoPlane); });
+  const std::vector<Grown> found = search.find(sigma, fruitless, claimed);
+  for (const Grown& grown : found) mixture.patches.push_back(patch_of(grown));
+  return !found.empty();
+}
+
+/// All planes that show among the points of `search`: those with the cloud's noise, what these left over, then
+/// rougher and rougher ones.
+void find_planes(PlaneSearch& search, const AutoOptions& options, double sigma, Mixture& mixture) {
+  add_planes(search, sigma, 1, mixture);
+  settle(mixture, options);
+  double level = mixture.patches.empty() ? sigma : mixture.noise();
+  if (add_planes(search, level, 2, mixture)) settle(mixture, options);
+  for (int k = 0; k < options.rougher; ++k) {
+    level = search.rougher_noise(level, mixture.labels());
+    if (!(level > 0.0) || !add_planes(search, level, 2, mixture)) return;
+    settle(mixture, options);
+  }
+}
+
+/// The same planes with all points of the cloud, of which `sampled` had but some.
+void settle_with_all(Mixture& sampled, double factor, const AutoOptions& options, Mixture& whole) {
+  const auto min_points = static_cast<std::size_t>(options.min_points);
+  for (const Patch& patch : sampled.patches) whole.patches.push_back(denser(patch, factor));
+  assign_and_cull(whole, min_points);
+  if (whole.split(min_points)) whole.assign();
+  whole.refit();
+  whole.cover();
+  assign_and_cull(whole, min_points);
+}
+
+}  // namespace
+
+PlaneExtractor::PlaneExtractor(const AutoOptions& options) : options_(options) {
+  options_.validate();
 }
 
 Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
-  Extraction result;
-  result.labels.assign(cloud.size(), kNoPlane);
-  Timer t("all");
-  CanonicalCloud canonical;
-  { Timer tt("order"); canonical = canonical_order(cloud); }
-  const Points& points = canonical.points;
-  const BoxTree tree(points);
-  const PointField field{points, tree};
-  const double rough_volume = volume_of(canonical.extent, 0.0);
-  const Points sample = sample_of(points, static_cast<std::size_t>(options_.sample_points));
-  const bool sampled = sample.count < points.count;
+  const CanonicalCloud canonical = canonical_order(cloud);
+  const Points sample = sample_of(canonical.points, static_cast<std::size_t>(options_.sample_points));
   const BoxTree sample_tree(sample);
   const PointField sample_field{sample, sample_tree};
-  PlaneSearch search(sample_field, options_, rough_volume);
-  double sigma = options_.noise;
-  if (!(sigma > 0.0)) { Timer tt("noise"); sigma = search.estimate_noise(); }
-  if (!(sigma > 0.0)) return result;
-  if (getenv("D")) fprintf(stderr,"sigma %.5f\n",sigma);
-  const double volume = volume_of(canonical.extent, sigma);
-  Mixture mixture(sample_field, volume, sigma);
-  std::vector<std::uint8_t> claimed(sample.blocks() * kBlockSize, 0);
-  { Timer tt("search1"); for (const Grown& grown : search.find(sigma, 1, claimed)) mixture.add(grown); }
-  { Timer tt("settle1"); settle(mixture, options_);}
-  for (std::size_t i = 0; i < sample.count; ++i) claimed[i] = mixture.labels()[i] != kNoPlane;
-  std::vector<Grown> more;
-  { Timer tt("search2"); more=search.find(mixture.sigma(), 2, claimed);}
-  if (!more.empty()) {
-    Timer tt("settle2");
-    for (const Grown& grown : more) mixture.add(grown);
-    settle(mixture, options_);
-  }
-  Mixture whole(field, volume, mixture.sigma());
-  if (sampled) {
-    Timer tt("whole");
-    whole.patches = std::move(mixture.patches);
-    const double factor = static_cast<double>(points.count) / static_cast<double>(sample.count);
-    for (Patch& patch : whole.patches) {
-      patch.density *= factor;
-      for (float& value : patch.log_density) {
-        if (value != kNotSupported) value += static_cast<float>(std::log(factor));
-      }
-    }
-    whole.assign();
-    whole.refit();
-    whole.cover();
-    whole.assign();
-  } else { std::swap(whole, mixture); }
-  result.noise = whole.sigma();
-  for (const Patch& patch : whole.patches) {
-    Plane plane;
-    plane.normal = patch.frame.normal;
-    result.planes.push_back(plane);
-  }
-  for (std::size_t i = 0; i < points.count; ++i) {
-    for (const PointIndex given : canonical.given_at(i)) result.labels[given] = whole.labels()[i];
-  }
-  return result;
+
+  PlaneSearch search(sample_field, options_, canonical.extent);
+  const double sigma = options_.noise > 0.0 ? options_.noise : search.estimate_noise();
+  const double volume = canonical.extent.cwiseMax(kThinnest * sigma).prod();
+  Mixture mixture(sample_field, volume);
+  if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
+  if (sample.count == canonical.points.count) return extraction_of(canonical, mixture, cloud.size());
+
+  const BoxTree tree(canonical.points);
+  const PointField field{canonical.points, tree};
+  Mixture whole(field, volume);
+  const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
+  settle_with_all(mixture, factor, options_, whole);
+  return extraction_of(canonical, whole, cloud.size());
 }
 
 }  // namespace hallway::em

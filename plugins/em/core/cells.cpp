@@ -11,28 +11,16 @@ int cells_along(double length, double cell) {
   return std::max(1, static_cast<int>(std::min(std::ceil(length / cell), 1e9)));
 }
 
-/// Marks everything connected with `start` in `reached`; returns how many cells it marked.
-std::size_t flood(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::size_t start,
-                  CellMap<std::uint8_t>& reached) {
-  std::vector<std::size_t> open{start};
-  reached[start] = 1;
-  std::size_t marked = 0;
-  while (!open.empty()) {
-    const std::size_t here = open.back();
-    open.pop_back();
-    ++marked;
-    const int column = static_cast<int>(here % static_cast<std::size_t>(grid.columns));
-    const int row = static_cast<int>(here / static_cast<std::size_t>(grid.columns));
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-        const std::size_t next = grid.place(c, r);
-        if (occupied[next] == 0 || reached[next] != 0) continue;
-        reached[next] = 1;
-        open.push_back(next);
-      }
+/// Calls visit(cell) for the cell and those at its sides and corners.
+template <typename Visit>
+void visit_neighbours(const CellGrid& grid, std::size_t cell, Visit visit) {
+  const int column = static_cast<int>(cell % static_cast<std::size_t>(grid.columns));
+  const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.columns));
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
+      visit(grid.place(c, r));
     }
   }
-  return marked;
 }
 
 /// Sets to `value` all within `radius` of a cell of that value, along one line of `length` cells that lie `stride` apart.
@@ -75,28 +63,55 @@ CellGrid grid_over(double low_a, double high_a, double low_b, double high_b, dou
   return grid;
 }
 
+CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::uint32_t& count) {
+  CellMap<std::uint32_t> number(grid.size(), 0);
+  count = 0;
+  std::vector<std::size_t> open;
+  for (std::size_t start = 0; start < grid.size(); ++start) {
+    if (occupied[start] == 0 || number[start] != 0) continue;
+    number[start] = ++count;
+    open.push_back(start);
+    while (!open.empty()) {
+      const std::size_t here = open.back();
+      open.pop_back();
+      visit_neighbours(grid, here, [&](std::size_t next) {
+        if (occupied[next] == 0 || number[next] != 0) return;
+        number[next] = count;
+        open.push_back(next);
+      });
+    }
+  }
+  return number;
+}
+
 CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
                                 const std::vector<std::size_t>& starts) {
   CellMap<std::uint8_t> reached(grid.size(), 0);
-  for (const std::size_t start : starts) {
-    if (occupied[start] != 0 && reached[start] == 0) flood(grid, occupied, start, reached);
+  std::vector<std::size_t> open;
+  const auto reach = [&](std::size_t cell) {
+    if (occupied[cell] == 0 || reached[cell] != 0) return;
+    reached[cell] = 1;
+    open.push_back(cell);
+  };
+  for (const std::size_t start : starts) reach(start);
+  while (!open.empty()) {
+    const std::size_t here = open.back();
+    open.pop_back();
+    visit_neighbours(grid, here, reach);
   }
   return reached;
 }
 
 CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std::uint8_t>& occupied) {
-  CellMap<std::uint8_t> reached(grid.size(), 0);
-  std::size_t best_start = grid.size();
-  std::size_t best_count = 0;
-  for (std::size_t start = 0; start < grid.size(); ++start) {
-    if (occupied[start] == 0 || reached[start] != 0) continue;
-    const std::size_t count = flood(grid, occupied, start, reached);
-    if (count <= best_count) continue;
-    best_count = count;
-    best_start = start;
-  }
-  if (best_start == grid.size()) return reached;
-  return connected(grid, occupied, {best_start});
+  std::uint32_t count = 0;
+  const CellMap<std::uint32_t> number = components(grid, occupied, count);
+  std::vector<std::size_t> sizes(count + 1, 0);
+  for (const std::uint32_t k : number) ++sizes[k];
+  sizes[0] = 0;
+  const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  CellMap<std::uint8_t> result(grid.size(), 0);
+  for (std::size_t c = 0; c < grid.size(); ++c) result[c] = largest != 0 && number[c] == largest ? 1 : 0;
+  return result;
 }
 
 CellMap<std::uint8_t> dilated(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius) {

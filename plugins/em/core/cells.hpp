@@ -42,6 +42,9 @@ CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t
 /// The largest set of occupied cells that hang together (the first one of equals).
 CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std::uint8_t>& occupied);
 
+/// Numbers the sets of occupied cells that hang together, from 1 in the order of their first cells; 0: not occupied.
+CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::uint32_t& count);
+
 /// `cells` and all within `radius` cells of one (a square).
 CellMap<std::uint8_t> dilated(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius);
 

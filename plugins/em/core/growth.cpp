@@ -14,6 +14,8 @@ constexpr int kMaxSteps = 60;
 constexpr double kSettled = 1.02;     // growth of the number of members below which the plane is complete ...
 constexpr int kSettledSteps = 2;      // ... when it happens so often in a row
 constexpr double kNoiseLeeway = 1.05;  // a plane's own noise against that of the cloud
+constexpr double kHopeless = 1.5;     // RMS by noise at which the slab is as full outside as within: no plane ...
+constexpr int kHopelessSteps = 3;     // ... after so many steps
 constexpr double kDense = 1.5;        // cells with more than so many times the median are thinned by weight
 constexpr double kMostCells = 4.0;    // cells per point of the slab at most
 constexpr double kDeviationOfMedian = 1.4826;  // standard deviation by median absolute deviation, normal noise
@@ -102,10 +104,17 @@ void Grower::refit() {
   plane_.frame.origin = seed + plane_.frame.normal * plane_.frame.normal.dot(fit.frame.origin - seed);
 }
 
+double Grower::mean_square() const {
+  double squares = 0.0;
+  for (const std::uint32_t k : picked_) squares += slab_.height[k] * slab_.height[k];
+  return picked_.empty() ? 0.0 : squares / static_cast<double>(picked_.size());
+}
+
 Grown Grower::grow(const Seed& seed, double sigma) {
   plane_ = Grown{};
   plane_.frame = frame_on(seed.frame.origin, seed.frame.normal);
   plane_.sigma = sigma;
+  plane_.level = sigma;
   cell_ = std::max(std::sqrt(kPointsPerCell / seed.density), kSlabSigmas * sigma);
   const double first_cell = cell_;
   double radius = seed.radius;
@@ -118,6 +127,7 @@ Grown Grower::grow(const Seed& seed, double sigma) {
     refit();
     plane_.sigma = noise_of_members(sigma);
     const double count = static_cast<double>(picked_.size());
+    if (step >= kHopelessSteps && mean_square() > kHopeless * kHopeless * sigma * sigma) break;
     settled = count <= kSettled * static_cast<double>(members) ? settled + 1 : 0;
     members = picked_.size();
     const auto cells = static_cast<std::size_t>(std::count(plane_.support.begin(), plane_.support.end(), 1));
@@ -126,12 +136,8 @@ Grown Grower::grow(const Seed& seed, double sigma) {
     cell_ = std::max(cell_, kSlabSigmas * sigma);
     if (settled == 0) radius *= kWiden;
   }
-  double squares = 0.0;
-  for (const std::uint32_t k : picked_) {
-    plane_.members.push_back(slab_.place[k]);
-    squares += slab_.height[k] * slab_.height[k];
-  }
-  plane_.mean_square = picked_.empty() ? 0.0 : squares / static_cast<double>(picked_.size());
+  for (const std::uint32_t k : picked_) plane_.members.push_back(slab_.place[k]);
+  plane_.mean_square = mean_square();
   return std::move(plane_);
 }
 

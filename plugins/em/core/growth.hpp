@@ -19,6 +19,7 @@ inline constexpr double kPointsPerCell = 4.0;
 struct Grown {
   PlaneFrame frame;
   double sigma = 0.0;                  ///< noise across the plane, by its members
+  double level = 0.0;                  ///< noise that it was grown with
   CellGrid grid;                       ///< over the plane, in the frame's coordinates
   CellMap<std::uint8_t> support;       ///< the cells it covers
   std::vector<std::uint32_t> members;  ///< unclaimed points in its slab and cells, ascending
@@ -40,6 +41,7 @@ class Grower {
   void spread_over_cells(double seed_radius);
   void refit();
   double noise_of_members(double sigma);
+  double mean_square() const;
 
   const PointField& field_;
   const std::vector<std::uint8_t>& claimed_;

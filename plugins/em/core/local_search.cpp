@@ -63,10 +63,10 @@ std::optional<Seed> seed_of(const std::vector<Vec3>& around, const PlaneFrame& f
 
 std::optional<Seed> search_locally(const PointField& field, std::uint32_t place, double radius, double sigma,
                                    std::uint64_t seed) {
-  std::vector<Neighbour> near;
+  std::vector<NearPoint> near;
   nearest(field, field.points.at(place), kNeighbours, radius, near);
   std::vector<Vec3> around;
-  for (const Neighbour& neighbour : near) around.push_back(field.points.at(neighbour.place));
+  for (const NearPoint& neighbour : near) around.push_back(field.points.at(neighbour.place));
   if (around.size() < kFewest) return std::nullopt;
   std::uint64_t state = seed ^ (static_cast<std::uint64_t>(place) << 32);
   std::optional<PlaneFrame> best;

@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kWiden = 1.5;  // of the radius when too few points are within: 3.4 times the volume
 
-bool nearer(const Neighbour& left, const Neighbour& right) {
+bool nearer(const NearPoint& left, const NearPoint& right) {
   return left.squared_distance != right.squared_distance ? left.squared_distance < right.squared_distance
                                                          : left.place < right.place;
 }
 
-void within(const PointField& field, const Ball& ball, std::vector<Neighbour>& found) {
+void within(const PointField& field, const Ball& ball, std::vector<NearPoint>& found) {
   found.clear();
   const double limit = ball.radius * ball.radius;
   field.tree.visit_blocks(ball, [&](std::size_t block) {
@@ -28,7 +28,7 @@ void within(const PointField& field, const Ball& ball, std::vector<Neighbour>& f
 }  // namespace
 
 void nearest(const PointField& field, const Vec3& p, std::size_t most, double radius,
-             std::vector<Neighbour>& found) {
+             std::vector<NearPoint>& found) {
   const std::size_t wanted = std::min(most, field.points.count);
   found.clear();
   if (wanted == 0) return;

@@ -9,7 +9,7 @@
 namespace hallway::em {
 
 /// A point near another.
-struct Neighbour {
+struct NearPoint {
   double squared_distance = 0.0;
   std::uint32_t place = 0;  ///< in the list of points
 };
@@ -17,6 +17,6 @@ struct Neighbour {
 /// Replaces `found` by the `most` points nearest to `p`, or all if there are fewer: nearest first, equal ones by place.
 /// `radius` is a guess of how far that goes; a good one saves time.
 void nearest(const PointField& field, const Vec3& p, std::size_t most, double radius,
-             std::vector<Neighbour>& found);
+             std::vector<NearPoint>& found);
 
 }  // namespace hallway::em

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <cstdio>
-#include <cstdlib>
 
 namespace hallway::em {
 namespace {
@@ -15,7 +13,13 @@ constexpr Standard kStrict{1.12, 0.05};
 constexpr Standard kLenient{1.3, 0.5};
 constexpr double kStillFree = 0.9;     // share of a pending plane's members that nothing else has claimed since
 constexpr double kRoughSeed = 2.5;      // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
+// Surfaces of another roughness show as flat neighbourhoods that are left over.
+constexpr double kFlat = 0.03;
+constexpr double kRougher = 1.3;
+constexpr double kRoughest = 5.0;
+constexpr std::size_t kRoughSeeds = 3;
 constexpr int kFailures = 2;           // growths that failed around a seed before it is left alone
+constexpr int kLocalSearches = 32;     // in a round: the flattest that are left
 constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.
@@ -36,11 +40,31 @@ Unclaimed unclaimed_of(const Points& points, const std::vector<std::uint8_t>& cl
 
 }  // namespace
 
-PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, double volume)
-    : field_(field), options_(options), volume_(volume) {}
+PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent)
+    : field_(field),
+      options_(options),
+      extent_(extent),
+      first_seeds_(find_seeds(field.points, static_cast<std::size_t>(options.seeds), 0)) {}
 
 double PlaneSearch::estimate_noise() const {
-  return noise_of_seeds(find_seeds(field_.points, static_cast<std::size_t>(options_.seeds), 0));
+  return noise_of_seeds(first_seeds_);
+}
+
+double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const {
+  std::vector<std::uint8_t> claimed(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) claimed[i] = labels[i] != kNoPlane ? 1 : 0;
+  const Unclaimed free = unclaimed_of(field_.points, claimed);
+  const std::size_t wanted =
+      std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
+  std::vector<double> noise;
+  for (const Seed& seed : find_seeds(free.points, wanted, 0)) {
+    if (seed.flatness > kFlat) break;
+    if (seed.noise > kRougher * sigma && seed.noise < kRoughest * sigma) noise.push_back(seed.noise);
+  }
+  if (noise.size() < kRoughSeeds) return 0.0;
+  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return *middle;
 }
 
 void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
@@ -54,8 +78,7 @@ void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   const std::size_t n = field_.points.count;
   if (grown.members.size() >= fewest) {
-    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, 0.5 / volume_);
-    if (getenv("D")) fprintf(stderr,"seed flat %.4f noise %.4f r %.3f -> n %zu bg %.1f ratio %.2f gain %.1f\n",seed.flatness,seed.noise,seed.radius,evidence.members,evidence.background,evidence.noise_ratio,evidence.gain);
+    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, 0.5 / extent_.cwiseMax(sigma).prod());
     if (convincing(evidence, kStrict, n, fewest)) {
       accept(std::move(grown), claimed);
       return;
@@ -91,15 +114,18 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
   const PointField free_field{free.points, tree};
   const std::size_t wanted =
       std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
-  std::vector<Seed> seeds = find_seeds(free.points, wanted, number);
+  const bool nothing_claimed = number == 0 && free.points.count == field_.points.count;
+  const std::vector<Seed> seeds = nothing_claimed ? first_seeds_ : find_seeds(free.points, wanted, number);
   for (const Seed& seed : seeds) {
     const std::uint32_t i = free.place[seed.place];
     if (claimed[i] != 0 || failures_[i] >= kFailures || seed.noise > kRoughSeed * sigma) continue;
     attempt(seed, sigma, claimed);
   }
+  int searches = 0;
   for (const Seed& seed : seeds) {
     const std::uint32_t i = free.place[seed.place];
     if (claimed[i] != 0 || failures_[i] >= 2 * kFailures) continue;
+    if (++searches > kLocalSearches) break;
     const std::optional<Seed> other = search_locally(free_field, seed.place, seed.radius, sigma, number);
     if (other) attempt(*other, sigma, claimed);
   }

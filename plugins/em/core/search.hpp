@@ -14,11 +14,14 @@ namespace hallway::em {
 /// Looks for planes among the points that none has claimed yet.
 class PlaneSearch {
  public:
-  /// `volume`: of the space that the cloud fills. Keeps references to `field` and `options`.
-  PlaneSearch(const PointField& field, const AutoOptions& options, double volume);
+  /// `extent`: of the space that the cloud fills. Keeps references to `field` and `options`.
+  PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent);
 
   /// The noise across planes, as the flattest neighbourhoods tell; 0 if there is none.
   double estimate_noise() const;
+
+  /// The noise of surfaces rougher than `sigma` among the points without a label; 0 if there seem to be none.
+  double rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const;
 
   /// Rounds of seeds, growth and acceptance, until `fruitless` in a row find nothing. `sigma`: noise. `claimed` (of each
   /// point, filled up to whole blocks) is read and added to.
@@ -38,7 +41,8 @@ class PlaneSearch {
 
   const PointField& field_;
   const AutoOptions& options_;
-  double volume_;
+  Vec3 extent_;
+  std::vector<Seed> first_seeds_;  ///< of all points: for the noise and for the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round
   std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed

@@ -54,7 +54,7 @@ struct BestScale {
   double radius = 0.0;
 };
 
-std::optional<BestScale> best_scale(const Points& points, const std::vector<Neighbour>& near, const Vec3& middle) {
+std::optional<BestScale> best_scale(const Points& points, const std::vector<NearPoint>& near, const Vec3& middle) {
   std::optional<BestScale> best;
   Moments moments;
   std::size_t next = 0;
@@ -92,7 +92,7 @@ Seed seed_from(const BestScale& scale, std::uint32_t place, const Vec3& middle, 
 /// Looks at ever coarser levels while the flattest neighbourhood is the widest one: then the noise is large against
 /// the spacing, and a wider one may be flatter still.
 std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t place,
-                            std::vector<Neighbour>& near) {
+                            std::vector<NearPoint>& near) {
   const Vec3 middle = levels.front().points.at(place);
   std::optional<Seed> seed;
   double thinning = 1.0;
@@ -117,7 +117,7 @@ std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size
   const std::vector<Level> levels = levels_of(points);
   const std::size_t tries = std::min(wanted, points.count);
   const double shift = std::fmod(0.5 + kGoldenRatio * static_cast<double>(round), 1.0);
-  std::vector<Neighbour> near;
+  std::vector<NearPoint> near;
   for (std::size_t k = 0; k < tries; ++k) {
     const double part = (static_cast<double>(k) + shift) / static_cast<double>(tries);
     const auto place = static_cast<std::uint32_t>(part * static_cast<double>(points.count));

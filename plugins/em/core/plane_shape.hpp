@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "em/core/types.hpp"
+
+namespace hallway::em {
+
+/// The normal's direction that points from the plane towards the origin, from where a sensor sees it; of a plane through the
+/// origin, the one whose first component that is not zero is positive. So normal . x <= 0 on the plane.
+Vec3 orient(const Vec3& normal, const Vec3& on_plane);
+
+/// Coordinates on a plane: u x v = normal.
+struct FlatFrame {
+  Vec3 origin = Vec3::Zero();
+  Vec3 u = Vec3::UnitX();
+  Vec3 v = Vec3::UnitY();
+
+  /// A point's foot on the plane.
+  Vec2 flat(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
+  /// Where a place of the plane lies in space.
+  Vec3 lift(const Vec2& p) const { return origin + p.x() * u + p.y() * v; }
+};
+
+/// A frame on the plane through `origin`; its axes are a function of the unit normal alone.
+FlatFrame flat_frame(const Vec3& normal, const Vec3& origin);
+
+/// The corners of the smallest convex polygon that holds the points, counter-clockwise from the one with the least (x, y); no three on
+/// a line. Equal points give one, collinear ones two. Coordinates are finite. O(n log n).
+std::vector<Vec2> convex_hull(std::vector<Vec2> points);
+
+/// Area within a polygon, positive for counter-clockwise ones.
+double polygon_area(std::span<const Vec2> polygon);
+
+/// A rectangle at any angle.
+struct Rectangle {
+  Vec2 centre = Vec2::Zero();
+  Vec2 axis = Vec2::UnitX();  ///< unit, along the longer sides
+  double half_u = 0.0;        ///< half length along `axis`
+  double half_v = 0.0;        ///< half length along the axis turned by +90 degrees
+
+  Vec2 side() const { return {-axis.y(), axis.x()}; }
+  double area() const { return 4.0 * half_u * half_v; }
+  /// Whether the point lies within the rectangle or no farther than `margin` beyond one of its sides.
+  bool contains(const Vec2& p, double margin = 0.0) const;
+  /// Counter-clockwise.
+  std::array<Vec2, 4> corners() const;
+};
+
+/// The rectangle of least area that holds a hull as convex_hull() makes it; one of its sides lies along an edge of the hull, the first one
+/// where several are as good. Rotating calipers (Toussaint 1983), O(corners).
+Rectangle tightest_rectangle(std::span<const Vec2> hull);
+
+/// What points cover on a plane.
+struct Outline {
+  FlatFrame frame;
+  std::vector<Vec2> hull;
+  Rectangle rectangle;
+};
+
+/// The outline of points' feet on the plane through `origin`; empty points give an outline of no extent at the origin.
+Outline outline_of(std::span<const Vec3> points, const Vec3& normal, const Vec3& origin);
+
+/// The corners in space, counter-clockwise seen from where the frame's u x v points.
+std::array<Vec3, 4> corners_of(const Outline& outline);
+std::vector<Vec3> hull_of(const Outline& outline);
+
+/// Points per area; 0 where there is no area.
+double density(double points, double area);
+
+}  // namespace hallway::em
