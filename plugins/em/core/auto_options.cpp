@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/auto_options.hpp"
+
+#include <array>
+
+namespace hallway::em {
+namespace {
+
+constexpr std::array<OptionRow<AutoOptions>, 7> kRows{{
+    {"noise", "length", 0.0, 1e9,
+     "Standard deviation of the points across their planes; 0 means that the cloud tells it.",
+     &AutoOptions::noise, nullptr},
+    {"min_points", "points", 4, 1000000, "A plane has at least so many different points.", nullptr,
+     &AutoOptions::min_points},
+    {"sample_points", "points", 1000, 100000000,
+     "In a cloud half as large again or larger, planes are sought among so many points, then settled with all.",
+     nullptr, &AutoOptions::sample_points},
+    {"seeds", "neighbourhoods", 1, 100000, "Neighbourhoods tried in a round of the search for planes.",
+     nullptr, &AutoOptions::seeds},
+    {"rounds", "rounds", 1, 1000, "A search ends after so many rounds, or when they find nothing more.",
+     nullptr, &AutoOptions::rounds},
+    {"passes", "passes", 1, 100,
+     "Passes of expectation and maximisation after a search, fewer where nothing changes any more.", nullptr,
+     &AutoOptions::passes},
+    {"rougher", "searches", 0, 10,
+     "How often, after the first search, surfaces rougher than those found so far are sought.", nullptr,
+     &AutoOptions::rougher},
+}};
+
+}  // namespace
+
+std::span<const OptionRow<AutoOptions>> auto_options() {
+  return kRows;
+}
+
+void AutoOptions::validate() const {
+  check_ranges(*this, auto_options());
+}
+
+}  // namespace hallway::em

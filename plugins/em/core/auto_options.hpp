@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "em/core/option_row.hpp"
+
+namespace hallway::em {
+
+/// Every tunable of the algorithm `auto`. The defaults are meant to be left alone: every length derives from the
+/// cloud's own spacing and noise, so the cloud's unit of length does not matter.
+struct AutoOptions {
+  double noise = 0.0;         ///< standard deviation of points across their planes [length]; 0: estimated
+  int min_points = 12;        ///< different points that a plane has at least
+  int sample_points = 20000;  ///< in a larger cloud planes are first sought among so many points
+  int seeds = 64;             ///< neighbourhoods tried in a round of the search
+  int rounds = 12;            ///< rounds of a search at most
+  int passes = 4;             ///< passes of expectation and maximisation after a search at most
+  int rougher = 3;            ///< how often surfaces rougher than those found so far are sought; 0: never
+
+  /// Throws std::invalid_argument that names the parameter, its value and its range.
+  void validate() const;
+};
+
+/// All options, in the order of AutoOptions. Defaults are those of default-made AutoOptions.
+std::span<const OptionRow<AutoOptions>> auto_options();
+
+}  // namespace hallway::em

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "em/core/points.hpp"
+#include "em/core/types.hpp"
+
+namespace hallway::em {
+
+/// A frame on a plane: coordinates (a, b) along `u` and `v` from `origin`, height along `normal`. Orthonormal,
+/// right-handed (u x v = normal).
+struct PlaneFrame {
+  Vec3 origin = Vec3::Zero();
+  Vec3 u = Vec3::UnitX();
+  Vec3 v = Vec3::UnitY();
+  Vec3 normal = Vec3::UnitZ();
+};
+
+/// Axis-parallel box by its middle and half sizes.
+struct Box {
+  Vec3 middle = Vec3::Zero();
+  Vec3 half = Vec3::Zero();
+};
+
+/// What lies within `height` of a plane and within a rectangle on it.
+struct Slab {
+  PlaneFrame frame;
+  double height = 0.0;
+  double low_a = 0.0, high_a = 0.0;  ///< the rectangle along frame.u ...
+  double low_b = 0.0, high_b = 0.0;  ///< ... and along frame.v
+
+  /// False if no point of `box` lies inside; true may be wrong.
+  bool touches(const Box& box) const {
+    const Vec3 from = box.middle - frame.origin;
+    if (std::abs(frame.normal.dot(from)) > height + reach(frame.normal, box)) return false;
+    const double a = frame.u.dot(from);
+    const double reach_a = reach(frame.u, box);
+    if (a + reach_a < low_a || a - reach_a > high_a) return false;
+    const double b = frame.v.dot(from);
+    const double reach_b = reach(frame.v, box);
+    return b + reach_b >= low_b && b - reach_b <= high_b;
+  }
+
+ private:
+  static double reach(const Vec3& axis, const Box& box) { return axis.cwiseAbs().dot(box.half); }
+};
+
+/// What lies within a radius of a point.
+struct Ball {
+  Vec3 middle = Vec3::Zero();
+  double radius = 0.0;
+
+  /// Whether a point of `box` lies inside.
+  bool touches(const Box& box) const {
+    const Vec3 outside = ((box.middle - middle).cwiseAbs() - box.half).cwiseMax(0.0);
+    return outside.squaredNorm() <= radius * radius;
+  }
+};
+
+/// Boxes about the blocks of a list of points, and boxes about eight of those, and so on: the points are in Morton order,
+/// so neighbours in the list make small boxes. Building takes O(n); a query passes over what its shape does not touch.
+class BoxTree {
+ public:
+  /// Keeps nothing of `points` but their number.
+  explicit BoxTree(const Points& points);
+
+  /// Calls visit(block) for each block whose box `shape` touches, in ascending order.
+  template <typename Shape, typename Visit>
+  void visit_blocks(const Shape& shape, Visit&& visit) const {
+    if (!levels_.empty()) descend(levels_.size() - 1, 0, levels_.back().size(), shape, visit);
+  }
+
+  /// Box of one block.
+  const Box& block_box(std::size_t block) const { return levels_.front()[block]; }
+
+ private:
+  static constexpr std::size_t kFan = 8;
+
+  template <typename Shape, typename Visit>
+  void descend(std::size_t level, std::size_t begin, std::size_t end, const Shape& shape, Visit& visit) const {
+    for (std::size_t node = begin; node < end; ++node) {
+      if (!shape.touches(levels_[level][node])) continue;
+      if (level == 0) {
+        visit(node);
+      } else {
+        descend(level - 1, node * kFan, std::min((node + 1) * kFan, levels_[level - 1].size()), shape, visit);
+      }
+    }
+  }
+
+  std::vector<std::vector<Box>> levels_;  ///< blocks first, the last has at most kFan
+};
+
+}  // namespace hallway::em

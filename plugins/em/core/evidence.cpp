@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hallway::em {
+namespace {
+
+constexpr double kPointsForAPlane = 3.0; // three points make a plane: so many powers of n are tried by chance
+constexpr double kFlank = 3.0;           // a flank is as thick as half of the slab times two
+
+}  // namespace
+
+Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& claimed, const Grown& plane,
+                     double sigma, double volume_density) {
+  const double inner = kSlabSigmas * plane.sigma;
+  const double outer = kFlank * inner;
+  const CellGrid& grid = plane.grid;
+  SlabPoints beside;
+  collect(field, {plane.frame, outer, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()}, beside);
+  double above = 0.0;
+  double below = 0.0;
+  for (std::size_t k = 0; k < beside.size(); ++k) {
+    if (std::abs(beside.height[k]) <= inner || claimed[beside.place[k]] != 0) continue;
+    if (plane.support[grid.at(beside.a[k], beside.b[k])] == 0) continue;
+    (beside.height[k] > 0.0 ? above : below) += 1.0;
+  }
+  const double cells = static_cast<double>(std::count(plane.support.begin(), plane.support.end(), 1));
+  const double area = cells * grid.cell * grid.cell;
+  Evidence evidence;
+  evidence.members = plane.members.size();
+  // A flank is as thick as the slab: (outer - inner) against 2 inner.
+  evidence.background = std::max(std::min(above, below) * 2.0 * inner / (outer - inner),
+                                 volume_density * area * 2.0 * inner);
+  evidence.noise_ratio = std::sqrt(plane.mean_square) / sigma;
+  const double n = static_cast<double>(evidence.members);
+  const double expected = std::max(evidence.background, 1e-3);
+  evidence.gain = n > expected ? n * std::log(n / expected) - n + expected : 0.0;
+  return evidence;
+}
+
+bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points, std::size_t min_points) {
+  if (evidence.members < min_points || evidence.noise_ratio > standard.noise_ratio) return false;
+  const double n = static_cast<double>(evidence.members);
+  return evidence.background <= standard.background * n &&
+         evidence.gain >= kPointsForAPlane * std::log(static_cast<double>(points));
+}
+
+}  // namespace hallway::em

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/extraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "em/core/plane_shape.hpp"
+
+namespace hallway::em {
+namespace {
+
+using Places = std::vector<std::uint32_t>;
+
+/// The different points of each patch, as places in the canonical cloud.
+std::vector<Places> places_of(const CanonicalCloud& cloud, const Mixture& mixture) {
+  std::vector<Places> places(mixture.patches.size());
+  for (std::uint32_t i = 0; i < cloud.points.count; ++i) {
+    if (mixture.labels()[i] != kNoPlane) places[mixture.labels()[i]].push_back(i);
+  }
+  return places;
+}
+
+/// Most different points first; of equals the one whose first point comes first in canonical order.
+std::vector<std::size_t> by_size(const std::vector<Places>& places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&places](std::size_t j) { return places[j].empty(); });
+  std::sort(order.begin(), order.end(), [&places](std::size_t left, std::size_t right) {
+    if (places[left].size() != places[right].size()) return places[left].size() > places[right].size();
+    return places[left].front() < places[right].front();
+  });
+  return order;
+}
+
+/// Plane equation, centroid, RMS and outline. All but the result is relative to the cloud's origin.
+void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFrame& frame, Plane& plane) {
+  plane.normal = orient(frame.normal, frame.origin + cloud.origin);
+  plane.offset = plane.normal.dot(frame.origin + cloud.origin);
+  std::vector<Vec3> members;
+  members.reserve(places.size());
+  Vec3 sum = Vec3::Zero();
+  double squares = 0.0;
+  for (const std::uint32_t i : places) {
+    members.push_back(cloud.points.at(i));
+    sum += members.back() - frame.origin;
+    squares += std::pow(plane.normal.dot(members.back() - frame.origin), 2);
+  }
+  const auto n = static_cast<double>(places.size());
+  const Vec3 mean = sum / n;
+  plane.centroid = cloud.origin + frame.origin + mean - plane.normal.dot(mean) * plane.normal;
+  plane.rms = std::sqrt(squares / n);
+  Outline outline = outline_of(members, plane.normal, frame.origin);
+  outline.frame.origin += cloud.origin;
+  plane.corners = corners_of(outline);
+  plane.hull = hull_of(outline);
+}
+
+}  // namespace
+
+Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, std::size_t given) {
+  Extraction result;
+  result.labels.assign(given, kNoPlane);
+  result.noise = mixture.noise();
+  const std::vector<Places> places = places_of(cloud, mixture);
+  const std::vector<double> shares = mixture.exclusive_shares();
+  for (const std::size_t j : by_size(places)) {
+    Plane plane;
+    plane.id = result.planes.size();
+    plane.exclusive_share = shares[j];
+    describe(cloud, places[j], mixture.patches[j].frame, plane);
+    for (const std::uint32_t i : places[j]) {
+      for (const PointIndex index : cloud.given_at(i)) {
+        plane.members.push_back(index);
+        result.labels[index] = static_cast<std::uint32_t>(plane.id);
+      }
+    }
+    std::sort(plane.members.begin(), plane.members.end());
+    result.planes.push_back(std::move(plane));
+  }
+  return result;
+}
+
+}  // namespace hallway::em

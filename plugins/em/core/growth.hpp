@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "em/core/cells.hpp"
+#include "em/core/seeds.hpp"
+#include "em/core/slab_points.hpp"
+
+namespace hallway::em {
+
+/// How far from a plane a point may lie to be looked at, in standard deviations of the noise.
+inline constexpr double kSlabSigmas = 3.0;
+/// Points a cell of a plane's grid holds on average: an empty one within a plane is then rare (2 in 100).
+inline constexpr double kPointsPerCell = 4.0;
+
+/// A finite plane as it grew.
+struct Grown {
+  PlaneFrame frame;
+  double sigma = 0.0;                  ///< noise across the plane, by its members
+  double level = 0.0;                  ///< noise that it was grown with
+  CellGrid grid;                       ///< over the plane, in the frame's coordinates
+  CellMap<std::uint8_t> support;       ///< the cells it covers
+  std::vector<std::uint32_t> members;  ///< unclaimed points in its slab and cells, ascending
+  double mean_square = 0.0;            ///< of the members' distances
+};
+
+/// Grows planes from seeds: a disc around the seed is widened by half of its area at a time; what lies in the slab, in cells that
+/// hang together with the seed's, gives the next plane. Points that another plane has claimed carry the
+/// connection on but do not count.
+class Grower {
+ public:
+  Grower(const PointField& field, const std::vector<std::uint8_t>& claimed) : field_(field), claimed_(claimed) {}
+
+  /// Grows from `seed`, noise about `sigma`. What comes out may be no plane at all; see evidence.hpp.
+  Grown grow(const Seed& seed, double sigma);
+
+ private:
+  void take_slab(double radius);
+  void spread_over_cells(double seed_radius);
+  void refit();
+  double noise_of_members(double sigma);
+  double mean_square() const;
+
+  const PointField& field_;
+  const std::vector<std::uint8_t>& claimed_;
+  Grown plane_;
+  double cell_ = 0.0;
+  SlabPoints slab_;
+  std::vector<std::size_t> cell_of_;    ///< of each slab point
+  std::vector<std::uint32_t> picked_;   ///< positions in slab_ of the members
+  CellMap<std::uint16_t> counts_;
+  std::vector<double> heights_;
+};
+
+}  // namespace hallway::em

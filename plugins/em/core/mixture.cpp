@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/mixture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hallway::em {
+namespace {
+
+constexpr double kLogRootTwoPi = 0.9189385332046727;
+constexpr double kFarthest = 4.5;      // standard deviations: farther off no point is a plane's, whatever the density
+constexpr double kSmallestShare = 0.01;  // of a point: less of it is not worth the arithmetic
+constexpr double kOutlierMatters = 7.0;  // log likelihood; where none of the patches leads by more, outliers have a share
+constexpr double kPriorPoints = 20.0;    // weight of the noise that a patch was found with in its own
+constexpr double kNoiseLeeway = 1.4;     // a patch's noise against that
+constexpr double kParameters = 8.0;      // of a finite plane: three of the plane, four of its extent, its noise
+constexpr double kMergedNoise = 1.15;    // RMS of a joined patch by that of its parts
+constexpr double kMergeCosine = 0.9;     // planes turned farther than 25 degrees are not compared
+constexpr double kFewest = 4.0;          // points that make a fit
+
+/// Origin of the frame moved along its normal onto the plane of `fit`, the normal turned to that of `fit`: places on the
+/// patch keep their coordinates.
+PlaneFrame moved_onto(const PlaneFrame& frame, const PlaneFit& fit) {
+  PlaneFrame result = turned(frame, fit.frame.normal);
+  result.origin += result.normal * result.normal.dot(fit.frame.origin - frame.origin);
+  return result;
+}
+
+double noise_of(const Patch& patch, double weight, double variance) {
+  const double prior = kPriorPoints * patch.level * patch.level;
+  const double pooled = (weight * variance + prior) / (weight - 3.0 + kPriorPoints);
+  return std::clamp(std::sqrt(pooled), patch.level / kNoiseLeeway, patch.level * kNoiseLeeway);
+}
+
+/// Whether all points of two patches lie on the plane through them about as well as those of each on its own.
+bool one_plane(const Moments& left, const Moments& right, double level, PlaneFit& fit) {
+  if (left.weight() < kFewest || right.weight() < kFewest) return false;
+  Moments joint = left;
+  joint.join(right);
+  fit = joint.fit(Vec3::Zero());
+  const double apart = (left.weight() * left.fit(Vec3::Zero()).variances[0] +
+                        right.weight() * right.fit(Vec3::Zero()).variances[0]) /
+                       joint.weight();
+  return fit.variances[0] <= kMergedNoise * kMergedNoise * std::max(apart, 0.5 * level * level);
+}
+
+}  // namespace
+
+Mixture::Mixture(const PointField& field, double volume)
+    : field_(field), volume_(volume), unassigned_(field.points.count) {
+  const std::size_t n = field.points.blocks() * kBlockSize;
+  best_.assign(n, kNoPlane);
+  second_.assign(n, kNoPlane);
+  best_score_.assign(n, 0.0f);
+  second_score_.assign(n, 0.0f);
+}
+
+double Mixture::log_outlier() const {
+  return std::log((static_cast<double>(unassigned_) + 0.5) / volume_);
+}
+
+double Mixture::noise() const {
+  if (patches.empty()) return 0.0;
+  std::vector<double> sigmas;
+  for (const Patch& patch : patches) sigmas.push_back(patch.sigma);
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  return *middle;
+}
+
+void Mixture::collect_over(const Patch& patch, double sigmas) {
+  const CellGrid& grid = patch.grid;
+  collect(field_, {patch.frame, sigmas * patch.sigma, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()},
+          slab_);
+}
+
+void Mixture::assign_patch(std::uint32_t j, double outlier) {
+  const Patch& patch = patches[j];
+  const double peak = -std::log(patch.sigma) - kLogRootTwoPi;
+  const double lead = 2.0 * (std::log(patch.density) + peak - outlier);
+  if (!(lead > 0.0)) return;
+  collect_over(patch, std::min(std::sqrt(lead), kFarthest));
+  const double scale = -0.5 / (patch.sigma * patch.sigma);
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const float density = patch.log_density[patch.grid.at(slab_.a[k], slab_.b[k])];
+    if (density == kNotCovered) continue;
+    const auto score = density + static_cast<float>(peak + scale * slab_.height[k] * slab_.height[k]);
+    const std::uint32_t i = slab_.place[k];
+    if (score > best_score_[i]) {
+      second_[i] = best_[i];
+      second_score_[i] = best_score_[i];
+      best_[i] = j;
+      best_score_[i] = score;
+    } else if (score > second_score_[i]) {
+      second_[i] = j;
+      second_score_[i] = score;
+    }
+  }
+}
+
+void Mixture::assign() {
+  const double outlier = log_outlier();
+  std::fill(best_.begin(), best_.end(), kNoPlane);
+  std::fill(second_.begin(), second_.end(), kNoPlane);
+  std::fill(best_score_.begin(), best_score_.end(), static_cast<float>(outlier));
+  std::fill(second_score_.begin(), second_score_.end(), static_cast<float>(outlier));
+  for (std::uint32_t j = 0; j < patches.size(); ++j) assign_patch(j, outlier);
+  const auto end = best_.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
+  unassigned_ = static_cast<std::size_t>(std::count(best_.begin(), end, kNoPlane));
+}
+
+void Mixture::refit() {
+  std::vector<Moments> moments(patches.size());
+  const double outlier = log_outlier();
+  for (std::size_t i = 0; i < field_.points.count; ++i) {
+    const std::uint32_t j = best_[i];
+    if (j == kNoPlane) continue;
+    const Vec3 p = field_.points.at(i);
+    const double best = static_cast<double>(best_score_[i]);
+    const std::uint32_t other = second_[i];
+    const double none = best - outlier < kOutlierMatters ? std::exp(outlier - best) : 0.0;
+    const double rest = other != kNoPlane ? std::exp(static_cast<double>(second_score_[i]) - best) : 0.0;
+    const double share = 1.0 / (1.0 + none + rest);
+    moments[j].add(p - patches[j].frame.origin, share);
+    if (rest * share > kSmallestShare) moments[other].add(p - patches[other].frame.origin, rest * share);
+  }
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    Patch& patch = patches[j];
+    if (moments[j].weight() < kFewest) continue;
+    const PlaneFit fit = moments[j].fit(patch.frame.origin);
+    patch.frame = moved_onto(patch.frame, fit);
+    patch.sigma = noise_of(patch, moments[j].weight(), fit.variances[0]);
+  }
+}
+
+bool Mixture::cull(std::size_t min_points) {
+  std::vector<double> gain(patches.size(), 0.0);
+  std::vector<std::size_t> members(patches.size(), 0);
+  for (std::size_t i = 0; i < field_.points.count; ++i) {
+    if (best_[i] == kNoPlane) continue;
+    gain[best_[i]] += static_cast<double>(best_score_[i] - second_score_[i]);
+    ++members[best_[i]];
+  }
+  const double cost = 0.5 * kParameters * std::log(static_cast<double>(field_.points.count));
+  // One at a time, the least first: what it leaves may make another one worth its cost.
+  std::size_t worst = patches.size();
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    const bool poor = members[j] < min_points || gain[j] < cost;
+    if (poor && (worst == patches.size() || gain[j] < gain[worst])) worst = j;
+  }
+  if (worst == patches.size()) return false;
+  patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(worst));
+  return true;
+}
+
+bool Mixture::merge() {
+  std::vector<Moments> moments(patches.size());
+  for (std::size_t i = 0; i < field_.points.count; ++i) {
+    if (best_[i] != kNoPlane) moments[best_[i]].add(field_.points.at(i));
+  }
+  bool merged = false;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (std::size_t j = i + 1; j < patches.size();) {
+      const Patch& left = patches[i];
+      const Patch& right = patches[j];
+      PlaneFit fit;
+      if (std::abs(left.frame.normal.dot(right.frame.normal)) < kMergeCosine || !touching(left, right) ||
+          !one_plane(moments[i], moments[j], std::max(left.level, right.level), fit)) {
+        ++j;
+        continue;
+      }
+      patches[i] = joined(left, right, fit.frame);
+      moments[i].join(moments[j]);
+      moments.erase(moments.begin() + static_cast<std::ptrdiff_t>(j));
+      patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(j));
+      merged = true;
+    }
+  }
+  return merged;
+}
+
+std::vector<double> Mixture::exclusive_shares() {
+  std::vector<double> shares;
+  for (std::uint32_t j = 0; j < patches.size(); ++j) {
+    const Patch& patch = patches[j];
+    collect_over(patch, kSlabSigmas);
+    double within = 0.0;
+    double own = 0.0;
+    for (std::size_t k = 0; k < slab_.size(); ++k) {
+      if (patch.log_density[patch.grid.at(slab_.a[k], slab_.b[k])] == kNotCovered) continue;
+      const std::uint32_t best = best_[slab_.place[k]];
+      within += best != kNoPlane ? 1.0 : 0.0;
+      own += best == j ? 1.0 : 0.0;
+    }
+    shares.push_back(within > 0.0 ? own / within : 1.0);
+  }
+  return shares;
+}
+
+}  // namespace hallway::em

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "em/core/patch.hpp"
+
+namespace hallway::em {
+
+/// What the points of a cloud come from: patches with normal noise across them, or nowhere in particular, evenly in a volume.
+/// A point's score for a patch is the log of (points per area there) x (normal density of its distance); for no patch,
+/// of points per volume. Expectation and maximisation take turns: Dempster, Laird, Rubin 1977; thesis 3.5.
+class Mixture {
+ public:
+  /// `volume`: of the space in which points of no patch lie. Keeps a reference to `field`.
+  Mixture(const PointField& field, double volume);
+
+  std::vector<Patch> patches;
+
+  /// Expectation: gives each point its best and its second best patch.
+  void assign();
+  /// Maximisation: refits all patches to the points, each by the share that the scores give.
+  void refit();
+  /// Moves the borders of all patches to where the points are that no other patch explains as well.
+  void cover();
+  /// Drops the patch that explains least, if that is less than `min_points` or than its parameters cost (BIC: Schwarz 1978).
+  /// True if it dropped one; the points are then to be assigned anew.
+  bool cull(std::size_t min_points);
+  /// Joins patches that hang together and are one plane as far as the noise lets us tell. True if it joined any; the points
+  /// are then to be assigned anew.
+  bool merge();
+  /// Splits patches whose points do not hang together at the density of this cloud into parts of at least `min_points`.
+  /// True if it split any; the points are then to be assigned anew.
+  bool split(std::size_t min_points);
+
+  /// Each point's patch, or kNoPlane; as long as the points filled up to whole blocks.
+  const std::vector<std::uint32_t>& labels() const { return best_; }
+  /// Of the points within each patch's slab and extent, the share that no other patch explains better.
+  std::vector<double> exclusive_shares();
+  /// Median of the patches' noise; 0 without patches.
+  double noise() const;
+
+ private:
+  double log_outlier() const;
+  void assign_patch(std::uint32_t j, double outlier);
+  void collect_over(const Patch& patch, double sigmas);
+  void cover_patch(std::uint32_t j);
+  bool split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts);
+
+  const PointField& field_;
+  double volume_;
+  std::size_t unassigned_;
+  std::vector<std::uint32_t> best_, second_;       ///< of each point: patch or kNoPlane
+  std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
+  SlabPoints slab_;
+};
+
+}  // namespace hallway::em

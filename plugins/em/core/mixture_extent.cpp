@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Where patches reach: Mixture::cover() and Mixture::split().
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "em/core/mixture.hpp"
+
+namespace hallway::em {
+namespace {
+
+constexpr double kClearlyBest = 4.0;  // log likelihood by which the best patch must lead for a point to be its alone
+constexpr double kOccupied = 0.2;     // of a patch's density: a cell with less that is its alone is no evidence for it
+constexpr double kRimDensity = 0.1;   // of a patch's density: in cells of few or no points at its rim
+constexpr double kGapSpacings = 1.6;  // half of the gap that chance leaves within a patch, in spacings of points
+constexpr double kSeamSigmas = 3.0;   // half of the gap that a patch that crosses it leaves
+constexpr double kRimSpacings = 0.8;  // how far a patch may reach beyond the points that are its alone ...
+constexpr double kRimSigmas = 1.0;    // ... as where it ends at another one
+constexpr double kGrowth = 0.15;      // of the smaller side: how far beyond the old border a new one is looked for
+constexpr double kMarginSigmas = 4.0;
+constexpr double kMarginCells = 4.0;
+
+/// Points of each cell of a patch's grid.
+struct Counts {
+  CellMap<float> alone;  ///< that the patch explains and no other does nearly as well
+  CellMap<float> own;    ///< given to the patch
+  CellMap<float> free;   ///< given to none
+};
+
+/// Rectangle of cells, ends included; empty if last < first.
+struct CellRange {
+  int first_column, last_column, first_row, last_row;
+};
+
+CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
+  CellRange range{grid.columns, -1, grid.rows, -1};
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      if (cells[grid.place(column, row)] == 0) continue;
+      range.first_column = std::min(range.first_column, column);
+      range.last_column = std::max(range.last_column, column);
+      range.first_row = std::min(range.first_row, row);
+      range.last_row = std::max(range.last_row, row);
+    }
+  }
+  return range;
+}
+
+/// Mean over a cell and its eight neighbours.
+double mean_around(const CellGrid& grid, const CellMap<float>& counts, int column, int row) {
+  double sum = 0.0;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
+      sum += static_cast<double>(counts[grid.place(c, r)]);
+    }
+  }
+  return sum / 9.0;
+}
+
+/// Points per area within the support. Where the patch has it only because a gap was closed, others took its points: there
+/// the density is taken to be as it was.
+double density_within(const CellGrid& grid, const CellMap<std::uint8_t>& support,
+                      const CellMap<std::uint8_t>& occupied, const CellMap<float>& own, double before) {
+  const double area = grid.cell * grid.cell;
+  double points = 0.0;
+  double cells = 0.0;
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    if (support[c] == 0) continue;
+    cells += 1.0;
+    points += occupied[c] != 0 ? static_cast<double>(own[c]) : before * area;
+  }
+  return cells > 0.0 && points > 0.0 ? points / (cells * area) : before;
+}
+
+int cells_for(double length, const CellGrid& grid) {
+  return static_cast<int>(std::ceil(length / grid.cell));
+}
+
+}  // namespace
+
+void Mixture::cover_patch(std::uint32_t j) {
+  Patch& patch = patches[j];
+  const CellGrid old = patch.grid;
+  const double margin = kMarginCells * old.cell + kMarginSigmas * patch.sigma +
+                        kGrowth * std::min(old.high_a() - old.low_a, old.high_b() - old.low_b);
+  patch.grid = grid_over(old.low_a - margin, old.high_a() + margin, old.low_b - margin, old.high_b() + margin,
+                         old.cell, kMostCells);
+  const CellGrid& grid = patch.grid;
+  collect_over(patch, kSlabSigmas);
+  Counts counts{CellMap<float>(grid.size(), 0.0f), CellMap<float>(grid.size(), 0.0f),
+                CellMap<float>(grid.size(), 0.0f)};
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const std::uint32_t i = slab_.place[k];
+    if (best_[i] != j && best_[i] != kNoPlane) continue;
+    const std::size_t cell = grid.at(slab_.a[k], slab_.b[k]);
+    (best_[i] == j ? counts.own : counts.free)[cell] += 1.0f;
+    const bool alone = second_[i] == kNoPlane || static_cast<double>(best_score_[i] - second_score_[i]) > kClearlyBest;
+    if (best_[i] == j && alone) counts.alone[cell] += 1.0f;
+  }
+  const double area = grid.cell * grid.cell;
+  const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * area));
+  CellMap<std::uint8_t> occupied(grid.size(), 0);
+  for (std::size_t c = 0; c < grid.size(); ++c) occupied[c] = counts.alone[c] + counts.free[c] >= enough ? 1 : 0;
+
+  const double spacing = 1.0 / std::sqrt(patch.density);
+  const int gap = std::max(cells_for(kGapSpacings * spacing, grid), cells_for(kSeamSigmas * patch.sigma, grid) + 1);
+  const int rim = std::max(static_cast<int>(std::lround(kRimSpacings * spacing / grid.cell)),
+                           cells_for(kRimSigmas * patch.sigma, grid));
+  const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, gap));
+  const CellMap<std::uint8_t> reach = dilated(grid, support, rim);
+  const double density = density_within(grid, support, occupied, counts.own, patch.density);
+  patch.log_density.assign(grid.size(), kNotCovered);
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t c = grid.place(column, row);
+      if (reach[c] == 0) continue;
+      const bool bridged = support[c] != 0 && occupied[c] == 0;
+      const double there =
+          std::max(static_cast<double>(counts.own[c]), mean_around(grid, counts.own, column, row)) / area;
+      const double local = bridged ? density : std::clamp(there, kRimDensity * density, density);
+      patch.log_density[c] = static_cast<float>(std::log(local));
+    }
+  }
+  patch.density = density;
+  const CellRange range = range_of(grid, reach);
+  if (range.last_column < range.first_column) return;
+  crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
+}
+
+void Mixture::cover() {
+  for (std::uint32_t j = 0; j < patches.size(); ++j) cover_patch(j);
+}
+
+bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts) {
+  const Patch& patch = patches[j];
+  const CellGrid& old = patch.grid;
+  const double cell = std::max(std::sqrt(kPointsPerCell / patch.density), kSlabSigmas * patch.sigma);
+  const CellGrid grid = grid_over(old.low_a, old.high_a(), old.low_b, old.high_b(), cell, kMostCells);
+  collect_over(patch, kSlabSigmas);
+  CellMap<std::uint8_t> occupied(grid.size(), 0);
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    if (patch.log_density[old.at(slab_.a[k], slab_.b[k])] == kNotCovered) continue;
+    occupied[grid.at(slab_.a[k], slab_.b[k])] = 1;  // whosever it is: what crosses the patch does not cut it
+  }
+  std::uint32_t count = 0;
+  const CellMap<std::uint32_t> number = components(grid, occupied, count);
+  std::vector<std::size_t> own(count + 1, 0);
+  std::vector<std::size_t> cells(count + 1, 0);
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    if (best_[slab_.place[k]] == j) ++own[number[grid.at(slab_.a[k], slab_.b[k])]];
+  }
+  for (const std::uint32_t n : number) ++cells[n];
+  own[0] = 0;
+  if (std::count_if(own.begin(), own.end(), [min_points](std::size_t n) { return n >= min_points; }) < 2) return false;
+  for (std::uint32_t n = 1; n <= count; ++n) {
+    if (own[n] < min_points) continue;
+    CellMap<std::uint8_t> support(grid.size(), 0);
+    for (std::size_t c = 0; c < grid.size(); ++c) support[c] = number[c] == n ? 1 : 0;
+    const double area = static_cast<double>(cells[n]) * grid.cell * grid.cell;
+    parts.push_back(restricted(patch, grid, support, static_cast<double>(own[n]) / area));
+  }
+  return true;
+}
+
+bool Mixture::split(std::size_t min_points) {
+  std::vector<Patch> parts;
+  bool any = false;
+  for (std::uint32_t j = 0; j < patches.size(); ++j) {
+    if (split_patch(j, min_points, parts)) {
+      any = true;
+    } else {
+      parts.push_back(patches[j]);
+    }
+  }
+  patches = std::move(parts);
+  return any;
+}
+
+}  // namespace hallway::em

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/neighbours.hpp"
+
+#include <algorithm>
+
+namespace hallway::em {
+namespace {
+
+constexpr double kWiden = 1.5;  // of the radius when too few points are within: 3.4 times the volume
+
+bool nearer(const NearPoint& left, const NearPoint& right) {
+  return left.squared_distance != right.squared_distance ? left.squared_distance < right.squared_distance
+                                                         : left.place < right.place;
+}
+
+void within(const PointField& field, const Ball& ball, std::vector<NearPoint>& found) {
+  found.clear();
+  const double limit = ball.radius * ball.radius;
+  field.tree.visit_blocks(ball, [&](std::size_t block) {
+    const std::size_t begin = block * kBlockSize;
+    for (std::size_t i = begin; i < begin + kBlockSize; ++i) {
+      const double squared = (field.points.at(i) - ball.middle).squaredNorm();
+      if (squared <= limit) found.push_back({squared, static_cast<std::uint32_t>(i)});
+    }
+  });
+}
+
+}  // namespace
+
+void nearest(const PointField& field, const Vec3& p, std::size_t most, double radius,
+             std::vector<NearPoint>& found) {
+  const std::size_t wanted = std::min(most, field.points.count);
+  found.clear();
+  if (wanted == 0) return;
+  if (!(radius > 0.0)) radius = 1e-9 * (1.0 + p.norm());
+  Ball ball{p, radius};
+  for (within(field, ball, found); found.size() < wanted; within(field, ball, found)) ball.radius *= kWiden;
+  const auto end = found.begin() + static_cast<std::ptrdiff_t>(wanted);
+  std::nth_element(found.begin(), end - 1, found.end(), nearer);
+  std::sort(found.begin(), end, nearer);
+  found.erase(end, found.end());
+}
+
+}  // namespace hallway::em

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "em/core/cells.hpp"
+#include "em/core/growth.hpp"
+#include "em/core/moments.hpp"
+
+namespace hallway::em {
+
+/// The log density of cells that a patch does not cover.
+inline constexpr float kNotCovered = -1e30f;
+/// Cells of a grid at most; where there would be more they are made larger.
+inline constexpr std::size_t kMostCells = std::size_t{1} << 24;
+
+/// A finite plane as a component of the mixture.
+struct Patch {
+  PlaneFrame frame;
+  double sigma = 0.0;          ///< noise across it
+  double level = 0.0;          ///< noise that it was found with; its own stays near
+  double density = 0.0;        ///< points per area
+  CellGrid grid;               ///< in the frame's coordinates
+  CellMap<float> log_density;  ///< log of points per area of each cell, or kNotCovered
+};
+
+/// The patch that covers what grew and a little beyond, at its mean density.
+Patch patch_of(const Grown& grown);
+
+/// The patch on the same plane that covers the cells of `grid` marked in `cells` and a little beyond, at density `density`.
+Patch restricted(const Patch& patch, const CellGrid& grid, const CellMap<std::uint8_t>& cells, double density);
+
+/// Whether the middle of a cell of `right` lies over a cell of `left`, seen along the normal of `left`.
+bool touching(const Patch& left, const Patch& right);
+
+/// The patch on the plane of `frame` that covers both, at the greater density.
+Patch joined(const Patch& left, const Patch& right, const PlaneFrame& frame);
+
+/// The patch for a cloud with `factor` times as many points.
+Patch denser(const Patch& patch, double factor);
+
+/// Keeps the columns and rows given (ends included) of the grid.
+void crop(Patch& patch, int first_column, int last_column, int first_row, int last_row);
+
+}  // namespace hallway::em

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace hallway::em {
+namespace {
+
+// First what is one plane beyond doubt: what it claims is no longer in the way of the others. What is found beside it
+// may be two planes that cross at a small angle, or have caught a strip of another; later passes tell.
+constexpr Standard kStrict{1.12, 0.05};
+constexpr Standard kLenient{1.3, 0.5};
+constexpr double kStillFree = 0.9;     // share of a pending plane's members that nothing else has claimed since
+constexpr double kRoughSeed = 2.5;      // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
+// Surfaces of another roughness show as flat neighbourhoods that are left over.
+constexpr double kFlat = 0.03;
+constexpr double kRougher = 1.3;
+constexpr double kRoughest = 5.0;
+constexpr std::size_t kRoughSeeds = 3;
+constexpr int kFailures = 2;           // growths that failed around a seed before it is left alone
+constexpr int kLocalSearches = 32;     // in a round: the flattest that are left
+constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
+
+/// The points that none has claimed, and where each stands in the whole list.
+struct Unclaimed {
+  Points points;
+  std::vector<std::uint32_t> place;
+};
+
+Unclaimed unclaimed_of(const Points& points, const std::vector<std::uint8_t>& claimed) {
+  Unclaimed result;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    if (claimed[i] == 0) result.place.push_back(static_cast<std::uint32_t>(i));
+  }
+  result.points.resize(result.place.size());
+  for (std::size_t k = 0; k < result.place.size(); ++k) result.points.set(k, points.at(result.place[k]));
+  return result;
+}
+
+}  // namespace
+
+PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent)
+    : field_(field),
+      options_(options),
+      extent_(extent),
+      first_seeds_(find_seeds(field.points, static_cast<std::size_t>(options.seeds), 0)) {}
+
+double PlaneSearch::estimate_noise() const {
+  return noise_of_seeds(first_seeds_);
+}
+
+double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const {
+  std::vector<std::uint8_t> claimed(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) claimed[i] = labels[i] != kNoPlane ? 1 : 0;
+  const Unclaimed free = unclaimed_of(field_.points, claimed);
+  const std::size_t wanted =
+      std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
+  std::vector<double> noise;
+  for (const Seed& seed : find_seeds(free.points, wanted, 0)) {
+    if (seed.flatness > kFlat) break;
+    if (seed.noise > kRougher * sigma && seed.noise < kRoughest * sigma) noise.push_back(seed.noise);
+  }
+  if (noise.size() < kRoughSeeds) return 0.0;
+  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return *middle;
+}
+
+void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
+  for (const std::uint32_t i : grown.members) claimed[i] = 1;
+  found_.push_back(std::move(grown));
+}
+
+void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed) {
+  Grower grower(field_, claimed);
+  Grown grown = grower.grow(seed, sigma);
+  const auto fewest = static_cast<std::size_t>(options_.min_points);
+  const std::size_t n = field_.points.count;
+  if (grown.members.size() >= fewest) {
+    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, 0.5 / extent_.cwiseMax(sigma).prod());
+    if (convincing(evidence, kStrict, n, fewest)) {
+      accept(std::move(grown), claimed);
+      return;
+    }
+    for (const std::uint32_t i : grown.members) {
+      if (failures_[i] < 255) ++failures_[i];
+    }
+    if (convincing(evidence, kLenient, n, fewest)) {
+      pending_.push_back({std::move(grown), evidence.noise_ratio});
+    }
+  }
+}
+
+void PlaneSearch::accept_pending(std::vector<std::uint8_t>& claimed) {
+  std::stable_sort(pending_.begin(), pending_.end(), [](const Pending& left, const Pending& right) {
+    return left.noise_ratio < right.noise_ratio;
+  });
+  for (Pending& pending : pending_) {
+    const std::vector<std::uint32_t>& members = pending.grown.members;
+    const auto free = std::count_if(members.begin(), members.end(),
+                                    [&claimed](std::uint32_t i) { return claimed[i] == 0; });
+    if (static_cast<double>(free) < kStillFree * static_cast<double>(members.size())) continue;
+    accept(std::move(pending.grown), claimed);
+  }
+}
+
+std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed) {
+  found_.clear();
+  pending_.clear();
+  failures_.assign(claimed.size(), 0);
+  const Unclaimed free = unclaimed_of(field_.points, claimed);
+  const BoxTree tree(free.points);
+  const PointField free_field{free.points, tree};
+  const std::size_t wanted =
+      std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
+  const bool nothing_claimed = number == 0 && free.points.count == field_.points.count;
+  const std::vector<Seed> seeds = nothing_claimed ? first_seeds_ : find_seeds(free.points, wanted, number);
+  for (const Seed& seed : seeds) {
+    const std::uint32_t i = free.place[seed.place];
+    if (claimed[i] != 0 || failures_[i] >= kFailures || seed.noise > kRoughSeed * sigma) continue;
+    attempt(seed, sigma, claimed);
+  }
+  int searches = 0;
+  for (const Seed& seed : seeds) {
+    const std::uint32_t i = free.place[seed.place];
+    if (claimed[i] != 0 || failures_[i] >= 2 * kFailures) continue;
+    if (++searches > kLocalSearches) break;
+    const std::optional<Seed> other = search_locally(free_field, seed.place, seed.radius, sigma, number);
+    if (other) attempt(*other, sigma, claimed);
+  }
+  if (found_.empty()) accept_pending(claimed);
+  return std::move(found_);
+}
+
+std::vector<Grown> PlaneSearch::find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed) {
+  std::vector<Grown> all;
+  int in_a_row = 0;
+  for (std::size_t number = 0; number < static_cast<std::size_t>(options_.rounds); ++number) {
+    std::vector<Grown> found = round(sigma, number, claimed);
+    in_a_row = found.empty() ? in_a_row + 1 : 0;
+    for (Grown& grown : found) all.push_back(std::move(grown));
+    if (in_a_row == fruitless) break;
+  }
+  return all;
+}
+
+}  // namespace hallway::em

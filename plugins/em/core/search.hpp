@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "em/core/auto_options.hpp"
+#include "em/core/evidence.hpp"
+#include "em/core/local_search.hpp"
+#include "em/core/slab_points.hpp"
+
+namespace hallway::em {
+
+/// Looks for planes among the points that none has claimed yet.
+class PlaneSearch {
+ public:
+  /// `extent`: of the space that the cloud fills. Keeps references to `field` and `options`.
+  PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent);
+
+  /// The noise across planes, as the flattest neighbourhoods tell; 0 if there is none.
+  double estimate_noise() const;
+
+  /// The noise of surfaces rougher than `sigma` among the points without a label; 0 if there seem to be none.
+  double rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const;
+
+  /// Rounds of seeds, growth and acceptance, until `fruitless` in a row find nothing. `sigma`: noise. `claimed` (of each
+  /// point, filled up to whole blocks) is read and added to.
+  std::vector<Grown> find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed);
+
+ private:
+  std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
+  void attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed);
+  void accept(Grown&& grown, std::vector<std::uint8_t>& claimed);
+  void accept_pending(std::vector<std::uint8_t>& claimed);
+
+  /// A plane that is none by the strict standard but by the lenient one.
+  struct Pending {
+    Grown grown;
+    double noise_ratio = 0.0;
+  };
+
+  const PointField& field_;
+  const AutoOptions& options_;
+  Vec3 extent_;
+  std::vector<Seed> first_seeds_;  ///< of all points: for the noise and for the first round
+  std::vector<Grown> found_;            ///< in this round
+  std::vector<Pending> pending_;        ///< in this round
+  std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed
+};
+
+}  // namespace hallway::em
