@@ -48,11 +48,16 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"robot", {"base", "host", "log", "record", "link", "hallway"}},
     {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/slam_point/core", {"slam_point"}},
+    {"plugins/icp/core", {"icp"}},
+    // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
+    {"cli",
+     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "conformance", "log",
+      "record", "link", "import", "eval", "render", "run", "batch", "editor", "icp"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance"};
+                                       "log",   "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "icp", "conformance"};
 
 struct Include {
   fs::path file;
