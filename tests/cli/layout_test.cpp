@@ -50,11 +50,16 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/em/core", {"em"}},
     {"plugins/slam_point/core", {"slam_point"}},
+    {"plugins/icp/core", {"icp"}},
+    // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
+    {"cli",
+     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "conformance", "log",
+      "record", "link", "import", "eval", "render", "run", "batch", "editor", "icp"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
                                        "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "planes", "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance", "em"};
+                                       "log",   "planes", "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance", "em", "icp"};
 
 struct Include {
   fs::path file;

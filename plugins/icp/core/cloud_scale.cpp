@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "icp/core/cloud_scale.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace hallway::icp {
+namespace {
+
+constexpr std::size_t kNear = 8;  // fewer than so many copies of a point do not hide the next one
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+using Cube = std::array<double, 3>;
+
+Cube cube_of(const Vec3& p, double cube_m) {
+  return {std::floor(p.x() / cube_m), std::floor(p.y() / cube_m), std::floor(p.z() / cube_m)};
+}
+
+}  // namespace
+
+double spacing_of(const Points& points, const KdTree& tree) {
+  std::vector<double> distances;
+  std::vector<Neighbour> near;
+  for (const Vec3& p : points) {
+    tree.nearest(p, kNear, near);
+    const auto other =
+        std::find_if(near.begin(), near.end(), [](const Neighbour& each) { return each.distance2_m2 > 0.0; });
+    if (other != near.end()) distances.push_back(std::sqrt(other->distance2_m2));
+  }
+  return distances.empty() ? 0.0 : median_of(distances);
+}
+
+double extent_of(const Points& points) {
+  if (points.empty()) return 0.0;
+  Vec3 middle;
+  std::vector<double> values(points.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
+    middle[axis] = median_of(values);
+  }
+  std::transform(points.begin(), points.end(), values.begin(),
+                 [&middle](const Vec3& p) { return (p - middle).norm(); });
+  return 2.0 * median_of(values);
+}
+
+Points thinned(const Points& points, double cube_m) {
+  struct Placed {
+    Cube cube;
+    Vec3 point;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(points.size());
+  for (const Vec3& p : points) placed.push_back({cube_of(p, cube_m), p});
+  const auto key = [](const Placed& each) {
+    return std::tuple(each.cube, each.point.x(), each.point.y(), each.point.z());
+  };
+  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) { return key(a) < key(b); });
+  Points means;
+  for (std::size_t begin = 0, end = 0; begin < placed.size(); begin = end) {
+    // About the first, so that places far from the origin lose no digits.
+    Vec3 sum = Vec3::Zero();
+    for (; end < placed.size() && placed[end].cube == placed[begin].cube; ++end)
+      sum += placed[end].point - placed[begin].point;
+    means.push_back(placed[begin].point + sum / static_cast<double>(end - begin));
+  }
+  return means;
+}
+
+}  // namespace hallway::icp

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "icp/core/point_map.hpp"
+
+namespace hallway::icp {
+
+std::uint64_t PointMap::add(const Vec3& p) {
+  const std::optional<std::uint32_t> known = grid_.nearest(p);
+  if (!known) {
+    grid_.add(p);
+    landmarks_.push_back({p, 1});
+    return landmarks_.size() - 1;
+  }
+  Landmark& landmark = landmarks_[*known];
+  ++landmark.observations;
+  landmark.position += (p - landmark.position) / static_cast<double>(landmark.observations);
+  return *known;
+}
+
+Points PointMap::near(const Vec3& place, double radius_m) const {
+  Points found;
+  for (const Landmark& landmark : landmarks_) {
+    if ((landmark.position - place).squaredNorm() <= radius_m * radius_m) found.push_back(landmark.position);
+  }
+  return found;
+}
+
+}  // namespace hallway::icp
