@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <hallway/plugin.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "em/core/auto_planes.hpp"
+#include "em/core/em1.hpp"
+#include "em/core/em2.hpp"
+
+namespace hallway::em {
+namespace {
+
+constexpr std::uint32_t kInputs[] = {HW_SAMPLE_POINTS};
+constexpr std::uint32_t kOutputs[] = {HW_OUTPUT_PLANES, HW_OUTPUT_COUNTERS};
+
+constexpr hw_plugin_info_t make_info(const char* id, const char* name, const char* help) {
+  return sdk::plugin_info(id, name, "0.1.0", "Hallway", help, kInputs, kOutputs);
+}
+
+/// The algorithms that this file offers as plugins: their options, and how they are called.
+struct Auto {
+  using Options = AutoOptions;
+  static constexpr hw_plugin_info_t kInfo =
+      make_info("em", "Planes by expectation maximisation",
+                "Finds finite planes in points; noise and scale are estimated.");
+  static auto rows() { return auto_options(); }
+  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
+    return PlaneExtractor(options).extract(cloud);
+  }
+};
+
+struct First {
+  using Options = Em1Options;
+  static constexpr hw_plugin_info_t kInfo =
+      make_info("em1", "Planes by EM, algorithm 1",
+                "Finds finite planes, all of them fitted anew in every iteration (thesis 3.5.2).");
+  static auto rows() { return em1_options(); }
+  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
+    return extract_em1(cloud, options);
+  }
+};
+
+struct Second {
+  using Options = Em2Options;
+  static constexpr hw_plugin_info_t kInfo = make_info(
+      "em2", "Planes by EM, algorithm 2", "Finds finite planes, one grown after the other (thesis 3.5.3).");
+  static auto rows() { return em2_options(); }
+  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
+    return extract_em2(cloud, options);
+  }
+};
+
+hw_point3_t to_c(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+void copy(const Vec3& from, double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+/// Answers the planes of every sample of points, in the frame of its sensor. Keeps nothing from frame to frame.
+template <typename Algorithm>
+class PlanePlugin final : public sdk::Plugin {
+ public:
+  static const hw_plugin_info_t* info() { return &Algorithm::kInfo; }
+
+  explicit PlanePlugin(const hw_host_t* host) : Plugin(host) {
+    for (const auto& row : Algorithm::rows()) {
+      if (row.real != nullptr) {
+        parameters().add(row.name, &(options_.*row.real), row.min, row.max, row.unit, row.help);
+      } else {
+        parameters().add(row.name, &(options_.*row.whole), static_cast<int>(row.min),
+                         static_cast<int>(row.max), row.unit, row.help);
+      }
+    }
+  }
+
+  void activate(const hw_activation_t& activation) override {
+    for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
+      if (activation.sensors[i]->kind == HW_SAMPLE_POINTS) return;
+    }
+    throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
+  }
+
+  void process(const hw_frame_t& frame) override {
+    std::uint64_t planes = 0;
+    std::uint64_t unlabelled = 0;
+    for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
+      const hw_sample_t& sample = *frame.samples[k];
+      if (sample.kind != HW_SAMPLE_POINTS) continue;
+      gather_points(*static_cast<const hw_points_t*>(sample.payload));
+      const Extraction found = Algorithm::extract(points_, options_);
+      put(k, found);
+      planes += found.planes.size();
+      for (const std::uint32_t label : found.labels) unlabelled += label == kNoPlane ? 1u : 0u;
+    }
+    const hw_counter_t list[] = {{"planes", static_cast<double>(planes)},
+                                 {"points_without_plane", static_cast<double>(unlabelled)}};
+    host().put_counters(list);
+  }
+
+ private:
+  void gather_points(const hw_points_t& given) {
+    points_.clear();
+    points_.reserve(given.count);
+    for (std::uint64_t i = 0; i < given.count; ++i) {
+      const hw_point3_t& p = *hw_point_at(&given, i);
+      points_.emplace_back(p.x, p.y, p.z);
+    }
+  }
+
+  void put(std::uint32_t sample, const Extraction& found) {
+    planes_.clear();
+    hull_.clear();
+    members_.clear();
+    for (const Plane& plane : found.planes) planes_.push_back(take(plane));
+    host().put_planes(sample, planes_, hull_, members_);
+  }
+
+  /// The plane in the ABI's form; its hull and members go to the lists.
+  hw_plane_t take(const Plane& plane) {
+    hw_plane_t out{};
+    out.id = plane.id;
+    copy(plane.normal, out.normal);
+    out.offset_m = plane.offset;
+    copy(plane.centroid, out.centroid);
+    for (std::size_t c = 0; c < plane.corners.size(); ++c) copy(plane.corners[c], out.corners[c]);
+    out.n_points = plane.members.size();
+    out.rms_m = plane.rms;
+    out.exclusive_share = plane.exclusive_share;
+    out.first_hull = hull_.size();
+    out.n_hull = plane.hull.size();
+    for (const Vec3& p : plane.hull) hull_.push_back(to_c(p));
+    out.first_member = members_.size();
+    out.n_members = plane.members.size();
+    members_.insert(members_.end(), plane.members.begin(), plane.members.end());
+    return out;
+  }
+
+  typename Algorithm::Options options_;
+  std::vector<Vec3> points_;  ///< of one sample
+  std::vector<hw_plane_t> planes_;
+  std::vector<hw_point3_t> hull_;
+  std::vector<std::uint32_t> members_;
+};
+
+}  // namespace
+}  // namespace hallway::em
+
+HALLWAY_PLUGINS(hallway::em::PlanePlugin<hallway::em::Auto>, hallway::em::PlanePlugin<hallway::em::First>,
+                hallway::em::PlanePlugin<hallway::em::Second>);
