@@ -84,6 +84,10 @@ class PlanePlugin final : public sdk::Plugin {
     throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
   }
 
+  void reset() override {}
+
+  void report(bool) override {}
+
   void process(const hw_frame_t& frame) override {
     std::uint64_t planes = 0;
     std::uint64_t unlabelled = 0;
