@@ -85,7 +85,7 @@ TEST_P(PlaneFaults, AppearWithTheValueThatIsToBlameAndNotWithoutIt) {
 INSTANTIATE_TEST_SUITE_P(Thesis, PlaneFaults,
                          testing::Values("stolen_by_floor", "stolen_by_wall", "misaligned", "extra",
                                          "unattached"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
 }  // namespace hallway::em
