@@ -60,7 +60,7 @@ class FaultFinder {
 
   double iou(std::size_t truth, std::size_t plane) const {
     std::size_t both = 0;
-    for (const PointIndex i : answer_.planes[plane].members) both += cloud_.labels[i] == truth ? 1 : 0;
+    for (const PointIndex i : answer_.planes[plane].members) both += std::size_t{cloud_.labels[i] == truth};
     const std::size_t either = scene_.planes[truth].points + answer_.planes[plane].members.size() - both;
     return static_cast<double>(both) / static_cast<double>(either);
   }
@@ -103,7 +103,7 @@ class FaultFinder {
       const Vec3 d = cloud_.points[k] - own.centre;
       const bool at_home = std::abs(d.dot(own.axis_u)) <= own.half_u + margin &&
                            std::abs(d.dot(own.axis_v())) <= own.half_v + margin;
-      stolen += !at_home && covers(answer(i), cloud_.points[k], kSlabSigmas * own.sigma) ? 1 : 0;
+      stolen += std::size_t{!at_home && covers(answer(i), cloud_.points[k], kSlabSigmas * own.sigma)};
     }
     return static_cast<double>(stolen) > kMostStolen * static_cast<double>(scene_.planes[j].points);
   }

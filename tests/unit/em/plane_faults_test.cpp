@@ -19,10 +19,11 @@ using planted::Fault;
 template <typename Options>
 Options with(const planted::Params& params, std::span<const OptionRow<Options>> rows) {
   Options options;
-  for (const auto& [name, value] : params) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return name == r.name; });
-    if (row == rows.end()) throw std::invalid_argument("no option is called " + name);
-    row->set(options, value);
+  for (const auto& param : params) {
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return param.first == r.name; });
+    if (row == rows.end()) throw std::invalid_argument("no option is called " + param.first);
+    row->set(options, param.second);
   }
   return options;
 }
@@ -85,7 +86,7 @@ TEST_P(PlaneFaults, AppearWithTheValueThatIsToBlameAndNotWithoutIt) {
 INSTANTIATE_TEST_SUITE_P(Thesis, PlaneFaults,
                          testing::Values("stolen_by_floor", "stolen_by_wall", "misaligned", "extra",
                                          "unattached"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
 }  // namespace hallway::em

@@ -103,7 +103,9 @@ bool would_merge(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   const MergeBounds bounds{std::cos(10.0 * M_PI / 180.0), 0.1, 0.2};
   EXPECT_EQ(mergeable(planes[0], planes[1], bounds), mergeable(planes[1], planes[0], bounds));
   merge_alike(planes, points, bounds);
-  if (planes.size() == 1) EXPECT_EQ(planes[0].members, all_of(points.size()));
+  if (planes.size() == 1) {
+    EXPECT_EQ(planes[0].members, all_of(points.size()));
+  }
   return planes.size() == 1;
 }
 

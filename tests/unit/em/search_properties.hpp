@@ -62,7 +62,9 @@ inline void expect_sound(const Extraction& found, const std::vector<Vec3>& cloud
     EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-12);
     EXPECT_LE(plane.offset, 0.0);
     EXPECT_TRUE(std::is_sorted(plane.members.begin(), plane.members.end()));
-    if (j > 0) EXPECT_LE(plane.members.size(), found.planes[j - 1].members.size());
+    if (j > 0) {
+      EXPECT_LE(plane.members.size(), found.planes[j - 1].members.size());
+    }
     for (const PointIndex i : plane.members) EXPECT_EQ(found.labels[i], j);
     labelled += plane.members.size();
     const Vec3 turn = (plane.corners[1] - plane.corners[0]).cross(plane.corners[2] - plane.corners[1]);
