@@ -18,8 +18,7 @@ inline constexpr double kPointsPerCell = 4.0;
 /// A finite plane as it grew.
 struct Grown {
   PlaneFrame frame;
-  double sigma = 0.0;                  ///< noise across the plane, by its members
-  double level = 0.0;                  ///< noise that it was grown with
+  double sigma = 0.0;                  ///< noise across planes that it was grown with
   CellGrid grid;                       ///< over the plane, in the frame's coordinates
   CellMap<std::uint8_t> support;       ///< the cells it covers
   std::vector<std::uint32_t> members;  ///< unclaimed points in its slab and cells, ascending
@@ -40,7 +39,6 @@ class Grower {
   void take_slab(double radius);
   void spread_over_cells(double seed_radius);
   void refit();
-  double noise_of_members(double sigma);
   double mean_square() const;
 
   const PointField& field_;
@@ -51,7 +49,6 @@ class Grower {
   std::vector<std::size_t> cell_of_;    ///< of each slab point
   std::vector<std::uint32_t> picked_;   ///< positions in slab_ of the members
   CellMap<std::uint16_t> counts_;
-  std::vector<double> heights_;
 };
 
 }  // namespace hallway::em

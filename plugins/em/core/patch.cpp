@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hallway::em {
 namespace {
@@ -75,7 +76,7 @@ Patch patch_of(const Grown& grown) {
   Patch patch;
   patch.frame = grown.frame;
   patch.sigma = grown.sigma;
-  patch.level = grown.level;
+  patch.level = grown.sigma;
   const auto cells = static_cast<double>(std::count(grown.support.begin(), grown.support.end(), 1));
   patch.density = static_cast<double>(grown.members.size()) / (cells * old.cell * old.cell);
   return restricted(patch, old, grown.support, patch.density);
