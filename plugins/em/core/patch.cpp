@@ -45,14 +45,14 @@ void visit_cells(const Patch& patch, Visit visit) {
   }
 }
 
-struct Bounds {
+struct Reach {
   double low_a = std::numeric_limits<double>::infinity();
   double low_b = low_a;
   double high_a = -low_a;
   double high_b = -low_a;
 };
 
-void widen(Bounds& bounds, const PlaneFrame& frame, const Patch& patch) {
+void widen(Reach& bounds, const PlaneFrame& frame, const Patch& patch) {
   visit_cells(patch, [&](const Vec3& middle) {
     const double a = frame.u.dot(middle - frame.origin);
     const double b = frame.v.dot(middle - frame.origin);
@@ -113,7 +113,7 @@ bool touching(const Patch& left, const Patch& right) {
 }
 
 Patch joined(const Patch& left, const Patch& right, const PlaneFrame& frame) {
-  Bounds bounds;
+  Reach bounds;
   widen(bounds, frame, left);
   widen(bounds, frame, right);
   Patch patch;
