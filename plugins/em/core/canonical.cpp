@@ -13,8 +13,10 @@
 namespace hallway::em {
 namespace {
 
-constexpr int kAxisBits = 12;   // 4096 cells along the longest side: about the spacing of a million points on surfaces
-constexpr int kDigitBits = 12;  // three passes of the radix sort; a table of 4096 counters stays in the first cache
+constexpr int kAxisBits =
+    12;  // 4096 cells along the longest side: about the spacing of a million points on surfaces
+constexpr int kDigitBits =
+    12;  // three passes of the radix sort; a table of 4096 counters stays in the first cache
 constexpr int kDigits = 3 * kAxisBits / kDigitBits;
 constexpr int kIndexBits = 64 - 3 * kAxisBits;  // a word holds Morton code and index
 constexpr std::uint64_t kIndexMask = (std::uint64_t{1} << kIndexBits) - 1;
@@ -100,8 +102,8 @@ CanonicalCloud canonical_order(std::span<const Vec3> cloud) {
   result.frame = principal_frame(finite);
   for (Vec3& p : finite) p = result.frame.from_cloud(p);
   const Bounds bounds = robust_bounds(finite);
-  result.extent = bounds.high - bounds.low;
-  std::vector<std::uint64_t> words = sorted_words(finite, bounds.low, result.extent.maxCoeff());
+  const double longest = (bounds.high - bounds.low).maxCoeff();
+  std::vector<std::uint64_t> words = sorted_words(finite, bounds.low, longest);
   order_within_cells(finite, words);
 
   result.points.resize(finite.size());

@@ -14,10 +14,9 @@ namespace hallway::em {
 /// The cloud as every later stage sees it: without points that are not finite, each place once, in an order that
 /// depends on the coordinates alone, in a frame that turns with the cloud. So no result depends on the order given, and doubling every point changes nothing.
 struct CanonicalCloud {
-  Points points;               ///< in `frame`, in Morton order
-  CloudFrame frame;            ///< turns and moves with the cloud
-  Vec3 extent = Vec3::Zero();  ///< size of the box in `frame` that holds nearly all points
-  std::vector<PointIndex> given;  ///< indices of the points given, grouped by place in `points`
+  Points points;                     ///< in `frame`, in Morton order
+  CloudFrame frame;                  ///< turns and moves with the cloud
+  std::vector<PointIndex> given;     ///< indices of the points given, grouped by place in `points`
   std::vector<std::uint32_t> first;  ///< place i was given by given[first[i]] .. given[first[i + 1]]
 
   /// The points given that stand at place `i`.

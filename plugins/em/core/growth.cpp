@@ -9,14 +9,16 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kWiden = std::numbers::sqrt2;  // of the radius: the area doubles, so all steps together cost twice the last
+constexpr double kWiden =
+    std::numbers::sqrt2;  // of the radius: the area doubles, so all steps together cost twice the last
 constexpr int kMaxSteps = 60;
-constexpr double kSettled = 1.02;     // growth of the number of members below which the plane is complete ...
-constexpr int kSettledSteps = 2;      // ... when it happens so often in a row
-constexpr double kHopeless = 1.5;     // RMS by noise at which the slab is as full outside as within: no plane ...
-constexpr int kHopelessSteps = 3;     // ... after so many steps
-constexpr double kDense = 1.5;        // cells with more than so many times the median are thinned by weight
-constexpr double kMostCells = 4.0;    // cells per point of the slab at most
+constexpr double kSettled = 1.02;  // growth of the number of members below which the plane is complete ...
+constexpr int kSettledSteps = 2;   // ... when it happens so often in a row
+constexpr double kHopeless =
+    1.5;  // RMS by noise at which the slab is as full outside as within: no plane ...
+constexpr int kHopelessSteps = 3;   // ... after so many steps
+constexpr double kDense = 1.5;      // cells with more than so many times the median are thinned by weight
+constexpr double kMostCells = 4.0;  // cells per point of the slab at most
 
 std::uint16_t median_count(const CellMap<std::uint16_t>& counts, std::vector<std::uint16_t>& sorted) {
   sorted.clear();

@@ -30,7 +30,8 @@ struct Grown {
 /// connection on but do not count.
 class Grower {
  public:
-  Grower(const PointField& field, const std::vector<std::uint8_t>& claimed) : field_(field), claimed_(claimed) {}
+  Grower(const PointField& field, const std::vector<std::uint8_t>& claimed)
+      : field_(field), claimed_(claimed) {}
 
   /// Grows from `seed`, noise about `sigma`. What comes out may be no plane at all; see evidence.hpp.
   Grown grow(const Seed& seed, double sigma);
@@ -46,8 +47,8 @@ class Grower {
   Grown plane_;
   double cell_ = 0.0;
   SlabPoints slab_;
-  std::vector<std::size_t> cell_of_;    ///< of each slab point
-  std::vector<std::uint32_t> picked_;   ///< positions in slab_ of the members
+  std::vector<std::size_t> cell_of_;   ///< of each slab point
+  std::vector<std::uint32_t> picked_;  ///< positions in slab_ of the members
   CellMap<std::uint16_t> counts_;
 };
 

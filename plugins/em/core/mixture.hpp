@@ -52,7 +52,7 @@ class Mixture {
   const PointField& field_;
   double volume_;
   std::size_t unassigned_;
-  std::vector<std::uint32_t> best_, second_;       ///< of each point: patch or kNoPlane
+  std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
   std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
   SlabPoints slab_;
 };

@@ -9,14 +9,14 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kPointsPerPatchCell = 1.0;  // fine enough to follow a border to about the spacing of the points ...
-constexpr double kPatchCellSigmas = 1.0;     // ... but not finer than the noise
+constexpr double kPointsPerPatchCell =
+    1.0;  // fine enough to follow a border to about the spacing of the points ...
+constexpr double kPatchCellSigmas = 1.0;  // ... but not finer than the noise
 constexpr int kMargin = 3;  // cells around what is covered, so that closing and widening find room
 
 CellGrid with_margin(double low_a, double high_a, double low_b, double high_b, double cell) {
   const double margin = kMargin * cell;
-  return grid_over(low_a - margin, high_a + margin, low_b - margin, high_b + margin, cell,
-                   kMostCells);
+  return grid_over(low_a - margin, high_a + margin, low_b - margin, high_b + margin, cell, kMostCells);
 }
 
 void cover(Patch& patch, const CellMap<std::uint8_t>& support) {
@@ -82,7 +82,8 @@ Patch patch_of(const Grown& grown) {
   return restricted(patch, old, grown.support, patch.density);
 }
 
-Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uint8_t>& marked, double density) {
+Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uint8_t>& marked,
+                 double density) {
   Patch result = patch;
   result.density = density;
   const double cell = std::max(std::sqrt(kPointsPerPatchCell / density), kPatchCellSigmas * patch.sigma);
@@ -146,7 +147,8 @@ void crop(Patch& patch, int first_column, int last_column, int first_row, int la
   CellMap<float> kept(patch.grid.size());
   for (int row = first_row; row <= last_row; ++row) {
     for (int column = first_column; column <= last_column; ++column) {
-      kept[patch.grid.place(column - first_column, row - first_row)] = patch.log_density[old.place(column, row)];
+      kept[patch.grid.place(column - first_column, row - first_row)] =
+          patch.log_density[old.place(column, row)];
     }
   }
   patch.log_density = std::move(kept);

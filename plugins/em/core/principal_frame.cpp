@@ -37,7 +37,8 @@ struct StepMoments {
   Mat3 covariance = Mat3::Zero();
 };
 
-StepMoments step_moments(const std::vector<Vec3>& cloud, const Bounds& bounds, const Vec3& middle, double step) {
+StepMoments step_moments(const std::vector<Vec3>& cloud, const Bounds& bounds, const Vec3& middle,
+                         double step) {
   std::int64_t count = 0;
   Steps sums{};
   std::array<ProductSum, 9> products;
@@ -94,6 +95,8 @@ CloudFrame principal_frame(const std::vector<Vec3>& cloud) {
   frame.axes.col(0) = first;
   frame.axes.col(1) = second;
   frame.axes.col(2) = first.cross(second);
+  // A side of length s, evenly filled, has the variance s^2 / 12.
+  frame.extent = step * (12.0 * solver.eigenvalues().cwiseMax(0.0).reverse()).cwiseSqrt();
   return frame;
 }
 

@@ -11,6 +11,8 @@ namespace hallway::em {
 struct CloudFrame {
   Vec3 origin = Vec3::Zero();    ///< in the frame that the cloud was given in
   Mat3 axes = Mat3::Identity();  ///< its axes as columns, in that frame: a rotation
+  Vec3 extent =
+      Vec3::Zero();  ///< sides of the box, along the axes, that evenly filled has the cloud's variances
 
   Vec3 from_cloud(const Vec3& p) const { return axes.transpose() * (p - origin); }
   Vec3 to_cloud(const Vec3& p) const { return origin + axes * p; }

@@ -8,8 +8,8 @@
 namespace hallway::em {
 namespace {
 
-constexpr int kRangeBins = 256;           // of the histogram that finds the range of nearly all points
-constexpr int kRangeRounds = 40;          // each narrows at least fourfold: enough for coordinates of 1e24 ranges
+constexpr int kRangeBins = 256;   // of the histogram that finds the range of nearly all points
+constexpr int kRangeRounds = 40;  // each narrows at least fourfold: enough for coordinates of 1e24 ranges
 constexpr std::size_t kStraysDivisor = 200;  // at each end of each axis one point in so many may lie outside
 
 struct Range {

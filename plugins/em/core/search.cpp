@@ -11,16 +11,17 @@ namespace {
 // may be two planes that cross at a small angle, or have caught a strip of another; later passes tell.
 constexpr Standard kStrict{1.12, 0.05};
 constexpr Standard kLenient{1.3, 0.5};
-constexpr double kStillFree = 0.9;     // share of a pending plane's members that nothing else has claimed since
-constexpr double kRoughSeed = 2.5;      // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
+constexpr double kStillFree = 0.9;  // share of a pending plane's members that nothing else has claimed since
+constexpr double kRoughSeed =
+    2.5;  // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
 // Surfaces of another roughness show as flat neighbourhoods that are left over.
 constexpr double kFlat = 0.03;
 constexpr double kRougher = 1.3;
 constexpr double kRoughest = 5.0;
 constexpr std::size_t kRoughSeeds = 3;
 constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is that of numbers with six digits
-constexpr int kFailures = 2;           // growths that failed around a seed before it is left alone
-constexpr int kLocalSearches = 32;     // in a round: the flattest that are left
+constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
+constexpr int kLocalSearches = 32;         // in a round: the flattest that are left
 constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.

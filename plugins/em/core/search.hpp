@@ -44,7 +44,7 @@ class PlaneSearch {
   const AutoOptions& options_;
   Vec3 extent_;
   std::size_t unclaimed_ = 0;
-  std::vector<Seed> first_seeds_;  ///< of all points: for the noise and for the first round
+  std::vector<Seed> first_seeds_;       ///< of all points: for the noise and for the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round
   std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed

@@ -62,7 +62,8 @@ TEST(AutoPlanes, FindsThePlanesOfARoom) {
   const Extraction found = extract(cloud.points);
   expect_sound(found, cloud.points);
   ASSERT_EQ(found.planes.size(), 6u);
-  for (std::uint32_t label = 0; label < 6; ++label) EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
+  for (std::uint32_t label = 0; label < 6; ++label)
+    EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
   EXPECT_NEAR(found.noise, 0.02, 0.002);
   EXPECT_NEAR(std::abs(found.planes[0].normal.z()), 1.0, 1e-5);
 }
@@ -114,7 +115,8 @@ TEST(AutoPlanes, EachPointTwiceChangesNothingButCounts) {
     EXPECT_EQ(again.planes[j].corners, found.planes[j].corners);
     EXPECT_EQ(again.planes[j].exclusive_share, found.planes[j].exclusive_share);
   }
-  for (std::size_t i = 0; i < twice.size(); ++i) ASSERT_EQ(again.labels[i], found.labels[i % cloud.points.size()]);
+  for (std::size_t i = 0; i < twice.size(); ++i)
+    ASSERT_EQ(again.labels[i], found.labels[i % cloud.points.size()]);
 }
 
 /// Moved, turned and scaled, the same points are in the same planes and these are moved, turned and scaled.
@@ -129,7 +131,8 @@ void expect_to_follow(const Mat3& turn, const Vec3& shift, double scale) {
   EXPECT_GE(equal_membership(found, again), 0.999);
   for (const Plane& plane : found.planes) {
     double best = 0.0;
-    for (const Plane& other : again.planes) best = std::max(best, std::abs(other.normal.dot(turn * plane.normal)));
+    for (const Plane& other : again.planes)
+      best = std::max(best, std::abs(other.normal.dot(turn * plane.normal)));
     EXPECT_GE(best, 1.0 - 1e-6);
   }
 }
@@ -171,7 +174,8 @@ TEST(AutoPlanes, PlanesWithoutNoiseAreFound) {
   const LabelledPoints cloud = room(0.0);
   const Extraction found = extract(cloud.points);
   ASSERT_EQ(found.planes.size(), 6u);
-  for (std::uint32_t label = 0; label < 6; ++label) EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
+  for (std::uint32_t label = 0; label < 6; ++label)
+    EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
 }
 
 TEST(AutoPlanes, ALargeCloudIsSettledWithAllPoints) {
@@ -233,7 +237,8 @@ TEST(AutoPlanes, AFarStrayDoesNotMakeTheRestCoarse) {
   const Extraction found = extract(cloud.points);
   ASSERT_EQ(found.planes.size(), 6u);
   EXPECT_EQ(found.labels.back(), kNoPlane);
-  for (std::uint32_t label = 0; label < 6; ++label) EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
+  for (std::uint32_t label = 0; label < 6; ++label)
+    EXPECT_GE(best_overlap(cloud, found, label), 0.93) << label;
 }
 
 TEST(AutoOptions, EachIsCheckedAtBothEndsAndNamed) {
