@@ -13,7 +13,8 @@ constexpr std::array<OptionRow<AutoOptions>, 7> kRows{{
     {"min_points", "points", 4, 1000000, "A plane has at least so many different points.", nullptr,
      &AutoOptions::min_points},
     {"sample_points", "points", 1000, 100000000,
-     "In a cloud half as large again or larger, planes are sought among so many points, then settled with all.",
+     "In a cloud half as large again or larger, planes are sought among so many points, then settled with "
+     "all.",
      nullptr, &AutoOptions::sample_points},
     {"seeds", "neighbourhoods", 1, 100000, "Neighbourhoods tried in a round of the search for planes.",
      nullptr, &AutoOptions::seeds},

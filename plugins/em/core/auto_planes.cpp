@@ -11,7 +11,8 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kThinnest = 20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
+constexpr double kThinnest =
+    20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
 constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
 
 /// Every so many-th point: even in space too, since the points are in Morton order.
@@ -98,9 +99,9 @@ Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
   const BoxTree sample_tree(sample);
   const PointField sample_field{sample, sample_tree};
 
-  PlaneSearch search(sample_field, options_, canonical.extent);
+  PlaneSearch search(sample_field, options_, canonical.frame.extent);
   const double sigma = options_.noise > 0.0 ? options_.noise : search.estimate_noise();
-  const double volume = canonical.extent.cwiseMax(kThinnest * sigma).prod();
+  const double volume = canonical.frame.extent.cwiseMax(kThinnest * sigma).prod();
   Mixture mixture(sample_field, volume);
   if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
   if (sample.count == canonical.points.count) return extraction_of(canonical, mixture, cloud.size());

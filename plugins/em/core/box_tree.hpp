@@ -81,7 +81,8 @@ class BoxTree {
   static constexpr std::size_t kFan = 8;
 
   template <typename Shape, typename Visit>
-  void descend(std::size_t level, std::size_t begin, std::size_t end, const Shape& shape, Visit& visit) const {
+  void descend(std::size_t level, std::size_t begin, std::size_t end, const Shape& shape,
+               Visit& visit) const {
     for (std::size_t node = begin; node < end; ++node) {
       if (!shape.touches(levels_[level][node])) continue;
       if (level == 0) {

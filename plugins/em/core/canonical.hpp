@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "em/core/points.hpp"
+#include "em/core/principal_frame.hpp"
 #include "em/core/types.hpp"
 
 namespace hallway::em {
 
 /// The cloud as every later stage sees it: without points that are not finite, each place once, in an order that
-/// depends on the coordinates alone. So no result depends on the order given, and doubling every point changes nothing.
+/// depends on the coordinates alone, in a frame that turns with the cloud. So no result depends on the order given, and doubling every point changes nothing.
 struct CanonicalCloud {
-  Points points;                 ///< relative to `origin`, in Morton order
-  Vec3 origin = Vec3::Zero();    ///< in the cloud's frame: middle of the box that holds nearly all points
-  Vec3 extent = Vec3::Zero();    ///< size of that box
-  std::vector<PointIndex> given;  ///< indices of the points given, grouped by place in `points`
+  Points points;                     ///< in `frame`, in Morton order
+  CloudFrame frame;                  ///< turns and moves with the cloud
+  std::vector<PointIndex> given;     ///< indices of the points given, grouped by place in `points`
   std::vector<std::uint32_t> first;  ///< place i was given by given[first[i]] .. given[first[i + 1]]
 
   /// The points given that stand at place `i`.

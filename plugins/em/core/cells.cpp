@@ -63,7 +63,8 @@ CellGrid grid_over(double low_a, double high_a, double low_b, double high_b, dou
   return grid;
 }
 
-CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::uint32_t& count) {
+CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
+                                  std::uint32_t& count) {
   CellMap<std::uint32_t> number(grid.size(), 0);
   count = 0;
   std::vector<std::size_t> open;
@@ -108,7 +109,8 @@ CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std:
   std::vector<std::size_t> sizes(count + 1, 0);
   for (const std::uint32_t k : number) ++sizes[k];
   sizes[0] = 0;
-  const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const auto largest =
+      static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   CellMap<std::uint8_t> result(grid.size(), 0);
   for (std::size_t c = 0; c < grid.size(); ++c) result[c] = largest != 0 && number[c] == largest ? 1 : 0;
   return result;

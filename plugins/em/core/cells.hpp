@@ -28,7 +28,8 @@ struct CellGrid {
   }
   /// Place of a cell in a CellMap.
   std::size_t place(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
   }
 };
 
@@ -43,7 +44,8 @@ CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t
 CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std::uint8_t>& occupied);
 
 /// Numbers the sets of occupied cells that hang together, from 1 in the order of their first cells; 0: not occupied.
-CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::uint32_t& count);
+CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
+                                  std::uint32_t& count);
 
 /// `cells` and all within `radius` cells of one (a square).
 CellMap<std::uint8_t> dilated(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius);

@@ -7,8 +7,10 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kPointsForAPlane = 3.0; // three points make a plane: so many powers of n are tried by chance
-constexpr double kFlank = 3.0;           // a flank is as thick as half of the slab times two
+constexpr double kPointsForAPlane =
+    3.0;  // three points make a plane: so many powers of n are tried by chance
+constexpr double kFlattest = 1.0 / 16.0;  // thicker is a lump: its sides are but 14 noises long
+constexpr double kFlank = 3.0;            // a flank is as thick as half of the slab times two
 
 }  // namespace
 
@@ -31,8 +33,12 @@ Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& c
   Evidence evidence;
   evidence.members = plane.members.size();
   // A flank is as thick as the slab: (outer - inner) against 2 inner.
-  evidence.background = std::max(std::min(above, below) * 2.0 * inner / (outer - inner),
-                                 volume_density * area * 2.0 * inner);
+  evidence.background =
+      std::max(std::min(above, below) * 2.0 * inner / (outer - inner), volume_density * area * 2.0 * inner);
+  Moments moments;
+  for (const std::uint32_t i : plane.members) moments.add(field.points.at(i) - plane.frame.origin);
+  const Vec3 variances = moments.variances();
+  evidence.flatness = variances[1] > 0.0 ? variances[0] / variances[1] : 1.0;
   evidence.noise_ratio = std::sqrt(plane.mean_square) / sigma;
   const double n = static_cast<double>(evidence.members);
   const double expected = std::max(evidence.background, 1e-3);
@@ -40,10 +46,11 @@ Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& c
   return evidence;
 }
 
-bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points, std::size_t min_points) {
+bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points,
+                std::size_t min_points) {
   if (evidence.members < min_points || evidence.noise_ratio > standard.noise_ratio) return false;
   const double n = static_cast<double>(evidence.members);
-  return evidence.background <= standard.background * n &&
+  return evidence.flatness <= kFlattest && evidence.background <= standard.background * n &&
          evidence.gain >= kPointsForAPlane * std::log(static_cast<double>(points));
 }
 

@@ -8,9 +8,10 @@ namespace hallway::em {
 /// What a grown plane is judged by.
 struct Evidence {
   std::size_t members = 0;
-  double background = 0.0;    ///< members to expect if there were no plane
-  double noise_ratio = 0.0;   ///< RMS of the members by the noise of the cloud
-  double gain = 0.0;          ///< log likelihood of so many members, by chance against by a plane
+  double background = 0.0;   ///< members to expect if there were no plane
+  double noise_ratio = 0.0;  ///< RMS of the members by the noise of the cloud
+  double flatness = 0.0;     ///< variance across the plane by the smaller one along it
+  double gain = 0.0;         ///< log likelihood of so many members, by chance against by a plane
 };
 
 /// Counts what lies beside the plane, over the same cells: the emptier side tells the background, for
@@ -20,11 +21,12 @@ Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& c
 
 /// How much a plane may differ from points with the cloud's noise on nothing but one plane.
 struct Standard {
-  double noise_ratio = 0.0;   ///< RMS of the members by the noise of the cloud, at most
-  double background = 0.0;    ///< background by members, at most
+  double noise_ratio = 0.0;  ///< RMS of the members by the noise of the cloud, at most
+  double background = 0.0;   ///< background by members, at most
 };
 
 /// Whether the evidence, by that standard, is for a plane in a cloud of `points` points.
-bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points, std::size_t min_points);
+bool convincing(const Evidence& evidence, const Standard& standard, std::size_t points,
+                std::size_t min_points);
 
 }  // namespace hallway::em

@@ -33,25 +33,30 @@ std::vector<std::size_t> by_size(const std::vector<Places>& places) {
   return order;
 }
 
-/// Plane equation, centroid, RMS and outline. All but the result is relative to the cloud's origin.
-void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFrame& frame, Plane& plane) {
-  plane.normal = orient(frame.normal, frame.origin + cloud.origin);
-  plane.offset = plane.normal.dot(frame.origin + cloud.origin);
+/// Plane equation, centroid, RMS and outline in the frame of the points given; `patch` is in the canonical one.
+void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFrame& patch, Plane& plane) {
+  const Vec3 anchor = cloud.frame.to_cloud(patch.origin);
+  plane.normal = orient(cloud.frame.axes * patch.normal, anchor);
+  plane.offset = plane.normal.dot(anchor);
+  const Vec3 normal = cloud.frame.axes.transpose() * plane.normal;
   std::vector<Vec3> members;
   members.reserve(places.size());
   Vec3 sum = Vec3::Zero();
   double squares = 0.0;
   for (const std::uint32_t i : places) {
     members.push_back(cloud.points.at(i));
-    sum += members.back() - frame.origin;
-    squares += std::pow(plane.normal.dot(members.back() - frame.origin), 2);
+    const Vec3 from = members.back() - patch.origin;
+    sum += from;
+    squares += std::pow(normal.dot(from), 2);
   }
   const auto n = static_cast<double>(places.size());
   const Vec3 mean = sum / n;
-  plane.centroid = cloud.origin + frame.origin + mean - plane.normal.dot(mean) * plane.normal;
+  plane.centroid = cloud.frame.to_cloud(patch.origin + mean - normal.dot(mean) * normal);
   plane.rms = std::sqrt(squares / n);
-  Outline outline = outline_of(members, plane.normal, frame.origin);
-  outline.frame.origin += cloud.origin;
+  Outline outline = outline_of(members, normal, patch.origin);
+  outline.frame.origin = anchor;
+  outline.frame.u = cloud.frame.axes * outline.frame.u;
+  outline.frame.v = cloud.frame.axes * outline.frame.v;
   plane.corners = corners_of(outline);
   plane.hull = hull_of(outline);
 }

@@ -9,16 +9,16 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kWiden = std::numbers::sqrt2;  // of the radius: the area doubles, so all steps together cost twice the last
+constexpr double kWiden =
+    std::numbers::sqrt2;  // of the radius: the area doubles, so all steps together cost twice the last
 constexpr int kMaxSteps = 60;
-constexpr double kSettled = 1.02;     // growth of the number of members below which the plane is complete ...
-constexpr int kSettledSteps = 2;      // ... when it happens so often in a row
-constexpr double kNoiseLeeway = 1.05;  // a plane's own noise against that of the cloud
-constexpr double kHopeless = 1.5;     // RMS by noise at which the slab is as full outside as within: no plane ...
-constexpr int kHopelessSteps = 3;     // ... after so many steps
-constexpr double kDense = 1.5;        // cells with more than so many times the median are thinned by weight
-constexpr double kMostCells = 4.0;    // cells per point of the slab at most
-constexpr double kDeviationOfMedian = 1.4826;  // standard deviation by median absolute deviation, normal noise
+constexpr double kSettled = 1.02;  // growth of the number of members below which the plane is complete ...
+constexpr int kSettledSteps = 2;   // ... when it happens so often in a row
+constexpr double kHopeless =
+    1.5;  // RMS by noise at which the slab is as full outside as within: no plane ...
+constexpr int kHopelessSteps = 3;   // ... after so many steps
+constexpr double kDense = 1.5;      // cells with more than so many times the median are thinned by weight
+constexpr double kMostCells = 4.0;  // cells per point of the slab at most
 
 std::uint16_t median_count(const CellMap<std::uint16_t>& counts, std::vector<std::uint16_t>& sorted) {
   sorted.clear();
@@ -78,14 +78,6 @@ void Grower::spread_over_cells(double seed_radius) {
   }
 }
 
-double Grower::noise_of_members(double sigma) {
-  heights_.clear();
-  for (const std::uint32_t k : picked_) heights_.push_back(std::abs(slab_.height[k]));
-  const auto middle = heights_.begin() + static_cast<std::ptrdiff_t>(heights_.size() / 2);
-  std::nth_element(heights_.begin(), middle, heights_.end());
-  return std::clamp(kDeviationOfMedian * *middle, sigma / kNoiseLeeway, sigma * kNoiseLeeway);
-}
-
 void Grower::refit() {
   std::vector<std::uint16_t> sorted;
   const double full = kDense * median_count(counts_, sorted);
@@ -114,7 +106,6 @@ Grown Grower::grow(const Seed& seed, double sigma) {
   plane_ = Grown{};
   plane_.frame = frame_on(seed.frame.origin, seed.frame.normal);
   plane_.sigma = sigma;
-  plane_.level = sigma;
   cell_ = std::max(std::sqrt(kPointsPerCell / seed.density), kSlabSigmas * sigma);
   const double first_cell = cell_;
   double radius = seed.radius;
@@ -125,7 +116,6 @@ Grown Grower::grow(const Seed& seed, double sigma) {
     spread_over_cells(seed.radius);
     if (picked_.size() < 4) break;
     refit();
-    plane_.sigma = noise_of_members(sigma);
     const double count = static_cast<double>(picked_.size());
     if (step >= kHopelessSteps && mean_square() > kHopeless * kHopeless * sigma * sigma) break;
     settled = count <= kSettled * static_cast<double>(members) ? settled + 1 : 0;

@@ -18,8 +18,7 @@ inline constexpr double kPointsPerCell = 4.0;
 /// A finite plane as it grew.
 struct Grown {
   PlaneFrame frame;
-  double sigma = 0.0;                  ///< noise across the plane, by its members
-  double level = 0.0;                  ///< noise that it was grown with
+  double sigma = 0.0;                  ///< noise across planes that it was grown with
   CellGrid grid;                       ///< over the plane, in the frame's coordinates
   CellMap<std::uint8_t> support;       ///< the cells it covers
   std::vector<std::uint32_t> members;  ///< unclaimed points in its slab and cells, ascending
@@ -31,7 +30,8 @@ struct Grown {
 /// connection on but do not count.
 class Grower {
  public:
-  Grower(const PointField& field, const std::vector<std::uint8_t>& claimed) : field_(field), claimed_(claimed) {}
+  Grower(const PointField& field, const std::vector<std::uint8_t>& claimed)
+      : field_(field), claimed_(claimed) {}
 
   /// Grows from `seed`, noise about `sigma`. What comes out may be no plane at all; see evidence.hpp.
   Grown grow(const Seed& seed, double sigma);
@@ -40,7 +40,6 @@ class Grower {
   void take_slab(double radius);
   void spread_over_cells(double seed_radius);
   void refit();
-  double noise_of_members(double sigma);
   double mean_square() const;
 
   const PointField& field_;
@@ -48,10 +47,9 @@ class Grower {
   Grown plane_;
   double cell_ = 0.0;
   SlabPoints slab_;
-  std::vector<std::size_t> cell_of_;    ///< of each slab point
-  std::vector<std::uint32_t> picked_;   ///< positions in slab_ of the members
+  std::vector<std::size_t> cell_of_;   ///< of each slab point
+  std::vector<std::uint32_t> picked_;  ///< positions in slab_ of the members
   CellMap<std::uint16_t> counts_;
-  std::vector<double> heights_;
 };
 
 }  // namespace hallway::em

@@ -11,9 +11,9 @@ namespace hallway::em {
 namespace {
 
 constexpr std::size_t kNeighbours = 48;
-constexpr int kTriples = 60;        // a quarter of the points on the plane: one of 64 triples is all on it
-constexpr std::size_t kFewest = 8;  // points near the plane: three always are
-constexpr double kNear = 2.5;       // standard deviations
+constexpr int kTriples = 60;           // a quarter of the points on the plane: one of 64 triples is all on it
+constexpr std::size_t kFewest = 8;     // points near the plane: three always are
+constexpr double kNear = 2.5;          // standard deviations
 constexpr double kThinTriangle = 0.1;  // sine of the smallest angle at a triple's first point
 
 /// Next number of a sequence (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).

@@ -8,15 +8,19 @@ namespace hallway::em {
 namespace {
 
 constexpr double kLogRootTwoPi = 0.9189385332046727;
-constexpr double kFarthest = 4.5;      // standard deviations: farther off no point is a plane's, whatever the density
+constexpr double kFarthest =
+    4.5;  // standard deviations: farther off no point is a plane's, whatever the density
 constexpr double kSmallestShare = 0.01;  // of a point: less of it is not worth the arithmetic
-constexpr double kOutlierMatters = 7.0;  // log likelihood; where none of the patches leads by more, outliers have a share
-constexpr double kPriorPoints = 20.0;    // weight of the noise that a patch was found with in its own
-constexpr double kNoiseLeeway = 1.4;     // a patch's noise against that
-constexpr double kParameters = 8.0;      // of a finite plane: three of the plane, four of its extent, its noise
-constexpr double kMergedNoise = 1.15;    // RMS of a joined patch by that of its parts
-constexpr double kMergeCosine = 0.9;     // planes turned farther than 25 degrees are not compared
-constexpr double kFewest = 4.0;          // points that make a fit
+constexpr double kOutlierMatters =
+    7.0;  // log likelihood; where none of the patches leads by more, outliers have a share
+constexpr double kPriorPoints = 20.0;  // weight of the noise that a patch was found with in its own
+constexpr double kNoiseLeeway = 1.4;   // a patch's noise against that
+// What a patch must gain, in log likelihood by log of the number of points: half for each of its eight parameters (three of the plane,
+// four of its extent, its noise), and one for each of the three points that make a plane, for so many were tried.
+constexpr double kCost = 0.5 * 8.0 + 3.0;
+constexpr double kMergedNoise = 1.15;  // RMS of a joined patch by that of its parts
+constexpr double kMergeCosine = 0.9;   // planes turned farther than 25 degrees are not compared
+constexpr double kFewest = 4.0;        // points that make a fit
 
 /// Origin of the frame moved along its normal onto the plane of `fit`, the normal turned to that of `fit`: places on the
 /// patch keep their coordinates.
@@ -141,7 +145,7 @@ bool Mixture::cull(std::size_t min_points) {
     gain[best_[i]] += static_cast<double>(best_score_[i] - second_score_[i]);
     ++members[best_[i]];
   }
-  const double cost = 0.5 * kParameters * std::log(static_cast<double>(field_.points.count));
+  const double cost = kCost * std::log(static_cast<double>(field_.points.count));
   // One at a time, the least first: what it leaves may make another one worth its cost.
   std::size_t worst = patches.size();
   for (std::size_t j = 0; j < patches.size(); ++j) {

@@ -24,7 +24,8 @@ class Mixture {
   void refit();
   /// Moves the borders of all patches to where the points are that no other patch explains as well.
   void cover();
-  /// Drops the patch that explains least, if that is less than `min_points` or than its parameters cost (BIC: Schwarz 1978).
+  /// Drops the patch that explains least, if that is less than `min_points` or than its parameters and
+  /// the search cost (Schwarz 1978; Desolneux, Moisan, Morel 2000).
   /// True if it dropped one; the points are then to be assigned anew.
   bool cull(std::size_t min_points);
   /// Joins patches that hang together and are one plane as far as the noise lets us tell. True if it joined any; the points
@@ -51,7 +52,7 @@ class Mixture {
   const PointField& field_;
   double volume_;
   std::size_t unassigned_;
-  std::vector<std::uint32_t> best_, second_;       ///< of each point: patch or kNoPlane
+  std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
   std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
   SlabPoints slab_;
 };

@@ -9,14 +9,18 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kClearlyBest = 4.0;  // log likelihood by which the best patch must lead for a point to be its alone
-constexpr double kOccupied = 0.2;     // of a patch's density: a cell with less that is its alone is no evidence for it
-constexpr double kRimDensity = 0.1;   // of a patch's density: in cells of few or no points at its rim
-constexpr double kGapSpacings = 1.6;  // half of the gap that chance leaves within a patch, in spacings of points
+constexpr double kClearlyBest =
+    4.0;  // log likelihood by which the best patch must lead for a point to be its alone
+constexpr double kOccupied =
+    0.2;  // of a patch's density: a cell with less that is its alone is no evidence for it
+constexpr double kRimDensity = 0.1;  // of a patch's density: in cells of few or no points at its rim
+constexpr double kGapSpacings =
+    1.6;  // half of the gap that chance leaves within a patch, in spacings of points
 constexpr double kSeamSigmas = 3.0;   // half of the gap that a patch that crosses it leaves
 constexpr double kRimSpacings = 0.8;  // how far a patch may reach beyond the points that are its alone ...
 constexpr double kRimSigmas = 1.0;    // ... as where it ends at another one
-constexpr double kGrowth = 0.15;      // of the smaller side: how far beyond the old border a new one is looked for
+constexpr double kGrowth =
+    0.15;  // of the smaller side: how far beyond the old border a new one is looked for
 constexpr double kMarginSigmas = 4.0;
 constexpr double kMarginCells = 4.0;
 
@@ -94,16 +98,19 @@ void Mixture::cover_patch(std::uint32_t j) {
     if (best_[i] != j && best_[i] != kNoPlane) continue;
     const std::size_t cell = grid.at(slab_.a[k], slab_.b[k]);
     (best_[i] == j ? counts.own : counts.free)[cell] += 1.0f;
-    const bool alone = second_[i] == kNoPlane || static_cast<double>(best_score_[i] - second_score_[i]) > kClearlyBest;
+    const bool alone =
+        second_[i] == kNoPlane || static_cast<double>(best_score_[i] - second_score_[i]) > kClearlyBest;
     if (best_[i] == j && alone) counts.alone[cell] += 1.0f;
   }
   const double area = grid.cell * grid.cell;
   const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * area));
   CellMap<std::uint8_t> occupied(grid.size(), 0);
-  for (std::size_t c = 0; c < grid.size(); ++c) occupied[c] = counts.alone[c] + counts.free[c] >= enough ? 1 : 0;
+  for (std::size_t c = 0; c < grid.size(); ++c)
+    occupied[c] = counts.alone[c] + counts.free[c] >= enough ? 1 : 0;
 
   const double spacing = 1.0 / std::sqrt(patch.density);
-  const int gap = std::max(cells_for(kGapSpacings * spacing, grid), cells_for(kSeamSigmas * patch.sigma, grid) + 1);
+  const int gap =
+      std::max(cells_for(kGapSpacings * spacing, grid), cells_for(kSeamSigmas * patch.sigma, grid) + 1);
   const int rim = std::max(static_cast<int>(std::lround(kRimSpacings * spacing / grid.cell)),
                            cells_for(kRimSigmas * patch.sigma, grid));
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, gap));
@@ -151,7 +158,8 @@ bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<P
   }
   for (const std::uint32_t n : number) ++cells[n];
   own[0] = 0;
-  if (std::count_if(own.begin(), own.end(), [min_points](std::size_t n) { return n >= min_points; }) < 2) return false;
+  if (std::count_if(own.begin(), own.end(), [min_points](std::size_t n) { return n >= min_points; }) < 2)
+    return false;
   for (std::uint32_t n = 1; n <= count; ++n) {
     if (own[n] < min_points) continue;
     CellMap<std::uint8_t> support(grid.size(), 0);

@@ -8,8 +8,8 @@ namespace hallway::em {
 
 /// The total least squares plane of weighted points.
 struct PlaneFit {
-  PlaneFrame frame;                    ///< at the centroid; u along the largest spread
-  Vec3 variances = Vec3::Zero();       ///< along normal, v, u: ascending
+  PlaneFrame frame;               ///< at the centroid; u along the largest spread
+  Vec3 variances = Vec3::Zero();  ///< along normal, v, u: ascending
 };
 
 /// Sums of a weighted point set from which its plane follows; adding a point costs ten multiplications, and sets are joined by adding

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hallway::em {
 namespace {
 
-constexpr double kPointsPerPatchCell = 1.0;  // fine enough to follow a border to about the spacing of the points ...
-constexpr double kPatchCellSigmas = 1.0;     // ... but not finer than the noise
+constexpr double kPointsPerPatchCell =
+    1.0;  // fine enough to follow a border to about the spacing of the points ...
+constexpr double kPatchCellSigmas = 1.0;  // ... but not finer than the noise
 constexpr int kMargin = 3;  // cells around what is covered, so that closing and widening find room
 
 CellGrid with_margin(double low_a, double high_a, double low_b, double high_b, double cell) {
   const double margin = kMargin * cell;
-  return grid_over(low_a - margin, high_a + margin, low_b - margin, high_b + margin, cell,
-                   kMostCells);
+  return grid_over(low_a - margin, high_a + margin, low_b - margin, high_b + margin, cell, kMostCells);
 }
 
 void cover(Patch& patch, const CellMap<std::uint8_t>& support) {
@@ -44,14 +45,14 @@ void visit_cells(const Patch& patch, Visit visit) {
   }
 }
 
-struct Bounds {
+struct Reach {
   double low_a = std::numeric_limits<double>::infinity();
   double low_b = low_a;
   double high_a = -low_a;
   double high_b = -low_a;
 };
 
-void widen(Bounds& bounds, const PlaneFrame& frame, const Patch& patch) {
+void widen(Reach& bounds, const PlaneFrame& frame, const Patch& patch) {
   visit_cells(patch, [&](const Vec3& middle) {
     const double a = frame.u.dot(middle - frame.origin);
     const double b = frame.v.dot(middle - frame.origin);
@@ -75,13 +76,14 @@ Patch patch_of(const Grown& grown) {
   Patch patch;
   patch.frame = grown.frame;
   patch.sigma = grown.sigma;
-  patch.level = grown.level;
+  patch.level = grown.sigma;
   const auto cells = static_cast<double>(std::count(grown.support.begin(), grown.support.end(), 1));
   patch.density = static_cast<double>(grown.members.size()) / (cells * old.cell * old.cell);
   return restricted(patch, old, grown.support, patch.density);
 }
 
-Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uint8_t>& marked, double density) {
+Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uint8_t>& marked,
+                 double density) {
   Patch result = patch;
   result.density = density;
   const double cell = std::max(std::sqrt(kPointsPerPatchCell / density), kPatchCellSigmas * patch.sigma);
@@ -112,7 +114,7 @@ bool touching(const Patch& left, const Patch& right) {
 }
 
 Patch joined(const Patch& left, const Patch& right, const PlaneFrame& frame) {
-  Bounds bounds;
+  Reach bounds;
   widen(bounds, frame, left);
   widen(bounds, frame, right);
   Patch patch;
@@ -145,7 +147,8 @@ void crop(Patch& patch, int first_column, int last_column, int first_row, int la
   CellMap<float> kept(patch.grid.size());
   for (int row = first_row; row <= last_row; ++row) {
     for (int column = first_column; column <= last_column; ++column) {
-      kept[patch.grid.place(column - first_column, row - first_row)] = patch.log_density[old.place(column, row)];
+      kept[patch.grid.place(column - first_column, row - first_row)] =
+          patch.log_density[old.place(column, row)];
     }
   }
   patch.log_density = std::move(kept);

@@ -28,7 +28,8 @@ struct Patch {
 Patch patch_of(const Grown& grown);
 
 /// The patch on the same plane that covers the cells of `grid` marked in `cells` and a little beyond, at density `density`.
-Patch restricted(const Patch& patch, const CellGrid& grid, const CellMap<std::uint8_t>& cells, double density);
+Patch restricted(const Patch& patch, const CellGrid& grid, const CellMap<std::uint8_t>& cells,
+                 double density);
 
 /// Whether the middle of a cell of `right` lies over a cell of `left`, seen along the normal of `left`.
 bool touching(const Patch& left, const Patch& right);

@@ -11,15 +11,17 @@ namespace {
 // may be two planes that cross at a small angle, or have caught a strip of another; later passes tell.
 constexpr Standard kStrict{1.12, 0.05};
 constexpr Standard kLenient{1.3, 0.5};
-constexpr double kStillFree = 0.9;     // share of a pending plane's members that nothing else has claimed since
-constexpr double kRoughSeed = 2.5;      // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
+constexpr double kStillFree = 0.9;  // share of a pending plane's members that nothing else has claimed since
+constexpr double kRoughSeed =
+    2.5;  // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
 // Surfaces of another roughness show as flat neighbourhoods that are left over.
 constexpr double kFlat = 0.03;
 constexpr double kRougher = 1.3;
 constexpr double kRoughest = 5.0;
 constexpr std::size_t kRoughSeeds = 3;
-constexpr int kFailures = 2;           // growths that failed around a seed before it is left alone
-constexpr int kLocalSearches = 32;     // in a round: the flattest that are left
+constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is that of numbers with six digits
+constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
+constexpr int kLocalSearches = 32;         // in a round: the flattest that are left
 constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.
@@ -47,7 +49,8 @@ PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, co
       first_seeds_(find_seeds(field.points, static_cast<std::size_t>(options.seeds), 0)) {}
 
 double PlaneSearch::estimate_noise() const {
-  return noise_of_seeds(first_seeds_);
+  const double finest = kFinest * extent_.maxCoeff();
+  return first_seeds_.empty() ? 0.0 : std::max(noise_of_seeds(first_seeds_), finest);
 }
 
 double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const {
@@ -68,7 +71,10 @@ double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>
 }
 
 void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
-  for (const std::uint32_t i : grown.members) claimed[i] = 1;
+  for (const std::uint32_t i : grown.members) {
+    unclaimed_ -= claimed[i] == 0 ? 1u : 0u;
+    claimed[i] = 1;
+  }
   found_.push_back(std::move(grown));
 }
 
@@ -78,7 +84,9 @@ void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   const std::size_t n = field_.points.count;
   if (grown.members.size() >= fewest) {
-    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, 0.5 / extent_.cwiseMax(sigma).prod());
+    const double others = static_cast<double>(unclaimed_ - std::min(unclaimed_, grown.members.size()));
+    const double volume_density = (others + 0.5) / extent_.cwiseMax(2.0 * kSlabSigmas * sigma).prod();
+    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, volume_density);
     if (convincing(evidence, kStrict, n, fewest)) {
       accept(std::move(grown), claimed);
       return;
@@ -112,6 +120,7 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
   const Unclaimed free = unclaimed_of(field_.points, claimed);
   const BoxTree tree(free.points);
   const PointField free_field{free.points, tree};
+  unclaimed_ = free.points.count;
   const std::size_t wanted =
       std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
   const bool nothing_claimed = number == 0 && free.points.count == field_.points.count;

@@ -17,7 +17,8 @@ class PlaneSearch {
   /// `extent`: of the space that the cloud fills. Keeps references to `field` and `options`.
   PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent);
 
-  /// The noise across planes, as the flattest neighbourhoods tell; 0 if there is none.
+  /// The noise across planes, as the flattest neighbourhoods tell, at least a millionth of the extent; 0 if there is no
+  /// neighbourhood that a plane could lie in.
   double estimate_noise() const;
 
   /// The noise of surfaces rougher than `sigma` among the points without a label; 0 if there seem to be none.
@@ -42,7 +43,8 @@ class PlaneSearch {
   const PointField& field_;
   const AutoOptions& options_;
   Vec3 extent_;
-  std::vector<Seed> first_seeds_;  ///< of all points: for the noise and for the first round
+  std::size_t unclaimed_ = 0;
+  std::vector<Seed> first_seeds_;       ///< of all points: for the noise and for the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round
   std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed

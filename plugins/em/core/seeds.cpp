@@ -14,12 +14,13 @@ namespace {
 
 // A plane takes three degrees of freedom, so k points leave k - 3 to tell the noise; fewer than 12 tell too little.
 constexpr std::array<std::size_t, 7> kScales{12, 18, 27, 40, 60, 90, 128};
-constexpr double kOnALine = 1e-6;      // smaller by larger variance along the plane: no plane follows from it
-constexpr double kFlatEnough = 0.01;   // the normal is then known to a hundredth over 100 points: look no wider
-constexpr std::size_t kThinning = 4;   // of a coarser level: half the density along an edge
-constexpr std::size_t kFewest = 400;   // points of the coarsest level
+constexpr double kOnALine = 1e-6;  // smaller by larger variance along the plane: no plane follows from it
+constexpr double kFlatEnough =
+    0.01;  // the normal is then known to a hundredth over 100 points: look no wider
+constexpr std::size_t kThinning = 4;                 // of a coarser level: half the density along an edge
+constexpr std::size_t kFewest = 400;                 // points of the coarsest level
 constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples, modulo 1, lie apart from each other
-constexpr std::size_t kBestShare = 4;  // the best quarter tells the noise
+constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise
 
 /// A level of the cloud: every 4^l-th point.
 struct Level {
@@ -54,7 +55,8 @@ struct BestScale {
   double radius = 0.0;
 };
 
-std::optional<BestScale> best_scale(const Points& points, const std::vector<NearPoint>& near, const Vec3& middle) {
+std::optional<BestScale> best_scale(const Points& points, const std::vector<NearPoint>& near,
+                                    const Vec3& middle) {
   std::optional<BestScale> best;
   Moments moments;
   std::size_t next = 0;
@@ -83,7 +85,8 @@ Seed seed_from(const BestScale& scale, std::uint32_t place, const Vec3& middle, 
   const PlaneFit fit = scale.moments.fit(middle);
   seed.frame = fit.frame;
   seed.radius = scale.radius;
-  seed.density = thinning * static_cast<double>(scale.count) / (std::numbers::pi * scale.radius * scale.radius);
+  seed.density =
+      thinning * static_cast<double>(scale.count) / (std::numbers::pi * scale.radius * scale.radius);
   seed.noise = scale.noise;
   seed.flatness = scale.flatness;
   return seed;
@@ -100,7 +103,8 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
   for (const Level& level : levels) {
     nearest({level.points, level.tree}, middle, kScales.back(), radius_guess(level.tree, index), near);
     const std::optional<BestScale> scale = best_scale(level.points, near, middle);
-    if (scale && (!seed || scale->flatness < seed->flatness)) seed = seed_from(*scale, place, middle, thinning);
+    if (scale && (!seed || scale->flatness < seed->flatness))
+      seed = seed_from(*scale, place, middle, thinning);
     const bool wider = scale && scale->count >= kScales[kScales.size() - 2] && scale->flatness > kFlatEnough;
     if (!wider) break;
     thinning *= static_cast<double>(kThinning);

@@ -17,7 +17,7 @@ struct PointField {
 
 /// The points inside of a slab, in its frame.
 struct SlabPoints {
-  std::vector<std::uint32_t> place;   ///< in the list of points, ascending
+  std::vector<std::uint32_t> place;  ///< in the list of points, ascending
   std::vector<double> a, b, height;  ///< coordinates in the frame, the last one signed
 
   std::size_t size() const { return place.size(); }
