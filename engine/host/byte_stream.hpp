@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -45,7 +46,8 @@ class ByteWriter {
   void put_bytes(const void* data, std::size_t bytes) {
     const std::size_t begin = size_;
     size_ += (bytes + 7) / 8 * 8;
-    if (fits() && bytes != 0) std::memcpy(room_.data() + begin, data, bytes);
+    if (!fits()) return;
+    std::ranges::copy(std::span(static_cast<const std::byte*>(data), bytes), room_.subspan(begin).begin());
   }
 
   std::span<std::byte> room_;

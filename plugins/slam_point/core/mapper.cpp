@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "slam_point/core/active_submap.hpp"
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/map_step.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/submap_solver.hpp"
 
@@ -25,6 +25,7 @@ constexpr double kLeastShare = 0.4;  // below which there is no pose
 constexpr double kWorthwhileGain =
     0.01;  // fall of the cost for which a step over the whole map is repeated soon
 constexpr double kWorkPerClose = 6e5;  // multiplications: those that factorise a window of 20 submaps
+constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
 constexpr int kMaxSettlePeriod = 1 << 20;
 
 const Options& checked(const Options& options) {
@@ -56,6 +57,7 @@ class Mapper::State {
     Vec3 travel = Vec3::Zero();
   };
 
+  void place(std::span<const Vec3> points);
   void take_points(std::span<const Vec3> points);
   bool can_start() const;
   void start_map();
@@ -74,7 +76,8 @@ class Mapper::State {
   double overlap_with_active() const;
   void change_submap();
   void close_submap();
-  void settle_whole_map();
+  void apply_map_step();
+  void begin_map_step();
   void merge_landmarks(Index closed);
   Index best_old_submap();
   bool reopen(Index submap);
@@ -86,7 +89,9 @@ class Mapper::State {
   FrameMatcher matcher_;
   SubmapGraph graph_;
   ActiveSubmap active_;
-  SubmapSolver solver_;
+  WindowSolver window_solver_;
+  MapStep map_step_;
+  bool map_step_ready_ = false;
 
   std::vector<Observation> frame_;
   FrameMatcher::Fit fit_;
@@ -109,20 +114,26 @@ class Mapper::State {
   std::vector<Pose> search_bases_;
   std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
   std::vector<Index> shared_submaps_;
-  bool loop_closed_ = false;  // since the last step over the whole map
+  bool loop_closed_ = false;  // since the last step over the whole map was begun
   int closes_since_settled_ = 0;
-  double settled_submaps_ = 0.0;  // how many the last step over the whole map placed
+  double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
   Answer answer_;
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points) {
+  place(points);
+  if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  return answer();
+}
+
+void Mapper::State::place(std::span<const Vec3> points) {
   take_points(points);
   if (!started_) {
     has_pose_ = can_start();
     if (has_pose_) start_map();
-    return answer();
+    return;
   }
   predict();
   match_active_submap();
@@ -132,7 +143,7 @@ const Answer& Mapper::State::process(std::span<const Vec3> points) {
   if (!has_pose_) {
     lose_pose();
     has_pose_ = start_over();
-    return answer();
+    return;
   }
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
@@ -142,7 +153,6 @@ const Answer& Mapper::State::process(std::span<const Vec3> points) {
     change_submap();
   }
   integrate();
-  return answer();
 }
 
 void Mapper::State::take_points(std::span<const Vec3> points) {
@@ -247,7 +257,7 @@ bool Mapper::State::start_over() {
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
-  solver_ = SubmapSolver();
+  map_step_ = MapStep();
   start_map();
   return true;
 }
@@ -308,33 +318,40 @@ void Mapper::State::close_submap() {
   std::erase(window_, closed);
   if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
   window_.push_back(closed);
-  const SubmapSolver::Step step = solver_.step_dense(graph_, window_, planar_, graph_.poses);
-  if (step.cost_after < step.cost_before) {
-    for (const Index landmark : solver_.touched()) graph_.resum(landmark);
+  const StepCost cost = window_solver_.step(graph_, window_, planar_, graph_.poses);
+  if (cost.after < cost.before) {
+    for (const Index landmark : window_solver_.touched()) graph_.resum(landmark);
   }
-  settle_whole_map();
+  apply_map_step();
+  begin_map_step();
   merge_landmarks(closed);
   ++answer_.counters.closes;
 }
 
-void Mapper::State::settle_whole_map() {
+void Mapper::State::apply_map_step() {
+  if (!map_step_.under_way() || !map_step_ready_) return;
+  const StepCost cost = map_step_.apply(graph_, graph_.poses);
+  for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
+  ++answer_.counters.global_steps;
+  const bool worth_it = cost.before - cost.after > kWorthwhileGain * cost.before;
+  settle_period_ = worth_it ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
+}
+
+void Mapper::State::begin_map_step() {
   ++closes_since_settled_;
   // So far apart that its work for one close stays the same in a map of any size. Its work grows with at most the cube.
   const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
-  const double work = solver_.sparse_work() * growth * growth * growth;
+  const double work = map_step_.work() * growth * growth * growth;
   const double rest = std::max(static_cast<double>(settle_period_), work / kWorkPerClose);
-  if (options_.global_period == 0 || !loop_closed_ || static_cast<double>(closes_since_settled_) < rest)
+  if (options_.global_period == 0 || !loop_closed_ || map_step_.under_way() ||
+      static_cast<double>(closes_since_settled_) < rest) {
     return;
-  std::vector<Index> all(graph_.submaps.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  const SubmapSolver::Step step = solver_.step_sparse(graph_, all, planar_, graph_.poses);
-  for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
-  ++answer_.counters.global_steps;
+  }
+  map_step_.begin(graph_, graph_.poses, window_.back(), planar_);
+  map_step_ready_ = false;
   settled_submaps_ = static_cast<double>(graph_.submaps.size());
   loop_closed_ = false;
   closes_since_settled_ = 0;
-  const bool worth_it = step.cost_before - step.cost_after > kWorthwhileGain * step.cost_before;
-  settle_period_ = worth_it ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
 }
 
 void Mapper::State::merge_landmarks(Index closed) {
@@ -496,8 +513,7 @@ Map Mapper::map() const {
 
 Map Mapper::refined_map() const {
   std::vector<Pose> poses = state_->graph().poses;
-  SubmapSolver solver;
-  solver.solve_all(state_->graph(), state_->planar(), kMaxGlobalSteps, poses);
+  settle(state_->graph(), state_->planar(), kMaxGlobalSteps, poses);
   return state_->map(poses);
 }
 

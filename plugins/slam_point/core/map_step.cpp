@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/map_step.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "slam_point/core/alignment.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+double total_cost(const SubmapGraph& graph, const std::vector<Pose>& poses) {
+  double cost = 0.0;
+  for (Index landmark = 0; landmark < graph.landmarks.size(); ++landmark) {
+    if (!graph.landmarks[landmark].memberships.empty())
+      cost += ReducedSystem::cost_of(graph, poses, landmark);
+  }
+  return cost;
+}
+
+}  // namespace
+
+void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar) {
+  std::vector<Index> all(graph.submaps.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  system_.take(graph, all, poses, planar);
+  start_.clear();
+  newest_slot_ = kNone;
+  for (const Index submap : system_.free()) {
+    if (submap == newest) newest_slot_ = static_cast<Index>(start_.size());
+    start_.push_back(poses[submap]);
+  }
+  factor_.begin(start_.size());
+  move_.clear();
+  next_row_ = 0;
+  analysed_ = false;
+  ready_ = start_.empty();
+  usable_ = false;
+  under_way_ = true;
+  spent_ = 0.0;
+}
+
+bool MapStep::advance(double work) {
+  double left = work;
+  if (!ready_) make_rows(left);
+  if (!ready_ && next_row_ == start_.size() && left > 0.0) {
+    if (!analysed_) factor_.analyse();
+    analysed_ = true;
+    const BlockCholesky::State state = factor_.advance(left);
+    ready_ = state != BlockCholesky::State::running;
+    if (state == BlockCholesky::State::done) solve();
+  }
+  spent_ += work - left;
+  if (ready_) work_ = spent_;
+  return ready_;
+}
+
+void MapStep::make_rows(double& left) {
+  while (next_row_ < start_.size() && left > 0.0) {
+    double used = 0.0;
+    const Index row = next_row_++;
+    move_.push_back(system_.make_row(row, used, [&](Index column, const ReducedSystem::Block& block) {
+      factor_.add(row, column, block);
+    }));
+    left -= used;
+  }
+}
+
+void MapStep::solve() {
+  factor_.solve(move_);
+  usable_ = std::all_of(move_.begin(), move_.end(), [](const auto& move) { return move.allFinite(); });
+}
+
+/// Where a submap goes that hangs on the free submap of `slot`, now that it is at `now`.
+Pose MapStep::moved(const Pose& now, Index slot) const {
+  const Eigen::Quaterniond turn = rotation_exp(-move_[slot].tail<3>());
+  const Vec3& from = start_[slot].t;
+  return {(turn * now.q).normalized(), from - move_[slot].head<3>() + turn * (now.t - from)};
+}
+
+StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
+  under_way_ = false;
+  StepCost cost;
+  cost.before = cost.after = total_cost(graph, poses);
+  if (!usable_) return cost;
+  const std::vector<Pose> before = poses;
+  for (Index slot = 0; slot < start_.size(); ++slot) {
+    Pose& pose = poses[system_.free()[slot]];
+    pose = moved(pose, slot);
+  }
+  const std::size_t known = start_.size() + 1;  // submap 0 is held
+  for (std::size_t submap = known; newest_slot_ != kNone && submap < poses.size(); ++submap)
+    poses[submap] = moved(poses[submap], newest_slot_);
+  const double after = total_cost(graph, poses);
+  if (after < cost.before) {
+    cost.after = after;
+  } else {
+    poses = before;
+  }
+  return cost;
+}
+
+}  // namespace hallway::slam_point

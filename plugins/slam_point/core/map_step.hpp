@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "slam_point/core/block_cholesky.hpp"
+#include "slam_point/core/reduced_system.hpp"
+
+namespace hallway::slam_point {
+
+/// What a Gauss-Newton step did to the sum of squares.
+struct StepCost {
+  double before = 0.0;  ///< [m^2]
+  double after = 0.0;   ///< equal to `before` when the step was not taken
+};
+
+/// One Gauss-Newton step over all submaps, in slices: begun from the graph as it is, computed while the graph grows,
+/// and then applied to the poses as they have become. What it costs is counted in multiplications, so that what is
+/// done in which call depends on the data alone.
+class MapStep {
+ public:
+  /// Takes down the whole graph. `newest` is the submap that those made later hang on. O(map).
+  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar);
+  /// Between begin() and apply().
+  bool under_way() const { return under_way_; }
+  /// Computes for about `work` multiplications. Returns whether the step is ready to be applied.
+  bool advance(double work);
+  /// Moves each submap by what the step moves it; those made since begin() by what `newest` is moved. Kept only when
+  /// it lowers the sum of squares. Once advance() has returned true. O(map).
+  StepCost apply(const SubmapGraph& graph, std::vector<Pose>& poses);
+
+  /// Multiplications that the last step took that was ready; 0 before the first.
+  double work() const { return work_; }
+
+ private:
+  void make_rows(double& left);
+  void solve();
+  Pose moved(const Pose& now, Index slot) const;
+
+  ReducedSystem system_;
+  BlockCholesky factor_;
+  std::vector<ReducedSystem::Vec6> move_;  // slot -> the gradient, then how far to go against it
+  std::vector<Pose> start_;                // slot -> its pose when the step began
+  Index newest_slot_ = kNone;
+  Index next_row_ = 0;
+  bool analysed_ = false;
+  bool ready_ = false;
+  bool usable_ = false;
+  bool under_way_ = false;
+  double spent_ = 0.0;
+  double work_ = 0.0;
+};
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/map_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "rings.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+using rings::noisy_ring;
+using rings::total_cost;
+
+constexpr double kPlenty = 1e12;
+
+std::vector<Pose> stepped(const SubmapGraph& graph, double slice) {
+  std::vector<Pose> poses = graph.poses;
+  MapStep step;
+  step.begin(graph, poses, kNone, false);
+  while (!step.advance(slice)) {
+  }
+  step.apply(graph, poses);
+  return poses;
+}
+
+void expect_same_bits(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    EXPECT_EQ(a[s].t, b[s].t) << "submap " << s;
+    EXPECT_EQ(a[s].q.coeffs(), b[s].q.coeffs()) << "submap " << s;
+  }
+}
+
+TEST(MapStep, SlicesOfAnySizeGiveTheSameBits) {
+  const SubmapGraph graph = noisy_ring(40, false, 1);
+  const std::vector<Pose> at_once = stepped(graph, kPlenty);
+  EXPECT_LT(total_cost(graph, at_once), total_cost(graph, graph.poses));
+  expect_same_bits(at_once, stepped(graph, 1e5));
+  expect_same_bits(at_once, stepped(graph, 1.0));
+}
+
+TEST(MapStep, ASliceIsAFractionOfTheWork) {
+  const SubmapGraph graph = noisy_ring(60, false, 2);
+  MapStep step;
+  step.begin(graph, graph.poses, kNone, false);
+  ASSERT_TRUE(step.advance(kPlenty));
+  const double work = step.work();
+  step.begin(graph, graph.poses, kNone, false);
+  int slices = 1;
+  while (!step.advance(work / 50.0)) ++slices;
+  EXPECT_GE(slices, 25) << "a slice overdraws by what it began last, and no more";
+  EXPECT_LE(slices, 51);
+  EXPECT_EQ(step.work(), work);
+}
+
+TEST(MapStep, WhatTheGraphLearnsMeanwhileDoesNotDisturbIt) {
+  SubmapGraph graph = noisy_ring(12, false, 3);
+  std::vector<Pose> expected = graph.poses;
+  MapStep at_once;
+  at_once.begin(graph, expected, kNone, false);
+  ASSERT_TRUE(at_once.advance(kPlenty));
+  at_once.apply(graph, expected);
+
+  MapStep step;
+  step.begin(graph, graph.poses, 11, false);
+  ASSERT_FALSE(step.advance(1.0));
+  // Two more submaps, one of them at the place of the newest, new landmarks, and two that turn out to be one.
+  const Pose beside{graph.poses[11].q, graph.poses[11].t + Vec3(0.5, 0.0, 0.0)};
+  graph.add_submap(beside);
+  graph.add_submap(graph.poses[11]);
+  graph.join(12, graph.add_landmark(beside * Vec3(1.0, 2.0, 0.0), 1), Vec3(1.0, 2.0, 0.0), true);
+  graph.submaps[12].members[0].count = 1;
+  graph.merge(3, 4);
+  ASSERT_TRUE(step.advance(kPlenty));
+  const StepCost cost = step.apply(graph, graph.poses);
+  EXPECT_LT(cost.after, cost.before);
+  for (std::size_t s = 0; s < expected.size(); ++s) {
+    EXPECT_EQ(graph.poses[s].t, expected[s].t) << "submap " << s;
+    EXPECT_EQ(graph.poses[s].q.coeffs(), expected[s].q.coeffs()) << "submap " << s;
+  }
+  // Those made meanwhile went along with the newest as if they were of one piece with it.
+  const Vec3 lies = expected[11].inverse() * graph.poses[12].t;
+  EXPECT_LT((lies - Vec3(noisy_ring(12, false, 3).poses[11].q.conjugate() * Vec3(0.5, 0.0, 0.0))).norm(),
+            1e-12);
+  EXPECT_LT((graph.poses[13].t - expected[11].t).norm(), 1e-12);
+}
+
+TEST(MapStep, IsNotTakenWhereItWouldMakeThingsWorse) {
+  SubmapGraph graph = noisy_ring(8, false, 4);
+  std::vector<Pose> settled = graph.poses;
+  MapStep step;
+  for (int i = 0; i < 20; ++i) {
+    step.begin(graph, settled, kNone, false);
+    ASSERT_TRUE(step.advance(kPlenty));
+    step.apply(graph, settled);
+  }
+  // Computed for poses that are off, applied to those that are right: it moves them away from the minimum.
+  step.begin(graph, graph.poses, kNone, false);
+  ASSERT_TRUE(step.advance(kPlenty));
+  std::vector<Pose> poses = settled;
+  const StepCost cost = step.apply(graph, poses);
+  EXPECT_EQ(cost.after, cost.before);
+  expect_same_bits(poses, settled);
+}
+
+TEST(MapStep, OneSubmapIsNothingToMove) {
+  SubmapGraph graph(1.0);
+  graph.add_submap(Pose{});
+  std::vector<Pose> poses = graph.poses;
+  MapStep step;
+  step.begin(graph, poses, 0, false);
+  EXPECT_TRUE(step.advance(1.0));
+  const StepCost cost = step.apply(graph, poses);
+  EXPECT_EQ(cost.after, cost.before);
+}
+
+}  // namespace
+}  // namespace hallway::slam_point
