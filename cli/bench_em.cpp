@@ -291,7 +291,7 @@ void add_bench_em_command(CLI::App& app, Action& chosen) {
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
   command->footer(
       "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
-      "Example: hallway bench-em --plugin em --plugin em:mode=em2 --scenes 200 --seed 7 --out out/bench");
+      "Example: hallway bench-em --plugin em --plugin em2 --scenes 200 --seed 7 --out out/bench");
   command->callback([&chosen, options] { chosen = [options] { return bench_em(*options); }; });
 }
 
