@@ -69,11 +69,15 @@ class Em2Search {
     }
   }
 
-  /// A plane grown from a random point, its points counted (6); empty if that gave none that brings points.
+  /// A plane grown from a random point, its points counted (6). Empty if that gave none that brings points; the point is then not drawn
+  /// again before another plane is found.
   std::optional<Candidate> next_plane() {
-    const std::uint32_t start = unattached_[dice_.below(static_cast<std::uint32_t>(unattached_.size()))];
+    const std::uint32_t drawn = dice_.below(static_cast<std::uint32_t>(unattached_.size()));
+    const std::uint32_t start = unattached_[drawn];
     auto plane = seed_plane(start);
     if (!plane || !grow(*plane, points_[start]) || own_points(*plane) < options_.min_points) {
+      unattached_[drawn] = unattached_.back();
+      unattached_.pop_back();
       return std::nullopt;
     }
     for (const std::uint32_t i : plane->members) ++uses_[i];
@@ -135,7 +139,7 @@ class Em2Search {
   DensityCheck density_check_;
   std::vector<Candidate> planes_;
   std::vector<std::uint32_t> uses_;        ///< how many planes have each point
-  std::vector<std::uint32_t> unattached_;  ///< points that no plane has
+  std::vector<std::uint32_t> unattached_;  ///< points that no plane has, and may be drawn
 };
 
 }  // namespace
