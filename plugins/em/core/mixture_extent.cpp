@@ -60,8 +60,8 @@ double mean_around(const CellGrid& grid, const CellMap<float>& counts, int colum
   return sum / 9.0;
 }
 
-/// Points per area within the support. Where the patch has it only because a gap was closed, others took its points: there
-/// the density is taken to be as it was.
+/// Points per area within the support. Where the patch has it only because a gap was closed, others took its
+/// points: there the density is taken to be as it was.
 double density_within(const CellGrid& grid, const CellMap<std::uint8_t>& support,
                       const CellMap<std::uint8_t>& occupied, const CellMap<float>& own, double before) {
   const double area = grid.cell * grid.cell;
@@ -105,8 +105,8 @@ Counts count_cells(const CellGrid& grid, const SlabPoints& slab, ClaimOn claim_o
   return counts;
 }
 
-/// Sets the log density of all cells within `reach`: what is counted there, at most that of the whole patch and at least a
-/// little; in closed gaps that of the whole patch.
+/// Sets the log density of all cells within `reach`: what is counted there, at most that of the whole patch
+/// and at least a little; in closed gaps that of the whole patch.
 void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
                    const CellMap<std::uint8_t>& occupied, const CellMap<std::uint8_t>& reach) {
   const CellGrid& grid = patch.grid;

@@ -7,8 +7,9 @@
 namespace hallway::em {
 namespace {
 
-// First what is one plane beyond doubt: what it claims is no longer in the way of the others. What is found beside it
-// may be two planes that cross at a small angle, or have caught a strip of another; later passes tell.
+// First what is one plane beyond doubt: what it claims is no longer in the way of the others. What is found
+// beside it may be two planes that cross at a small angle, or have caught a strip of another; later passes
+// tell.
 constexpr Standard kStrict{1.12, 0.05};
 constexpr Standard kLenient{1.3, 0.5};
 constexpr double kStillFree = 0.9;  // share of a pending plane's members that nothing else has claimed since
