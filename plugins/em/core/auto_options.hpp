@@ -7,8 +7,8 @@
 
 namespace hallway::em {
 
-/// Every tunable of the algorithm `auto`. The defaults are meant to be left alone: every length derives from the
-/// cloud's own spacing and noise, so the cloud's unit of length does not matter.
+/// Every tunable of the algorithm `auto`. The defaults are meant to be left alone: every length derives from
+/// the cloud's own spacing and noise, so the cloud's unit of length does not matter.
 struct AutoOptions {
   double noise = 0.0;         ///< standard deviation of points across their planes [length]; 0: estimated
   int min_points = 12;        ///< different points that a plane has at least

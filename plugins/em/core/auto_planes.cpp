@@ -62,8 +62,8 @@ bool add_planes(PlaneSearch& search, double sigma, int fruitless, Mixture& mixtu
   return !found.empty();
 }
 
-/// All planes that show among the points of `search`: those with the cloud's noise, what these left over, then
-/// rougher and rougher ones.
+/// All planes that show among the points of `search`: those with the cloud's noise, what these left over,
+/// then rougher and rougher ones.
 void find_planes(PlaneSearch& search, const AutoOptions& options, double sigma, Mixture& mixture) {
   add_planes(search, sigma, 1, mixture);
   settle(mixture, options);

@@ -8,18 +8,19 @@
 
 namespace hallway::em {
 
-/// Finds the finite planes of clouds: the algorithm `auto`. Its model is that of thesis 3.5: planes with an extent, points that
-/// one of them explains or none; planes are grown from flat neighbourhoods, then all of them are fitted together.
+/// Finds the finite planes of clouds: the algorithm `auto`. Its model is that of thesis 3.5: planes with an
+/// extent, points that one of them explains or none; planes are grown from flat neighbourhoods, then all of
+/// them are fitted together.
 ///
-/// What comes out depends on the points alone: not on their order, the unit of length, or how often each is given; and on
-/// rotation and translation no more than rounding does.
+/// What comes out depends on the points alone: not on their order, the unit of length, or how often each is
+/// given; and on rotation and translation no more than rounding does.
 class PlaneExtractor {
  public:
   /// Throws std::invalid_argument for options out of range.
   explicit PlaneExtractor(const AutoOptions& options = {});
 
-  /// The planes of `cloud` (any frame, any unit of length). Points that are not finite, or beyond 1e100, are in no plane. About O(n log n).
-  /// Throws std::length_error from 2^28 points.
+  /// The planes of `cloud` (any frame, any unit of length). Points that are not finite, or beyond 1e100, are
+  /// in no plane. About O(n log n). Throws std::length_error from 2^28 points.
   Extraction extract(std::span<const Vec3> cloud) const;
 
  private:

@@ -11,8 +11,8 @@
 
 namespace hallway::em {
 
-/// A frame on a plane: coordinates (a, b) along `u` and `v` from `origin`, height along `normal`. Orthonormal,
-/// right-handed (u x v = normal).
+/// A frame on a plane: coordinates (a, b) along `u` and `v` from `origin`, height along `normal`.
+/// Orthonormal, right-handed (u x v = normal).
 struct PlaneFrame {
   Vec3 origin = Vec3::Zero();
   Vec3 u = Vec3::UnitX();
@@ -61,8 +61,9 @@ struct Ball {
   }
 };
 
-/// Boxes about the blocks of a list of points, and boxes about eight of those, and so on: the points are in Morton order,
-/// so neighbours in the list make small boxes. Building takes O(n); a query passes over what its shape does not touch.
+/// Boxes about the blocks of a list of points, and boxes about eight of those, and so on: the points are in
+/// Morton order, so neighbours in the list make small boxes. Building takes O(n); a query passes over what
+/// its shape does not touch.
 class BoxTree {
  public:
   /// Keeps nothing of `points` but their number.

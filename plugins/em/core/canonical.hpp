@@ -11,8 +11,9 @@
 
 namespace hallway::em {
 
-/// The cloud as every later stage sees it: without points that are not finite, each place once, in an order that
-/// depends on the coordinates alone, in a frame that turns with the cloud. So no result depends on the order given, and doubling every point changes nothing.
+/// The cloud as every later stage sees it: without points that are not finite, each place once, in an order
+/// that depends on the coordinates alone, in a frame that turns with the cloud. So no result depends on the
+/// order given, and doubling every point changes nothing.
 struct CanonicalCloud {
   Points points;                     ///< in `frame`, in Morton order
   CloudFrame frame;                  ///< turns and moves with the cloud

@@ -23,7 +23,8 @@ void visit_neighbours(const CellGrid& grid, std::size_t cell, Visit visit) {
   }
 }
 
-/// Sets to `value` all within `radius` of a cell of that value, along one line of `length` cells that lie `stride` apart.
+/// Sets to `value` all within `radius` of a cell of that value, along one line of `length` cells that lie
+/// `stride` apart.
 void spread_line(const std::uint8_t* from, std::uint8_t* to, int length, std::ptrdiff_t stride, int radius,
                  std::uint8_t value) {
   int last = -radius - 1;  // the last cell of that value seen so far

@@ -33,7 +33,8 @@ struct CellGrid {
   }
 };
 
-/// The grid over the rectangle with the cells asked for, or larger ones where there would be more than `most`.
+/// The grid over the rectangle with the cells asked for, or larger ones where there would be more than
+/// `most`.
 CellGrid grid_over(double low_a, double high_a, double low_b, double high_b, double cell, std::size_t most);
 
 /// The occupied cells that hang together, over sides and corners, with an occupied one of `starts`.
@@ -43,7 +44,8 @@ CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t
 /// The largest set of occupied cells that hang together (the first one of equals).
 CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std::uint8_t>& occupied);
 
-/// Numbers the sets of occupied cells that hang together, from 1 in the order of their first cells; 0: not occupied.
+/// Numbers the sets of occupied cells that hang together, from 1 in the order of their first cells; 0: not
+/// occupied.
 CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
                                   std::uint32_t& count);
 

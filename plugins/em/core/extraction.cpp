@@ -33,7 +33,8 @@ std::vector<std::size_t> by_size(const std::vector<Places>& places) {
   return order;
 }
 
-/// Plane equation, centroid, RMS and outline in the frame of the points given; `patch` is in the canonical one.
+/// Plane equation, centroid, RMS and outline in the frame of the points given; `patch` is in the canonical
+/// one.
 void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFrame& patch, Plane& plane) {
   const Vec3 anchor = cloud.frame.to_cloud(patch.origin);
   plane.normal = orient(cloud.frame.axes * patch.normal, anchor);

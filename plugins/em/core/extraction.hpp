@@ -7,7 +7,8 @@
 
 namespace hallway::em {
 
-/// The planes of a mixture over all points of `cloud`, in the frame and the order of the `given` points that it was made of.
+/// The planes of a mixture over all points of `cloud`, in the frame and the order of the `given` points that
+/// it was made of.
 Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, std::size_t given);
 
 }  // namespace hallway::em

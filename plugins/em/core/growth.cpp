@@ -12,8 +12,9 @@ namespace {
 constexpr double kWiden =
     std::numbers::sqrt2;  // of the radius: the area doubles, so all steps together cost twice the last
 constexpr int kMaxSteps = 60;
-constexpr double kSettled = 1.02;  // growth of the number of members below which the plane is complete ...
-constexpr int kSettledSteps = 2;   // ... when it happens so often in a row
+constexpr std::size_t kFewest = 4;  // points that make a fit
+constexpr double kSettled = 1.02;   // growth of the number of members below which the plane is complete ...
+constexpr int kSettledSteps = 2;    // ... when it happens so often in a row
 constexpr double kHopeless =
     1.5;  // RMS by noise at which the slab is as full outside as within: no plane ...
 constexpr int kHopelessSteps = 3;   // ... after so many steps
@@ -42,6 +43,7 @@ double covered_area(std::size_t cells, double cell) {
 void Grower::take_slab(double radius) {
   Slab slab{plane_.frame, kSlabSigmas * plane_.sigma, -radius, radius, -radius, radius};
   collect(field_, slab, slab_);
+  if (slab_.size() == 0) return;
   double low_a = std::numeric_limits<double>::infinity();
   double low_b = low_a;
   double high_a = -low_a;
@@ -85,6 +87,7 @@ void Grower::refit() {
   for (const std::uint32_t k : picked_) {
     const double count = counts_[cell_of_[k]];
     const Vec3 from = field_.points.at(slab_.place[k]) - plane_.frame.origin;
+    // Tukey's biweight: of two surfaces in the slab the fit keeps to the one that it is on.
     const double away = slab_.height[k] / (kSlabSigmas * plane_.sigma);
     const double inner = std::max(0.0, 1.0 - away * away);
     moments.add(from, inner * inner * (count > full ? full / count : 1.0));
@@ -112,9 +115,11 @@ Grown Grower::grow(const Seed& seed, double sigma) {
   std::size_t members = 0;
   int settled = 0;
   for (int step = 0; step < kMaxSteps && settled < kSettledSteps; ++step) {
+    picked_.clear();
     take_slab(radius);
+    if (slab_.size() == 0) break;
     spread_over_cells(seed.radius);
-    if (picked_.size() < 4) break;
+    if (picked_.size() < kFewest) break;
     refit();
     const double count = static_cast<double>(picked_.size());
     if (step >= kHopelessSteps && mean_square() > kHopeless * kHopeless * sigma * sigma) break;

@@ -25,9 +25,10 @@ struct Grown {
   double mean_square = 0.0;            ///< of the members' distances
 };
 
-/// Grows planes from seeds: a disc around the seed is widened by half of its area at a time; what lies in the slab, in cells that
-/// hang together with the seed's, gives the next plane. Points that another plane has claimed carry the
-/// connection on but do not count.
+/// Grows planes from seeds: the area of a disc around the seed is doubled at a time; what lies in the slab, in
+/// cells that hang together with the seed's, gives the next plane. Points that another plane has claimed carry
+/// the connection on but do not count. The slab keeps the thickness that the noise gives it: one that widened
+/// with its points would take in what crosses the plane at a small angle.
 class Grower {
  public:
   Grower(const PointField& field, const std::vector<std::uint8_t>& claimed)

@@ -15,15 +15,16 @@ constexpr double kOutlierMatters =
     7.0;  // log likelihood; where none of the patches leads by more, outliers have a share
 constexpr double kPriorPoints = 20.0;  // weight of the noise that a patch was found with in its own
 constexpr double kNoiseLeeway = 1.4;   // a patch's noise against that
-// What a patch must gain, in log likelihood by log of the number of points: half for each of its eight parameters (three of the plane,
-// four of its extent, its noise), and one for each of the three points that make a plane, for so many were tried.
+// What a patch must gain, in log likelihood by log of the number of points: half for each of its eight
+// parameters (three of the plane, four of its extent, its noise), and one for each of the three points that
+// make a plane, for so many were tried.
 constexpr double kCost = 0.5 * 8.0 + 3.0;
 constexpr double kMergedNoise = 1.15;  // RMS of a joined patch by that of its parts
 constexpr double kMergeCosine = 0.9;   // planes turned farther than 25 degrees are not compared
 constexpr double kFewest = 4.0;        // points that make a fit
 
-/// Origin of the frame moved along its normal onto the plane of `fit`, the normal turned to that of `fit`: places on the
-/// patch keep their coordinates.
+/// Origin of the frame moved along its normal onto the plane of `fit`, the normal turned to that of `fit`:
+/// places on the patch keep their coordinates.
 PlaneFrame moved_onto(const PlaneFrame& frame, const PlaneFit& fit) {
   PlaneFrame result = turned(frame, fit.frame.normal);
   result.origin += result.normal * result.normal.dot(fit.frame.origin - frame.origin);

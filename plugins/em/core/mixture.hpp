@@ -8,9 +8,10 @@
 
 namespace hallway::em {
 
-/// What the points of a cloud come from: patches with normal noise across them, or nowhere in particular, evenly in a volume.
-/// A point's score for a patch is the log of (points per area there) x (normal density of its distance); for no patch,
-/// of points per volume. Expectation and maximisation take turns: Dempster, Laird, Rubin 1977; thesis 3.5.
+/// What the points of a cloud come from: patches with normal noise across them, or nowhere in particular,
+/// evenly in a volume. A point's score for a patch is the log of (points per area there) x (normal density of
+/// its distance); for no patch, of points per volume. Expectation and maximisation take turns: Dempster,
+/// Laird, Rubin 1977; thesis 3.5.
 class Mixture {
  public:
   /// `volume`: of the space in which points of no patch lie. Keeps a reference to `field`.
@@ -28,11 +29,11 @@ class Mixture {
   /// the search cost (Schwarz 1978; Desolneux, Moisan, Morel 2000).
   /// True if it dropped one; the points are then to be assigned anew.
   bool cull(std::size_t min_points);
-  /// Joins patches that hang together and are one plane as far as the noise lets us tell. True if it joined any; the points
-  /// are then to be assigned anew.
+  /// Joins patches that hang together and are one plane as far as the noise lets us tell. True if it joined
+  /// any; the points are then to be assigned anew.
   bool merge();
-  /// Splits patches whose points do not hang together at the density of this cloud into parts of at least `min_points`.
-  /// True if it split any; the points are then to be assigned anew.
+  /// Splits patches whose points do not hang together at the density of this cloud into parts of at least
+  /// `min_points`. True if it split any; the points are then to be assigned anew.
   bool split(std::size_t min_points);
 
   /// Each point's patch, or kNoPlane; as long as the points filled up to whole blocks.

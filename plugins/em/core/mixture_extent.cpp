@@ -2,7 +2,6 @@
 // Where patches reach: Mixture::cover() and Mixture::split().
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "em/core/mixture.hpp"
 
@@ -61,8 +60,8 @@ double mean_around(const CellGrid& grid, const CellMap<float>& counts, int colum
   return sum / 9.0;
 }
 
-/// Points per area within the support. Where the patch has it only because a gap was closed, others took its points: there
-/// the density is taken to be as it was.
+/// Points per area within the support. Where the patch has it only because a gap was closed, others took its
+/// points: there the density is taken to be as it was.
 double density_within(const CellGrid& grid, const CellMap<std::uint8_t>& support,
                       const CellMap<std::uint8_t>& occupied, const CellMap<float>& own, double before) {
   const double area = grid.cell * grid.cell;
@@ -80,34 +79,71 @@ int cells_for(double length, const CellGrid& grid) {
   return static_cast<int>(std::ceil(length / grid.cell));
 }
 
+/// The patch's grid with room for the patch to grow.
+CellGrid widened(const Patch& patch) {
+  const CellGrid& old = patch.grid;
+  const double margin = kMarginCells * old.cell + kMarginSigmas * patch.sigma +
+                        kGrowth * std::min(old.high_a() - old.low_a, old.high_b() - old.low_b);
+  return grid_over(old.low_a - margin, old.high_a() + margin, old.low_b - margin, old.high_b() + margin,
+                   old.cell, kMostCells);
+}
+
+/// Whose a point in a patch's slab is.
+enum class Claim { kOther, kFree, kShared, kAlone };
+
+template <typename ClaimOn>
+Counts count_cells(const CellGrid& grid, const SlabPoints& slab, ClaimOn claim_on) {
+  Counts counts{CellMap<float>(grid.size(), 0.0f), CellMap<float>(grid.size(), 0.0f),
+                CellMap<float>(grid.size(), 0.0f)};
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const Claim claim = claim_on(slab.place[k]);
+    if (claim == Claim::kOther) continue;
+    const std::size_t cell = grid.at(slab.a[k], slab.b[k]);
+    (claim == Claim::kFree ? counts.free : counts.own)[cell] += 1.0f;
+    if (claim == Claim::kAlone) counts.alone[cell] += 1.0f;
+  }
+  return counts;
+}
+
+/// Sets the log density of all cells within `reach`: what is counted there, at most that of the whole patch
+/// and at least a little; in closed gaps that of the whole patch.
+void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
+                   const CellMap<std::uint8_t>& occupied, const CellMap<std::uint8_t>& reach) {
+  const CellGrid& grid = patch.grid;
+  const double area = grid.cell * grid.cell;
+  patch.log_density.assign(grid.size(), kNotCovered);
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t c = grid.place(column, row);
+      if (reach[c] == 0) continue;
+      const bool bridged = support[c] != 0 && occupied[c] == 0;
+      const double there = std::max(static_cast<double>(own[c]), mean_around(grid, own, column, row)) / area;
+      const double local =
+          bridged ? patch.density : std::clamp(there, kRimDensity * patch.density, patch.density);
+      patch.log_density[c] = static_cast<float>(std::log(local));
+    }
+  }
+}
+
 }  // namespace
 
 void Mixture::cover_patch(std::uint32_t j) {
   Patch& patch = patches[j];
-  const CellGrid old = patch.grid;
-  const double margin = kMarginCells * old.cell + kMarginSigmas * patch.sigma +
-                        kGrowth * std::min(old.high_a() - old.low_a, old.high_b() - old.low_b);
-  patch.grid = grid_over(old.low_a - margin, old.high_a() + margin, old.low_b - margin, old.high_b() + margin,
-                         old.cell, kMostCells);
+  patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
   collect_over(patch, kSlabSigmas);
-  Counts counts{CellMap<float>(grid.size(), 0.0f), CellMap<float>(grid.size(), 0.0f),
-                CellMap<float>(grid.size(), 0.0f)};
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    const std::uint32_t i = slab_.place[k];
-    if (best_[i] != j && best_[i] != kNoPlane) continue;
-    const std::size_t cell = grid.at(slab_.a[k], slab_.b[k]);
-    (best_[i] == j ? counts.own : counts.free)[cell] += 1.0f;
+  const Counts counts = count_cells(grid, slab_, [this, j](std::uint32_t i) {
+    if (best_[i] == kNoPlane) return Claim::kFree;
+    if (best_[i] != j) return Claim::kOther;
     const bool alone =
         second_[i] == kNoPlane || static_cast<double>(best_score_[i] - second_score_[i]) > kClearlyBest;
-    if (best_[i] == j && alone) counts.alone[cell] += 1.0f;
-  }
-  const double area = grid.cell * grid.cell;
-  const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * area));
+    return alone ? Claim::kAlone : Claim::kShared;
+  });
+  const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * grid.cell * grid.cell));
   CellMap<std::uint8_t> occupied(grid.size(), 0);
-  for (std::size_t c = 0; c < grid.size(); ++c)
+  for (std::size_t c = 0; c < grid.size(); ++c) {
     occupied[c] = counts.alone[c] + counts.free[c] >= enough ? 1 : 0;
-
+  }
   const double spacing = 1.0 / std::sqrt(patch.density);
   const int gap =
       std::max(cells_for(kGapSpacings * spacing, grid), cells_for(kSeamSigmas * patch.sigma, grid) + 1);
@@ -115,20 +151,8 @@ void Mixture::cover_patch(std::uint32_t j) {
                            cells_for(kRimSigmas * patch.sigma, grid));
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, gap));
   const CellMap<std::uint8_t> reach = dilated(grid, support, rim);
-  const double density = density_within(grid, support, occupied, counts.own, patch.density);
-  patch.log_density.assign(grid.size(), kNotCovered);
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const std::size_t c = grid.place(column, row);
-      if (reach[c] == 0) continue;
-      const bool bridged = support[c] != 0 && occupied[c] == 0;
-      const double there =
-          std::max(static_cast<double>(counts.own[c]), mean_around(grid, counts.own, column, row)) / area;
-      const double local = bridged ? density : std::clamp(there, kRimDensity * density, density);
-      patch.log_density[c] = static_cast<float>(std::log(local));
-    }
-  }
-  patch.density = density;
+  patch.density = density_within(grid, support, occupied, counts.own, patch.density);
+  set_densities(patch, counts.own, support, occupied, reach);
   const CellRange range = range_of(grid, reach);
   if (range.last_column < range.first_column) return;
   crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);

@@ -12,8 +12,9 @@ struct PlaneFit {
   Vec3 variances = Vec3::Zero();  ///< along normal, v, u: ascending
 };
 
-/// Sums of a weighted point set from which its plane follows; adding a point costs ten multiplications, and sets are joined by adding
-/// their moments. Coordinates are given relative to a place among the points, lest the squares swallow the noise.
+/// Sums of a weighted point set from which its plane follows; adding a point costs ten multiplications, and
+/// sets are joined by adding their moments. Coordinates are given relative to a place among the points, lest
+/// the squares swallow the noise.
 class Moments {
  public:
   /// Adds a point of weight `w`.
@@ -52,8 +53,8 @@ class Moments {
   Vec3 mean() const { return Vec3(x_, y_, z_) / weight_; }
   /// Covariance about the mean (divided by the weight).
   Mat3 covariance() const;
-  /// Variances along the principal axes, ascending and not negative, in closed form; quicker than fit(), good to
-  /// about 1e-8 of the largest.
+  /// Variances along the principal axes, ascending and not negative, in closed form; quicker than fit(), good
+  /// to about 1e-8 of the largest.
   Vec3 variances() const;
   /// The plane through the points given relative to `reference`.
   PlaneFit fit(const Vec3& reference) const;

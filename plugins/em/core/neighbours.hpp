@@ -14,8 +14,8 @@ struct NearPoint {
   std::uint32_t place = 0;  ///< in the list of points
 };
 
-/// Replaces `found` by the `most` points nearest to `p`, or all if there are fewer: nearest first, equal ones by place.
-/// `radius` is a guess of how far that goes; a good one saves time.
+/// Replaces `found` by the `most` points nearest to `p`, or all if there are fewer: nearest first, equal ones
+/// by place. `radius` is a guess of how far that goes; a good one saves time.
 void nearest(const PointField& field, const Vec3& p, std::size_t most, double radius,
              std::vector<NearPoint>& found);
 

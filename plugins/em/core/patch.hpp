@@ -27,7 +27,8 @@ struct Patch {
 /// The patch that covers what grew and a little beyond, at its mean density.
 Patch patch_of(const Grown& grown);
 
-/// The patch on the same plane that covers the cells of `grid` marked in `cells` and a little beyond, at density `density`.
+/// The patch on the same plane that covers the cells of `grid` marked in `cells` and a little beyond, at
+/// density `density`.
 Patch restricted(const Patch& patch, const CellGrid& grid, const CellMap<std::uint8_t>& cells,
                  double density);
 

@@ -12,8 +12,9 @@ namespace hallway::em {
 /// Points that lie together in memory are handled together: loops over points run over whole blocks.
 inline constexpr std::size_t kBlockSize = 32;
 
-/// Points as one array per coordinate, in an order in which neighbours in the list are near in space. The arrays
-/// are filled up with NaN to whole blocks, so that a loop over blocks needs no end of its own: NaN is within nothing.
+/// Points as one array per coordinate, in an order in which neighbours in the list are near in space. The
+/// arrays are filled up with NaN to whole blocks, so that a loop over blocks needs no end of its own: NaN is
+/// within nothing.
 struct Points {
   std::vector<double> x, y, z;
   std::size_t count = 0;  ///< without the filling

@@ -18,9 +18,10 @@ struct CloudFrame {
   Vec3 to_cloud(const Vec3& p) const { return origin + axes * p; }
 };
 
-/// The frame at the mean of the points, along their principal axes, each pointing where more points are. What is done in it does
-/// not depend on how the cloud is turned or moved. Strays (see robust_bounds()) are left out. The points are finite and at least
-/// one; sums are of whole numbers, so that their order does not matter to the last bit. O(n).
+/// The frame at the mean of the points, along their principal axes, each pointing where more points are. What
+/// is done in it does not depend on how the cloud is turned or moved. Strays (see robust_bounds()) are left
+/// out. The points are finite and at least one; sums are of whole numbers, so that their order does not
+/// matter to the last bit. O(n).
 CloudFrame principal_frame(const std::vector<Vec3>& cloud);
 
 }  // namespace hallway::em

@@ -17,8 +17,8 @@ struct Bounds {
   }
 };
 
-/// The box of all points; but where a few strays far away would make it more than four times as long along an axis, of nearly all.
-/// The points are finite and at least one; their order does not matter. O(n).
+/// The box of all points; but where a few strays far away would make it more than four times as long along an
+/// axis, of nearly all. The points are finite and at least one; their order does not matter. O(n).
 Bounds robust_bounds(const std::vector<Vec3>& cloud);
 
 }  // namespace hallway::em

@@ -7,18 +7,19 @@
 namespace hallway::em {
 namespace {
 
-// First what is one plane beyond doubt: what it claims is no longer in the way of the others. What is found beside it
-// may be two planes that cross at a small angle, or have caught a strip of another; later passes tell.
+// First what is one plane beyond doubt: what it claims is no longer in the way of the others. What is found
+// beside it may be two planes that cross at a small angle, or have caught a strip of another; later passes
+// tell.
 constexpr Standard kStrict{1.12, 0.05};
 constexpr Standard kLenient{1.3, 0.5};
 constexpr double kStillFree = 0.9;  // share of a pending plane's members that nothing else has claimed since
 constexpr double kRoughSeed =
-    2.5;  // noise of a seed by that of the cloud: above, its neighbourhood holds more than a plane
-// Surfaces of another roughness show as flat neighbourhoods that are left over.
-constexpr double kFlat = 0.03;
-constexpr double kRougher = 1.3;
-constexpr double kRoughest = 5.0;
-constexpr std::size_t kRoughSeeds = 3;
+    2.5;  // noise of a seed by that of the cloud: above, it holds more than one plane
+// Rougher surfaces show as neighbourhoods that are left over although they are flat.
+constexpr double kFlat = 0.03;          // flatness at most
+constexpr double kRougher = 1.3;        // noise by that of the planes found so far, at least ...
+constexpr double kRoughest = 5.0;       // ... and at most
+constexpr std::size_t kRoughSeeds = 3;  // so many make a kind of surface
 constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is that of numbers with six digits
 constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
 constexpr int kLocalSearches = 32;         // in a round: the flattest that are left
@@ -83,20 +84,19 @@ void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8
   Grown grown = grower.grow(seed, sigma);
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   const std::size_t n = field_.points.count;
-  if (grown.members.size() >= fewest) {
-    const double others = static_cast<double>(unclaimed_ - std::min(unclaimed_, grown.members.size()));
-    const double volume_density = (others + 0.5) / extent_.cwiseMax(2.0 * kSlabSigmas * sigma).prod();
-    const Evidence evidence = evidence_of(field_, claimed, grown, sigma, volume_density);
-    if (convincing(evidence, kStrict, n, fewest)) {
-      accept(std::move(grown), claimed);
-      return;
-    }
-    for (const std::uint32_t i : grown.members) {
-      if (failures_[i] < 255) ++failures_[i];
-    }
-    if (convincing(evidence, kLenient, n, fewest)) {
-      pending_.push_back({std::move(grown), evidence.noise_ratio});
-    }
+  if (grown.members.size() < fewest) return;
+  const double others = static_cast<double>(unclaimed_ - std::min(unclaimed_, grown.members.size()));
+  const double volume_density = (others + 0.5) / extent_.cwiseMax(2.0 * kSlabSigmas * sigma).prod();
+  const Evidence evidence = evidence_of(field_, claimed, grown, sigma, volume_density);
+  if (convincing(evidence, kStrict, n, fewest)) {
+    accept(std::move(grown), claimed);
+    return;
+  }
+  for (const std::uint32_t i : grown.members) {
+    if (failures_[i] < 255) ++failures_[i];
+  }
+  if (convincing(evidence, kLenient, n, fewest)) {
+    pending_.push_back({std::move(grown), evidence.noise_ratio});
   }
 }
 

@@ -17,15 +17,15 @@ class PlaneSearch {
   /// `extent`: of the space that the cloud fills. Keeps references to `field` and `options`.
   PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent);
 
-  /// The noise across planes, as the flattest neighbourhoods tell, at least a millionth of the extent; 0 if there is no
-  /// neighbourhood that a plane could lie in.
+  /// The noise across planes, as the flattest neighbourhoods tell, at least a millionth of the extent; 0 if
+  /// there is no neighbourhood that a plane could lie in.
   double estimate_noise() const;
 
   /// The noise of surfaces rougher than `sigma` among the points without a label; 0 if there seem to be none.
   double rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const;
 
-  /// Rounds of seeds, growth and acceptance, until `fruitless` in a row find nothing. `sigma`: noise. `claimed` (of each
-  /// point, filled up to whole blocks) is read and added to.
+  /// Rounds of seeds, growth and acceptance, until `fruitless` in a row find nothing. `sigma`: noise.
+  /// `claimed` (of each point, filled up to whole blocks) is read and added to.
   std::vector<Grown> find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed);
 
  private:

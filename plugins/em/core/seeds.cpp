@@ -12,7 +12,8 @@
 namespace hallway::em {
 namespace {
 
-// A plane takes three degrees of freedom, so k points leave k - 3 to tell the noise; fewer than 12 tell too little.
+// A plane takes three degrees of freedom, so k points leave k - 3 to tell the noise; fewer than 12 tell too
+// little.
 constexpr std::array<std::size_t, 7> kScales{12, 18, 27, 40, 60, 90, 128};
 constexpr double kOnALine = 1e-6;  // smaller by larger variance along the plane: no plane follows from it
 constexpr double kFlatEnough =
@@ -74,7 +75,8 @@ std::optional<BestScale> best_scale(const Points& points, const std::vector<Near
   return best;
 }
 
-/// Radius to look for neighbours of a point in: about that of its block, for half of the blocks have fewer within.
+/// Radius to look for neighbours of a point in: about that of its block, for half of the blocks have fewer
+/// within.
 double radius_guess(const BoxTree& tree, std::size_t place) {
   return 1.5 * tree.block_box(place / kBlockSize).half.norm();
 }
@@ -92,8 +94,8 @@ Seed seed_from(const BestScale& scale, std::uint32_t place, const Vec3& middle, 
   return seed;
 }
 
-/// Looks at ever coarser levels while the flattest neighbourhood is the widest one: then the noise is large against
-/// the spacing, and a wider one may be flatter still.
+/// Looks at ever coarser levels while the flattest neighbourhood is the widest one: then the noise is large
+/// against the spacing, and a wider one may be flatter still.
 std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t place,
                             std::vector<NearPoint>& near) {
   const Vec3 middle = levels.front().points.at(place);

@@ -19,8 +19,9 @@ struct Seed {
   double flatness = 0.0;    ///< variance across the plane by the smaller variance along it; less is better
 };
 
-/// Tries about `wanted` points of `points`, spread evenly over the list (other ones each round), and takes for each the scale at which its neighbourhood
-/// is flattest. Best first; equal ones by place. Neighbourhoods on a line are left out.
+/// Tries about `wanted` points of `points`, spread evenly over the list (other ones each round), and takes
+/// for each the scale at which its neighbourhood is flattest. Best first; equal ones by place. Neighbourhoods
+/// on a line are left out.
 std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round);
 
 /// Noise across planes as the best of the seeds tell it; 0 without seeds.

@@ -7,7 +7,8 @@
 namespace hallway::em {
 namespace {
 
-/// Signed distances of a block's points from the plane; a loop of fixed length, so that compilers use vectors.
+/// Signed distances of a block's points from the plane; a loop of fixed length, so that compilers use
+/// vectors.
 std::array<double, kBlockSize> heights(const Points& points, std::size_t begin, const PlaneFrame& frame) {
   std::array<double, kBlockSize> result;
   const double* x = &points.x[begin];

@@ -18,7 +18,8 @@ Extraction extract(const std::vector<Vec3>& cloud, const AutoOptions& options = 
   return PlaneExtractor(options).extract(cloud);
 }
 
-/// What holds of every result: each point in one plane or none, both ways of saying so agree, the geometry fits the members.
+/// What holds of every result: each point in one plane or none, both ways of saying so agree, the geometry
+/// fits the members.
 void expect_sound(const Extraction& found, const std::vector<Vec3>& cloud) {
   ASSERT_EQ(found.labels.size(), cloud.size());
   std::size_t members = 0;

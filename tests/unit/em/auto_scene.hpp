@@ -48,8 +48,8 @@ inline void add_outliers(LabelledPoints& cloud, std::size_t count, double side, 
   }
 }
 
-/// In a cube of 10: a floor, two walls that stand on it and meet at a corner, a table, a close pair of slanted boards, of which one
-/// crosses a wall; 5 % outliers.
+/// In a cube of 10: a floor, two walls that stand on it and meet at a corner, a table, a close pair of
+/// slanted boards, of which one crosses a wall; 5 % outliers.
 inline LabelledPoints room(double sigma = 0.02) {
   const Vec3 x = Vec3::UnitX();
   const Vec3 y = Vec3::UnitY();
@@ -91,8 +91,8 @@ inline double best_overlap(const LabelledPoints& cloud, const Extraction& found,
   return best;
 }
 
-/// Share of points that are with the same others in both results: each plane of the first is matched to the plane of the second
-/// that holds most of its members.
+/// Share of points that are with the same others in both results: each plane of the first is matched to the
+/// plane of the second that holds most of its members.
 inline double equal_membership(const Extraction& first, const Extraction& second) {
   std::size_t equal = 0;
   for (std::size_t j = 0; j <= first.planes.size(); ++j) {
