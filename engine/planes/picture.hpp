@@ -30,7 +30,7 @@ struct PictureContent {
 /// The points, coloured by plane, and the rectangles of what was found. At most 60 000 points are drawn, each n-th. Throws as render::draw() does.
 render::Image draw_planes(const PictureContent& content, const render::View& view, const PictureSize& size);
 
-/// On the left what is true, on the right what was found, from the same place; pairs have one colour, and faults are named at the planes that they are of.
+/// On the left what is true, on the right what was found, from the same direction; pairs have one colour, and faults are named at the planes that they are of.
 render::Image draw_comparison(const PictureContent& content, const Truth& truth, const Score& score,
                               const render::View& view, const PictureSize& size);
 
