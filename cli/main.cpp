@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);
     hallway::cli::add_import_command(app, chosen);
+    hallway::cli::add_align_command(app, chosen);
     hallway::cli::add_compile_command(app, chosen);
     hallway::cli::add_map_command(app, chosen);
     hallway::cli::add_edit_command(app, chosen);
