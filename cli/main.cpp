@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_planes_command(app, chosen);
     hallway::cli::add_bench_em_command(app, chosen);
     hallway::cli::add_import_command(app, chosen);
+    hallway::cli::add_align_command(app, chosen);
     hallway::cli::add_compile_command(app, chosen);
     hallway::cli::add_map_command(app, chosen);
     hallway::cli::add_edit_command(app, chosen);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 
 namespace hallway::icp {
@@ -23,12 +25,22 @@ Cube cube_of(const Vec3& p, double cube_m) {
   return {std::floor(p.x() / cube_m), std::floor(p.y() / cube_m), std::floor(p.z() / cube_m)};
 }
 
+/// A number that looks random and follows from the coordinates.
+std::uint64_t hash_of(const Vec3& p) {
+  std::uint64_t h = 0;
+  for (const double coordinate : p) {
+    h = (h ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
 }  // namespace
 
-double spacing_of(const Points& points, const KdTree& tree) {
+double spacing_of(const Points& places, const KdTree& tree) {
   std::vector<double> distances;
   std::vector<Neighbour> near;
-  for (const Vec3& p : points) {
+  for (const Vec3& p : places) {
     tree.nearest(p, kNear, near);
     const auto other =
         std::find_if(near.begin(), near.end(), [](const Neighbour& each) { return each.distance2_m2 > 0.0; });
@@ -71,6 +83,15 @@ Points thinned(const Points& points, double cube_m) {
     means.push_back(placed[begin].point + sum / static_cast<double>(end - begin));
   }
   return means;
+}
+
+Points sampled(const Points& points, std::size_t most) {
+  if (points.size() <= most) return points;
+  Points chosen = points;
+  std::sort(chosen.begin(), chosen.end(),
+            [](const Vec3& a, const Vec3& b) { return hash_of(a) < hash_of(b); });
+  chosen.resize(most);
+  return chosen;
 }
 
 }  // namespace hallway::icp

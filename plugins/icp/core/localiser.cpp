@@ -34,7 +34,7 @@ const Answer& Localiser::process(const Points& points) {
   } else {
     T_map_predicted_ = T_map_predicted_ * motion_;
     if (options_.against == Against::map) prepare_map_reference(points);
-    const Registration registration = locate(points);
+    const Registration registration = locate(sample_of(points));
     answer_.counters.iterations = registration.iterations;
     answer_.counters.residual_m = registration.residual_m;
     answer_.counters.overlap = registration.overlap;
@@ -51,18 +51,25 @@ const Answer& Localiser::process(const Points& points) {
   return answer_;
 }
 
+/// What of a frame is registered.
+Points Localiser::sample_of(const Points& points) const {
+  return sampled(usable_points(points), static_cast<std::size_t>(options_.max_points));
+}
+
 Localiser::Reference Localiser::make_reference(const Points& points, const Pose& T_map_target) const {
   const bool planes = options_.metric == Metric::point_to_plane;
   Reference reference{
       Target(points, planes ? static_cast<std::size_t>(options_.normal_neighbours) : 0), {}, T_map_target};
-  reference.rules = options_.rules_for(spacing_of(reference.target.points(), reference.target.tree()));
+  reference.rules =
+      options_.rules_for(spacing_of(sample_of(reference.target.points()), reference.target.tree()));
   return reference;
 }
 
 /// Begins with this frame, if it can be registered with itself: then it determines a pose.
 bool Localiser::start(const Points& points) {
   Reference first = make_reference(points, Pose());
-  if (register_cloud(first.target, points, Pose(), first.rules).outcome != Outcome::converged) return false;
+  if (register_cloud(first.target, sample_of(points), Pose(), first.rules).outcome != Outcome::converged)
+    return false;
   reference_.emplace(std::move(first));
   T_map_predicted_ = T_map_last_ = motion_ = answer_.T_map_sensor = Pose();
   last_points_.clear();
@@ -85,9 +92,9 @@ void Localiser::prepare_map_reference(const Points& points) {
 }
 
 /// Registers a frame from where it is predicted, or turned from there.
-Registration Localiser::locate_from(const Points& points, double turn) const {
+Registration Localiser::locate_from(const Points& sample, double turn) const {
   const Pose guess = reference_->T_map_target.inverse() * turned(T_map_predicted_, turn);
-  return register_cloud(reference_->target, points, guess, reference_->rules);
+  return register_cloud(reference_->target, sample, guess, reference_->rules);
 }
 
 /// The last frame becomes the keyframe.
@@ -98,18 +105,18 @@ void Localiser::pass_keyframe_on() {
 }
 
 /// Registers a frame from where it is predicted; where that fails, from turns to either side, and the one with most overlap counts.
-Registration Localiser::locate(const Points& points) {
-  Registration best = locate_from(points, 0.0);
+Registration Localiser::locate(const Points& sample) {
+  Registration best = locate_from(sample, 0.0);
   if (!accepted(best) && !last_points_.empty()) {
     pass_keyframe_on();
-    best = locate_from(points, 0.0);
+    best = locate_from(sample, 0.0);
   }
   if (accepted(best) || options_.max_turn_rad == 0.0) return best;
   ++answer_.counters.searches;
   const int steps = static_cast<int>(options_.max_turn_rad / kTurnStep_rad + 0.5);
   for (int step = 1; step <= steps; ++step) {
     for (const double side : {1.0, -1.0}) {
-      const Registration next = locate_from(points, side * step * kTurnStep_rad);
+      const Registration next = locate_from(sample, side * step * kTurnStep_rad);
       if (next.outcome != Outcome::converged) continue;
       if (best.outcome != Outcome::converged || next.overlap > best.overlap) best = next;
     }

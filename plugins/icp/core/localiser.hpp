@@ -51,11 +51,12 @@ class Localiser {
     Pose T_map_target;
   };
 
+  Points sample_of(const Points& points) const;
   Reference make_reference(const Points& points, const Pose& T_map_target) const;
   bool start(const Points& points);
   void prepare_map_reference(const Points& points);
-  Registration locate(const Points& points);
-  Registration locate_from(const Points& points, double turn) const;
+  Registration locate(const Points& sample);
+  Registration locate_from(const Points& sample, double turn) const;
   void pass_keyframe_on();
   bool accepted(const Registration& registration) const;
   void keep(const Points& points, const Registration& registration);

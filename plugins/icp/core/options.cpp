@@ -7,7 +7,7 @@
 namespace hallway::icp {
 namespace {
 
-constexpr std::array<Parameter, 9> kParameters{{
+constexpr std::array<Parameter, 10> kParameters{{
     {"max_distance_m", "m", 0.0, 1000.0,
      "Farthest that a matching point may lie in the end; 0: half the median distance between neighbours, and "
      "three "
@@ -16,6 +16,9 @@ constexpr std::array<Parameter, 9> kParameters{{
     {"reach_m", "m", 0.0, 1000.0,
      "Farthest that a matching point is looked for at first; 0: 4 max_distance_m.", &Options::reach_m,
      nullptr},
+    {"max_points", "points", 10, 10000000,
+     "Most points of a frame that are registered; of more, a sample. All of them are a reference for others.",
+     nullptr, &Options::max_points},
     {"max_iterations", "steps", 1, 10000, "Steps after which a registration has failed.", nullptr,
      &Options::max_iterations},
     {"tolerance", "1", 1e-9, 1.0,

@@ -21,6 +21,7 @@ struct Options {
   Kernel kernel = Kernel::tukey;
   double max_distance_m = 0.0;    ///< farthest match in the end [m]; 0: half the spacing (thrice with planes)
   double reach_m = 0.0;           ///< farthest match at first [m]; 0: 4 max_distance_m
+  int max_points = 2000;          ///< most points of a frame that are registered; of more, a sample
   int max_iterations = 100;       ///< steps of one registration
   double tolerance = 1e-3;        ///< settled below this share of the residual [1]
   int normal_neighbours = 10;     ///< points that a normal is taken from

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kFewest = 3;
 /// A stage whose step is below this share of its matching distance has done its work.
 constexpr double kStageSettled = 0.02;
+/// Steps that go round count as settled where they are below this share of the residual.
+constexpr double kRound = 0.1;
 /// Steps below this share of the coordinates are rounding, however small the residual.
 constexpr double kRounding = 1e-13;
 
@@ -46,9 +48,25 @@ class Search {
         if (step_m < kStageSettled * reach_m_) reach_m_ = std::max(0.5 * reach_m_, rules_.max_distance_m);
       } else if (step_m <= std::max(rules_.tolerance * residual_m(), kRounding * coordinates_m_)) {
         return Outcome::converged;
+      } else if (came_back(step_m)) {
+        return Outcome::converged;
       }
     }
     return Outcome::max_iterations;
+  }
+
+  /// Whether small steps have led to where they were before: matches that change to and fro make them go round for ever. The pose that is
+  /// compared with is renewed after 1, 2, 4, ... steps (Brent 1980), so that rounds of any length are found.
+  bool came_back(double step_m) {
+    const Pose& now = result_.T_target_source;
+    const bool back = mark_ && step_m < kRound * residual_m() &&
+                      size_of(now * mark_->inverse()) <= rules_.tolerance * residual_m();
+    if (++since_mark_ == to_mark_) {
+      mark_ = now;
+      since_mark_ = 0;
+      to_mark_ *= 2;
+    }
+    return back;
   }
 
   /// Pairs each source point with its nearest target, and weights the pairs. False where there are too few.
@@ -115,6 +133,9 @@ class Search {
   const Rules& rules_;
   double reach_m_;
   double coordinates_m_ = 0.0;  // how large those of the paired points are
+  std::optional<Pose> mark_;    // see came_back()
+  int since_mark_ = 0;
+  int to_mark_ = 1;
   Registration result_;
   std::vector<Pair> pairs_;
   std::vector<double> residuals_;       // of pairs_

@@ -23,7 +23,7 @@ struct Rules {
 
 /// Why a registration ended.
 enum class Outcome {
-  converged,       ///< steps became smaller than Rules::tolerance
+  converged,       ///< steps fell below Rules::tolerance, or go round within a tenth of the residual
   max_iterations,  ///< they did not within Rules::max_iterations
   too_few_points,  ///< a cloud has fewer than three usable points
   no_overlap,      ///< fewer than three points of the source have a match

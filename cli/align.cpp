@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "align_output.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "import/cloud_folder.hpp"
+#include "import/point_records.hpp"
+#include "log/csv_reader.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMethods[] = {"point_to_point", "point_to_plane"};
+constexpr const char* kWeights[] = {"none", "huber", "cauchy", "tukey"};
+
+struct AlignCommand {
+  std::string a;
+  std::string b;
+  std::string guess;
+  std::string method = "point_to_plane";
+  std::string weights = "tukey";
+  icp::AlignOptions options;
+  std::string out;
+  std::string picture;
+  bool json = false;
+};
+
+/// A file of points: CSV with columns x, y and z where its name ends so, else PLY or PCD.
+AlignedCloud read_cloud(const std::string& file) {
+  AlignedCloud cloud{printable(file, 4096), {}, 0};
+  if (fs::path(file).extension() == ".csv") {
+    const std::string text = read_file(file, import::kMaxCloudBytes);
+    log::CsvReader row(text, cloud.file, {{"x"}, {"y"}, {"z"}});
+    while (row.next()) {
+      const std::array<double, 3> p = row.vector(0);
+      cloud.points.emplace_back(p[0], p[1], p[2]);
+    }
+    return cloud;
+  }
+  std::error_code code;
+  if (fs::is_directory(file, code)) throw Error(ErrorCode::kIo, "is a folder", {.file = cloud.file});
+  import::Frame frame;
+  import::open_clouds(file, {})->read(0, frame);
+  for (const std::array<double, 3>& p : frame.points) cloud.points.emplace_back(p[0], p[1], p[2]);
+  cloud.not_finite = frame.not_finite;
+  return cloud;
+}
+
+/// "x y z yaw pitch roll", in metres and degrees; commas may part them too.
+icp::Pose parse_guess(const std::string& text) {
+  std::array<double, 6> values{};
+  std::size_t count = 0;
+  std::string spaced = text;
+  for (char& c : spaced) c = c == ',' ? ' ' : c;
+  for (const std::string_view word : split(spaced, ' ')) {
+    if (word.empty()) continue;
+    const std::optional<double> value = parse_double(word);
+    if (!value || count == values.size())
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("--guess takes \"x y z yaw pitch roll\" in metres and degrees, not \"{}\"",
+                              printable(text)));
+    values[count++] = *value;
+  }
+  if (count != 0 && count != values.size())
+    throw Error(ErrorCode::kUsage,
+                fmt::format("--guess has {} numbers; it takes six: \"x y z yaw pitch roll\"", count));
+  return pose_of(values);
+}
+
+template <std::size_t N>
+std::size_t index_of(const char* const (&names)[N], const std::string& name) {
+  return static_cast<std::size_t>(std::find(names, names + N, name) - names);
+}
+
+int align_clouds(AlignCommand command) {
+  const icp::Pose guess = parse_guess(command.guess);
+  command.options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
+  command.options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));
+  const AlignedCloud a = read_cloud(command.a), b = read_cloud(command.b);
+  for (const AlignedCloud* cloud : {&a, &b}) {
+    if (cloud->not_finite > 0)
+      print_warning(
+          fmt::format("{}: {} points that are not finite were left out", cloud->file, cloud->not_finite));
+  }
+  const icp::Alignment found = icp::align(a.points, b.points, guess, command.options);
+  const bool good = found.registration.outcome == icp::Outcome::converged;
+  if (good && !command.out.empty()) write_file_atomically(command.out, print_moved_ply(b, found));
+  if (good && !command.picture.empty()) write_file_atomically(command.picture, draw_alignment(a, b, found));
+  if (command.json) {
+    print_json(to_json(a, b, found, command.method, command.weights));
+  } else {
+    print_result(alignment_text(a, b, found));
+  }
+  return good ? 0 : 1;
+}
+
+void add_numbers(CLI::App& command, icp::AlignOptions& options) {
+  const auto length = CLI::Range(1e-9, 1e9);
+  command
+      .add_option("--max-distance", options.max_distance_m,
+                  "Farthest that a matching point may lie in the end [3 spacings of the points of A]")
+      ->check(length)
+      ->type_name("M");
+  command
+      .add_option("--reach", options.reach_m,
+                  "Farthest that a matching point is looked for at first [a fifth of the size of A]")
+      ->check(length)
+      ->type_name("M");
+  command
+      .add_option(
+          "--voxel", options.cube_m,
+          "Thin both clouds to one point in each cube of this edge; 0: not [a hundredth of the size of A]")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("M");
+  command.add_option("--neighbours", options.normal_neighbours, "Points that a normal is taken from")
+      ->check(CLI::Range(3, 1000))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--iterations", options.max_iterations, "Most steps")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_align_command(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("align", "Register two point clouds: how B has to be moved to fit A");
+  const auto options = std::make_shared<AlignCommand>();
+  command->add_option("a", options->a, "Cloud that stays: .ply, .pcd, or .csv with columns x,y,z")
+      ->required()
+      ->type_name("A");
+  command->add_option("b", options->b, "Cloud that is moved")->required()->type_name("B");
+  command
+      ->add_option("--guess", options->guess,
+                   "Where B is about: \"x y z yaw pitch roll\" in metres and degrees [where it stands]")
+      ->type_name("POSE");
+  command->add_option("--method", options->method, "What is made small: distances of points, or from planes")
+      ->check(CLI::IsMember({"point_to_point", "point_to_plane"}))
+      ->capture_default_str();
+  command->add_option("--weights", options->weights, "How matches that do not fit are weighted")
+      ->check(CLI::IsMember({"none", "huber", "cauchy", "tukey"}))
+      ->capture_default_str();
+  add_numbers(*command, options->options);
+  command->add_option("--out", options->out, "PLY file to write: B, moved to fit A")->type_name("FILE");
+  command->add_option("--picture", options->picture, "PNG file to write: A and the moved B from above")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print one JSON document");
+  command->footer(
+      "Exit status 1 when it did not converge; no file is written then.\n"
+      "Example: hallway align scan1.pcd scan2.pcd --guess \"1.8 0.7 0 40 0 0\" --out scan2_moved.ply");
+  command->callback([&chosen, options] { chosen = [options] { return align_clouds(*options); }; });
+}
+
+}  // namespace hallway::cli
