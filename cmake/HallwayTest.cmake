@@ -35,7 +35,7 @@ function(hallway_add_test name)
 endfunction()
 
 # hallway_add_long_test(<name> OF <test> [FILTER <gtest filter>] [LABELS …]): the same executable at the sizes that are
-# too long for every day (HALLWAY_TEST_LONG=1), labelled `long`.
+# too long for every day (HALLWAY_TEST_LONG=1), labelled `long`. A filter that chooses nothing fails.
 function(hallway_add_long_test name)
   cmake_parse_arguments(arg "" "OF;FILTER" "LABELS" ${ARGN})
   set(filter)
@@ -44,5 +44,6 @@ function(hallway_add_long_test name)
   endif()
   add_test(NAME ${name} COMMAND test_${arg_OF} ${filter})
   set_tests_properties(${name} PROPERTIES LABELS "long;${arg_LABELS}" TIMEOUT 3600
+                       FAIL_REGULAR_EXPRESSION "Running 0 tests"
                        ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT};HALLWAY_TEST_LONG=1")
 endfunction()
