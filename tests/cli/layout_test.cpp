@@ -54,7 +54,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
     {"cli",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "conformance", "log",
-      "record", "link", "import", "eval", "render", "planes", "run", "batch", "editor", "icp"}},
+      "record", "link", "import", "eval", "render", "planes", "run", "batch", "editor", "icp", "hallway"}},
 };
 
 const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
