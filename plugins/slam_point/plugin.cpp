@@ -2,23 +2,13 @@
 #include <hallway/plugin.hpp>
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "adapter/point_adapter.hpp"
 #include "slam_point/core/mapper.hpp"
 
 namespace hallway::slam_point {
 namespace {
-
-Pose to_pose(const hw_pose_t& pose) {
-  const auto& q = pose.orientation;
-  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
-          Vec3(pose.position[0], pose.position[1], pose.position[2])};
-}
-
-hw_pose_t to_c(const Pose& pose) {
-  return {{pose.t.x(), pose.t.y(), pose.t.z()}, {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
-}
 
 std::uint32_t to_c(LandmarkStatus status) {
   switch (status) {
@@ -32,9 +22,9 @@ std::uint32_t to_c(LandmarkStatus status) {
   return HW_LANDMARK_TEMPORARY;
 }
 
-/// The mapper behind the plugin ABI. It is fed with points in the frame of the first point sensor (what other sensors see
-/// is moved there) and answers in that frame; the answers are moved to the body, so that the map's frame is the body's at the
-/// first frame that had points.
+static_assert(kNoLandmark == HW_NO_LANDMARK);
+
+/// The mapper behind the plugin ABI.
 class SlamPoint final : public sdk::Plugin {
  public:
   static const hw_plugin_info_t* info();
@@ -51,28 +41,21 @@ class SlamPoint final : public sdk::Plugin {
   }
 
   void activate(const hw_activation_t& activation) override {
-    sensors_.clear();
-    for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
-      const hw_sensor_info_t& sensor = *activation.sensors[i];
-      if (sensor.kind == HW_SAMPLE_POINTS) add_sensor(sensor);
-    }
-    if (sensors_.empty()) throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
+    adapter_.activate(activation);
     mapper_.emplace(options_);
-    lost_ = false;
   }
 
   void deactivate() override { mapper_.reset(); }
 
   void reset() override {
     mapper_->reset();
-    lost_ = false;
+    adapter_.reset();
   }
 
   void process(const hw_frame_t& frame) override {
-    gather_points(frame);
-    const Answer& answer = mapper_->process(points_);
-    put_pose(answer, frame);
-    put_associations(answer);
+    const Answer& answer = mapper_->process(adapter_.gather(frame));
+    adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
+    adapter_.put_associations(host(), answer.associations);
     put_counters(answer.counters);
   }
 
@@ -83,77 +66,6 @@ class SlamPoint final : public sdk::Plugin {
   }
 
  private:
-  struct Sensor {
-    std::uint32_t id;
-    Pose T_reference_sensor;
-  };
-  /// Which points of `points_` a sample gave.
-  struct Range {
-    std::uint32_t sample;
-    std::size_t begin, end;
-  };
-
-  void add_sensor(const hw_sensor_info_t& info) {
-    const Pose T_body_sensor = to_pose(info.T_body_sensor);
-    if (sensors_.empty()) {
-      T_body_reference_ = T_body_sensor;
-      T_reference_body_ = T_body_sensor.inverse();
-    }
-    sensors_.push_back({info.id, sensors_.empty() ? Pose{} : T_reference_body_ * T_body_sensor});
-  }
-
-  const Sensor& find_sensor(std::uint32_t id) const {
-    for (const Sensor& sensor : sensors_) {
-      if (sensor.id == id) return sensor;
-    }
-    throw sdk::Failure(HW_ERROR_DATA,
-                       "a sample of sensor " + std::to_string(id) + ", which was not announced");
-  }
-
-  void gather_points(const hw_frame_t& frame) {
-    points_.clear();
-    ranges_.clear();
-    for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
-      const hw_sample_t& sample = *frame.samples[k];
-      if (sample.kind != HW_SAMPLE_POINTS) continue;
-      const Sensor& sensor = find_sensor(sample.sensor_id);
-      const bool is_reference = &sensor == &sensors_.front();
-      const auto& points = *static_cast<const hw_points_t*>(sample.payload);
-      ranges_.push_back({k, points_.size(), points_.size() + points.count});
-      for (std::uint64_t i = 0; i < points.count; ++i) {
-        const hw_point3_t& p = *hw_point_at(&points, i);
-        const Vec3 point(p.x, p.y, p.z);
-        points_.push_back(is_reference ? point : sensor.T_reference_sensor * point);
-      }
-    }
-  }
-
-  /// From the frame of the mapper's answers to the body's: T_map_body where `T` is T_map_sensor.
-  Pose to_body(const Pose& T) const { return T_body_reference_ * T * T_reference_body_; }
-
-  void put_pose(const Answer& answer, const hw_frame_t& frame) {
-    if (answer.has_pose) {
-      host().put_pose(to_c(to_body(answer.T_map_sensor)));
-    } else {
-      host().put_lost();
-    }
-    if (lost_ == answer.has_pose) {
-      lost_ = !answer.has_pose;
-      const std::string what = lost_ ? " determines no pose" : " has a pose again";
-      host().log(lost_ ? HW_LOG_WARNING : HW_LOG_INFO, "frame " + std::to_string(frame.sequence) + what);
-    }
-  }
-
-  void put_associations(const Answer& answer) {
-    static_assert(kNoLandmark == HW_NO_LANDMARK);
-    for (const Range& range : ranges_) {
-      const auto first = answer.associations.begin();
-      associations_.assign(first + static_cast<std::ptrdiff_t>(range.begin),
-                           first + static_cast<std::ptrdiff_t>(range.end));
-      host().put_associations(range.sample, associations_);
-    }
-  }
-
   void put_counters(const Counters& counters) const {
     const hw_counter_t list[] = {{"lost", static_cast<double>(counters.lost)},
                                  {"landmarks", static_cast<double>(counters.landmarks)},
@@ -168,7 +80,7 @@ class SlamPoint final : public sdk::Plugin {
     std::vector<hw_landmark_t> landmarks;
     landmarks.reserve(map.landmarks.size());
     for (const Landmark& landmark : map.landmarks) {
-      const Vec3 p = T_body_reference_ * landmark.position;
+      const Vec3 p = adapter_.map_point(landmark.position);
       landmarks.push_back({landmark.id, {p.x(), p.y(), p.z()}, landmark.observations, to_c(landmark.status)});
     }
     host().put_landmarks(landmarks);
@@ -179,21 +91,15 @@ class SlamPoint final : public sdk::Plugin {
     std::vector<std::uint64_t> members;
     for (const Submap& submap : map.submaps) {
       submaps.push_back(
-          {submap.id, to_c(to_body(submap.T_map_submap)), members.size(), submap.members.size()});
+          {submap.id, adapter_.body_pose(submap.T_map_submap), members.size(), submap.members.size()});
       members.insert(members.end(), submap.members.begin(), submap.members.end());
     }
     host().put_submaps(submaps, members);
   }
 
   Options options_;
+  PointAdapter<Pose> adapter_;
   std::optional<Mapper> mapper_;
-  std::vector<Sensor> sensors_;  ///< those that give points; the first one is the reference
-  Pose T_body_reference_;
-  Pose T_reference_body_;
-  bool lost_ = false;
-  std::vector<Vec3> points_;  ///< of this frame, in the reference sensor's frame
-  std::vector<Range> ranges_;
-  std::vector<std::uint64_t> associations_;
 };
 
 const hw_plugin_info_t* SlamPoint::info() {

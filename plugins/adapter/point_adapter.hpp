@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/plugin.hpp>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hallway {
+
+/// Between the ABI and an algorithm that takes a frame's points and says where their sensor is. The algorithm is fed with points in
+/// the frame of the first point sensor (what other sensors see is moved there) and answers in that frame; answers are moved to the
+/// body, so that the map's frame is the body's at the frame that the algorithm began with.
+///
+/// `Pose` is the algorithm's: {q, t} with products and inverse().
+template <typename Pose>
+class PointAdapter {
+ public:
+  using Vec3 = Eigen::Vector3d;
+
+  /// Takes the sensors that give points. Throws sdk::Failure when there is none.
+  void activate(const hw_activation_t& activation) {
+    sensors_.clear();
+    for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
+      const hw_sensor_info_t& sensor = *activation.sensors[i];
+      if (sensor.kind == HW_SAMPLE_POINTS) add_sensor(sensor);
+    }
+    if (sensors_.empty()) throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
+    reset();
+  }
+
+  /// As after activate().
+  void reset() { lost_ = false; }
+
+  /// The frame's points in the reference frame, sample after sample; they live until the next call. Throws sdk::Failure for a sample of a
+  /// sensor that was not announced.
+  const std::vector<Vec3>& gather(const hw_frame_t& frame) {
+    points_.clear();
+    ranges_.clear();
+    for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
+      const hw_sample_t& sample = *frame.samples[k];
+      if (sample.kind == HW_SAMPLE_POINTS) add_points(k, sample);
+    }
+    return points_;
+  }
+
+  /// Answers the pose of a frame, or that there is none, and logs where that changes.
+  void put_pose(const sdk::Host& host, const hw_frame_t& frame, bool has_pose, const Pose& T_map_sensor) {
+    if (has_pose) {
+      host.put_pose(body_pose(T_map_sensor));
+    } else {
+      host.put_lost();
+    }
+    if (lost_ != has_pose) return;
+    lost_ = !has_pose;
+    const std::string what = lost_ ? " determines no pose" : " has a pose again";
+    host.log(lost_ ? HW_LOG_WARNING : HW_LOG_INFO, "frame " + std::to_string(frame.sequence) + what);
+  }
+
+  /// Answers which landmark each point was taken for; `landmarks` has one entry for each point of gather(), in that order.
+  void put_associations(const sdk::Host& host, const std::vector<std::uint64_t>& landmarks) {
+    for (const Range& range : ranges_) {
+      const auto first = landmarks.begin();
+      associations_.assign(first + static_cast<std::ptrdiff_t>(range.begin),
+                           first + static_cast<std::ptrdiff_t>(range.end));
+      host.put_associations(range.sample, associations_);
+    }
+  }
+
+  /// T_map_body, in the ABI's form, of a sensor pose or of a submap's, which is one.
+  hw_pose_t body_pose(const Pose& T_map_sensor) const {
+    const Pose T = T_body_reference_ * T_map_sensor * T_reference_body_;
+    return {{T.t.x(), T.t.y(), T.t.z()}, {T.q.w(), T.q.x(), T.q.y(), T.q.z()}};
+  }
+
+  /// A point of the algorithm's map in the map's frame.
+  Vec3 map_point(const Vec3& p) const { return T_body_reference_ * p; }
+
+ private:
+  struct Sensor {
+    std::uint32_t id;
+    Pose T_reference_sensor;
+  };
+  /// Which points of `points_` a sample gave.
+  struct Range {
+    std::uint32_t sample;
+    std::size_t begin, end;
+  };
+
+  static Pose to_pose(const hw_pose_t& pose) {
+    const auto& q = pose.orientation;
+    return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
+            Vec3(pose.position[0], pose.position[1], pose.position[2])};
+  }
+
+  void add_sensor(const hw_sensor_info_t& info) {
+    const Pose T_body_sensor = to_pose(info.T_body_sensor);
+    if (sensors_.empty()) {
+      T_body_reference_ = T_body_sensor;
+      T_reference_body_ = T_body_sensor.inverse();
+    }
+    sensors_.push_back({info.id, sensors_.empty() ? Pose{} : T_reference_body_ * T_body_sensor});
+  }
+
+  const Sensor& find_sensor(std::uint32_t id) const {
+    for (const Sensor& sensor : sensors_) {
+      if (sensor.id == id) return sensor;
+    }
+    throw sdk::Failure(HW_ERROR_DATA,
+                       "a sample of sensor " + std::to_string(id) + ", which was not announced");
+  }
+
+  void add_points(std::uint32_t index, const hw_sample_t& sample) {
+    const Sensor& sensor = find_sensor(sample.sensor_id);
+    const bool is_reference = &sensor == &sensors_.front();
+    const auto& points = *static_cast<const hw_points_t*>(sample.payload);
+    ranges_.push_back({index, points_.size(), points_.size() + points.count});
+    for (std::uint64_t i = 0; i < points.count; ++i) {
+      const hw_point3_t& p = *hw_point_at(&points, i);
+      const Vec3 point(p.x, p.y, p.z);
+      points_.push_back(is_reference ? point : sensor.T_reference_sensor * point);
+    }
+  }
+
+  std::vector<Sensor> sensors_;  ///< those that give points; the first one is the reference
+  Pose T_body_reference_;
+  Pose T_reference_body_;
+  bool lost_ = false;
+  std::vector<Vec3> points_;  ///< of this frame, in the reference sensor's frame
+  std::vector<Range> ranges_;
+  std::vector<std::uint64_t> associations_;
+};
+
+}  // namespace hallway
