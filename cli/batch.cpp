@@ -44,8 +44,8 @@ int run_batch(const BatchOptions& options) {
   Json document = batch::to_json(results);
   document["runs"] = plan.cells.size();
   document["violations"] = violations;
-  write_file_atomically(folder / "results.csv", batch::print_csv(results));
-  write_file_atomically(folder / "results.json", document.dump(1) + "\n");
+  write_file_atomically(folder / batch::kTableFile, batch::print_csv(results));
+  write_file_atomically(folder / batch::kDocumentFile, document.dump(1) + "\n");
   const auto reused =
       std::count_if(results.begin(), results.end(), [](const auto& result) { return result.reused; });
   if (options.json) {

@@ -15,6 +15,9 @@
 namespace hallway {
 namespace {
 
+/// Between the name that a file will have and the number of the process that writes it.
+constexpr std::string_view kUnfinished = ".tmp-";
+
 /// Owns a file descriptor.
 class Descriptor {
  public:
@@ -94,9 +97,17 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
   return content;
 }
 
+std::string_view unfinished_file_of(std::string_view name) {
+  const std::size_t place = name.rfind(kUnfinished);
+  if (place == std::string_view::npos) return {};
+  const std::string_view process = name.substr(place + kUnfinished.size());
+  const bool number = !process.empty() && process.find_first_not_of("0123456789") == std::string_view::npos;
+  return number ? name.substr(0, place) : std::string_view();
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
   refuse_special_target(path);
-  const std::filesystem::path beside = path.string() + ".tmp-" + std::to_string(::getpid());
+  const std::filesystem::path beside = path.string() + std::string(kUnfinished) + std::to_string(::getpid());
   try {
     Descriptor fd(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (fd.get() < 0) fail(path, "cannot write", errno);

@@ -20,6 +20,10 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
 /// cause; the old content then stays.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Of a name in a folder: the name of the file that it was to become, if write_file_atomically() writes under that name, or was killed while it did; else
+/// empty.
+std::string_view unfinished_file_of(std::string_view name);
+
 /// Makes a folder and its parents where missing. Throws Error{kIo} if that cannot be done or `path` is a file.
 void make_folder(const std::filesystem::path& path);
 

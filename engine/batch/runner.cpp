@@ -85,6 +85,10 @@ bool is_working_folder(const std::string& name, const std::string& cell) {
   return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
 }
 
+std::string picture_name(const Cell& cell, const PictureRequest& picture) {
+  return cell.name + "." + picture.name + ".png";
+}
+
 /// A cell that is under way: its run, then its pictures, one process after the other.
 class Job {
  public:
@@ -137,8 +141,7 @@ class Job {
 
  private:
   fs::path picture_file(const PictureRequest& picture) const {
-    fs::path file = folder_;
-    return file += "." + picture.name + ".png";
+    return folder_.parent_path() / picture_name(cell_, picture);
   }
 
   /// What an earlier batch made, which is not to be taken for what this one does not come to make.
@@ -196,7 +199,7 @@ class Runner {
   std::vector<Result> run() {
     make_folder(setup_.folder / "cells");
     const FolderLock lock(setup_.folder);
-    remove_working_folders();
+    remove_unfinished();
     if (setup_.resume) take_over_results();
     while (!stopped() && (start_jobs() || !jobs_.empty())) {
       if (!step_jobs()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -214,18 +217,29 @@ class Runner {
 
   fs::path result_file(const Cell& cell) const { return setup_.folder / "cells" / (cell.name + ".json"); }
 
-  /// Those of runs that were killed, with a batch or without.
-  void remove_working_folders() const {
-    std::set<std::string> cells;
-    for (const Cell& cell : plan_.cells) cells.insert(cell.name);
+  /// What runs that were killed, with a batch or without, had begun to write.
+  void remove_unfinished() const {
+    std::set<std::string, std::less<>> cells;
+    std::set<std::string, std::less<>> files;
+    for (const Cell& cell : plan_.cells) {
+      cells.insert(cell.name);
+      files.insert(result_file(cell).filename().string());
+      for (const PictureRequest& picture : plan_.pictures) files.insert(picture_name(cell, picture));
+    }
     std::error_code none;
     std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(setup_.folder, none)) {
+      const std::string name = entry.path().filename().string();
+      const std::string_view table = unfinished_file_of(name);
+      if (table == kTableFile || table == kDocumentFile) left.push_back(entry.path());
+    }
     for (const auto& entry : fs::directory_iterator(setup_.folder / "cells", none)) {
       const std::string name = entry.path().filename().string();
       const std::string cell = name.substr(0, name.rfind(".part-"));
-      if (cells.contains(cell) && is_working_folder(name, cell)) left.push_back(entry.path());
+      const bool folder = cells.contains(cell) && is_working_folder(name, cell);
+      if (folder || files.contains(unfinished_file_of(name))) left.push_back(entry.path());
     }
-    for (const fs::path& folder : left) fs::remove_all(folder, none);
+    for (const fs::path& path : left) fs::remove_all(path, none);
   }
 
   void take_over_results() {

@@ -26,6 +26,10 @@ struct Result {
   bool good() const { return status == 0; }
 };
 
+/// What is made of all results, in the folder of the batch.
+inline constexpr const char* kTableFile = "results.csv";
+inline constexpr const char* kDocumentFile = "results.json";
+
 /// The environment variable that tells a run the number of the process that started it, with which it has to end: a batch that is killed shall not
 /// leave runs behind that write into the folders of the next one.
 inline constexpr const char* kStartedBy = "HALLWAY_STARTED_BY";

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "support/errors.hpp"
@@ -160,6 +161,27 @@ TEST(WriteFileAtomically, PutsNoFileInThePlaceOfAPipe) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_TRUE(test::error_of([&] { write_file_atomically(folder / "pipe", "x"); }).has_value());
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(UnfinishedFile, IsKnownByItsName) {
+  EXPECT_EQ(unfinished_file_of("top.png.tmp-13790"), "top.png");
+  EXPECT_EQ(unfinished_file_of("a.tmp-1.tmp-2"), "a.tmp-1");
+  for (const char* name : {"", "top.png", "top.png.tmp-", "top.png.tmp-1a", "top.png.tmp1"})
+    EXPECT_EQ(unfinished_file_of(name), "") << name;
+}
+
+TEST(UnfinishedFile, IsWhatAWriterLeavesThatWasKilled) {
+  const test::TempFolder folder;
+  const auto write = [&] {
+    const rlimit limit{0, 0};
+    ::setrlimit(RLIMIT_FSIZE, &limit);  // the first byte ends it
+    write_file_atomically(folder / "top.png", "x");
+  };
+  EXPECT_EXIT(write(), testing::KilledBySignal(SIGXFSZ), "");
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder.path())) left.push_back(entry.path().filename());
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(unfinished_file_of(left[0]), "top.png");
 }
 
 TEST(MakeFolder, MakesParentsAndTakesWhatIsThere) {

@@ -113,11 +113,25 @@ TEST_F(RunnerTest, WhatAnEarlierBatchLeftIsNotTakenForAResult) {
   folder_.write("batch/cells/cell_fails/metrics.json", R"({"length": 7})");
   fs::create_directories(folder_ / "batch" / "cells" / "cell_fails.part-123");
   fs::create_directories(folder_ / "batch" / "cells" / "somebody.part-else");
-  const auto results = run_cells(plan_of({"fails"}), setup());
+  const std::vector<std::string> unfinished{"cell_fails.json.tmp-123", "cell_fails.top.png.tmp-7"};
+  const std::vector<std::string> foreign{"cell_fails.json.tmp-", "cell_fails.txt.tmp-7",
+                                         "another.json.tmp-7"};
+  for (const auto& names : {unfinished, foreign})
+    for (const std::string& name : names) folder_.write("batch/cells/" + name, "begun");
+  folder_.write("batch/results.json.tmp-5", "begun");
+  folder_.write("batch/notes.json.tmp-5", "begun");
+  Plan plan = plan_of({"fails"});
+  plan.pictures.push_back({.name = "top", .arguments = {}});
+  const auto results = run_cells(plan, setup());
   EXPECT_TRUE(results[0].metrics.is_null());
   EXPECT_TRUE(results[0].verdict.is_null());
   EXPECT_FALSE(fs::exists(folder_ / "batch" / "cells" / "cell_fails.part-123"));
   EXPECT_TRUE(fs::exists(folder_ / "batch" / "cells" / "somebody.part-else"));
+  EXPECT_FALSE(fs::exists(folder_ / "batch" / "results.json.tmp-5"));
+  EXPECT_TRUE(fs::exists(folder_ / "batch" / "notes.json.tmp-5"));
+  for (const std::string& name : unfinished)
+    EXPECT_FALSE(fs::exists(folder_ / "batch" / "cells" / name)) << name;
+  for (const std::string& name : foreign) EXPECT_TRUE(fs::exists(folder_ / "batch" / "cells" / name)) << name;
 }
 
 TEST_F(RunnerTest, IsStoppedWithWhatIsDone) {
