@@ -5,18 +5,14 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
+#include "editor/refuse.hpp"
 
 namespace hallway::editor {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 const CommandSpec& known_command(const std::string& name) {
   if (const CommandSpec* command = find_command(name)) return *command;

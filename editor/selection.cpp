@@ -8,17 +8,13 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
+#include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 bool is_world(const EntityItem& entity) {
   return entity.classname() == "worldspawn";

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "base/error.hpp"
+#include "editor/refuse.hpp"
 #include "map/texture_axes.hpp"
 #include "map/world.hpp"
 
@@ -15,10 +15,6 @@ namespace hallway::editor {
 namespace {
 
 constexpr double kTolerance = 1e-6;  ///< map units; as build_world() has it
-
-[[noreturn]] void refuse(const char* message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 /// Twice the signed area of a triangle in x and y; positive if counter-clockwise.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c) {

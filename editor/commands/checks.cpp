@@ -205,7 +205,7 @@ void render_map(Edit& edit, const Arguments& arguments) {
   edit.report.lines.push_back(fmt::format("drew {}", printable(arguments.text("file"))));
 }
 
-constexpr std::array kCommands{
+constexpr std::array kChecksCommands{
     CommandSpec{.name = "validate",
                 .topic = "checks and pictures",
                 .summary = "list what is wrong, and the command that mends it",
@@ -244,7 +244,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> check_commands() {
-  return kCommands;
+  return kChecksCommands;
 }
 
 }  // namespace hallway::editor

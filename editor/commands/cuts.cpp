@@ -9,12 +9,12 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/openings.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/made_line.hpp"
+#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 
@@ -121,10 +121,6 @@ constexpr std::array kClip{
             .help = "what stays of the brushes",
             .choices = "front back both"},
     ArgSpec{.name = "material", .kind = ArgKind::kMaterial, .help = "of the cut [that of the first face]"}};
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 /// The brushes that things are, entity by entity; groups count with their members.
 using Brushes = std::map<std::size_t, std::set<std::size_t>>;
@@ -445,7 +441,7 @@ void clip(Edit& edit, const Arguments& arguments) {
   if (!made.empty()) say_made(edit, made);
 }
 
-constexpr std::array kCommands{
+constexpr std::array kCutsCommands{
     CommandSpec{.name = "door",
                 .topic = "cuts",
                 .summary = "an opening in a wall, from its foot",
@@ -522,7 +518,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> cut_commands() {
-  return kCommands;
+  return kCutsCommands;
 }
 
 }  // namespace hallway::editor

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "editor/commands/common_arguments.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/made_line.hpp"
@@ -21,9 +22,8 @@
 namespace hallway::editor {
 namespace {
 
-constexpr ArgSpec kThings{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "things"};
 constexpr std::array kOnlyThings{kThings};
-constexpr std::array kName{
+constexpr std::array kRename{
     ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "one thing"},
     ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "its new name"}};
 constexpr std::array kGroup{
@@ -353,22 +353,22 @@ void grid(Edit& edit, const Arguments& arguments) {
   edit.report.lines.push_back(size > 0.0 ? fmt::format("grid of {} m", format_double(size)) : "no grid");
 }
 
-constexpr std::string_view kTopic = "things";
-constexpr std::string_view kLamp = "entity light at 2,3,2.5 light=300 targetname=lamp";
+constexpr std::string_view kGroupsTopic = "things";
+constexpr std::string_view kLampAlone = "entity light at 2,3,2.5 light=300 targetname=lamp";
 
-constexpr std::array kCommands{
+constexpr std::array kGroupsCommands{
     CommandSpec{
         .name = "name",
-        .topic = kTopic,
+        .topic = kGroupsTopic,
         .summary = "give a thing a name",
         .details = "What refers to it by its old name follows. A plain brush becomes a group of its own.",
-        .arguments = kName,
+        .arguments = kRename,
         .example = "name lamp lantern",
-        .before = kLamp,
+        .before = kLampAlone,
         .run = &name_thing},
     CommandSpec{
         .name = "group",
-        .topic = kTopic,
+        .topic = kGroupsTopic,
         .summary = "make things a group, as TrenchBroom has them",
         .details = "Groups may be in groups. Brushes of the world go into the group; entities keep being "
                    "what they are.",
@@ -377,28 +377,28 @@ constexpr std::array kCommands{
         .before = "entity light at 2,3,2.5 targetname=lamp\nentity light at 4,3,2.5 targetname=second",
         .run = &group_things},
     CommandSpec{.name = "ungroup",
-                .topic = kTopic,
+                .topic = kGroupsTopic,
                 .summary = "dissolve groups; what is in them stays",
                 .arguments = kOnlyThings,
                 .example = "ungroup lamps",
                 .before = "entity light at 2,3,2.5 targetname=lamp\ngroup lamp lamps",
                 .run = &ungroup},
     CommandSpec{.name = "hide",
-                .topic = kTopic,
+                .topic = kGroupsTopic,
                 .summary = "leave things out of pictures",
                 .details = "The map's file says nothing of it.",
                 .arguments = kOnlyThings,
                 .example = "hide lamp",
-                .before = kLamp,
+                .before = kLampAlone,
                 .run = &hide},
     CommandSpec{.name = "show",
-                .topic = kTopic,
+                .topic = kGroupsTopic,
                 .summary = "show hidden things again",
                 .arguments = kShow,
                 .example = "show all",
                 .run = &show},
     CommandSpec{.name = "material",
-                .topic = kTopic,
+                .topic = kGroupsTopic,
                 .summary = "put a material on the faces of things",
                 .details = "`top` is what looks up, `sides` what is steeper than 45 degrees. A room is cut "
                            "out of a block: its floor is the "
@@ -408,7 +408,7 @@ constexpr std::array kCommands{
                 .before = "box 0,0,0 2,2,2",
                 .run = &material},
     CommandSpec{.name = "grid",
-                .topic = kTopic,
+                .topic = kGroupsTopic,
                 .summary = "round the places that commands are given",
                 .arguments = kGrid,
                 .example = "grid 0.1",
@@ -418,7 +418,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> group_commands() {
-  return kCommands;
+  return kGroupsCommands;
 }
 
 }  // namespace hallway::editor

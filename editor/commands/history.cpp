@@ -201,7 +201,7 @@ void help(Session&, const Arguments& arguments, Report& report) {
   say_text(help_overview(), report);
 }
 
-constexpr std::array kCommands{
+constexpr std::array kHistoryCommands{
     CommandSpec{
         .name = "undo",
         .topic = "history",
@@ -269,7 +269,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> history_commands() {
-  return kCommands;
+  return kHistoryCommands;
 }
 
 }  // namespace hallway::editor

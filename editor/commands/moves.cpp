@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "editor/clipboard.hpp"
+#include "editor/commands/common_arguments.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/made_line.hpp"
@@ -22,7 +23,6 @@
 namespace hallway::editor {
 namespace {
 
-constexpr ArgSpec kThings{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "things"};
 constexpr ArgSpec kBy{.name = "by", .kind = ArgKind::kVector, .help = "how far, along the axes"};
 constexpr ArgSpec kTo{.name = "to",
                       .kind = ArgKind::kPlace,
@@ -412,12 +412,12 @@ void paste(Edit& edit, const Arguments& arguments) {
   say_copies(edit, copies);
 }
 
-constexpr std::string_view kTopic = "moving and copying";
+constexpr std::string_view kMovesTopic = "moving and copying";
 constexpr std::string_view kTable = "box from 0,0 to 2,1,1 name=table";
 
-constexpr std::array kCommands{
+constexpr std::array kMovesCommands{
     CommandSpec{.name = "move",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "move things, by so much or to a place",
                 .details = "Textures stay where they are on the faces, here and with all that follows. "
                            "Groups move with their members, "
@@ -427,7 +427,7 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &move},
     CommandSpec{.name = "rotate",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "turn things about an axis",
                 .details = "Quarter turns are exact. What has a heading is turned too.",
                 .arguments = kRotate,
@@ -435,7 +435,7 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &rotate},
     CommandSpec{.name = "scale",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "make things larger or smaller",
                 .details = "Textures are scaled with them. Lengths of paths and clouds follow where all "
                            "factors are the same.",
@@ -444,14 +444,14 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &scale},
     CommandSpec{.name = "mirror",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "mirror things at a plane across an axis",
                 .arguments = kMirror,
                 .example = "mirror table x at 3",
                 .before = kTable,
                 .run = &mirror},
     CommandSpec{.name = "align",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "move things until one side is level with something",
                 .details = "Each thing by itself, a group as one. `centre` is the middle in x and y.",
                 .arguments = kAlign,
@@ -460,7 +460,7 @@ constexpr std::array kCommands{
                 .run = &align},
     CommandSpec{
         .name = "snap",
-        .topic = kTopic,
+        .topic = kMovesTopic,
         .summary = "put corners of upright boxes, and origins, on the grid",
         .details = "Other shapes stay as they are. A box that would have no thickness left is refused.",
         .arguments = kSnap,
@@ -468,7 +468,7 @@ constexpr std::array kCommands{
         .before = kTable,
         .run = &snap},
     CommandSpec{.name = "array",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "repeat things in a row or in a circle",
                 .details = "All round, the copies are spread evenly; through less, the last stands at the "
                            "end. Copies are turned with the circle.",
@@ -477,7 +477,7 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &array},
     CommandSpec{.name = "duplicate",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "copy things to another place",
                 .details = "Names of copies get a number behind: `table` becomes `table-2`. What refers to "
                            "each other within what is copied keeps doing so.",
@@ -486,7 +486,7 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &duplicate},
     CommandSpec{.name = "copy",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "put copies of things into the clipboard",
                 .details = "The clipboard is a file in the map format, for all maps and shells of a user.",
                 .arguments = kWhat,
@@ -494,14 +494,14 @@ constexpr std::array kCommands{
                 .before = kTable,
                 .run = &copy_to_clipboard},
     CommandSpec{.name = "cut",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "take things out of the map into the clipboard",
                 .arguments = kWhat,
                 .example = "cut table",
                 .before = kTable,
                 .run = &cut_to_clipboard},
     CommandSpec{.name = "paste",
-                .topic = kTopic,
+                .topic = kMovesTopic,
                 .summary = "put what is in the clipboard into the map",
                 .details = "Where it was in its map, unless `by` or `to` says otherwise. Maps of other units "
                            "get it in the same size.",
@@ -514,7 +514,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> moves_commands() {
-  return kCommands;
+  return kMovesCommands;
 }
 
 }  // namespace hallway::editor

@@ -13,16 +13,13 @@
 #include "base/text.hpp"
 #include "editor/commands/made.hpp"
 #include "editor/commands/shape_parts.hpp"
+#include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
 namespace {
 
 constexpr double kTolerance = 1e-6;  ///< map units
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 /// A wall in which openings can be: where it runs, and how high it is.
 struct Wall {

@@ -17,6 +17,7 @@
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/plan.hpp"
+#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
 #include "editor/shown.hpp"
 #include "editor/transform.hpp"
@@ -82,10 +83,6 @@ constexpr std::array kImport{
             .kind = ArgKind::kPlace,
             .fallback = "0,0,0",
             .help = "where the other map's origin comes to be"}};
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 std::string lower_ending(const std::string& file) {
   std::string ending = fs::path(file).extension().string();
@@ -279,12 +276,12 @@ void import_map(Edit& edit, const Arguments& arguments) {
   say_made(edit, copies.ids);
 }
 
-constexpr std::string_view kTopic = "output";
+constexpr std::string_view kOutputTopic = "output";
 
-constexpr std::array kCommands{
+constexpr std::array kOutputCommands{
     CommandSpec{
         .name = "print",
-        .topic = kTopic,
+        .topic = kOutputTopic,
         .summary = "draw a floor plan to scale, as SVG or PDF",
         .details =
             "What is solid at the height is filled; edges of what is lower are drawn thin, as one sees them "
@@ -298,7 +295,7 @@ constexpr std::array kCommands{
         .before = "room from 0,0 to 4,3 height 2.7 name=kitchen\ndoor in kitchen side south at 1.5",
         .run = &print_plan},
     CommandSpec{.name = "export",
-                .topic = kTopic,
+                .topic = kOutputTopic,
                 .summary = "write the map as it is now as a model for other programs",
                 .details =
                     "The same as `hallway map export`: binary glTF (y up), OBJ with its materials or PLY "
@@ -310,7 +307,7 @@ constexpr std::array kCommands{
                 .run = &export_model},
     CommandSpec{
         .name = "import",
-        .topic = kTopic,
+        .topic = kOutputTopic,
         .summary = "add another map's brushes and entities to this one",
         .details =
             "They keep their size in metres. Brushes of the other map's world become a group; names that are "
@@ -324,7 +321,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> output_commands() {
-  return kCommands;
+  return kOutputCommands;
 }
 
 }  // namespace hallway::editor

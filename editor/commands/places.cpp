@@ -470,17 +470,17 @@ void mesh(Edit& edit, const Arguments& arguments) {
   say_made(edit, {add_entity(edit.state, std::move(entity))});
 }
 
-constexpr std::string_view kTopic = "robot, paths and lights";
+constexpr std::string_view kPlacesTopic = "robot, paths and lights";
 
-constexpr std::array kCommands{
+constexpr std::array kPlacesCommands{
     CommandSpec{.name = "start",
-                .topic = kTopic,
+                .topic = kPlacesTopic,
                 .summary = "put the robot's start somewhere; a map has one",
                 .arguments = kStart,
                 .example = "start at 1,1,0.2 heading 90",
                 .run = &start},
     CommandSpec{.name = "sensor",
-                .topic = kTopic,
+                .topic = kPlacesTopic,
                 .summary = "put a sensor on the robot, or change the one of that name",
                 .details = "Scenarios without sensors of their own take those of their map. Of a sensor that "
                            "is there already only "
@@ -490,14 +490,14 @@ constexpr std::array kCommands{
                 .run = &sensor},
     CommandSpec{
         .name = "path",
-        .topic = kTopic,
+        .topic = kPlacesTopic,
         .summary = "make a path through waypoints",
         .details = "A path that no robot can follow, because a corner's arc has no room, say, is refused.",
         .arguments = kPath,
         .example = "path round 0,0,0.7;5,0,0.7;5,4,0.7;0,4,0.7 closed=yes corner_radius=0.5",
         .run = &make_path},
     CommandSpec{.name = "waypoint",
-                .topic = kTopic,
+                .topic = kPlacesTopic,
                 .summary = "add a waypoint to a path; those behind it are numbered anew",
                 .details = "`move` moves one, `delete` takes one away.",
                 .arguments = kWaypoint,
@@ -506,7 +506,7 @@ constexpr std::array kCommands{
                 .run = &waypoint},
     CommandSpec{
         .name = "landmarks",
-        .topic = kTopic,
+        .topic = kPlacesTopic,
         .summary = "scatter landmarks around a path or on surfaces",
         .details = "With `per_m2` on the surfaces of the map or of things, else as a cloud around a path.",
         .arguments = kLandmarks,
@@ -514,14 +514,14 @@ constexpr std::array kCommands{
         .before = "path way 0,0;10,0",
         .run = &landmarks},
     CommandSpec{.name = "light",
-                .topic = kTopic,
+                .topic = kPlacesTopic,
                 .summary = "put a light somewhere",
                 .arguments = kLight,
                 .example = "light at 2,3,2.5 brightness=300 colour=1,0.9,0.8 name=lamp",
                 .run = &light},
     CommandSpec{
         .name = "mesh",
-        .topic = kTopic,
+        .topic = kPlacesTopic,
         .summary = "put a model somewhere",
         .details = "glTF, GLB, OBJ, STL, PLY and others. The map names the file relative to its own folder.",
         .arguments = kMesh,
@@ -532,7 +532,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> places_commands() {
-  return kCommands;
+  return kPlacesCommands;
 }
 
 }  // namespace hallway::editor

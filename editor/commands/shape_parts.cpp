@@ -10,19 +10,15 @@
 #include <numbers>
 #include <optional>
 
-#include "base/error.hpp"
 #include "editor/grey_picture.hpp"
 #include "editor/height_function.hpp"
+#include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
 namespace {
 
 constexpr double kTolerance = 1e-6;  ///< map units
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
 
 /// A length in map units.
 double length(const Edit& edit, const Arguments& arguments, std::string_view name) {

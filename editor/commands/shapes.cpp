@@ -393,7 +393,7 @@ void remake(Edit& edit, const Arguments& arguments) {
   say_changed(edit, {*find(edit.state, id)});
 }
 
-constexpr std::array kCommands{
+constexpr std::array kShapesCommands{
     CommandSpec{.name = kBoxName,
                 .topic = "shapes",
                 .summary = "a block, by two corners or by its middle and size",
@@ -482,7 +482,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> shape_commands() {
-  return kCommands;
+  return kShapesCommands;
 }
 
 }  // namespace hallway::editor

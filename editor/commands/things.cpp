@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "editor/commands/common_arguments.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/made_line.hpp"
 #include "editor/selection.hpp"
@@ -22,7 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr ArgSpec kThings{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "things"};
 constexpr ArgSpec kLimit{.name = "limit",
                          .kind = ArgKind::kWhole,
                          .fallback = "100",
@@ -284,19 +284,19 @@ void find_text(Edit& edit, const Arguments& arguments) {
   edit.report.status = 1;
 }
 
-constexpr std::string_view kTopic = "things";
+constexpr std::string_view kThingsTopic = "things";
 constexpr std::string_view kLamp = "entity light at 2,3,2.5 light=300 targetname=lamp";
 
-constexpr std::array kCommands{
+constexpr std::array kThingsCommands{
     CommandSpec{.name = "select",
-                .topic = kTopic,
+                .topic = kThingsTopic,
                 .summary = "choose things, which `selected` then means",
                 .arguments = kSelect,
                 .example = "select lamp",
                 .before = kLamp,
                 .run = &select},
     CommandSpec{.name = "list",
-                .topic = kTopic,
+                .topic = kThingsTopic,
                 .summary = "number, class, name and place of things",
                 .details = "Places are in metres: the lowest and the highest corner of what a thing occupies "
                            "with all that is in it.",
@@ -305,7 +305,7 @@ constexpr std::array kCommands{
                 .before = kLamp,
                 .run = &list},
     CommandSpec{.name = "info",
-                .topic = kTopic,
+                .topic = kThingsTopic,
                 .summary = "all there is to know of things",
                 .details = "Keys, bounds, volume, materials, members, and for shapes the line that made them "
                            "(`_hw_made`). The volume is the sum "
@@ -315,7 +315,7 @@ constexpr std::array kCommands{
                 .before = kLamp,
                 .run = &info},
     CommandSpec{.name = "measure",
-                .topic = kTopic,
+                .topic = kThingsTopic,
                 .summary = "the distance of two places, or the size of things",
                 .details = "Of things with what is in them; brushes that take away count for the size and "
                            "not for the volume.",
@@ -323,7 +323,7 @@ constexpr std::array kCommands{
                 .example = "measure from 0,0 to 3,4",
                 .run = &measure},
     CommandSpec{.name = "find",
-                .topic = kTopic,
+                .topic = kThingsTopic,
                 .summary = "look for a text in keys, values and materials",
                 .details = "Ends with status 1 where there is none.",
                 .arguments = kFind,
@@ -335,7 +335,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> things_commands() {
-  return kCommands;
+  return kThingsCommands;
 }
 
 }  // namespace hallway::editor

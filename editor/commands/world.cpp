@@ -130,7 +130,7 @@ void remove_things(Edit& edit, const Arguments& arguments) {
   remove(edit.state, empty);
 }
 
-constexpr std::array kCommands{
+constexpr std::array kWorldCommands{
     CommandSpec{.name = "new",
                 .topic = "the map",
                 .summary = "begin with an empty map",
@@ -163,7 +163,7 @@ constexpr std::array kCommands{
 }  // namespace
 
 std::span<const CommandSpec> world_commands() {
-  return kCommands;
+  return kWorldCommands;
 }
 
 }  // namespace hallway::editor
