@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# hallway_add_library(<name> SOURCES a.cpp … [LINKS …] [PRIVATE_LINKS …] [PRECOMPILED target])
+# hallway_add_library(<name> SOURCES a.cpp … [APART a.cpp …] [LINKS …] [PRIVATE_LINKS …] [PRECOMPILED target])
 #
 # One engine library: target hallway_<name>, included as "<name>/….hpp". LINKS are the libraries to its left in
-# docs/architecture.md and whatever its headers expose; PRIVATE_LINKS are what only its sources use.
+# docs/architecture.md and whatever its headers expose; PRIVATE_LINKS are what only its sources use. APART: see hallway_compile_together.
 #
 # With HALLWAY_PRECOMPILE the headers that nearly every source includes are read once. They are no substitute for includes: the clang preset builds
 # without.
@@ -45,8 +45,22 @@ function(hallway_compile_quickly target)
   endif()
 endfunction()
 
+# hallway_compile_together(<target> [APART a.cpp …]): up to eight sources are read as one, so that the templates that they share are made once. It is no
+# substitute for includes either: the clang preset compiles each by itself. APART names sources that stand alone, because they define names of their own that
+# others define too.
+option(HALLWAY_TOGETHER "Compile several sources of a target at once" ON)
+function(hallway_compile_together target)
+  cmake_parse_arguments(arg "" "" "APART" ${ARGN})
+  if(HALLWAY_TOGETHER AND TARGET ${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    if(arg_APART)
+      set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endif()
+endfunction()
+
 function(hallway_add_library name)
-  cmake_parse_arguments(arg "" "PRECOMPILED" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "" "PRECOMPILED" "SOURCES;APART;LINKS;PRIVATE_LINKS" ${ARGN})
   if(NOT arg_PRECOMPILED)
     set(arg_PRECOMPILED hallway_precompiled)
   endif()
@@ -54,4 +68,5 @@ function(hallway_add_library name)
   target_include_directories(hallway_${name} PUBLIC ${PROJECT_SOURCE_DIR}/engine)
   target_link_libraries(hallway_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
   hallway_reuse_precompiled(hallway_${name} ${arg_PRECOMPILED})
+  hallway_compile_together(hallway_${name} APART ${arg_APART})
 endfunction()

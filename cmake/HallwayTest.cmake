@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# hallway_add_test(<name> SOURCES a.cpp … [LIBS …] [LABELS …] [ENV NAME=value …])
+# hallway_add_test(<name> SOURCES a.cpp … [APART a.cpp …] [LIBS …] [LABELS …] [ENV NAME=value …])
 #
 # One GoogleTest executable, registered as one ctest test per executable. The label `threads` marks what runs under
 # the thread sanitizer. A test at the size that only `make test-long` runs is registered with hallway_add_long_test.
@@ -20,11 +20,12 @@ if(HALLWAY_SANITIZE)
 endif()
 
 function(hallway_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBS;LABELS;ENV" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;APART;LIBS;LABELS;ENV" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   hallway_compile_quickly(test_${name})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${arg_LIBS} GTest::gtest GTest::gtest_main)
+  hallway_compile_together(test_${name} APART ${arg_APART})
   if(NOT "${arg_SOURCES}" MATCHES "\\.c(;|$)")
     hallway_reuse_precompiled(test_${name} hallway_test_precompiled)
   endif()

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kKey = "plugin";
 constexpr std::size_t kMaxPlugins = 64;
-constexpr std::size_t kMaxParameters = 1000;
+constexpr std::size_t kMaxSettings = 1000;
 const std::vector<std::string> kPluginKeys{"name", "params"};
 
 /// Reads the tables one after the other.
@@ -33,8 +33,8 @@ class PluginReader {
       }
     }
     const TomlTable& params = plugin.table("params");
-    if (params.size() > kMaxParameters) {
-      throw plugin.error("params", "has more than " + std::to_string(kMaxParameters) + " parameters");
+    if (params.size() > kMaxSettings) {
+      throw plugin.error("params", "has more than " + std::to_string(kMaxSettings) + " parameters");
     }
     const std::string name =
         is_library_file(written) ? beside(file_, written, plugin.line("name")).string() : written;
