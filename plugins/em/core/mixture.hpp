@@ -48,6 +48,8 @@ class Mixture {
   void assign_patch(std::uint32_t j, double outlier);
   void collect_over(const Patch& patch, double sigmas);
   void cover_patch(std::uint32_t j);
+  CellMap<float> own_points(std::uint32_t j, CellMap<float>& density) const;
+  CellMap<float> gains(std::uint32_t j, const CellMap<float>& density) const;
   bool split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts);
 
   const PointField& field_;

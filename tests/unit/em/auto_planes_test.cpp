@@ -201,6 +201,19 @@ TEST(AutoPlanes, PiecesOfOnePlaneThatLieApartAreSeveral) {
   for (std::uint32_t label = 0; label < 2; ++label) EXPECT_GE(best_overlap(cloud, found, label), 0.97);
 }
 
+TEST(AutoPlanes, ACrowdOfThickPlanesIsToldApart) {
+  double sum = 0.0;
+  std::uint32_t planes = 0;
+  for (std::uint32_t scene = 0; scene < 4; ++scene) {
+    const LabelledPoints cloud = crowd(scene, 40);
+    const Extraction found = extract(cloud.points);
+    for (std::uint32_t label = 0; label < 40; ++label, ++planes) {
+      sum += best_overlap(cloud, found, 40 * scene + label);
+    }
+  }
+  EXPECT_GE(sum / planes, 0.85);
+}
+
 TEST(AutoPlanes, PointsThatAreNotFiniteBelongToNoneAndChangeNothing) {
   const LabelledPoints cloud = room();
   const Extraction found = extract(cloud.points);
