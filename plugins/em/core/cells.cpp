@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace hallway::em {
 namespace {
@@ -23,13 +24,19 @@ void visit_neighbours(const CellGrid& grid, std::size_t cell, Visit visit) {
   }
 }
 
-/// Of each pair the greater one where `grow`, else the smaller one. Plain loops, so that compilers use vectors.
+/// to = to or from where `grow`, else to and from; values are 0 and 1. Eight at a time: -O2 leaves such loops as
+/// they are.
 void combine(const std::uint8_t* from, std::uint8_t* to, int count, bool grow) {
-  if (grow) {
-    for (int k = 0; k < count; ++k) to[k] = std::max(to[k], from[k]);
-  } else {
-    for (int k = 0; k < count; ++k) to[k] = std::min(to[k], from[k]);
+  int k = 0;
+  for (; k + 8 <= count; k += 8) {
+    std::uint64_t a = 0;
+    std::uint64_t b = 0;
+    std::memcpy(&a, from + k, 8);
+    std::memcpy(&b, to + k, 8);
+    b = grow ? b | a : b & a;
+    std::memcpy(to + k, &b, 8);
   }
+  for (; k < count; ++k) to[k] = static_cast<std::uint8_t>(grow ? to[k] | from[k] : to[k] & from[k]);
 }
 
 /// Cells with a covered one within a square of `radius` cells become covered, or, where not `grow`, cells with
