@@ -104,14 +104,15 @@ Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
   const double volume = canonical.frame.extent.cwiseMax(kThinnest * sigma).prod();
   Mixture mixture(sample_field, volume);
   if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
-  if (sample.count == canonical.points.count) return extraction_of(canonical, mixture, cloud.size());
+  if (sample.count == canonical.points.count)
+    return extraction_of(canonical, mixture, options_.bend, cloud.size());
 
   const BoxTree tree(canonical.points);
   const PointField field{canonical.points, tree};
   Mixture whole(field, volume);
   const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
   settle_with_all(mixture, factor, options_, whole);
-  return extraction_of(canonical, whole, cloud.size());
+  return extraction_of(canonical, whole, options_.bend, cloud.size());
 }
 
 }  // namespace hallway::em

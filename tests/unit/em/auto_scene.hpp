@@ -75,8 +75,8 @@ inline LabelledPoints crowd(std::uint32_t scene, std::uint32_t planes) {
     const Random random(scene, stream_id("test.em.crowd"));
     std::uint64_t next = 16 * k;
     const auto number = [&](double low, double high) { return random.uniform(2, next++, low, high); };
-    const Vec3 centre(number(1.0, 6.0), number(1.0, 6.0), number(1.0, 6.0));
-    const Vec3 axis(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0));
+    const Vec3 centre{number(1.0, 6.0), number(1.0, 6.0), number(1.0, 6.0)};  // braces: in this order
+    const Vec3 axis{number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0)};
     const Vec3 u = axis.normalized();
     const Vec3 v = Eigen::AngleAxisd(number(-3.0, 3.0), u) * u.unitOrthogonal();
     const auto points = static_cast<std::size_t>(number(60.0, 240.0));
