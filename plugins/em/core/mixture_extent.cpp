@@ -10,6 +10,7 @@ namespace hallway::em {
 namespace {
 
 constexpr double kLeastDensity = 0.1;  // of a patch's density: in cells of few or no points
+constexpr double kRimDensity = 0.03;   // likewise, one cell beyond: for points that nothing else explains
 constexpr int kNearbyCells = 2;        // to either side: the points there tell the density of a cell
 constexpr double kOneSided = 8.0;      // log likelihood by which one side leads beyond doubt
 constexpr double kGapSpacings =
@@ -159,7 +160,12 @@ void Mixture::cover_patch(std::uint32_t j) {
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
   patch.density = density_within(grid, support, likely, own, patch.density);
   set_densities(patch, own, support, likely);
-  const CellRange range = range_of(grid, support);
+  const CellMap<std::uint8_t> reach = dilated(grid, support, 1);
+  const auto rim = static_cast<float>(std::log(kRimDensity * patch.density));
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    if (support[c] == 0 && reach[c] != 0) patch.log_density[c] = rim;
+  }
+  const CellRange range = range_of(grid, reach);
   if (range.last_column < range.first_column) return;
   crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
 }
