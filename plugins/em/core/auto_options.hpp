@@ -17,7 +17,7 @@ struct AutoOptions {
   int rounds = 12;            ///< rounds of a search at most
   int passes = 4;             ///< passes of expectation and maximisation after a search at most
   double bend = 0.06;         ///< how much of its width a plane of several facets may be thick; 0: none
-  int rougher = 3;            ///< how often surfaces rougher than those found so far are sought; 0: never
+  int rougher = 5;            ///< how often surfaces rougher than those found so far are sought; 0: never
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;

@@ -25,29 +25,42 @@ void mean_along(const float* from, float* to, int length, std::ptrdiff_t stride,
   }
 }
 
-/// Which cells are covered, and how many of the eight around each.
+/// Which cells are covered, and how many of the nine at and about each.
 class Covered {
  public:
-  explicit Covered(const CellGrid& grid)
-      : columns_(static_cast<std::size_t>(grid.columns)), cells_(grid.size(), 0), around_(grid.size(), 0) {}
-
-  void set(std::size_t cell, std::uint8_t covered) {
-    if (cells_[cell] == covered) return;
-    cells_[cell] = covered;
-    const int step = covered != 0 ? 1 : -1;
-    for (const std::size_t row : {cell - columns_, cell, cell + columns_}) {
-      for (const std::size_t c : {row - 1, row, row + 1}) {
-        if (c != cell) around_[c] = static_cast<std::uint8_t>(around_[c] + step);
+  /// At first where `gain` is positive, but not at the border of the grid.
+  Covered(const CellGrid& grid, const CellMap<float>& gain)
+      : columns_(static_cast<std::size_t>(grid.columns)), cells_(grid.size(), 0), nine_(grid.size(), 0) {
+    CellMap<std::uint8_t> along(grid.size(), 0);
+    for (int row = 1; row + 1 < grid.rows; ++row) {
+      const std::size_t begin = grid.place(1, row);
+      const std::size_t end = grid.place(grid.columns - 1, row);
+      for (std::size_t c = begin; c < end; ++c) cells_[c] = gain[c] > 0.0f ? 1 : 0;
+      for (std::size_t c = begin; c < end; ++c) {
+        along[c] = static_cast<std::uint8_t>(cells_[c - 1] + cells_[c] + cells_[c + 1]);
       }
+    }
+    for (std::size_t c = columns_; c + columns_ < grid.size(); ++c) {
+      nine_[c] = static_cast<std::uint8_t>(along[c - columns_] + along[c] + along[c + columns_]);
+    }
+  }
+
+  void turn(std::size_t cell) {
+    const int step = cells_[cell] != 0 ? -1 : 1;
+    cells_[cell] ^= 1;
+    for (const std::size_t row : {cell - columns_, cell, cell + columns_}) {
+      for (const std::size_t c : {row - 1, row, row + 1})
+        nine_[c] = static_cast<std::uint8_t>(nine_[c] + step);
     }
   }
   bool at(std::size_t cell) const { return cells_[cell] != 0; }
-  int around(std::size_t cell) const { return around_[cell]; }
+  /// Of the eight about it.
+  int around(std::size_t cell) const { return nine_[cell] - cells_[cell]; }
   CellMap<std::uint8_t> cells() && { return std::move(cells_); }
 
  private:
   std::size_t columns_;
-  CellMap<std::uint8_t> cells_, around_;
+  CellMap<std::uint8_t> cells_, nine_;
 };
 
 }  // namespace
@@ -67,30 +80,26 @@ CellMap<float> mean_within(const CellGrid& grid, const CellMap<float>& values, i
 }
 
 CellMap<std::uint8_t> likely_covered(const CellGrid& grid, const CellMap<float>& gain) {
-  Covered covered(grid);
-  std::vector<std::uint8_t> changed(static_cast<std::size_t>(grid.rows), 0);  // in the sweep before
-  const auto sweep_row = [&](int row, float agreement) {
+  Covered covered(grid, gain);
+  const auto sweep_row = [&](int row) {
     bool any = false;
     const std::size_t begin = grid.place(1, row);
     const std::size_t end = grid.place(grid.columns - 1, row);
     for (std::size_t c = begin; c < end; ++c) {
-      const bool now = gain[c] > agreement * static_cast<float>(8 - 2 * covered.around(c));
+      const bool now = gain[c] > kAgreement * static_cast<float>(8 - 2 * covered.around(c));
       if (now == covered.at(c)) continue;
-      covered.set(c, now ? 1 : 0);
+      covered.turn(c);
       any = true;
     }
     return any;
   };
-  // The first sweep listens to the points alone.
-  for (int row = 1; row + 1 < grid.rows; ++row) {
-    changed[static_cast<std::size_t>(row)] = sweep_row(row, 0.0f) ? 1 : 0;
-  }
+  std::vector<std::uint8_t> changed(static_cast<std::size_t>(grid.rows), 1);  // rows in the sweep before
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     std::vector<std::uint8_t> next(changed.size(), 0);
     for (int row = 1; row + 1 < grid.rows; ++row) {
       const auto r = static_cast<std::size_t>(row);
       const bool touched = (changed[r - 1] | changed[r] | changed[r + 1] | next[r - 1]) != 0;
-      if (touched && sweep_row(row, kAgreement)) next[r] = 1;
+      if (touched && sweep_row(row)) next[r] = 1;
     }
     changed = std::move(next);
   }

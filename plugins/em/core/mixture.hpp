@@ -38,6 +38,8 @@ class Mixture {
 
   /// Each point's patch, or kNoPlane; as long as the points filled up to whole blocks.
   const std::vector<std::uint32_t>& labels() const { return best_; }
+  /// Points of no patch.
+  std::size_t unassigned() const { return unassigned_; }
   /// Of the points within each patch's slab and extent, the share that no other patch explains better.
   std::vector<double> exclusive_shares();
   /// Median of the patches' noise; 0 without patches.

@@ -10,9 +10,8 @@ namespace hallway::em {
 namespace {
 
 constexpr double kLeastDensity = 0.1;  // of a patch's density: in cells of few or no points
-constexpr double kRimDensity = 0.03;   // likewise, one cell beyond: for points that nothing else explains
 constexpr int kNearbyCells = 2;        // to either side: the points there tell the density of a cell
-constexpr double kOneSided = 8.0;      // log likelihood by which one side leads beyond doubt
+constexpr double kOneSided = 4.0;      // log likelihood by which one side leads as good as alone
 constexpr double kGapSpacings =
     1.6;  // half of the gap that chance leaves within a patch, in spacings of points
 constexpr double kSeamSigmas = 3.0;  // half of the gap that a patch that crosses it leaves
@@ -160,12 +159,7 @@ void Mixture::cover_patch(std::uint32_t j) {
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
   patch.density = density_within(grid, support, likely, own, patch.density);
   set_densities(patch, own, support, likely);
-  const CellMap<std::uint8_t> reach = dilated(grid, support, 1);
-  const auto rim = static_cast<float>(std::log(kRimDensity * patch.density));
-  for (std::size_t c = 0; c < grid.size(); ++c) {
-    if (support[c] == 0 && reach[c] != 0) patch.log_density[c] = rim;
-  }
-  const CellRange range = range_of(grid, reach);
+  const CellRange range = range_of(grid, support);
   if (range.last_column < range.first_column) return;
   crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
 }

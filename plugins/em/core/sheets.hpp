@@ -16,7 +16,7 @@ struct TwoSheets {
 
 /// Whether the heights of points over a plane are those of two sheets at least four times their noise apart, of
 /// `fewest` points and a fifth of all each: the split of least variance within (Otsu 1979) leaves less than one
-/// normal distribution, or an even one, would. O(n log n).
-std::optional<TwoSheets> two_sheets(std::vector<double> heights, std::size_t fewest);
+/// normal distribution, or an even one, would. O(n).
+std::optional<TwoSheets> two_sheets(const std::vector<double>& heights, std::size_t fewest);
 
 }  // namespace hallway::em
