@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -14,6 +15,7 @@
 #include "plane_plugin.hpp"
 #include "planes/files.hpp"
 #include "planes/finder.hpp"
+#include "planes/oracle.hpp"
 #include "planes/picture.hpp"
 #include "planes/scene_files.hpp"
 #include "plugin_report.hpp"
@@ -32,7 +34,7 @@ struct BenchOptions {
   std::string planes = "3..40";
   std::string points = "300..30000";
   std::string sigma = "0.005..0.05";
-  std::string half_size = "0.3..2";
+  std::string half_size = "0.5..2";
   double outliers = 0.1;
   std::string scenes_dir;
   unsigned repeat = 1;
@@ -126,8 +128,15 @@ std::vector<Contender> contenders(const BenchOptions& options) {
   return list;
 }
 
+/// The score of planes::answer_knowing(); none where the scene does not tell enough for that.
+std::optional<planes::Score> score_knowing(const planes::LabelledCloud& scene) {
+  const auto answer = planes::answer_knowing(scene.cloud.points, scene.truth);
+  if (answer.empty()) return std::nullopt;
+  return planes::score_planes(scene.cloud.points, scene.truth, answer);
+}
+
 void try_scene(Contender& contender, const std::string& name, const planes::LabelledCloud& scene,
-               unsigned repeat) {
+               unsigned repeat, const std::optional<planes::Score>& known) {
   const planes::Answer answer = contender.finder->find(scene.cloud.points, repeat);
   contender.result.scenes.push_back(
       {.scene = name,
@@ -136,6 +145,7 @@ void try_scene(Contender& contender, const std::string& name, const planes::Labe
        .ms = answer.ms,
        .cpu_ms = answer.cpu_ms,
        .score = planes::score_planes(scene.cloud.points, scene.truth, answer.planes)});
+  if (known) planes::count_decidable(*known, contender.result.scenes.back().score);
 }
 
 /// The scenes with most faults, first of all; ties by number.
@@ -176,8 +186,8 @@ void draw_worst(const BenchOptions& options, const Scenes& scenes, Contender& co
   }
 }
 
-Json document_of(const BenchOptions& options, const Scenes& scenes,
-                 const std::vector<PluginResult>& results) {
+Json document_of(const BenchOptions& options, const Scenes& scenes, const std::vector<PluginResult>& results,
+                 const std::vector<planes::Score>& known) {
   Json json{{"schema", "hallway.bench_em/1"}, {"scenes", scenes.count()}};
   if (scenes.generated()) {
     json["seed"] = options.seed;
@@ -190,6 +200,7 @@ Json document_of(const BenchOptions& options, const Scenes& scenes,
     json["scenes_dir"] = printable(options.scenes_dir, 4096);
   }
   json["plugins"] = bench_em_json(results);
+  if (!known.empty()) json["planes_known"] = planes::scores_json(known);
   return json;
 }
 
@@ -200,19 +211,23 @@ int bench_em(const BenchOptions& options) {
   std::vector<Contender> plugins = contenders(options);
   if (!options.out.empty()) make_folder(options.out);
   catch_interrupts();
+  std::vector<planes::Score> known;  // of all scenes, or none
   {
     Progress progress("scenes", scenes.count(), options.quiet || options.json);
     for (std::uint32_t i = 0; i < scenes.count(); ++i) {
       if (interrupted()) return interrupt_status();
       const planes::LabelledCloud scene = scenes.get(i);
-      for (Contender& contender : plugins) try_scene(contender, scenes.name(i), scene, options.repeat);
+      const std::optional<planes::Score> best = score_knowing(scene);
+      if (best) known.push_back(*best);
+      for (Contender& contender : plugins) try_scene(contender, scenes.name(i), scene, options.repeat, best);
       if (options.write_scenes) scenes.write(i, options.out);
       progress.update(i + 1);
     }
   }
+  if (known.size() < scenes.count()) known.clear();
   std::vector<PluginResult> results;
   for (Contender& contender : plugins) results.push_back(contender.result);
-  const Json document = document_of(options, scenes, results);
+  const Json document = document_of(options, scenes, results, known);
   if (!options.out.empty()) {
     for (Contender& contender : plugins) draw_worst(options, scenes, contender);
     write_file_atomically(fs::path(options.out) / "results.json", document.dump(1) + "\n");
@@ -220,7 +235,7 @@ int bench_em(const BenchOptions& options) {
   if (options.json) {
     print_json(document);
   } else if (!options.quiet) {
-    print_result(bench_em_table(results));
+    print_result(bench_em_table(results, known));
   }
   return 0;
 }
@@ -290,7 +305,9 @@ void add_bench_em_command(CLI::App& app, Action& chosen) {
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
   command->footer(
-      "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
+      "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart. Decidable "
+      "are those that "
+      "a\nlabelling that knows all planes gets right.\n"
       "Example: hallway bench-em --plugin em --plugin em2 --scenes 200 --seed 7 --out out/bench");
   command->callback([&chosen, options] { chosen = [options] { return bench_em(*options); }; });
 }

@@ -60,10 +60,41 @@ std::string cell(const Json& number, int digits) {
                           : fmt::format("{:>6.{}f}", number.get<double>(), digits);
 }
 
+/// Precision and recall at each IoU, of `score` itself or of the member of its IoUs given.
+std::string rates(const Json& score, const char* member) {
+  std::string text;
+  for (const Json& at : score["iou"]) {
+    const Json& of = *member == '\0' ? at : at[member];
+    text += cell(of["precision"], 3) + " " + cell(of["recall"], 3);
+  }
+  return text;
+}
+
+std::string normal_cell(const Json& score) {
+  const Json& normal = score["normal_error_deg"];
+  return "   " + cell(normal.is_null() ? Json() : normal["mean"], 3);
+}
+
+/// The lines of a plugin: all planes, then those that can be told.
+std::string plugin_lines(const PluginResult& result, std::size_t width) {
+  const Json all = summary(result);
+  std::string text = fmt::format("{:<{}}", result.plugin, width) + rates(all, "") + normal_cell(all);
+  const Json ms = times(result, &SceneResult::ms);
+  text += "  " + cell(ms.is_null() ? Json() : ms["median"], 1) + " " +
+          cell(ms.is_null() ? Json() : ms["max"], 1) + " ";
+  for (const auto& [name, count] : all["faults"].items())
+    text += fmt::format(" {:>6}", count.get<std::size_t>());
+  text += "\n";
+  if (all["iou"][0].contains("decidable"))
+    text += fmt::format("{:<{}}", "  decidable", width) + rates(all, "decidable") + "\n";
+  return text;
+}
+
 }  // namespace
 
-std::string bench_em_table(const std::vector<PluginResult>& results) {
-  std::size_t width = 6;
+std::string bench_em_table(const std::vector<PluginResult>& results,
+                           const std::vector<planes::Score>& known) {
+  std::size_t width = 12;
   for (const PluginResult& result : results) width = std::max(width, result.plugin.size());
   std::string text =
       fmt::format("{:<{}}   IoU 0.8       0.9           0.95        normal          ms\n", "", width);
@@ -71,24 +102,21 @@ std::string bench_em_table(const std::vector<PluginResult>& results) {
       "{:<{}} prec.  rec.  prec.  rec.  prec.  rec.   error°  median    max  missing extra split merged "
       "stolen misal. unatt.\n",
       "plugin", width);
-  for (const PluginResult& result : results) {
-    const Json all = summary(result);
-    text += fmt::format("{:<{}}", result.plugin, width);
-    for (const Json& at : all["iou"]) text += cell(at["precision"], 3) + " " + cell(at["recall"], 3);
-    const Json& normal = all["normal_error_deg"];
-    const Json ms = times(result, &SceneResult::ms);
-    text += "   " + cell(normal.is_null() ? Json() : normal["mean"], 3);
-    text += "  " + cell(ms.is_null() ? Json() : ms["median"], 1) + " " +
-            cell(ms.is_null() ? Json() : ms["max"], 1) + " ";
-    for (const auto& [name, count] : all["faults"].items())
-      text += fmt::format(" {:>6}", count.get<std::size_t>());
-    text += "\n";
+  for (const PluginResult& result : results) text += plugin_lines(result, width);
+  if (!known.empty()) {
+    const Json best = planes::scores_json(known);
+    text += fmt::format("{:<{}}", "planes known", width) + rates(best, "") + normal_cell(best) + "\n";
   }
   if (results.empty()) return text;
   const Json all = summary(results.front());
-  return text + fmt::format("{} scenes, {} planes; {} more counted apart\n", results.front().scenes.size(),
-                            all["true_planes"].get<std::size_t>(),
-                            all["apart"]["true_planes"].get<std::size_t>());
+  text += fmt::format("{} scenes, {} planes; {} more counted apart", results.front().scenes.size(),
+                      all["true_planes"].get<std::size_t>(), all["apart"]["true_planes"].get<std::size_t>());
+  if (known.empty()) return text + "\n";
+  const auto undecidable = [&all](std::size_t i) {
+    return all["true_planes"].get<std::size_t>() -
+           all["iou"][i]["decidable"]["true_planes"].get<std::size_t>();
+  };
+  return text + fmt::format("; {}, {}, {} not decidable\n", undecidable(0), undecidable(1), undecidable(2));
 }
 
 Json bench_em_json(const std::vector<PluginResult>& results) {

@@ -27,8 +27,9 @@ struct PluginResult {
   std::vector<SceneResult> scenes{};
 };
 
-/// A line for each plugin: how much it found, how exactly, how fast, and what was wrong.
-std::string bench_em_table(const std::vector<PluginResult>& results);
+/// A line for each plugin: how much it found, how exactly, how fast, and what was wrong. Where `known`, the scores of
+/// planes::answer_knowing(), is not empty, a second one for the decidable planes alone, and one for these scores.
+std::string bench_em_table(const std::vector<PluginResult>& results, const std::vector<planes::Score>& known);
 
 /// The same for programs, with each scene.
 nlohmann::ordered_json bench_em_json(const std::vector<PluginResult>& results);

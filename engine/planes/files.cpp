@@ -63,6 +63,27 @@ Json fault_json(const Fault& fault, const Truth& truth) {
   return json;
 }
 
+/// Adds one cloud's; the sum is known only where that of each is.
+void add_decidable(const std::optional<Decidable>& one, std::optional<Decidable>& sum) {
+  if (!one || !sum) {
+    sum.reset();
+    return;
+  }
+  for (std::size_t i = 0; i < kIous.size(); ++i) {
+    sum->truths[i] += one->truths[i];
+    sum->found[i] += one->found[i];
+    sum->matched[i] += one->matched[i];
+  }
+}
+
+Json decidable_json(const Decidable& decidable, std::size_t i) {
+  return {{"true_planes", decidable.truths[i]},
+          {"found_planes", decidable.found[i]},
+          {"matched", decidable.matched[i]},
+          {"precision", share(decidable.matched[i], decidable.found[i])},
+          {"recall", share(decidable.matched[i], decidable.truths[i])}};
+}
+
 }  // namespace
 
 Json planes_json(const Cloud& cloud, const std::vector<FoundPlane>& found) {
@@ -86,6 +107,7 @@ Json planes_json(const Cloud& cloud, const std::vector<FoundPlane>& found) {
 
 Json scores_json(const std::vector<Score>& scores) {
   Score sum;
+  if (!scores.empty() && scores.front().decidable) sum.decidable.emplace();
   std::vector<double> angles, offsets;
   std::array<std::size_t, kFaultKinds.size()> faults{};
   for (const Score& score : scores) {
@@ -94,13 +116,14 @@ Json scores_json(const std::vector<Score>& scores) {
     sum.apart += score.apart;
     sum.apart_matched += score.apart_matched;
     for (std::size_t i = 0; i < kIous.size(); ++i) sum.matched[i] += score.matched[i];
+    add_decidable(score.decidable, sum.decidable);
     sum.labelled_points += score.labelled_points;
     sum.unassigned_points += score.unassigned_points;
     sum.outliers += score.outliers;
     sum.assigned_outliers += score.assigned_outliers;
     for (std::size_t i = 0; i < faults.size(); ++i) faults[i] += score.count(kFaultKinds[i]);
     for (const PlanePair& pair : score.pairs) {
-      if (pair.iou < kIous[0]) continue;
+      if (pair.iou < kIous[0] || !score.asked[pair.truth]) continue;
       angles.push_back(pair.normal_error);
       offsets.push_back(pair.offset_error);
     }
@@ -111,6 +134,7 @@ Json scores_json(const std::vector<Score>& scores) {
                            {"matched", sum.matched[i]},
                            {"precision", share(sum.matched[i], sum.found)},
                            {"recall", share(sum.matched[i], sum.truths)}});
+    if (sum.decidable) json["iou"].back()["decidable"] = decidable_json(*sum.decidable, i);
   }
   json["apart"] = {{"true_planes", sum.apart}, {"matched", sum.apart_matched}};
   json["normal_error_deg"] = spread_json(std::move(angles), kDegrees);

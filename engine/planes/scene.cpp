@@ -12,11 +12,12 @@
 namespace hallway::planes {
 namespace {
 
-constexpr Range<double> kPairGap{4.0, 20.0};  // sigma
-constexpr double kDensityRange = 9.0;
+constexpr Range<double> kPairGap{4.0, 28.0};  // sigma
+constexpr std::size_t kPlanesOfAPair = 12;    // one parallel and one attached pair for so many planes
+constexpr double kShareRange = 10.0;          // most by least points of a plane
 constexpr double kHoleShare = 0.25;
-constexpr Range<double> kHoleSize{0.2, 0.5};  // radius, as a share of the shorter half side
-constexpr std::uint32_t kPointsOfAPlane = 25;
+constexpr Range<double> kHoleSize{0.2, 0.5};    // radius, as a share of the shorter half side
+constexpr std::uint32_t kPointsOfAPlane = 100;  // on average, at least
 constexpr std::uint32_t kFewestOfAPlane = 20;
 constexpr int kPlacements = 200;
 
@@ -161,8 +162,8 @@ class SceneMaker {
   }
 
   void add_rectangles(std::size_t count) {
-    const std::size_t pairs = (count + 4) / 8;
-    for (std::size_t pair = 0; pair < pairs; ++pair) {
+    const std::size_t pairs = (count + kPlanesOfAPair / 2) / kPlanesOfAPair;
+    for (std::size_t pair = 0; pair < std::max<std::size_t>(pairs, 1) && count > 1; ++pair) {
       place_free();
       place_parallel();
       if (scene_.rectangles.size() + 2 > count) break;
@@ -172,13 +173,11 @@ class SceneMaker {
     while (scene_.rectangles.size() < count) place_free();
   }
 
-  /// How many points each plane has: by its area and a density of its own, with as many as can be said of it.
+  /// How many points each plane has: a few, and a share of the rest that does not depend on its size.
   void share_out(std::uint32_t points) {
     std::vector<double> weights;
     for (std::size_t i = 0; i < scene_.rectangles.size(); ++i) {
-      const SceneRectangle& r = scene_.rectangles[i];
-      const double area = 4 * r.half_u * r.half_v - std::numbers::pi * holes_[i].radius * holes_[i].radius;
-      weights.push_back(area * shape_.logarithmic({1.0, kDensityRange}));
+      weights.push_back(shape_.uniform(1.0, kShareRange));
     }
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto count = static_cast<std::uint32_t>(weights.size());

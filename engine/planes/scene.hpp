@@ -18,11 +18,11 @@ struct Range {
 
 /// What scenes are like. Where a range is given, each scene has a number of its own from it.
 struct SceneOptions {
-  Range<std::uint32_t> planes{3, 40};  ///< number of planes, at least 1
-  Range<std::uint32_t> points{
-      300, 30'000};  ///< number of points, evenly by its logarithm; at least 25 for each plane are wished for
+  Range<std::uint32_t> planes{3, 40};        ///< number of planes, at least 1
+  Range<std::uint32_t> points{300, 30'000};  ///< number of points, evenly by its logarithm; there are as
+      ///< many planes as leave each 100 on average, at least the fewest
   Range<double> noise{0.005, 0.05};   ///< standard deviation along each axis, evenly by its logarithm, m
-  Range<double> half_size{0.3, 2.0};  ///< half sides of a rectangle, m
+  Range<double> half_size{0.5, 2.0};  ///< half sides of a rectangle, m
   double outliers = 0.1;              ///< most outliers, as a share of the points; every other scene has none
   double box = 10.0;                  ///< side of the cube that holds all planes, from the origin on, m
 };
@@ -46,9 +46,10 @@ struct Scene {
   std::vector<SceneRectangle> rectangles{};
 };
 
-/// Makes scene `index` of a seed: a pure function of its arguments. Random rectangles, some of which cross. Of each eight planes two are a parallel pair, one
-/// before the other at 4 to 20 sigma, and two an attached one: the second stands upright on the first, at an edge of it or within it. One plane in four has a round hole, as if
-/// something hid a part of it. The points of each are even over its area, their density differs from plane to plane by up to nine times; order is random.
+/// Makes scene `index` of a seed: a pure function of its arguments. Random rectangles, some of which cross. For each twelve planes, and in every scene of four or
+/// more, two are a parallel pair of the same outline, one before the other at 4 to 28 sigma, and two an attached one: the second stands upright on the first, at an edge
+/// of it or within it. One plane in four has a round hole, as if something hid a part of it. The points of each are even over its area, their number differs from plane to plane by up to
+/// ten times; order is random.
 /// Throws Error{kUsage} for options that no scene fits.
 Scene make_scene(std::uint64_t seed, std::uint32_t index, const SceneOptions& options);
 

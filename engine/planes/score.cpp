@@ -120,6 +120,7 @@ class Judge {
 
   void count_pairs() {
     for (std::size_t t = 0; t < truth_.planes.size(); ++t) {
+      score_.asked.push_back(is_asked(t));
       score_.truths += is_asked(t) ? 1u : 0u;
       score_.apart += apart_[t] && overlap_.truth_sizes[t] > 0 ? 1u : 0u;
     }

@@ -38,13 +38,22 @@ struct PlanePair {
   double offset_error = 0.0;  ///< distance of the middle of the true plane's points from the found plane
 };
 
+/// Numbers without the planes that nobody could get right, at each of kIous; see count_decidable().
+struct Decidable {
+  std::array<std::size_t, 3> truths{};
+  std::array<std::size_t, 3> found{};
+  std::array<std::size_t, 3> matched{};
+};
+
 /// How well planes were found in one cloud. Planes counted apart are in none of the numbers but their own.
 struct Score {
+  std::vector<bool> asked{};             ///< for each true plane whether it is in the numbers
   std::size_t truths = 0;                ///< true planes
   std::size_t found = 0;                 ///< planes found
   std::array<std::size_t, 3> matched{};  ///< pairs at each of kIous
   std::size_t apart = 0;                 ///< true planes that are counted apart
   std::size_t apart_matched = 0;         ///< of these, found at kIous[0]
+  std::optional<Decidable> decidable{};  ///< where the truth tells enough to know
   std::vector<PlanePair> pairs{};        ///< at IoU 0.5 or more; by true plane
   std::uint64_t labelled_points = 0;     ///< points of true planes
   std::uint64_t unassigned_points = 0;   ///< of these, members of no found plane

@@ -6,7 +6,7 @@
 namespace hallway::em {
 namespace {
 
-constexpr std::array<OptionRow<AutoOptions>, 7> kRows{{
+constexpr std::array<OptionRow<AutoOptions>, 8> kRows{{
     {"noise", "length", 0.0, 1e9,
      "Standard deviation of the points across their planes; 0 means that the cloud tells it.",
      &AutoOptions::noise, nullptr},
@@ -23,6 +23,10 @@ constexpr std::array<OptionRow<AutoOptions>, 7> kRows{{
     {"passes", "passes", 1, 100,
      "Passes of expectation and maximisation after a search, fewer where nothing changes any more.", nullptr,
      &AutoOptions::passes},
+    {"bend", "1", 0.0, 0.25,
+     "Facets that lie side by side and meet without a step are one plane where all of it is flat within this "
+     "share of its width (standard deviations); 0 leaves them apart.",
+     &AutoOptions::bend, nullptr},
     {"rougher", "searches", 0, 10,
      "How often, after the first search, surfaces rougher than those found so far are sought.", nullptr,
      &AutoOptions::rougher},

@@ -16,7 +16,8 @@ struct AutoOptions {
   int seeds = 64;             ///< neighbourhoods tried in a round of the search
   int rounds = 12;            ///< rounds of a search at most
   int passes = 4;             ///< passes of expectation and maximisation after a search at most
-  int rougher = 3;            ///< how often surfaces rougher than those found so far are sought; 0: never
+  double bend = 0.06;         ///< how much of its width a plane of several facets may be thick; 0: none
+  int rougher = 5;            ///< how often surfaces rougher than those found so far are sought; 0: never
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kThinnest =
     20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
+constexpr std::size_t kFewLeft = 50;   // one point in so many in no plane: no rougher surface is looked for
 constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
 
 /// Every so many-th point: even in space too, since the points are in Morton order.
@@ -69,9 +70,12 @@ void find_planes(PlaneSearch& search, const AutoOptions& options, double sigma, 
   settle(mixture, options);
   double level = mixture.patches.empty() ? sigma : mixture.noise();
   if (add_planes(search, level, 2, mixture)) settle(mixture, options);
-  for (int k = 0; k < options.rougher; ++k) {
-    level = search.rougher_noise(level, mixture.labels());
-    if (!(level > 0.0) || !add_planes(search, level, 2, mixture)) return;
+  for (int k = 0; k < options.rougher && mixture.unassigned() * kFewLeft > mixture.labels().size(); ++k) {
+    const double rougher = search.rougher_noise(level, mixture.labels());
+    // The same level again: what planes gave up when they were settled may make others.
+    if (!(rougher > 0.0) && k == 0) return;
+    if (rougher > 0.0) level = rougher;
+    if (!add_planes(search, level, 2, mixture)) return;
     settle(mixture, options);
   }
 }
@@ -104,14 +108,15 @@ Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
   const double volume = canonical.frame.extent.cwiseMax(kThinnest * sigma).prod();
   Mixture mixture(sample_field, volume);
   if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
-  if (sample.count == canonical.points.count) return extraction_of(canonical, mixture, cloud.size());
+  if (sample.count == canonical.points.count)
+    return extraction_of(canonical, mixture, options_.bend, cloud.size());
 
   const BoxTree tree(canonical.points);
   const PointField field{canonical.points, tree};
   Mixture whole(field, volume);
   const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
   settle_with_all(mixture, factor, options_, whole);
-  return extraction_of(canonical, whole, cloud.size());
+  return extraction_of(canonical, whole, options_.bend, cloud.size());
 }
 
 }  // namespace hallway::em

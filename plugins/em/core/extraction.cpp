@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "em/core/facets.hpp"
 #include "em/core/plane_shape.hpp"
 
 namespace hallway::em {
@@ -12,13 +13,48 @@ namespace {
 
 using Places = std::vector<std::uint32_t>;
 
-/// The different points of each patch, as places in the canonical cloud.
-std::vector<Places> places_of(const CanonicalCloud& cloud, const Mixture& mixture) {
+/// The different points of each group of patches, as places in the canonical cloud, by its first patch.
+std::vector<Places> places_of(const CanonicalCloud& cloud, const Mixture& mixture,
+                              const std::vector<std::uint32_t>& groups) {
   std::vector<Places> places(mixture.patches.size());
   for (std::uint32_t i = 0; i < cloud.points.count; ++i) {
-    if (mixture.labels()[i] != kNoPlane) places[mixture.labels()[i]].push_back(i);
+    if (mixture.labels()[i] != kNoPlane) places[groups[mixture.labels()[i]]].push_back(i);
   }
   return places;
+}
+
+/// The share of points of its own of each group: that of its patches, by their points.
+std::vector<double> shares_of(Mixture& mixture, const std::vector<std::uint32_t>& groups) {
+  const std::vector<double> of_patches = mixture.exclusive_shares();
+  std::vector<double> points(groups.size(), 0.0);
+  for (const std::uint32_t label : mixture.labels()) {
+    if (label != kNoPlane) points[label] += 1.0;
+  }
+  std::vector<double> own(groups.size(), 0.0);
+  std::vector<double> all(groups.size(), 0.0);
+  for (std::size_t j = 0; j < groups.size(); ++j) {
+    own[groups[j]] += of_patches[j] * points[j];
+    all[groups[j]] += points[j];
+  }
+  for (std::size_t j = 0; j < groups.size(); ++j) own[j] = all[j] > 0.0 ? own[j] / all[j] : 1.0;
+  return own;
+}
+
+/// The frame of each group: that of its patch, or through the points of all of its patches.
+std::vector<PlaneFrame> frames_of(const CanonicalCloud& cloud, const Mixture& mixture,
+                                  const std::vector<std::uint32_t>& groups,
+                                  const std::vector<Places>& places) {
+  std::vector<PlaneFrame> frames;
+  for (const Patch& patch : mixture.patches) frames.push_back(patch.frame);
+  for (std::size_t j = 0; j < groups.size(); ++j) {
+    const std::uint32_t first = groups[j];
+    if (first == j) continue;
+    const Vec3 origin = mixture.patches[first].frame.origin;
+    Moments moments;
+    for (const std::uint32_t i : places[first]) moments.add(cloud.points.at(i) - origin);
+    frames[first] = moments.fit(origin).frame;
+  }
+  return frames;
 }
 
 /// Most different points first; of equals the one whose first point comes first in canonical order.
@@ -64,17 +100,20 @@ void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFram
 
 }  // namespace
 
-Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, std::size_t given) {
+Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double bend, std::size_t given) {
   Extraction result;
   result.labels.assign(given, kNoPlane);
   result.noise = mixture.noise();
-  const std::vector<Places> places = places_of(cloud, mixture);
-  const std::vector<double> shares = mixture.exclusive_shares();
+  const std::vector<std::uint32_t> groups =
+      facet_groups(cloud.points, mixture.patches, mixture.labels(), bend);
+  const std::vector<Places> places = places_of(cloud, mixture, groups);
+  const std::vector<double> shares = shares_of(mixture, groups);
+  const std::vector<PlaneFrame> frames = frames_of(cloud, mixture, groups, places);
   for (const std::size_t j : by_size(places)) {
     Plane plane;
     plane.id = result.planes.size();
     plane.exclusive_share = shares[j];
-    describe(cloud, places[j], mixture.patches[j].frame, plane);
+    describe(cloud, places[j], frames[j], plane);
     for (const std::uint32_t i : places[j]) {
       for (const PointIndex index : cloud.given_at(i)) {
         plane.members.push_back(index);

@@ -8,7 +8,7 @@
 namespace hallway::em {
 
 /// The planes of a mixture over all points of `cloud`, in the frame and the order of the `given` points that
-/// it was made of.
-Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, std::size_t given);
+/// it was made of. Patches that facet_groups() joins at `bend` are one plane.
+Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double bend, std::size_t given);
 
 }  // namespace hallway::em

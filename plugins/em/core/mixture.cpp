@@ -7,7 +7,6 @@
 namespace hallway::em {
 namespace {
 
-constexpr double kLogRootTwoPi = 0.9189385332046727;
 constexpr double kFarthest =
     4.5;  // standard deviations: farther off no point is a plane's, whatever the density
 constexpr double kSmallestShare = 0.01;  // of a point: less of it is not worth the arithmetic
@@ -81,7 +80,7 @@ void Mixture::collect_over(const Patch& patch, double sigmas) {
 
 void Mixture::assign_patch(std::uint32_t j, double outlier) {
   const Patch& patch = patches[j];
-  const double peak = -std::log(patch.sigma) - kLogRootTwoPi;
+  const double peak = log_peak(patch.sigma);
   const double lead = 2.0 * (std::log(patch.density) + peak - outlier);
   if (!(lead > 0.0)) return;
   collect_over(patch, std::min(std::sqrt(lead), kFarthest));

@@ -38,6 +38,8 @@ class Mixture {
 
   /// Each point's patch, or kNoPlane; as long as the points filled up to whole blocks.
   const std::vector<std::uint32_t>& labels() const { return best_; }
+  /// Points of no patch.
+  std::size_t unassigned() const { return unassigned_; }
   /// Of the points within each patch's slab and extent, the share that no other patch explains better.
   std::vector<double> exclusive_shares();
   /// Median of the patches' noise; 0 without patches.
@@ -48,6 +50,8 @@ class Mixture {
   void assign_patch(std::uint32_t j, double outlier);
   void collect_over(const Patch& patch, double sigmas);
   void cover_patch(std::uint32_t j);
+  CellMap<float> own_points(std::uint32_t j, CellMap<float>& density) const;
+  CellMap<float> gains(std::uint32_t j, const CellMap<float>& density) const;
   bool split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts);
 
   const PointField& field_;

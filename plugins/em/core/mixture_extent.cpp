@@ -3,32 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "em/core/coverage.hpp"
 #include "em/core/mixture.hpp"
 
 namespace hallway::em {
 namespace {
 
-constexpr double kClearlyBest =
-    4.0;  // log likelihood by which the best patch must lead for a point to be its alone
-constexpr double kOccupied =
-    0.2;  // of a patch's density: a cell with less that is its alone is no evidence for it
-constexpr double kRimDensity = 0.1;  // of a patch's density: in cells of few or no points at its rim
+constexpr double kLeastDensity = 0.1;  // of a patch's density: in cells of few or no points
+constexpr int kNearbyCells = 2;        // to either side: the points there tell the density of a cell
+constexpr double kOneSided = 4.0;      // log likelihood by which one side leads as good as alone
 constexpr double kGapSpacings =
     1.6;  // half of the gap that chance leaves within a patch, in spacings of points
-constexpr double kSeamSigmas = 3.0;   // half of the gap that a patch that crosses it leaves
-constexpr double kRimSpacings = 0.8;  // how far a patch may reach beyond the points that are its alone ...
-constexpr double kRimSigmas = 1.0;    // ... as where it ends at another one
+constexpr double kSeamSigmas = 3.0;  // half of the gap that a patch that crosses it leaves
 constexpr double kGrowth =
     0.15;  // of the smaller side: how far beyond the old border a new one is looked for
 constexpr double kMarginSigmas = 4.0;
 constexpr double kMarginCells = 4.0;
-
-/// Points of each cell of a patch's grid.
-struct Counts {
-  CellMap<float> alone;  ///< that the patch explains and no other does nearly as well
-  CellMap<float> own;    ///< given to the patch
-  CellMap<float> free;   ///< given to none
-};
 
 /// Rectangle of cells, ends included; empty if last < first.
 struct CellRange {
@@ -88,38 +78,28 @@ CellGrid widened(const Patch& patch) {
                    old.cell, kMostCells);
 }
 
-/// Whose a point in a patch's slab is.
-enum class Claim { kOther, kFree, kShared, kAlone };
-
-template <typename ClaimOn>
-Counts count_cells(const CellGrid& grid, const SlabPoints& slab, ClaimOn claim_on) {
-  Counts counts{CellMap<float>(grid.size(), 0.0f), CellMap<float>(grid.size(), 0.0f),
-                CellMap<float>(grid.size(), 0.0f)};
-  for (std::size_t k = 0; k < slab.size(); ++k) {
-    const Claim claim = claim_on(slab.place[k]);
-    if (claim == Claim::kOther) continue;
-    const std::size_t cell = grid.at(slab.a[k], slab.b[k]);
-    (claim == Claim::kFree ? counts.free : counts.own)[cell] += 1.0f;
-    if (claim == Claim::kAlone) counts.alone[cell] += 1.0f;
-  }
-  return counts;
+/// What the log likelihood of a point grows by where a patch may have made it too, of a score that is greater by
+/// `lead` than the point's best one without.
+double gain_of(double lead) {
+  if (std::abs(lead) > kOneSided) return std::max(lead, 0.0);
+  return std::log1p(std::exp(lead));
 }
 
-/// Sets the log density of all cells within `reach`: what is counted there, at most that of the whole patch
-/// and at least a little; in closed gaps that of the whole patch.
+/// Sets the log density of all cells of `support`: what is counted there, at most that of the whole patch and
+/// at least a little; in closed gaps that of the whole patch.
 void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
-                   const CellMap<std::uint8_t>& occupied, const CellMap<std::uint8_t>& reach) {
+                   const CellMap<std::uint8_t>& occupied) {
   const CellGrid& grid = patch.grid;
   const double area = grid.cell * grid.cell;
   patch.log_density.assign(grid.size(), kNotCovered);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t c = grid.place(column, row);
-      if (reach[c] == 0) continue;
-      const bool bridged = support[c] != 0 && occupied[c] == 0;
+      if (support[c] == 0) continue;
+      const bool bridged = occupied[c] == 0;
       const double there = std::max(static_cast<double>(own[c]), mean_around(grid, own, column, row)) / area;
       const double local =
-          bridged ? patch.density : std::clamp(there, kRimDensity * patch.density, patch.density);
+          bridged ? patch.density : std::clamp(there, kLeastDensity * patch.density, patch.density);
       patch.log_density[c] = static_cast<float>(std::log(local));
     }
   }
@@ -127,33 +107,59 @@ void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::u
 
 }  // namespace
 
+CellMap<float> Mixture::own_points(std::uint32_t j, CellMap<float>& density) const {
+  const CellGrid& grid = patches[j].grid;
+  CellMap<float> own(grid.size(), 0.0f);
+  CellMap<float> open(grid.size(), 0.0f);
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const std::uint32_t label = best_[slab_.place[k]];
+    if (label != j && label != kNoPlane) continue;
+    const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+    open[c] += 1.0f;
+    if (label == j) own[c] += 1.0f;
+  }
+  density = mean_within(grid, open, kNearbyCells);
+  const double area = grid.cell * grid.cell;
+  const auto most = static_cast<float>(patches[j].density);
+  const auto least = static_cast<float>(kLeastDensity * patches[j].density);
+  for (float& value : density) value = std::clamp(value / static_cast<float>(area), least, most);
+  return own;
+}
+
+CellMap<float> Mixture::gains(std::uint32_t j, const CellMap<float>& density) const {
+  const Patch& patch = patches[j];
+  const CellGrid& grid = patch.grid;
+  // Points come one by one (Poisson): covering a cell costs the number of points to be expected there.
+  CellMap<float> gain(grid.size());
+  const auto area = static_cast<float>(grid.cell * grid.cell);
+  for (std::size_t c = 0; c < grid.size(); ++c) gain[c] = -density[c] * area;
+  const double peak = log_peak(patch.sigma);
+  const double scale = -0.5 / (patch.sigma * patch.sigma);
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const std::uint32_t i = slab_.place[k];
+    const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+    const double score =
+        std::log(static_cast<double>(density[c])) + peak + scale * slab_.height[k] * slab_.height[k];
+    const float without = best_[i] == j ? second_score_[i] : best_score_[i];
+    gain[c] += static_cast<float>(gain_of(score - static_cast<double>(without)));
+  }
+  return gain;
+}
+
 void Mixture::cover_patch(std::uint32_t j) {
   Patch& patch = patches[j];
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
   collect_over(patch, kSlabSigmas);
-  const Counts counts = count_cells(grid, slab_, [this, j](std::uint32_t i) {
-    if (best_[i] == kNoPlane) return Claim::kFree;
-    if (best_[i] != j) return Claim::kOther;
-    const bool alone =
-        second_[i] == kNoPlane || static_cast<double>(best_score_[i] - second_score_[i]) > kClearlyBest;
-    return alone ? Claim::kAlone : Claim::kShared;
-  });
-  const auto enough = static_cast<float>(std::max(1.0, kOccupied * patch.density * grid.cell * grid.cell));
-  CellMap<std::uint8_t> occupied(grid.size(), 0);
-  for (std::size_t c = 0; c < grid.size(); ++c) {
-    occupied[c] = counts.alone[c] + counts.free[c] >= enough ? 1 : 0;
-  }
-  const double spacing = 1.0 / std::sqrt(patch.density);
-  const int gap =
-      std::max(cells_for(kGapSpacings * spacing, grid), cells_for(kSeamSigmas * patch.sigma, grid) + 1);
-  const int rim = std::max(static_cast<int>(std::lround(kRimSpacings * spacing / grid.cell)),
-                           cells_for(kRimSigmas * patch.sigma, grid));
-  const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, occupied, gap));
-  const CellMap<std::uint8_t> reach = dilated(grid, support, rim);
-  patch.density = density_within(grid, support, occupied, counts.own, patch.density);
-  set_densities(patch, counts.own, support, occupied, reach);
-  const CellRange range = range_of(grid, reach);
+  CellMap<float> density;
+  const CellMap<float> own = own_points(j, density);
+  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, density));
+  const int gap = std::max(cells_for(kGapSpacings / std::sqrt(patch.density), grid),
+                           cells_for(kSeamSigmas * patch.sigma, grid) + 1);
+  const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
+  patch.density = density_within(grid, support, likely, own, patch.density);
+  set_densities(patch, own, support, likely);
+  const CellRange range = range_of(grid, support);
   if (range.last_column < range.first_column) return;
   crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
 }

@@ -71,6 +71,11 @@ void mark(const Patch& from, const PlaneFrame& frame, const CellGrid& grid, Cell
 
 }  // namespace
 
+double log_peak(double sigma) {
+  constexpr double kLogRootTwoPi = 0.9189385332046727;
+  return -std::log(sigma) - kLogRootTwoPi;
+}
+
 Patch patch_of(const Grown& grown) {
   const CellGrid& old = grown.grid;
   Patch patch;

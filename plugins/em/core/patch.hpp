@@ -24,6 +24,9 @@ struct Patch {
   CellMap<float> log_density;  ///< log of points per area of each cell, or kNotCovered
 };
 
+/// Log of the normal density of noise `sigma` at its peak.
+double log_peak(double sigma);
+
 /// The patch that covers what grew and a little beyond, at its mean density.
 Patch patch_of(const Grown& grown);
 

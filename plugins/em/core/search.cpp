@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "em/core/sheets.hpp"
+
 namespace hallway::em {
 namespace {
 
@@ -39,6 +41,15 @@ Unclaimed unclaimed_of(const Points& points, const std::vector<std::uint8_t>& cl
   result.points.resize(result.place.size());
   for (std::size_t k = 0; k < result.place.size(); ++k) result.points.set(k, points.at(result.place[k]));
   return result;
+}
+
+/// Of the members of what grew, over its plane.
+std::vector<double> heights_of(const PointField& field, const Grown& grown) {
+  std::vector<double> heights;
+  heights.reserve(grown.members.size());
+  for (const std::uint32_t i : grown.members)
+    heights.push_back(grown.frame.normal.dot(field.points.at(i) - grown.frame.origin));
+  return heights;
 }
 
 }  // namespace
@@ -83,8 +94,25 @@ void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8
   Grower grower(field_, claimed);
   Grown grown = grower.grow(seed, sigma);
   const auto fewest = static_cast<std::size_t>(options_.min_points);
-  const std::size_t n = field_.points.count;
   if (grown.members.size() < fewest) return;
+  const std::optional<TwoSheets> sheets = two_sheets(heights_of(field_, grown), fewest);
+  if (!sheets || !(sheets->noise > 0.0)) {
+    judge(std::move(grown), sigma, claimed);
+    return;
+  }
+  // The noise was taken for that of two sheets together, as where they are nearer than the points on each.
+  for (const double height : {sheets->low, sheets->high}) {
+    Seed thin = seed;
+    thin.frame = grown.frame;
+    thin.frame.origin += height * grown.frame.normal;
+    Grown sheet = grower.grow(thin, sheets->noise);
+    if (sheet.members.size() >= fewest) judge(std::move(sheet), sheets->noise, claimed);
+  }
+}
+
+void PlaneSearch::judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed) {
+  const auto fewest = static_cast<std::size_t>(options_.min_points);
+  const std::size_t n = field_.points.count;
   const double others = static_cast<double>(unclaimed_ - std::min(unclaimed_, grown.members.size()));
   const double volume_density = (others + 0.5) / extent_.cwiseMax(2.0 * kSlabSigmas * sigma).prod();
   const Evidence evidence = evidence_of(field_, claimed, grown, sigma, volume_density);

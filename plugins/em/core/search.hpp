@@ -31,6 +31,7 @@ class PlaneSearch {
  private:
   std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
   void attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed);
+  void judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
   void accept(Grown&& grown, std::vector<std::uint8_t>& claimed);
   void accept_pending(std::vector<std::uint8_t>& claimed);
 

@@ -201,6 +201,57 @@ TEST(AutoPlanes, PiecesOfOnePlaneThatLieApartAreSeveral) {
   for (std::uint32_t label = 0; label < 2; ++label) EXPECT_GE(best_overlap(cloud, found, label), 0.97);
 }
 
+/// Two boards of 2 x 2 that meet at x = 5: the second rises by `slope` from there, and starts `step` higher.
+LabelledPoints two_boards(double slope, double step) {
+  const Vec3 along = Vec3(1.0, 0.0, slope).normalized();
+  LabelledPoints cloud;
+  add(cloud, {{4.0, 5.0, 5.0}, Vec3::UnitX(), Vec3::UnitY(), 1.0, 1.0, 3000, 0.005}, 0);
+  add(cloud, {Vec3(5.0, 5.0, 5.0 + step) + along, along, Vec3::UnitY(), 1.0, 1.0, 3000, 0.005}, 1);
+  return cloud;
+}
+
+TEST(AutoPlanes, FacetsThatMeetWithoutAStepAreOnePlaneIfTheyBendLittle) {
+  const AutoOptions apart{.bend = 0.0};
+  const LabelledPoints bent = two_boards(0.06, 0.0);
+  EXPECT_EQ(extract(bent.points, apart).planes.size(), 2u);
+  const Extraction found = extract(bent.points);
+  expect_sound(found, bent.points);
+  ASSERT_EQ(found.planes.size(), 1u);
+  EXPECT_GE(found.planes[0].members.size(), 5900u);
+  EXPECT_EQ(extract(two_boards(0.5, 0.0).points).planes.size(), 2u) << "an edge";
+  EXPECT_EQ(extract(two_boards(0.0, 0.05).points).planes.size(), 2u) << "a step";
+  LabelledPoints pair = two_boards(0.0, 0.0);
+  add(pair, {{4.5, 5.0, 5.03}, Vec3::UnitX(), Vec3::UnitY(), 1.0, 1.0, 3000, 0.005}, 2);
+  EXPECT_EQ(extract(pair.points).planes.size(), 2u) << "one above the other";
+}
+
+TEST(AutoPlanes, APlaneIsOneWhereItsDensityFallsAHundredfold) {
+  // As a scanner in the middle of a room sees a ceiling: a circle of each radius has as many points.
+  const Random random(5, stream_id("test.em.ceiling"));
+  std::vector<Vec3> cloud;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const double radius = random.uniform(0, 2 * i, 0.1, 4.0);
+    const double turn = random.uniform(0, 2 * i + 1, 0.0, 2.0 * M_PI);
+    cloud.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 2.0 + 0.004 * random.normal(1, i));
+  }
+  const Extraction found = extract(cloud);
+  ASSERT_EQ(found.planes.size(), 1u);
+  EXPECT_GE(found.planes[0].members.size(), 7800u);
+}
+
+TEST(AutoPlanes, ACrowdOfThickPlanesIsToldApart) {
+  double sum = 0.0;
+  std::uint32_t planes = 0;
+  for (std::uint32_t scene = 0; scene < 4; ++scene) {
+    const LabelledPoints cloud = crowd(scene, 40);
+    const Extraction found = extract(cloud.points);
+    for (std::uint32_t label = 0; label < 40; ++label, ++planes) {
+      sum += best_overlap(cloud, found, 40 * scene + label);
+    }
+  }
+  EXPECT_GE(sum / planes, 0.85);
+}
+
 TEST(AutoPlanes, PointsThatAreNotFiniteBelongToNoneAndChangeNothing) {
   const LabelledPoints cloud = room();
   const Extraction found = extract(cloud.points);

@@ -67,6 +67,24 @@ inline LabelledPoints room(double sigma = 0.02) {
   return cloud;
 }
 
+/// Rectangles anywhere in a cube of 6, at any angle, of 150 points each on average: most cross others, and a
+/// tenth of each lies within the noise of another one. Labels from `scene` x `planes` on.
+inline LabelledPoints crowd(std::uint32_t scene, std::uint32_t planes) {
+  LabelledPoints cloud;
+  for (std::uint32_t k = 0; k < planes; ++k) {
+    const Random random(scene, stream_id("test.em.crowd"));
+    std::uint64_t next = 16 * k;
+    const auto number = [&](double low, double high) { return random.uniform(2, next++, low, high); };
+    const Vec3 centre{number(1.0, 6.0), number(1.0, 6.0), number(1.0, 6.0)};  // braces: in this order
+    const Vec3 axis{number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0)};
+    const Vec3 u = axis.normalized();
+    const Vec3 v = Eigen::AngleAxisd(number(-3.0, 3.0), u) * u.unitOrthogonal();
+    const auto points = static_cast<std::size_t>(number(60.0, 240.0));
+    add(cloud, {centre, u, v, number(0.5, 1.5), number(0.5, 1.5), points, 0.035}, scene * planes + k);
+  }
+  return cloud;
+}
+
 /// The order that a seed gives to `count` things.
 inline std::vector<std::size_t> shuffled_order(std::size_t count, std::uint64_t seed) {
   const Random random(seed, stream_id("test.em.order"));
