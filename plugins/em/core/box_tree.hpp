@@ -8,6 +8,7 @@
 
 #include "em/core/points.hpp"
 #include "em/core/types.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -67,7 +68,7 @@ struct Ball {
 class BoxTree {
  public:
   /// Keeps nothing of `points` but their number.
-  explicit BoxTree(const Points& points);
+  BoxTree(const Points& points, Workers& workers);
 
   /// Calls visit(block) for each block whose box `shape` touches, in ascending order.
   template <typename Shape, typename Visit>
@@ -75,11 +76,31 @@ class BoxTree {
     if (!levels_.empty()) descend(levels_.size() - 1, 0, levels_.back().size(), shape, visit);
   }
 
+  /// Points of a chunk: of a part of the list that a query can be made on alone.
+  static constexpr std::size_t kChunkSize = kBlockSize * 64;
+
+  /// Number of chunks, the last of which may have fewer points.
+  std::size_t chunks() const {
+    return levels_.empty() ? 0 : (levels_.front().size() * kBlockSize + kChunkSize - 1) / kChunkSize;
+  }
+
+  /// As visit_blocks(), in the blocks of chunk `chunk` alone.
+  template <typename Shape, typename Visit>
+  void visit_chunk(std::size_t chunk, const Shape& shape, Visit&& visit) const {
+    if (levels_.size() > kChunkLevel) {
+      descend(kChunkLevel, chunk, chunk + 1, shape, visit);
+    } else {
+      visit_blocks(shape, visit);
+    }
+  }
+
   /// Box of one block.
   const Box& block_box(std::size_t block) const { return levels_.front()[block]; }
 
  private:
   static constexpr std::size_t kFan = 8;
+  static constexpr std::size_t kChunkLevel =
+      2;  // a chunk is a node of this level, or all where there is no such level
 
   template <typename Shape, typename Visit>
   void descend(std::size_t level, std::size_t begin, std::size_t end, const Shape& shape,

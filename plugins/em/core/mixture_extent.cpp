@@ -2,6 +2,8 @@
 // Where patches reach: Mixture::cover() and Mixture::split().
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "em/core/mixture.hpp"
 
@@ -127,12 +129,12 @@ void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::u
 
 }  // namespace
 
-void Mixture::cover_patch(std::uint32_t j) {
+void Mixture::cover_patch(std::uint32_t j, SlabPoints& slab) {
   Patch& patch = patches[j];
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
-  collect_over(patch, kSlabSigmas);
-  const Counts counts = count_cells(grid, slab_, [this, j](std::uint32_t i) {
+  collect(field_, slab_over(patch, kSlabSigmas), slab);
+  const Counts counts = count_cells(grid, slab, [this, j](std::uint32_t i) {
     if (best_[i] == kNoPlane) return Claim::kFree;
     if (best_[i] != j) return Claim::kOther;
     const bool alone =
@@ -159,31 +161,34 @@ void Mixture::cover_patch(std::uint32_t j) {
 }
 
 void Mixture::cover() {
-  for (std::uint32_t j = 0; j < patches.size(); ++j) cover_patch(j);
+  workers_.run(patches.size(), [this](std::size_t j, std::size_t worker) {
+    cover_patch(static_cast<std::uint32_t>(j), slabs_[worker]);
+  });
 }
 
-bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts) {
+std::vector<Patch> Mixture::parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const {
   const Patch& patch = patches[j];
   const CellGrid& old = patch.grid;
   const double cell = std::max(std::sqrt(kPointsPerCell / patch.density), kSlabSigmas * patch.sigma);
   const CellGrid grid = grid_over(old.low_a, old.high_a(), old.low_b, old.high_b(), cell, kMostCells);
-  collect_over(patch, kSlabSigmas);
+  collect(field_, slab_over(patch, kSlabSigmas), slab);
   CellMap<std::uint8_t> occupied(grid.size(), 0);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    if (patch.log_density[old.at(slab_.a[k], slab_.b[k])] == kNotCovered) continue;
-    occupied[grid.at(slab_.a[k], slab_.b[k])] = 1;  // whosever it is: what crosses the patch does not cut it
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    if (patch.log_density[old.at(slab.a[k], slab.b[k])] == kNotCovered) continue;
+    occupied[grid.at(slab.a[k], slab.b[k])] = 1;  // whosever it is: what crosses the patch does not cut it
   }
   std::uint32_t count = 0;
   const CellMap<std::uint32_t> number = components(grid, occupied, count);
   std::vector<std::size_t> own(count + 1, 0);
   std::vector<std::size_t> cells(count + 1, 0);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    if (best_[slab_.place[k]] == j) ++own[number[grid.at(slab_.a[k], slab_.b[k])]];
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    if (best_[slab.place[k]] == j) ++own[number[grid.at(slab.a[k], slab.b[k])]];
   }
   for (const std::uint32_t n : number) ++cells[n];
   own[0] = 0;
   if (std::count_if(own.begin(), own.end(), [min_points](std::size_t n) { return n >= min_points; }) < 2)
-    return false;
+    return {};
+  std::vector<Patch> parts;
   for (std::uint32_t n = 1; n <= count; ++n) {
     if (own[n] < min_points) continue;
     CellMap<std::uint8_t> support(grid.size(), 0);
@@ -191,20 +196,22 @@ bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<P
     const double area = static_cast<double>(cells[n]) * grid.cell * grid.cell;
     parts.push_back(restricted(patch, grid, support, static_cast<double>(own[n]) / area));
   }
-  return true;
+  return parts;
 }
 
 bool Mixture::split(std::size_t min_points) {
-  std::vector<Patch> parts;
+  std::vector<std::vector<Patch>> parts(patches.size());
+  workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
+    parts[j] = parts_of(static_cast<std::uint32_t>(j), min_points, slabs_[worker]);
+  });
+  std::vector<Patch> after;
   bool any = false;
-  for (std::uint32_t j = 0; j < patches.size(); ++j) {
-    if (split_patch(j, min_points, parts)) {
-      any = true;
-    } else {
-      parts.push_back(patches[j]);
-    }
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    any = any || !parts[j].empty();
+    if (parts[j].empty()) parts[j].push_back(std::move(patches[j]));
+    std::move(parts[j].begin(), parts[j].end(), std::back_inserter(after));
   }
-  patches = std::move(parts);
+  patches = std::move(after);
   return any;
 }
 

@@ -8,10 +8,11 @@ namespace {
 
 constexpr double kWiden = 1.5;  // of the radius when too few points are within: 3.4 times the volume
 
-bool nearer(const NearPoint& left, const NearPoint& right) {
+// A function object: sorting inlines it.
+constexpr auto kNearer = [](const NearPoint& left, const NearPoint& right) {
   return left.squared_distance != right.squared_distance ? left.squared_distance < right.squared_distance
                                                          : left.place < right.place;
-}
+};
 
 void within(const PointField& field, const Ball& ball, std::vector<NearPoint>& found) {
   found.clear();
@@ -36,8 +37,8 @@ void nearest(const PointField& field, const Vec3& p, std::size_t most, double ra
   Ball ball{p, radius};
   for (within(field, ball, found); found.size() < wanted; within(field, ball, found)) ball.radius *= kWiden;
   const auto end = found.begin() + static_cast<std::ptrdiff_t>(wanted);
-  std::nth_element(found.begin(), end - 1, found.end(), nearer);
-  std::sort(found.begin(), end, nearer);
+  std::nth_element(found.begin(), end - 1, found.end(), kNearer);
+  std::sort(found.begin(), end, kNearer);
   found.erase(end, found.end());
 }
 

@@ -24,6 +24,9 @@ struct Patch {
   CellMap<float> log_density;  ///< log of points per area of each cell, or kNotCovered
 };
 
+/// What lies within so many standard deviations of the patch, over its grid.
+Slab slab_over(const Patch& patch, double sigmas);
+
 /// The patch that covers what grew and a little beyond, at its mean density.
 Patch patch_of(const Grown& grown);
 
