@@ -51,15 +51,17 @@ CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
   return range;
 }
 
-/// Mean over a cell and its eight neighbours.
-double mean_around(const CellGrid& grid, const CellMap<float>& counts, int column, int row) {
-  double sum = 0.0;
+/// Sums over each cell of a row and its eight neighbours; exact, since the counts are whole numbers. `above` is scratch.
+void sum_around(const CellGrid& grid, const CellMap<float>& counts, int row, std::vector<float>& above,
+                std::vector<float>& sums) {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  above.assign(columns + 2, 0.0f);  // an empty column to both sides
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-      sum += static_cast<double>(counts[grid.place(c, r)]);
-    }
+    const float* line = &counts[grid.place(0, r)];
+    for (std::size_t c = 0; c < columns; ++c) above[c + 1] += line[c];
   }
-  return sum / 9.0;
+  sums.resize(columns);
+  for (std::size_t c = 0; c < columns; ++c) sums[c] = above[c] + above[c + 1] + above[c + 2];
 }
 
 /// Points per area within the support. Where the patch has it only because a gap was closed, others took its
@@ -113,16 +115,23 @@ void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::u
                    const CellMap<std::uint8_t>& occupied, const CellMap<std::uint8_t>& reach) {
   const CellGrid& grid = patch.grid;
   const double area = grid.cell * grid.cell;
+  const double least = kRimDensity * patch.density;
+  const auto log_density = static_cast<float>(std::log(patch.density));
+  const auto log_least = static_cast<float>(std::log(least));
   patch.log_density.assign(grid.size(), kNotCovered);
+  std::vector<float> above, around;
   for (int row = 0; row < grid.rows; ++row) {
+    sum_around(grid, own, row, above, around);
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t c = grid.place(column, row);
       if (reach[c] == 0) continue;
       const bool bridged = support[c] != 0 && occupied[c] == 0;
-      const double there = std::max(static_cast<double>(own[c]), mean_around(grid, own, column, row)) / area;
-      const double local =
-          bridged ? patch.density : std::clamp(there, kRimDensity * patch.density, patch.density);
-      patch.log_density[c] = static_cast<float>(std::log(local));
+      const double mean = static_cast<double>(around[static_cast<std::size_t>(column)]) / 9.0;
+      const double there = std::max(static_cast<double>(own[c]), mean) / area;
+      const bool full = bridged || there >= patch.density;
+      patch.log_density[c] = full             ? log_density
+                             : there <= least ? log_least
+                                              : static_cast<float>(std::log(there));
     }
   }
 }
