@@ -2,6 +2,7 @@
 #include <hallway/plugin.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,37 +20,49 @@ constexpr hw_plugin_info_t make_info(const char* id, const char* name, const cha
   return sdk::plugin_info(id, name, "0.1.0", "Hallway", help, kInputs, kOutputs);
 }
 
-/// The algorithms that this file offers as plugins: their options, and how they are called.
-struct Auto {
+/// The algorithms that this file offers as plugins: their options, and one that runs.
+class Auto {
+ public:
   using Options = AutoOptions;
   static constexpr hw_plugin_info_t kInfo =
       make_info("em", "Planes by expectation maximisation",
                 "Finds finite planes in points; noise and scale are estimated.");
   static auto rows() { return auto_options(); }
-  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
-    return PlaneExtractor(options).extract(cloud);
-  }
+
+  explicit Auto(const Options& options) : extractor_(options) {}
+  Extraction extract(std::span<const Vec3> cloud) { return extractor_.extract(cloud); }
+
+ private:
+  PlaneExtractor extractor_;
 };
 
-struct First {
+class First {
+ public:
   using Options = Em1Options;
   static constexpr hw_plugin_info_t kInfo =
       make_info("em1", "Planes by EM, algorithm 1",
                 "Finds finite planes, all of them fitted anew in every iteration (thesis 3.5.2).");
   static auto rows() { return em1_options(); }
-  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
-    return extract_em1(cloud, options);
-  }
+
+  explicit First(const Options& options) : options_(options) {}
+  Extraction extract(std::span<const Vec3> cloud) const { return extract_em1(cloud, options_); }
+
+ private:
+  Options options_;
 };
 
-struct Second {
+class Second {
+ public:
   using Options = Em2Options;
   static constexpr hw_plugin_info_t kInfo = make_info(
       "em2", "Planes by EM, algorithm 2", "Finds finite planes, one grown after the other (thesis 3.5.3).");
   static auto rows() { return em2_options(); }
-  static Extraction extract(std::span<const Vec3> cloud, const Options& options) {
-    return extract_em2(cloud, options);
-  }
+
+  explicit Second(const Options& options) : options_(options) {}
+  Extraction extract(std::span<const Vec3> cloud) const { return extract_em2(cloud, options_); }
+
+ private:
+  Options options_;
 };
 
 hw_point3_t to_c(const Vec3& p) {
@@ -79,10 +92,15 @@ class PlanePlugin final : public sdk::Plugin {
 
   void activate(const hw_activation_t& activation) override {
     for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
-      if (activation.sensors[i]->kind == HW_SAMPLE_POINTS) return;
+      if (activation.sensors[i]->kind == HW_SAMPLE_POINTS) {
+        algorithm_.emplace(options_);
+        return;
+      }
     }
     throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
   }
+
+  void deactivate() override { algorithm_.reset(); }
 
   void reset() override {}
 
@@ -95,7 +113,7 @@ class PlanePlugin final : public sdk::Plugin {
       const hw_sample_t& sample = *frame.samples[k];
       if (sample.kind != HW_SAMPLE_POINTS) continue;
       gather_points(*static_cast<const hw_points_t*>(sample.payload));
-      const Extraction found = Algorithm::extract(points_, options_);
+      const Extraction found = algorithm_->extract(points_);
       put(k, found);
       planes += found.planes.size();
       for (const std::uint32_t label : found.labels) unlabelled += label == kNoPlane ? 1u : 0u;
@@ -144,6 +162,7 @@ class PlanePlugin final : public sdk::Plugin {
   }
 
   typename Algorithm::Options options_;
+  std::optional<Algorithm> algorithm_;
   std::vector<Vec3> points_;  ///< of one sample
   std::vector<hw_plane_t> planes_;
   std::vector<hw_point3_t> hull_;

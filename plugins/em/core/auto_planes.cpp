@@ -95,28 +95,30 @@ void settle_with_all(Mixture& sampled, double factor, const AutoOptions& options
 
 PlaneExtractor::PlaneExtractor(const AutoOptions& options) : options_(options) {
   options_.validate();
+  workers_ = std::make_unique<Workers>(options_.threads);
 }
 
 Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
-  const CanonicalCloud canonical = canonical_order(cloud);
+  const CanonicalCloud canonical = canonical_order(cloud, *workers_);
   const Points sample = sample_of(canonical.points, static_cast<std::size_t>(options_.sample_points));
-  const BoxTree sample_tree(sample);
+  const BoxTree sample_tree(sample, *workers_);
   const PointField sample_field{sample, sample_tree};
 
-  PlaneSearch search(sample_field, options_, canonical.frame.extent);
+  PlaneSearch search(sample_field, options_, canonical.frame.extent, *workers_);
   const double sigma = options_.noise > 0.0 ? options_.noise : search.estimate_noise();
   const double volume = canonical.frame.extent.cwiseMax(kThinnest * sigma).prod();
-  Mixture mixture(sample_field, volume);
+  Mixture mixture(sample_field, volume, *workers_);
   if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
-  if (sample.count == canonical.points.count)
-    return extraction_of(canonical, mixture, options_.bend, cloud.size());
+  if (sample.count == canonical.points.count) {
+    return extraction_of(canonical, mixture, options_.bend, cloud.size(), *workers_);
+  }
 
-  const BoxTree tree(canonical.points);
+  const BoxTree tree(canonical.points, *workers_);
   const PointField field{canonical.points, tree};
-  Mixture whole(field, volume);
+  Mixture whole(field, volume, *workers_);
   const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
   settle_with_all(mixture, factor, options_, whole);
-  return extraction_of(canonical, whole, options_.bend, cloud.size());
+  return extraction_of(canonical, whole, options_.bend, cloud.size(), *workers_);
 }
 
 }  // namespace hallway::em

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "em/core/auto_options.hpp"
 #include "em/core/types.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -16,7 +18,7 @@ namespace hallway::em {
 /// given; and on rotation and translation no more than rounding does.
 class PlaneExtractor {
  public:
-  /// Throws std::invalid_argument for options out of range.
+  /// Starts the threads that the options ask for. Throws std::invalid_argument for options out of range.
   explicit PlaneExtractor(const AutoOptions& options = {});
 
   /// The planes of `cloud` (any frame, any unit of length). Points that are not finite, or beyond 1e100, are
@@ -25,6 +27,7 @@ class PlaneExtractor {
 
  private:
   AutoOptions options_;
+  std::unique_ptr<Workers> workers_;
 };
 
 }  // namespace hallway::em

@@ -30,13 +30,15 @@ Box around_boxes(const std::vector<Box>& boxes, std::size_t begin, std::size_t e
 
 }  // namespace
 
-BoxTree::BoxTree(const Points& points) {
+BoxTree::BoxTree(const Points& points, Workers& workers) {
   if (points.count == 0) return;
-  std::vector<Box> blocks;
-  blocks.reserve(points.blocks());
-  for (std::size_t begin = 0; begin < points.count; begin += kBlockSize) {
-    blocks.push_back(around_points(points, begin, std::min(begin + kBlockSize, points.count)));
-  }
+  static_assert(Workers::kPart % kBlockSize == 0);
+  std::vector<Box> blocks(points.blocks());
+  workers.run_parts(points.count, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t begin = first; begin < last; begin += kBlockSize) {
+      blocks[begin / kBlockSize] = around_points(points, begin, std::min(begin + kBlockSize, last));
+    }
+  });
   levels_.push_back(std::move(blocks));
   while (levels_.back().size() > kFan) {
     const std::vector<Box>& below = levels_.back();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -39,93 +39,166 @@ std::uint64_t cell_of(double value, double low, double scale) {
   return static_cast<std::uint64_t>(std::clamp((value - low) * scale, 0.0, kLast));
 }
 
-/// Morton code above, index below; sorted by the code.
-std::vector<std::uint64_t> sorted_words(const std::vector<Vec3>& cloud, const Vec3& low, double longest) {
+/// Morton code above, index below.
+std::vector<std::uint64_t> words_of(const std::vector<Vec3>& cloud, const Bounds& bounds, Workers& workers) {
+  const double longest = (bounds.high - bounds.low).maxCoeff();
   const double scale = longest > 0.0 ? (1 << kAxisBits) / longest : 0.0;
   std::vector<std::uint64_t> words(cloud.size());
-  std::vector<std::array<std::uint32_t, 1 << kDigitBits>> places(kDigits);
-  const auto digit = [](std::uint64_t word, int place) {
-    return (word >> (kIndexBits + place * kDigitBits)) & ((1u << kDigitBits) - 1u);
-  };
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::uint64_t code = spread_bits(cell_of(cloud[i].x(), low.x(), scale)) |
-                               spread_bits(cell_of(cloud[i].y(), low.y(), scale)) << 1 |
-                               spread_bits(cell_of(cloud[i].z(), low.z(), scale)) << 2;
-    words[i] = code << kIndexBits | i;
-    for (int place = 0; place < kDigits; ++place) {
-      ++places[static_cast<std::size_t>(place)][digit(words[i], place)];
+  workers.run_parts(cloud.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& p = cloud[i];
+      const std::uint64_t code = spread_bits(cell_of(p.x(), bounds.low.x(), scale)) |
+                                 spread_bits(cell_of(p.y(), bounds.low.y(), scale)) << 1 |
+                                 spread_bits(cell_of(p.z(), bounds.low.z(), scale)) << 2;
+      words[i] = code << kIndexBits | i;
     }
-  }
-  std::vector<std::uint64_t> moved(words.size());
-  for (int place = 0; place < kDigits; ++place) {
-    auto& starts = places[static_cast<std::size_t>(place)];
-    std::uint32_t start = 0;
-    for (std::uint32_t& entry : starts) start += std::exchange(entry, start);
-    for (const std::uint64_t word : words) moved[starts[digit(word, place)]++] = word;
-    words.swap(moved);
-  }
+  });
   return words;
 }
 
+using DigitCounts = std::array<std::uint32_t, 1 << kDigitBits>;
+
+std::size_t digit_of(std::uint64_t word, int place) {
+  return (word >> (kIndexBits + place * kDigitBits)) & ((1u << kDigitBits) - 1u);
+}
+
+/// Turns how often each digit occurs in each slice into where the first one goes.
+void make_starts(std::vector<DigitCounts>& slices) {
+  std::uint32_t start = 0;
+  for (std::size_t digit = 0; digit < slices.front().size(); ++digit) {
+    for (DigitCounts& slice : slices) start += std::exchange(slice[digit], start);
+  }
+}
+
+/// Sorts by the code, equal ones by the order given. Each thread counts and moves a slice of the words; a stable sort has
+/// one result, however they are cut.
+void sort_by_code(std::vector<std::uint64_t>& words, Workers& workers) {
+  const std::size_t slices = std::min(workers.count(), Workers::parts(words.size()));
+  const auto begin_of = [&](std::size_t slice) { return slice * words.size() / slices; };
+  std::vector<DigitCounts> starts(slices);
+  std::vector<std::uint64_t> moved(words.size());
+  for (int place = 0; place < kDigits; ++place) {
+    workers.run(slices, [&](std::size_t slice, std::size_t) {
+      starts[slice].fill(0);
+      for (std::size_t k = begin_of(slice); k < begin_of(slice + 1); ++k)
+        ++starts[slice][digit_of(words[k], place)];
+    });
+    make_starts(starts);
+    workers.run(slices, [&](std::size_t slice, std::size_t) {
+      for (std::size_t k = begin_of(slice); k < begin_of(slice + 1); ++k) {
+        moved[starts[slice][digit_of(words[k], place)]++] = words[k];
+      }
+    });
+    words.swap(moved);
+  }
+}
+
 /// Sorts the words of equal code by exact coordinates, then by index.
-void order_within_cells(const std::vector<Vec3>& cloud, std::vector<std::uint64_t>& words) {
+void order_within_cells(const std::vector<Vec3>& cloud, std::vector<std::uint64_t>& words, Workers& workers) {
+  const auto same_cell = [&words](std::size_t k) {
+    return words[k] >> kIndexBits == words[k - 1] >> kIndexBits;
+  };
   const auto before = [&cloud](std::uint64_t left, std::uint64_t right) {
     const Vec3& a = cloud[left & kIndexMask];
     const Vec3& b = cloud[right & kIndexMask];
     return std::tie(a.x(), a.y(), a.z(), left) < std::tie(b.x(), b.y(), b.z(), right);
   };
-  for (auto run = words.begin(); run != words.end();) {
-    auto end = run + 1;
-    while (end != words.end() && *end >> kIndexBits == *run >> kIndexBits) ++end;
-    if (end - run > 1) std::sort(run, end, before);
-    run = end;
+  std::vector<std::size_t> edges;  // parts, moved on to where a cell begins
+  for (std::size_t part = 0; part < Workers::parts(words.size()); ++part) {
+    std::size_t edge = part * Workers::kPart;
+    while (edge > 0 && edge < words.size() && same_cell(edge)) ++edge;
+    edges.push_back(edge);
   }
+  edges.push_back(words.size());
+  workers.run(edges.size() - 1, [&](std::size_t part, std::size_t) {
+    for (std::size_t begin = edges[part]; begin < edges[part + 1];) {
+      std::size_t end = begin + 1;
+      while (end < edges[part + 1] && same_cell(end)) ++end;
+      if (end - begin > 1) std::sort(words.data() + begin, words.data() + end, before);
+      begin = end;
+    }
+  });
+}
+
+/// For each count the sum of those before it; then the sum of all.
+std::vector<std::size_t> starts_of(const std::vector<std::size_t>& counts) {
+  std::vector<std::size_t> starts(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  return starts;
+}
+
+/// The usable points, and their indices in the cloud.
+struct Usable {
+  std::vector<Vec3> points;
+  std::vector<PointIndex> index;
+};
+
+Usable usable_of(std::span<const Vec3> cloud, Workers& workers) {
+  std::vector<std::size_t> counts(Workers::parts(cloud.size()));
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    const auto points = cloud.subspan(begin, end - begin);
+    counts[part] = static_cast<std::size_t>(std::count_if(points.begin(), points.end(), usable));
+  });
+  const std::vector<std::size_t> starts = starts_of(counts);
+  Usable result;
+  result.points.resize(starts.back());
+  result.index.resize(starts.back());
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::size_t next = starts[part];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!usable(cloud[i])) continue;
+      result.points[next] = cloud[i];
+      result.index[next++] = static_cast<PointIndex>(i);
+    }
+  });
+  return result;
+}
+
+/// Fills in the points in the order of the words, each place once.
+void take_places(const Usable& usable, const std::vector<std::uint64_t>& words, Workers& workers,
+                 CanonicalCloud& result) {
+  const auto point = [&](std::size_t k) -> const Vec3& { return usable.points[words[k] & kIndexMask]; };
+  const auto is_new = [&](std::size_t k) { return k == 0 || point(k) != point(k - 1); };
+  std::vector<std::size_t> counts(Workers::parts(words.size()), 0);
+  workers.run_parts(words.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) count += is_new(k) ? 1u : 0u;
+    counts[part] = count;
+  });
+  const std::vector<std::size_t> starts = starts_of(counts);
+  result.points.resize(starts.back());
+  result.given.resize(words.size());
+  result.first.resize(starts.back() + 1);
+  result.first.back() = static_cast<std::uint32_t>(words.size());
+  workers.run_parts(words.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::size_t place = starts[part];
+    for (std::size_t k = begin; k < end; ++k) {
+      result.given[k] = usable.index[words[k] & kIndexMask];
+      if (!is_new(k)) continue;
+      result.points.set(place, point(k));
+      result.first[place++] = static_cast<std::uint32_t>(k);
+    }
+  });
 }
 
 }  // namespace
 
-CanonicalCloud canonical_order(std::span<const Vec3> cloud) {
+CanonicalCloud canonical_order(std::span<const Vec3> cloud, Workers& workers) {
   if (cloud.size() > kIndexMask) throw std::length_error("a cloud of more than 2^28 points");
-  std::vector<Vec3> finite;
-  std::vector<PointIndex> index;
-  finite.reserve(cloud.size());
-  index.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!usable(cloud[i])) continue;
-    finite.push_back(cloud[i]);
-    index.push_back(static_cast<PointIndex>(i));
-  }
   CanonicalCloud result;
-  result.first.push_back(0);
-  if (finite.empty()) return result;
-
-  result.frame = principal_frame(finite);
-  for (Vec3& p : finite) p = result.frame.from_cloud(p);
-  const Bounds bounds = robust_bounds(finite);
-  const double longest = (bounds.high - bounds.low).maxCoeff();
-  std::vector<std::uint64_t> words = sorted_words(finite, bounds.low, longest);
-  order_within_cells(finite, words);
-
-  result.points.resize(finite.size());
-  result.given.reserve(finite.size());
-  std::size_t places = 0;
-  const Vec3* previous = nullptr;
-  for (const std::uint64_t word : words) {
-    const std::size_t i = word & kIndexMask;
-    if (previous == nullptr || finite[i] != *previous) {
-      result.points.set(places++, finite[i]);
-      result.first.push_back(0);
-    }
-    previous = &finite[i];
-    result.given.push_back(index[i]);
-    result.first.back() = static_cast<std::uint32_t>(result.given.size());
+  Usable usable = usable_of(cloud, workers);
+  if (usable.points.empty()) {
+    result.first.push_back(0);
+    return result;
   }
-  if (places < finite.size()) {
-    Points unique;
-    unique.resize(places);
-    for (std::size_t i = 0; i < places; ++i) unique.set(i, result.points.at(i));
-    result.points = std::move(unique);
-  }
+  result.frame = principal_frame(usable.points, workers);
+  workers.run_parts(usable.points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) usable.points[i] = result.frame.from_cloud(usable.points[i]);
+  });
+  std::vector<std::uint64_t> words = words_of(usable.points, robust_bounds(usable.points, workers), workers);
+  sort_by_code(words, workers);
+  order_within_cells(usable.points, words, workers);
+  take_places(usable, words, workers, result);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "em/core/points.hpp"
 #include "em/core/principal_frame.hpp"
 #include "em/core/types.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -31,6 +32,6 @@ inline constexpr double kLargestCoordinate = 1e100;
 
 /// Orders a cloud; O(n) but for points that share a Morton cell, which are compared.
 /// Throws std::length_error from 2^28 points.
-CanonicalCloud canonical_order(std::span<const Vec3> cloud);
+CanonicalCloud canonical_order(std::span<const Vec3> cloud, Workers& workers);
 
 }  // namespace hallway::em

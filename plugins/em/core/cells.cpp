@@ -12,92 +12,109 @@ int cells_along(double length, double cell) {
   return std::max(1, static_cast<int>(std::min(std::ceil(length / cell), 1e9)));
 }
 
-/// Calls visit(cell) for the cell and those at its sides and corners.
-template <typename Visit>
-void visit_neighbours(const CellGrid& grid, std::size_t cell, Visit visit) {
-  const int column = static_cast<int>(cell % static_cast<std::size_t>(grid.columns));
-  const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.columns));
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-      visit(grid.place(c, r));
-    }
-  }
-}
-
-/// to = to or from where `grow`, else to and from; values are 0 and 1. Eight at a time: -O2 leaves such loops as
-/// they are.
-void combine(const std::uint8_t* from, std::uint8_t* to, int count, bool grow) {
-  int k = 0;
-  for (; k + 8 <= count; k += 8) {
-    std::uint64_t a = 0;
-    std::uint64_t b = 0;
-    std::memcpy(&a, from + k, 8);
-    std::memcpy(&b, to + k, 8);
-    b = grow ? b | a : b & a;
-    std::memcpy(to + k, &b, 8);
-  }
-  for (; k < count; ++k) to[k] = static_cast<std::uint8_t>(grow ? to[k] | from[k] : to[k] & from[k]);
-}
-
-/// Cells with a covered one within a square of `radius` cells become covered, or, where not `grow`, cells with
-/// one that is not become uncovered. What lies outside of the grid counts for neither.
-CellMap<std::uint8_t> spread(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius,
-                             bool grow) {
-  CellMap<std::uint8_t> along = cells;
-  for (int row = 0; row < grid.rows; ++row) {
-    const std::uint8_t* from = &cells[grid.place(0, row)];
-    std::uint8_t* to = &along[grid.place(0, row)];
-    for (int d = 1; d <= std::min(radius, grid.columns - 1); ++d) {
-      combine(from + d, to, grid.columns - d, grow);
-      combine(from, to + d, grid.columns - d, grow);
-    }
-  }
-  CellMap<std::uint8_t> result = along;
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int r = std::max(row - radius, 0); r <= std::min(row + radius, grid.rows - 1); ++r) {
-      combine(&along[grid.place(0, r)], &result[grid.place(0, row)], grid.columns, grow);
-    }
-  }
-  return result;
-}
-
-/// Occupied cells of a row, side by side: columns [begin, end).
+/// Occupied cells of one row without a gap, as places in the map.
 struct Run {
-  int row = 0, begin = 0, end = 0;
-  std::uint32_t first = 0;  ///< a run before it that it hangs together with, or itself
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::uint32_t set =
+      0;  ///< number of the set that it hangs together with, from 1 in the order of the first cells
 };
 
-std::uint32_t root_of(std::vector<Run>& runs, std::uint32_t k) {
-  while (runs[k].first != k) {
-    runs[k].first = runs[runs[k].first].first;
-    k = runs[k].first;
+/// Adds the runs of a row.
+void add_runs(const CellMap<std::uint8_t>& occupied, std::size_t begin, std::size_t end,
+              std::vector<Run>& runs) {
+  const std::uint8_t* cells = occupied.data();
+  const auto find = [cells, end](std::size_t from, int value) {
+    const void* found = std::memchr(cells + from, value, end - from);
+    return found == nullptr ? end : static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - cells);
+  };
+  for (std::size_t at = find(begin, 1); at != end; at = find(at, 1)) {
+    const std::size_t last = find(at, 0);
+    runs.push_back({at, last, 0});
+    at = last;
+    if (at == end) break;
   }
-  return k;
 }
 
-/// All runs, row by row; those that hang together have one root, the first of them.
-std::vector<Run> runs_of(const CellGrid& grid, const CellMap<std::uint8_t>& occupied) {
-  std::vector<Run> runs;
-  std::size_t above = 0;  // the first run of the row above that may touch the next one of this row
-  for (int row = 0; row < grid.rows; ++row) {
-    const std::uint8_t* cells = &occupied[grid.place(0, row)];
-    const std::size_t begin_of_row = runs.size();
-    for (int c = 0; c < grid.columns; ++c) {
-      if (cells[c] == 0) continue;
-      const int begin = c;
-      while (c < grid.columns && cells[c] != 0) ++c;
-      const auto here = static_cast<std::uint32_t>(runs.size());
-      runs.push_back({row, begin, c, here});
-      while (above < begin_of_row && (runs[above].row < row - 1 || runs[above].end < begin)) ++above;
-      for (std::size_t k = above; k < begin_of_row && runs[k].begin <= c; ++k) {
-        const std::uint32_t a = root_of(runs, static_cast<std::uint32_t>(k));
-        const std::uint32_t b = root_of(runs, here);
-        runs[std::max(a, b)].first = std::min(a, b);
-      }
+/// The first run of the set that a run is in, as far as is known.
+std::uint32_t first_of(std::vector<std::uint32_t>& parent, std::uint32_t run) {
+  while (parent[run] != run) run = parent[run] = parent[parent[run]];
+  return run;
+}
+
+/// Joins the sets of runs of two rows, one above the other, that touch over sides or corners; `shift`: cells of a row.
+void join_rows(const std::vector<Run>& runs, std::size_t above, std::size_t below, std::size_t shift,
+               std::vector<std::uint32_t>& parent) {
+  std::size_t upper = above;
+  for (std::size_t lower = below; lower < runs.size(); ++lower) {
+    while (upper < below && runs[upper].end + shift < runs[lower].begin) ++upper;
+    for (std::size_t k = upper; k < below && runs[k].begin + shift <= runs[lower].end; ++k) {
+      const std::uint32_t one = first_of(parent, static_cast<std::uint32_t>(k));
+      const std::uint32_t other = first_of(parent, static_cast<std::uint32_t>(lower));
+      parent[std::max(one, other)] = std::min(one, other);
     }
-    above = std::max(above, std::min(begin_of_row, runs.size()));
+  }
+}
+
+/// The runs of all rows, and the number of sets in `count`.
+std::vector<Run> runs_of(const CellGrid& grid, const CellMap<std::uint8_t>& occupied, std::uint32_t& count) {
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> parent;
+  std::size_t above = 0;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (int row = 0; row < grid.rows; ++row) {
+    const std::size_t below = runs.size();
+    add_runs(occupied, grid.place(0, row), grid.place(0, row) + columns, runs);
+    while (parent.size() < runs.size()) parent.push_back(static_cast<std::uint32_t>(parent.size()));
+    join_rows(runs, above, below, columns, parent);
+    above = below;
+  }
+  count = 0;
+  for (std::uint32_t k = 0; k < runs.size(); ++k) {
+    const std::uint32_t first = first_of(parent, k);
+    runs[k].set = first == k ? ++count : runs[first].set;
   }
   return runs;
+}
+
+void fill(const Run& run, CellMap<std::uint8_t>& cells) {
+  std::memset(&cells[run.begin], 1, run.end - run.begin);
+}
+
+/// Cells that are 0 or 1, eight at a time: `to` becomes 1 where either is, or where both are.
+void combine(const std::uint8_t* from, std::uint8_t* to, std::size_t count, bool either) {
+  std::size_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    std::uint64_t left = 0;
+    std::uint64_t right = 0;
+    std::memcpy(&left, from + k, 8);
+    std::memcpy(&right, to + k, 8);
+    right = either ? left | right : left & right;
+    std::memcpy(to + k, &right, 8);
+  }
+  for (; k < count; ++k) to[k] = either ? (from[k] | to[k]) : (from[k] & to[k]);
+}
+
+/// Combines all stretches of `length` cells of `from` with those up to `radius` steps to both sides in the same stretch.
+void combine_around(const CellMap<std::uint8_t>& from, std::size_t length, std::size_t step, int radius,
+                    bool either, CellMap<std::uint8_t>& to) {
+  for (std::size_t begin = 0; begin < from.size(); begin += length) {
+    for (std::size_t shift = step; shift <= step * static_cast<std::size_t>(radius) && shift < length;
+         shift += step) {
+      combine(&from[begin], &to[begin + shift], length - shift, either);
+      combine(&from[begin + shift], &to[begin], length - shift, either);
+    }
+  }
+}
+
+/// Cells become 1 if one within a square of `radius` cells is; or, if not `either`, if all are.
+CellMap<std::uint8_t> spread(const CellGrid& grid, const CellMap<std::uint8_t>& cells, int radius,
+                             bool either) {
+  CellMap<std::uint8_t> along = cells;
+  combine_around(cells, static_cast<std::size_t>(grid.columns), 1, radius, either, along);
+  CellMap<std::uint8_t> result = along;
+  combine_around(along, grid.size(), static_cast<std::size_t>(grid.columns), radius, either, result);
+  return result;
 }
 
 }  // namespace
@@ -115,48 +132,40 @@ CellGrid grid_over(double low_a, double high_a, double low_b, double high_b, dou
 CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
                                   std::uint32_t& count) {
   CellMap<std::uint32_t> number(grid.size(), 0);
-  std::vector<Run> runs = runs_of(grid, occupied);
-  std::vector<std::uint32_t> numbers(runs.size(), 0);
-  count = 0;
-  for (std::uint32_t k = 0; k < runs.size(); ++k) {
-    const std::uint32_t root = root_of(runs, k);
-    numbers[k] = root == k ? ++count : numbers[root];
-    const auto begin = number.begin() + static_cast<std::ptrdiff_t>(grid.place(runs[k].begin, runs[k].row));
-    std::fill_n(begin, runs[k].end - runs[k].begin, numbers[k]);
+  for (const Run& run : runs_of(grid, occupied, count)) {
+    std::fill_n(&number[run.begin], run.end - run.begin, run.set);
   }
   return number;
 }
 
 CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
                                 const std::vector<std::size_t>& starts) {
-  CellMap<std::uint8_t> reached(grid.size(), 0);
-  std::vector<std::size_t> open;
-  const auto reach = [&](std::size_t cell) {
-    if (occupied[cell] == 0 || reached[cell] != 0) return;
-    reached[cell] = 1;
-    open.push_back(cell);
-  };
-  for (const std::size_t start : starts) reach(start);
-  while (!open.empty()) {
-    const std::size_t here = open.back();
-    open.pop_back();
-    visit_neighbours(grid, here, reach);
+  std::uint32_t count = 0;
+  const std::vector<Run> runs = runs_of(grid, occupied, count);
+  std::vector<std::uint8_t> reached(count + 1, 0);
+  for (const std::size_t start : starts) {
+    if (occupied[start] == 0) continue;
+    const auto after = std::upper_bound(runs.begin(), runs.end(), start,
+                                        [](std::size_t cell, const Run& run) { return cell < run.begin; });
+    reached[(after - 1)->set] = 1;
   }
-  return reached;
+  CellMap<std::uint8_t> result(grid.size(), 0);
+  for (const Run& run : runs) {
+    if (reached[run.set] != 0) fill(run, result);
+  }
+  return result;
 }
 
 CellMap<std::uint8_t> largest_component(const CellGrid& grid, const CellMap<std::uint8_t>& occupied) {
-  CellMap<std::uint8_t> result(grid.size(), 0);
-  std::vector<Run> runs = runs_of(grid, occupied);
-  if (runs.empty()) return result;
-  std::vector<int> sizes(runs.size(), 0);
-  for (std::uint32_t k = 0; k < runs.size(); ++k) sizes[root_of(runs, k)] += runs[k].end - runs[k].begin;
+  std::uint32_t count = 0;
+  const std::vector<Run> runs = runs_of(grid, occupied, count);
+  std::vector<std::size_t> sizes(count + 1, 0);
+  for (const Run& run : runs) sizes[run.set] += run.end - run.begin;
   const auto largest =
       static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  for (std::uint32_t k = 0; k < runs.size(); ++k) {
-    if (root_of(runs, k) != largest) continue;
-    const auto begin = result.begin() + static_cast<std::ptrdiff_t>(grid.place(runs[k].begin, runs[k].row));
-    std::fill_n(begin, runs[k].end - runs[k].begin, std::uint8_t{1});
+  CellMap<std::uint8_t> result(grid.size(), 0);
+  for (const Run& run : runs) {
+    if (run.set == largest) fill(run, result);
   }
   return result;
 }

@@ -100,7 +100,8 @@ void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFram
 
 }  // namespace
 
-Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double bend, std::size_t given) {
+Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double bend, std::size_t given,
+                         Workers& workers) {
   Extraction result;
   result.labels.assign(given, kNoPlane);
   result.noise = mixture.noise();
@@ -109,19 +110,24 @@ Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double b
   const std::vector<Places> places = places_of(cloud, mixture, groups);
   const std::vector<double> shares = shares_of(mixture, groups);
   const std::vector<PlaneFrame> frames = frames_of(cloud, mixture, groups, places);
-  for (const std::size_t j : by_size(places)) {
-    Plane plane;
-    plane.id = result.planes.size();
+  const std::vector<std::size_t> order = by_size(places);
+  result.planes.resize(order.size());
+  workers.run(order.size(), [&](std::size_t k, std::size_t) {
+    const std::size_t j = order[k];
+    Plane& plane = result.planes[k];
+    plane.id = k;
     plane.exclusive_share = shares[j];
     describe(cloud, places[j], frames[j], plane);
+    std::size_t members = 0;
     for (const std::uint32_t i : places[j]) {
-      for (const PointIndex index : cloud.given_at(i)) {
-        plane.members.push_back(index);
-        result.labels[index] = static_cast<std::uint32_t>(plane.id);
-      }
+      for (const PointIndex index : cloud.given_at(i)) result.labels[index] = static_cast<std::uint32_t>(k);
+      members += cloud.given_at(i).size();
     }
-    std::sort(plane.members.begin(), plane.members.end());
-    result.planes.push_back(std::move(plane));
+    plane.members.reserve(members);
+  });
+  for (std::size_t i = 0; i < given; ++i) {
+    if (result.labels[i] != kNoPlane)
+      result.planes[result.labels[i]].members.push_back(static_cast<PointIndex>(i));
   }
   return result;
 }

@@ -76,6 +76,7 @@ void Grower::spread_over_cells(double seed_radius) {
   for (std::size_t k = 0; k < slab_.size(); ++k) {
     if (plane_.support[cell_of_[k]] == 0 || claimed_[slab_.place[k]] != 0) continue;
     picked_.push_back(static_cast<std::uint32_t>(k));
+    plane_.relied_on.push_back(slab_.place[k]);
     if (counts_[cell_of_[k]] < 0xffff) ++counts_[cell_of_[k]];
   }
 }

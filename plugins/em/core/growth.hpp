@@ -23,6 +23,8 @@ struct Grown {
   CellMap<std::uint8_t> support;       ///< the cells it covers
   std::vector<std::uint32_t> members;  ///< unclaimed points in its slab and cells, ascending
   double mean_square = 0.0;            ///< of the members' distances
+  std::vector<std::uint32_t>
+      relied_on;  ///< points that some step took for unclaimed: while they are, it grows the same
 };
 
 /// Grows planes from seeds: the area of a disc around the seed is doubled at a time; what lies in the slab, in

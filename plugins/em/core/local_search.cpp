@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hallway::em {
@@ -32,13 +33,35 @@ std::optional<PlaneFrame> plane_through(const Vec3& p, const Vec3& q, const Vec3
   return frame_on(p, normal / length);
 }
 
-/// How well the points support the plane: each by how near it is, at most 1 (MSAC: Torr, Zisserman 2000).
-double support_of(const std::vector<Vec3>& around, const PlaneFrame& frame, double reach) {
-  double sum = 0.0;
-  for (const Vec3& p : around) {
-    const double away = frame.normal.dot(p - frame.origin) / reach;
-    sum += std::max(0.0, 1.0 - away * away);
+/// The points around a place, one array per coordinate, filled up with points that are near to nothing.
+struct Around {
+  std::array<double, kNeighbours> x{}, y{}, z{};
+
+  explicit Around(const std::vector<Vec3>& points) {
+    x.fill(std::numeric_limits<double>::infinity());
+    y.fill(std::numeric_limits<double>::infinity());
+    z.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      x[k] = points[k].x();
+      y[k] = points[k].y();
+      z[k] = points[k].z();
+    }
   }
+};
+
+/// How well the points support the plane: each by how near it is, at most 1 (MSAC: Torr, Zisserman 2000).
+double support_of(const Around& around, const PlaneFrame& frame, double reach) {
+  const Vec3 n = frame.normal;
+  const Vec3 o = frame.origin;
+  std::array<double, kNeighbours> support;
+  for (std::size_t k = 0; k < kNeighbours; ++k) {  // of fixed length, so that compilers use vectors
+    const double away =
+        (n.x() * (around.x[k] - o.x()) + n.y() * (around.y[k] - o.y()) + n.z() * (around.z[k] - o.z())) /
+        reach;
+    support[k] = 1.0 - away * away;
+  }
+  double sum = 0.0;
+  for (const double value : support) sum += value > 0.0 ? value : 0.0;
   return sum;
 }
 
@@ -68,6 +91,7 @@ std::optional<Seed> search_locally(const PointField& field, std::uint32_t place,
   std::vector<Vec3> around;
   for (const NearPoint& neighbour : near) around.push_back(field.points.at(neighbour.place));
   if (around.size() < kFewest) return std::nullopt;
+  const Around lists(around);
   std::uint64_t state = seed ^ (static_cast<std::uint64_t>(place) << 32);
   std::optional<PlaneFrame> best;
   double best_support = 0.0;
@@ -79,7 +103,7 @@ std::optional<Seed> search_locally(const PointField& field, std::uint32_t place,
     const Vec3& r = around[(random >> 32) % around.size()];
     const std::optional<PlaneFrame> plane = plane_through(p, q, r);
     if (!plane) continue;
-    const double support = support_of(around, *plane, reach);
+    const double support = support_of(lists, *plane, reach);
     if (support <= best_support) continue;
     best_support = support;
     best = plane;

@@ -50,8 +50,12 @@ bool one_plane(const Moments& left, const Moments& right, double level, PlaneFit
 
 }  // namespace
 
-Mixture::Mixture(const PointField& field, double volume)
-    : field_(field), volume_(volume), unassigned_(field.points.count) {
+Mixture::Mixture(const PointField& field, double volume, Workers& workers)
+    : field_(field),
+      volume_(volume),
+      workers_(workers),
+      unassigned_(field.points.count),
+      slabs_(workers.count()) {
   const std::size_t n = field.points.blocks() * kBlockSize;
   best_.assign(n, kNoPlane);
   second_.assign(n, kNoPlane);
@@ -72,43 +76,55 @@ double Mixture::noise() const {
   return *middle;
 }
 
-void Mixture::collect_over(const Patch& patch, double sigmas) {
-  const CellGrid& grid = patch.grid;
-  collect(field_, {patch.frame, sigmas * patch.sigma, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()},
-          slab_);
+std::vector<Mixture::Reach> Mixture::reaches(double outlier) const {
+  std::vector<Reach> result;
+  for (std::uint32_t j = 0; j < patches.size(); ++j) {
+    const Patch& patch = patches[j];
+    const double peak = log_peak(patch.sigma);
+    const double lead = 2.0 * (std::log(patch.density) + peak - outlier);
+    if (lead > 0.0) result.push_back({j, slab_over(patch, std::min(std::sqrt(lead), kFarthest)), peak});
+  }
+  return result;
 }
 
-void Mixture::assign_patch(std::uint32_t j, double outlier) {
-  const Patch& patch = patches[j];
-  const double peak = log_peak(patch.sigma);
-  const double lead = 2.0 * (std::log(patch.density) + peak - outlier);
-  if (!(lead > 0.0)) return;
-  collect_over(patch, std::min(std::sqrt(lead), kFarthest));
+void Mixture::assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab) {
+  collect_chunk(field_, chunk, reach.slab, slab);
+  const Patch& patch = patches[reach.patch];
   const double scale = -0.5 / (patch.sigma * patch.sigma);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    const float density = patch.log_density[patch.grid.at(slab_.a[k], slab_.b[k])];
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const float density = patch.log_density[patch.grid.at(slab.a[k], slab.b[k])];
     if (density == kNotCovered) continue;
-    const auto score = density + static_cast<float>(peak + scale * slab_.height[k] * slab_.height[k]);
-    const std::uint32_t i = slab_.place[k];
+    const auto score = density + static_cast<float>(reach.peak + scale * slab.height[k] * slab.height[k]);
+    const std::uint32_t i = slab.place[k];
     if (score > best_score_[i]) {
       second_[i] = best_[i];
       second_score_[i] = best_score_[i];
-      best_[i] = j;
+      best_[i] = reach.patch;
       best_score_[i] = score;
     } else if (score > second_score_[i]) {
-      second_[i] = j;
+      second_[i] = reach.patch;
       second_score_[i] = score;
     }
   }
 }
 
+void Mixture::assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches,
+                           SlabPoints& slab) {
+  const std::size_t begin = chunk * BoxTree::kChunkSize;
+  const std::size_t count = std::min(BoxTree::kChunkSize, best_.size() - begin);
+  std::fill_n(&best_[begin], count, kNoPlane);
+  std::fill_n(&second_[begin], count, kNoPlane);
+  std::fill_n(&best_score_[begin], count, static_cast<float>(outlier));
+  std::fill_n(&second_score_[begin], count, static_cast<float>(outlier));
+  for (const Reach& reach : reaches) assign_patch(chunk, reach, slab);
+}
+
 void Mixture::assign() {
   const double outlier = log_outlier();
-  std::fill(best_.begin(), best_.end(), kNoPlane);
-  std::fill(second_.begin(), second_.end(), kNoPlane);
-  std::fill(best_score_.begin(), best_score_.end(), static_cast<float>(outlier));
-  std::fill(second_score_.begin(), second_score_.end(), static_cast<float>(outlier));
-  for (std::uint32_t j = 0; j < patches.size(); ++j) assign_patch(j, outlier);
+  const std::vector<Reach> reaches = this->reaches(outlier);
+  workers_.run(field_.tree.chunks(), [&](std::size_t chunk, std::size_t worker) {
+    assign_chunk(chunk, outlier, reaches, slabs_[worker]);
+  });
   const auto end = best_.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
   unassigned_ = static_cast<std::size_t>(std::count(best_.begin(), end, kNoPlane));
 }
@@ -183,21 +199,25 @@ bool Mixture::merge() {
   return merged;
 }
 
-std::vector<double> Mixture::exclusive_shares() {
-  std::vector<double> shares;
-  for (std::uint32_t j = 0; j < patches.size(); ++j) {
-    const Patch& patch = patches[j];
-    collect_over(patch, kSlabSigmas);
-    double within = 0.0;
-    double own = 0.0;
-    for (std::size_t k = 0; k < slab_.size(); ++k) {
-      if (patch.log_density[patch.grid.at(slab_.a[k], slab_.b[k])] == kNotCovered) continue;
-      const std::uint32_t best = best_[slab_.place[k]];
-      within += best != kNoPlane ? 1.0 : 0.0;
-      own += best == j ? 1.0 : 0.0;
-    }
-    shares.push_back(within > 0.0 ? own / within : 1.0);
+double Mixture::exclusive_share(std::uint32_t j, SlabPoints& slab) const {
+  const Patch& patch = patches[j];
+  collect(field_, slab_over(patch, kSlabSigmas), slab);
+  double within = 0.0;
+  double own = 0.0;
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    if (patch.log_density[patch.grid.at(slab.a[k], slab.b[k])] == kNotCovered) continue;
+    const std::uint32_t best = best_[slab.place[k]];
+    within += best != kNoPlane ? 1.0 : 0.0;
+    own += best == j ? 1.0 : 0.0;
   }
+  return within > 0.0 ? own / within : 1.0;
+}
+
+std::vector<double> Mixture::exclusive_shares() {
+  std::vector<double> shares(patches.size());
+  workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
+    shares[j] = exclusive_share(static_cast<std::uint32_t>(j), slabs_[worker]);
+  });
   return shares;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "em/core/patch.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -14,8 +15,9 @@ namespace hallway::em {
 /// Laird, Rubin 1977; thesis 3.5.
 class Mixture {
  public:
-  /// `volume`: of the space in which points of no patch lie. Keeps a reference to `field`.
-  Mixture(const PointField& field, double volume);
+  /// `volume`: of the space in which points of no patch lie. Keeps references to `field` and `workers`,
+  /// among whom the work is shared.
+  Mixture(const PointField& field, double volume, Workers& workers);
 
   std::vector<Patch> patches;
 
@@ -47,19 +49,30 @@ class Mixture {
 
  private:
   double log_outlier() const;
-  void assign_patch(std::uint32_t j, double outlier);
-  void collect_over(const Patch& patch, double sigmas);
-  void cover_patch(std::uint32_t j);
-  CellMap<float> own_points(std::uint32_t j, CellMap<float>& density) const;
-  CellMap<float> gains(std::uint32_t j, const CellMap<float>& density) const;
-  bool split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts);
+  /// Where points prefer a patch to none.
+  struct Reach {
+    std::uint32_t patch = 0;
+    Slab slab;
+    double peak = 0.0;  ///< log of the normal density on the plane
+  };
+
+  std::vector<Reach> reaches(double outlier) const;
+  void assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches, SlabPoints& slab);
+  void assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab);
+  void cover_patch(std::uint32_t j, SlabPoints& slab);
+  CellMap<float> own_points(std::uint32_t j, const SlabPoints& slab, CellMap<float>& density) const;
+  CellMap<float> gains(std::uint32_t j, const SlabPoints& slab, const CellMap<float>& density) const;
+  /// The parts that a patch falls into; empty if it is one.
+  std::vector<Patch> parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const;
+  double exclusive_share(std::uint32_t j, SlabPoints& slab) const;
 
   const PointField& field_;
   double volume_;
+  Workers& workers_;
   std::size_t unassigned_;
   std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
   std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
-  SlabPoints slab_;
+  std::vector<SlabPoints> slabs_;                 ///< scratch of each worker
 };
 
 }  // namespace hallway::em

@@ -2,6 +2,8 @@
 // Where patches reach: Mixture::cover() and Mixture::split().
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "em/core/coverage.hpp"
 #include "em/core/mixture.hpp"
@@ -39,15 +41,17 @@ CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
   return range;
 }
 
-/// Mean over a cell and its eight neighbours.
-double mean_around(const CellGrid& grid, const CellMap<float>& counts, int column, int row) {
-  double sum = 0.0;
+/// Sums over each cell of a row and its eight neighbours; exact, since the counts are whole numbers. `above` is scratch.
+void sum_around(const CellGrid& grid, const CellMap<float>& counts, int row, std::vector<float>& above,
+                std::vector<float>& sums) {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  above.assign(columns + 2, 0.0f);  // an empty column to both sides
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-      sum += static_cast<double>(counts[grid.place(c, r)]);
-    }
+    const float* line = &counts[grid.place(0, r)];
+    for (std::size_t c = 0; c < columns; ++c) above[c + 1] += line[c];
   }
-  return sum / 9.0;
+  sums.resize(columns);
+  for (std::size_t c = 0; c < columns; ++c) sums[c] = above[c] + above[c + 1] + above[c + 2];
 }
 
 /// Points per area within the support. Where the patch has it only because a gap was closed, others took its
@@ -91,30 +95,37 @@ void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::u
                    const CellMap<std::uint8_t>& occupied) {
   const CellGrid& grid = patch.grid;
   const double area = grid.cell * grid.cell;
+  const double least = kLeastDensity * patch.density;
+  const auto log_density = static_cast<float>(std::log(patch.density));
+  const auto log_least = static_cast<float>(std::log(least));
   patch.log_density.assign(grid.size(), kNotCovered);
+  std::vector<float> above, around;
   for (int row = 0; row < grid.rows; ++row) {
+    sum_around(grid, own, row, above, around);
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t c = grid.place(column, row);
       if (support[c] == 0) continue;
       const bool bridged = occupied[c] == 0;
-      const double there = std::max(static_cast<double>(own[c]), mean_around(grid, own, column, row)) / area;
-      const double local =
-          bridged ? patch.density : std::clamp(there, kLeastDensity * patch.density, patch.density);
-      patch.log_density[c] = static_cast<float>(std::log(local));
+      const double mean = static_cast<double>(around[static_cast<std::size_t>(column)]) / 9.0;
+      const double there = std::max(static_cast<double>(own[c]), mean) / area;
+      const bool full = bridged || there >= patch.density;
+      patch.log_density[c] = full             ? log_density
+                             : there <= least ? log_least
+                                              : static_cast<float>(std::log(there));
     }
   }
 }
 
 }  // namespace
 
-CellMap<float> Mixture::own_points(std::uint32_t j, CellMap<float>& density) const {
+CellMap<float> Mixture::own_points(std::uint32_t j, const SlabPoints& slab, CellMap<float>& density) const {
   const CellGrid& grid = patches[j].grid;
   CellMap<float> own(grid.size(), 0.0f);
   CellMap<float> open(grid.size(), 0.0f);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    const std::uint32_t label = best_[slab_.place[k]];
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const std::uint32_t label = best_[slab.place[k]];
     if (label != j && label != kNoPlane) continue;
-    const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+    const std::size_t c = grid.at(slab.a[k], slab.b[k]);
     open[c] += 1.0f;
     if (label == j) own[c] += 1.0f;
   }
@@ -126,7 +137,7 @@ CellMap<float> Mixture::own_points(std::uint32_t j, CellMap<float>& density) con
   return own;
 }
 
-CellMap<float> Mixture::gains(std::uint32_t j, const CellMap<float>& density) const {
+CellMap<float> Mixture::gains(std::uint32_t j, const SlabPoints& slab, const CellMap<float>& density) const {
   const Patch& patch = patches[j];
   const CellGrid& grid = patch.grid;
   // Points come one by one (Poisson): covering a cell costs the number of points to be expected there.
@@ -135,25 +146,25 @@ CellMap<float> Mixture::gains(std::uint32_t j, const CellMap<float>& density) co
   for (std::size_t c = 0; c < grid.size(); ++c) gain[c] = -density[c] * area;
   const double peak = log_peak(patch.sigma);
   const double scale = -0.5 / (patch.sigma * patch.sigma);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    const std::uint32_t i = slab_.place[k];
-    const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const std::uint32_t i = slab.place[k];
+    const std::size_t c = grid.at(slab.a[k], slab.b[k]);
     const double score =
-        std::log(static_cast<double>(density[c])) + peak + scale * slab_.height[k] * slab_.height[k];
+        std::log(static_cast<double>(density[c])) + peak + scale * slab.height[k] * slab.height[k];
     const float without = best_[i] == j ? second_score_[i] : best_score_[i];
     gain[c] += static_cast<float>(gain_of(score - static_cast<double>(without)));
   }
   return gain;
 }
 
-void Mixture::cover_patch(std::uint32_t j) {
+void Mixture::cover_patch(std::uint32_t j, SlabPoints& slab) {
   Patch& patch = patches[j];
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
-  collect_over(patch, kSlabSigmas);
+  collect(field_, slab_over(patch, kSlabSigmas), slab);
   CellMap<float> density;
-  const CellMap<float> own = own_points(j, density);
-  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, density));
+  const CellMap<float> own = own_points(j, slab, density);
+  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, slab, density));
   const int gap = std::max(cells_for(kGapSpacings / std::sqrt(patch.density), grid),
                            cells_for(kSeamSigmas * patch.sigma, grid) + 1);
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
@@ -165,31 +176,34 @@ void Mixture::cover_patch(std::uint32_t j) {
 }
 
 void Mixture::cover() {
-  for (std::uint32_t j = 0; j < patches.size(); ++j) cover_patch(j);
+  workers_.run(patches.size(), [this](std::size_t j, std::size_t worker) {
+    cover_patch(static_cast<std::uint32_t>(j), slabs_[worker]);
+  });
 }
 
-bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts) {
+std::vector<Patch> Mixture::parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const {
   const Patch& patch = patches[j];
   const CellGrid& old = patch.grid;
   const double cell = std::max(std::sqrt(kPointsPerCell / patch.density), kSlabSigmas * patch.sigma);
   const CellGrid grid = grid_over(old.low_a, old.high_a(), old.low_b, old.high_b(), cell, kMostCells);
-  collect_over(patch, kSlabSigmas);
+  collect(field_, slab_over(patch, kSlabSigmas), slab);
   CellMap<std::uint8_t> occupied(grid.size(), 0);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    if (patch.log_density[old.at(slab_.a[k], slab_.b[k])] == kNotCovered) continue;
-    occupied[grid.at(slab_.a[k], slab_.b[k])] = 1;  // whosever it is: what crosses the patch does not cut it
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    if (patch.log_density[old.at(slab.a[k], slab.b[k])] == kNotCovered) continue;
+    occupied[grid.at(slab.a[k], slab.b[k])] = 1;  // whosever it is: what crosses the patch does not cut it
   }
   std::uint32_t count = 0;
   const CellMap<std::uint32_t> number = components(grid, occupied, count);
   std::vector<std::size_t> own(count + 1, 0);
   std::vector<std::size_t> cells(count + 1, 0);
-  for (std::size_t k = 0; k < slab_.size(); ++k) {
-    if (best_[slab_.place[k]] == j) ++own[number[grid.at(slab_.a[k], slab_.b[k])]];
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    if (best_[slab.place[k]] == j) ++own[number[grid.at(slab.a[k], slab.b[k])]];
   }
   for (const std::uint32_t n : number) ++cells[n];
   own[0] = 0;
   if (std::count_if(own.begin(), own.end(), [min_points](std::size_t n) { return n >= min_points; }) < 2)
-    return false;
+    return {};
+  std::vector<Patch> parts;
   for (std::uint32_t n = 1; n <= count; ++n) {
     if (own[n] < min_points) continue;
     CellMap<std::uint8_t> support(grid.size(), 0);
@@ -197,20 +211,22 @@ bool Mixture::split_patch(std::uint32_t j, std::size_t min_points, std::vector<P
     const double area = static_cast<double>(cells[n]) * grid.cell * grid.cell;
     parts.push_back(restricted(patch, grid, support, static_cast<double>(own[n]) / area));
   }
-  return true;
+  return parts;
 }
 
 bool Mixture::split(std::size_t min_points) {
-  std::vector<Patch> parts;
+  std::vector<std::vector<Patch>> parts(patches.size());
+  workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
+    parts[j] = parts_of(static_cast<std::uint32_t>(j), min_points, slabs_[worker]);
+  });
+  std::vector<Patch> after;
   bool any = false;
-  for (std::uint32_t j = 0; j < patches.size(); ++j) {
-    if (split_patch(j, min_points, parts)) {
-      any = true;
-    } else {
-      parts.push_back(patches[j]);
-    }
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    any = any || !parts[j].empty();
+    if (parts[j].empty()) parts[j].push_back(std::move(patches[j]));
+    std::move(parts[j].begin(), parts[j].end(), std::back_inserter(after));
   }
-  patches = std::move(parts);
+  patches = std::move(after);
   return any;
 }
 

@@ -76,6 +76,11 @@ double log_peak(double sigma) {
   return -std::log(sigma) - kLogRootTwoPi;
 }
 
+Slab slab_over(const Patch& patch, double sigmas) {
+  const CellGrid& grid = patch.grid;
+  return {patch.frame, sigmas * patch.sigma, grid.low_a, grid.high_a(), grid.low_b, grid.high_b()};
+}
+
 Patch patch_of(const Grown& grown) {
   const CellGrid& old = grown.grid;
   Patch patch;

@@ -27,6 +27,9 @@ struct Patch {
 /// Log of the normal density of noise `sigma` at its peak.
 double log_peak(double sigma);
 
+/// What lies within so many standard deviations of the patch, over its grid.
+Slab slab_over(const Patch& patch, double sigmas);
+
 /// The patch that covers what grew and a little beyond, at its mean density.
 Patch patch_of(const Grown& grown);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "em/core/robust_range.hpp"
 
@@ -27,71 +28,107 @@ struct ProductSum {
     high += product >> kFraction;
     low += product & kLowMask;
   }
+  void join(const ProductSum& other) {
+    high += other.high;
+    low += other.low;
+  }
   double value() const { return static_cast<double>(high) * kSteps + static_cast<double>(low); }
 };
 
-/// Mean and covariance of the points within `bounds`, in steps of a 2^-26th of its size from its middle.
-struct StepMoments {
-  double count = 0.0;
-  Vec3 mean = Vec3::Zero();
-  Mat3 covariance = Mat3::Zero();
-};
+Vec3 middle_of(const Bounds& bounds) {
+  return bounds.low + 0.5 * (bounds.high - bounds.low);
+}
 
-StepMoments step_moments(const std::vector<Vec3>& cloud, const Bounds& bounds, const Vec3& middle,
-                         double step) {
+/// Sums over points, in steps of a 2^-26th of a box from its middle; of products only those of an axis with a later one
+/// or itself.
+struct StepSums {
   std::int64_t count = 0;
   Steps sums{};
-  std::array<ProductSum, 9> products;
-  for (const Vec3& p : cloud) {
-    if (!bounds.contains(p)) continue;
+  std::array<ProductSum, 6> products;
+
+  void add(const Steps& at) {
     ++count;
-    Steps at;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      at[k] = static_cast<std::int64_t>(std::nearbyint((p[axis] - middle[axis]) / step));
-      sums[k] += at[k];
+    for (std::size_t k = 0; k < 3; ++k) sums[k] += at[k];
+    for (std::size_t k = 0; k < 6; ++k) products[k].add(at[kRow[k]] * at[kColumn[k]]);
+  }
+  void join(const StepSums& other) {
+    count += other.count;
+    for (std::size_t k = 0; k < 3; ++k) sums[k] += other.sums[k];
+    for (std::size_t k = 0; k < 6; ++k) products[k].join(other.products[k]);
+  }
+
+  static constexpr std::array<std::size_t, 6> kRow{0, 0, 0, 1, 1, 2};
+  static constexpr std::array<std::size_t, 6> kColumn{0, 1, 2, 1, 2, 2};
+};
+
+/// The sums over the points within `bounds`.
+StepSums step_sums(const std::vector<Vec3>& cloud, const Bounds& bounds, double step, Workers& workers) {
+  const Vec3 middle = middle_of(bounds);
+  std::vector<StepSums> parts(Workers::parts(cloud.size()));
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!bounds.contains(cloud[i])) continue;
+      Steps at;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        at[k] = static_cast<std::int64_t>(std::nearbyint((cloud[i][axis] - middle[axis]) / step));
+      }
+      parts[part].add(at);
     }
-    for (std::size_t k = 0; k < 9; ++k) products[k].add(at[k / 3] * at[k % 3]);
+  });
+  StepSums all;
+  for (const StepSums& part : parts) all.join(part);
+  return all;
+}
+
+Vec3 mean_of(const StepSums& sums) {
+  Vec3 mean;
+  for (std::size_t k = 0; k < 3; ++k) {
+    mean[static_cast<Eigen::Index>(k)] = static_cast<double>(sums.sums[k]) / static_cast<double>(sums.count);
   }
-  StepMoments result;
-  result.count = static_cast<double>(count);
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    result.mean[k] = static_cast<double>(sums[static_cast<std::size_t>(k)]) / result.count;
+  return mean;
+}
+
+Mat3 covariance_of(const StepSums& sums, const Vec3& mean) {
+  Mat3 covariance;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto row = static_cast<Eigen::Index>(StepSums::kRow[k]);
+    const auto column = static_cast<Eigen::Index>(StepSums::kColumn[k]);
+    const double product = sums.products[k].value() / static_cast<double>(sums.count);
+    covariance(row, column) = covariance(column, row) = product - mean[row] * mean[column];
   }
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = 0; column < 3; ++column) {
-      const double product = products[static_cast<std::size_t>(3 * row + column)].value();
-      result.covariance(row, column) = product / result.count - result.mean[row] * result.mean[column];
-    }
-  }
-  return result;
+  return covariance;
 }
 
 /// The axis or its opposite, on whose side of the origin more points lie.
-Vec3 towards_most(const std::vector<Vec3>& cloud, const Vec3& origin, const Vec3& axis) {
-  std::int64_t balance = 0;
-  for (const Vec3& p : cloud) {
-    const double along = axis.dot(p - origin);
-    balance += (along > 0.0 ? 1 : 0) - (along < 0.0 ? 1 : 0);
-  }
-  return balance < 0 ? Vec3(-axis) : axis;
+Vec3 towards_most(const std::vector<Vec3>& cloud, const Vec3& origin, const Vec3& axis, Workers& workers) {
+  std::vector<std::int64_t> parts(Workers::parts(cloud.size()), 0);
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::int64_t balance = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double along = axis.dot(cloud[i] - origin);
+      balance += (along > 0.0 ? 1 : 0) - (along < 0.0 ? 1 : 0);
+    }
+    parts[part] = balance;
+  });
+  return std::accumulate(parts.begin(), parts.end(), std::int64_t{0}) < 0 ? Vec3(-axis) : axis;
 }
 
 }  // namespace
 
-CloudFrame principal_frame(const std::vector<Vec3>& cloud) {
-  const Bounds bounds = robust_bounds(cloud);
-  const Vec3 middle = bounds.low + 0.5 * (bounds.high - bounds.low);
+CloudFrame principal_frame(const std::vector<Vec3>& cloud, Workers& workers) {
+  const Bounds bounds = robust_bounds(cloud, workers);
   CloudFrame frame;
-  frame.origin = middle;
+  frame.origin = middle_of(bounds);
   const double step = (bounds.high - bounds.low).maxCoeff() / kSteps;
   if (!(step > 0.0)) return frame;
-  const StepMoments moments = step_moments(cloud, bounds, middle, step);
-  if (moments.count < 1.0) return frame;
-  frame.origin = middle + step * moments.mean;
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moments.covariance);
-  const Vec3 first = towards_most(cloud, frame.origin, solver.eigenvectors().col(2).normalized());
-  const Vec3 second = towards_most(cloud, frame.origin, solver.eigenvectors().col(1).normalized());
+  const StepSums sums = step_sums(cloud, bounds, step, workers);
+  if (sums.count < 1) return frame;
+  const Vec3 mean = mean_of(sums);
+  frame.origin += step * mean;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance_of(sums, mean));
+  const Vec3 first = towards_most(cloud, frame.origin, solver.eigenvectors().col(2).normalized(), workers);
+  const Vec3 second = towards_most(cloud, frame.origin, solver.eigenvectors().col(1).normalized(), workers);
   frame.axes.col(0) = first;
   frame.axes.col(1) = second;
   frame.axes.col(2) = first.cross(second);

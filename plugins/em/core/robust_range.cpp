@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace hallway::em {
 namespace {
@@ -17,55 +18,91 @@ struct Range {
   double high = 0.0;
 };
 
-/// The part of `range` that holds all but one in kStraysDivisor values at each end, in whole bins.
-Range narrowed(const std::vector<Vec3>& cloud, int axis, const Range& range) {
-  std::array<std::size_t, kRangeBins> counts{};
-  const double scale = kRangeBins / (range.high - range.low);
+/// Values of one axis by where they lie in a range.
+struct Histogram {
   std::size_t below = 0;
   std::size_t above = 0;
-  for (const Vec3& p : cloud) {
+  std::array<std::size_t, kRangeBins> counts{};
+
+  void join(const Histogram& other) {
+    below += other.below;
+    above += other.above;
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) counts[bin] += other.counts[bin];
+  }
+};
+
+Histogram histogram_of(std::span<const Vec3> points, int axis, const Range& range) {
+  const double scale = kRangeBins / (range.high - range.low);
+  Histogram result;
+  for (const Vec3& p : points) {
     const double value = p[axis];
     if (value < range.low) {
-      ++below;
+      ++result.below;
     } else if (value > range.high) {
-      ++above;
+      ++result.above;
     } else {
-      ++counts[static_cast<std::size_t>(std::min((value - range.low) * scale, kRangeBins - 1.0))];
+      ++result.counts[static_cast<std::size_t>(std::min((value - range.low) * scale, kRangeBins - 1.0))];
     }
   }
+  return result;
+}
+
+/// The part of `range` that holds all but one in kStraysDivisor values at each end, in whole bins.
+Range narrowed(const std::vector<Vec3>& cloud, int axis, const Range& range, Workers& workers) {
+  std::vector<Histogram> parts(Workers::parts(cloud.size()));
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = histogram_of(std::span(cloud).subspan(begin, end - begin), axis, range);
+  });
+  Histogram all;
+  for (const Histogram& part : parts) all.join(part);
+  const double scale = kRangeBins / (range.high - range.low);
   const std::size_t strays = cloud.size() / kStraysDivisor;
   std::size_t first = 0;
   std::size_t last = kRangeBins - 1;
-  while (first < last && below + counts[first] <= strays) below += counts[first++];
-  while (last > first && above + counts[last] <= strays) above += counts[last--];
+  while (first < last && all.below + all.counts[first] <= strays) all.below += all.counts[first++];
+  while (last > first && all.above + all.counts[last] <= strays) all.above += all.counts[last--];
   return {range.low + static_cast<double>(first) / scale, range.low + static_cast<double>(last + 1) / scale};
 }
 
-/// The range of nearly all points along an axis: that of all, unless a few strays far away would make it
-/// more than four times as long, for the Morton cells would be too coarse then.
-Range robust_range(const std::vector<Vec3>& cloud, int axis) {
-  Range range{cloud.front()[axis], cloud.front()[axis]};
-  for (const Vec3& p : cloud) {
-    range.low = std::min(range.low, p[axis]);
-    range.high = std::max(range.high, p[axis]);
-  }
+/// The range of nearly all points along an axis, `range` being that of all: the same, unless a few strays far away make
+/// it more than four times as long, for the Morton cells would be too coarse then.
+Range robust_range(const std::vector<Vec3>& cloud, int axis, Range range, Workers& workers) {
   for (int round = 0; round < kRangeRounds; ++round) {
     const double length = range.high - range.low;
     const double finest = 1e-12 * std::max(std::abs(range.low), std::abs(range.high));
     if (length <= finest) break;
-    const Range next = narrowed(cloud, axis, range);
+    const Range next = narrowed(cloud, axis, range, workers);
     if (next.high - next.low > 0.25 * length) break;
     range = next;
   }
   return range;
 }
 
+/// The box of all points.
+Bounds bounds_of(const std::vector<Vec3>& cloud, Workers& workers) {
+  std::vector<Bounds> parts(Workers::parts(cloud.size()));
+  workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Bounds bounds{cloud[begin], cloud[begin]};
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      bounds.low = bounds.low.cwiseMin(cloud[i]);
+      bounds.high = bounds.high.cwiseMax(cloud[i]);
+    }
+    parts[part] = bounds;
+  });
+  Bounds all = parts.front();
+  for (const Bounds& part : parts) {
+    all.low = all.low.cwiseMin(part.low);
+    all.high = all.high.cwiseMax(part.high);
+  }
+  return all;
+}
+
 }  // namespace
 
-Bounds robust_bounds(const std::vector<Vec3>& cloud) {
-  Bounds bounds;
+Bounds robust_bounds(const std::vector<Vec3>& cloud, Workers& workers) {
+  Bounds bounds = bounds_of(cloud, workers);
   for (int axis = 0; axis < 3; ++axis) {
-    const Range range = robust_range(cloud, axis);
+    const Range range = robust_range(cloud, axis, {bounds.low[axis], bounds.high[axis]}, workers);
     bounds.low[axis] = range.low;
     bounds.high[axis] = range.high;
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "em/core/types.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -19,6 +20,6 @@ struct Bounds {
 
 /// The box of all points; but where a few strays far away would make it more than four times as long along an
 /// axis, of nearly all. The points are finite and at least one; their order does not matter. O(n).
-Bounds robust_bounds(const std::vector<Vec3>& cloud);
+Bounds robust_bounds(const std::vector<Vec3>& cloud, Workers& workers);
 
 }  // namespace hallway::em

@@ -24,8 +24,9 @@ constexpr double kRoughest = 5.0;       // ... and at most
 constexpr std::size_t kRoughSeeds = 3;  // so many make a kind of surface
 constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is that of numbers with six digits
 constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
-constexpr int kLocalSearches = 32;         // in a round: the flattest that are left
-constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
+constexpr std::size_t kLocalSearches = 32;  // in a round: the flattest that are left
+constexpr std::size_t kAhead = 2;           // seeds by thread that are grown at a time
+constexpr std::size_t kPointsPerSeed = 8;   // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.
 struct Unclaimed {
@@ -54,11 +55,13 @@ std::vector<double> heights_of(const PointField& field, const Grown& grown) {
 
 }  // namespace
 
-PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent)
+PlaneSearch::PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent,
+                         Workers& workers)
     : field_(field),
       options_(options),
       extent_(extent),
-      first_seeds_(find_seeds(field.points, static_cast<std::size_t>(options.seeds), 0)) {}
+      workers_(workers),
+      first_seeds_(find_seeds(field.points, static_cast<std::size_t>(options.seeds), 0, workers)) {}
 
 double PlaneSearch::estimate_noise() const {
   const double finest = kFinest * extent_.maxCoeff();
@@ -72,7 +75,7 @@ double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>
   const std::size_t wanted =
       std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
   std::vector<double> noise;
-  for (const Seed& seed : find_seeds(free.points, wanted, 0)) {
+  for (const Seed& seed : find_seeds(free.points, wanted, 0, workers_)) {
     if (seed.flatness > kFlat) break;
     if (seed.noise > kRougher * sigma && seed.noise < kRoughest * sigma) noise.push_back(seed.noise);
   }
@@ -90,9 +93,8 @@ void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
   found_.push_back(std::move(grown));
 }
 
-void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed) {
-  Grower grower(field_, claimed);
-  Grown grown = grower.grow(seed, sigma);
+void PlaneSearch::consider(const Seed& seed, Grown&& grown, double sigma,
+                           std::vector<std::uint8_t>& claimed) {
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   if (grown.members.size() < fewest) return;
   const std::optional<TwoSheets> sheets = two_sheets(heights_of(field_, grown), fewest);
@@ -100,6 +102,7 @@ void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8
     judge(std::move(grown), sigma, claimed);
     return;
   }
+  Grower grower(field_, claimed);
   // The noise was taken for that of two sheets together, as where they are nearer than the points on each.
   for (const double height : {sheets->low, sheets->high}) {
     Seed thin = seed;
@@ -141,31 +144,65 @@ void PlaneSearch::accept_pending(std::vector<std::uint8_t>& claimed) {
   }
 }
 
+// Several are grown at a time, as if none of them were accepted. Where one relied on points that one before it was then
+// given, it is grown anew: what comes out is the same as one after the other.
+void PlaneSearch::try_all(const Trial& trial, double sigma, std::vector<std::uint8_t>& claimed) {
+  struct Ahead {
+    std::size_t number = 0;
+    std::optional<Seed> seed;
+    Grown grown;
+  };
+  const auto grow = [&](Ahead& ahead) { ahead.grown = Grower(field_, claimed).grow(*ahead.seed, sigma); };
+  std::size_t next = 0;
+  std::size_t tried = 0;
+  while (next < trial.count && tried < trial.most) {
+    std::vector<Ahead> batch;
+    const std::size_t wanted = workers_.count() > 1 ? kAhead * workers_.count() : 1;
+    for (; next < trial.count && batch.size() < wanted; ++next) {
+      if (!trial.skip(next)) batch.push_back({next, {}, {}});
+    }
+    workers_.run(batch.size(), [&](std::size_t i, std::size_t) {
+      batch[i].seed = trial.seed(batch[i].number);
+      if (batch[i].seed) grow(batch[i]);
+    });
+    for (Ahead& ahead : batch) {
+      if (trial.skip(ahead.number)) continue;
+      if (++tried > trial.most) return;
+      if (!ahead.seed) continue;
+      const bool stale = std::any_of(ahead.grown.relied_on.begin(), ahead.grown.relied_on.end(),
+                                     [&claimed](std::uint32_t i) { return claimed[i] != 0; });
+      if (stale) grow(ahead);
+      consider(*ahead.seed, std::move(ahead.grown), sigma, claimed);
+    }
+  }
+}
+
 std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed) {
   found_.clear();
   pending_.clear();
   failures_.assign(claimed.size(), 0);
   const Unclaimed free = unclaimed_of(field_.points, claimed);
-  const BoxTree tree(free.points);
+  const BoxTree tree(free.points, workers_);
   const PointField free_field{free.points, tree};
   unclaimed_ = free.points.count;
   const std::size_t wanted =
       std::min(static_cast<std::size_t>(options_.seeds), free.points.count / kPointsPerSeed + 1);
   const bool nothing_claimed = number == 0 && free.points.count == field_.points.count;
-  const std::vector<Seed> seeds = nothing_claimed ? first_seeds_ : find_seeds(free.points, wanted, number);
-  for (const Seed& seed : seeds) {
-    const std::uint32_t i = free.place[seed.place];
-    if (claimed[i] != 0 || failures_[i] >= kFailures || seed.noise > kRoughSeed * sigma) continue;
-    attempt(seed, sigma, claimed);
-  }
-  int searches = 0;
-  for (const Seed& seed : seeds) {
-    const std::uint32_t i = free.place[seed.place];
-    if (claimed[i] != 0 || failures_[i] >= 2 * kFailures) continue;
-    if (++searches > kLocalSearches) break;
-    const std::optional<Seed> other = search_locally(free_field, seed.place, seed.radius, sigma, number);
-    if (other) attempt(*other, sigma, claimed);
-  }
+  const std::vector<Seed> seeds =
+      nothing_claimed ? first_seeds_ : find_seeds(free.points, wanted, number, workers_);
+  const auto place = [&](std::size_t k) { return free.place[seeds[k].place]; };
+  const auto skip_grown = [&](std::size_t k) {
+    return claimed[place(k)] != 0 || failures_[place(k)] >= kFailures || seeds[k].noise > kRoughSeed * sigma;
+  };
+  try_all({seeds.size(), seeds.size(), skip_grown, [&](std::size_t k) { return std::optional(seeds[k]); }},
+          sigma, claimed);
+  const auto skip_searched = [&](std::size_t k) {
+    return claimed[place(k)] != 0 || failures_[place(k)] >= 2 * kFailures;
+  };
+  const auto search = [&](std::size_t k) {
+    return search_locally(free_field, seeds[k].place, seeds[k].radius, sigma, number);
+  };
+  try_all({seeds.size(), kLocalSearches, skip_searched, search}, sigma, claimed);
   if (found_.empty()) accept_pending(claimed);
   return std::move(found_);
 }

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "em/core/auto_options.hpp"
 #include "em/core/evidence.hpp"
 #include "em/core/local_search.hpp"
 #include "em/core/slab_points.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
 /// Looks for planes among the points that none has claimed yet.
 class PlaneSearch {
  public:
-  /// `extent`: of the space that the cloud fills. Keeps references to `field` and `options`.
-  PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent);
+  /// `extent`: of the space that the cloud fills. Keeps references to all but that.
+  PlaneSearch(const PointField& field, const AutoOptions& options, const Vec3& extent, Workers& workers);
 
   /// The noise across planes, as the flattest neighbourhoods tell, at least a millionth of the extent; 0 if
   /// there is no neighbourhood that a plane could lie in.
@@ -30,7 +33,16 @@ class PlaneSearch {
 
  private:
   std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
-  void attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed);
+  /// Seeds that are tried one after the other: which, and what each is.
+  struct Trial {
+    std::size_t count = 0;
+    std::size_t most = 0;                   ///< no more than so many are tried
+    std::function<bool(std::size_t)> skip;  ///< whether one is passed over; once true it stays so
+    std::function<std::optional<Seed>(std::size_t)> seed;
+  };
+
+  void try_all(const Trial& trial, double sigma, std::vector<std::uint8_t>& claimed);
+  void consider(const Seed& seed, Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
   void judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
   void accept(Grown&& grown, std::vector<std::uint8_t>& claimed);
   void accept_pending(std::vector<std::uint8_t>& claimed);
@@ -44,6 +56,7 @@ class PlaneSearch {
   const PointField& field_;
   const AutoOptions& options_;
   Vec3 extent_;
+  Workers& workers_;
   std::size_t unclaimed_ = 0;
   std::vector<Seed> first_seeds_;       ///< of all points: for the noise and for the first round
   std::vector<Grown> found_;            ///< in this round

@@ -36,12 +36,12 @@ Points thinned(const Points& points) {
   return result;
 }
 
-std::vector<Level> levels_of(const Points& points) {
+std::vector<Level> levels_of(const Points& points, Workers& workers) {
   std::vector<Level> levels;
-  levels.push_back({points, BoxTree(points)});
+  levels.push_back({points, BoxTree(points, workers)});
   while (levels.back().points.count / kThinning >= kFewest) {
     Points coarser = thinned(levels.back().points);
-    BoxTree tree(coarser);
+    BoxTree tree(coarser, workers);
     levels.push_back({std::move(coarser), std::move(tree)});
   }
   return levels;
@@ -117,17 +117,21 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
 
 }  // namespace
 
-std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round) {
+std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers) {
   std::vector<Seed> seeds;
   if (points.count < kScales.front()) return seeds;
-  const std::vector<Level> levels = levels_of(points);
+  const std::vector<Level> levels = levels_of(points, workers);
   const std::size_t tries = std::min(wanted, points.count);
   const double shift = std::fmod(0.5 + kGoldenRatio * static_cast<double>(round), 1.0);
-  std::vector<NearPoint> near;
-  for (std::size_t k = 0; k < tries; ++k) {
+  std::vector<std::optional<Seed>> tried(tries);
+  std::vector<std::vector<NearPoint>> near(workers.count());
+  workers.run(tries, [&](std::size_t k, std::size_t worker) {
     const double part = (static_cast<double>(k) + shift) / static_cast<double>(tries);
     const auto place = static_cast<std::uint32_t>(part * static_cast<double>(points.count));
-    if (const std::optional<Seed> seed = seed_at(levels, place, near)) seeds.push_back(*seed);
+    tried[k] = seed_at(levels, place, near[worker]);
+  });
+  for (const std::optional<Seed>& seed : tried) {
+    if (seed) seeds.push_back(*seed);
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& left, const Seed& right) {
     return left.flatness != right.flatness ? left.flatness < right.flatness : left.place < right.place;

@@ -6,6 +6,7 @@
 
 #include "em/core/moments.hpp"
 #include "em/core/points.hpp"
+#include "em/core/workers.hpp"
 
 namespace hallway::em {
 
@@ -22,7 +23,7 @@ struct Seed {
 /// Tries about `wanted` points of `points`, spread evenly over the list (other ones each round), and takes
 /// for each the scale at which its neighbourhood is flattest. Best first; equal ones by place. Neighbourhoods
 /// on a line are left out.
-std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round);
+std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers);
 
 /// Noise across planes as the best of the seeds tell it; 0 without seeds.
 double noise_of_seeds(const std::vector<Seed>& seeds);

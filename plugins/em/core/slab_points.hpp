@@ -26,4 +26,7 @@ struct SlabPoints {
 /// Replaces `found` by the points of `field` inside of `slab`.
 void collect(const PointField& field, const Slab& slab, SlabPoints& found);
 
+/// As collect(), in a chunk of the points alone (BoxTree::visit_chunk()).
+void collect_chunk(const PointField& field, std::size_t chunk, const Slab& slab, SlabPoints& found);
+
 }  // namespace hallway::em

@@ -19,10 +19,11 @@ namespace {
 using namespace hallway::em::test;  // NOLINT
 
 TEST(CanonicalOrder, HoldsEachPlaceOnceWithAllThatGaveIt) {
+  Workers alone(1);
   LabelledPoints cloud = room();
   cloud.points.push_back(cloud.points[7]);
   cloud.points.push_back(cloud.points[7]);
-  const CanonicalCloud canonical = canonical_order(cloud.points);
+  const CanonicalCloud canonical = canonical_order(cloud.points, alone);
   ASSERT_EQ(canonical.points.count, cloud.points.size() - 2);
   std::vector<int> seen(cloud.points.size(), 0);
   for (std::size_t i = 0; i < canonical.points.count; ++i) {
@@ -37,7 +38,8 @@ TEST(CanonicalOrder, HoldsEachPlaceOnceWithAllThatGaveIt) {
 }
 
 TEST(CanonicalOrder, MostNeighboursInTheListAreNearInSpace) {
-  const CanonicalCloud canonical = canonical_order(room().points);
+  Workers alone(1);
+  const CanonicalCloud canonical = canonical_order(room().points, alone);
   double steps = 0.0;
   for (std::size_t i = 1; i < canonical.points.count; ++i) {
     steps += (canonical.points.at(i) - canonical.points.at(i - 1)).norm();
@@ -46,9 +48,10 @@ TEST(CanonicalOrder, MostNeighboursInTheListAreNearInSpace) {
 }
 
 TEST(BoxTree, NearestAndSlabAgreeWithLookingAtEachPoint) {
-  const CanonicalCloud canonical = canonical_order(room().points);
+  Workers alone(1);
+  const CanonicalCloud canonical = canonical_order(room().points, alone);
   const Points& points = canonical.points;
-  const BoxTree tree(points);
+  const BoxTree tree(points, alone);
   const PointField field{points, tree};
   std::vector<NearPoint> near;
   for (std::size_t middle = 0; middle < points.count; middle += 397) {
@@ -73,7 +76,17 @@ TEST(BoxTree, NearestAndSlabAgreeWithLookingAtEachPoint) {
       }
     }
     EXPECT_EQ(found.place, expected);
+    std::vector<std::uint32_t> in_chunks;
+    for (std::size_t chunk = 0; chunk < tree.chunks(); ++chunk) {
+      collect_chunk(field, chunk, slab, found);
+      for (const std::uint32_t i : found.place) {
+        EXPECT_EQ(i / BoxTree::kChunkSize, chunk);
+        in_chunks.push_back(i);
+      }
+    }
+    EXPECT_EQ(in_chunks, expected);
   }
+  EXPECT_EQ(tree.chunks(), 3u);
 }
 
 TEST(Moments, VariancesAgreeWithTheEigensolverAndPartsAddUp) {
@@ -110,9 +123,10 @@ TEST(Cells, ClosingFillsGapsAndComponentsAreCounted) {
 }
 
 TEST(Seeds, TheFlattestTellTheNoise) {
+  Workers alone(1);
   for (const double sigma : {0.005, 0.02, 0.05}) {
-    const CanonicalCloud canonical = canonical_order(room(sigma).points);
-    const std::vector<Seed> seeds = find_seeds(canonical.points, 64, 0);
+    const CanonicalCloud canonical = canonical_order(room(sigma).points, alone);
+    const std::vector<Seed> seeds = find_seeds(canonical.points, 64, 0, alone);
     ASSERT_GE(seeds.size(), 32u);
     EXPECT_NEAR(noise_of_seeds(seeds), sigma, 0.25 * sigma);
     for (std::size_t k = 1; k < seeds.size(); ++k) EXPECT_LE(seeds[k - 1].flatness, seeds[k].flatness);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "em/core/workers.hpp"
+
+#include <signal.h>
+
+#include <system_error>
+
+namespace hallway::em {
+namespace {
+
+/// While it lives, this thread, and those that it starts, take no signals but those of faults: all others are for the
+/// threads of the program.
+class WithoutSignals {
+ public:
+  WithoutSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
+      sigdelset(&all, fault);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~WithoutSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  WithoutSignals(const WithoutSignals&) = delete;
+  WithoutSignals& operator=(const WithoutSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+Workers::Workers(int threads) {
+  if (threads < 2) return;
+  try {
+    start(static_cast<std::size_t>(threads) - 1);
+  } catch (const std::system_error&) {
+    // Fewer threads are slower, and all that changes.
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+Workers::~Workers() {
+  stop();
+}
+
+void Workers::start(std::size_t threads) {
+  const WithoutSignals without_signals;
+  threads_.reserve(threads);
+  for (std::size_t worker = 1; worker <= threads; ++worker) {
+    threads_.emplace_back([this, worker] { serve(worker); });
+  }
+}
+
+void Workers::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Workers::run(std::size_t items, const Task& task) {
+  if (threads_.empty() || items < 2) {
+    for (std::size_t item = 0; item < items; ++item) task(item, 0);
+    return;
+  }
+  Job job{items, &task, 0, items, nullptr};
+  std::unique_lock lock(mutex_);
+  job_ = &job;
+  wake_.notify_all();
+  take_items(0, lock);
+  job_ = nullptr;  // who wakes only now goes to sleep again
+  done_.wait(lock, [this] { return busy_ == 0; });
+  if (job.failure) std::rethrow_exception(job.failure);
+}
+
+void Workers::serve(std::size_t worker) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return stop_ || (job_ != nullptr && job_->next < job_->items); });
+    if (stop_) return;
+    ++busy_;
+    take_items(worker, lock);
+    if (--busy_ == 0) done_.notify_one();
+  }
+}
+
+void Workers::take_items(std::size_t worker, std::unique_lock<std::mutex>& lock) {
+  Job& job = *job_;
+  while (job.next < job.items) {
+    const std::size_t item = job.next++;
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+      (*job.task)(item, worker);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    if (failure && item < job.failed) {
+      job.failed = item;
+      job.failure = failure;
+    }
+  }
+}
+
+}  // namespace hallway::em
