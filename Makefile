@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo install test test-long check fuzz bench renders format lint clean build-release deps deps-ros
+.PHONY: demo install test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
 .DEFAULT_GOAL := demo
 
 deps:
@@ -55,6 +55,13 @@ fuzz: deps
 ## benchmarks: ratios against references measured in the same run, and a plot
 bench: build-release
 	bench/run.sh build/release
+
+## em beside PCL, CGAL and Open3D on the same clouds: installs them and builds what wraps them, in a folder of its own
+bench-peers: deps
+	@scripts/install-deps.sh --with-peers
+	cmake -S . -B build/peers -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALLWAY_PEERS=ON -DHALLWAY_TESTS=OFF -DHALLWAY_BENCH=OFF
+	cmake --build build/peers -j $(JOBS) --target hallway em peers
+	bench/peers/run.sh build/peers
 
 ## make the gallery's pictures again
 renders: build-release

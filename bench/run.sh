@@ -12,6 +12,8 @@ echo
 echo
 /usr/bin/python3 "$here/accuracy.py" "$build/bin/hallway" "$out/accuracy"
 echo
+/usr/bin/python3 "$here/planes_cost.py" "$build/bin/hallway" "$out"
+echo
 "$build/bin/bench_trace" --benchmark_min_time=0.2
 echo
 "$build/bin/bench_visibility"

@@ -5,21 +5,18 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "align_output.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "cloud_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "import/cloud_folder.hpp"
-#include "import/point_records.hpp"
-#include "log/csv_reader.hpp"
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kMethods[] = {"point_to_point", "point_to_plane"};
 constexpr const char* kWeights[] = {"none", "huber", "cauchy", "tukey"};
@@ -27,6 +24,7 @@ constexpr const char* kWeights[] = {"none", "huber", "cauchy", "tukey"};
 struct AlignCommand {
   std::string a;
   std::string b;
+  CloudInput input;
   std::string guess;
   std::string method = "point_to_plane";
   std::string weights = "tukey";
@@ -36,25 +34,9 @@ struct AlignCommand {
   bool json = false;
 };
 
-/// A file of points: CSV with columns x, y and z where its name ends so, else PLY or PCD.
-AlignedCloud read_cloud(const std::string& file) {
-  AlignedCloud cloud{printable(file, 4096), {}, 0};
-  if (fs::path(file).extension() == ".csv") {
-    const std::string text = read_file(file, import::kMaxCloudBytes);
-    log::CsvReader row(text, cloud.file, {{"x"}, {"y"}, {"z"}});
-    while (row.next()) {
-      const std::array<double, 3> p = row.vector(0);
-      cloud.points.emplace_back(p[0], p[1], p[2]);
-    }
-    return cloud;
-  }
-  std::error_code code;
-  if (fs::is_directory(file, code)) throw Error(ErrorCode::kIo, "is a folder", {.file = cloud.file});
-  import::Frame frame;
-  import::open_clouds(file, {})->read(0, frame);
-  for (const std::array<double, 3>& p : frame.points) cloud.points.emplace_back(p[0], p[1], p[2]);
-  cloud.not_finite = frame.not_finite;
-  return cloud;
+AlignedCloud read_cloud(const std::string& file, const CloudInput& input) {
+  planes::Cloud cloud = planes::read_cloud(file, cloud_options(input));
+  return {printable(file, 4096), std::move(cloud.points), cloud.not_finite};
 }
 
 /// "x y z yaw pitch roll", in metres and degrees; commas may part them too.
@@ -87,7 +69,7 @@ int align_clouds(AlignCommand command) {
   const icp::Pose guess = parse_guess(command.guess);
   command.options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
   command.options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));
-  const AlignedCloud a = read_cloud(command.a), b = read_cloud(command.b);
+  const AlignedCloud a = read_cloud(command.a, command.input), b = read_cloud(command.b, command.input);
   for (const AlignedCloud* cloud : {&a, &b}) {
     if (cloud->not_finite > 0)
       print_warning(
@@ -139,10 +121,13 @@ void add_align_command(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("align", "Register two point clouds: how B has to be moved to fit A");
   const auto options = std::make_shared<AlignCommand>();
-  command->add_option("a", options->a, "Cloud that stays: .ply, .pcd, or .csv with columns x,y,z")
+  command
+      ->add_option("a", options->a,
+                   "Cloud that stays: PLY, PCD, CSV with a header (x, y, z), OBJ, or a depth image in PNG")
       ->required()
       ->type_name("A");
   command->add_option("b", options->b, "Cloud that is moved")->required()->type_name("B");
+  add_cloud_options(*command, options->input);
   command
       ->add_option("--guess", options->guess,
                    "Where B is about: \"x y z yaw pitch roll\" in metres and degrees [where it stands]")

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "cloud_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
@@ -26,9 +27,7 @@ using Json = nlohmann::ordered_json;
 struct PlanesOptions {
   std::string cloud;
   std::string plugin;
-  std::string columns;
-  std::string intrinsics;
-  double depth_scale = import::kDepthUnitsPerMetre;
+  CloudInput input;
   std::string labels;
   std::int64_t unlabelled = planes::kNoLabel;
   unsigned repeat = 1;
@@ -49,35 +48,10 @@ struct Found {
   std::optional<planes::Score> score{};
 };
 
-import::Camera parse_intrinsics(const std::string& text){std::vector<double> numbers;
-for (const std::string_view part : split(text, ',')) {
-  const auto number = parse_double(trim(part));
-  if (number) numbers.push_back(*number);
-}
-if (numbers.size() != 4 || split(text, ',').size() != 4 || numbers[0] <= 0 || numbers[1] <= 0) {
-  throw Error(ErrorCode::kUsage,
-              fmt::format("--intrinsics takes fx,fy,cx,cy in pixels, not \"{}\"", printable(text)));
-}
-return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}  // namespace
-
-planes::CloudColumns parse_columns(const std::string& text) {
-  std::vector<std::string> names;
-  for (const std::string_view name : split(text, ',')) names.emplace_back(trim(name));
-  if (names.size() < 3 || names.size() > 4)
-    throw Error(ErrorCode::kUsage, "--columns takes the names of x, y, z and, where there is one, the label");
-  return {names[0], names[1], names[2], names.size() == 4 ? names[3] : "label"};
-}
-
-planes::CloudOptions cloud_options(const PlanesOptions& options) {
-  planes::CloudOptions cloud{.unlabelled = options.unlabelled, .units_per_metre = options.depth_scale};
-  if (!options.columns.empty()) cloud.columns = parse_columns(options.columns);
-  if (!options.intrinsics.empty()) cloud.camera = parse_intrinsics(options.intrinsics);
-  return cloud;
-}
-
 Found find(const PlanesOptions& options) {
-  Found found{.cloud = planes::read_cloud(options.cloud, cloud_options(options))};
+  planes::CloudOptions reading = cloud_options(options.input);
+  reading.unlabelled = options.unlabelled;
+  Found found{.cloud = planes::read_cloud(options.cloud, reading)};
   if (!options.labels.empty())
     found.cloud.labels = planes::read_labels(options.labels, found.cloud, options.unlabelled);
   planes::PlaneFinder finder(parse_plane_plugin(options.plugin), plugin_folders(options.plugin_path),
@@ -164,14 +138,7 @@ void add_input_options(CLI::App& command, PlanesOptions& options) {
                   "Points: PLY, PCD, CSV with a header (x, y, z, label), OBJ, or a depth image in PNG")
       ->required()
       ->type_name("CLOUD");
-  command.add_option("--columns", options.columns, "Names of the columns of a CSV file [x,y,z,label]")
-      ->type_name("X,Y,Z[,LABEL]");
-  command.add_option("--intrinsics", options.intrinsics, "Camera of a depth image, pixels")
-      ->type_name("FX,FY,CX,CY");
-  command.add_option("--depth-scale", options.depth_scale, "Units of a depth image in one metre")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->type_name("N")
-      ->capture_default_str();
+  add_cloud_options(command, options.input);
   command
       .add_option("--labels", options.labels,
                   "Labels to score against: a whole number for each row of the cloud")
@@ -183,7 +150,7 @@ void add_input_options(CLI::App& command, PlanesOptions& options) {
       ->capture_default_str();
 }
 
-}  // namespace hallway::cli
+}  // namespace
 
 void add_planes_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("planes", "Find planes in a point cloud with a plugin");

@@ -3,8 +3,9 @@
 # Installs the Debian packages that building, running and testing Hallway needs. The one list of them.
 # Does nothing, and needs neither network nor root, when all are there.
 #
-#   install-deps.sh             what is needed
-#   install-deps.sh --with-ros  and what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
+#   install-deps.sh               what is needed
+#   install-deps.sh --with-ros    and what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
+#   install-deps.sh --with-peers  and the libraries that `make bench-peers` measures em beside: PCL, CGAL, Open3D
 set -euo pipefail
 
 optional=()
@@ -12,8 +13,9 @@ case "${1-}" in
   "") ;;
   --with-ros) optional=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev
                          libdiagnostic-msgs-dev libtf2-msgs-dev python3-rosmaster) ;;
+  --with-peers) optional=(libpcl-dev libcgal-dev libopen3d-dev) ;;
   *)
-    echo "install-deps: unknown option $1; there is --with-ros" >&2
+    echo "install-deps: unknown option $1; there are --with-ros and --with-peers" >&2
     exit 2
     ;;
 esac

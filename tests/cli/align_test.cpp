@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -68,6 +69,33 @@ TEST(Align, TextSaysWhatJsonSays) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* part : {"converged", "T_a_b", "yaw pitch roll", "residual", "overlap 100.0 %"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
+/// The same points, as another form of file.
+std::string as_obj(const std::string& csv) {
+  std::string text;
+  for (std::size_t at = csv.find('\n') + 1; at < csv.size(); at = csv.find('\n', at) + 1)
+    text += "v " + csv.substr(at, csv.find('\n', at) + 1 - at);
+  std::replace(text.begin(), text.end(), ',', ' ');
+  return text;
+}
+
+TEST(Align, TakesEveryFileThatPlanesTakes) {
+  const TempFolder folder;
+  const std::string points = corner_csv(0, 0, 0.0);
+  const std::string a = folder.write("a.csv", points);
+  const std::string renamed =
+      folder.write("c.csv", "px,py,pz\nnan,0,0\n" + points.substr(points.find('\n') + 1));
+  const auto read = [](const std::vector<std::string>& arguments) {
+    const Ended ended = hallway(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.err << ended.out;
+    return ended.status == 0 ? Json::parse(ended.out).at("b").at("points") : Json();
+  };
+  const Json count = read({"align", a, a, "--json"});
+  EXPECT_EQ(read({"align", a, folder.write("b.obj", as_obj(points)), "--json"}), count);
+  EXPECT_EQ(read({"align", renamed, renamed, "--columns", "px,py,pz", "--json"}), count);
+  EXPECT_EQ(hallway({"align", a, folder.write("d.png", "\x89PNG\r\n\x1a\n")}).status, 2)
+      << "a depth image needs its camera";
 }
 
 TEST(Align, CloudsThatDoNotFitHaveStatusOneAndNoFile) {

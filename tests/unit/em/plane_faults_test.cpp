@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The named failures of thesis 3.5.4 on the scenes of maps/regress/em: each appears with the value that is to blame, and not without.
+// The named failures of thesis 3.5.4 on the scenes of maps/regress/em: each appears with the value that is to blame, and not without; never in `em`.
 #include "plane_faults.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "em/core/auto_planes.hpp"
 #include "em/core/em1.hpp"
 #include "em/core/em2.hpp"
 #include "support/data.hpp"
@@ -32,6 +33,8 @@ using Algorithm = std::function<Extraction(const std::vector<Vec3>&, const plant
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> kAlgorithms{
+      {"em", [](const auto& cloud,
+                const auto& params) { return PlaneExtractor(with(params, auto_options())).extract(cloud); }},
       {"em1",
        [](const auto& cloud, const auto& params) { return extract_em1(cloud, with(params, em1_options())); }},
       {"em2",
