@@ -19,6 +19,11 @@ bool is_finite(const hw_points_t& points) {
   return true;
 }
 
+bool has_planes(const hw_frame_t& frame) {
+  return std::any_of(frame.samples, frame.samples + frame.n_samples,
+                     [](const hw_sample_t* sample) { return sample->kind == HW_SAMPLE_PLANES; });
+}
+
 }  // namespace
 
 Intake::Intake(host::Driver& driver, const host::RobotInfo& robot) : driver_(driver), robot_(robot) {}
@@ -39,6 +44,7 @@ bool Intake::keep(const hw_frame_t& frame, std::string& bytes) {
     if (const char* problem = problem_of(frame)) throw Error(ErrorCode::kBadInput, problem);
     bytes.resize(size);
     host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+    if (has_planes(frame)) host::FrameReader().read(std::as_bytes(std::span(bytes)));  // checks what they say
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kBadInput) throw;
     refuse(frame.sequence, error.message());

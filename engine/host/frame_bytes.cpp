@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <hallway/version.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
 #include "base/error.hpp"
+#include "host/frame_parts.hpp"
+#include "host/plane_parts.hpp"
+#include "host/sample_parts.hpp"
+#include "host/strided.hpp"
 
 namespace hallway::host {
 namespace {
@@ -29,16 +32,16 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 
-void demand_frame(bool condition, const char* text) {
-  if (!condition) throw Error(ErrorCode::kBadInput, fmt::format("a frame {}", text));
-}
-
 const hw_points_t& points_of(const hw_sample_t& sample) {
   return *static_cast<const hw_points_t*>(sample.payload);
 }
 
+const hw_planes_t& planes_of(const hw_sample_t& sample) {
+  return *static_cast<const hw_planes_t*>(sample.payload);
+}
+
 bool is_known(const hw_sample_t& sample) {
-  return sample.kind == HW_SAMPLE_POINTS;
+  return sample.kind == HW_SAMPLE_POINTS || sample.kind == HW_SAMPLE_PLANES;
 }
 
 void check_points(const hw_points_t& points) {
@@ -49,77 +52,25 @@ void check_points(const hw_points_t& points) {
   demand_frame(points.points != nullptr || points.count == 0, "with points that are null");
 }
 
-void check_sample(const hw_sample_t* sample) {
+void check_sample(const hw_sample_t* sample, std::uint32_t n_samples) {
   demand_frame(sample != nullptr, "with a sample that is null");
   demand_frame(HW_HAS(sample, hw_sample_t, payload) && sample->size % 8 == 0,
                "with a sample of a wrong size");
   demand_frame(sample->payload != nullptr, "with a sample without a payload");
-  if (is_known(*sample)) check_points(points_of(*sample));
+  if (sample->kind == HW_SAMPLE_POINTS) check_points(points_of(*sample));
+  if (sample->kind == HW_SAMPLE_PLANES) check_planes(planes_of(*sample), n_samples);
 }
 
 void check_frame(const hw_frame_t& frame) {
   demand_frame(HW_HAS(&frame, hw_frame_t, samples) && frame.size % 8 == 0, "of a wrong size");
   demand_frame(frame.samples != nullptr || frame.n_samples == 0, "whose samples are null");
-  for (std::uint32_t i = 0; i < frame.n_samples; ++i) check_sample(frame.samples[i]);
-}
-
-/// As much of a struct as these headers know.
-template <typename T>
-std::size_t known_size(const T& value) {
-  return std::min<std::size_t>(value.size, sizeof(T));
-}
-
-/// A struct as it is written: only the members that are known, and `size` says so.
-template <typename T>
-T known_part(const T& value) {
-  T copy{};
-  std::memcpy(&copy, &value, known_size(value));
-  copy.size = static_cast<std::uint32_t>(known_size(value));
-  return copy;
-}
-
-/// An offset where the ABI's struct has a pointer. Copied, not cast: on the way out it is a number and never a pointer.
-template <typename Pointer>
-void put_offset(Pointer& member, std::uint64_t offset) {
-  static_assert(sizeof(Pointer) == sizeof offset);
-  std::memcpy(static_cast<void*>(&member), &offset, sizeof offset);
-}
-
-template <typename Pointer>
-std::uint64_t offset_in(const Pointer& member) {
-  std::uint64_t offset = 0;
-  static_assert(sizeof(Pointer) == sizeof offset);
-  std::memcpy(&offset, static_cast<const void*>(&member), sizeof offset);
-  return offset;
+  for (std::uint32_t i = 0; i < frame.n_samples; ++i) check_sample(frame.samples[i], frame.n_samples);
 }
 
 std::uint64_t points_bytes(const hw_points_t& points) {
   const std::uint64_t track = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
   return known_size(points) + points.count * sizeof(hw_point3_t) + track;
 }
-
-/// Puts parts one after the other.
-class Sink {
- public:
-  explicit Sink(std::span<std::byte> bytes) : bytes_(bytes) {}
-  std::uint64_t at() const { return at_; }
-  void put(const void* data, std::size_t size) {
-    if (size != 0) std::memcpy(bytes_.data() + at_, data, size);
-    at_ += size;
-  }
-  /// Leaves room for what is put later; @return where it begins
-  std::uint64_t skip(std::size_t size) {
-    at_ += size;
-    return at_ - size;
-  }
-  void put_at(std::uint64_t offset, std::uint64_t value) {
-    std::memcpy(bytes_.data() + offset, &value, sizeof value);
-  }
-
- private:
-  std::span<std::byte> bytes_;
-  std::uint64_t at_ = 0;
-};
 
 void put_points(Sink& sink, const hw_points_t& points) {
   hw_points_t copy = known_part(points);
@@ -132,20 +83,36 @@ void put_points(Sink& sink, const hw_points_t& points) {
   if (points.track != nullptr) sink.put(points.track, points.count * sizeof(std::uint64_t));
 }
 
-void put_sample(Sink& sink, const hw_sample_t& sample) {
+std::uint32_t count_known(const hw_frame_t& frame, std::uint32_t n_samples) {
+  std::uint32_t known = 0;
+  for (std::uint32_t i = 0; i < n_samples; ++i) known += is_known(*frame.samples[i]) ? 1u : 0u;
+  return known;
+}
+
+/// A sample's planes as they are written: they refer to the samples that are written.
+hw_planes_t written_planes(const hw_frame_t& frame, const hw_sample_t& sample,
+                           std::vector<hw_plane_t>& storage) {
+  const hw_planes_t& planes = planes_of(sample);
+  const bool there = planes.sample != HW_NO_SAMPLE && is_known(*frame.samples[planes.sample]);
+  return refer_to_sample(planes, there ? count_known(frame, planes.sample) : HW_NO_SAMPLE, storage);
+}
+
+std::uint64_t payload_bytes(const hw_frame_t& frame, const hw_sample_t& sample) {
+  std::vector<hw_plane_t> storage;
+  if (sample.kind == HW_SAMPLE_PLANES) return planes_bytes(written_planes(frame, sample, storage));
+  return points_bytes(points_of(sample));
+}
+
+void put_sample(Sink& sink, const hw_frame_t& frame, const hw_sample_t& sample) {
   hw_sample_t copy = known_part(sample);
   put_offset(copy.payload, sink.at() + copy.size);
   sink.put(&copy, copy.size);
-  put_points(sink, points_of(sample));
-}
-
-std::uint32_t count_known(const hw_frame_t& frame) {
-  const auto known = [](const hw_sample_t* sample) { return is_known(*sample); };
-  return static_cast<std::uint32_t>(std::count_if(frame.samples, frame.samples + frame.n_samples, known));
-}
-
-[[noreturn]] void damaged(std::uint64_t offset, const char* part, const std::string& message) {
-  throw Error(ErrorCode::kBadInput, message, Where{"", 0, fmt::format("frame, byte {}, {}", offset, part)});
+  std::vector<hw_plane_t> storage;
+  if (sample.kind == HW_SAMPLE_PLANES) {
+    put_planes(sink, written_planes(frame, sample, storage));
+  } else {
+    put_points(sink, points_of(sample));
+  }
 }
 
 }  // namespace
@@ -156,7 +123,7 @@ std::size_t frame_bytes_size(const hw_frame_t& frame) {
   for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
     const hw_sample_t& sample = *frame.samples[i];
     if (!is_known(sample)) continue;
-    size += sizeof(std::uint64_t) + known_size(sample) + points_bytes(points_of(sample));
+    size += sizeof(std::uint64_t) + known_size(sample) + payload_bytes(frame, sample);
     demand_frame(size <= kMaxFrameBytes, "of more bytes than are taken");
   }
   return size;
@@ -171,7 +138,7 @@ void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes) {
   head.total = bytes.size();
   sink.put(&head, sizeof head);
   hw_frame_t copy = known_part(frame);
-  copy.n_samples = count_known(frame);
+  copy.n_samples = count_known(frame, frame.n_samples);
   put_offset(copy.samples, sink.at() + copy.size);
   sink.put(&copy, copy.size);
   std::uint64_t entry = sink.skip(copy.n_samples * sizeof(std::uint64_t));
@@ -180,60 +147,11 @@ void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes) {
     if (!is_known(sample)) continue;
     sink.put_at(entry, sink.at());
     entry += sizeof(std::uint64_t);
-    put_sample(sink, sample);
+    put_sample(sink, frame, sample);
   }
 }
-
-/// Takes parts from the bytes, each behind the one before.
-class FrameReader::Cursor {
- public:
-  explicit Cursor(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-  /// `size` bytes at `offset`.
-  const std::byte* take(std::uint64_t offset, std::uint64_t size, const char* part) {
-    if (offset % 8 != 0) damaged(offset, part, "an offset that is not a multiple of 8");
-    if (offset < end_)
-      damaged(offset, part, fmt::format("a part before byte {}, where the one before it ends", end_));
-    if (offset > bytes_.size() || size > bytes_.size() - offset) {
-      damaged(offset, part,
-              fmt::format("a part of {} bytes that ends beyond the frame's {}", size, bytes_.size()));
-    }
-    end_ = offset + size;
-    return bytes_.data() + offset;
-  }
-
-  /// A copy of the struct at `offset`, whose first member is its size; members that these headers do not know are left out.
-  template <typename T>
-  T take_struct(std::uint64_t offset, std::size_t min_size, const char* part) {
-    std::uint32_t size = 0;
-    std::memcpy(&size, peek(offset, part), sizeof size);
-    if (size < min_size || size % 8 != 0) damaged(offset, part, fmt::format("a size of {} bytes", size));
-    T value{};
-    std::memcpy(&value, take(offset, size, part), std::min<std::size_t>(size, sizeof(T)));
-    // What was copied counts, not what stood there a moment before.
-    value.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, sizeof(T)));
-    return value;
-  }
-
- private:
-  const std::byte* peek(std::uint64_t offset, const char* part) {
-    const std::uint64_t end = end_;
-    const std::byte* at = take(offset, 8, part);
-    end_ = end;
-    return at;
-  }
-
-  std::span<const std::byte> bytes_;
-  std::uint64_t end_ = 0;
-};
 
 namespace {
-
-/// Bytes that a struct had in ABI 1.0: up to and with its last member of that time.
-template <typename T, typename Member>
-constexpr std::size_t size_with(std::size_t offset, Member T::*) {
-  return offset + sizeof(Member);
-}
 
 void check_head(const Head& head, std::size_t size) {
   if (head.magic != kMagic) damaged(0, "head", "no frame: it does not begin with HWFB");
@@ -265,7 +183,7 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
     std::memcpy(aligned_.data(), bytes.data(), bytes.size());
     bytes = std::as_bytes(std::span(aligned_));
   }
-  Cursor cursor(bytes);
+  PartCursor cursor(bytes);
   Head head;
   std::memcpy(&head, cursor.take(0, sizeof head, "head"), sizeof head);
   check_head(head, bytes.size());
@@ -277,28 +195,72 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
   offsets_.resize(frame_.n_samples);
   if (table != 0) std::memcpy(offsets_.data(), entries, table);
   readings_.resize(offsets_.size());
-  std::size_t n = 0;
+  places_.clear();
+  std::uint32_t n = 0;
   for (const std::uint64_t offset : offsets_) {
     read_sample(cursor, offset, readings_[n]);
-    if (is_known(readings_[n].sample)) ++n;
+    const bool known = is_known(readings_[n].sample);
+    places_.push_back(known ? n : HW_NO_SAMPLE);
+    if (known) readings_[n++].offset = offset;
   }
   samples_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) samples_[i] = &readings_[i].sample;
-  frame_.n_samples = static_cast<std::uint32_t>(n);
+  for (std::uint32_t i = 0; i < n; ++i) samples_[i] = &readings_[i].sample;
+  frame_.n_samples = n;
   frame_.samples = samples_.data();
+  check_plane_samples();
   return frame_;
 }
 
-void FrameReader::read_sample(Cursor& cursor, std::uint64_t offset, Sample& out) {
+void FrameReader::read_sample(PartCursor& cursor, std::uint64_t offset, Sample& out) {
   out.sample = cursor.take_struct<hw_sample_t>(
       offset, size_with(offsetof(hw_sample_t, payload), &hw_sample_t::payload), "hw_sample_t");
   const std::uint64_t payload = offset_in(out.sample.payload);
   if (payload == 0) damaged(offset, "hw_sample_t", "a sample without a payload");
-  if (is_known(out.sample)) read_points(cursor, payload, out.points);
+  if (out.sample.kind == HW_SAMPLE_POINTS) read_points(cursor, payload, out.points);
+  if (out.sample.kind == HW_SAMPLE_PLANES) out.planes = take_planes(cursor, payload);
   out.sample.payload = &out.points;
+  if (out.sample.kind == HW_SAMPLE_PLANES) out.sample.payload = &out.planes;
 }
 
-void FrameReader::read_points(Cursor& cursor, std::uint64_t offset, hw_points_t& out) {
+/// Copies the planes, checks the copies and has the samples refer to them.
+void FrameReader::check_plane_samples() {
+  plane_lists_.clear();
+  for (std::uint32_t i = 0; i < frame_.n_samples; ++i) {
+    if (readings_[i].sample.kind == HW_SAMPLE_PLANES) check_planes_of(i);
+  }
+  for (std::uint32_t i = 0; i < frame_.n_samples; ++i) {
+    if (readings_[i].sample.kind != HW_SAMPLE_PLANES) continue;
+    const PlaneList list = *plane_lists_.of(i);
+    hw_planes_t& planes = readings_[i].planes;
+    planes.stride = sizeof(hw_plane_t);
+    planes.hull_stride = sizeof(hw_point3_t);
+    planes.planes = list.planes.data();
+    planes.hull_points = list.hull_points.data();
+    planes.members = list.members.data();
+  }
+}
+
+void FrameReader::check_planes_of(std::uint32_t index) {
+  Sample& reading = readings_[index];
+  const std::uint32_t told = reading.planes.sample;
+  if (told != HW_NO_SAMPLE && told >= places_.size()) {
+    damaged(reading.offset, "planes", fmt::format("planes of sample {} of {}", told, places_.size()));
+  }
+  if (told == HW_NO_SAMPLE && reading.planes.n_members != 0) {
+    damaged(reading.offset, "planes", "planes of no sample with members");
+  }
+  const std::uint32_t sample = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
+  const std::uint64_t elements = sample == HW_NO_SAMPLE ? 0 : *count_elements(readings_[sample].sample);
+  std::vector<hw_plane_t> storage;
+  reading.planes = refer_to_sample(reading.planes, sample, storage);
+  try {
+    plane_lists_.add(reading.planes, index, elements);
+  } catch (const Malformed& malformed) {
+    damaged(reading.offset, "planes", malformed.text);
+  }
+}
+
+void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, hw_points_t& out) {
   out = cursor.take_struct<hw_points_t>(offset, size_with(offsetof(hw_points_t, track), &hw_points_t::track),
                                         "hw_points_t");
   if (out.stride < sizeof(hw_point3_t) || out.stride % 8 != 0) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <hallway/planes.h>
 #include <hallway/sample.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "host/plane_lists.hpp"
 
 namespace hallway::host {
 
@@ -22,6 +25,9 @@ namespace hallway::host {
 //         then for each sample, in order:
 //         hw_sample_t          payload → by kind:
 //         HW_SAMPLE_POINTS     hw_points_t; points → count elements of `stride` bytes; track → count u64
+//         HW_SAMPLE_PLANES     hw_planes_t; planes → count elements of `stride` bytes; hull_points → n_hull_points elements of
+//                              `hull_stride` bytes; members → n_members u32, filled up with zeros to 8 bytes. `sample` counts the
+//                              samples of the table; where the one it was is left out, HW_NO_SAMPLE, and without members
 //
 // Each part begins where the one before ends, or later; parts never overlap. A reader takes structs and strides that are larger than those it
 // knows and passes over samples of kinds that it does not know; a struct smaller than in ABI 1.0 is damage. The layout's version changes only
@@ -44,11 +50,13 @@ void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes);
 /// Gives a frame that write_frame_bytes() wrote another number. Throws Error{kInternal} if `bytes` is too short for a frame.
 void set_frame_sequence(std::span<std::byte> bytes, std::uint64_t sequence);
 
+class PartCursor;
+
 /// Reads frames from bytes that nobody vouches for, in memory that is used again for the next one.
 class FrameReader {
  public:
   /// The frame in `bytes`. Every struct is copied before it is checked, so that a writer that still changes `bytes` can change the values of
-  /// points and nothing else; `points` and `track` lead into `bytes`, or into a copy where `bytes` is not aligned to 8.
+  /// points and nothing else; planes are copied whole, and checked as those that a plugin puts; `points` and `track` lead into `bytes`, or into a copy where `bytes` is not aligned to 8.
   /// Throws Error{kBadInput} (where.element is the offset and the part) for anything that is not as laid out above.
   /// @return valid until the next read() and as long as `bytes` lives
   const hw_frame_t& read(std::span<const std::byte> bytes);
@@ -57,17 +65,22 @@ class FrameReader {
   struct Sample {
     hw_sample_t sample{};
     hw_points_t points{};
+    hw_planes_t planes{};
+    std::uint64_t offset = 0;  ///< where it begins
   };
-  class Cursor;
 
-  void read_sample(Cursor& cursor, std::uint64_t offset, Sample& out);
-  void read_points(Cursor& cursor, std::uint64_t offset, hw_points_t& out);
+  void read_sample(PartCursor& cursor, std::uint64_t offset, Sample& out);
+  void read_points(PartCursor& cursor, std::uint64_t offset, hw_points_t& out);
+  void check_plane_samples();
+  void check_planes_of(std::uint32_t index);
 
   hw_frame_t frame_{};
   std::vector<Sample> readings_;             ///< the samples of this frame, of known kinds
   std::vector<const hw_sample_t*> samples_;  ///< into readings_
   std::vector<std::uint64_t> offsets_;       ///< the table, copied
-  std::vector<std::uint64_t> aligned_;       ///< the bytes again, if they came unaligned
+  std::vector<std::uint32_t> places_;   ///< for each entry of the table the sample it became, or HW_NO_SAMPLE
+  PlaneLists plane_lists_;              ///< by sample
+  std::vector<std::uint64_t> aligned_;  ///< the bytes again, if they came unaligned
 };
 
 }  // namespace hallway::host

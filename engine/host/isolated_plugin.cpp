@@ -10,6 +10,7 @@
 #include "host/frame_bytes.hpp"
 #include "host/isolated_list.hpp"
 #include "host/outputs_bytes.hpp"
+#include "host/sample_parts.hpp"
 
 namespace hallway::host {
 namespace {
@@ -36,7 +37,9 @@ IsolatedPlugin::IsolatedPlugin(const std::string& wanted, std::span<const std::f
   file_ = started_.file;
   process_.set_plugin(started_.info.id, file_);
   // Samples of other kinds cannot be sent; see frame_bytes_size().
-  if (std::ranges::count(started_.info.inputs, HW_SAMPLE_POINTS) > 0) sent_kinds_ = {HW_SAMPLE_POINTS};
+  for (const std::uint32_t kind : {HW_SAMPLE_POINTS, HW_SAMPLE_PLANES}) {
+    if (std::ranges::count(started_.info.inputs, kind) > 0) sent_kinds_.push_back(kind);
+  }
 }
 
 IsolatedPlugin::~IsolatedPlugin() {
@@ -104,11 +107,13 @@ void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const s
   indices.assign(sent_indices.begin(), sent_indices.end());
   samples.assign(sent.n_samples, {});
   points.assign(sent.n_samples, {});
+  planes.assign(sent.n_samples, {});
   pointers.clear();
   for (std::uint32_t i = 0; i < sent.n_samples; ++i) {
-    points[i].count = static_cast<const hw_points_t*>(sent.samples[i]->payload)->count;
+    points[i].count = planes[i].count = count_elements(*sent.samples[i]).value_or(0);
     samples[i].kind = sent.samples[i]->kind;
     samples[i].payload = &points[i];
+    if (samples[i].kind == HW_SAMPLE_PLANES) samples[i].payload = &planes[i];
     pointers.push_back(&samples[i]);
   }
   frame = {};

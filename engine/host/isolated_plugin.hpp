@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <hallway/planes.h>
+
 #include <array>
 #include <filesystem>
 #include <span>
@@ -47,7 +49,8 @@ class IsolatedPlugin final : public Stage {
   struct Pending {
     std::vector<std::uint32_t> indices;  ///< for each sample that was sent, its index in the frame
     std::vector<hw_sample_t> samples;
-    std::vector<hw_points_t> points;
+    std::vector<hw_points_t> points;  ///< no more than how many
+    std::vector<hw_planes_t> planes;  ///< likewise
     std::vector<const hw_sample_t*> pointers;
     hw_frame_t frame{};
 

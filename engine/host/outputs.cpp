@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "host/plugin_info.hpp"
+#include "host/sample_parts.hpp"
 #include "host/strided.hpp"
 
 namespace hallway::host {
@@ -146,8 +147,9 @@ std::uint64_t OutputCollector::elements_of(std::uint32_t sample) const {
   demand(frame_ != nullptr, "they belong to a frame, and this call has none");
   if (sample >= frame_->n_samples)
     throw Malformed{fmt::format("sample {} of a frame of {}", sample, frame_->n_samples)};
-  demand(frame_->samples[sample]->kind == HW_SAMPLE_POINTS, "for a sample that has no elements");
-  return static_cast<const hw_points_t*>(frame_->samples[sample]->payload)->count;
+  const auto elements = count_elements(*frame_->samples[sample]);
+  demand(elements.has_value(), "for a sample that has no elements");
+  return *elements;
 }
 
 hw_status_t OutputCollector::copy_associations(const hw_associations_t& associations) {

@@ -2,6 +2,7 @@
 #include "host/pipeline.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "host/isolated_plugin.hpp"
@@ -9,6 +10,7 @@
 #include "host/plugin.hpp"
 
 namespace hallway::host {
+
 Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
                    std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
     : Pipeline(unstarted(std::move(stages), std::move(folders), std::move(sensors), std::move(log),
@@ -50,6 +52,8 @@ void Pipeline::start() {
     stages_.clear();
     throw;
   }
+  in_turn_ = takes_what_others_find();
+  submitted_ = nullptr;
   started_ = true;
 }
 
@@ -73,24 +77,60 @@ void Pipeline::check_kinds() const {
   host::check_kinds(plugins, sensors_);
 }
 
+/// Whether a plugin takes samples of a kind that one before it gives.
+bool Pipeline::takes_what_others_find() const {
+  std::set<std::uint32_t> given;
+  for (const StageFacts& plugin : facts_) {
+    for (const std::uint32_t kind : plugin.info.inputs) {
+      if (given.contains(kind)) return true;
+    }
+    for (const std::uint32_t output : plugin.info.outputs) {
+      if (const auto kind = sample_of_output(output)) given.insert(*kind);
+    }
+  }
+  return false;
+}
+
 std::size_t Pipeline::capacity() const {
+  if (in_turn_) return 1;
   std::size_t least = stages_.front()->capacity();
   for (const auto& plugin : stages_) least = std::min(least, plugin->capacity());
   return least;
 }
 
 void Pipeline::submit(const hw_frame_t& frame) {
-  for (const auto& plugin : stages_) plugin->submit(frame);
+  if (!in_turn_) {
+    for (const auto& plugin : stages_) plugin->submit(frame);
+    return;
+  }
+  if (submitted_ != nullptr) throw Error(ErrorCode::kInternal, "too many frames under way");
+  submitted_ = &frame;
+}
+
+const Outputs& Pipeline::collect(Stage& plugin) {
+  const Outputs& outputs = plugin.collect();
+  last_call_.wall_ns += plugin.last_call().wall_ns;
+  last_call_.cpu_ns += plugin.last_call().cpu_ns;
+  return outputs;
+}
+
+const Outputs& Pipeline::collect_in_turn() {
+  if (submitted_ == nullptr) throw Error(ErrorCode::kInternal, "collect() without a frame");
+  const hw_frame_t* frame = &plane_samples_.begin(*std::exchange(submitted_, nullptr));
+  const Outputs* outputs = nullptr;
+  for (const auto& plugin : stages_) {
+    plugin->submit(*frame);
+    outputs = &collect(*plugin);
+    frame = &plane_samples_.add(*outputs);
+  }
+  return *outputs;
 }
 
 const Outputs& Pipeline::collect() {
   last_call_ = {};
+  if (in_turn_) return collect_in_turn();
   const Outputs* outputs = nullptr;
-  for (const auto& plugin : stages_) {
-    outputs = &plugin->collect();
-    last_call_.wall_ns += plugin->last_call().wall_ns;
-    last_call_.cpu_ns += plugin->last_call().cpu_ns;
-  }
+  for (const auto& plugin : stages_) outputs = &collect(*plugin);
   return *outputs;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/isolation.hpp"
+#include "host/plane_samples.hpp"
 #include "host/stage.hpp"
 
 namespace hallway::host {
@@ -34,8 +35,8 @@ struct StageFacts {
   std::vector<std::string> values{};  ///< of the parameters at activation; empty where it never came to that
 };
 
-/// Plugins in order, each fed with the samples of the kinds it needs. The last one's outputs are the
-/// pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
+/// Plugins in order, each fed with the samples of the kinds it needs: those of the frame, and the planes that plugins before it found in
+/// them. The last one's outputs are the pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
 class Pipeline {
  public:
   /// Finds, makes, sets and activates the plugins. Before any of them is activated, checks that each kind of
@@ -61,9 +62,9 @@ class Pipeline {
   /// Whether each plugin has a process of its own.
   bool isolated() const { return isolation_.has_value(); }
 
-  /// How many frames may be submitted and not yet collected.
+  /// How many frames may be submitted and not yet collected: one where a plugin takes what another one finds.
   std::size_t capacity() const;
-  /// Hands one frame to every plugin; see Stage::submit().
+  /// Hands one frame to every plugin, or remembers it where a plugin takes what another one finds; see Stage::submit().
   void submit(const hw_frame_t& frame);
   /// What the last plugin answers to the oldest frame that was submitted and not yet collected.
   /// @return valid until the next call
@@ -87,6 +88,9 @@ class Pipeline {
   void start();
   void prepare_stages();
   void check_kinds() const;
+  bool takes_what_others_find() const;
+  const Outputs& collect_in_turn();
+  const Outputs& collect(Stage& plugin);
   std::unique_ptr<Stage> make_stage(const std::string& plugin);
 
   std::vector<StageSpec> specs_;
@@ -98,6 +102,9 @@ class Pipeline {
   bool started_ = false;
   std::vector<StageFacts> facts_;
   std::vector<std::unique_ptr<Stage>> stages_;
+  bool in_turn_ = false;                   ///< a plugin is fed only when those before it have answered
+  const hw_frame_t* submitted_ = nullptr;  ///< then: the frame that is to be collected
+  PlaneSamples plane_samples_;
   CallTime last_call_;
 };
 

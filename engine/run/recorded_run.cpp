@@ -97,6 +97,9 @@ class Collector {
       bad(fmt::format("frame {} has {} readings; replay takes frames of one", frame.sequence,
                       frame.n_samples));
     }
+    if (frame.samples[0]->kind != HW_SAMPLE_POINTS) {
+      bad(fmt::format("frame {} has no points; replay takes frames of points", frame.sequence));
+    }
     SourceFrame copy;
     copy.t_ns = frame.t_ns;
     const auto& points = *static_cast<const hw_points_t*>(frame.samples[0]->payload);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/small_world.hpp"
 #include "support/gray_png.hpp"
 #include "support/process.hpp"
 
@@ -239,6 +240,34 @@ TEST(BenchEm, WhatCannotBeDoneIsSaidByTheStatus) {
   EXPECT_EQ(status({"--scenes-dir", folder / "none"}), 3);
   EXPECT_EQ(hallway({"bench-em", "--plugin", levels() + ":fault=throws", "--scenes", "1"}).status, 5);
   EXPECT_EQ(hallway({"bench-em", "--scenes", "1"}).status, 2);
+}
+
+/// A scenario whose last plugin answers with what it read in the planes that the one before it found.
+std::string scenario_with_a_reader() {
+  const std::string reader = binary_folder() / "tests/abi/fixtures/reads_planes.so:reads_both";
+  return replaced(
+      small_scenario(), "name = \"slam_point\"\n",
+      "name = \"" + levels() + "\"\nparams = { near_m = 0.5 }\n\n[[plugin]]\nname = \"" + reader + "\"\n");
+}
+
+TEST(PlanesInAPipeline, AreTheSameInOneProcessInSeveralAndInAReplay) {
+  const SmallWorld world;
+  world.folder().write("small.toml", scenario_with_a_reader());
+  ASSERT_EQ(world.run({"--in-process"}, "together").status, 0);
+  ASSERT_EQ(world.run({}, "apart").status, 0);
+  const std::string trajectory = read_file(fs::path(world.out("together")) / "trajectory.tum");
+  EXPECT_EQ(trajectory, read_file(fs::path(world.out("apart")) / "trajectory.tum"));
+  EXPECT_NE(trajectory.find(" 0 0 0 1\n"), std::string::npos) << trajectory.substr(0, 200);
+  EXPECT_EQ(read_file(fs::path(world.out("together")) / "run.mcap"),
+            read_file(fs::path(world.out("apart")) / "run.mcap"));
+  for (const bool in_process : {false, true}) {
+    const std::string name = in_process ? "again_together" : "again_apart";
+    std::vector<std::string> arguments{"replay", world.out("apart") + "/run.mcap", "--out", world.out(name)};
+    if (in_process) arguments.push_back("--in-process");
+    const Ended ended = hallway(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(read_file(fs::path(world.out(name)) / "trajectory.tum"), trajectory);
+  }
 }
 
 }  // namespace
