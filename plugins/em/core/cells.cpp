@@ -12,18 +12,6 @@ int cells_along(double length, double cell) {
   return std::max(1, static_cast<int>(std::min(std::ceil(length / cell), 1e9)));
 }
 
-/// Calls visit(cell) for the cell and those at its sides and corners.
-template <typename Visit>
-void visit_neighbours(const CellGrid& grid, std::size_t cell, Visit visit) {
-  const int column = static_cast<int>(cell % static_cast<std::size_t>(grid.columns));
-  const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.columns));
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-      visit(grid.place(c, r));
-    }
-  }
-}
-
 /// to = to or from where `grow`, else to and from; values are 0 and 1. Eight at a time: -O2 leaves such loops as
 /// they are.
 void combine(const std::uint8_t* from, std::uint8_t* to, int count, bool grow) {
@@ -129,19 +117,13 @@ CellMap<std::uint32_t> components(const CellGrid& grid, const CellMap<std::uint8
 
 CellMap<std::uint8_t> connected(const CellGrid& grid, const CellMap<std::uint8_t>& occupied,
                                 const std::vector<std::size_t>& starts) {
-  CellMap<std::uint8_t> reached(grid.size(), 0);
-  std::vector<std::size_t> open;
-  const auto reach = [&](std::size_t cell) {
-    if (occupied[cell] == 0 || reached[cell] != 0) return;
-    reached[cell] = 1;
-    open.push_back(cell);
-  };
-  for (const std::size_t start : starts) reach(start);
-  while (!open.empty()) {
-    const std::size_t here = open.back();
-    open.pop_back();
-    visit_neighbours(grid, here, reach);
-  }
+  std::uint32_t count = 0;
+  const CellMap<std::uint32_t> number = components(grid, occupied, count);
+  std::vector<std::uint8_t> chosen(count + 1, 0);
+  for (const std::size_t start : starts) chosen[number[start]] = 1;
+  chosen[0] = 0;
+  CellMap<std::uint8_t> reached(grid.size());
+  for (std::size_t c = 0; c < grid.size(); ++c) reached[c] = chosen[number[c]];
   return reached;
 }
 

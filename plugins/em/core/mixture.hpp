@@ -50,7 +50,8 @@ class Mixture {
   void assign_patch(std::uint32_t j, double outlier);
   void collect_over(const Patch& patch, double sigmas);
   void cover_patch(std::uint32_t j);
-  CellMap<float> own_points(std::uint32_t j, CellMap<float>& density) const;
+  void crop_to_points(std::uint32_t j, int margin);
+  CellMap<float> own_points(std::uint32_t j, CellMap<float>& density);
   CellMap<float> gains(std::uint32_t j, const CellMap<float>& density) const;
   bool split_patch(std::uint32_t j, std::size_t min_points, std::vector<Patch>& parts);
 
@@ -60,6 +61,7 @@ class Mixture {
   std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
   std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
   SlabPoints slab_;
+  std::vector<std::size_t> cell_of_;  ///< of each point of slab_
 };
 
 }  // namespace hallway::em

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastDensity = 0.1;  // of a patch's density: in cells of few or no points
 constexpr int kNearbyCells = 2;        // to either side: the points there tell the density of a cell
 constexpr double kOneSided = 4.0;      // log likelihood by which one side leads as good as alone
+constexpr int kMargin = 2;             // cells: the outermost ones are never covered
 constexpr double kGapSpacings =
     1.6;  // half of the gap that chance leaves within a patch, in spacings of points
 constexpr double kSeamSigmas = 3.0;  // half of the gap that a patch that crosses it leaves
@@ -39,16 +40,16 @@ CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
   return range;
 }
 
-/// Mean over a cell and its eight neighbours.
-double mean_around(const CellGrid& grid, const CellMap<float>& counts, int column, int row) {
-  double sum = 0.0;
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, grid.columns - 1); ++c) {
-      sum += static_cast<double>(counts[grid.place(c, r)]);
-    }
-  }
-  return sum / 9.0;
-}
+/// Logs of densities, most of which are the largest one there can be.
+class LogDensity {
+ public:
+  explicit LogDensity(double most)
+      : most_(static_cast<float>(most)), log_most_(static_cast<float>(std::log(most))) {}
+  float operator()(float density) const { return density >= most_ ? log_most_ : std::log(density); }
+
+ private:
+  float most_, log_most_;
+};
 
 /// Points per area within the support. Where the patch has it only because a gap was closed, others took its
 /// points: there the density is taken to be as it was.
@@ -88,33 +89,66 @@ double gain_of(double lead) {
 /// Sets the log density of all cells of `support`: what is counted there, at most that of the whole patch and
 /// at least a little; in closed gaps that of the whole patch.
 void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
-                   const CellMap<std::uint8_t>& occupied) {
+                   const CellMap<std::uint8_t>& likely) {
   const CellGrid& grid = patch.grid;
-  const double area = grid.cell * grid.cell;
+  const auto per_area = static_cast<float>(1.0 / (grid.cell * grid.cell));
+  const auto most = static_cast<float>(patch.density);
+  const auto least = static_cast<float>(kLeastDensity * patch.density);
+  const LogDensity log_density(patch.density);
+  const CellMap<float> around = mean_within(grid, own, 1);
   patch.log_density.assign(grid.size(), kNotCovered);
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const std::size_t c = grid.place(column, row);
-      if (support[c] == 0) continue;
-      const bool bridged = occupied[c] == 0;
-      const double there = std::max(static_cast<double>(own[c]), mean_around(grid, own, column, row)) / area;
-      const double local =
-          bridged ? patch.density : std::clamp(there, kLeastDensity * patch.density, patch.density);
-      patch.log_density[c] = static_cast<float>(std::log(local));
-    }
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    if (support[c] == 0) continue;
+    const float there = std::max(own[c], around[c]) * per_area;
+    patch.log_density[c] = log_density(likely[c] == 0 ? most : std::clamp(there, least, most));
   }
 }
 
 }  // namespace
 
-CellMap<float> Mixture::own_points(std::uint32_t j, CellMap<float>& density) const {
-  const CellGrid& grid = patches[j].grid;
-  CellMap<float> own(grid.size(), 0.0f);
-  CellMap<float> open(grid.size(), 0.0f);
+void Mixture::crop_to_points(std::uint32_t j, int margin) {
+  CellGrid& grid = patches[j].grid;
+  const auto column_of = [&grid](double a) { return static_cast<int>((a - grid.low_a) / grid.cell); };
+  const auto row_of = [&grid](double b) { return static_cast<int>((b - grid.low_b) / grid.cell); };
+  CellRange range{grid.columns, -1, grid.rows, -1};
   for (std::size_t k = 0; k < slab_.size(); ++k) {
     const std::uint32_t label = best_[slab_.place[k]];
     if (label != j && label != kNoPlane) continue;
+    range.first_column = std::min(range.first_column, column_of(slab_.a[k]));
+    range.last_column = std::max(range.last_column, column_of(slab_.a[k]));
+    range.first_row = std::min(range.first_row, row_of(slab_.b[k]));
+    range.last_row = std::max(range.last_row, row_of(slab_.b[k]));
+  }
+  if (range.last_column < 0) return;
+  const int first_column = std::max(range.first_column - margin, 0);
+  const int first_row = std::max(range.first_row - margin, 0);
+  const int last_column = std::min(range.last_column + margin, grid.columns - 1);
+  const int last_row = std::min(range.last_row + margin, grid.rows - 1);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const int column = column_of(slab_.a[k]);
+    const int row = row_of(slab_.b[k]);
+    if (column < first_column || column > last_column || row < first_row || row > last_row) continue;
+    slab_.place[kept] = slab_.place[k];
+    slab_.a[kept] = slab_.a[k];
+    slab_.b[kept] = slab_.b[k];
+    slab_.height[kept++] = slab_.height[k];
+  }
+  slab_.resize(kept);
+  grid = {grid.low_a + first_column * grid.cell, grid.low_b + first_row * grid.cell, grid.cell,
+          last_column - first_column + 1, last_row - first_row + 1};
+}
+
+CellMap<float> Mixture::own_points(std::uint32_t j, CellMap<float>& density) {
+  const CellGrid& grid = patches[j].grid;
+  CellMap<float> own(grid.size(), 0.0f);
+  CellMap<float> open(grid.size(), 0.0f);
+  cell_of_.resize(slab_.size());
+  for (std::size_t k = 0; k < slab_.size(); ++k) {
+    const std::uint32_t label = best_[slab_.place[k]];
     const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+    cell_of_[k] = c;
+    if (label != j && label != kNoPlane) continue;
     open[c] += 1.0f;
     if (label == j) own[c] += 1.0f;
   }
@@ -135,11 +169,12 @@ CellMap<float> Mixture::gains(std::uint32_t j, const CellMap<float>& density) co
   for (std::size_t c = 0; c < grid.size(); ++c) gain[c] = -density[c] * area;
   const double peak = log_peak(patch.sigma);
   const double scale = -0.5 / (patch.sigma * patch.sigma);
+  const LogDensity log_density(patch.density);
   for (std::size_t k = 0; k < slab_.size(); ++k) {
     const std::uint32_t i = slab_.place[k];
-    const std::size_t c = grid.at(slab_.a[k], slab_.b[k]);
+    const std::size_t c = cell_of_[k];
     const double score =
-        std::log(static_cast<double>(density[c])) + peak + scale * slab_.height[k] * slab_.height[k];
+        static_cast<double>(log_density(density[c])) + peak + scale * slab_.height[k] * slab_.height[k];
     const float without = best_[i] == j ? second_score_[i] : best_score_[i];
     gain[c] += static_cast<float>(gain_of(score - static_cast<double>(without)));
   }
@@ -151,11 +186,12 @@ void Mixture::cover_patch(std::uint32_t j) {
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
   collect_over(patch, kSlabSigmas);
+  const int gap = std::max(cells_for(kGapSpacings / std::sqrt(patch.density), grid),
+                           cells_for(kSeamSigmas * patch.sigma, grid) + 1);
+  crop_to_points(j, gap + kMargin);
   CellMap<float> density;
   const CellMap<float> own = own_points(j, density);
   const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, density));
-  const int gap = std::max(cells_for(kGapSpacings / std::sqrt(patch.density), grid),
-                           cells_for(kSeamSigmas * patch.sigma, grid) + 1);
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
   patch.density = density_within(grid, support, likely, own, patch.density);
   set_densities(patch, own, support, likely);
