@@ -92,7 +92,7 @@ void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
 
 void PlaneSearch::attempt(const Seed& seed, double sigma, std::vector<std::uint8_t>& claimed) {
   Grower grower(field_, claimed);
-  Grown grown = grower.grow(seed, sigma);
+  Grown grown = facets_ ? grower.grow_flat(seed, sigma) : grower.grow(seed, sigma);
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   if (grown.members.size() < fewest) return;
   const std::optional<TwoSheets> sheets = two_sheets(heights_of(field_, grown), fewest);
