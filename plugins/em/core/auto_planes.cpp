@@ -14,6 +14,7 @@ namespace {
 constexpr double kThinnest =
     20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
 constexpr std::size_t kFewLeft = 50;   // one point in so many in no plane: no rougher surface is looked for
+constexpr std::size_t kManyLeft = 5;   // one in so many: more than outliers
 constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
 
 /// Every so many-th point: even in space too, since the points are in Morton order.
@@ -70,11 +71,13 @@ void find_planes(PlaneSearch& search, const AutoOptions& options, double sigma, 
   settle(mixture, options);
   double level = mixture.patches.empty() ? sigma : mixture.noise();
   if (add_planes(search, level, 2, mixture)) settle(mixture, options);
-  for (int k = 0; k < options.rougher && mixture.unassigned() * kFewLeft > mixture.labels().size(); ++k) {
+  const std::size_t n = mixture.labels().size();
+  for (int k = 0; k < options.rougher && mixture.unassigned() * kFewLeft > n; ++k) {
     const double rougher = search.rougher_noise(level, mixture.labels());
-    // The same level again: what planes gave up when they were settled may make others.
-    if (!(rougher > 0.0) && k == 0) return;
+    if (!(rougher > 0.0) && k == 0 && mixture.unassigned() * kManyLeft < n) return;
+    // With the same level again: what planes gave up when they were settled may make others.
     if (rougher > 0.0) level = rougher;
+    search.take_facets();
     if (!add_planes(search, level, 2, mixture)) return;
     settle(mixture, options);
   }

@@ -13,16 +13,19 @@ namespace {
 constexpr float kAgreement = 0.6f;
 constexpr int kSweeps = 4;  // nearly nothing changes after the second
 
-/// Means over 2 `radius` + 1 values along one line of `length` cells that lie `stride` apart.
-void mean_along(const float* from, float* to, int length, std::ptrdiff_t stride, int radius) {
-  const float scale = 1.0f / static_cast<float>(2 * radius + 1);
+/// Sums of 2 `radius` + 1 values about each of `length` values.
+void sum_along(const float* from, float* to, int length, int radius) {
   float sum = 0.0f;
-  for (int k = 0; k < std::min(radius, length); ++k) sum += from[k * stride];
+  for (int k = 0; k < std::min(radius, length); ++k) sum += from[k];
   for (int k = 0; k < length; ++k) {
-    if (k + radius < length) sum += from[(k + radius) * stride];
-    to[k * stride] = sum * scale;
-    if (k - radius >= 0) sum -= from[(k - radius) * stride];
+    if (k + radius < length) sum += from[k + radius];
+    to[k] = sum;
+    if (k >= radius) sum -= from[k - radius];
   }
+}
+
+void add(const float* from, float* to, int length, float sign) {
+  for (int k = 0; k < length; ++k) to[k] += sign * from[k];
 }
 
 /// Which cells are covered, and how many of the nine at and about each.
@@ -69,12 +72,18 @@ CellMap<float> mean_within(const CellGrid& grid, const CellMap<float>& values, i
   CellMap<float> along(values.size());
   CellMap<float> result(values.size());
   for (int row = 0; row < grid.rows; ++row) {
-    const std::size_t begin = grid.place(0, row);
-    mean_along(&values[begin], &along[begin], grid.columns, 1, radius);
+    sum_along(&values[grid.place(0, row)], &along[grid.place(0, row)], grid.columns, radius);
   }
-  for (int column = 0; column < grid.columns; ++column) {
-    const std::size_t begin = grid.place(column, 0);
-    mean_along(&along[begin], &result[begin], grid.rows, grid.columns, radius);
+  const auto side = static_cast<float>(2 * radius + 1);
+  CellMap<float> sums(static_cast<std::size_t>(grid.columns), 0.0f);  // over the rows about the present one
+  const auto add_row = [&](int row, float sign) {
+    if (row >= 0 && row < grid.rows) add(&along[grid.place(0, row)], sums.data(), grid.columns, sign);
+  };
+  for (int row = 0; row < radius; ++row) add_row(row, 1.0f);
+  for (int row = 0; row < grid.rows; ++row) {
+    add_row(row + radius, 1.0f);
+    add(sums.data(), &result[grid.place(0, row)], grid.columns, 1.0f / (side * side));
+    add_row(row - radius, -1.0f);
   }
   return result;
 }

@@ -17,7 +17,11 @@ constexpr double kSettled = 1.02;   // growth of the number of members below whi
 constexpr int kSettledSteps = 2;    // ... when it happens so often in a row
 constexpr double kHopeless =
     1.5;  // RMS by noise at which the slab is as full outside as within: no plane ...
-constexpr int kHopelessSteps = 3;   // ... after so many steps
+constexpr int kHopelessSteps = 3;  // ... after so many steps
+// A surface that bends fills the slab where it goes on: it is then taken up to where it was flat.
+constexpr double kBent = 1.3;            // RMS by noise at least
+constexpr double kFlat = 1.1;            // RMS by noise at most ...
+constexpr std::size_t kFewestFlat = 50;  // ... of so many points at least
 constexpr double kDense = 1.5;      // cells with more than so many times the median are thinned by weight
 constexpr double kMostCells = 4.0;  // cells per point of the slab at most
 
@@ -107,6 +111,20 @@ double Grower::mean_square() const {
 }
 
 Grown Grower::grow(const Seed& seed, double sigma) {
+  double flat = 0.0;
+  return grow_within(seed, sigma, std::numeric_limits<double>::infinity(), flat);
+}
+
+Grown Grower::grow_flat(const Seed& seed, double sigma) {
+  double flat = 0.0;
+  Grown grown = grow_within(seed, sigma, std::numeric_limits<double>::infinity(), flat);
+  if (grown.mean_square <= kBent * kBent * sigma * sigma || !(flat > 0.0)) return grown;
+  Grown within = grow_within(seed, sigma, flat, flat);
+  within.relied_on.insert(within.relied_on.end(), grown.relied_on.begin(), grown.relied_on.end());
+  return within;
+}
+
+Grown Grower::grow_within(const Seed& seed, double sigma, double widest, double& flat) {
   plane_ = Grown{};
   plane_.frame = frame_on(seed.frame.origin, seed.frame.normal);
   plane_.sigma = sigma;
@@ -123,6 +141,7 @@ Grown Grower::grow(const Seed& seed, double sigma) {
     if (picked_.size() < kFewest) break;
     refit();
     const double count = static_cast<double>(picked_.size());
+    if (picked_.size() >= kFewestFlat && mean_square() <= kFlat * kFlat * sigma * sigma) flat = radius;
     if (step >= kHopelessSteps && mean_square() > kHopeless * kHopeless * sigma * sigma) break;
     settled = count <= kSettled * static_cast<double>(members) ? settled + 1 : 0;
     members = picked_.size();
@@ -130,6 +149,7 @@ Grown Grower::grow(const Seed& seed, double sigma) {
     cell_ = std::clamp(std::sqrt(kPointsPerCell * covered_area(cells, plane_.grid.cell) / count),
                        first_cell / 2.0, first_cell * 2.0);
     cell_ = std::max(cell_, kSlabSigmas * sigma);
+    if (settled == 0 && radius * kWiden > widest) break;
     if (settled == 0) radius *= kWiden;
   }
   for (const std::uint32_t k : picked_) plane_.members.push_back(slab_.place[k]);

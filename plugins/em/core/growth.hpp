@@ -38,8 +38,12 @@ class Grower {
 
   /// Grows from `seed`, noise about `sigma`. What comes out may be no plane at all; see evidence.hpp.
   Grown grow(const Seed& seed, double sigma);
+  /// The same, but where that bends: there only up to where it is flat.
+  Grown grow_flat(const Seed& seed, double sigma);
 
  private:
+  /// Up to a radius of `widest`; `flat`: the last one at which the members were flat.
+  Grown grow_within(const Seed& seed, double sigma, double widest, double& flat);
   void take_slab(double radius);
   void spread_over_cells(double seed_radius);
   void refit();

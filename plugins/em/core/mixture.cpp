@@ -55,7 +55,7 @@ Mixture::Mixture(const PointField& field, double volume, Workers& workers)
       volume_(volume),
       workers_(workers),
       unassigned_(field.points.count),
-      slabs_(workers.count()) {
+      scratch_(workers.count()) {
   const std::size_t n = field.points.blocks() * kBlockSize;
   best_.assign(n, kNoPlane);
   second_.assign(n, kNoPlane);
@@ -123,7 +123,7 @@ void Mixture::assign() {
   const double outlier = log_outlier();
   const std::vector<Reach> reaches = this->reaches(outlier);
   workers_.run(field_.tree.chunks(), [&](std::size_t chunk, std::size_t worker) {
-    assign_chunk(chunk, outlier, reaches, slabs_[worker]);
+    assign_chunk(chunk, outlier, reaches, scratch_[worker].slab);
   });
   const auto end = best_.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
   unassigned_ = static_cast<std::size_t>(std::count(best_.begin(), end, kNoPlane));
@@ -216,7 +216,7 @@ double Mixture::exclusive_share(std::uint32_t j, SlabPoints& slab) const {
 std::vector<double> Mixture::exclusive_shares() {
   std::vector<double> shares(patches.size());
   workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
-    shares[j] = exclusive_share(static_cast<std::uint32_t>(j), slabs_[worker]);
+    shares[j] = exclusive_share(static_cast<std::uint32_t>(j), scratch_[worker].slab);
   });
   return shares;
 }

@@ -56,12 +56,19 @@ class Mixture {
     double peak = 0.0;  ///< log of the normal density on the plane
   };
 
+  /// What a worker keeps from one patch to the next.
+  struct Scratch {
+    SlabPoints slab;
+    std::vector<std::size_t> cells;  ///< of the points of the slab
+  };
+
   std::vector<Reach> reaches(double outlier) const;
   void assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches, SlabPoints& slab);
   void assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab);
-  void cover_patch(std::uint32_t j, SlabPoints& slab);
-  CellMap<float> own_points(std::uint32_t j, const SlabPoints& slab, CellMap<float>& density) const;
-  CellMap<float> gains(std::uint32_t j, const SlabPoints& slab, const CellMap<float>& density) const;
+  void cover_patch(std::uint32_t j, Scratch& scratch);
+  void crop_to_points(std::uint32_t j, int margin, SlabPoints& slab);
+  CellMap<float> own_points(std::uint32_t j, Scratch& scratch, CellMap<float>& density) const;
+  CellMap<float> gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const;
   /// The parts that a patch falls into; empty if it is one.
   std::vector<Patch> parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const;
   double exclusive_share(std::uint32_t j, SlabPoints& slab) const;
@@ -72,7 +79,7 @@ class Mixture {
   std::size_t unassigned_;
   std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
   std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
-  std::vector<SlabPoints> slabs_;                 ///< scratch of each worker
+  std::vector<Scratch> scratch_;                  ///< of each worker
 };
 
 }  // namespace hallway::em

@@ -14,6 +14,7 @@ namespace {
 constexpr double kLeastDensity = 0.1;  // of a patch's density: in cells of few or no points
 constexpr int kNearbyCells = 2;        // to either side: the points there tell the density of a cell
 constexpr double kOneSided = 4.0;      // log likelihood by which one side leads as good as alone
+constexpr int kMargin = 2;             // cells: the outermost ones are never covered
 constexpr double kGapSpacings =
     1.6;  // half of the gap that chance leaves within a patch, in spacings of points
 constexpr double kSeamSigmas = 3.0;  // half of the gap that a patch that crosses it leaves
@@ -41,18 +42,16 @@ CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
   return range;
 }
 
-/// Sums over each cell of a row and its eight neighbours; exact, since the counts are whole numbers. `above` is scratch.
-void sum_around(const CellGrid& grid, const CellMap<float>& counts, int row, std::vector<float>& above,
-                std::vector<float>& sums) {
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  above.assign(columns + 2, 0.0f);  // an empty column to both sides
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, grid.rows - 1); ++r) {
-    const float* line = &counts[grid.place(0, r)];
-    for (std::size_t c = 0; c < columns; ++c) above[c + 1] += line[c];
-  }
-  sums.resize(columns);
-  for (std::size_t c = 0; c < columns; ++c) sums[c] = above[c] + above[c + 1] + above[c + 2];
-}
+/// Logs of densities, most of which are the largest one there can be.
+class LogDensity {
+ public:
+  explicit LogDensity(double most)
+      : most_(static_cast<float>(most)), log_most_(static_cast<float>(std::log(most))) {}
+  float operator()(float density) const { return density >= most_ ? log_most_ : std::log(density); }
+
+ private:
+  float most_, log_most_;
+};
 
 /// Points per area within the support. Where the patch has it only because a gap was closed, others took its
 /// points: there the density is taken to be as it was.
@@ -92,40 +91,67 @@ double gain_of(double lead) {
 /// Sets the log density of all cells of `support`: what is counted there, at most that of the whole patch and
 /// at least a little; in closed gaps that of the whole patch.
 void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
-                   const CellMap<std::uint8_t>& occupied) {
+                   const CellMap<std::uint8_t>& likely) {
   const CellGrid& grid = patch.grid;
-  const double area = grid.cell * grid.cell;
-  const double least = kLeastDensity * patch.density;
-  const auto log_density = static_cast<float>(std::log(patch.density));
-  const auto log_least = static_cast<float>(std::log(least));
+  const auto per_area = static_cast<float>(1.0 / (grid.cell * grid.cell));
+  const auto most = static_cast<float>(patch.density);
+  const auto least = static_cast<float>(kLeastDensity * patch.density);
+  const LogDensity log_density(patch.density);
+  const CellMap<float> around = mean_within(grid, own, 1);
   patch.log_density.assign(grid.size(), kNotCovered);
-  std::vector<float> above, around;
-  for (int row = 0; row < grid.rows; ++row) {
-    sum_around(grid, own, row, above, around);
-    for (int column = 0; column < grid.columns; ++column) {
-      const std::size_t c = grid.place(column, row);
-      if (support[c] == 0) continue;
-      const bool bridged = occupied[c] == 0;
-      const double mean = static_cast<double>(around[static_cast<std::size_t>(column)]) / 9.0;
-      const double there = std::max(static_cast<double>(own[c]), mean) / area;
-      const bool full = bridged || there >= patch.density;
-      patch.log_density[c] = full             ? log_density
-                             : there <= least ? log_least
-                                              : static_cast<float>(std::log(there));
-    }
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    if (support[c] == 0) continue;
+    const float there = std::max(own[c], around[c]) * per_area;
+    patch.log_density[c] = log_density(likely[c] == 0 ? most : std::clamp(there, least, most));
   }
 }
 
 }  // namespace
 
-CellMap<float> Mixture::own_points(std::uint32_t j, const SlabPoints& slab, CellMap<float>& density) const {
-  const CellGrid& grid = patches[j].grid;
-  CellMap<float> own(grid.size(), 0.0f);
-  CellMap<float> open(grid.size(), 0.0f);
+void Mixture::crop_to_points(std::uint32_t j, int margin, SlabPoints& slab) {
+  CellGrid& grid = patches[j].grid;
+  const auto column_of = [&grid](double a) { return static_cast<int>((a - grid.low_a) / grid.cell); };
+  const auto row_of = [&grid](double b) { return static_cast<int>((b - grid.low_b) / grid.cell); };
+  CellRange range{grid.columns, -1, grid.rows, -1};
   for (std::size_t k = 0; k < slab.size(); ++k) {
     const std::uint32_t label = best_[slab.place[k]];
     if (label != j && label != kNoPlane) continue;
+    range.first_column = std::min(range.first_column, column_of(slab.a[k]));
+    range.last_column = std::max(range.last_column, column_of(slab.a[k]));
+    range.first_row = std::min(range.first_row, row_of(slab.b[k]));
+    range.last_row = std::max(range.last_row, row_of(slab.b[k]));
+  }
+  if (range.last_column < 0) return;
+  const int first_column = std::max(range.first_column - margin, 0);
+  const int first_row = std::max(range.first_row - margin, 0);
+  const int last_column = std::min(range.last_column + margin, grid.columns - 1);
+  const int last_row = std::min(range.last_row + margin, grid.rows - 1);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const int column = column_of(slab.a[k]);
+    const int row = row_of(slab.b[k]);
+    if (column < first_column || column > last_column || row < first_row || row > last_row) continue;
+    slab.place[kept] = slab.place[k];
+    slab.a[kept] = slab.a[k];
+    slab.b[kept] = slab.b[k];
+    slab.height[kept++] = slab.height[k];
+  }
+  slab.resize(kept);
+  grid = {grid.low_a + first_column * grid.cell, grid.low_b + first_row * grid.cell, grid.cell,
+          last_column - first_column + 1, last_row - first_row + 1};
+}
+
+CellMap<float> Mixture::own_points(std::uint32_t j, Scratch& scratch, CellMap<float>& density) const {
+  const CellGrid& grid = patches[j].grid;
+  CellMap<float> own(grid.size(), 0.0f);
+  CellMap<float> open(grid.size(), 0.0f);
+  const SlabPoints& slab = scratch.slab;
+  scratch.cells.resize(slab.size());
+  for (std::size_t k = 0; k < slab.size(); ++k) {
+    const std::uint32_t label = best_[slab.place[k]];
     const std::size_t c = grid.at(slab.a[k], slab.b[k]);
+    scratch.cells[k] = c;
+    if (label != j && label != kNoPlane) continue;
     open[c] += 1.0f;
     if (label == j) own[c] += 1.0f;
   }
@@ -137,7 +163,7 @@ CellMap<float> Mixture::own_points(std::uint32_t j, const SlabPoints& slab, Cell
   return own;
 }
 
-CellMap<float> Mixture::gains(std::uint32_t j, const SlabPoints& slab, const CellMap<float>& density) const {
+CellMap<float> Mixture::gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const {
   const Patch& patch = patches[j];
   const CellGrid& grid = patch.grid;
   // Points come one by one (Poisson): covering a cell costs the number of points to be expected there.
@@ -146,27 +172,30 @@ CellMap<float> Mixture::gains(std::uint32_t j, const SlabPoints& slab, const Cel
   for (std::size_t c = 0; c < grid.size(); ++c) gain[c] = -density[c] * area;
   const double peak = log_peak(patch.sigma);
   const double scale = -0.5 / (patch.sigma * patch.sigma);
+  const SlabPoints& slab = scratch.slab;
+  const LogDensity log_density(patch.density);
   for (std::size_t k = 0; k < slab.size(); ++k) {
     const std::uint32_t i = slab.place[k];
-    const std::size_t c = grid.at(slab.a[k], slab.b[k]);
+    const std::size_t c = scratch.cells[k];
     const double score =
-        std::log(static_cast<double>(density[c])) + peak + scale * slab.height[k] * slab.height[k];
+        static_cast<double>(log_density(density[c])) + peak + scale * slab.height[k] * slab.height[k];
     const float without = best_[i] == j ? second_score_[i] : best_score_[i];
     gain[c] += static_cast<float>(gain_of(score - static_cast<double>(without)));
   }
   return gain;
 }
 
-void Mixture::cover_patch(std::uint32_t j, SlabPoints& slab) {
+void Mixture::cover_patch(std::uint32_t j, Scratch& scratch) {
   Patch& patch = patches[j];
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
-  collect(field_, slab_over(patch, kSlabSigmas), slab);
-  CellMap<float> density;
-  const CellMap<float> own = own_points(j, slab, density);
-  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, slab, density));
+  collect(field_, slab_over(patch, kSlabSigmas), scratch.slab);
   const int gap = std::max(cells_for(kGapSpacings / std::sqrt(patch.density), grid),
                            cells_for(kSeamSigmas * patch.sigma, grid) + 1);
+  crop_to_points(j, gap + kMargin, scratch.slab);
+  CellMap<float> density;
+  const CellMap<float> own = own_points(j, scratch, density);
+  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, scratch, density));
   const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
   patch.density = density_within(grid, support, likely, own, patch.density);
   set_densities(patch, own, support, likely);
@@ -177,7 +206,7 @@ void Mixture::cover_patch(std::uint32_t j, SlabPoints& slab) {
 
 void Mixture::cover() {
   workers_.run(patches.size(), [this](std::size_t j, std::size_t worker) {
-    cover_patch(static_cast<std::uint32_t>(j), slabs_[worker]);
+    cover_patch(static_cast<std::uint32_t>(j), scratch_[worker]);
   });
 }
 
@@ -217,7 +246,7 @@ std::vector<Patch> Mixture::parts_of(std::uint32_t j, std::size_t min_points, Sl
 bool Mixture::split(std::size_t min_points) {
   std::vector<std::vector<Patch>> parts(patches.size());
   workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
-    parts[j] = parts_of(static_cast<std::uint32_t>(j), min_points, slabs_[worker]);
+    parts[j] = parts_of(static_cast<std::uint32_t>(j), min_points, scratch_[worker].slab);
   });
   std::vector<Patch> after;
   bool any = false;

@@ -152,7 +152,10 @@ void PlaneSearch::try_all(const Trial& trial, double sigma, std::vector<std::uin
     std::optional<Seed> seed;
     Grown grown;
   };
-  const auto grow = [&](Ahead& ahead) { ahead.grown = Grower(field_, claimed).grow(*ahead.seed, sigma); };
+  const auto grow = [&](Ahead& ahead) {
+    Grower grower(field_, claimed);
+    ahead.grown = facets_ ? grower.grow_flat(*ahead.seed, sigma) : grower.grow(*ahead.seed, sigma);
+  };
   std::size_t next = 0;
   std::size_t tried = 0;
   while (next < trial.count && tried < trial.most) {

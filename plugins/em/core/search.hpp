@@ -31,6 +31,9 @@ class PlaneSearch {
   /// `claimed` (of each point, filled up to whole blocks) is read and added to.
   std::vector<Grown> find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed);
 
+  /// From now on bent surfaces give facets.
+  void take_facets() { facets_ = true; }
+
  private:
   std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
   /// Seeds that are tried one after the other: which, and what each is.
@@ -58,6 +61,7 @@ class PlaneSearch {
   Vec3 extent_;
   Workers& workers_;
   std::size_t unclaimed_ = 0;
+  bool facets_ = false;
   std::vector<Seed> first_seeds_;       ///< of all points: for the noise and for the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round

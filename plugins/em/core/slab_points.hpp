@@ -21,6 +21,12 @@ struct SlabPoints {
   std::vector<double> a, b, height;  ///< coordinates in the frame, the last one signed
 
   std::size_t size() const { return place.size(); }
+  void resize(std::size_t count) {
+    place.resize(count);
+    a.resize(count);
+    b.resize(count);
+    height.resize(count);
+  }
 };
 
 /// Replaces `found` by the points of `field` inside of `slab`.
