@@ -23,8 +23,10 @@ class Mixture {
   void assign();
   /// Maximisation: refits all patches to the points, each by the share that the scores give.
   void refit();
-  /// Moves the borders of all patches to where the points are that no other patch explains as well.
-  void cover();
+  /// Moves the borders of all patches to where the points are that no other patch explains as well. Of a patch
+  /// whose points do not hang together any more the largest part stays; others of at least `least_piece`
+  /// points become patches of their own, unless that is 0.
+  void cover(std::size_t least_piece = 0);
   /// Drops the patch that explains least, if that is less than `min_points` or than its parameters and
   /// the search cost (Schwarz 1978; Desolneux, Moisan, Morel 2000).
   /// True if it dropped one; the points are then to be assigned anew.
@@ -49,7 +51,7 @@ class Mixture {
   double log_outlier() const;
   void assign_patch(std::uint32_t j, double outlier);
   void collect_over(const Patch& patch, double sigmas);
-  void cover_patch(std::uint32_t j);
+  void cover_patch(std::uint32_t j, std::size_t least_piece, std::vector<Patch>& pieces);
   void crop_to_points(std::uint32_t j, int margin);
   CellMap<float> own_points(std::uint32_t j, CellMap<float>& density);
   CellMap<float> gains(std::uint32_t j, const CellMap<float>& density) const;
