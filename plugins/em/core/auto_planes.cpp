@@ -90,7 +90,7 @@ void settle_with_all(Mixture& sampled, double factor, const AutoOptions& options
   assign_and_cull(whole, min_points);
   if (whole.split(min_points)) whole.assign();
   whole.refit();
-  whole.cover();
+  whole.cover(min_points);
   assign_and_cull(whole, min_points);
 }
 

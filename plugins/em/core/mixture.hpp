@@ -25,8 +25,10 @@ class Mixture {
   void assign();
   /// Maximisation: refits all patches to the points, each by the share that the scores give.
   void refit();
-  /// Moves the borders of all patches to where the points are that no other patch explains as well.
-  void cover();
+  /// Moves the borders of all patches to where the points are that no other patch explains as well. Of a patch
+  /// whose points do not hang together any more the largest part stays; others of at least `least_piece`
+  /// points become patches of their own, unless that is 0.
+  void cover(std::size_t least_piece = 0);
   /// Drops the patch that explains least, if that is less than `min_points` or than its parameters and
   /// the search cost (Schwarz 1978; Desolneux, Moisan, Morel 2000).
   /// True if it dropped one; the points are then to be assigned anew.
@@ -65,7 +67,7 @@ class Mixture {
   std::vector<Reach> reaches(double outlier) const;
   void assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches, SlabPoints& slab);
   void assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab);
-  void cover_patch(std::uint32_t j, Scratch& scratch);
+  void cover_patch(std::uint32_t j, std::size_t least_piece, Scratch& scratch, std::vector<Patch>& pieces);
   void crop_to_points(std::uint32_t j, int margin, SlabPoints& slab);
   CellMap<float> own_points(std::uint32_t j, Scratch& scratch, CellMap<float>& density) const;
   CellMap<float> gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const;

@@ -106,6 +106,42 @@ void set_densities(Patch& patch, const CellMap<float>& own, const CellMap<std::u
   }
 }
 
+/// Covers `support` of the patch's grid, at the density of the points there.
+void take_support(Patch& patch, const CellMap<float>& own, const CellMap<std::uint8_t>& support,
+                  const CellMap<std::uint8_t>& likely) {
+  patch.density = density_within(patch.grid, support, likely, own, patch.density);
+  set_densities(patch, own, support, likely);
+  const CellRange range = range_of(patch.grid, support);
+  if (range.last_column < range.first_column) return;
+  crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
+}
+
+/// Cells of a patch's grid: its points, what it may cover, the largest part of that which hangs together, and
+/// what is likely covered.
+struct Cover {
+  const CellMap<float>& own;
+  const CellMap<std::uint8_t>& covered;
+  const CellMap<std::uint8_t>& largest;
+  const CellMap<std::uint8_t>& likely;
+};
+
+/// Adds a patch for each other part with `least` points of the patch.
+void add_pieces(const Patch& patch, const Cover& cover, std::size_t least, std::vector<Patch>& pieces) {
+  std::uint32_t count = 0;
+  const CellMap<std::uint32_t> number = components(patch.grid, cover.covered, count);
+  std::vector<double> points(count + 1, 0.0);
+  for (std::size_t c = 0; c < number.size(); ++c) {
+    if (cover.largest[c] == 0) points[number[c]] += static_cast<double>(cover.own[c]);
+  }
+  for (std::uint32_t n = 1; n <= count; ++n) {
+    if (points[n] < static_cast<double>(least)) continue;
+    CellMap<std::uint8_t> support(number.size());
+    for (std::size_t c = 0; c < number.size(); ++c) support[c] = number[c] == n ? 1 : 0;
+    pieces.push_back(patch);
+    take_support(pieces.back(), cover.own, support, cover.likely);
+  }
+}
+
 }  // namespace
 
 void Mixture::crop_to_points(std::uint32_t j, int margin, SlabPoints& slab) {
@@ -185,7 +221,8 @@ CellMap<float> Mixture::gains(std::uint32_t j, const Scratch& scratch, const Cel
   return gain;
 }
 
-void Mixture::cover_patch(std::uint32_t j, Scratch& scratch) {
+void Mixture::cover_patch(std::uint32_t j, std::size_t least_piece, Scratch& scratch,
+                          std::vector<Patch>& pieces) {
   Patch& patch = patches[j];
   patch.grid = widened(patch);
   const CellGrid& grid = patch.grid;
@@ -196,18 +233,19 @@ void Mixture::cover_patch(std::uint32_t j, Scratch& scratch) {
   CellMap<float> density;
   const CellMap<float> own = own_points(j, scratch, density);
   const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, scratch, density));
-  const CellMap<std::uint8_t> support = largest_component(grid, closed(grid, likely, gap));
-  patch.density = density_within(grid, support, likely, own, patch.density);
-  set_densities(patch, own, support, likely);
-  const CellRange range = range_of(grid, support);
-  if (range.last_column < range.first_column) return;
-  crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
+  const CellMap<std::uint8_t> covered = closed(grid, likely, gap);
+  const CellMap<std::uint8_t> largest = largest_component(grid, covered);
+  if (least_piece > 0) add_pieces(patch, {own, covered, largest, likely}, least_piece, pieces);
+  take_support(patch, own, largest, likely);
 }
 
-void Mixture::cover() {
-  workers_.run(patches.size(), [this](std::size_t j, std::size_t worker) {
-    cover_patch(static_cast<std::uint32_t>(j), scratch_[worker]);
+void Mixture::cover(std::size_t least_piece) {
+  std::vector<std::vector<Patch>> pieces(patches.size());
+  workers_.run(patches.size(), [&](std::size_t j, std::size_t worker) {
+    cover_patch(static_cast<std::uint32_t>(j), least_piece, scratch_[worker], pieces[j]);
   });
+  for (std::vector<Patch>& of_one : pieces)
+    std::move(of_one.begin(), of_one.end(), std::back_inserter(patches));
 }
 
 std::vector<Patch> Mixture::parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/random.hpp"
 
@@ -51,6 +52,23 @@ TEST(Cells, DilationAgreesWithLookingAtEachNeighbour) {
   }
 }
 
+/// The occupied cells that steps from one to the next lead to.
+CellMap<std::uint8_t> walk(const CellGrid& grid, const CellMap<std::uint8_t>& cells, std::size_t start) {
+  CellMap<std::uint8_t> reached(grid.size(), 0);
+  std::vector<std::size_t> open{start};
+  reached[start] = 1;
+  while (!open.empty()) {
+    const auto here = static_cast<int>(open.back());
+    open.pop_back();
+    visit_square(grid, here % grid.columns, here / grid.columns, 1, [&](std::size_t next) {
+      if (cells[next] == 0 || reached[next] != 0) return;
+      reached[next] = 1;
+      open.push_back(next);
+    });
+  }
+  return reached;
+}
+
 TEST(Cells, ComponentsAgreeWithWalkingFromCellToCell) {
   for (std::uint32_t number = 0; number < 40; ++number) {
     const CellGrid grid{0.0, 0.0, 1.0, 1 + static_cast<int>(number % 17), 1 + static_cast<int>(number / 2)};
@@ -63,7 +81,8 @@ TEST(Cells, ComponentsAgreeWithWalkingFromCellToCell) {
       ASSERT_EQ(numbers[c] == 0, cells[c] == 0);
       if (numbers[c] <= seen) continue;
       ASSERT_EQ(numbers[c], ++seen) << "numbers are those of the order of first cells";
-      const CellMap<std::uint8_t> walked = connected(grid, cells, {c});
+      const CellMap<std::uint8_t> walked = walk(grid, cells, c);
+      EXPECT_EQ(connected(grid, cells, {c}), walked);
       for (std::size_t k = 0; k < grid.size(); ++k) ASSERT_EQ(walked[k] != 0, numbers[k] == seen);
       largest = std::max(largest, std::count(walked.begin(), walked.end(), 1));
     }
