@@ -54,7 +54,16 @@ class Mixture {
     double peak = 0.0;  ///< log of the normal density on the plane
   };
 
+  /// What a patch explains.
+  struct Gain {
+    double value = 0.0;  ///< log likelihood by which its points prefer it
+    std::size_t members = 0;
+  };
+
   std::vector<Reach> reaches(double outlier) const;
+  std::vector<Gain> gains() const;
+  /// Of each patch's share of the points from `begin` to `end`, about the patch's origin.
+  std::vector<Moments> shared_moments(std::size_t begin, std::size_t end, double outlier) const;
   void assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches, SlabPoints& slab);
   void assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab);
   void cover_patch(std::uint32_t j, SlabPoints& slab);
