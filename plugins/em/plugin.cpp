@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "adapter/option_rows.hpp"
 #include "em/core/auto_planes.hpp"
 #include "em/core/em1.hpp"
 #include "em/core/em2.hpp"
@@ -93,14 +94,7 @@ class PlanePlugin final : public sdk::Plugin {
   static const hw_plugin_info_t* info() { return &Algorithm::kInfo; }
 
   explicit PlanePlugin(const hw_host_t* host) : Plugin(host) {
-    for (const auto& row : Algorithm::rows()) {
-      if (row.real != nullptr) {
-        parameters().add(row.name, &(options_.*row.real), row.min, row.max, row.unit, row.help);
-      } else {
-        parameters().add(row.name, &(options_.*row.whole), static_cast<int>(row.min),
-                         static_cast<int>(row.max), row.unit, row.help);
-      }
-    }
+    add_options(parameters(), options_, Algorithm::rows());
   }
 
   void activate(const hw_activation_t& activation) override {
