@@ -2,10 +2,12 @@
 #include <hallway/plugin.hpp>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "adapter/option_rows.hpp"
 #include "em/core/auto_planes.hpp"
 #include "em/core/em1.hpp"
 #include "em/core/em2.hpp"
@@ -29,11 +31,17 @@ class Auto {
                 "Finds finite planes in points; noise and scale are estimated.");
   static auto rows() { return auto_options(); }
 
-  explicit Auto(const Options& options) : extractor_(options) {}
-  Extraction extract(std::span<const Vec3> cloud) { return extractor_.extract(cloud); }
+  explicit Auto(const Options& options) : extractor_(options), warm_start_(options.warm_start != 0) {}
+  /// The planes of a cloud that a sensor gave.
+  Extraction extract(std::span<const Vec3> cloud, std::uint32_t sensor) {
+    return warm_start_ ? extractor_.extract(cloud, memories_[sensor]) : extractor_.extract(cloud);
+  }
+  void forget() { memories_.clear(); }
 
  private:
   PlaneExtractor extractor_;
+  bool warm_start_;
+  std::map<std::uint32_t, PlaneMemory> memories_;  ///< by sensor
 };
 
 class First {
@@ -45,7 +53,10 @@ class First {
   static auto rows() { return em1_options(); }
 
   explicit First(const Options& options) : options_(options) {}
-  Extraction extract(std::span<const Vec3> cloud) const { return extract_em1(cloud, options_); }
+  Extraction extract(std::span<const Vec3> cloud, std::uint32_t) const {
+    return extract_em1(cloud, options_);
+  }
+  void forget() {}
 
  private:
   Options options_;
@@ -59,7 +70,10 @@ class Second {
   static auto rows() { return em2_options(); }
 
   explicit Second(const Options& options) : options_(options) {}
-  Extraction extract(std::span<const Vec3> cloud) const { return extract_em2(cloud, options_); }
+  Extraction extract(std::span<const Vec3> cloud, std::uint32_t) const {
+    return extract_em2(cloud, options_);
+  }
+  void forget() {}
 
  private:
   Options options_;
@@ -73,21 +87,14 @@ void copy(const Vec3& from, double (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-/// Answers the planes of every sample of points, in the frame of its sensor. Keeps nothing from frame to frame.
+/// Answers the planes of every sample of points, in the frame of its sensor. Only a warm start keeps anything from frame to frame.
 template <typename Algorithm>
 class PlanePlugin final : public sdk::Plugin {
  public:
   static const hw_plugin_info_t* info() { return &Algorithm::kInfo; }
 
   explicit PlanePlugin(const hw_host_t* host) : Plugin(host) {
-    for (const auto& row : Algorithm::rows()) {
-      if (row.real != nullptr) {
-        parameters().add(row.name, &(options_.*row.real), row.min, row.max, row.unit, row.help);
-      } else {
-        parameters().add(row.name, &(options_.*row.whole), static_cast<int>(row.min),
-                         static_cast<int>(row.max), row.unit, row.help);
-      }
-    }
+    add_options(parameters(), options_, Algorithm::rows());
   }
 
   void activate(const hw_activation_t& activation) override {
@@ -102,7 +109,7 @@ class PlanePlugin final : public sdk::Plugin {
 
   void deactivate() override { algorithm_.reset(); }
 
-  void reset() override {}
+  void reset() override { algorithm_->forget(); }
 
   void report(bool) override {}
 
@@ -113,7 +120,7 @@ class PlanePlugin final : public sdk::Plugin {
       const hw_sample_t& sample = *frame.samples[k];
       if (sample.kind != HW_SAMPLE_POINTS) continue;
       gather_points(*static_cast<const hw_points_t*>(sample.payload));
-      const Extraction found = algorithm_->extract(points_);
+      const Extraction found = algorithm_->extract(points_, sample.sensor_id);
       put(k, found);
       planes += found.planes.size();
       for (const std::uint32_t label : found.labels) unlabelled += label == kNoPlane ? 1u : 0u;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "adapter/option_rows.hpp"
 #include "adapter/point_adapter.hpp"
 #include "icp/core/localiser.hpp"
 
@@ -28,14 +29,7 @@ class Icp final : public sdk::Plugin {
         "What is made small: the distance of matching points, or that of a point from the plane "
         "through its match.");
     parameters().add_choice("weights", &kernel_, kKernels, "How matches that do not fit are weighted.");
-    for (const Parameter& row : icp::parameters()) {
-      if (row.real) {
-        parameters().add(row.name, &(options_.*row.real), row.min, row.max, row.unit, row.help);
-      } else {
-        parameters().add(row.name, &(options_.*row.whole), static_cast<int>(row.min),
-                         static_cast<int>(row.max), row.unit, row.help);
-      }
-    }
+    add_options(parameters(), options_, icp::parameters());
   }
 
   void activate(const hw_activation_t& activation) override {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "adapter/option_rows.hpp"
 #include "adapter/point_adapter.hpp"
 #include "slam_point/core/mapper.hpp"
 
@@ -30,14 +31,7 @@ class SlamPoint final : public sdk::Plugin {
   static const hw_plugin_info_t* info();
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
-    for (const Parameter& row : slam_point::parameters()) {
-      if (row.real) {
-        parameters().add(row.name, &(options_.*row.real), row.min, row.max, row.unit, row.help);
-      } else {
-        parameters().add(row.name, &(options_.*row.whole), static_cast<int>(row.min),
-                         static_cast<int>(row.max), row.unit, row.help);
-      }
-    }
+    add_options(parameters(), options_, slam_point::parameters());
   }
 
   void activate(const hw_activation_t& activation) override {

@@ -13,8 +13,10 @@ namespace {
 
 constexpr double kThinnest =
     20.0;  // noises: a cloud of one plane has a volume too, in which outliers may lie
-constexpr std::size_t kFewLeft = 50;   // one point in so many in no plane: no rougher surface is looked for
-constexpr std::size_t kManyLeft = 5;   // one in so many: more than outliers
+constexpr std::size_t kFewLeft = 50;  // one point in so many in no plane: no rougher surface is looked for
+constexpr std::size_t kManyLeft = 5;  // one in so many: more than outliers
+constexpr double kWarmRadius =
+    0.25;  // of the shorter side: where a plane of the last frame starts to grow again
 constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
 
 /// Every so many-th point: even in space too, since the points are in Morton order.
@@ -94,6 +96,24 @@ void settle_with_all(Mixture& sampled, double factor, const AutoOptions& options
   assign_and_cull(whole, min_points);
 }
 
+/// Where the planes of the last frame would go on in one of `points` points in the frame `frame`: about their middles.
+std::vector<Seed> seeds_from(const PlaneMemory& memory, const CloudFrame& frame, std::size_t points) {
+  std::vector<Seed> seeds;
+  for (std::size_t j = 0; j < memory.planes().size(); ++j) {
+    const Plane& plane = memory.planes()[j];
+    const double side = (plane.corners[1] - plane.corners[0]).norm();
+    const double other = (plane.corners[2] - plane.corners[1]).norm();
+    const double share = static_cast<double>(memory.members()[j]) / static_cast<double>(memory.points());
+    Seed seed;
+    seed.frame = frame_on(frame.from_cloud(plane.centroid), frame.axes.transpose() * plane.normal);
+    seed.radius = kWarmRadius * std::min(side, other);
+    seed.density = share * static_cast<double>(points) / (side * other);
+    seed.noise = plane.rms;
+    if (seed.radius > 0.0) seeds.push_back(seed);
+  }
+  return seeds;
+}
+
 }  // namespace
 
 PlaneExtractor::PlaneExtractor(const AutoOptions& options) : options_(options) {
@@ -102,6 +122,16 @@ PlaneExtractor::PlaneExtractor(const AutoOptions& options) : options_(options) {
 }
 
 Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
+  return extract_from(cloud, PlaneMemory());
+}
+
+Extraction PlaneExtractor::extract(std::span<const Vec3> cloud, PlaneMemory& memory) const {
+  Extraction found = extract_from(cloud, memory);
+  memory.identify(found);
+  return found;
+}
+
+Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const PlaneMemory& memory) const {
   const CanonicalCloud canonical = canonical_order(cloud, *workers_);
   const Points sample = sample_of(canonical.points, static_cast<std::size_t>(options_.sample_points));
   const BoxTree sample_tree(sample, *workers_);
@@ -111,7 +141,10 @@ Extraction PlaneExtractor::extract(std::span<const Vec3> cloud) const {
   const double sigma = options_.noise > 0.0 ? options_.noise : search.estimate_noise();
   const double volume = canonical.frame.extent.cwiseMax(kThinnest * sigma).prod();
   Mixture mixture(sample_field, volume, *workers_);
-  if (sigma > 0.0) find_planes(search, options_, sigma, mixture);
+  if (sigma > 0.0) {
+    search.begin_with(seeds_from(memory, canonical.frame, sample.count));
+    find_planes(search, options_, sigma, mixture);
+  }
   if (sample.count == canonical.points.count) {
     return extraction_of(canonical, mixture, options_.bend, cloud.size(), *workers_);
   }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "em/core/auto_options.hpp"
+#include "em/core/plane_memory.hpp"
 #include "em/core/types.hpp"
 #include "em/core/workers.hpp"
 
@@ -25,7 +26,13 @@ class PlaneExtractor {
   /// in no plane. About O(n log n). Throws std::length_error from 2^28 points.
   Extraction extract(std::span<const Vec3> cloud) const;
 
+  /// The same for one of several clouds that a sensor saw one after the other: the planes of the last one are tried first; planes that are
+  /// the same have the same ids, and no other plane ever has. What comes out depends on the clouds before.
+  Extraction extract(std::span<const Vec3> cloud, PlaneMemory& memory) const;
+
  private:
+  Extraction extract_from(std::span<const Vec3> cloud, const PlaneMemory& memory) const;
+
   AutoOptions options_;
   std::unique_ptr<Workers> workers_;
 };

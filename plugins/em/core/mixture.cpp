@@ -129,10 +129,9 @@ void Mixture::assign() {
   unassigned_ = static_cast<std::size_t>(std::count(best_.begin(), end, kNoPlane));
 }
 
-void Mixture::refit() {
+std::vector<Moments> Mixture::shared_moments(std::size_t begin, std::size_t end, double outlier) const {
   std::vector<Moments> moments(patches.size());
-  const double outlier = log_outlier();
-  for (std::size_t i = 0; i < field_.points.count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t j = best_[i];
     if (j == kNoPlane) continue;
     const Vec3 p = field_.points.at(i);
@@ -144,6 +143,19 @@ void Mixture::refit() {
     moments[j].add(p - patches[j].frame.origin, share);
     if (rest * share > kSmallestShare) moments[other].add(p - patches[other].frame.origin, rest * share);
   }
+  return moments;
+}
+
+void Mixture::refit() {
+  const double outlier = log_outlier();
+  std::vector<std::vector<Moments>> parts(Workers::parts(field_.points.count));
+  workers_.run_parts(field_.points.count, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = shared_moments(begin, end, outlier);
+  });
+  std::vector<Moments> moments(patches.size());
+  for (const std::vector<Moments>& part : parts) {
+    for (std::size_t j = 0; j < patches.size(); ++j) moments[j].join(part[j]);
+  }
   for (std::size_t j = 0; j < patches.size(); ++j) {
     Patch& patch = patches[j];
     if (moments[j].weight() < kFewest) continue;
@@ -153,20 +165,35 @@ void Mixture::refit() {
   }
 }
 
-bool Mixture::cull(std::size_t min_points) {
-  std::vector<double> gain(patches.size(), 0.0);
-  std::vector<std::size_t> members(patches.size(), 0);
-  for (std::size_t i = 0; i < field_.points.count; ++i) {
-    if (best_[i] == kNoPlane) continue;
-    gain[best_[i]] += static_cast<double>(best_score_[i] - second_score_[i]);
-    ++members[best_[i]];
+std::vector<Mixture::Gain> Mixture::gains() const {
+  std::vector<std::vector<Gain>> parts(Workers::parts(field_.points.count));
+  workers_.run_parts(field_.points.count, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<Gain> sums(patches.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      if (best_[i] == kNoPlane) continue;
+      sums[best_[i]].value += static_cast<double>(best_score_[i] - second_score_[i]);
+      ++sums[best_[i]].members;
+    }
+    parts[part] = std::move(sums);
+  });
+  std::vector<Gain> all(patches.size());
+  for (const std::vector<Gain>& part : parts) {
+    for (std::size_t j = 0; j < patches.size(); ++j) {
+      all[j].value += part[j].value;
+      all[j].members += part[j].members;
+    }
   }
+  return all;
+}
+
+bool Mixture::cull(std::size_t min_points) {
+  const std::vector<Gain> gain = gains();
   const double cost = kCost * std::log(static_cast<double>(field_.points.count));
   // One at a time, the least first: what it leaves may make another one worth its cost.
   std::size_t worst = patches.size();
   for (std::size_t j = 0; j < patches.size(); ++j) {
-    const bool poor = members[j] < min_points || gain[j] < cost;
-    if (poor && (worst == patches.size() || gain[j] < gain[worst])) worst = j;
+    const bool poor = gain[j].members < min_points || gain[j].value < cost;
+    if (poor && (worst == patches.size() || gain[j].value < gain[worst].value)) worst = j;
   }
   if (worst == patches.size()) return false;
   patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(worst));

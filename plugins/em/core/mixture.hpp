@@ -64,13 +64,22 @@ class Mixture {
     std::vector<std::size_t> cells;  ///< of the points of the slab
   };
 
+  /// What a patch explains.
+  struct Gain {
+    double value = 0.0;  ///< log likelihood by which its points prefer it
+    std::size_t members = 0;
+  };
+
   std::vector<Reach> reaches(double outlier) const;
+  std::vector<Gain> gains() const;
+  /// Of each patch's share of the points from `begin` to `end`, about the patch's origin.
+  std::vector<Moments> shared_moments(std::size_t begin, std::size_t end, double outlier) const;
   void assign_chunk(std::size_t chunk, double outlier, const std::vector<Reach>& reaches, SlabPoints& slab);
   void assign_patch(std::size_t chunk, const Reach& reach, SlabPoints& slab);
   void cover_patch(std::uint32_t j, std::size_t least_piece, Scratch& scratch, std::vector<Patch>& pieces);
   void crop_to_points(std::uint32_t j, int margin, SlabPoints& slab);
   CellMap<float> own_points(std::uint32_t j, Scratch& scratch, CellMap<float>& density) const;
-  CellMap<float> gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const;
+  CellMap<float> cell_gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const;
   /// The parts that a patch falls into; empty if it is one.
   std::vector<Patch> parts_of(std::uint32_t j, std::size_t min_points, SlabPoints& slab) const;
   double exclusive_share(std::uint32_t j, SlabPoints& slab) const;

@@ -199,7 +199,8 @@ CellMap<float> Mixture::own_points(std::uint32_t j, Scratch& scratch, CellMap<fl
   return own;
 }
 
-CellMap<float> Mixture::gains(std::uint32_t j, const Scratch& scratch, const CellMap<float>& density) const {
+CellMap<float> Mixture::cell_gains(std::uint32_t j, const Scratch& scratch,
+                                   const CellMap<float>& density) const {
   const Patch& patch = patches[j];
   const CellGrid& grid = patch.grid;
   // Points come one by one (Poisson): covering a cell costs the number of points to be expected there.
@@ -232,7 +233,7 @@ void Mixture::cover_patch(std::uint32_t j, std::size_t least_piece, Scratch& scr
   crop_to_points(j, gap + kMargin, scratch.slab);
   CellMap<float> density;
   const CellMap<float> own = own_points(j, scratch, density);
-  const CellMap<std::uint8_t> likely = likely_covered(grid, gains(j, scratch, density));
+  const CellMap<std::uint8_t> likely = likely_covered(grid, cell_gains(j, scratch, density));
   const CellMap<std::uint8_t> covered = closed(grid, likely, gap);
   const CellMap<std::uint8_t> largest = largest_component(grid, covered);
   if (least_piece > 0) add_pieces(patch, {own, covered, largest, likely}, least_piece, pieces);

@@ -180,10 +180,25 @@ void PlaneSearch::try_all(const Trial& trial, double sigma, std::vector<std::uin
   }
 }
 
-std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed) {
+void PlaneSearch::begin_round(std::vector<std::uint8_t>& claimed) {
   found_.clear();
   pending_.clear();
   failures_.assign(claimed.size(), 0);
+}
+
+std::vector<Grown> PlaneSearch::try_warm_seeds(double sigma, std::vector<std::uint8_t>& claimed) {
+  begin_round(claimed);
+  const std::vector<Seed> seeds = std::exchange(warm_seeds_, {});
+  const auto end = claimed.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
+  unclaimed_ = static_cast<std::size_t>(std::count(claimed.begin(), end, std::uint8_t{0}));
+  try_all({seeds.size(), seeds.size(), [](std::size_t) { return false; },
+           [&](std::size_t k) { return std::optional(seeds[k]); }},
+          sigma, claimed);
+  return std::move(found_);
+}
+
+std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed) {
+  begin_round(claimed);
   const Unclaimed free = unclaimed_of(field_.points, claimed);
   const BoxTree tree(free.points, workers_);
   const PointField free_field{free.points, tree};
@@ -211,7 +226,7 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
 }
 
 std::vector<Grown> PlaneSearch::find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed) {
-  std::vector<Grown> all;
+  std::vector<Grown> all = try_warm_seeds(sigma, claimed);
   int in_a_row = 0;
   for (std::size_t number = 0; number < static_cast<std::size_t>(options_.rounds); ++number) {
     std::vector<Grown> found = round(sigma, number, claimed);

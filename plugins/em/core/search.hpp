@@ -27,6 +27,9 @@ class PlaneSearch {
   /// The noise of surfaces rougher than `sigma` among the points without a label; 0 if there seem to be none.
   double rougher_noise(double sigma, const std::vector<std::uint32_t>& labels) const;
 
+  /// The next search tries these seeds before its own.
+  void begin_with(std::vector<Seed> seeds) { warm_seeds_ = std::move(seeds); }
+
   /// Rounds of seeds, growth and acceptance, until `fruitless` in a row find nothing. `sigma`: noise.
   /// `claimed` (of each point, filled up to whole blocks) is read and added to.
   std::vector<Grown> find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed);
@@ -35,6 +38,8 @@ class PlaneSearch {
   void take_facets() { facets_ = true; }
 
  private:
+  std::vector<Grown> try_warm_seeds(double sigma, std::vector<std::uint8_t>& claimed);
+  void begin_round(std::vector<std::uint8_t>& claimed);
   std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
   /// Seeds that are tried one after the other: which, and what each is.
   struct Trial {
@@ -63,6 +68,7 @@ class PlaneSearch {
   std::size_t unclaimed_ = 0;
   bool facets_ = false;
   std::vector<Seed> first_seeds_;       ///< of all points: for the noise and for the first round
+  std::vector<Seed> warm_seeds_;        ///< to be tried before the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round
   std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed

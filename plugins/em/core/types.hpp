@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kNoPlane = 0xffffffffu;
 /// A finite plane and the points that it explains. Cloud's frame, the cloud's own unit of length.
 struct Plane {
   std::uint64_t id =
-      0;  ///< the same in the next frame where planes are kept across frames; else its place in the list
+      0;  ///< the same in the next frame where planes are kept across frames (PlaneMemory); else its place in the list
   Vec3 normal = Vec3::UnitZ();   ///< unit, towards the origin of the cloud's frame (the sensor); see orient()
   double offset = 0.0;           ///< normal . x = offset on the plane; <= 0 by the choice of the normal
   Vec3 centroid = Vec3::Zero();  ///< of the member points, on the plane
