@@ -31,4 +31,7 @@ status=0
 awk '/^```/ { inside = !inside; next } inside' "$here/../docs/tutorial-map.md" > "$work/flat.hwe"
 (cd "$work" && "$hallway" edit flat.map -f flat.hwe > /dev/null)
 cp "$work/flat.png" "$here/tutorial.png"
+# Planes: truth beside result.
+"$hallway" bench-em --plugin em --scenes 1 --seed 2 --planes 12..12 --points 12000..12000 --sigma 0.01..0.02 --pictures 1 --out "$work/planes" --quiet
+cp "$work/planes"/*.png "$here/planes.png"
 ls -l "$here"/*.png
