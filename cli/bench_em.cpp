@@ -305,9 +305,8 @@ void add_bench_em_command(CLI::App& app, Action& chosen) {
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
   command->footer(
-      "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart. Decidable "
-      "are those that "
-      "a\nlabelling that knows all planes gets right.\n"
+      "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
+      "Decidable are the planes that a labelling which knows all of them gets right.\n"
       "Example: hallway bench-em --plugin em --plugin em2 --scenes 200 --seed 7 --out out/bench");
   command->callback([&chosen, options] { chosen = [options] { return bench_em(*options); }; });
 }
