@@ -260,9 +260,16 @@ TEST(PlanesInAPipeline, AreTheSameInOneProcessInSeveralAndInAReplay) {
   EXPECT_NE(trajectory.find(" 0 0 0 1\n"), std::string::npos) << trajectory.substr(0, 200);
   EXPECT_EQ(read_file(fs::path(world.out("together")) / "run.mcap"),
             read_file(fs::path(world.out("apart")) / "run.mcap"));
+  const fs::path plugins =
+      fs::path(world.folder().path()) / "plugins";  // a replay looks for them by their ids
+  fs::create_directory(plugins);
+  for (const char* file : {"levels.so", "reads_planes.so"}) {
+    fs::copy_file(binary_folder() / "tests/abi/fixtures" / file, plugins / file);
+  }
   for (const bool in_process : {false, true}) {
     const std::string name = in_process ? "again_together" : "again_apart";
-    std::vector<std::string> arguments{"replay", world.out("apart") + "/run.mcap", "--out", world.out(name)};
+    std::vector<std::string> arguments{
+        "replay", world.out("apart") + "/run.mcap", "--out", world.out(name), "--plugin-path", plugins};
     if (in_process) arguments.push_back("--in-process");
     const Ended ended = hallway(arguments);
     ASSERT_EQ(ended.status, 0) << ended.err;
