@@ -41,8 +41,8 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/render", {"base", "geom", "map", "csg", "bsp", "mesh", "world"}},
     {"engine/planes", {"base", "geom", "host", "log", "import", "render", "hallway"}},
     {"engine/run",
-     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log", "record",
-      "link", "foxglove", "eval", "render", "hallway"}},
+     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log",
+      "record", "link", "foxglove", "eval", "render", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render",
       "run"}},
@@ -52,14 +52,16 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"plugins/slam_point/core", {"slam_point"}},
     {"plugins/icp/core", {"icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
-    {"cli",
-     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "conformance", "log",
-      "record", "link", "import", "eval", "render", "planes", "run", "batch", "editor", "icp", "hallway"}},
+    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",    "pvs",    "trace",  "mesh",   "world",
+             "sense",  "sim",    "host", "conformance", "log",    "record", "link",   "import", "eval",
+             "render", "planes", "run",  "batch",       "editor", "icp",    "hallway"}},
 };
 
-const std::set<std::string> kLibraries{"base",  "geom", "map",    "csg",   "bsp",     "pvs",
-                                       "trace", "mesh", "world",  "sense", "sim",     "host",
-                                       "log",   "planes", "record", "link", "foxglove", "import", "eval", "render", "run",   "editor",  "hallway", "robot", "slam_point", "conformance", "em", "icp"};
+const std::set<std::string> kLibraries{"base",       "geom",        "map",    "csg",    "bsp",      "pvs",
+                                       "trace",      "mesh",        "world",  "sense",  "sim",      "host",
+                                       "log",        "planes",      "record", "link",   "foxglove", "import",
+                                       "eval",       "render",      "run",    "editor", "hallway",  "robot",
+                                       "slam_point", "conformance", "em",     "icp"};
 
 struct Include {
   fs::path file;
@@ -114,8 +116,8 @@ TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
       if (include.target == "gmp.h") users["GMP"].insert(include.file.string());
     }
   }
-  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser", "libedit", "zstd",
-                              "Protobuf", "ROS"}) {
+  for (const char* library : {"Embree", "OSMesa", "toml++", "assimp", "tinygltf", "GMP", "muParser",
+                              "libedit", "zstd", "Protobuf", "ROS"}) {
     EXPECT_EQ(users[library].size(), 1u) << library;
   }
 }
@@ -123,7 +125,7 @@ TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
 TEST(Layout, PluginsIncludeNothingOfTheEngine) {
   for (const Include& include : includes_of(test::source_folder() / "plugins")) {
     const std::string library = include.target.substr(0, include.target.find('/'));
-    EXPECT_FALSE(fs::exists(test::source_folder() / "engine" / include.target))
+    EXPECT_FALSE(fs::is_regular_file(test::source_folder() / "engine" / include.target))
         << include.file.string() << " includes " << include.target;
     EXPECT_NE(library, "base") << include.file.string();
   }

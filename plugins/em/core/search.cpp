@@ -25,8 +25,9 @@ constexpr std::size_t kRoughSeeds = 3;  // so many make a kind of surface
 constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is that of numbers with six digits
 constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
 constexpr std::size_t kLocalSearches = 32;  // in a round: the flattest that are left
-constexpr std::size_t kAhead = 2;           // seeds by thread that are grown at a time
-constexpr std::size_t kPointsPerSeed = 8;   // no more seeds than one for so many points
+constexpr double kDoubtful = 0.15;  // variance within two sheets by the whole: above, it may be one plane
+constexpr std::size_t kAhead = 2;   // seeds by thread that are grown at a time
+constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.
 struct Unclaimed {
@@ -103,6 +104,7 @@ void PlaneSearch::consider(const Seed& seed, Grown&& grown, double sigma,
     return;
   }
   Grower grower(field_, claimed);
+  const std::size_t before = found_.size() + pending_.size();
   // The noise was taken for that of two sheets together, as where they are nearer than the points on each.
   for (const double height : {sheets->low, sheets->high}) {
     Seed thin = seed;
@@ -111,6 +113,8 @@ void PlaneSearch::consider(const Seed& seed, Grown&& grown, double sigma,
     Grown sheet = grower.grow(thin, sheets->noise);
     if (sheet.members.size() >= fewest) judge(std::move(sheet), sheets->noise, claimed);
   }
+  const bool neither = found_.size() + pending_.size() == before;
+  if (neither && sheets->within > kDoubtful) doubtful_.push_back(std::move(grown));
 }
 
 void PlaneSearch::judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed) {
@@ -142,6 +146,19 @@ void PlaneSearch::accept_pending(std::vector<std::uint8_t>& claimed) {
     if (static_cast<double>(free) < kStillFree * static_cast<double>(members.size())) continue;
     accept(std::move(pending.grown), claimed);
   }
+}
+
+std::vector<Grown> PlaneSearch::accept_doubtful(double sigma, std::vector<std::uint8_t>& claimed) {
+  found_.clear();
+  pending_.clear();
+  for (Grown& grown : doubtful_) {
+    const std::vector<std::uint32_t>& members = grown.members;
+    const bool free =
+        std::all_of(members.begin(), members.end(), [&claimed](std::uint32_t i) { return claimed[i] == 0; });
+    if (free) judge(std::move(grown), sigma, claimed);
+  }
+  doubtful_.clear();
+  return std::move(found_);
 }
 
 // Several are grown at a time, as if none of them were accepted. Where one relied on points that one before it was then
@@ -226,6 +243,7 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
 }
 
 std::vector<Grown> PlaneSearch::find(double sigma, int fruitless, std::vector<std::uint8_t>& claimed) {
+  doubtful_.clear();
   std::vector<Grown> all = try_warm_seeds(sigma, claimed);
   int in_a_row = 0;
   for (std::size_t number = 0; number < static_cast<std::size_t>(options_.rounds); ++number) {
@@ -234,6 +252,7 @@ std::vector<Grown> PlaneSearch::find(double sigma, int fruitless, std::vector<st
     for (Grown& grown : found) all.push_back(std::move(grown));
     if (in_a_row == fruitless) break;
   }
+  for (Grown& grown : accept_doubtful(sigma, claimed)) all.push_back(std::move(grown));
   return all;
 }
 

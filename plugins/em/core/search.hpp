@@ -54,6 +54,7 @@ class PlaneSearch {
   void judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
   void accept(Grown&& grown, std::vector<std::uint8_t>& claimed);
   void accept_pending(std::vector<std::uint8_t>& claimed);
+  std::vector<Grown> accept_doubtful(double sigma, std::vector<std::uint8_t>& claimed);
 
   /// A plane that is none by the strict standard but by the lenient one.
   struct Pending {
@@ -71,6 +72,7 @@ class PlaneSearch {
   std::vector<Seed> warm_seeds_;        ///< to be tried before the first round
   std::vector<Grown> found_;            ///< in this round
   std::vector<Pending> pending_;        ///< in this round
+  std::vector<Grown> doubtful_;         ///< what may be one plane, where neither of its two sheets was found
   std::vector<std::uint8_t> failures_;  ///< of each point: growths in this round that held it and failed
 };
 

@@ -9,9 +9,10 @@ namespace hallway::em {
 
 /// Two sheets that were taken for one thick plane.
 struct TwoSheets {
-  double low = 0.0;    ///< mean height of the lower one ...
-  double high = 0.0;   ///< ... and of the higher one
-  double noise = 0.0;  ///< standard deviation of the heights within them
+  double low = 0.0;     ///< mean height of the lower one ...
+  double high = 0.0;    ///< ... and of the higher one
+  double noise = 0.0;   ///< standard deviation of the heights within them
+  double within = 0.0;  ///< variance within them by that of all heights
 };
 
 /// Whether the heights of points over a plane are those of two sheets at least four times their noise apart, of

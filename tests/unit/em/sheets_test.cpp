@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/random.hpp"
 #include "em/core/auto_planes.hpp"
 #include "unit/em/auto_scene.hpp"
@@ -40,6 +42,18 @@ TEST(Sheets, FewPointsAreNoSheet) {
   EXPECT_FALSE(two_sheets(heights(300, 30, 8.0), 12)) << "less than a fifth";
   EXPECT_FALSE(two_sheets({}, 12));
   EXPECT_FALSE(two_sheets(std::vector<double>(50, 1.0), 12));
+}
+
+TEST(Sheets, APlaneWhoseHeightsAreASinesIsOnePlane) {
+  // Its variance within the halves is that of two sheets four standard deviations apart.
+  std::vector<Vec3> points;
+  for (int i = 0; i < 30; ++i) {
+    for (int k = 0; k < 30; ++k)
+      points.emplace_back(0.1 * i, 0.1 * k, 0.004 * std::sin(1.0 + 12.9898 * i + 78.233 * k));
+  }
+  const Extraction found = PlaneExtractor().extract(points);
+  ASSERT_EQ(found.planes.size(), 1u);
+  EXPECT_EQ(found.planes[0].members.size(), points.size());
 }
 
 TEST(Sheets, ParallelPlanesNearerThanTheirPointsAreFound) {
