@@ -174,6 +174,18 @@ void takes_tracks(const Subject& subject, Remains&) {
   });
 }
 
+void takes_pixels(const Subject& subject, Remains&) {
+  try_walk(subject, false, [](Frame& frame) {
+    Reading& reading = frame.readings.front();
+    // Rows of seven, the last points first, with a pixel without a point before every point.
+    reading.width = 14;
+    reading.height = static_cast<std::uint32_t>(reading.points.size() / 7 + 1);
+    for (std::size_t i = 0; i < reading.points.size(); ++i) {
+      reading.pixels.push_back(static_cast<std::uint32_t>(2 * (reading.points.size() - 1 - i) + 1));
+    }
+  });
+}
+
 void takes_equal_times(const Subject& subject, Remains&) {
   try_walk(subject, false, [](Frame& frame) { frame.t_ns = 1'000'000'000; });
 }
@@ -224,6 +236,7 @@ constexpr Test kTests[] = {
      "Samples of an unknown kind are skipped: the answer is that to the frame without them.",
      skips_unknown_kinds},
     {"frame-tracks", "Points may come with the ids under which the sensor follows them.", takes_tracks},
+    {"frame-pixels", "Points may come with their places in an image.", takes_pixels},
     {"frame-equal-times", "Frames may have the same time.", takes_equal_times},
     {"frame-any-time", "The host's clock may begin anywhere, also before 0.", takes_any_time},
     {"frame-gaps", "Sequence numbers with gaps are answered, or refused with a reason.", survives_gaps},

@@ -78,6 +78,11 @@ const hw_sample_t* InputMemory::put_reading(const Reading& reading, const Frame&
   points.count = reading.points.size();
   points.points = put_list(reading.points, shape.stride, shape);
   if (!reading.track.empty()) points.track = put_list(reading.track, sizeof(std::uint64_t), shape);
+  if (!reading.pixels.empty()) {
+    points.width = reading.width;
+    points.height = reading.height;
+    points.pixel = put_list(reading.pixels, sizeof(std::uint32_t), shape);
+  }
   sample.payload = &put(points, shape.points_growth, shape);
   return &put(sample, shape.sample_growth, shape);
 }

@@ -50,6 +50,8 @@ struct Reading {
   std::uint64_t sequence = 0;
   std::vector<hw_point3_t> points{};  ///< sensor frame, metres
   std::vector<std::uint64_t> track{};
+  std::uint32_t width = 0, height = 0;  ///< of the image whose pixels the points are
+  std::vector<std::uint32_t> pixels{};
 };
 
 /// A frame as values.

@@ -8,6 +8,8 @@ struct FrameBuilder::Points {
   hw_sample_t sample{};
   hw_points_t payload{};
   std::vector<hw_point3_t> points;
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;
 };
 
 FrameBuilder::FrameBuilder() {
@@ -36,7 +38,16 @@ std::vector<hw_point3_t>& FrameBuilder::add_points(std::uint32_t sensor_id) {
   reading.sample.t_end_ns = frame_.t_ns;
   reading.sample.payload = &reading.payload;
   reading.points.clear();
+  reading.width = reading.height = 0;
+  reading.pixels.clear();
   return reading.points;
+}
+
+std::vector<std::uint32_t>& FrameBuilder::add_pixels(std::uint32_t width, std::uint32_t height) {
+  Points& reading = *points_.at(n_points_ - 1);
+  reading.width = width;
+  reading.height = height;
+  return reading.pixels;
 }
 
 const hw_frame_t& FrameBuilder::finish() {
@@ -48,6 +59,11 @@ const hw_frame_t& FrameBuilder::finish() {
     reading.payload.stride = sizeof(hw_point3_t);
     reading.payload.count = reading.points.size();
     reading.payload.points = reading.points.data();
+    if (reading.width != 0) {
+      reading.payload.width = reading.width;
+      reading.payload.height = reading.height;
+      reading.payload.pixel = reading.pixels.data();
+    }
     samples_.push_back(&reading.sample);
   }
   frame_.n_samples = static_cast<std::uint32_t>(samples_.size());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <hallway/version.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -21,6 +22,9 @@ static_assert(std::endian::native == std::endian::little,
               "the bytes of a frame are those of the ABI's structs");
 
 constexpr std::array<char, 4> kMagic{'H', 'W', 'F', 'B'};
+
+/// More pixels than an image may have.
+constexpr std::uint32_t kMaxPixels = 1u << 28;
 
 /// What the bytes begin with.
 struct Head {
@@ -44,12 +48,34 @@ bool is_known(const hw_sample_t& sample) {
   return sample.kind == HW_SAMPLE_POINTS || sample.kind == HW_SAMPLE_PLANES;
 }
 
+bool has_pixels(const hw_points_t& points) {
+  return HW_HAS(&points, hw_points_t, pixel) && points.pixel != nullptr;
+}
+
+/// The struct is written without the members for pixels where there are none: the bytes are those of ABI 1.1.
+std::size_t written_size(const hw_points_t& points) {
+  return has_pixels(points) ? sizeof(hw_points_t) : offsetof(hw_points_t, width);
+}
+
+/// Bytes that the pixels take: a multiple of 8.
+std::uint64_t pixel_bytes(const hw_points_t& points) {
+  return has_pixels(points) ? (points.count + 1) / 2 * 8 : 0;
+}
+
 void check_points(const hw_points_t& points) {
   demand_frame(HW_HAS(&points, hw_points_t, track) && points.size % 8 == 0, "with points of a wrong size");
   demand_frame(points.stride >= sizeof(hw_point3_t) && points.stride % 8 == 0,
                "with points of a wrong stride");
   demand_frame(points.count <= kMaxFrameBytes / sizeof(hw_point3_t), "with more points than are taken");
   demand_frame(points.points != nullptr || points.count == 0, "with points that are null");
+  if (has_pixels(points)) {
+    demand_frame(points.height != 0 && points.width <= kMaxPixels / points.height,
+                 "with an image of a wrong size");
+    const std::span pixels(points.pixel, points.count);
+    const std::uint32_t n = points.width * points.height;
+    demand_frame(std::ranges::all_of(pixels, [n](std::uint32_t pixel) { return pixel < n; }),
+                 "with a point at a pixel outside of its image");
+  }
 }
 
 void check_sample(const hw_sample_t* sample, std::uint32_t n_samples) {
@@ -69,18 +95,27 @@ void check_frame(const hw_frame_t& frame) {
 
 std::uint64_t points_bytes(const hw_points_t& points) {
   const std::uint64_t track = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
-  return known_size(points) + points.count * sizeof(hw_point3_t) + track;
+  return written_size(points) + points.count * sizeof(hw_point3_t) + track + pixel_bytes(points);
 }
 
 void put_points(Sink& sink, const hw_points_t& points) {
   hw_points_t copy = known_part(points);
+  copy.size = static_cast<std::uint32_t>(written_size(points));
   const std::uint64_t elements = sink.at() + copy.size;
   copy.stride = sizeof(hw_point3_t);
   put_offset(copy.points, elements);
-  put_offset(copy.track, points.track != nullptr ? elements + points.count * sizeof(hw_point3_t) : 0);
+  const std::uint64_t behind = elements + points.count * sizeof(hw_point3_t);
+  const std::uint64_t track_bytes = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
+  put_offset(copy.track, points.track != nullptr ? behind : 0);
+  put_offset(copy.pixel, has_pixels(points) ? behind + track_bytes : 0);
   sink.put(&copy, copy.size);
   for (std::uint64_t i = 0; i < points.count; ++i) sink.put(hw_point_at(&points, i), sizeof(hw_point3_t));
-  if (points.track != nullptr) sink.put(points.track, points.count * sizeof(std::uint64_t));
+  if (points.track != nullptr) sink.put(points.track, track_bytes);
+  if (has_pixels(points)) {
+    constexpr std::uint32_t kFill = 0;
+    sink.put(points.pixel, points.count * sizeof(std::uint32_t));
+    if (points.count % 2 != 0) sink.put(&kFill, sizeof kFill);
+  }
 }
 
 std::uint32_t count_known(const hw_frame_t& frame, std::uint32_t n_samples) {
@@ -216,7 +251,7 @@ void FrameReader::read_sample(PartCursor& cursor, std::uint64_t offset, Sample& 
       offset, size_with(offsetof(hw_sample_t, payload), &hw_sample_t::payload), "hw_sample_t");
   const std::uint64_t payload = offset_in(out.sample.payload);
   if (payload == 0) damaged(offset, "hw_sample_t", "a sample without a payload");
-  if (out.sample.kind == HW_SAMPLE_POINTS) read_points(cursor, payload, out.points);
+  if (out.sample.kind == HW_SAMPLE_POINTS) read_points(cursor, payload, out);
   if (out.sample.kind == HW_SAMPLE_PLANES) out.planes = take_planes(cursor, payload);
   out.sample.payload = &out.points;
   if (out.sample.kind == HW_SAMPLE_PLANES) out.sample.payload = &out.planes;
@@ -260,7 +295,8 @@ void FrameReader::check_planes_of(std::uint32_t index) {
   }
 }
 
-void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, hw_points_t& out) {
+void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, Sample& reading) {
+  hw_points_t& out = reading.points;
   out = cursor.take_struct<hw_points_t>(offset, size_with(offsetof(hw_points_t, track), &hw_points_t::track),
                                         "hw_points_t");
   if (out.stride < sizeof(hw_point3_t) || out.stride % 8 != 0) {
@@ -276,6 +312,29 @@ void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, hw_point
     const std::byte* ids = cursor.take(track, out.count * sizeof(std::uint64_t), "track");
     out.track = static_cast<const std::uint64_t*>(static_cast<const void*>(ids));
   }
+  read_pixels(cursor, offset, reading);
+}
+
+/// Where the points' pixels are told, a copy of them: they are indices, and a writer must not change them once they are checked.
+void FrameReader::read_pixels(PartCursor& cursor, std::uint64_t offset, Sample& reading) {
+  hw_points_t& out = reading.points;
+  const std::uint64_t at = HW_HAS(&out, hw_points_t, pixel) ? offset_in(out.pixel) : 0;
+  out.pixel = nullptr;
+  if (at == 0) {
+    out.width = out.height = 0;
+    return;
+  }
+  if (out.width == 0 || out.height == 0 || out.width > kMaxPixels / out.height) {
+    damaged(offset, "hw_points_t", fmt::format("an image of {} by {} pixels", out.width, out.height));
+  }
+  const std::byte* pixels = cursor.take(at, out.count * sizeof(std::uint32_t), "pixel");
+  reading.pixels.resize(out.count);
+  if (out.count != 0) std::memcpy(reading.pixels.data(), pixels, out.count * sizeof(std::uint32_t));
+  for (const std::uint32_t pixel : reading.pixels) {
+    if (pixel >= out.width * out.height)
+      damaged(at, "pixel", fmt::format("the pixel {} of {}", pixel, out.width * out.height));
+  }
+  out.pixel = reading.pixels.data();
 }
 
 }  // namespace hallway::host

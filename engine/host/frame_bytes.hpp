@@ -24,7 +24,8 @@ namespace hallway::host {
 //     24  hw_frame_t           samples → table of n_samples offsets (u64), one for each sample
 //         then for each sample, in order:
 //         hw_sample_t          payload → by kind:
-//         HW_SAMPLE_POINTS     hw_points_t; points → count elements of `stride` bytes; track → count u64
+//         HW_SAMPLE_POINTS     hw_points_t; points → count elements of `stride` bytes; track → count u64;
+//                              pixel → count u32, filled up with zeros to 8 bytes. Where there are no pixels, the struct ends before `width`
 //         HW_SAMPLE_PLANES     hw_planes_t; planes → count elements of `stride` bytes; hull_points → n_hull_points elements of
 //                              `hull_stride` bytes; members → n_members u32, filled up with zeros to 8 bytes. `sample` counts the
 //                              samples of the table; where the one it was is left out, HW_NO_SAMPLE, and without members
@@ -56,7 +57,7 @@ class PartCursor;
 class FrameReader {
  public:
   /// The frame in `bytes`. Every struct is copied before it is checked, so that a writer that still changes `bytes` can change the values of
-  /// points and nothing else; planes are copied whole, and checked as those that a plugin puts; `points` and `track` lead into `bytes`, or into a copy where `bytes` is not aligned to 8.
+  /// points and nothing else; planes are copied whole, and checked as those that a plugin puts; pixels are copied; `points` and `track` lead into `bytes`, or into a copy where `bytes` is not aligned to 8.
   /// Throws Error{kBadInput} (where.element is the offset and the part) for anything that is not as laid out above.
   /// @return valid until the next read() and as long as `bytes` lives
   const hw_frame_t& read(std::span<const std::byte> bytes);
@@ -66,11 +67,13 @@ class FrameReader {
     hw_sample_t sample{};
     hw_points_t points{};
     hw_planes_t planes{};
-    std::uint64_t offset = 0;  ///< where it begins
+    std::vector<std::uint32_t> pixels;  ///< copied
+    std::uint64_t offset = 0;           ///< where it begins
   };
 
   void read_sample(PartCursor& cursor, std::uint64_t offset, Sample& out);
-  void read_points(PartCursor& cursor, std::uint64_t offset, hw_points_t& out);
+  void read_points(PartCursor& cursor, std::uint64_t offset, Sample& reading);
+  void read_pixels(PartCursor& cursor, std::uint64_t offset, Sample& reading);
   void check_plane_samples();
   void check_planes_of(std::uint32_t index);
 

@@ -27,6 +27,18 @@ const char* pose_problem(const hw_pose_t& pose) {
   return nullptr;
 }
 
+/// What is wrong with the covariance of a pose, null if nothing.
+const char* covariance_problem(const std::array<double, 36>& numbers) {
+  for (std::size_t i = 0; i < 36; ++i) {
+    if (!std::isfinite(numbers[i])) return "a covariance that is not finite";
+    if (numbers[i] != numbers[6 * (i % 6) + i / 6]) return "a covariance that is not symmetric";
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (numbers[7 * i] < 0) return "a negative variance";
+  }
+  return nullptr;
+}
+
 template <typename Payload>
 const Payload& payload_of(const hw_output_t& output) {
   return *static_cast<const Payload*>(output.payload);
@@ -52,6 +64,7 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   outputs_.pose_.reset();
   outputs_.drive_command_.reset();
   outputs_.landmarks_.clear();
+  outputs_.landmark_covariances_.clear();
   outputs_.association_ranges_.clear();
   outputs_.association_ids_.clear();
   outputs_.planes_.clear();
@@ -107,6 +120,10 @@ hw_status_t OutputCollector::copy_pose(const hw_pose_output_t& pose) {
   if (pose.status == HW_POSE_VALID) {
     if (const char* problem = pose_problem(pose.T_map_body)) throw Malformed{problem};
     copy = {true, pose.T_map_body};
+    if (HW_HAS(&pose, hw_pose_output_t, covariance) && pose.covariance != nullptr) {
+      std::ranges::copy_n(pose.covariance, 36, copy.covariance.emplace().begin());
+      if (const char* problem = covariance_problem(*copy.covariance)) throw Malformed{problem};
+    }
   } else {
     demand(pose.status == HW_POSE_LOST, "an unknown status");
   }
@@ -140,7 +157,24 @@ hw_status_t OutputCollector::copy_landmarks(const hw_landmarks_t& landmarks) {
     }
     outputs_.landmarks_.push_back(landmark);
   }
+  const bool told = HW_HAS(&landmarks, hw_landmarks_t, covariances) && landmarks.covariances != nullptr;
+  copy_landmark_covariances(told ? landmarks.covariances : nullptr, outputs_.landmarks_.size() - list.size());
   return HW_OK;
+}
+
+/// Takes the covariances of landmarks `first` and on; those of lists without any are zeros beside others that have them.
+void OutputCollector::copy_landmark_covariances(const double* covariances, std::size_t first) {
+  std::vector<LandmarkCovariance>& all = outputs_.landmark_covariances_;
+  if (covariances == nullptr && all.empty()) return;
+  all.resize(outputs_.landmarks_.size());
+  for (std::size_t i = first; covariances != nullptr && i < all.size(); ++i) {
+    LandmarkCovariance& copy = all[i];
+    std::ranges::copy_n(covariances + 6 * (i - first), 6, copy.begin());
+    const bool finite = std::ranges::all_of(copy, [](double x) { return std::isfinite(x); });
+    if (!finite || copy[0] < 0 || copy[3] < 0 || copy[5] < 0) {
+      throw Malformed{fmt::format("landmark {} has a covariance that is none", outputs_.landmarks_[i].id)};
+    }
+  }
 }
 
 std::uint64_t OutputCollector::elements_of(std::uint32_t sample) const {

@@ -5,6 +5,7 @@
 #include <hallway/sample.h>
 #include <hallway/status.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,7 +20,12 @@ namespace hallway::host {
 struct PoseOutput {
   bool valid = false;      ///< false: the plugin says that it is lost, T_map_body is the identity
   hw_pose_t T_map_body{};  ///< finite, unit quaternion
+  /// As hw_pose_output_t says; finite, symmetric, no negative variance. Nothing if not told or lost.
+  std::optional<std::array<double, 36>> covariance{};
 };
+
+/// xx, xy, xz, yy, yz, zz; six zeros where nothing is known.
+using LandmarkCovariance = std::array<double, 6>;
 
 /// The drive command that a plugin put; finite.
 struct DriveCommand {
@@ -44,6 +50,8 @@ class Outputs {
   const std::optional<DriveCommand>& drive_command() const { return drive_command_; }
   /// The landmarks, ids distinct, in the order put.
   std::span<const hw_landmark_t> landmarks() const { return landmarks_; }
+  /// For each of landmarks() the covariance of its position as hw_landmarks_t says; empty if none were put.
+  std::span<const LandmarkCovariance> landmark_covariances() const { return landmark_covariances_; }
   /// Per element of that sample of the frame, the landmark it was taken for, or HW_NO_LANDMARK; nothing if
   /// not put.
   std::optional<std::span<const std::uint64_t>> associations(std::uint32_t sample) const;
@@ -68,6 +76,7 @@ class Outputs {
   std::optional<PoseOutput> pose_;
   std::optional<DriveCommand> drive_command_;
   std::vector<hw_landmark_t> landmarks_;
+  std::vector<LandmarkCovariance> landmark_covariances_;
   std::vector<AssociationRange> association_ranges_;
   std::vector<std::uint64_t> association_ids_;
   PlaneLists planes_;
@@ -97,6 +106,7 @@ class OutputCollector {
   hw_status_t copy_pose(const hw_pose_output_t& pose);
   hw_status_t copy_drive_command(const hw_drive_command_t& command);
   hw_status_t copy_landmarks(const hw_landmarks_t& landmarks);
+  void copy_landmark_covariances(const double* covariances, std::size_t first);
   hw_status_t copy_associations(const hw_associations_t& associations);
   hw_status_t copy_planes(const hw_planes_t& planes);
   hw_status_t copy_submaps(const hw_submaps_t& submaps);

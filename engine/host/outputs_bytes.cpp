@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/outputs_bytes.hpp"
 
+#include <array>
 #include <optional>
 
 namespace hallway::host {
@@ -31,6 +32,13 @@ void read_pose(ByteReader& reader, OutputCollector& collector) {
   auto pose = sized<hw_pose_output_t>();
   pose.status = state == kValid ? HW_POSE_VALID : HW_POSE_LOST;
   pose.T_map_body = reader.get<hw_pose_t>();
+  const auto told = reader.get<std::uint64_t>();
+  if (told > 1) throw BadBytes{"more than one covariance"};
+  std::array<double, 36> covariance{};
+  if (told == 1) {
+    covariance = reader.get<std::array<double, 36>>();
+    pose.covariance = covariance.data();
+  }
   put(collector, HW_OUTPUT_POSE, &pose);
 }
 
@@ -50,6 +58,10 @@ void read_landmarks(ByteReader& reader, OutputCollector& collector) {
   landmarks.stride = sizeof(hw_landmark_t);
   landmarks.count = list.count;
   landmarks.landmarks = list.first;
+  const auto covariances = reader.copy_list<LandmarkCovariance>();
+  if (!covariances.empty() && covariances.size() != list.count)
+    throw BadBytes{"covariances of other landmarks"};
+  landmarks.covariances = covariances.empty() ? nullptr : covariances.front().data();
   if (list.count != 0) put(collector, HW_OUTPUT_LANDMARKS, &landmarks);
 }
 
@@ -142,7 +154,11 @@ void write_planes(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_sa
 void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
   const std::optional<PoseOutput>& pose = outputs.pose();
   writer.put<std::uint64_t>(!pose ? kNoPose : pose->valid ? kValid : kLost);
-  if (pose) writer.put(pose->T_map_body);
+  if (pose) {
+    writer.put(pose->T_map_body);
+    writer.put<std::uint64_t>(pose->covariance ? 1u : 0u);
+    if (pose->covariance) writer.put(*pose->covariance);
+  }
   const std::optional<DriveCommand>& command = outputs.drive_command();
   writer.put<std::uint64_t>(command ? 1u : 0u);
   if (command) {
@@ -150,6 +166,7 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
     writer.put(command->angular_rad_s);
   }
   writer.put_list(outputs.landmarks());
+  writer.put_list(outputs.landmark_covariances());
   write_associations(writer, outputs, n_samples);
   write_planes(writer, outputs, n_samples);
   writer.put_list(outputs.submaps());

@@ -39,12 +39,15 @@ AT(hw_point3_t, x, 0);
 AT(hw_point3_t, y, 8);
 AT(hw_point3_t, z, 16);
 
-SIZE(hw_points_t, 32);
+SIZE(hw_points_t, 48);
 AT(hw_points_t, size, 0);
 AT(hw_points_t, stride, 4);
 AT(hw_points_t, count, 8);
 AT(hw_points_t, points, 16);
 AT(hw_points_t, track, 24);
+AT(hw_points_t, width, 32);
+AT(hw_points_t, height, 36);
+AT(hw_points_t, pixel, 40);
 
 SIZE(hw_frame_t, 32);
 AT(hw_frame_t, size, 0);
@@ -60,10 +63,11 @@ AT(hw_output_t, flags, 8);
 AT(hw_output_t, reserved, 12);
 AT(hw_output_t, payload, 16);
 
-SIZE(hw_pose_output_t, 64);
+SIZE(hw_pose_output_t, 72);
 AT(hw_pose_output_t, size, 0);
 AT(hw_pose_output_t, status, 4);
 AT(hw_pose_output_t, T_map_body, 8);
+AT(hw_pose_output_t, covariance, 64);
 
 SIZE(hw_drive_command_t, 24);
 AT(hw_drive_command_t, size, 0);
@@ -77,11 +81,12 @@ AT(hw_landmark_t, position, 8);
 AT(hw_landmark_t, observations, 32);
 AT(hw_landmark_t, status, 36);
 
-SIZE(hw_landmarks_t, 24);
+SIZE(hw_landmarks_t, 32);
 AT(hw_landmarks_t, size, 0);
 AT(hw_landmarks_t, stride, 4);
 AT(hw_landmarks_t, count, 8);
 AT(hw_landmarks_t, landmarks, 16);
+AT(hw_landmarks_t, covariances, 24);
 
 SIZE(hw_associations_t, 24);
 AT(hw_associations_t, size, 0);

@@ -43,6 +43,10 @@ typedef struct hw_pose_output_t {
   uint32_t size;         ///< sizeof(hw_pose_output_t) of the writer
   uint32_t status;       ///< HW_POSE_…
   hw_pose_t T_map_body;  ///< finite, unit quaternion (to 1e-6)
+  /// Null: not told. Else the covariance of the pose's error, 6 x 6, by rows: of its position (x, y, z in the map's frame,
+  /// metres), then of its rotation (a rotation vector in the map's frame, radians: true rotation = exp(error) * rotation).
+  /// Finite, symmetric, no negative variance. Since 1.2.
+  const double* covariance;
 } hw_pose_output_t;
 
 /// Payload of HW_OUTPUT_DRIVE_COMMAND: how the robot shall move from now on, until the next command. A host that has no
@@ -78,6 +82,9 @@ typedef struct hw_landmarks_t {
   uint32_t stride;        ///< bytes from one landmark to the next, a multiple of 8
   uint64_t count;         ///< number of landmarks
   const void* landmarks;  ///< hw_landmark_t by `stride`; ids are distinct within a call
+  /// Null: not told. Else for each landmark the covariance of its position's error in the map's frame, square metres:
+  /// xx, xy, xz, yy, yz, zz. Finite, no negative variance. A landmark of which none is known has six zeros. Since 1.2.
+  const double* covariances;
 } hw_landmarks_t;
 
 /// Payload of HW_OUTPUT_ASSOCIATIONS: for each element of one sample, in its order, the landmark that it was

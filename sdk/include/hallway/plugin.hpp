@@ -79,11 +79,12 @@ class Host {
   /// The C form.
   const hw_host_t& c_host() const { return *host_; }
 
-  /// Answers where the body is: T_map_body.
-  void put_pose(const hw_pose_t& T_map_body) const {
+  /// Answers where the body is: T_map_body. @param covariance  36 numbers as hw_pose_output_t says; null: not told
+  void put_pose(const hw_pose_t& T_map_body, const double* covariance = nullptr) const {
     hw_pose_output_t payload{};
     payload.status = HW_POSE_VALID;
     payload.T_map_body = T_map_body;
+    payload.covariance = covariance;
     put(HW_OUTPUT_POSE, payload);
   }
 
@@ -104,12 +105,13 @@ class Host {
     put(HW_OUTPUT_ASSOCIATIONS, payload);
   }
 
-  /// Answers the landmarks of the map.
-  void put_landmarks(const std::vector<hw_landmark_t>& landmarks) const {
+  /// Answers the landmarks of the map. @param covariances  6 numbers for each, as hw_landmarks_t says; null: not told
+  void put_landmarks(const std::vector<hw_landmark_t>& landmarks, const double* covariances = nullptr) const {
     hw_landmarks_t payload{};
     payload.stride = sizeof(hw_landmark_t);
     payload.count = landmarks.size();
     payload.landmarks = landmarks.data();
+    payload.covariances = covariances;
     put(HW_OUTPUT_LANDMARKS, payload);
   }
 

@@ -51,6 +51,11 @@ typedef struct hw_points_t {
   const void* points;  ///< hw_point3_t by `stride`; use hw_point_at()
   const uint64_t*
       track;  ///< null, or per point the id under which the sensor itself follows it from frame to frame
+  /// Of a sensor whose points are pixels of an image: its columns and rows, and per point its pixel (row * width +
+  /// column, each pixel at most once, in no order). 0, 0 and null where there is no such image. Since 1.2.
+  uint32_t width;
+  uint32_t height;
+  const uint32_t* pixel;
 } hw_points_t;
 
 /// Point `i` of a reading, i < count. [any]

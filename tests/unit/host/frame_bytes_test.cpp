@@ -37,7 +37,8 @@ const hw_points_t& points_of(const hw_sample_t& sample) {
 struct OneReading {
   std::vector<hw_point3_t> points{{1, 2, 3}, {4, 5, 6}};
   std::vector<std::uint64_t> track{11, 12};
-  hw_points_t payload{sizeof(hw_points_t), sizeof(hw_point3_t), 2, points.data(), track.data()};
+  hw_points_t payload{
+      sizeof(hw_points_t), sizeof(hw_point3_t), 2, points.data(), track.data(), 0, 0, nullptr};
   hw_sample_t sample{sizeof(hw_sample_t), HW_SAMPLE_POINTS, HW_SAMPLE_TRACKED, 9, 4, 10, 20, &payload};
   const hw_sample_t* samples[1] = {&sample};
   hw_frame_t frame{sizeof(hw_frame_t), 1, 4, 20, samples};
@@ -104,6 +105,36 @@ TEST(FrameBytes, KeepTracksAndTimes) {
   EXPECT_EQ(sample.t_begin_ns, 10);
   EXPECT_EQ(sample.t_end_ns, 20);
   EXPECT_EQ(points_of(sample).track[1], 12u);
+}
+
+TEST(FrameBytes, KeepPixels) {
+  OneReading one;
+  const std::vector<std::uint32_t> pixels{5, 0};
+  one.payload.width = 3;
+  one.payload.height = 2;
+  one.payload.pixel = pixels.data();
+  const Bytes bytes = bytes_of(one.frame);
+  ASSERT_EQ(bytes.size(), kAll + 16 + 8) << "the members, and two pixels";
+  FrameReader reader;
+  const hw_frame_t& frame = reader.read(bytes);
+  const hw_points_t& points = points_of(*frame.samples[0]);
+  EXPECT_EQ(points.width, 3u);
+  EXPECT_EQ(points.height, 2u);
+  ASSERT_NE(points.pixel, nullptr);
+  EXPECT_EQ(points.pixel[0], 5u);
+  EXPECT_EQ(points.pixel[1], 0u);
+  EXPECT_EQ(points.track[1], 12u);
+  EXPECT_EQ(bytes_of(frame), bytes) << "written again, the same bytes";
+  // What was read before leaves nothing behind.
+  EXPECT_EQ(points_of(*reader.read(bytes_of(OneReading().frame)).samples[0]).pixel, nullptr);
+  Bytes wild = bytes;
+  overwrite(wild, bytes.size() - 8, 6, 4);
+  EXPECT_THROW(reader.read(wild), Error) << "a pixel outside of the image";
+  wild = bytes;
+  overwrite(wild, kPayload + offsetof(hw_points_t, height), 0, 4);
+  EXPECT_THROW(reader.read(wild), Error) << "an image without rows";
+  one.payload.height = 1;
+  EXPECT_THROW(bytes_of(one.frame), Error);
 }
 
 TEST(FrameBytes, LeaveOutSamplesOfUnknownKinds) {

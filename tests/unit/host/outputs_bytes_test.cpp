@@ -23,13 +23,17 @@ void put(OutputCollector& collector, std::uint32_t kind, const void* payload) {
 
 /// One of everything that there is, for a frame of three points.
 void put_everything(OutputCollector& collector) {
-  hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}};
+  double covariance[36]{};
+  for (int i = 0; i < 6; ++i) covariance[7 * i] = i + 0.5;
+  covariance[1] = covariance[6] = -0.25;
+  hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}, covariance};
   put(collector, HW_OUTPUT_POSE, &pose);
   const hw_drive_command_t command{sizeof command, 0, 0.5, -0.25};
   put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
   const hw_landmark_t points[]{{7, {1, 2, 3}, 4, HW_LANDMARK_MAPPED},
                                {9, {4, 5, 6}, 1, HW_LANDMARK_TEMPORARY}};
-  hw_landmarks_t landmarks{sizeof landmarks, sizeof(hw_landmark_t), 2, points};
+  const double covariances[12]{1, 0.5, 0, 2, 0, 3, 4, 0, 0, 5, 0.25, 6};
+  hw_landmarks_t landmarks{sizeof landmarks, sizeof(hw_landmark_t), 2, points, covariances};
   put(collector, HW_OUTPUT_LANDMARKS, &landmarks);
   const std::uint64_t ids[]{7, HW_NO_LANDMARK, 9};
   hw_associations_t associations{sizeof associations, 0, 3, ids};
@@ -97,6 +101,10 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -0.25}));
   ASSERT_EQ(outputs.landmarks().size(), 2u);
   EXPECT_EQ(outputs.landmarks()[1].position[2], 6);
+  ASSERT_EQ(outputs.landmark_covariances().size(), 2u);
+  EXPECT_EQ(outputs.landmark_covariances()[1][4], 0.25);
+  ASSERT_TRUE(outputs.pose()->covariance);
+  EXPECT_EQ((*outputs.pose()->covariance)[35], 5.5);
   EXPECT_TRUE(std::ranges::equal(*outputs.associations(0), std::vector<std::uint64_t>{7, HW_NO_LANDMARK, 9}));
   const auto planes = outputs.planes(0);
   ASSERT_TRUE(planes && planes->planes.size() == 2);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <vector>
 
@@ -127,6 +129,52 @@ TEST(Outputs, LandmarksAreReadByTheirStride) {
   ASSERT_EQ(collector.outputs().landmarks().size(), 2u);
   EXPECT_EQ(collector.outputs().landmarks()[1].id, 2u);
   EXPECT_EQ(collector.outputs().landmarks()[1].position[2], 7);
+}
+
+TEST(Outputs, CovariancesAreCheckedAndKept) {
+  double numbers[36]{};
+  for (int i = 0; i < 6; ++i) numbers[7 * i] = 1;
+  const auto put_pose = [&](OutputCollector& collector) {
+    collector.begin(nullptr, {});
+    hw_pose_output_t pose{};
+    pose.status = HW_POSE_VALID;
+    pose.T_map_body.orientation[0] = 1;
+    pose.covariance = numbers;
+    return put(collector, HW_OUTPUT_POSE, pose);
+  };
+  OutputCollector collector;
+  EXPECT_EQ(put_pose(collector), HW_OK);
+  ASSERT_TRUE(collector.outputs().pose()->covariance);
+  numbers[1] = 0.5;
+  EXPECT_EQ(put_pose(collector), HW_ERROR_DATA) << "not symmetric";
+  numbers[6] = 0.5;
+  EXPECT_EQ(put_pose(collector), HW_OK);
+  numbers[35] = -1;
+  EXPECT_EQ(put_pose(collector), HW_ERROR_DATA) << "a negative variance";
+  numbers[35] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(put_pose(collector), HW_ERROR_DATA);
+}
+
+TEST(Outputs, CovariancesOfLandmarksBelongToTheirList) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  const hw_landmark_t list[]{{1, {1, 2, 3}, 4, HW_LANDMARK_MAPPED}, {2, {5, 6, 7}, 8, HW_LANDMARK_MAPPED}};
+  double covariances[6]{1, 0, 0, 2, 0, 3};
+  hw_landmarks_t payload{};
+  payload.stride = sizeof(hw_landmark_t);
+  payload.count = 1;
+  payload.landmarks = list;
+  EXPECT_EQ(put(collector, HW_OUTPUT_LANDMARKS, payload), HW_OK);
+  EXPECT_TRUE(collector.outputs().landmark_covariances().empty());
+  payload.landmarks = list + 1;
+  payload.covariances = covariances;
+  EXPECT_EQ(put(collector, HW_OUTPUT_LANDMARKS, payload), HW_OK);
+  ASSERT_EQ(collector.outputs().landmark_covariances().size(), 2u);
+  EXPECT_EQ(collector.outputs().landmark_covariances()[0], LandmarkCovariance{});
+  EXPECT_EQ(collector.outputs().landmark_covariances()[1][3], 2);
+  covariances[0] = -1;
+  collector.begin(nullptr, {});
+  EXPECT_EQ(put(collector, HW_OUTPUT_LANDMARKS, payload), HW_ERROR_DATA);
 }
 
 TEST(Outputs, AssociationsAreKnownByTheIndexInTheWholeFrame) {
