@@ -12,11 +12,13 @@ namespace {
 /// How long the loop waits for a frame before it looks around. The watchdog does not wait for it.
 constexpr std::chrono::milliseconds kLongestWait{50};
 
+/// For as long as `pose` lives.
 hw_pose_output_t pose_of(const host::PoseOutput& pose) {
   hw_pose_output_t output{};
   output.size = sizeof output;
   output.status = pose.valid ? HW_POSE_VALID : HW_POSE_LOST;
   output.T_map_body = pose.T_map_body;
+  output.covariance = pose.covariance ? pose.covariance->data() : nullptr;
   return output;
 }
 
@@ -122,7 +124,7 @@ void Loop::hand_on(const host::Outputs& outputs, Clock::time_point now) {
     answer.pose = &pose;
   }
   if (map_) {
-    landmarks = {sizeof landmarks, sizeof(hw_landmark_t), map_->size(), map_->data()};
+    landmarks = {sizeof landmarks, sizeof(hw_landmark_t), map_->size(), map_->data(), nullptr};
     answer.landmarks = &landmarks;
   }
   add_counters(outputs);

@@ -51,7 +51,8 @@ class Folder {
   void add_answer(const link::Answer& answer, std::int64_t t_ns) {
     const log::FrameStamp stamp{static_cast<std::uint32_t>(answer.sequence), t_ns};
     if (answer.pose) {
-      const auto& [valid, pose] = *answer.pose;
+      const bool valid = answer.pose->valid;
+      const hw_pose_t& pose = answer.pose->T_map_body;
       const auto& t = pose.position;
       const auto& q = pose.orientation;
       recorder_.writer().add_pose(stamp, {valid, {t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}});
