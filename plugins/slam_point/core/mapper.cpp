@@ -9,7 +9,10 @@
 #include "slam_point/core/active_submap.hpp"
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/map_refiner.hpp"
 #include "slam_point/core/map_step.hpp"
+#include "slam_point/core/pose_information.hpp"
+#include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/submap_solver.hpp"
 
@@ -18,13 +21,15 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 constexpr int kMaxDeadReckonedFrames = 25;
-constexpr int kMaxGlobalSteps = 20;
 constexpr double kSureShare = 0.5;   // of the comparable points, below which a better pose is searched
 constexpr int kSurePoints = 6;       // or all there are, likewise
 constexpr double kLeastShare = 0.4;  // below which there is no pose
 constexpr double kWorthwhileGain =
-    0.01;  // fall of the cost for which a step over the whole map is repeated soon
-constexpr double kWorkPerClose = 6e5;  // multiplications: those that factorise a window of 20 submaps
+    1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
+constexpr double kWorkPerClose =
+    1.2e6;  // multiplications for steps over the whole map that a close earns; twice those that factorise a window of 20
+constexpr double kMostClosesSaved = 100.0;
+constexpr double kMostSteps = 4.0;     // over the whole map, that can be saved up
 constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
 constexpr int kMaxSettlePeriod = 1 << 20;
 
@@ -46,9 +51,8 @@ class Mapper::State {
         settle_period_(options.global_period) {}
 
   const Answer& process(std::span<const Vec3> points);
-  Map map(const std::vector<Pose>& poses) const;
-  const SubmapGraph& graph() const { return graph_; }
-  bool planar() const { return planar_; }
+  Map map() const;
+  Map refined_map() const;
   const Options& options() const { return options_; }
 
  private:
@@ -83,12 +87,16 @@ class Mapper::State {
   bool reopen(Index submap);
   void open_new_submap();
   void integrate();
+  bool is_mapped(const LandmarkRecord& landmark) const;
+  std::optional<Mat6> pose_covariance() const;
   const Answer& answer();
 
   Options options_;
   FrameMatcher matcher_;
   SubmapGraph graph_;
   ActiveSubmap active_;
+  SegmentStore segments_;
+  std::vector<SegmentStore::Sighting> sightings_;
   WindowSolver window_solver_;
   MapStep map_step_;
   bool map_step_ready_ = false;
@@ -114,7 +122,10 @@ class Mapper::State {
   std::vector<Pose> search_bases_;
   std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
   std::vector<Index> shared_submaps_;
-  bool loop_closed_ = false;  // since the last step over the whole map was begun
+  bool on_old_ground_ = false;      // what was mapped before the window has been seen since the last close
+  bool was_on_old_ground_ = false;  // the same of the close before
+  bool loop_closed_ = false;        // since the last step over the whole map was begun
+  double earned_work_ = 0.0;        // multiplications that steps over the whole map may take
   int closes_since_settled_ = 0;
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
@@ -257,6 +268,7 @@ bool Mapper::State::start_over() {
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
+  segments_.clear();
   map_step_ = MapStep();
   start_map();
   return true;
@@ -333,18 +345,25 @@ void Mapper::State::apply_map_step() {
   const StepCost cost = map_step_.apply(graph_, graph_.poses);
   for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
   ++answer_.counters.global_steps;
-  const bool worth_it = cost.before - cost.after > kWorthwhileGain * cost.before;
+  earned_work_ -= map_step_.work();
+  const bool worth_it = cost.before - cost.after > kWorthwhileGain * segments_.noise2_m2();
   settle_period_ = worth_it ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
 }
 
 void Mapper::State::begin_map_step() {
   ++closes_since_settled_;
-  // So far apart that its work for one close stays the same in a map of any size. Its work grows with at most the cube.
+  // The share of a close stays the same in a map of any size. The work of a step grows with at most the cube.
   const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
   const double work = map_step_.work() * growth * growth * growth;
-  const double rest = std::max(static_cast<double>(settle_period_), work / kWorkPerClose);
+  earned_work_ =
+      std::min(earned_work_ + kWorkPerClose, std::max(kMostSteps * work, kMostClosesSaved * kWorkPerClose));
+  // Old ground after new: what the loop tells is not in the map yet.
+  if (on_old_ground_ && !was_on_old_ground_) settle_period_ = options_.global_period;
+  was_on_old_ground_ = on_old_ground_;
+  loop_closed_ = loop_closed_ || on_old_ground_;
+  on_old_ground_ = false;
   if (options_.global_period == 0 || !loop_closed_ || map_step_.under_way() ||
-      static_cast<double>(closes_since_settled_) < rest) {
+      closes_since_settled_ < settle_period_ || earned_work_ < work) {
     return;
   }
   map_step_.begin(graph_, graph_.poses, window_.back(), planar_);
@@ -435,11 +454,13 @@ void Mapper::State::integrate() {
   ++placed_frames_;
   last_seen_ = 0;
   active_.begin_frame(fit_.T_submap_sensor);
+  sightings_.clear();
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
+    sightings_.push_back({observation.landmark, observation.point});
     const LandmarkRecord& landmark = graph_.landmarks[observation.landmark];
     if (landmark.last_activation + static_cast<std::uint64_t>(options_.window) < activation_)
-      loop_closed_ = true;
+      on_old_ground_ = true;
     const Index member = landmark.active_member;
     ++last_seen_;
     if (member == kNone) {
@@ -449,10 +470,33 @@ void Mapper::State::integrate() {
     }
   }
   first_of_submap_ = false;
+  segments_.add_frame(graph_.active(), fit_.T_submap_sensor, planar_, matcher_.rules(planar_).min_spread_m2,
+                      sightings_);
+}
+
+bool Mapper::State::is_mapped(const LandmarkRecord& landmark) const {
+  return landmark.count >= static_cast<std::uint32_t>(options_.min_observations);
+}
+
+std::optional<Mat6> Mapper::State::pose_covariance() const {
+  const double noise2 = segments_.noise2_m2();
+  if (!has_pose_ || noise2 == 0.0) return std::nullopt;
+  const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
+  PoseInformation information;
+  for (const Observation& observation : frame_) {
+    if (observation.landmark == kNone) continue;
+    // This frame's own observation is in the landmark already.
+    const double n = static_cast<double>(graph_.landmarks[observation.landmark].count) - 1.0;
+    information.add(rotation * observation.point, n / (n + 1.0));
+  }
+  std::optional<Mat6> covariance = information.covariance(planar_);
+  if (covariance) *covariance *= noise2;
+  return covariance;
 }
 
 const Answer& Mapper::State::answer() {
   answer_.has_pose = has_pose_;
+  answer_.covariance = pose_covariance();
   if (has_pose_) {
     answer_.T_map_sensor.t = T_map_sensor_.t + Vec3::Zero();  // no negative zeros
     answer_.T_map_sensor.q.coeffs() = T_map_sensor_.q.coeffs() + Eigen::Vector4d::Zero();
@@ -468,7 +512,7 @@ const Answer& Mapper::State::answer() {
   return answer_;
 }
 
-Map Mapper::State::map(const std::vector<Pose>& poses) const {
+Map Mapper::State::map() const {
   Map map;
   for (Index l = 0; l < graph_.landmarks.size(); ++l) {
     const LandmarkRecord& record = graph_.landmarks[l];
@@ -476,25 +520,33 @@ Map Mapper::State::map(const std::vector<Pose>& poses) const {
     Landmark landmark;
     landmark.id = first_id_ + l;
     landmark.observations = record.count;
-    if (record.count >= static_cast<std::uint32_t>(options_.min_observations))
-      landmark.status = LandmarkStatus::mapped;
-    Vec3 sum = Vec3::Zero();
-    for (const Membership& at : record.memberships) {
-      const Member& member = graph_.submaps[at.submap].members[at.member];
-      sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
-    }
-    landmark.position = sum / static_cast<double>(record.count);
+    if (is_mapped(record)) landmark.status = LandmarkStatus::mapped;
+    landmark.position = graph_.mean_position(l);
     map.landmarks.push_back(landmark);
   }
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
     Submap submap;
     submap.id = s;
-    submap.T_map_submap = poses[s];
+    submap.T_map_submap = graph_.poses[s];
     for (const Member& member : graph_.submaps[s].members) {
       if (member.count > 0) submap.members.push_back(first_id_ + member.landmark);
     }
     map.submaps.push_back(std::move(submap));
   }
+  return map;
+}
+
+Map Mapper::State::refined_map() const {
+  std::vector<bool> mapped;
+  for (const LandmarkRecord& record : graph_.landmarks) mapped.push_back(is_mapped(record));
+  const RefinedMap refined = refine_map(graph_, segments_, mapped, planar_);
+  Map map = this->map();
+  for (Landmark& landmark : map.landmarks) {
+    const std::size_t index = landmark.id - first_id_;
+    landmark.position = refined.positions[index];
+    landmark.covariance = refined.covariances[index];
+  }
+  for (Submap& submap : map.submaps) submap.T_map_submap = refined.poses[submap.id];
   return map;
 }
 
@@ -508,13 +560,11 @@ const Answer& Mapper::process(std::span<const Vec3> points) {
 }
 
 Map Mapper::map() const {
-  return state_->map(state_->graph().poses);
+  return state_->map();
 }
 
 Map Mapper::refined_map() const {
-  std::vector<Pose> poses = state_->graph().poses;
-  settle(state_->graph(), state_->planar(), kMaxGlobalSteps, poses);
-  return state_->map(poses);
+  return state_->refined_map();
 }
 
 void Mapper::reset() {

@@ -86,6 +86,17 @@ void SubmapGraph::resum(Index index) {
   grid_.move(index, landmark.position);
 }
 
+Vec3 SubmapGraph::mean_position(Index landmark) const {
+  Vec3 sum = Vec3::Zero();
+  double count = 0.0;
+  for (const Membership& at : landmarks[landmark].memberships) {
+    const Member& member = submaps[at.submap].members[at.member];
+    sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+    count += static_cast<double>(member.count);
+  }
+  return sum / count;
+}
+
 void SubmapGraph::merge(Index into, Index from) {
   LandmarkRecord& kept = landmarks[into];
   LandmarkRecord& given = landmarks[from];

@@ -69,6 +69,9 @@ class SubmapGraph {
   /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
   void resum(Index landmark);
 
+  /// Where the evidence puts a landmark that has some, summed up anew [m, map frame]. O(its submaps).
+  Vec3 mean_position(Index landmark) const;
+
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
   /// Not while a submap is active.
   void merge(Index into, Index from);

@@ -2,6 +2,7 @@
 #include "slam_point/core/submap_solver.hpp"
 
 #include <limits>
+#include <numeric>
 
 #include "slam_point/core/alignment.hpp"
 
@@ -50,6 +51,23 @@ StepCost WindowSolver::take(const SubmapGraph& graph, std::vector<Pose>& poses) 
   for (std::size_t slot = 0; slot < previous_.size(); ++slot) poses[system_.free()[slot]] = previous_[slot];
   cost.after = cost.before;
   return cost;
+}
+
+double step_work(const SubmapGraph& graph, bool planar) {
+  std::vector<Index> all(graph.submaps.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  ReducedSystem system;
+  system.take(graph, all, graph.poses, planar);
+  BlockCholesky factor;
+  factor.begin(system.free().size());
+  double rows_work = 0.0;
+  for (Index row = 0; row < system.free().size(); ++row) {
+    system.make_row(row, rows_work,
+                    [&](Index column, const ReducedSystem::Block& block) { factor.add(row, column, block); });
+  }
+  if (system.free().empty()) return 0.0;
+  factor.analyse();
+  return factor.work();
 }
 
 int settle(const SubmapGraph& graph, bool planar, int max_steps, std::vector<Pose>& poses) {

@@ -31,6 +31,9 @@ class WindowSolver {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
+/// Multiplications that the factorisation of one step over all submaps takes.
+double step_work(const SubmapGraph& graph, bool planar);
+
 /// Steps over all submaps (MapStep) until the sum of squares settles; at most `max_steps`. Returns the steps taken.
 int settle(const SubmapGraph& graph, bool planar, int max_steps, std::vector<Pose>& poses);
 
