@@ -127,6 +127,7 @@ class Mapper::State {
   bool loop_closed_ = false;        // since the last step over the whole map was begun
   double earned_work_ = 0.0;        // multiplications that steps over the whole map may take
   int closes_since_settled_ = 0;
+  int closes_since_loop_ = 0;     // since old ground was met after new
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
@@ -347,7 +348,10 @@ void Mapper::State::apply_map_step() {
   ++answer_.counters.global_steps;
   earned_work_ -= map_step_.work();
   const bool worth_it = cost.before - cost.after > kWorthwhileGain * segments_.noise2_m2();
-  settle_period_ = worth_it ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
+  // While a loop is being closed each close tells more, so one step of little use does not mean that the next is.
+  const bool looping = closes_since_loop_ < 2 * options_.window;
+  settle_period_ =
+      worth_it || looping ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
 }
 
 void Mapper::State::begin_map_step() {
@@ -358,7 +362,11 @@ void Mapper::State::begin_map_step() {
   earned_work_ =
       std::min(earned_work_ + kWorkPerClose, std::max(kMostSteps * work, kMostClosesSaved * kWorkPerClose));
   // Old ground after new: what the loop tells is not in the map yet.
-  if (on_old_ground_ && !was_on_old_ground_) settle_period_ = options_.global_period;
+  ++closes_since_loop_;
+  if (on_old_ground_ && !was_on_old_ground_) {
+    settle_period_ = options_.global_period;
+    closes_since_loop_ = 0;
+  }
   was_on_old_ground_ = on_old_ground_;
   loop_closed_ = loop_closed_ || on_old_ground_;
   on_old_ground_ = false;
