@@ -24,6 +24,9 @@ std::uint32_t to_c(LandmarkStatus status) {
 }
 
 static_assert(kNoLandmark == HW_NO_LANDMARK);
+static_assert(kNoTrack == HW_NO_TRACK);
+
+constexpr const char* kAssociations[] = {"place", "sensor"};  // by Association
 
 /// The mapper behind the plugin ABI.
 class SlamPoint final : public sdk::Plugin {
@@ -32,10 +35,14 @@ class SlamPoint final : public sdk::Plugin {
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
     add_options(parameters(), options_, slam_point::parameters());
+    parameters().add_choice(
+        "association", &association_, kAssociations,
+        "What tells which landmark a point is: its place, or the track under which the sensor follows it.");
   }
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
+    options_.association = static_cast<Association>(association_);
     mapper_.emplace(options_);
   }
 
@@ -47,7 +54,7 @@ class SlamPoint final : public sdk::Plugin {
   }
 
   void process(const hw_frame_t& frame) override {
-    const Answer& answer = mapper_->process(adapter_.gather(frame));
+    const Answer& answer = mapper_->process(adapter_.gather(frame), adapter_.tracks());
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer.counters);
@@ -92,6 +99,7 @@ class SlamPoint final : public sdk::Plugin {
   }
 
   Options options_;
+  int association_ = 0;  ///< a place in kAssociations
   PointAdapter<Pose> adapter_;
   std::optional<Mapper> mapper_;
 };
