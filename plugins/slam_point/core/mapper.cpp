@@ -14,7 +14,6 @@
 #include "slam_point/core/pose_information.hpp"
 #include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
-#include "slam_point/core/submap_solver.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -80,8 +79,11 @@ class Mapper::State {
   double overlap_with_active() const;
   void change_submap();
   void close_submap();
-  void apply_map_step();
+  void begin_window_step();
   void begin_map_step();
+  void apply_steps();
+  void judge_map_step(const StepCost& cost);
+  void advance_steps();
   void merge_landmarks(Index closed);
   Index best_old_submap();
   bool reopen(Index submap);
@@ -97,8 +99,9 @@ class Mapper::State {
   ActiveSubmap active_;
   SegmentStore segments_;
   std::vector<SegmentStore::Sighting> sightings_;
-  WindowSolver window_solver_;
-  MapStep map_step_;
+  MapStep window_step_;  // over the last submaps
+  MapStep map_step_;     // over all
+  bool window_step_ready_ = false;
   bool map_step_ready_ = false;
 
   std::vector<Observation> frame_;
@@ -135,8 +138,9 @@ class Mapper::State {
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points) {
+  apply_steps();
   place(points);
-  if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  advance_steps();
   return answer();
 }
 
@@ -270,7 +274,10 @@ bool Mapper::State::start_over() {
   graph_.clear();
   active_.clear();
   segments_.clear();
+  window_step_ = MapStep();
+  window_step_ready_ = false;
   map_step_ = MapStep();
+  map_step_ready_ = false;
   start_map();
   return true;
 }
@@ -331,20 +338,41 @@ void Mapper::State::close_submap() {
   std::erase(window_, closed);
   if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
   window_.push_back(closed);
-  const StepCost cost = window_solver_.step(graph_, window_, planar_, graph_.poses);
-  if (cost.after < cost.before) {
-    for (const Index landmark : window_solver_.touched()) graph_.resum(landmark);
-  }
-  apply_map_step();
+  begin_window_step();
   begin_map_step();
   merge_landmarks(closed);
   ++answer_.counters.closes;
 }
 
-void Mapper::State::apply_map_step() {
-  if (!map_step_.under_way() || !map_step_ready_) return;
-  const StepCost cost = map_step_.apply(graph_, graph_.poses);
-  for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
+/// Where closes follow each other faster than a step is computed, the next one takes in what this one leaves out.
+void Mapper::State::begin_window_step() {
+  if (window_step_.under_way()) return;
+  window_step_.begin(graph_, graph_.poses, window_, window_.back(), planar_);
+  window_step_ready_ = false;
+}
+
+/// Between frames: what is ready moves submaps, and with them what is active.
+void Mapper::State::apply_steps() {
+  if (window_step_.under_way() && window_step_ready_) {
+    const StepCost cost = window_step_.apply(graph_, graph_.poses);
+    if (cost.after < cost.before) graph_.take_moved(window_step_.touched());
+  } else if (map_step_.under_way() && map_step_ready_) {
+    const StepCost cost = map_step_.apply(graph_, graph_.poses);
+    if (cost.after < cost.before) graph_.take_moved(map_step_.touched());
+    judge_map_step(cost);
+  }
+}
+
+/// Each frame gives the steps a bounded amount of work, that over the window first.
+void Mapper::State::advance_steps() {
+  if (window_step_.under_way() && !window_step_ready_) {
+    window_step_ready_ = window_step_.advance(kWorkPerFrame);
+  } else if (map_step_.under_way() && !map_step_ready_) {
+    map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  }
+}
+
+void Mapper::State::judge_map_step(const StepCost& cost) {
   ++answer_.counters.global_steps;
   earned_work_ -= map_step_.work();
   const bool worth_it = cost.before - cost.after > kWorthwhileGain * segments_.noise2_m2();
