@@ -58,10 +58,10 @@ class LandmarkCovariances {
 };
 
 double LandmarkCovariances::evidence(Index landmark) const {
-  double count = 0.0;
+  double weight = 0.0;
   for (const Membership& at : graph_.landmarks[landmark].memberships)
-    count += static_cast<double>(graph_.submaps[at.submap].members[at.member].count);
-  return count;
+    weight += graph_.submaps[at.submap].members[at.member].weight();
+  return weight;
 }
 
 std::vector<Lever> LandmarkCovariances::levers(Index landmark) const {
@@ -71,7 +71,7 @@ std::vector<Lever> LandmarkCovariances::levers(Index landmark) const {
     const Member& member = graph_.submaps[at.submap].members[at.member];
     if (slot_[at.submap] == kNone || member.count == 0) continue;
     const Vec3 y = graph_.poses[at.submap].q * member.mean;
-    result.push_back({slot_[at.submap], (static_cast<double>(member.count) / whole) * motion_of(y)});
+    result.push_back({slot_[at.submap], (member.weight() / whole) * motion_of(y)});
   }
   return result;
 }
@@ -101,12 +101,7 @@ bool LandmarkCovariances::fit_gauge() {
   positions_.assign(graph_.landmarks.size(), Vec3::Zero());
   double number = 0.0;
   for (Index l = 0; l < positions_.size(); ++l) {
-    const double whole = evidence(l);
-    for (const Membership& at : graph_.landmarks[l].memberships) {
-      const Member& member = graph_.submaps[at.submap].members[at.member];
-      if (member.count > 0)
-        positions_[l] += static_cast<double>(member.count) / whole * (graph_.poses[at.submap] * member.mean);
-    }
+    if (evidence(l) > 0.0) positions_[l] = graph_.mean_position(l);
     if (!counts(l)) continue;
     centre_ += positions_[l];
     number += 1.0;

@@ -32,27 +32,23 @@ SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& stor
       if (graph.landmarks[landmark].memberships.empty() || member.count == 0) continue;
       const Index place = fine.join(at, landmark, member.mean, false);
       fine.submaps[at].members[place].count = member.count;
+      fine.submaps[at].members[place].quality = member.weight / static_cast<double>(member.count);
     }
   }
   return fine;
 }
 
-std::vector<Vec3> positions_of(const SubmapGraph& graph, const std::vector<Pose>& poses) {
+/// Where the evidence puts the landmarks, those without any where they lie.
+std::vector<Vec3> positions_of(const SubmapGraph& graph) {
   std::vector<Vec3> positions;
-  for (const LandmarkRecord& landmark : graph.landmarks) {
-    Vec3 sum = Vec3::Zero();
-    double count = 0.0;
-    for (const Membership& at : landmark.memberships) {
-      const Member& member = graph.submaps[at.submap].members[at.member];
-      sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
-      count += static_cast<double>(member.count);
-    }
-    positions.push_back(count > 0.0 ? Vec3(sum / count) : landmark.position);
+  for (Index l = 0; l < graph.landmarks.size(); ++l) {
+    const LandmarkRecord& landmark = graph.landmarks[l];
+    positions.push_back(landmark.memberships.empty() ? landmark.position : graph.mean_position(l));
   }
   return positions;
 }
 
-/// The variance of one coordinate of an observation, from what is left when the map is placed; 0 where too little is.
+/// The variance of one coordinate of an observation of weight 1, from what is left when the map is placed; 0 where too little is.
 double noise2_of(const SubmapGraph& fine, const SegmentStore& store, bool planar) {
   double squares = store.scatter_m2();
   double landmarks = 0.0;
@@ -75,12 +71,16 @@ RefinedMap refine_map(const SubmapGraph& graph, const SegmentStore& store, const
   RefinedMap map;
   map.poses = graph.poses;
   settle(graph, planar, kMaxSteps, map.poses);
-  map.positions = positions_of(graph, map.poses);
   map.covariances.resize(graph.landmarks.size());
   SubmapGraph fine = graph_of_segments(graph, store, map.poses);
-  if (fine.submaps.empty() || step_work(fine, planar) > kMostWork) return map;
+  if (fine.submaps.empty() || step_work(fine, planar) > kMostWork) {
+    SubmapGraph whole = graph;
+    whole.poses = map.poses;
+    map.positions = positions_of(whole);
+    return map;
+  }
   settle(fine, planar, kMaxSteps, fine.poses);
-  map.positions = positions_of(fine, fine.poses);
+  map.positions = positions_of(fine);
   for (Index segment = static_cast<Index>(fine.poses.size()); segment-- > 0;)
     map.poses[store.segments()[segment].submap] = fine.poses[segment];
   map.noise2_m2 = noise2_of(fine, store, planar);

@@ -14,6 +14,7 @@
 #include "slam_point/core/pose_information.hpp"
 #include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -47,9 +48,10 @@ class Mapper::State {
         graph_(std::max(
             {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
         active_(std::max(options.match_bound(), matcher_.agreement())),
-        settle_period_(options.global_period) {}
+        settle_period_(options.global_period),
+        ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
-  const Answer& process(std::span<const Vec3> points);
+  const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
   Map map() const;
   Map refined_map() const;
   const Options& options() const { return options_; }
@@ -60,8 +62,10 @@ class Mapper::State {
     Vec3 travel = Vec3::Zero();
   };
 
-  void place(std::span<const Vec3> points);
-  void take_points(std::span<const Vec3> points);
+  void place(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_points(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_tracks(std::span<const TrackId> tracks);
+  double weight_of(const Vec3& point) const;
   bool can_start() const;
   void start_map();
   void predict();
@@ -80,6 +84,7 @@ class Mapper::State {
   void change_submap();
   void close_submap();
   void begin_window_step();
+  void plan_map_step();
   void begin_map_step();
   void apply_steps();
   void judge_map_step(const StepCost& cost);
@@ -99,10 +104,12 @@ class Mapper::State {
   ActiveSubmap active_;
   SegmentStore segments_;
   std::vector<SegmentStore::Sighting> sightings_;
+  TrackBook tracks_;
   MapStep window_step_;  // over the last submaps
   MapStep map_step_;     // over all
   bool window_step_ready_ = false;
   bool map_step_ready_ = false;
+  bool map_step_due_ = false;  // to be begun when none over the window is under way
 
   std::vector<Observation> frame_;
   FrameMatcher::Fit fit_;
@@ -114,6 +121,7 @@ class Mapper::State {
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
+  bool followed_ = false;  // this frame came with the sensor's tracks, and they count
   bool started_ = false;
   bool planar_ = true;
   bool has_pose_ = false;
@@ -134,18 +142,19 @@ class Mapper::State {
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
+  bool ranges_count_;             // noise grows with the range
   Answer answer_;
 };
 
-const Answer& Mapper::State::process(std::span<const Vec3> points) {
+const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   apply_steps();
-  place(points);
+  place(points, tracks);
   advance_steps();
   return answer();
 }
 
-void Mapper::State::place(std::span<const Vec3> points) {
-  take_points(points);
+void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  take_points(points, tracks);
   if (!started_) {
     has_pose_ = can_start();
     if (has_pose_) start_map();
@@ -171,21 +180,38 @@ void Mapper::State::place(std::span<const Vec3> points) {
   integrate();
 }
 
-void Mapper::State::take_points(std::span<const Vec3> points) {
+void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   frame_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Written so that NaN fails.
     if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
     if (points[i].z() != 0.0) planar_ = false;
     frame_.push_back({points[i], i});
+    if (ranges_count_) frame_.back().weight = weight_of(points[i]);
   }
+  take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
   ++answer_.counters.iterations;
 }
 
+double Mapper::State::weight_of(const Vec3& point) const {
+  const double share = options_.noise_m / options_.noise_at(point.norm());
+  return share * share;
+}
+
+void Mapper::State::take_tracks(std::span<const TrackId> tracks) {
+  followed_ = options_.association == Association::sensor && !tracks.empty();
+  if (!followed_) return;
+  for (Observation& observation : frame_) {
+    observation.track = tracks[observation.given];
+    observation.expected = tracks_.landmark_of(observation.track, graph_);
+  }
+}
+
 bool Mapper::State::can_start() const {
   Alignment own(Pose{});
-  for (const Observation& observation : frame_) own.add(observation.point, observation.point, 1.0);
+  for (const Observation& observation : frame_)
+    own.add(observation.point, observation.point, observation.weight);
   const FitRules rules = matcher_.rules(planar_);
   Pose unused;
   return own.pairs() >= (planar_ ? 2 : 3) && own.solve(planar_, rules.min_spread_m2, unused);
@@ -236,7 +262,7 @@ bool Mapper::State::fit_pose() {
 }
 
 void Mapper::State::search_turn() {
-  if (options_.max_turn_rad <= 0.0) return;
+  if (options_.max_turn_rad <= 0.0 || followed_) return;  // tracks need no prediction
   ++answer_.counters.searches;
   const Pose& T_map_submap = graph_.poses[graph_.active()];
   search_bases_.assign({T_map_submap * predicted_, T_map_submap * last_T_submap_sensor_});
@@ -276,8 +302,11 @@ bool Mapper::State::start_over() {
   segments_.clear();
   window_step_ = MapStep();
   window_step_ready_ = false;
+  tracks_.clear();
+  for (Observation& observation : frame_) observation.expected = kNone;
   map_step_ = MapStep();
   map_step_ready_ = false;
+  map_step_due_ = false;
   start_map();
   return true;
 }
@@ -300,13 +329,16 @@ void Mapper::State::add_landmarks() {
   const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
+    if (observation.is_followed() && !tracks_.allows_new(observation)) continue;
     if (observation.landmark != kNone || observation.withheld) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
       if ((graph_.landmarks[l].position - p).squaredNorm() < separation2) alone = false;
     });
-    if (alone) observation.landmark = graph_.add_landmark(p, activation_);
+    if (!alone && !observation.is_followed()) continue;
+    observation.landmark = graph_.add_landmark(p, activation_);
+    tracks_.give(observation.track, observation.landmark);
   }
 }
 
@@ -339,7 +371,7 @@ void Mapper::State::close_submap() {
   if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
   window_.push_back(closed);
   begin_window_step();
-  begin_map_step();
+  plan_map_step();
   merge_landmarks(closed);
   ++answer_.counters.closes;
 }
@@ -360,6 +392,8 @@ void Mapper::State::apply_steps() {
     const StepCost cost = map_step_.apply(graph_, graph_.poses);
     if (cost.after < cost.before) graph_.take_moved(map_step_.touched());
     judge_map_step(cost);
+  } else if (map_step_due_ && !window_step_.under_way()) {
+    begin_map_step();  // not before: what the window's step moves, this one would move a second time
   }
 }
 
@@ -382,7 +416,8 @@ void Mapper::State::judge_map_step(const StepCost& cost) {
       worth_it || looping ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
 }
 
-void Mapper::State::begin_map_step() {
+/// Decides at a close whether a step over the whole map is to follow.
+void Mapper::State::plan_map_step() {
   ++closes_since_settled_;
   // The share of a close stays the same in a map of any size. The work of a step grows with at most the cube.
   const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
@@ -398,18 +433,21 @@ void Mapper::State::begin_map_step() {
   was_on_old_ground_ = on_old_ground_;
   loop_closed_ = loop_closed_ || on_old_ground_;
   on_old_ground_ = false;
-  if (options_.global_period == 0 || !loop_closed_ || map_step_.under_way() ||
-      closes_since_settled_ < settle_period_ || earned_work_ < work) {
-    return;
-  }
+  map_step_due_ = options_.global_period != 0 && loop_closed_ && !map_step_.under_way() &&
+                  closes_since_settled_ >= settle_period_ && earned_work_ >= work;
+}
+
+void Mapper::State::begin_map_step() {
   map_step_.begin(graph_, graph_.poses, window_.back(), planar_);
   map_step_ready_ = false;
+  map_step_due_ = false;
   settled_submaps_ = static_cast<double>(graph_.submaps.size());
   loop_closed_ = false;
   closes_since_settled_ = 0;
 }
 
 void Mapper::State::merge_landmarks(Index closed) {
+  if (followed_) return;  // who follows two points says that they are two
   const double separation2 = options_.separation() * options_.separation();
   matcher_.mark(graph_, frame_);
   for (const Member& member : graph_.submaps[closed].members) {
@@ -493,16 +531,17 @@ void Mapper::State::integrate() {
   sightings_.clear();
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
-    sightings_.push_back({observation.landmark, observation.point});
+    sightings_.push_back({observation.landmark, observation.point, observation.weight});
     const LandmarkRecord& landmark = graph_.landmarks[observation.landmark];
     if (landmark.last_activation + static_cast<std::uint64_t>(options_.window) < activation_)
       on_old_ground_ = true;
     const Index member = landmark.active_member;
     ++last_seen_;
     if (member == kNone) {
-      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_);
+      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_,
+                   observation.weight);
     } else {
-      active_.observe(graph_, member, observation.point, activation_);
+      active_.observe(graph_, member, observation.point, activation_, observation.weight);
     }
   }
   first_of_submap_ = false;
@@ -522,8 +561,8 @@ std::optional<Mat6> Mapper::State::pose_covariance() const {
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
     // This frame's own observation is in the landmark already.
-    const double n = static_cast<double>(graph_.landmarks[observation.landmark].count) - 1.0;
-    information.add(rotation * observation.point, n / (n + 1.0));
+    const double others = graph_.landmarks[observation.landmark].weight - observation.weight;
+    if (others > 0.0) information.add(rotation * observation.point, pair_weight(others, observation.weight));
   }
   std::optional<Mat6> covariance = information.covariance(planar_);
   if (covariance) *covariance *= noise2;
@@ -591,8 +630,8 @@ Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-const Answer& Mapper::process(std::span<const Vec3> points) {
-  return state_->process(points);
+const Answer& Mapper::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  return state_->process(points, tracks);
 }
 
 Map Mapper::map() const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "slam_point/core/alignment.hpp"
+#include "slam_point/core/robust_fit.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -69,7 +70,7 @@ Index SegmentStore::start(Index submap, const std::vector<Sighting>& sightings) 
   segment.submap = submap;
   segment.first_frame_size = static_cast<std::uint32_t>(sightings.size());
   for (const Sighting& sighting : sightings)
-    segment.members.push_back({sighting.landmark, 0, true, Vec3::Zero()});
+    segment.members.push_back({sighting.landmark, 0, 0.0, true, Vec3::Zero()});
   segments_.push_back(std::move(segment));
   of_submap_[submap].push_back(index);
   return index;
@@ -91,8 +92,7 @@ Pose SegmentStore::align(const Pose& T_submap_sensor, bool planar, double min_sp
   for (const Sighting& sighting : sightings) {
     if (placed_[sighting.landmark] != open_) continue;
     const SegmentMember& member = members[place_[sighting.landmark]];
-    const double n = static_cast<double>(member.count);
-    alignment.add(member.mean, sighting.point, n / (n + 1.0));
+    alignment.add(member.mean, sighting.point, pair_weight(member.weight, sighting.weight));
   }
   Pose aligned = T_submap_sensor;
   alignment.solve(planar, min_spread_m2, aligned);
@@ -107,15 +107,16 @@ void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::
     if (placed_[sighting.landmark] != open_) {
       place_[sighting.landmark] = static_cast<Index>(members.size());
       placed_[sighting.landmark] = open_;
-      members.push_back({sighting.landmark, 0, false, Vec3::Zero()});
+      members.push_back({sighting.landmark, 0, 0.0, false, Vec3::Zero()});
     }
     SegmentMember& member = members[place_[sighting.landmark]];
     const Vec3 off = rotation * sighting.point + T_submap_sensor.t - member.mean;
-    const double n = static_cast<double>(member.count);
+    const double shared = pair_weight(member.weight, sighting.weight);
     ++member.count;
-    member.mean += off / (n + 1.0);
-    if (n == 0.0) continue;
-    scatter_m2_ += n / (n + 1.0) * off.squaredNorm();
+    member.weight += sighting.weight;
+    member.mean += (sighting.weight / member.weight) * off;
+    if (member.count == 1) continue;
+    scatter_m2_ += shared * off.squaredNorm();
     ++known;
   }
   freedom_ +=

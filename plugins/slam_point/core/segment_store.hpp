@@ -12,6 +12,7 @@ namespace hallway::slam_point {
 struct SegmentMember {
   Index landmark = kNone;
   std::uint32_t count = 0;      ///< observations averaged
+  double weight = 0.0;          ///< the sum of their weights
   bool in_first_frame = false;  ///< seen by the frame that started the segment
   Vec3 mean = Vec3::Zero();     ///< submap frame [m]
 };
@@ -33,6 +34,7 @@ class SegmentStore {
   struct Sighting {
     Index landmark = kNone;
     Vec3 point = Vec3::Zero();  ///< sensor frame [m]
+    double weight = 1.0;        ///< above 0, as Observation::weight
   };
 
   /// Adds a frame that `submap` took in. `T_submap_sensor` is where it stood there; within its segment it is aligned anew, to
@@ -43,12 +45,12 @@ class SegmentStore {
 
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// Squared distances of all points from the means of their segments [m^2].
+  /// Squared distances of all points from the means of their segments, by their weights [m^2].
   double scatter_m2() const { return scatter_m2_; }
-  /// Degrees of freedom of scatter_m2(): coordinates less those of means and of poses. Their quotient estimates the square of the
-  /// observations' standard deviation in one coordinate.
+  /// Degrees of freedom of scatter_m2(): coordinates less those of means and of poses. Their quotient estimates the variance of
+  /// one coordinate of an observation of weight 1.
   double freedom() const { return freedom_; }
-  /// Estimated variance of one coordinate of an observation [m^2]; 0 while it rests on too little.
+  /// Estimated variance of one coordinate of an observation of weight 1 [m^2]; 0 while it rests on too little.
   double noise2_m2() const;
   std::uint64_t observations() const { return observations_; }
   std::uint64_t frames() const { return frames_; }
