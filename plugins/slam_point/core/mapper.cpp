@@ -27,7 +27,7 @@ constexpr double kLeastShare = 0.4;  // below which there is no pose
 constexpr double kWorthwhileGain =
     1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
 constexpr double kWorkPerClose =
-    1.2e6;  // multiplications for steps over the whole map that a close earns; twice those that factorise a window of 20
+    6e5;  // multiplications for steps over the whole map that a close earns; those that factorise a window of 20
 constexpr double kMostClosesSaved = 100.0;
 constexpr double kMostSteps = 4.0;     // over the whole map, that can be saved up
 constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
@@ -109,7 +109,8 @@ class Mapper::State {
   MapStep map_step_;     // over all
   bool window_step_ready_ = false;
   bool map_step_ready_ = false;
-  bool map_step_due_ = false;  // to be begun when none over the window is under way
+  bool window_step_due_ = false;  // to be begun at the next frame
+  bool map_step_due_ = false;     // to be begun when none over the window is under way
 
   std::vector<Observation> frame_;
   FrameMatcher::Fit fit_;
@@ -370,17 +371,17 @@ void Mapper::State::close_submap() {
   std::erase(window_, closed);
   if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
   window_.push_back(closed);
-  begin_window_step();
+  // Where closes follow each other faster than a step is computed, the next one takes in what this one leaves out.
+  window_step_due_ = !window_step_.under_way();
   plan_map_step();
   merge_landmarks(closed);
   ++answer_.counters.closes;
 }
 
-/// Where closes follow each other faster than a step is computed, the next one takes in what this one leaves out.
 void Mapper::State::begin_window_step() {
-  if (window_step_.under_way()) return;
   window_step_.begin(graph_, graph_.poses, window_, window_.back(), planar_);
   window_step_ready_ = false;
+  window_step_due_ = false;
 }
 
 /// Between frames: what is ready moves submaps, and with them what is active.
@@ -392,16 +393,22 @@ void Mapper::State::apply_steps() {
     const StepCost cost = map_step_.apply(graph_, graph_.poses);
     if (cost.after < cost.before) graph_.take_moved(map_step_.touched());
     judge_map_step(cost);
+  }
+  // Not both at once: what the one over the window moves, the other would move a second time.
+  if (window_step_due_) {
+    begin_window_step();
   } else if (map_step_due_ && !window_step_.under_way()) {
-    begin_map_step();  // not before: what the window's step moves, this one would move a second time
+    begin_map_step();
   }
 }
 
-/// Each frame gives the steps a bounded amount of work, that over the window first.
+/// Each frame gives one of the steps a bounded amount of work.
 void Mapper::State::advance_steps() {
-  if (window_step_.under_way() && !window_step_ready_) {
+  const bool window = window_step_.under_way() && !window_step_ready_;
+  const bool map = map_step_.under_way() && !map_step_ready_;
+  if (window && (!map || answer_.counters.iterations % 2 == 0)) {
     window_step_ready_ = window_step_.advance(kWorkPerFrame);
-  } else if (map_step_.under_way() && !map_step_ready_) {
+  } else if (map) {
     map_step_ready_ = map_step_.advance(kWorkPerFrame);
   }
 }
