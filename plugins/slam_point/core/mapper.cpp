@@ -131,6 +131,7 @@ class Mapper::State {
   std::uint64_t placed_frames_ = 0;
   std::uint64_t activation_ = 0;
   std::vector<Index> window_;  // the last submaps closed, newest last
+  std::vector<Index> free_;    // what the step over the window places
   std::vector<Pose> search_bases_;
   std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
   std::vector<Index> shared_submaps_;
@@ -378,8 +379,11 @@ void Mapper::State::close_submap() {
   ++answer_.counters.closes;
 }
 
+/// Of the submaps closed last and the one that is active.
 void Mapper::State::begin_window_step() {
-  window_step_.begin(graph_, graph_.poses, window_, window_.back(), planar_);
+  free_ = window_;
+  if (std::find(free_.begin(), free_.end(), graph_.active()) == free_.end()) free_.push_back(graph_.active());
+  window_step_.begin(graph_, graph_.poses, free_, graph_.active(), planar_);
   window_step_ready_ = false;
   window_step_due_ = false;
 }
@@ -445,7 +449,7 @@ void Mapper::State::plan_map_step() {
 }
 
 void Mapper::State::begin_map_step() {
-  map_step_.begin(graph_, graph_.poses, window_.back(), planar_);
+  map_step_.begin(graph_, graph_.poses, graph_.active(), planar_);
   map_step_ready_ = false;
   map_step_due_ = false;
   settled_submaps_ = static_cast<double>(graph_.submaps.size());
