@@ -14,7 +14,6 @@
 #include "slam_point/core/pose_information.hpp"
 #include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
-#include "slam_point/core/submap_solver.hpp"
 #include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
@@ -28,7 +27,7 @@ constexpr double kLeastShare = 0.4;  // below which there is no pose
 constexpr double kWorthwhileGain =
     1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
 constexpr double kWorkPerClose =
-    1.2e6;  // multiplications for steps over the whole map that a close earns; twice those that factorise a window of 20
+    6e5;  // multiplications for steps over the whole map that a close earns; those that factorise a window of 20
 constexpr double kMostClosesSaved = 100.0;
 constexpr double kMostSteps = 4.0;     // over the whole map, that can be saved up
 constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
@@ -84,8 +83,12 @@ class Mapper::State {
   double overlap_with_active() const;
   void change_submap();
   void close_submap();
-  void apply_map_step();
+  void begin_window_step();
+  void plan_map_step();
   void begin_map_step();
+  void apply_steps();
+  void judge_map_step(const StepCost& cost);
+  void advance_steps();
   void merge_landmarks(Index closed);
   Index best_old_submap();
   bool reopen(Index submap);
@@ -101,10 +104,13 @@ class Mapper::State {
   ActiveSubmap active_;
   SegmentStore segments_;
   std::vector<SegmentStore::Sighting> sightings_;
-  WindowSolver window_solver_;
   TrackBook tracks_;
-  MapStep map_step_;
+  MapStep window_step_;  // over the last submaps
+  MapStep map_step_;     // over all
+  bool window_step_ready_ = false;
   bool map_step_ready_ = false;
+  bool window_step_due_ = false;  // to be begun at the next frame
+  bool map_step_due_ = false;     // to be begun when none over the window is under way
 
   std::vector<Observation> frame_;
   FrameMatcher::Fit fit_;
@@ -125,6 +131,7 @@ class Mapper::State {
   std::uint64_t placed_frames_ = 0;
   std::uint64_t activation_ = 0;
   std::vector<Index> window_;  // the last submaps closed, newest last
+  std::vector<Index> free_;    // what the step over the window places
   std::vector<Pose> search_bases_;
   std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
   std::vector<Index> shared_submaps_;
@@ -142,8 +149,9 @@ class Mapper::State {
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  apply_steps();
   place(points, tracks);
-  if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  advance_steps();
   return answer();
 }
 
@@ -294,9 +302,13 @@ bool Mapper::State::start_over() {
   graph_.clear();
   active_.clear();
   segments_.clear();
+  window_step_ = MapStep();
+  window_step_ready_ = false;
   tracks_.clear();
   for (Observation& observation : frame_) observation.expected = kNone;
   map_step_ = MapStep();
+  map_step_ready_ = false;
+  map_step_due_ = false;
   start_map();
   return true;
 }
@@ -360,20 +372,52 @@ void Mapper::State::close_submap() {
   std::erase(window_, closed);
   if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
   window_.push_back(closed);
-  const StepCost cost = window_solver_.step(graph_, window_, planar_, graph_.poses);
-  if (cost.after < cost.before) {
-    for (const Index landmark : window_solver_.touched()) graph_.resum(landmark);
-  }
-  apply_map_step();
-  begin_map_step();
+  // Where closes follow each other faster than a step is computed, the next one takes in what this one leaves out.
+  window_step_due_ = !window_step_.under_way();
+  plan_map_step();
   merge_landmarks(closed);
   ++answer_.counters.closes;
 }
 
-void Mapper::State::apply_map_step() {
-  if (!map_step_.under_way() || !map_step_ready_) return;
-  const StepCost cost = map_step_.apply(graph_, graph_.poses);
-  for (Index landmark = 0; landmark < graph_.landmarks.size(); ++landmark) graph_.resum(landmark);
+/// Of the submaps closed last and the one that is active.
+void Mapper::State::begin_window_step() {
+  free_ = window_;
+  if (std::find(free_.begin(), free_.end(), graph_.active()) == free_.end()) free_.push_back(graph_.active());
+  window_step_.begin(graph_, graph_.poses, free_, graph_.active(), planar_);
+  window_step_ready_ = false;
+  window_step_due_ = false;
+}
+
+/// Between frames: what is ready moves submaps, and with them what is active.
+void Mapper::State::apply_steps() {
+  if (window_step_.under_way() && window_step_ready_) {
+    const StepCost cost = window_step_.apply(graph_, graph_.poses);
+    if (cost.after < cost.before) graph_.take_moved(window_step_.touched());
+  } else if (map_step_.under_way() && map_step_ready_) {
+    const StepCost cost = map_step_.apply(graph_, graph_.poses);
+    if (cost.after < cost.before) graph_.take_moved(map_step_.touched());
+    judge_map_step(cost);
+  }
+  // Not both at once: what the one over the window moves, the other would move a second time.
+  if (window_step_due_) {
+    begin_window_step();
+  } else if (map_step_due_ && !window_step_.under_way()) {
+    begin_map_step();
+  }
+}
+
+/// Each frame gives one of the steps a bounded amount of work.
+void Mapper::State::advance_steps() {
+  const bool window = window_step_.under_way() && !window_step_ready_;
+  const bool map = map_step_.under_way() && !map_step_ready_;
+  if (window && (!map || answer_.counters.iterations % 2 == 0)) {
+    window_step_ready_ = window_step_.advance(kWorkPerFrame);
+  } else if (map) {
+    map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  }
+}
+
+void Mapper::State::judge_map_step(const StepCost& cost) {
   ++answer_.counters.global_steps;
   earned_work_ -= map_step_.work();
   const bool worth_it = cost.before - cost.after > kWorthwhileGain * segments_.noise2_m2();
@@ -383,7 +427,8 @@ void Mapper::State::apply_map_step() {
       worth_it || looping ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
 }
 
-void Mapper::State::begin_map_step() {
+/// Decides at a close whether a step over the whole map is to follow.
+void Mapper::State::plan_map_step() {
   ++closes_since_settled_;
   // The share of a close stays the same in a map of any size. The work of a step grows with at most the cube.
   const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
@@ -399,12 +444,14 @@ void Mapper::State::begin_map_step() {
   was_on_old_ground_ = on_old_ground_;
   loop_closed_ = loop_closed_ || on_old_ground_;
   on_old_ground_ = false;
-  if (options_.global_period == 0 || !loop_closed_ || map_step_.under_way() ||
-      closes_since_settled_ < settle_period_ || earned_work_ < work) {
-    return;
-  }
-  map_step_.begin(graph_, graph_.poses, window_.back(), planar_);
+  map_step_due_ = options_.global_period != 0 && loop_closed_ && !map_step_.under_way() &&
+                  closes_since_settled_ >= settle_period_ && earned_work_ >= work;
+}
+
+void Mapper::State::begin_map_step() {
+  map_step_.begin(graph_, graph_.poses, graph_.active(), planar_);
   map_step_ready_ = false;
+  map_step_due_ = false;
   settled_submaps_ = static_cast<double>(graph_.submaps.size());
   loop_closed_ = false;
   closes_since_settled_ = 0;

@@ -50,6 +50,11 @@ void SubmapGraph::deactivate() {
   }
 }
 
+void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
+  if (active_ != kNone) active_rotation_ = poses[active_].q.toRotationMatrix();
+  for (const Index landmark : moved_landmarks) resum(landmark);
+}
+
 void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight) {
   Member& m = submaps[active_].members[member];
   LandmarkRecord& landmark = landmarks[m.landmark];

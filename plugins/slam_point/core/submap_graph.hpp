@@ -75,6 +75,9 @@ class SubmapGraph {
   void deactivate();
   Index active() const { return active_; }
 
+  /// Takes note that submaps have moved, the active one perhaps among them, and sums up the landmarks of those that have.
+  void take_moved(const std::vector<Index>& moved_landmarks);
+
   /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
   /// `weight`: see Observation::weight.
   void observe(Index member, const Vec3& p, std::uint64_t activation, double weight = 1.0);
