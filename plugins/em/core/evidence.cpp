@@ -13,7 +13,7 @@ constexpr double kFlattest = 1.0 / 16.0;  // thicker is a lump: its sides are bu
 constexpr double kFlank = 3.0;            // a flank is as thick as half of the slab times two
 
 double outer_height(const Grown& plane) {
-  return kFlank * kSlabSigmas * plane.sigma;
+  return kFlank * (kSlabSigmas * plane.sigma);
 }
 
 double unclaimed_among(const std::vector<std::uint32_t>& places, const std::vector<std::uint8_t>& claimed) {

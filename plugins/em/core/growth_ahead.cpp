@@ -61,7 +61,7 @@ void GrowthAhead::grow_from(std::size_t number, std::size_t left) {
   workers_.run(batch.size(), [&](std::size_t k, std::size_t) { grow(batch[k]); });
   std::move(batch.begin(), batch.end(), std::back_inserter(ahead_));
   std::sort(ahead_.begin(), ahead_.end(),
-            [](const Attempt& left, const Attempt& right) { return left.number < right.number; });
+            [](const Attempt& a, const Attempt& b) { return a.number < b.number; });
 }
 
 bool GrowthAhead::stale(const Attempt& attempt) const {

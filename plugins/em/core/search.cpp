@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-
-
 namespace hallway::em {
 namespace {
 
