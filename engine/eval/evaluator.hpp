@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
+#include "eval/motion_score.hpp"
 #include "eval/trajectory_score.hpp"
 #include "geom/pose.hpp"
 #include "log/landmarks.hpp"
@@ -25,6 +27,8 @@ struct Iteration {
   /// By observation: the true landmark, kNoLandmark for none. As long as `associations`; empty where the input has no
   /// identities.
   std::span<const log::LandmarkId> identities;
+  /// By observation: where it was seen, sensor frame, metres. As long as `identities`, or empty where nothing moves.
+  std::span<const std::array<double, 3>> points{};
   std::optional<double> wall_ms;  ///< what the plugins took
   std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
 };
@@ -33,13 +37,15 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
+  Pose T_body_sensor{};                                 ///< of the sensor of the observations
+  double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
 };
 
 /// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
 /// true landmark) that observations have joined, not with the observations; O(1) per observation.
 class Evaluator {
  public:
-  explicit Evaluator(Truth truth) : truth_(std::move(truth)) {}
+  explicit Evaluator(Truth truth);
 
   /// Adds the next iteration. Throws Error{kInternal} if the truth has identities and the two spans differ in length.
   void add(const Iteration& iteration);
@@ -60,10 +66,13 @@ class Evaluator {
   void score_landmarks(std::span<const log::MapLandmark> online,
                        const std::optional<std::vector<log::MapLandmark>>& refined, Metrics& metrics) const;
 
+  bool moves(log::LandmarkId landmark) const { return motion_ && motion_->moves(landmark); }
+
   Truth truth_;
   std::uint64_t iterations_ = 0;
   std::uint64_t lost_ = 0;
   AssociationScore associations_;
+  std::optional<MotionScore> motion_;  ///< where the truth says what moves
   TrajectoryScore trajectory_;
   std::vector<double> wall_ms_;
   std::vector<double> cpu_ms_;

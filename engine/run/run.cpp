@@ -4,6 +4,7 @@
 #include <hallway/ext/log.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "base/error.hpp"
@@ -41,25 +42,37 @@ std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   return pose_of(outputs.pose()->T_map_body);
 }
 
+eval::Truth truth_of(const Source& source) {
+  const host::SensorInfo& sensor = source.sensor();
+  const double largest = *std::max_element(std::begin(sensor.noise_m), std::end(sensor.noise_m));
+  return {.has_identities = source.has_identities(),
+          .landmarks = source.true_landmarks(),
+          .T_body_sensor = pose_of(sensor.T_body_sensor),
+          .noise_m = largest > 0.0 ? largest : 0.0};  // not a number where it is not known
+}
+
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
   Tally(const Source& source, bool keep_observations)
-      : source_(source),
-        keep_observations_(keep_observations),
-        evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
+      : source_(source), keep_observations_(keep_observations), evaluator_(truth_of(source)) {}
 
   void add(const FrameAnswer& answer) {
     const SourceFrame& frame = answer.frame;
     identities_.clear();
+    points_.clear();
     if (source_.has_identities()) {
-      for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
+      for (const log::Observation& seen : frame.observations) {
+        identities_.push_back(seen.landmark);
+        points_.push_back(seen.point);
+      }
     }
     eval::Iteration iteration{.T_world_body = frame.T_world_body,
                               .orientation_known = frame.orientation_known,
                               .T_map_body = {},
                               .associations = associations(answer),
                               .identities = identities_,
+                              .points = points_,
                               .wall_ms = {},
                               .cpu_ms = {}};
     if (answer.outputs != nullptr) add_answer(answer, iteration);
@@ -94,6 +107,7 @@ class Tally {
   bool keep_observations_;
   eval::Evaluator evaluator_;
   std::vector<log::LandmarkId> identities_;
+  std::vector<std::array<double, 3>> points_;
   std::vector<log::LandmarkId> none_;
   Collected collected_;
 };
