@@ -17,6 +17,8 @@ struct Observation {
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
+  Index moving =
+      kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
 };
 
 /// Finds which landmark each point of a frame is (thesis 6.2.5 and 6.5.1). Matching is one-to-one: of all pairs within

@@ -10,6 +10,7 @@
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/frame_matcher.hpp"
 #include "slam_point/core/map_step.hpp"
+#include "slam_point/core/motion_filter.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/submap_solver.hpp"
 
@@ -43,10 +44,12 @@ class Mapper::State {
         graph_(std::max(
             {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
         active_(std::max(options.match_bound(), matcher_.agreement())),
+        motion_filter_(options),
         settle_period_(options.global_period) {}
 
   const Answer& process(std::span<const Vec3> points);
   Map map(const std::vector<Pose>& poses) const;
+  void add_moving(const std::vector<Pose>& poses, Map& map) const;
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
   const Options& options() const { return options_; }
@@ -73,6 +76,7 @@ class Mapper::State {
   bool start_over();
   void learn_motion();
   void add_landmarks();
+  void set_moving_apart();
   double overlap_with_active() const;
   void change_submap();
   void close_submap();
@@ -89,6 +93,7 @@ class Mapper::State {
   FrameMatcher matcher_;
   SubmapGraph graph_;
   ActiveSubmap active_;
+  MotionFilter motion_filter_;
   WindowSolver window_solver_;
   MapStep map_step_;
   bool map_step_ready_ = false;
@@ -147,7 +152,9 @@ void Mapper::State::place(std::span<const Vec3> points) {
   }
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
+  if (options_.find_moving != 0) motion_filter_.follow(graph_, T_map_sensor_, frame_);
   add_landmarks();
+  set_moving_apart();
   if (overlap_with_active() < options_.overlap ||
       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
     change_submap();
@@ -180,6 +187,7 @@ void Mapper::State::start_map() {
   frames_without_pose_ = 0;
   T_map_sensor_ = Pose{};
   add_landmarks();
+  set_moving_apart();
   open_new_submap();
   integrate();
 }
@@ -257,6 +265,7 @@ bool Mapper::State::start_over() {
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
+  motion_filter_.clear();
   map_step_ = MapStep();
   start_map();
   return true;
@@ -280,7 +289,7 @@ void Mapper::State::add_landmarks() {
   const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
-    if (observation.landmark != kNone || observation.withheld) continue;
+    if (observation.landmark != kNone || observation.withheld || observation.moving != kNone) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
@@ -288,6 +297,14 @@ void Mapper::State::add_landmarks() {
     });
     if (alone) observation.landmark = graph_.add_landmark(p, activation_);
   }
+}
+
+void Mapper::State::set_moving_apart() {
+  if (options_.find_moving == 0) return;
+  if (!motion_filter_.judge(graph_, active_, T_map_sensor_, planar_, frame_)) return;
+  ++answer_.counters.found_moving;
+  // What moved has pulled at the frame.
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
 }
 
 double Mapper::State::overlap_with_active() const {
@@ -368,6 +385,7 @@ void Mapper::State::merge_landmarks(Index closed) {
       // Seen together, they are two. The order of visits is no reason to choose: ties go to the older one.
       const bool together = matcher_.is_marked(other) && matcher_.is_marked(landmark);
       if (other == landmark || together || graph_.landmarks[other].count == 0) return;
+      if (d2 < nearest2 && motion_filter_.are_two(landmark, other)) return;
       if (d2 < nearest2 || (d2 == nearest2 && other < twin)) {
         nearest2 = d2;
         twin = other;
@@ -377,6 +395,7 @@ void Mapper::State::merge_landmarks(Index closed) {
     const Index into = std::min(landmark, twin);
     const Index from = std::max(landmark, twin);
     graph_.merge(into, from);
+    motion_filter_.merged(from, into);
     for (Observation& observation : frame_) {
       if (observation.landmark == from) observation.landmark = into;
     }
@@ -460,19 +479,32 @@ const Answer& Mapper::State::answer() {
     ++answer_.counters.lost;
   }
   for (const Observation& observation : frame_) {
-    if (observation.landmark != kNone)
-      answer_.associations[observation.given] = first_id_ + observation.landmark;
+    const Index landmark = observation.landmark != kNone ? observation.landmark : observation.moving;
+    if (landmark != kNone) answer_.associations[observation.given] = first_id_ + landmark;
   }
   answer_.counters.landmarks = graph_.landmarks.size() - answer_.counters.merged;
   answer_.counters.submaps = graph_.submaps.size();
   return answer_;
 }
 
+void Mapper::State::add_moving(const std::vector<Pose>& poses, Map& map) const {
+  for (const MotionTracks::Track& track : motion_filter_.tracks()) {
+    Landmark landmark;
+    landmark.id = first_id_ + track.landmark;
+    landmark.position = poses[track.submap] * track.place;
+    landmark.observations = track.sightings;
+    landmark.status = LandmarkStatus::dynamic;
+    map.landmarks.push_back(landmark);
+  }
+  std::sort(map.landmarks.begin(), map.landmarks.end(),
+            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
+}
+
 Map Mapper::State::map(const std::vector<Pose>& poses) const {
   Map map;
   for (Index l = 0; l < graph_.landmarks.size(); ++l) {
     const LandmarkRecord& record = graph_.landmarks[l];
-    if (record.merged_into != kNone) continue;
+    if (record.merged_into != kNone || record.moving) continue;
     Landmark landmark;
     landmark.id = first_id_ + l;
     landmark.observations = record.count;
@@ -486,6 +518,7 @@ Map Mapper::State::map(const std::vector<Pose>& poses) const {
     landmark.position = sum / static_cast<double>(record.count);
     map.landmarks.push_back(landmark);
   }
+  add_moving(poses, map);
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
     Submap submap;
     submap.id = s;
