@@ -60,7 +60,8 @@ class Bins {
     std::sort(deviations.begin(), deviations.end());
     for (std::size_t i = 0; i + 1 < deviations.size(); ++i) {
       const double gap = deviations[i + 1] - deviations[i];
-      if (gap > rules_.gap_m && gap > rules_.gap_share * deviations[i]) return deviations[i];
+      if (gap > rules_.gap_m && gap > rules_.gap_share * deviations[i])
+        return deviations[i] + rules_.gap_place * gap;
     }
     return deviations.back();
   }

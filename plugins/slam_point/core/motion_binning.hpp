@@ -21,6 +21,8 @@ struct BinningRules {
   double threshold_m = 0.0;
   double gap_m = 0.02;     ///< [m]
   double gap_share = 1.0;  ///< [1]
+  /// Where in the gap the threshold lies: 0 at its lower end, as in the thesis, which splits bins where few deviations were seen.
+  double gap_place = 0.5;
 };
 
 /// Which points keep their distances.

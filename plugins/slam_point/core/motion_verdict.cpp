@@ -11,6 +11,7 @@ namespace {
 constexpr double kMovedDeviations2 = 25.0;  // squared; a landmark that stands does so 1 time in 10^5
 constexpr double kMedianChi3 = 2.366;       // of a sum of three squared standard normal deviates
 constexpr std::size_t kLeastCommon = 5;
+constexpr double kFewSuspects = 0.85;  // so many of the landmarks are above suspicion: they decide
 constexpr double kInlierNoises = 4.0;
 constexpr double kMaxRotationSigma_rad = 0.1;
 
@@ -101,16 +102,19 @@ bool MotionVerdict::fit(const Pose& guess, bool planar, Pose& T_earlier_later) {
   for (const Common& common : common_) {
     if (!shifts_[common.landmark].suspect) pairs_.push_back({common.earlier, common.later, 1.0});
   }
-  // Where most are suspected, the largest set that agrees decides.
-  if (2 * pairs_.size() < common_.size() || pairs_.size() < kLeastCommon) {
-    pairs_.clear();
-    for (const Common& common : common_) pairs_.push_back({common.earlier, common.later, 1.0});
-  }
-  if (pairs_.size() < kLeastCommon) return false;
   const double spread = noise_m_ / kMaxRotationSigma_rad;
-  const FitRules rules{planar, spread * spread, kInlierNoises * noise_m_};
   T_earlier_later = guess;
-  return robust_fit(pairs_, rules, T_earlier_later);
+  const double kept = static_cast<double>(pairs_.size());
+  if (pairs_.size() >= kLeastCommon && kept >= kFewSuspects * static_cast<double>(common_.size())) {
+    const FitRules rules{planar, spread * spread, kInlierNoises * noise_m_};
+    return robust_fit(pairs_, rules, T_earlier_later);
+  }
+  // Where many are suspected, those that are not may be the ones that move.
+  pairs_.clear();
+  for (const Common& common : common_) pairs_.push_back({common.earlier, common.later, 1.0});
+  if (pairs_.size() < kLeastCommon) return false;
+  const std::size_t agreeing = consensus_.fit(pairs_, planar, spread * spread, T_earlier_later);
+  return 2 * agreeing > pairs_.size();
 }
 
 bool MotionVerdict::add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later,

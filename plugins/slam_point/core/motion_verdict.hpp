@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
+#include "slam_point/core/motion_consensus.hpp"
 #include "slam_point/core/robust_fit.hpp"
 #include "slam_point/core/sighting_history.hpp"
 
@@ -13,7 +15,8 @@ namespace hallway::slam_point {
 /// (thesis 6.5.3 asks the same of the distances of all pairs).
 ///
 /// Two short blocks of frames are taken, some time apart. Each frame of the later block is laid on one of the earlier by a
-/// robust fit of the landmarks that both saw, suspects aside. What a landmark is then away from where it was, averaged over the
+/// robust fit of the landmarks that both saw, suspects aside; where many are suspected, by the motion that most of all agree on, and if fewer
+/// than half do, not at all. What a landmark is then away from where it was, averaged over the
 /// block, is compared with its own scatter, with the sensor's noise, and with what the other landmarks do. No map, no
 /// earlier fit and no sensor pose enters, so that neither drift nor a loop that closes looks like motion.
 class MotionVerdict {
@@ -25,7 +28,7 @@ class MotionVerdict {
   };
   enum class Finding { stands, moves, open };
 
-  explicit MotionVerdict(double noise_m) : noise_m_(noise_m) {}
+  explicit MotionVerdict(double noise_m) : noise_m_(noise_m), consensus_(std::numbers::sqrt2 * noise_m) {}
 
   /// Judges the suspects by the newest frame of `history` and those before it. All that are judged need the same time between the
   /// blocks as the first; the others stay open, as do those of which too little was seen. At most kMostPairs fits:
@@ -60,6 +63,7 @@ class MotionVerdict {
   Finding finding(const Shift& shift, int pairs, double usual) const;
 
   double noise_m_;
+  MotionConsensus consensus_;
   std::uint64_t session_ = 0;
   std::uint64_t stamp_ = 0;
   std::vector<Shift> shifts_;           // by landmark; those of this session count

@@ -90,8 +90,12 @@ TEST(MotionBinning, FewOrNoPoints) {
 TEST(MotionBinning, TheThresholdLiesWhereTheDeviationsJump) {
   Labelled points = shares(200, {0.8}, 4);
   const BinningResult result = binned(points);
-  EXPECT_GE(result.threshold_m, 0.04);
-  EXPECT_LE(result.threshold_m, 0.06);
+  EXPECT_GE(result.threshold_m, 0.06);
+  EXPECT_LE(result.threshold_m, 0.3);
+  BinningRules lowest;
+  lowest.gap_place = 0.0;
+  Labelled same = shares(200, {0.8}, 4);
+  EXPECT_LE(binned(same, lowest).threshold_m, 0.06);
   BinningRules given;
   given.threshold_m = 0.1;
   Labelled again = shares(200, {0.8}, 4);
@@ -146,7 +150,9 @@ TEST(MotionBinning, PriorityKeepsComparisonsNearNLogN) {
       }
       const double size = static_cast<double>(n);
       EXPECT_LE(static_cast<double>(with) / 5.0, 1.2 * size * std::log2(size)) << n << " points, " << noise;
-      if (noise >= 0.2) EXPECT_LT(with, without) << n << " points, " << noise;
+      if (noise >= 0.2) {
+        EXPECT_LT(with, without) << n << " points, " << noise;
+      }
     }
   }
 }

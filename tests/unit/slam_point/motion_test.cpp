@@ -245,7 +245,7 @@ TEST(MotionVerdict, AgreesWithTheDistancesOfAllPairs) {
     scenes::Random random(seed);
     std::vector<Vec3> speeds;
     for (int i = 0; i < 30; ++i) {
-      const bool moves = random.uniform(0.0, 1.0) < 0.3;
+      const bool moves = i % 10 < 3;
       const double turn = random.uniform(0.0, 6.28);
       speeds.push_back(moves ? Vec3(0.1 * std::cos(turn), 0.1 * std::sin(turn), 0.02) : Vec3::Zero().eval());
     }
