@@ -27,7 +27,7 @@ class Sequence {
 };
 
 double distance2(const Pair& pair, const Mat3& rotation, const Vec3& translation) {
-  return (pair.reference - rotation * pair.point - translation).squaredNorm();
+  return pair.weight * (pair.reference - rotation * pair.point - translation).squaredNorm();
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ std::size_t MotionConsensus::fit(const std::vector<Pair>& pairs, bool planar, do
     Alignment few(T);
     for (std::size_t i = 0; i < least; ++i) {
       const Pair& pair = pairs[sequence.below(pairs.size())];
-      few.add(pair.reference, pair.point, 1.0);
+      few.add(pair.reference, pair.point, pair.weight);
     }
     Pose candidate;
     if (!few.solve(planar, min_spread_m2, candidate)) continue;
@@ -74,7 +74,7 @@ bool MotionConsensus::refine(const std::vector<Pair>& pairs, bool planar, double
   Alignment all(T);
   for (const Pair& pair : pairs) {
     const double share = 1.0 - distance2(pair, rotation, T.t) / bound2;
-    if (share > 0.0) all.add(pair.reference, pair.point, share * share);
+    if (share > 0.0) all.add(pair.reference, pair.point, pair.weight * share * share);
   }
   return all.pairs() >= (planar ? 2 : 3) && all.solve(planar, min_spread_m2, T);
 }

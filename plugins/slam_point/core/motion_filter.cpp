@@ -2,6 +2,7 @@
 #include "slam_point/core/motion_filter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace hallway::slam_point {
@@ -113,9 +114,9 @@ void MotionFilter::take_down(const SubmapGraph& graph, const Pose& T_map_sensor,
   watch_.begin_frame(history_.frames() - 1);
   for (const Observation& observation : frame) {
     if (observation.landmark != kNone) {
-      history_.add(observation.landmark, observation.point);
+      history_.add(observation.landmark, observation.point, observation.weight);
     } else if (observation.moving != kNone && !graph.landmarks[observation.moving].moving) {
-      history_.add(observation.moving, observation.point);
+      history_.add(observation.moving, observation.point, observation.weight);
     }
   }
 }
@@ -136,7 +137,7 @@ void MotionFilter::suspect_drifting(const SubmapGraph& graph, const Pose& T_map_
     if (l == kNone) continue;
     const LandmarkRecord& landmark = graph.landmarks[l];
     const Vec3 residual = rotation * observation.point + T_map_sensor.t - landmark.position;
-    if (watch_.add(l, residual, landmark.count))
+    if (watch_.add(l, std::sqrt(observation.weight) * residual, landmark.count))
       suspects_.push_back({l, watch_.since(l), watch_.acquittals(l)});
   }
 }

@@ -93,14 +93,15 @@ void MotionVerdict::find_common(const SightingHistory& history, std::uint64_t ea
   common_.clear();
   for (const SightingHistory::Sighting& sighting : history.frame(earlier)) {
     const Index l = sighting.landmark;
-    if (l < stamped_.size() && stamped_[l] == stamp_) common_.push_back({l, sighting.point, later_point_[l]});
+    if (l < stamped_.size() && stamped_[l] == stamp_)
+      common_.push_back({l, sighting.point, later_point_[l], sighting.weight});
   }
 }
 
 bool MotionVerdict::fit(const Pose& guess, bool planar, Pose& T_earlier_later) {
   pairs_.clear();
   for (const Common& common : common_) {
-    if (!shifts_[common.landmark].suspect) pairs_.push_back({common.earlier, common.later, 1.0});
+    if (!shifts_[common.landmark].suspect) pairs_.push_back({common.earlier, common.later, common.weight});
   }
   const double spread = noise_m_ / kMaxRotationSigma_rad;
   T_earlier_later = guess;
@@ -111,7 +112,7 @@ bool MotionVerdict::fit(const Pose& guess, bool planar, Pose& T_earlier_later) {
   }
   // Where many are suspected, those that are not may be the ones that move.
   pairs_.clear();
-  for (const Common& common : common_) pairs_.push_back({common.earlier, common.later, 1.0});
+  for (const Common& common : common_) pairs_.push_back({common.earlier, common.later, common.weight});
   if (pairs_.size() < kLeastCommon) return false;
   const std::size_t agreeing = consensus_.fit(pairs_, planar, spread * spread, T_earlier_later);
   return 2 * agreeing > pairs_.size();
@@ -127,7 +128,7 @@ bool MotionVerdict::add_pair(const SightingHistory& history, std::uint64_t earli
   const Mat3 rotation = T.q.toRotationMatrix();
   const Mat3 to_map = T_map_earlier.q.toRotationMatrix();
   for (const Common& common : common_) {
-    const Vec3 way = to_map * (rotation * common.later + T.t - common.earlier);
+    const Vec3 way = std::sqrt(common.weight) * to_map * (rotation * common.later + T.t - common.earlier);
     Shift& shift = shifts_[common.landmark];
     shift.sum += way;
     shift.squares += way.squaredNorm();

@@ -39,7 +39,7 @@ class MotionVerdict {
   static constexpr int kMostPairs = 8;
 
  private:
-  /// What one landmark did from the earlier block to the later one.
+  /// What one landmark did from the earlier block to the later one, in units of its own noise times noise_m_.
   struct Shift {
     Vec3 sum = Vec3::Zero();
     double squares = 0.0;
@@ -52,6 +52,7 @@ class MotionVerdict {
     Index landmark = kNone;
     Vec3 earlier = Vec3::Zero();
     Vec3 later = Vec3::Zero();
+    double weight = 1.0;
   };
 
   void begin_session(const SightingHistory& history, const std::vector<Suspect>& suspects);

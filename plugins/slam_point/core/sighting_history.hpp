@@ -18,12 +18,15 @@ class SightingHistory {
   struct Sighting {
     Index landmark = kNone;
     Vec3 point = Vec3::Zero();  ///< sensor frame [m]
+    double weight = 1.0;        ///< see Observation::weight
   };
 
   /// Begins the next frame, number frames() from now on minus one; the oldest is forgotten.
   void begin_frame(const Pose& T_map_sensor);
   /// Adds to the frame begun last. A landmark is seen at most once in a frame.
-  void add(Index landmark, const Vec3& point) { slot(frames_ - 1).sightings.push_back({landmark, point}); }
+  void add(Index landmark, const Vec3& point, double weight = 1.0) {
+    slot(frames_ - 1).sightings.push_back({landmark, point, weight});
+  }
 
   /// Frames begun so far; the newest has this number less one.
   std::uint64_t frames() const { return frames_; }
