@@ -19,6 +19,9 @@ using log::MapLandmark;
 using OwnerMap = std::map<LandmarkId, LandmarkId>;
 using PositionMap = std::unordered_map<LandmarkId, Vec3>;
 
+/// A landmark counts as moved when it has gone so many standard deviations of its sightings.
+constexpr double kMovedNoises = 5.0;
+
 /// Landmarks of a map beside the true ones that own them.
 struct LandmarkPairs {
   std::vector<Vec3> truth;     ///< world
@@ -95,6 +98,11 @@ std::uint64_t count_mapped(std::span<const MapLandmark> map) {
 
 }  // namespace
 
+Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
+  if (truth_.has_identities && truth_.landmarks)
+    motion_.emplace(*truth_.landmarks, kMovedNoises * truth_.noise_m);
+}
+
 void Evaluator::add(const Iteration& iteration) {
   ++iterations_;
   if (!iteration.T_map_body) ++lost_;
@@ -112,6 +120,8 @@ void Evaluator::add(const Iteration& iteration) {
   } else {
     associations_.add(iteration.associations);
   }
+  if (motion_ && iteration.T_world_body && iteration.orientation_known && !iteration.points.empty())
+    motion_->add(*iteration.T_world_body, iteration.identities, iteration.points);
   if (iteration.wall_ms) wall_ms_.push_back(*iteration.wall_ms);
   if (iteration.cpu_ms) cpu_ms_.push_back(*iteration.cpu_ms);
 }
@@ -148,17 +158,27 @@ void Evaluator::score_landmarks(std::span<const MapLandmark> online,
                                 Metrics& metrics) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   metrics.association_errors = ownership.errors;
-  count_landmarks(online, ownership.owner, associations_.true_landmarks(), metrics);
+  OwnerMap owner = ownership.owner;
+  std::vector<MapLandmark> standing;  // what moves is scored apart
+  std::size_t observed = 0;
+  for (const MapLandmark& landmark : online) {
+    const auto owned = owner.find(landmark.id);
+    if (owned == owner.end() || !moves(owned->second)) standing.push_back(landmark);
+  }
+  std::erase_if(owner, [&](const auto& entry) { return moves(entry.second); });
+  for (const LandmarkId landmark : associations_.seen()) observed += moves(landmark) ? 0u : 1u;
+  count_landmarks(standing, owner, observed, metrics);
+  if (motion_) metrics.moving = motion_->metrics(online, associations_.votes());
   if (!truth_.landmarks) return;
   const PositionMap truth = positions_by_id(*truth_.landmarks);
-  const LandmarkPairs pairs = pair_landmarks(online, ownership.owner, truth);
+  const LandmarkPairs pairs = pair_landmarks(online, owner, truth);
   metrics.landmark_pairs = pairs.truth.size();
   if (const auto T_world_map = trajectory_.first_pose_frame()) {
     metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *T_world_map);
   }
   metrics.landmark_rmse_m.aligned = aligned_rmse(pairs.truth, pairs.estimate);
   if (!refined) return;
-  const LandmarkPairs final_pairs = pair_landmarks(*refined, ownership.owner, truth);
+  const LandmarkPairs final_pairs = pair_landmarks(*refined, owner, truth);
   metrics.landmark_rmse_final_aligned_m = aligned_rmse(final_pairs.truth, final_pairs.estimate);
   metrics.landmark_consistency = landmark_consistency(final_pairs);
 }

@@ -8,6 +8,7 @@
 
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
+#include "eval/motion_score.hpp"
 #include "eval/refitted_path.hpp"
 #include "eval/trajectory_score.hpp"
 #include "geom/pose.hpp"
@@ -29,7 +30,7 @@ struct Iteration {
   /// identities.
   std::span<const log::LandmarkId> identities;
   /// By observation: where it was seen, body frame [m]. As long as `associations`; empty where that is not kept.
-  std::span<const Vec3> points;
+  std::span<const Vec3> points{};
   std::optional<double> wall_ms;  ///< what the plugins took
   std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
 };
@@ -38,6 +39,7 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
+  double noise_m = 0.0;                                 ///< of the sensor: the largest of its axes, standard deviation
 };
 
 /// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
@@ -45,7 +47,7 @@ struct Truth {
 /// per observation.
 class Evaluator {
  public:
-  explicit Evaluator(Truth truth) : truth_(std::move(truth)) {}
+  explicit Evaluator(Truth truth);
 
   /// Adds the next iteration. Throws Error{kInternal} if the truth has identities and the two spans differ in length.
   void add(const Iteration& iteration);
@@ -67,10 +69,13 @@ class Evaluator {
   void score_landmarks(std::span<const log::MapLandmark> online,
                        const std::optional<std::vector<log::MapLandmark>>& refined, Metrics& metrics) const;
 
+  bool moves(log::LandmarkId landmark) const { return motion_ && motion_->moves(landmark); }
+
   Truth truth_;
   std::uint64_t iterations_ = 0;
   std::uint64_t lost_ = 0;
   AssociationScore associations_;
+  std::optional<MotionScore> motion_;  ///< where the truth says what moves
   TrajectoryScore trajectory_;
   RefittedPath refitted_path_;
   std::vector<double> wall_ms_;

@@ -25,17 +25,38 @@ struct TimeSummary {
   double max = 0.0;
 };
 
+/// How the true landmarks that move were told from those that stand. A true landmark is marked when more of its observations
+/// were given to landmarks of the map with the status dynamic than to mapped ones.
+struct MovingMetrics {
+  std::uint64_t moved = 0;          ///< true landmarks that moved far enough while they were seen long enough
+  std::uint64_t moved_marked = 0;   ///< of those, marked
+  std::uint64_t marked = 0;         ///< true landmarks that are marked
+  std::uint64_t marked_moving = 0;  ///< of those, such as do not stand still
+
+  std::optional<double> recall() const { return share(moved_marked, moved); }
+  std::optional<double> precision() const { return share(marked_moving, marked); }
+
+ private:
+  static std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+    if (whole == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(whole);
+  }
+};
+
 /// How well a run was estimated; docs/metrics.md defines each member. What cannot be computed is empty, never zero.
 struct Metrics {
   std::uint64_t iterations = 0;
   std::uint64_t observations = 0;
   std::uint64_t lost_iterations = 0;  ///< iterations without an estimated pose
 
-  std::optional<std::uint64_t> landmarks_true;        ///< different true landmarks among the observations
-  std::uint64_t landmarks_mapped = 0;                 ///< landmarks of the online map with the status mapped
+  std::optional<std::uint64_t> landmarks_true;  ///< different true landmarks among the observations; here
+                                                ///< and below without those that move
+  std::uint64_t landmarks_mapped = 0;           ///< landmarks of the online map with the status mapped
   std::optional<std::uint64_t> landmarks_duplicated;  ///< mapped ones beyond the first of each true landmark
   std::optional<std::uint64_t> landmarks_missed;  ///< observed true landmarks that no mapped one belongs to
   std::optional<std::uint64_t> landmarks_unmatched;  ///< mapped ones that belong to no true landmark
+
+  std::optional<MovingMetrics> moving;  ///< online map; where the truth says what moves
 
   std::optional<std::uint64_t>
       association_errors;               ///< observations given to another true landmark's landmark

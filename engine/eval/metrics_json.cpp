@@ -20,6 +20,16 @@ Json aligned(const AlignedRmse& rmse) {
   return {{"first_pose", number(rmse.first_pose)}, {"aligned", number(rmse.aligned)}};
 }
 
+Json moving(const std::optional<MovingMetrics>& metrics) {
+  if (!metrics) return nullptr;
+  return {{"moved", metrics->moved},
+          {"moved_marked", metrics->moved_marked},
+          {"marked", metrics->marked},
+          {"marked_moving", metrics->marked_moving},
+          {"recall", number(metrics->recall())},
+          {"precision", number(metrics->precision())}};
+}
+
 }  // namespace
 
 Json to_json(const std::optional<TimeSummary>& times) {
@@ -44,6 +54,7 @@ Json to_json(const Metrics& metrics) {
   document["landmarks_duplicated"] = number(metrics.landmarks_duplicated);
   document["landmarks_missed"] = number(metrics.landmarks_missed);
   document["landmarks_unmatched"] = number(metrics.landmarks_unmatched);
+  document["moving"] = moving(metrics.moving);
   document["landmark_pairs"] = metrics.landmark_pairs;
   document["landmark_rmse_m"] = std::move(landmark_rmse);
   document["position_pairs"] = metrics.position_pairs;

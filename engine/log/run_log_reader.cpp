@@ -68,8 +68,9 @@ TrueLandmarksMessage true_landmarks(const Json& json) {
   TrueLandmarksMessage message;
   std::unordered_set<LandmarkId> seen;
   for (const Json& entry : json.at("landmarks")) {
-    message.landmarks.push_back(
-        {.id = whole(entry.at("id"), kNoLandmark - 1), .position_m = numbers<3>(entry.at("position_m"))});
+    message.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
+                                 .position_m = numbers<3>(entry.at("position_m")),
+                                 .moving = entry.value("moving", false)});
     if (!seen.insert(message.landmarks.back().id).second) bad("a landmark that stands there twice");
   }
   return message;

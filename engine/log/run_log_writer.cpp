@@ -105,7 +105,9 @@ void RunLogWriter::add_activation(const std::string& json) {
 void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
   Json list = Json::array();
   for (const Landmark& landmark : landmarks) {
-    list.push_back({{"id", landmark.id}, {"position_m", numbers(landmark.position_m)}});
+    Json entry = {{"id", landmark.id}, {"position_m", numbers(landmark.position_m)}};
+    if (landmark.moving) entry["moving"] = true;
+    list.push_back(std::move(entry));
   }
   add(topics::kTrueLandmarks, {}, text_of({{"landmarks", list}}));
 }

@@ -4,6 +4,7 @@
 #include <hallway/ext/log.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "base/error.hpp"
@@ -41,6 +42,14 @@ std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   return pose_of(outputs.pose()->T_map_body);
 }
 
+eval::Truth truth_of(const Source& source) {
+  const host::SensorInfo& sensor = source.sensor();
+  const double largest = *std::max_element(std::begin(sensor.noise_m), std::end(sensor.noise_m));
+  return {.has_identities = source.has_identities(),
+          .landmarks = source.true_landmarks(),
+          .noise_m = largest > 0.0 ? largest : 0.0};  // not a number where it is not known
+}
+
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
@@ -48,7 +57,7 @@ class Tally {
       : source_(source),
         keep_observations_(keep_observations),
         T_body_sensor_(pose_of(source.sensor().T_body_sensor)),
-        evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
+        evaluator_(truth_of(source)) {}
 
   void add(const FrameAnswer& answer) {
     const SourceFrame& frame = answer.frame;

@@ -17,6 +17,8 @@ struct Observation {
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
+  Index moving =
+      kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
   double weight =
       1.0;  ///< (noise_m / noise at its range)^2: what it counts for beside a point without range noise
   TrackId track = kNoTrack;  ///< under which the sensor follows it; kNoTrack: its place tells what it is

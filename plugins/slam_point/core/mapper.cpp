@@ -11,6 +11,7 @@
 #include "slam_point/core/frame_matcher.hpp"
 #include "slam_point/core/map_refiner.hpp"
 #include "slam_point/core/map_step.hpp"
+#include "slam_point/core/motion_filter.hpp"
 #include "slam_point/core/pose_information.hpp"
 #include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
@@ -48,11 +49,12 @@ class Mapper::State {
         graph_(std::max(
             {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
         active_(std::max(options.match_bound(), matcher_.agreement())),
+        motion_filter_(options),
         settle_period_(options.global_period),
         ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
   const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
-  Map map() const;
+  Map map() const { return map(graph_.poses); }
   Map refined_map() const;
   const Options& options() const { return options_; }
 
@@ -80,6 +82,8 @@ class Mapper::State {
   bool start_over();
   void learn_motion();
   void add_landmarks();
+  bool looks_for_motion() const { return options_.find_moving != 0 && !followed_; }
+  void set_moving_apart();
   double overlap_with_active() const;
   void change_submap();
   void close_submap();
@@ -97,11 +101,14 @@ class Mapper::State {
   bool is_mapped(const LandmarkRecord& landmark) const;
   std::optional<Mat6> pose_covariance() const;
   const Answer& answer();
+  Map map(const std::vector<Pose>& poses) const;
+  void add_moving(const std::vector<Pose>& poses, Map& map) const;
 
   Options options_;
   FrameMatcher matcher_;
   SubmapGraph graph_;
   ActiveSubmap active_;
+  MotionFilter motion_filter_;
   SegmentStore segments_;
   std::vector<SegmentStore::Sighting> sightings_;
   TrackBook tracks_;
@@ -174,7 +181,9 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   }
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
+  if (looks_for_motion()) motion_filter_.follow(graph_, T_map_sensor_, frame_);
   add_landmarks();
+  set_moving_apart();
   if (overlap_with_active() < options_.overlap ||
       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
     change_submap();
@@ -224,6 +233,7 @@ void Mapper::State::start_map() {
   frames_without_pose_ = 0;
   T_map_sensor_ = Pose{};
   add_landmarks();
+  set_moving_apart();
   open_new_submap();
   integrate();
 }
@@ -301,6 +311,7 @@ bool Mapper::State::start_over() {
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
+  motion_filter_.clear();
   segments_.clear();
   window_step_ = MapStep();
   window_step_ready_ = false;
@@ -332,7 +343,7 @@ void Mapper::State::add_landmarks() {
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
     if (observation.is_followed() && !tracks_.allows_new(observation)) continue;
-    if (observation.landmark != kNone || observation.withheld) continue;
+    if (observation.landmark != kNone || observation.withheld || observation.moving != kNone) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
@@ -342,6 +353,14 @@ void Mapper::State::add_landmarks() {
     observation.landmark = graph_.add_landmark(p, activation_);
     tracks_.give(observation.track, observation.landmark);
   }
+}
+
+void Mapper::State::set_moving_apart() {
+  if (!looks_for_motion()) return;
+  if (!motion_filter_.judge(graph_, active_, T_map_sensor_, planar_, frame_)) return;
+  ++answer_.counters.found_moving;
+  // What moved has pulled at the frame.
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
 }
 
 double Mapper::State::overlap_with_active() const {
@@ -472,6 +491,7 @@ void Mapper::State::merge_landmarks(Index closed) {
       // Seen together, they are two. The order of visits is no reason to choose: ties go to the older one.
       const bool together = matcher_.is_marked(other) && matcher_.is_marked(landmark);
       if (other == landmark || together || graph_.landmarks[other].count == 0) return;
+      if (d2 < nearest2 && motion_filter_.are_two(landmark, other)) return;
       if (d2 < nearest2 || (d2 == nearest2 && other < twin)) {
         nearest2 = d2;
         twin = other;
@@ -481,6 +501,7 @@ void Mapper::State::merge_landmarks(Index closed) {
     const Index into = std::min(landmark, twin);
     const Index from = std::max(landmark, twin);
     graph_.merge(into, from);
+    motion_filter_.merged(from, into);
     for (Observation& observation : frame_) {
       if (observation.landmark == from) observation.landmark = into;
     }
@@ -590,19 +611,33 @@ const Answer& Mapper::State::answer() {
     ++answer_.counters.lost;
   }
   for (const Observation& observation : frame_) {
-    if (observation.landmark != kNone)
-      answer_.associations[observation.given] = first_id_ + observation.landmark;
+    const Index landmark = observation.landmark != kNone ? observation.landmark : observation.moving;
+    if (landmark != kNone) answer_.associations[observation.given] = first_id_ + landmark;
   }
   answer_.counters.landmarks = graph_.landmarks.size() - answer_.counters.merged;
   answer_.counters.submaps = graph_.submaps.size();
   return answer_;
 }
 
-Map Mapper::State::map() const {
+void Mapper::State::add_moving(const std::vector<Pose>& poses, Map& map) const {
+  for (const MotionTracks::Track& track : motion_filter_.tracks()) {
+    Landmark landmark;
+    landmark.id = first_id_ + track.landmark;
+    landmark.position = poses[track.submap] * track.place;
+    landmark.observations = track.sightings;
+    landmark.status = LandmarkStatus::dynamic;
+    map.landmarks.push_back(landmark);
+  }
+  std::sort(map.landmarks.begin(), map.landmarks.end(),
+            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
+}
+
+/// @param poses  T_map_submap, by which landmarks that move are placed
+Map Mapper::State::map(const std::vector<Pose>& poses) const {
   Map map;
   for (Index l = 0; l < graph_.landmarks.size(); ++l) {
     const LandmarkRecord& record = graph_.landmarks[l];
-    if (record.merged_into != kNone) continue;
+    if (record.merged_into != kNone || record.moving) continue;
     Landmark landmark;
     landmark.id = first_id_ + l;
     landmark.observations = record.count;
@@ -610,6 +645,7 @@ Map Mapper::State::map() const {
     landmark.position = graph_.mean_position(l);
     map.landmarks.push_back(landmark);
   }
+  add_moving(poses, map);
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
     Submap submap;
     submap.id = s;
@@ -626,8 +662,9 @@ Map Mapper::State::refined_map() const {
   std::vector<bool> mapped;
   for (const LandmarkRecord& record : graph_.landmarks) mapped.push_back(is_mapped(record));
   const RefinedMap refined = refine_map(graph_, segments_, mapped, planar_);
-  Map map = this->map();
+  Map map = this->map(refined.poses);
   for (Landmark& landmark : map.landmarks) {
+    if (landmark.status == LandmarkStatus::dynamic) continue;
     const std::size_t index = landmark.id - first_id_;
     landmark.position = refined.positions[index];
     landmark.covariance = refined.covariances[index];

@@ -143,6 +143,25 @@ void SubmapGraph::merge(Index into, Index from) {
   resum(into);
 }
 
+void SubmapGraph::withdraw(Index index) {
+  LandmarkRecord& landmark = landmarks[index];
+  for (const Membership& at : landmark.memberships) {
+    Member& member = submaps[at.submap].members[at.member];
+    if (member.in_first_frame) --submaps[at.submap].first_frame_size;
+    member.in_first_frame = false;
+    member.count = 0;
+  }
+  landmark.memberships.clear();
+  landmark.count = 0;
+  landmark.weight = 0.0;
+  landmark.settled_count = 0;
+  landmark.settled_weight = 0.0;
+  landmark.settled_sum.setZero();
+  landmark.active_member = kNone;
+  landmark.moving = true;
+  grid_.remove(index);
+}
+
 void SubmapGraph::clear() {
   landmarks.clear();
   submaps.clear();

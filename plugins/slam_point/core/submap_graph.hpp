@@ -54,6 +54,7 @@ struct LandmarkRecord {
   double settled_weight = 0.0;
   Index active_member = kNone;          ///< its place in the active submap
   Index merged_into = kNone;            ///< set when it turned out to be another landmark
+  bool moving = false;                  ///< found to move: no submap holds it, and none will
   std::vector<Membership> memberships;  ///< in the order of joining
 };
 
@@ -91,6 +92,9 @@ class SubmapGraph {
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
   /// Not while a submap is active.
   void merge(Index into, Index from);
+
+  /// Takes a landmark that moves out of all submaps: their places for it stay, empty. It is found no more.
+  void withdraw(Index landmark);
 
   /// Calls visit(landmark) for each landmark near p and some farther ones; see HashGrid::visit_near.
   template <typename Visit>

@@ -33,14 +33,14 @@ using TrackId = std::uint64_t;
 /// "The sensor does not follow this point."
 inline constexpr TrackId kNoTrack = ~std::uint64_t{0};
 
-/// How far a landmark is trusted. `dynamic` is reserved: nothing is classified as moving.
+/// How far a landmark is trusted; `dynamic`: it moves.
 enum class LandmarkStatus { temporary, mapped, dynamic };
 
 /// One point of the map.
 struct Landmark {
   LandmarkId id = kNoLandmark;
-  Vec3 position = Vec3::Zero();                       ///< map frame [m]
-  std::uint32_t observations = 0;                     ///< how many observations its position averages
+  Vec3 position = Vec3::Zero();    ///< map frame [m]; of one that moves: where it was last seen
+  std::uint32_t observations = 0;  ///< how many observations its position averages
   LandmarkStatus status = LandmarkStatus::temporary;  ///< mapped from Options::min_observations on
   /// Of its position's error relative to the map as a whole [m^2]: see RefinedMap. Empty where it is not known.
   std::optional<Mat3> covariance{};
@@ -69,6 +69,7 @@ struct Counters {
   std::uint64_t reopened = 0;      ///< times an old submap was taken up again
   std::uint64_t global_steps = 0;  ///< times all submaps were re-placed together online
   std::uint64_t merged = 0;        ///< landmarks that turned out to be another one
+  std::uint64_t found_moving = 0;  ///< frames that found landmarks to move
   std::uint64_t searches = 0;      ///< times the motion prediction failed and turns were tried
 };
 
