@@ -49,16 +49,42 @@ void FrameMatcher::mark(const SubmapGraph& graph, const std::vector<Observation>
   }
 }
 
+void FrameMatcher::take(const Candidate& candidate, std::vector<Observation>& frame) {
+  frame[candidate.observation].landmark = candidate.landmark;
+  taken_[candidate.landmark] = 1;
+  taken_list_.push_back(candidate.landmark);
+}
+
+void FrameMatcher::take_undisputed(std::vector<Observation>& frame) {
+  claims_.resize(taken_.size(), 0);
+  for (const Candidate& candidate : candidates_) {
+    std::uint8_t& claims = claims_[candidate.landmark];
+    if (claims < 2) ++claims;
+  }
+  disputed_.clear();
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Candidate& candidate = candidates_[c];
+    const bool alone =
+        (c == 0 || candidates_[c - 1].observation != candidate.observation) &&
+        (c + 1 == candidates_.size() || candidates_[c + 1].observation != candidate.observation);
+    if (alone && claims_[candidate.landmark] == 1) {
+      take(candidate, frame);
+    } else {
+      disputed_.push_back(candidate);
+    }
+  }
+  for (const Candidate& candidate : candidates_) claims_[candidate.landmark] = 0;
+  std::swap(candidates_, disputed_);
+}
+
 void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
+  take_undisputed(frame);
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.d2, a.observation, a.landmark) < std::tie(b.d2, b.observation, b.landmark);
   });
   for (const Candidate& candidate : candidates_) {
-    Observation& observation = frame[candidate.observation];
-    if (observation.landmark != kNone || taken_[candidate.landmark] != 0) continue;
-    observation.landmark = candidate.landmark;
-    taken_[candidate.landmark] = 1;
-    taken_list_.push_back(candidate.landmark);
+    const bool is_free = frame[candidate.observation].landmark == kNone && taken_[candidate.landmark] == 0;
+    if (is_free) take(candidate, frame);
   }
 }
 

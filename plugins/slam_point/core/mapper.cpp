@@ -41,8 +41,9 @@ class Mapper::State {
       : options_(checked(options)),
         matcher_(options),
         graph_(std::max(
-            {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
-        active_(std::max(options.match_bound(), matcher_.agreement())),
+                   {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
+               static_cast<IndexKind>(options.index)),
+        active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         settle_period_(options.global_period) {}
 
   const Answer& process(std::span<const Vec3> points);
@@ -50,6 +51,7 @@ class Mapper::State {
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
   const Options& options() const { return options_; }
+  void time_stages(StageTimes* times) { clock_.add_to(times); }
 
  private:
   struct Motion {
@@ -120,11 +122,14 @@ class Mapper::State {
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
   Answer answer_;
+  StageClock clock_;
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points) {
+  clock_.begin();
   place(points);
   if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  clock_.end(Stage::solving);
   return answer();
 }
 
@@ -138,8 +143,10 @@ void Mapper::State::place(std::span<const Vec3> points) {
   predict();
   match_active_submap();
   match_map();
+  clock_.end(Stage::matching);
   if (!fit_pose()) search_turn();
   has_pose_ = is_placed();
+  clock_.end(Stage::fitting);
   if (!has_pose_) {
     lose_pose();
     has_pose_ = start_over();
@@ -148,11 +155,15 @@ void Mapper::State::place(std::span<const Vec3> points) {
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
   add_landmarks();
-  if (overlap_with_active() < options_.overlap ||
-      active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
+  const bool is_over = overlap_with_active() < options_.overlap ||
+                       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
+  clock_.end(Stage::averaging);
+  if (is_over) {
     change_submap();
+    clock_.end(Stage::closing);
   }
   integrate();
+  clock_.end(Stage::averaging);
 }
 
 void Mapper::State::take_points(std::span<const Vec3> points) {
@@ -523,6 +534,10 @@ void Mapper::reset() {
 
 const Options& Mapper::options() const {
   return state_->options();
+}
+
+void Mapper::time_stages(StageTimes* times) {
+  state_->time_stages(times);
 }
 
 }  // namespace hallway::slam_point
