@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kFirstTableSize = 1024;
 constexpr double kCubeReaches = 4.0;
+constexpr std::size_t kBucketsPerPoint =
+    4;  // at least: most of what a box touches is empty, and should be seen to be
 
 }  // namespace
 
@@ -16,7 +18,7 @@ HashGrid::HashGrid(double reach_m) : reach_(reach_m), inverse_size_(1.0 / (kCube
 void HashGrid::add(const Vec3& p) {
   const auto i = static_cast<std::uint32_t>(entries_.size());
   entries_.push_back({cell_of(p), kEnd});
-  if (entries_.size() > heads_.size()) {
+  if (kBucketsPerPoint * entries_.size() > heads_.size()) {
     grow();
   } else {
     link(i);

@@ -13,7 +13,7 @@ namespace hallway::slam_point {
 /// Points in cubes of one size, found by hashing the cube: insertion, moving and looking near a place cost O(1), whatever
 /// the number of points (the incremental overlapping quadtree of thesis 6.5.1).
 ///
-/// Points are named by consecutive numbers from 0. Memory: 16 bytes a point and a table of at least as many cells.
+/// Points are named by consecutive numbers from 0. Memory: 16 bytes a point and 16 to 32 of its table.
 class HashGrid {
  public:
   /// `reach_m` > 0: the largest distance that visit_near() is asked for [m].

@@ -12,6 +12,7 @@
 #include "slam_point/core/map_step.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/submap_solver.hpp"
+#include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -44,9 +45,10 @@ class Mapper::State {
                    {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
                static_cast<IndexKind>(options.index)),
         active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
-        settle_period_(options.global_period) {}
+        settle_period_(options.global_period),
+        ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
-  const Answer& process(std::span<const Vec3> points);
+  const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
   Map map(const std::vector<Pose>& poses) const;
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
@@ -59,8 +61,10 @@ class Mapper::State {
     Vec3 travel = Vec3::Zero();
   };
 
-  void place(std::span<const Vec3> points);
-  void take_points(std::span<const Vec3> points);
+  void place(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_points(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_tracks(std::span<const TrackId> tracks);
+  double weight_of(const Vec3& point) const;
   bool can_start() const;
   void start_map();
   void predict();
@@ -92,6 +96,7 @@ class Mapper::State {
   SubmapGraph graph_;
   ActiveSubmap active_;
   WindowSolver window_solver_;
+  TrackBook tracks_;
   MapStep map_step_;
   bool map_step_ready_ = false;
 
@@ -105,6 +110,7 @@ class Mapper::State {
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
+  bool followed_ = false;  // this frame came with the sensor's tracks, and they count
   bool started_ = false;
   bool planar_ = true;
   bool has_pose_ = false;
@@ -121,20 +127,21 @@ class Mapper::State {
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
+  bool ranges_count_;             // noise grows with the range
   Answer answer_;
   StageClock clock_;
 };
 
-const Answer& Mapper::State::process(std::span<const Vec3> points) {
+const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   clock_.begin();
-  place(points);
+  place(points, tracks);
   if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
   clock_.end(Stage::solving);
   return answer();
 }
 
-void Mapper::State::place(std::span<const Vec3> points) {
-  take_points(points);
+void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  take_points(points, tracks);
   if (!started_) {
     has_pose_ = can_start();
     if (has_pose_) start_map();
@@ -166,21 +173,38 @@ void Mapper::State::place(std::span<const Vec3> points) {
   clock_.end(Stage::averaging);
 }
 
-void Mapper::State::take_points(std::span<const Vec3> points) {
+void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   frame_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Written so that NaN fails.
     if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
     if (points[i].z() != 0.0) planar_ = false;
     frame_.push_back({points[i], i});
+    if (ranges_count_) frame_.back().weight = weight_of(points[i]);
   }
+  take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
   ++answer_.counters.iterations;
 }
 
+double Mapper::State::weight_of(const Vec3& point) const {
+  const double share = options_.noise_m / options_.noise_at(point.norm());
+  return share * share;
+}
+
+void Mapper::State::take_tracks(std::span<const TrackId> tracks) {
+  followed_ = options_.association == Association::sensor && !tracks.empty();
+  if (!followed_) return;
+  for (Observation& observation : frame_) {
+    observation.track = tracks[observation.given];
+    observation.expected = tracks_.landmark_of(observation.track, graph_);
+  }
+}
+
 bool Mapper::State::can_start() const {
   Alignment own(Pose{});
-  for (const Observation& observation : frame_) own.add(observation.point, observation.point, 1.0);
+  for (const Observation& observation : frame_)
+    own.add(observation.point, observation.point, observation.weight);
   const FitRules rules = matcher_.rules(planar_);
   Pose unused;
   return own.pairs() >= (planar_ ? 2 : 3) && own.solve(planar_, rules.min_spread_m2, unused);
@@ -231,7 +255,7 @@ bool Mapper::State::fit_pose() {
 }
 
 void Mapper::State::search_turn() {
-  if (options_.max_turn_rad <= 0.0) return;
+  if (options_.max_turn_rad <= 0.0 || followed_) return;  // tracks need no prediction
   ++answer_.counters.searches;
   const Pose& T_map_submap = graph_.poses[graph_.active()];
   search_bases_.assign({T_map_submap * predicted_, T_map_submap * last_T_submap_sensor_});
@@ -268,6 +292,8 @@ bool Mapper::State::start_over() {
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
+  tracks_.clear();
+  for (Observation& observation : frame_) observation.expected = kNone;
   map_step_ = MapStep();
   start_map();
   return true;
@@ -291,13 +317,16 @@ void Mapper::State::add_landmarks() {
   const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
+    if (observation.is_followed() && !tracks_.allows_new(observation)) continue;
     if (observation.landmark != kNone || observation.withheld) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
       if ((graph_.landmarks[l].position - p).squaredNorm() < separation2) alone = false;
     });
-    if (alone) observation.landmark = graph_.add_landmark(p, activation_);
+    if (!alone && !observation.is_followed()) continue;
+    observation.landmark = graph_.add_landmark(p, activation_);
+    tracks_.give(observation.track, observation.landmark);
   }
 }
 
@@ -366,6 +395,7 @@ void Mapper::State::begin_map_step() {
 }
 
 void Mapper::State::merge_landmarks(Index closed) {
+  if (followed_) return;  // who follows two points says that they are two
   const double separation2 = options_.separation() * options_.separation();
   matcher_.mark(graph_, frame_);
   for (const Member& member : graph_.submaps[closed].members) {
@@ -454,9 +484,10 @@ void Mapper::State::integrate() {
     const Index member = landmark.active_member;
     ++last_seen_;
     if (member == kNone) {
-      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_);
+      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_,
+                   observation.weight);
     } else {
-      active_.observe(graph_, member, observation.point, activation_);
+      active_.observe(graph_, member, observation.point, activation_, observation.weight);
     }
   }
   first_of_submap_ = false;
@@ -492,9 +523,9 @@ Map Mapper::State::map(const std::vector<Pose>& poses) const {
     Vec3 sum = Vec3::Zero();
     for (const Membership& at : record.memberships) {
       const Member& member = graph_.submaps[at.submap].members[at.member];
-      sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+      sum += member.weight() * (poses[at.submap] * member.mean);
     }
-    landmark.position = sum / static_cast<double>(record.count);
+    landmark.position = sum / record.weight;
     map.landmarks.push_back(landmark);
   }
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
@@ -514,8 +545,8 @@ Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-const Answer& Mapper::process(std::span<const Vec3> points) {
-  return state_->process(points);
+const Answer& Mapper::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  return state_->process(points, tracks);
 }
 
 Map Mapper::map() const {
