@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes.hpp"
+#include "slam_point/core/mapper.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -121,6 +122,23 @@ TEST_P(Indices, AreEmptyAfterClear) {
   index.add(Vec3::Ones());
   index.visit_near(Vec3::Ones(), [&](std::uint32_t i) { visits += i == 0 ? 1 : 100; });
   EXPECT_EQ(visits, 1);
+}
+
+TEST_P(Indices, GiveTheSameMapToTheLastBit) {
+  const scenes::Log log = scenes::figure_eight(300, 25, 3);
+  Options options;
+  Mapper with_grid(options);
+  options.index = static_cast<int>(GetParam());
+  Mapper mapper(options);
+  for (const auto& seen : log.frames) {
+    std::vector<Vec3> points;
+    for (const scenes::Seen& s : seen) points.push_back(s.point);
+    const Answer& expected = with_grid.process(points);
+    const Answer& answer = mapper.process(points);
+    ASSERT_EQ(answer.associations, expected.associations);
+    ASSERT_EQ(answer.T_map_sensor.t, expected.T_map_sensor.t);
+    ASSERT_EQ(answer.T_map_sensor.q.coeffs(), expected.T_map_sensor.q.coeffs());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Indices,
