@@ -103,7 +103,8 @@ PointSensor::Seen PointSensor::make_seen(const VisiblePoint& visible, std::uint3
   const Vec3 deviates(noise_.normal(step, first), noise_.normal(step, first + 1),
                       noise_.normal(step, first + 2));
   const auto bits = order_.bits(step, visible.landmark);
-  const Vec3 sigma = spec_.noise_m + visible.point.norm() * spec_.noise_per_m;
+  const Vec3 growing = visible.point.norm() * spec_.noise_per_m;
+  const Vec3 sigma = (spec_.noise_m.array().square() + growing.array().square()).sqrt();
   return {std::uint64_t{bits[0]} << 32 | bits[1],
           {visible.landmark, visible.point + sigma.cwiseProduct(deviates)}};
 }

@@ -23,8 +23,10 @@ struct PointSensorSpec {
   double vertical_fov = 3.14159265358979323846 / 3.0;    ///< full angle, radians, above 0 and up to 2 pi
   double min_range_m = 0.0;                              ///< distance from the sensor, inclusive
   double max_range_m = 100.0;                            ///< distance from the sensor, inclusive
-  Vec3 noise_m = Vec3::Zero();  ///< standard deviation along each axis of the sensor's frame, at the sensor
-  Vec3 noise_per_m = Vec3::Zero();  ///< what is added to it with each metre of distance from the sensor
+  Vec3 noise_m = Vec3::Zero();  ///< standard deviation along each axis of the sensor's frame
+  /// Standard deviation of a second, independent part of the noise, per metre of distance from the sensor: together
+  /// sqrt(noise_m^2 + (noise_per_m distance)^2) along each axis.
+  Vec3 noise_per_m = Vec3::Zero();
 };
 
 /// One seen point.

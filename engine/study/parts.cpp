@@ -13,7 +13,10 @@ std::vector<PluginChoice> default_plugins(const Study& study) {
   PluginChoice plugin{.plugin = "slam_point"};
   if (study.name == "victoria-park")  // what plugins/slam_point/README.md advises for these data
     plugin.parameters = {{"noise_m", "0.25"}, {"overlap", "0.3"}, {"separation_m", "2.5"}};
-  return {plugin};
+  if (study.name == "constants") return {plugin};  // adds mode=thesis itself
+  PluginChoice faithful = plugin;
+  faithful.parameters.insert(faithful.parameters.begin(), {"mode", "thesis"});
+  return {plugin, faithful};
 }
 
 std::vector<MapEdit> cloud_of(double per_100m, std::uint64_t seed) {

@@ -11,6 +11,7 @@
 namespace hallway::study {
 
 // The studies, each in a file of its own.
+extern const Study kConstants;
 extern const Study kFigureEight;
 extern const Study kDensity;
 extern const Study kMapSize;

@@ -26,8 +26,8 @@ TEST(Study, WritesTablesAndChartsAndPrintsFindings) {
   EXPECT_NE(ended.out.find("landmark RMSE aligned, at the end"), std::string::npos);
   const Json study = read_json(out / "study.json");
   EXPECT_EQ(study.at("schema"), "hallway.study/1");
-  EXPECT_EQ(study.at("plugins"), Json::array({"slam_point"}));
-  EXPECT_EQ(study.at("tables").at("runs").size(), 2u);
+  EXPECT_EQ(study.at("plugins"), Json::array({"slam_point", "slam_point:mode=thesis"}));
+  EXPECT_EQ(study.at("tables").at("runs").size(), 4u);
   ASSERT_FALSE(study.at("charts").empty());
   for (const Json& chart : study.at("charts")) {
     for (const char* ending : {".svg", ".png"}) {
@@ -35,7 +35,7 @@ TEST(Study, WritesTablesAndChartsAndPrintsFindings) {
       EXPECT_GT(fs::file_size(file), 1000u) << file;
     }
   }
-  EXPECT_EQ(read_csv(out / "runs.csv").size(), 3u);
+  EXPECT_EQ(read_csv(out / "runs.csv").size(), 5u);
 }
 
 TEST(Study, IsTheSameAgainButForTimes) {
@@ -56,7 +56,7 @@ TEST(Study, IsTheSameAgainButForTimes) {
 
 TEST(Study, ItsNumbersAreThoseOfARun) {
   const TempFolder folder;
-  ASSERT_EQ(tiny("straight", folder.path() / "study").status, 0);
+  ASSERT_EQ(tiny("straight", folder.path() / "study", {"--plugin", "slam_point"}).status, 0);
   fs::path map;
   for (const auto& entry : fs::directory_iterator(folder.path() / "study/maps")) {
     if (map.empty() || read_file(entry.path()).find("\"seed\" \"2\"") != std::string::npos)

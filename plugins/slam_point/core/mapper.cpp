@@ -47,8 +47,9 @@ class Mapper::State {
       : options_(checked(options)),
         matcher_(options),
         graph_(std::max(
-            {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
-        active_(std::max(options.match_bound(), matcher_.agreement())),
+                   {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
+               static_cast<IndexKind>(options.index)),
+        active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         motion_filter_(options),
         settle_period_(options.global_period),
         ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
@@ -57,6 +58,7 @@ class Mapper::State {
   Map map() const { return map(graph_.poses); }
   Map refined_map() const;
   const Options& options() const { return options_; }
+  void time_stages(StageTimes* times) { clock_.add_to(times); }
 
  private:
   struct Motion {
@@ -153,12 +155,16 @@ class Mapper::State {
   LandmarkId first_id_ = 0;       // id of landmark 0
   bool ranges_count_;             // noise grows with the range
   Answer answer_;
+  StageClock clock_;
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  clock_.begin();
   apply_steps();
+  clock_.end(Stage::solving);
   place(points, tracks);
   advance_steps();
+  clock_.end(Stage::solving);
   return answer();
 }
 
@@ -172,8 +178,10 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   predict();
   match_active_submap();
   match_map();
+  clock_.end(Stage::matching);
   if (!fit_pose()) search_turn();
   has_pose_ = is_placed();
+  clock_.end(Stage::fitting);
   if (!has_pose_) {
     lose_pose();
     has_pose_ = start_over();
@@ -184,11 +192,15 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   if (looks_for_motion()) motion_filter_.follow(graph_, T_map_sensor_, frame_);
   add_landmarks();
   set_moving_apart();
-  if (overlap_with_active() < options_.overlap ||
-      active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
+  const bool is_over = overlap_with_active() < options_.overlap ||
+                       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
+  clock_.end(Stage::averaging);
+  if (is_over) {
     change_submap();
+    clock_.end(Stage::closing);
   }
   integrate();
+  clock_.end(Stage::averaging);
 }
 
 void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
@@ -696,6 +708,10 @@ void Mapper::reset() {
 
 const Options& Mapper::options() const {
   return state_->options();
+}
+
+void Mapper::time_stages(StageTimes* times) {
+  state_->time_stages(times);
 }
 
 }  // namespace hallway::slam_point

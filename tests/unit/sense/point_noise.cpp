@@ -151,7 +151,7 @@ TEST(PointNoiseOverDistance, GrowsAsItIsSaid) {
     ASSERT_EQ(one[i].landmark, other[i].landmark);
     const Vec3& truth = landmarks[one[i].landmark];
     const double range_m = one[i].landmark == 0 ? 1.0 : one[i].landmark == 1 ? 5.0 : 80.0;
-    const Vec3 sigma(0.1 + 0.01 * range_m, 0.2, 0.02 * range_m);
+    const Vec3 sigma(std::hypot(0.1, 0.01 * range_m), 0.2, 0.02 * range_m);
     EXPECT_LT((other[i].point - truth - sigma.cwiseProduct(one[i].point - truth)).norm(), 1e-12);
   }
 }
