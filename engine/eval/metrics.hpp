@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "eval/consistency.hpp"
+
 namespace hallway::eval {
 
 /// A root mean square error, with the map put into the world in two ways. Empty where it cannot be computed.
@@ -44,10 +46,16 @@ struct Metrics {
   std::optional<double>
       landmark_rmse_final_aligned_m;  ///< map as re-solved at the end, landmarks fitted rigidly
 
-  std::uint64_t position_pairs = 0;        ///< iterations with both a true and an estimated pose
-  AlignedRmse position_rmse_m;             ///< aligned: positions fitted rigidly (ATE)
+  std::uint64_t position_pairs = 0;  ///< iterations with both a true and an estimated pose
+  AlignedRmse position_rmse_m;       ///< aligned: positions fitted rigidly (ATE)
+  std::uint64_t position_refitted_pairs =
+      0;  ///< iterations with a true pose that the map at the end places anew
+  std::optional<double> position_rmse_refitted_aligned_m;  ///< of those, positions fitted rigidly
   std::optional<double> position_final_m;  ///< error of the last estimate, in the frame of first_pose
   AlignedRmse rotation_rmse_deg;           ///< aligned: orientations fitted by one rotation
+
+  Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
+  Consistency pose_consistency;      ///< poses as answered, after the fit of their positions
 
   std::optional<TimeSummary> iteration_ms;      ///< wall clock
   std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time

@@ -30,6 +30,8 @@ Json to_json(const std::optional<TimeSummary>& times) {
 Json to_json(const Metrics& metrics) {
   Json landmark_rmse = aligned(metrics.landmark_rmse_m);
   landmark_rmse["final_aligned"] = number(metrics.landmark_rmse_final_aligned_m);
+  Json position_rmse = aligned(metrics.position_rmse_m);
+  position_rmse["refitted_aligned"] = number(metrics.position_rmse_refitted_aligned_m);
   Json document;
   document["schema"] = "hallway.metrics/1";
   document["iterations"] = metrics.iterations;
@@ -45,9 +47,14 @@ Json to_json(const Metrics& metrics) {
   document["landmark_pairs"] = metrics.landmark_pairs;
   document["landmark_rmse_m"] = std::move(landmark_rmse);
   document["position_pairs"] = metrics.position_pairs;
-  document["position_rmse_m"] = aligned(metrics.position_rmse_m);
+  document["position_rmse_m"] = std::move(position_rmse);
+  document["position_refitted_pairs"] = metrics.position_refitted_pairs;
   document["position_final_m"] = number(metrics.position_final_m);
   document["rotation_rmse_deg"] = aligned(metrics.rotation_rmse_deg);
+  document["nees"] = {{"landmarks", number(metrics.landmark_consistency.mean())},
+                      {"landmark_pairs", metrics.landmark_consistency.count()},
+                      {"poses", number(metrics.pose_consistency.mean())},
+                      {"pose_pairs", metrics.pose_consistency.count()}};
   document["iteration_ms"] = to_json(metrics.iteration_ms);
   document["iteration_cpu_ms"] = to_json(metrics.iteration_cpu_ms);
   return document;

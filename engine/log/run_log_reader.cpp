@@ -85,6 +85,7 @@ PoseMessage pose_answer(const Json& json) {
   message.pose.position_m = numbers<3>(pose.at("position_m"));
   message.pose.orientation = numbers<4>(pose.at("orientation_wxyz"));
   if (!is_unit(message.pose.orientation)) bad("a quaternion that is not of unit length");
+  if (json.contains("covariance")) message.pose.covariance = numbers<21>(json["covariance"]);
   return message;
 }
 
@@ -97,6 +98,8 @@ MapMessage map_answer(const Json& json) {
                                  .position_m = numbers<3>(entry.at("position_m")),
                                  .observations = whole(entry.at("observations"), UINT64_MAX),
                                  .status = *status});
+    if (entry.contains("covariance_m2"))
+      message.landmarks.back().covariance = numbers<6>(entry["covariance_m2"]);
   }
   for (const Json& submap : json.at("submaps")) {
     const std::uint64_t id = whole(submap.at("id"), UINT64_MAX);
