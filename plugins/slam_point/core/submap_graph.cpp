@@ -50,6 +50,11 @@ void SubmapGraph::deactivate() {
   }
 }
 
+void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
+  if (active_ != kNone) active_rotation_ = poses[active_].q.toRotationMatrix();
+  for (const Index landmark : moved_landmarks) resum(landmark);
+}
+
 void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight) {
   Member& m = submaps[active_].members[member];
   LandmarkRecord& landmark = landmarks[m.landmark];
@@ -88,6 +93,17 @@ void SubmapGraph::resum(Index index) {
   if (landmark.count == 0) return;
   landmark.position = (landmark.settled_sum + active_sum) / landmark.weight;
   grid_.move(index, landmark.position);
+}
+
+Vec3 SubmapGraph::mean_position(Index landmark) const {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0.0;
+  for (const Membership& at : landmarks[landmark].memberships) {
+    const Member& member = submaps[at.submap].members[at.member];
+    sum += member.weight() * (poses[at.submap] * member.mean);
+    weight += member.weight();
+  }
+  return sum / weight;
 }
 
 void SubmapGraph::merge(Index into, Index from) {

@@ -75,12 +75,18 @@ class SubmapGraph {
   void deactivate();
   Index active() const { return active_; }
 
+  /// Takes note that submaps have moved, the active one perhaps among them, and sums up the landmarks of those that have.
+  void take_moved(const std::vector<Index>& moved_landmarks);
+
   /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
   /// `weight`: see Observation::weight.
   void observe(Index member, const Vec3& p, std::uint64_t activation, double weight = 1.0);
 
   /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
   void resum(Index landmark);
+
+  /// Where the evidence puts a landmark that has some, summed up anew [m, map frame]. O(its submaps).
+  Vec3 mean_position(Index landmark) const;
 
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
   /// Not while a submap is active.
