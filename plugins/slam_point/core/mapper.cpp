@@ -43,8 +43,9 @@ class Mapper::State {
       : options_(checked(options)),
         matcher_(options),
         graph_(std::max(
-            {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
-        active_(std::max(options.match_bound(), matcher_.agreement())),
+                   {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
+               static_cast<IndexKind>(options.index)),
+        active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         motion_filter_(options),
         settle_period_(options.global_period),
         ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
@@ -55,6 +56,7 @@ class Mapper::State {
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
   const Options& options() const { return options_; }
+  void time_stages(StageTimes* times) { clock_.add_to(times); }
 
  private:
   struct Motion {
@@ -133,11 +135,14 @@ class Mapper::State {
   LandmarkId first_id_ = 0;       // id of landmark 0
   bool ranges_count_;             // noise grows with the range
   Answer answer_;
+  StageClock clock_;
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  clock_.begin();
   place(points, tracks);
   if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  clock_.end(Stage::solving);
   return answer();
 }
 
@@ -151,8 +156,10 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   predict();
   match_active_submap();
   match_map();
+  clock_.end(Stage::matching);
   if (!fit_pose()) search_turn();
   has_pose_ = is_placed();
+  clock_.end(Stage::fitting);
   if (!has_pose_) {
     lose_pose();
     has_pose_ = start_over();
@@ -163,11 +170,15 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   if (looks_for_motion()) motion_filter_.follow(graph_, T_map_sensor_, frame_);
   add_landmarks();
   set_moving_apart();
-  if (overlap_with_active() < options_.overlap ||
-      active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
+  const bool is_over = overlap_with_active() < options_.overlap ||
+                       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
+  clock_.end(Stage::averaging);
+  if (is_over) {
     change_submap();
+    clock_.end(Stage::closing);
   }
   integrate();
+  clock_.end(Stage::averaging);
 }
 
 void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
@@ -588,6 +599,10 @@ void Mapper::reset() {
 
 const Options& Mapper::options() const {
   return state_->options();
+}
+
+void Mapper::time_stages(StageTimes* times) {
+  state_->time_stages(times);
 }
 
 }  // namespace hallway::slam_point

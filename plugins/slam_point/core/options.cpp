@@ -2,8 +2,12 @@
 #include "slam_point/core/options.hpp"
 
 #include <array>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "slam_point/core/point_index.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -82,6 +86,8 @@ const Parameter* find_parameter(std::string_view name) {
 }
 
 void Options::validate() const {
+  if (index < 0 || index >= static_cast<int>(std::size(kIndexNames)))
+    throw std::invalid_argument("index is " + std::to_string(index) + "; there is no such structure");
   for (const Parameter& parameter : kParameters) {
     const double value = parameter.get(*this);
     if (value >= parameter.min && value <= parameter.max) continue;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -62,7 +62,7 @@ struct LandmarkRecord {
 class SubmapGraph {
  public:
   /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m].
-  explicit SubmapGraph(double reach_m) : grid_(reach_m) {}
+  explicit SubmapGraph(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
 
   Index add_submap(const Pose& T_map_submap);
   /// A landmark that no submap holds yet, at `position` in the map frame [m].
@@ -90,7 +90,7 @@ class SubmapGraph {
   /// Takes a landmark that moves out of all submaps: their places for it stay, empty. It is found no more.
   void withdraw(Index landmark);
 
-  /// Calls visit(landmark) for each landmark near p and some farther ones; see HashGrid::visit_near.
+  /// Calls visit(landmark) for each landmark near p and some farther ones; see PointIndex::visit_near.
   template <typename Visit>
   void visit_landmarks_near(const Vec3& p, Visit&& visit) const {
     grid_.visit_near(p, visit);
@@ -103,7 +103,7 @@ class SubmapGraph {
   std::vector<Pose> poses;  ///< T_map_submap of each submap
 
  private:
-  HashGrid grid_;
+  PointIndex grid_;
   Index active_ = kNone;
   Mat3 active_rotation_ = Mat3::Identity();
 };
