@@ -160,6 +160,19 @@ def score_landmark_nees(run, owner, result):
     result["nees"]["landmarks"], result["nees"]["landmark_pairs"] = nees(errors), len(errors)
 
 
+def moving(run):
+    """Of a run in which nothing moves: all that is marked is a false alarm."""
+    status = {m["id"]: m["status"] for m in run["online"]}
+    given = {"dynamic": Counter(), "mapped": Counter(), "temporary": Counter()}
+    for iteration in run["iterations"]:
+        for association, identity in zip(iteration["associations"], iteration["identities"]):
+            if identity != -1 and association in status:
+                given[status[association]][identity] += 1
+    marked = sum(count > given["mapped"][truth] for truth, count in given["dynamic"].items())
+    precision = None if marked == 0 else 0.0
+    return {"moved": 0, "moved_marked": 0, "marked": marked, "marked_moving": 0, "recall": None, "precision": precision}
+
+
 def score_landmarks(run, first_pose_frame, result):
     owner, errors = owners(run["iterations"])
     observed = {i for iteration in run["iterations"] for i in iteration["identities"] if i != -1}
@@ -172,6 +185,7 @@ def score_landmarks(run, first_pose_frame, result):
     result["landmarks_unmatched"] = sum(i not in owner for i in mapped)
     if run["landmarks"] is None:
         return
+    result["moving"] = moving(run)
     truth, estimate = landmark_pairs(run["online"], owner, run["landmarks"])
     result["landmark_pairs"] = len(truth)
     if first_pose_frame is not None:
@@ -214,6 +228,7 @@ def evaluate(run):
         "landmarks_duplicated": None,
         "landmarks_missed": None,
         "landmarks_unmatched": None,
+        "moving": None,
         "landmark_pairs": 0,
         "landmark_rmse_m": {"first_pose": None, "aligned": None, "final_aligned": None},
         "position_rmse_m": {"first_pose": None, "aligned": None, "refitted_aligned": None},
