@@ -46,6 +46,11 @@ class FrameMatcher {
   Fit match_active(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
                    std::vector<Observation>& frame);
 
+  /// Where the frame stands by the landmarks of its points' tracks, wherever in the map they are: for when nothing else tells.
+  /// False, and no pose, when they do not determine it. The frame's matches are not touched.
+  bool locate_by_tracks(const SubmapGraph& graph, bool planar, const std::vector<Observation>& frame,
+                        Pose& T_map_sensor);
+
   /// Where the frame fits the map best, of all turns of each of `bases` (T_map_sensor) about the sensor's z axis by up to
   /// `max_turn_rad`: for when the prediction failed. Matches within the match bound. Returns how many points agree with the map
   /// there, and puts the pose into `T_map_sensor` when that is not 0. The frame's own matches are not touched.

@@ -258,6 +258,10 @@ void Mapper::State::predict() {
 
 void Mapper::State::match_active_submap() {
   fit_ = matcher_.match_active(graph_, active_, predicted_, planar_, frame_);
+  if (fit_.solved || !followed_) return;
+  Pose located;
+  if (matcher_.locate_by_tracks(graph_, planar_, frame_, located))
+    fit_.T_submap_sensor = graph_.poses[graph_.active()].inverse() * located;
 }
 
 /// The activation from which on landmarks lie where the recent submaps put them.
