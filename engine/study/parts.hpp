@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ void add_drives(const Request& request, const std::vector<RunLabel>& labels, Dri
 void add_accuracy(const std::vector<RunGroup>& groups, const std::string& figures, Findings& findings);
 /// Mean, 99th percentile and worst CPU time of an iteration.
 void add_times(const std::vector<RunGroup>& groups, const std::string& figures, Findings& findings);
+
+/// Adds the exponent of `points(trace)`, y over x: of several runs the mean of their exponents and its interval.
+void add_exponent(const RunGroup& group, const std::string& figures, const std::string& what,
+                  const std::function<std::vector<Vec2>(const Trace&)>& points, Findings& findings);
 
 /// The chart of landmark errors as the thesis has it: the sum of all distances.
 Chart landmark_error_chart(const std::vector<RunGroup>& groups, const std::string& title,
