@@ -12,7 +12,9 @@
 namespace hallway::study {
 
 // The studies, each in a file of its own.
+extern const Study kBinning;
 extern const Study kConstants;
+extern const Study kDynamic;
 extern const Study kFigureEight;
 extern const Study kDensity;
 extern const Study kMapSize;
