@@ -23,6 +23,11 @@ double total_cost(const SubmapGraph& graph, const std::vector<Pose>& poses) {
 void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar) {
   std::vector<Index> all(graph.submaps.size());
   std::iota(all.begin(), all.end(), Index{0});
+  if (newest != kNone) {
+    const Index part = graph.submaps[newest].part;
+    std::erase_if(all, [&](Index submap) { return graph.submaps[submap].part != part; });
+  }
+  known_ = static_cast<Index>(graph.submaps.size());
   system_.take(graph, all, poses, planar);
   start_.clear();
   newest_slot_ = kNone;
@@ -88,8 +93,7 @@ StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
     Pose& pose = poses[system_.free()[slot]];
     pose = moved(pose, slot);
   }
-  const std::size_t known = start_.size() + 1;  // submap 0 is held
-  for (std::size_t submap = known; newest_slot_ != kNone && submap < poses.size(); ++submap)
+  for (std::size_t submap = known_; newest_slot_ != kNone && submap < poses.size(); ++submap)
     poses[submap] = moved(poses[submap], newest_slot_);
   const double after = total_cost(graph, poses);
   if (after < cost.before) {

@@ -14,12 +14,13 @@ struct StepCost {
   double after = 0.0;   ///< equal to `before` when the step was not taken
 };
 
-/// One Gauss-Newton step over all submaps, in slices: begun from the graph as it is, computed while the graph grows,
+/// One Gauss-Newton step over all submaps of a part of the map, in slices: begun from the graph as it is, computed while the graph grows,
 /// and then applied to the poses as they have become. What it costs is counted in multiplications, so that what is
 /// done in which call depends on the data alone.
 class MapStep {
  public:
-  /// Takes down the whole graph. `newest` is the submap that those made later hang on. O(map).
+  /// Takes down the part of the graph that `newest` is in; kNone: all parts. `newest` is the submap that those made later hang
+  /// on. To be begun anew when the part changes in another way than by growing. O(map).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar);
   /// Between begin() and apply().
   bool under_way() const { return under_way_; }
@@ -43,6 +44,7 @@ class MapStep {
   std::vector<Pose> start_;                // slot -> its pose when the step began
   Index newest_slot_ = kNone;
   Index next_row_ = 0;
+  Index known_ = 0;  // submaps there were when the step began
   bool analysed_ = false;
   bool ready_ = false;
   bool usable_ = false;

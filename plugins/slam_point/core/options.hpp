@@ -25,6 +25,10 @@ struct Options {
   double max_turn_rad =
       0.35;  ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
 
+  int bridge_frames =
+      10;  ///< frames without a pose that the last motion is continued for; then a new part begins
+  int report_parts = 0;  ///< 1: pose and map are told of whatever part the sensor is in; 0: of the first only
+
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;
 

@@ -61,12 +61,18 @@ struct Counters {
   std::uint64_t global_steps = 0;  ///< times all submaps were re-placed together online
   std::uint64_t merged = 0;        ///< landmarks that turned out to be another one
   std::uint64_t searches = 0;      ///< times the motion prediction failed and turns were tried
+  std::uint64_t relocalised = 0;  ///< times a frame without a pose was found in the map by what it sees alone
+  std::uint64_t parts = 0;        ///< parts that the map has: maps whose place to each other is not known
+  std::uint64_t joined = 0;       ///< times two parts became one
 };
 
 /// What one frame gave.
 struct Answer {
-  bool has_pose = false;                 ///< see Mapper::process for the rule
-  Pose T_map_sensor;                     ///< defined when has_pose
+  bool has_pose = false;  ///< see Mapper::process for the rule
+  Pose T_map_sensor;      ///< defined when has_pose
+  bool in_part = false;   ///< the frame was placed in the part of the map that is numbered `part`
+  std::uint64_t part =
+      0;  ///< parts are numbered in the order of their first frames; the map's own frame is that of part 0
   std::vector<LandmarkId> associations;  ///< one per point given, in their order; kNoLandmark for none
   Counters counters;
 };

@@ -120,10 +120,13 @@ TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
   EXPECT_TRUE(mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0))).has_pose);
 }
 
-TEST(MapperDegenerate, TwoPlanarPointsAreEnough) {
+TEST(MapperDegenerate, ThreePlanarPointsAreEnoughAndTwoAreNot) {
   Mapper mapper{Options()};
-  EXPECT_TRUE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
-  const Answer& answer = mapper.process(std::vector<Vec3>{{4.9, 3, 0}, {11.9, -4, 0}});
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
+  EXPECT_TRUE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}, {9, 5, 0}}).has_pose);
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
+  mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}, {9, 5, 0}, {15, 1, 0}});
+  const Answer& answer = mapper.process(std::vector<Vec3>{{4.9, 3, 0}, {11.9, -4, 0}, {8.9, 5, 0}});
   ASSERT_TRUE(answer.has_pose);
   EXPECT_LT((answer.T_map_sensor.t - Vec3(0.1, 0.0, 0.0)).norm(), 1e-9);
 }
