@@ -29,7 +29,8 @@ ChildLimits limits() {
           .output_bytes = std::uint64_t{1} << 50};
 }
 
-fs::path find_reader() {
+/// @param bag  that is to be read
+fs::path find_reader(const std::string& bag) {
   try {
     return find_helper("hallway-bag");
   } catch (const Error& error) {
@@ -37,14 +38,15 @@ fs::path find_reader() {
         ErrorCode::kIo,
         "this Hallway was built without ROS 1 and reads no bags; install librosbag-storage-dev, "
         "libsensor-msgs-dev, libnav-msgs-dev and libgeometry-msgs-dev, then configure and build it again (" +
-            error.message() + ")");
+            error.message() + ")",
+        Where{bag});
   }
 }
 
 /// One pass of the helper program through a bag.
 class Pass {
  public:
-  explicit Pass(const BagRequest& request) : child_(find_reader(), {}, limits()) {
+  explicit Pass(const BagRequest& request) : child_(find_reader(request.file), {}, limits()) {
     child_.send(encode_request(request));
     child_.close_input();
     head_ = decode_head(next(BagMessageKind::kHead));

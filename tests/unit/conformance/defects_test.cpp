@@ -51,6 +51,7 @@ const std::vector<Defect> kDefects{
     {"crashes_for_no_points", {"frame-no-points", "input-not-overrun"}},
     {"crashes_for_no_samples", {"frame-no-samples"}},
     {"crashes_for_one_point", {"frame-one-point"}},
+    {"crashes_for_pixels", {"frame-pixels"}},
     {"crashes_for_plane", {"frame-plane"}},
     {"crashes_for_tracks", {"frame-tracks"}},
     {"crashes_for_two_readings", {"frame-two-readings"}},

@@ -171,12 +171,13 @@ TEST(FrameBytes, AWiderStrideIsReadAndWrittenAsWhatIsKnown) {
 TEST(FrameBytes, MembersOfALaterVersionArePassedOver) {
   const OneReading one;
   Bytes bytes = bytes_of(one.frame);
-  // hw_points_t with 8 bytes more.
-  bytes.insert(bytes.begin() + kPoints, 8, std::byte{0x55});
-  overwrite(bytes, 8, kAll + 8);
+  // hw_points_t with today's members for pixels, of which there are none, and 8 bytes more.
+  bytes.insert(bytes.begin() + kPoints, 16, std::byte{});
+  bytes.insert(bytes.begin() + kPoints + 16, 8, std::byte{0x55});
+  overwrite(bytes, 8, kAll + 24);
   overwrite(bytes, kPayload, sizeof(hw_points_t) + 8, 4);
-  overwrite(bytes, kPayload + offsetof(hw_points_t, points), kPoints + 8);
-  overwrite(bytes, kPayload + offsetof(hw_points_t, track), kTrack + 8);
+  overwrite(bytes, kPayload + offsetof(hw_points_t, points), kPoints + 24);
+  overwrite(bytes, kPayload + offsetof(hw_points_t, track), kTrack + 24);
   FrameReader reader;
   const hw_points_t& points = points_of(*reader.read(bytes).samples[0]);
   EXPECT_EQ(points.size, sizeof(hw_points_t));
