@@ -28,6 +28,8 @@ constexpr int kLeastAgreeing = 3;     // points: likewise, where the sensor was 
 constexpr int kLeastAfterSearch = 4;  // after a frame without a pose, or of many turns tried
 constexpr int kLeastAfterGap = 5;     // after more than a short gap
 constexpr int kShortGap = 3;          // frames
+constexpr int kTriedAfterGap = 300;   // places, as many as the turns that are tried
+constexpr double kMostAfterGap = 1e-3;
 constexpr double kWorthwhileGain =
     0.01;  // fall of the cost for which a step over the whole map is repeated soon
 constexpr double kWorkPerClose = 6e5;  // multiplications: those that factorise a window of 20 submaps
@@ -99,7 +101,7 @@ class Mapper::State {
   bool search_constellations();
   void search_turn();
   bool look_from(const Pose& T_map_sensor);
-  bool is_placed() const;
+  bool is_placed();
   std::size_t comparable_points() const;
   void lose_pose();
   bool recover();
@@ -317,11 +319,16 @@ void Mapper::State::search_turn() {
   look_from(found);
 }
 
-bool Mapper::State::is_placed() const {
+bool Mapper::State::is_placed() {
   // The less is known of where the sensor may be, the more places there are where a few points agree by chance.
   int least = kLeastAgreeing;
   if (searched_ || frames_without_pose_ > 0) least = kLeastAfterSearch;
   if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
+  if (frames_without_pose_ > kShortGap && agreeing_ >= least) {
+    gather_frame();
+    if (relocaliser_.chance_at(graph_, view_, T_map_sensor_, planar_, kTriedAfterGap) > kMostAfterGap)
+      return false;
+  }
   return agreeing_ >= least &&
          static_cast<double>(agreeing_) >= kLeastShare * static_cast<double>(comparable_points());
 }

@@ -25,6 +25,9 @@ constexpr double kMostByChance = 1e-8;
 constexpr double kLeastShareOfPoints = 0.4;
 constexpr double kRivalShare = 0.6;
 constexpr int kTrianglePoints = 3;
+constexpr double kMostOfRival = 1e-3;  // expected by chance: above, a rival is nothing but that
+constexpr std::array<double, 3> kTolerances{
+    1.0, 0.5, 0.25};  // parts of what counts as noise that agreement is judged by
 
 /// The chance that at least `least` of `n` come true, each with chance p. O(n).
 double binomial_tail(int n, int least, double p) {
@@ -84,9 +87,9 @@ bool Relocaliser::locate(const SubmapGraph& graph, const ConstellationIndex& ind
   }
   const double least = kLeastShareOfPoints * static_cast<double>(points_.size());
   if (best_.agreeing < least || best_.agreeing <= kTrianglePoints) return false;
-  if (rival_.agreeing > kRivalShare * best_.agreeing) return false;
   placement = {best_.T, best_.part, best_.agreeing, expected_by_chance(graph, best_)};
-  return placement.expected_by_chance < kMostByChance;
+  if (placement.expected_by_chance >= kMostByChance) return false;
+  return rival_.agreeing <= kRivalShare * best_.agreeing || expected_by_chance(graph, rival_) >= kMostOfRival;
 }
 
 void Relocaliser::choose_points(const std::vector<Vec3>& points) {
@@ -258,17 +261,23 @@ void Relocaliser::match(const SubmapGraph& graph, const Hypothesis& hypothesis, 
   });
 }
 
-bool Relocaliser::fit(const SubmapGraph& graph, Hypothesis& hypothesis) {
+void Relocaliser::assign(Hypothesis& hypothesis) {
   hypothesis.landmarks.assign(points_.size(), kNone);
-  pairs_.clear();
   for (const Match& m : matches_) {
     if (hypothesis.landmarks[m.point] != kNone || taken_[m.landmark] != 0) continue;
     hypothesis.landmarks[m.point] = m.landmark;
     taken_[m.landmark] = 1;
     taken_list_.push_back(m.landmark);
-    const LandmarkRecord& landmark = graph.landmarks[m.landmark];
+  }
+}
+
+bool Relocaliser::fit(const SubmapGraph& graph, Hypothesis& hypothesis) {
+  pairs_.clear();
+  for (Index p = 0; p < points_.size(); ++p) {
+    if (hypothesis.landmarks[p] == kNone) continue;
+    const LandmarkRecord& landmark = graph.landmarks[hypothesis.landmarks[p]];
     const double n = static_cast<double>(landmark.count);
-    pairs_.push_back({landmark.position, points_[m.point], n / (n + 1.0)});
+    pairs_.push_back({landmark.position, points_[p], n / (n + 1.0)});
   }
   return robust_fit(pairs_, planar_ ? planar_rules_ : solid_rules_, hypothesis.T);
 }
@@ -276,8 +285,14 @@ bool Relocaliser::fit(const SubmapGraph& graph, Hypothesis& hypothesis) {
 bool Relocaliser::refine(const SubmapGraph& graph, Hypothesis& hypothesis) {
   for (int pass = 0; pass < kPasses; ++pass) {
     match(graph, hypothesis, pass == 0 ? reach_ : coarse_);
+    assign(hypothesis);
     if (!fit(graph, hypothesis)) return false;
   }
+  count_agreeing(graph, hypothesis);
+  return hypothesis.agreeing > 0;
+}
+
+void Relocaliser::count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesis) {
   hypothesis.agreeing = 0;
   for (Index p = 0; p < points_.size(); ++p) {
     Index& landmark = hypothesis.landmarks[p];
@@ -289,18 +304,30 @@ bool Relocaliser::refine(const SubmapGraph& graph, Hypothesis& hypothesis) {
       landmark = kNone;
     }
   }
-  return hypothesis.agreeing > 0;
+}
+
+double Relocaliser::chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
+                              const Pose& T_map_points, bool planar, int tried) {
+  planar_ = planar;
+  choose_points(points);
+  taken_.resize(graph.landmarks.size(), 0);
+  tried_ = tried;
+  trial_.T = T_map_points;
+  trial_.part = graph.part();
+  match(graph, trial_, agreement_);
+  assign(trial_);
+  return expected_by_chance(graph, trial_);
 }
 
 void Relocaliser::keep(Hypothesis& hypothesis) {
-  // Two that give most points the same landmarks are one place.
+  // Two that put the points that agree near to the same places are one.
   const auto is_same = [&](const Hypothesis& other) {
-    if (other.agreeing == 0) return false;
-    int same = 0;
+    if (other.agreeing == 0 || other.part != hypothesis.part) return false;
     for (Index p = 0; p < points_.size(); ++p) {
-      if (hypothesis.landmarks[p] != kNone && hypothesis.landmarks[p] == other.landmarks[p]) ++same;
+      if (hypothesis.landmarks[p] == kNone) continue;
+      if ((hypothesis.T * points_[p] - other.T * points_[p]).squaredNorm() > reach_ * reach_) return false;
     }
-    return 2 * same >= std::min(hypothesis.agreeing, other.agreeing);
+    return true;
   };
   if (is_same(best_)) {
     if (hypothesis.agreeing > best_.agreeing) std::swap(best_, hypothesis);
@@ -314,20 +341,30 @@ void Relocaliser::keep(Hypothesis& hypothesis) {
   }
 }
 
-double Relocaliser::expected_by_chance(const SubmapGraph& graph, const Hypothesis& best) const {
+double Relocaliser::expected_by_chance(const SubmapGraph& graph, const Hypothesis& place) {
   std::size_t others = 0;
+  residuals2_.clear();
   for (Index p = 0; p < points_.size(); ++p) {
-    const Vec3 at = best.T * points_[p];
-    graph.visit_part_landmarks_near(best.part, at, [&](Index l) {
-      const bool near = (graph.landmarks[l].position - at).squaredNorm() <= reach_ * reach_;
-      if (near && l != best.landmarks[p]) ++others;
+    const Vec3 at = place.T * points_[p];
+    graph.visit_part_landmarks_near(place.part, at, [&](Index l) {
+      const double d2 = (graph.landmarks[l].position - at).squaredNorm();
+      if (l == place.landmarks[p]) residuals2_.push_back(d2);
+      if (d2 <= reach_ * reach_ && l != place.landmarks[p]) ++others;
     });
   }
   const auto n = static_cast<int>(points_.size());
   // One more than was seen, so that nothing is impossible.
   const double within_reach = (static_cast<double>(others) + 1.0) / n;
-  const double p = std::min(0.9, within_reach * std::pow(agreement_ / reach_, planar_ ? 2 : 3));
-  return std::max(1, tried_) * binomial_tail(n - kTrianglePoints, best.agreeing - kTrianglePoints, p);
+  double least = 1.0;
+  for (const double share : kTolerances) {
+    const double bound = share * agreement_;
+    const auto agreeing =
+        std::count_if(residuals2_.begin(), residuals2_.end(), [&](double d2) { return d2 <= bound * bound; });
+    const double p = std::min(0.9, within_reach * std::pow(bound / reach_, planar_ ? 2 : 3));
+    least =
+        std::min(least, binomial_tail(n - kTrianglePoints, static_cast<int>(agreeing) - kTrianglePoints, p));
+  }
+  return std::max(1, tried_) * static_cast<double>(kTolerances.size()) * least;
 }
 
 }  // namespace hallway::slam_point

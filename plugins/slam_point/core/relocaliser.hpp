@@ -26,9 +26,11 @@ struct Placement {
 /// hypothesis; it is given up when few of the points near the triangle lie on landmarks. Else all points are matched one-to-one
 /// and fitted. The best hypothesis is the answer if all of this holds:
 /// - so many points agree that fewer than 1e-8 wrong hypotheses were to be expected that agree as well: the hypotheses tried
-///   times the binomial chance that so many points beyond the triangle lie on landmarks as dense as those around them;
+///   times the binomial chance that so many points beyond the triangle lie on landmarks as dense as those around them. Agreement
+///   is judged within 4, 2 and 1 noise_m, and what says most counts, times three;
 /// - at least two fifths of the points agree;
-/// - no other hypothesis has more than three fifths of the points that agree with the best: a place that repeats is no answer.
+/// - no other place has more than three fifths of the points that agree with the best and is more than chance (1e-3, likewise): a
+///   place that repeats is no answer.
 ///
 /// Cost: O(points) for a bounded number of hypotheses, whatever the size of the map.
 class Relocaliser {
@@ -40,6 +42,11 @@ class Relocaliser {
   /// answer.
   bool locate(const SubmapGraph& graph, const ConstellationIndex& index, const std::vector<Vec3>& points,
               Index except, bool planar, Placement& placement);
+
+  /// How many wrong hypotheses, of `tried`, were to be expected that agree with the current part as well as these points do at
+  /// T_map_points. O(points).
+  double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points, const Pose& T_map_points,
+                   bool planar, int tried);
 
  private:
   /// A triangle of the points.
@@ -71,10 +78,12 @@ class Relocaliser {
   bool pose_of(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped, Pose& T) const;
   bool is_promising(const SubmapGraph& graph, const Triangle& seen, const Pose& T, Index part);
   bool refine(const SubmapGraph& graph, Hypothesis& hypothesis);
+  void assign(Hypothesis& hypothesis);
+  void count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesis);
   void match(const SubmapGraph& graph, const Hypothesis& hypothesis, double bound_m);
   bool fit(const SubmapGraph& graph, Hypothesis& hypothesis);
   void keep(Hypothesis& hypothesis);
-  double expected_by_chance(const SubmapGraph& graph, const Hypothesis& best) const;
+  double expected_by_chance(const SubmapGraph& graph, const Hypothesis& place);
 
   FitRules planar_rules_;
   FitRules solid_rules_;
@@ -89,6 +98,7 @@ class Relocaliser {
   std::vector<Triangle> alike_;
   std::vector<std::pair<double, Index>> near_;
   std::vector<Match> matches_;
+  std::vector<double> residuals2_;
   std::vector<Pair> pairs_;
   std::vector<std::uint8_t> taken_;  // landmark -> matched
   std::vector<Index> taken_list_;
