@@ -16,6 +16,7 @@
 
 #include "../tests/unit/slam_point/scenes.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "slam_point/core/thesis_mapper.hpp"
 
 namespace {
 
@@ -142,8 +143,18 @@ double map_error(const Map& map, const Votes& votes, const Log& log) {
   return aligned_rmse(truth, estimate);
 }
 
-void print_truth(const Log& log, const Mapper& mapper, const Votes& votes, const std::vector<Answer>& answers,
-                 std::size_t observations) {
+Map refined(const Mapper& mapper) {
+  return mapper.refined_map();
+}
+
+/// The thesis's algorithm never solves its map as a whole.
+Map refined(const thesis::Mapper& mapper) {
+  return mapper.map();
+}
+
+template <typename AnyMapper>
+void print_truth(const Log& log, const AnyMapper& mapper, const Votes& votes,
+                 const std::vector<Answer>& answers, std::size_t observations) {
   std::set<std::int64_t> seen;
   for (const std::vector<Seen>& frame : log.frames) {
     for (const Seen& s : frame) seen.insert(s.truth);
@@ -163,12 +174,12 @@ void print_truth(const Log& log, const Mapper& mapper, const Votes& votes, const
     path.push_back(answers[i].T_map_sensor.t);
   }
   const auto start = std::chrono::steady_clock::now();
-  const Map refined = mapper.refined_map();
+  const Map at_the_end = refined(mapper);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   std::printf("landmarks_true %zu mapped_true %zu duplicated %zu association_errors %d of %zu\n", seen.size(),
               owned.size(), duplicated, votes.errors(), observations);
   std::printf("landmark_rmse_m aligned %.5f refined %.5f ate_m %.5f global_step_ms %.1f\n",
-              map_error(map, votes, log), map_error(refined, votes, log), aligned_rmse(truth, path),
+              map_error(map, votes, log), map_error(at_the_end, votes, log), aligned_rmse(truth, path),
               took.count());
 }
 
@@ -239,8 +250,25 @@ void print_times(const char* name, std::vector<double> us) {
               us[us.size() / 2], us[us.size() * 99 / 100], us.back(), second, last);
 }
 
-void run(const Log& log, const Options& options, const std::string& folder) {
-  Mapper mapper(options);
+/// Maps the log again and lowers each iteration's times to what this run took.
+template <typename AnyMapper>
+void repeat(const Log& log, AnyMapper& mapper, std::vector<double>& wall_us, std::vector<double>& cpu_us) {
+  mapper.reset();
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < log.frames.size(); ++i) {
+    points.clear();
+    for (const Seen& seen : log.frames[i]) points.push_back(seen.point);
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = thread_cpu_us();
+    mapper.process(points);
+    cpu_us[i] = std::min(cpu_us[i], thread_cpu_us() - cpu_start);
+    const std::chrono::duration<double, std::micro> wall = std::chrono::steady_clock::now() - start;
+    wall_us[i] = std::min(wall_us[i], wall.count());
+  }
+}
+
+template <typename AnyMapper>
+void run(const Log& log, AnyMapper mapper, const std::string& folder, int runs) {
   Votes votes;
   std::vector<Answer> answers;
   std::vector<double> wall_us;
@@ -276,52 +304,97 @@ void run(const Log& log, const Options& options, const std::string& folder) {
               counters.submaps, counters.closes, counters.reopened, counters.global_steps, counters.searches);
   if (!log.landmarks.empty()) print_truth(log, mapper, votes, answers, observations);
   if (std::ifstream(folder + "/gps.csv")) print_gps(folder, answers);
+  for (int again = 1; again < runs; ++again) repeat(log, mapper, wall_us, cpu_us);
   print_times("iteration_wall_us", std::move(wall_us));
   print_times("iteration_cpu_us", std::move(cpu_us));
 }
 
 constexpr const char* kUsage =
-    "usage: bench_slam_point_log FOLDER|eight25|eight100|ring|new_ground|office [steps=N] [seed=N] "
-    "[PARAMETER=VALUE]...\n";
+    "usage: bench_slam_point_log FOLDER|eight25|eight100|eight:PER_100M|ring|new_ground|office [steps=N] "
+    "[seed=N] [runs=N] "
+    "[mode=ours|thesis] [PARAMETER=VALUE]...\n"
+    "runs: of each iteration the least time of so many runs counts\n";
+
+/// What the command line asks for besides the log.
+struct Settings {
+  Options options;
+  thesis::Options thesis;
+  bool is_thesis = false;
+  std::size_t steps = 1000000;
+  std::uint64_t seed = 1;
+  int runs = 1;
+};
+
+/// The index of `value` among the names of a choice.
+template <std::size_t N>
+int choice(const char* const (&names)[N], const std::string& value) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (value == names[i]) return static_cast<int>(i);
+  }
+  throw std::runtime_error("unknown value " + value);
+}
+
+void set(Settings& settings, const std::string& name, const std::string& value) {
+  if (name == "mode") {
+    if (value != "ours" && value != "thesis") throw std::runtime_error("unknown mode " + value);
+    settings.is_thesis = value == "thesis";
+  } else if (name == "thesis_basis") {
+    settings.thesis.basis = choice(thesis::kBasisNames, value);
+  } else if (name == "thesis_matching") {
+    settings.thesis.matching = choice(thesis::kMatchingNames, value);
+  } else if (name == "steps") {
+    settings.steps = static_cast<std::size_t>(std::stod(value));
+  } else if (name == "seed") {
+    settings.seed = static_cast<std::uint64_t>(std::stod(value));
+  } else if (name == "runs") {
+    settings.runs = std::stoi(value);
+  } else if (const Parameter* parameter = find_parameter(name)) {
+    parameter->set(settings.options, std::stod(value));
+  } else if (const thesis::Parameter* own = thesis::find_parameter(name)) {
+    settings.thesis.*own->whole = std::stoi(value);
+  } else {
+    throw std::runtime_error("unknown parameter " + name);
+  }
+}
+
+void run(const Log& log, const Settings& settings, const std::string& folder) {
+  if (settings.is_thesis) {
+    run(log, thesis::Mapper(settings.options, settings.thesis), folder, settings.runs);
+  } else {
+    run(log, Mapper(settings.options), folder, settings.runs);
+  }
+}
 
 int main_checked(int argc, char** argv) {
   if (argc < 2) {
     std::fputs(kUsage, stderr);
     return 2;
   }
-  Options options;
-  std::size_t steps = 1000000;
-  std::uint64_t seed = 1;
+  Settings settings;
   for (int i = 2; i < argc; ++i) {
     const std::string text = argv[i];
     const std::size_t equals = text.find('=');
-    const std::string name = text.substr(0, equals);
     if (equals == std::string::npos) throw std::runtime_error("not name=value: " + text);
-    const double value = std::stod(text.substr(equals + 1));
-    if (name == "steps") {
-      steps = static_cast<std::size_t>(value);
-    } else if (name == "seed") {
-      seed = static_cast<std::uint64_t>(value);
-    } else if (const Parameter* parameter = find_parameter(name)) {
-      parameter->set(options, value);
-    } else {
-      throw std::runtime_error("unknown parameter " + name);
-    }
+    set(settings, text.substr(0, equals), text.substr(equals + 1));
   }
+  const std::size_t steps = settings.steps;
+  const std::uint64_t seed = settings.seed;
   const std::string what = argv[1];
   const auto within = [&](std::size_t all) { return static_cast<int>(std::min(steps, all)); };
   if (what == "eight25") {
-    run(scenes::figure_eight(within(7600), 25, seed), options, "");
+    run(scenes::figure_eight(within(7600), 25, seed), settings, "");
   } else if (what == "eight100") {
-    run(scenes::figure_eight(within(3800), 100, seed), options, "");
+    run(scenes::figure_eight(within(3800), 100, seed), settings, "");
+  } else if (what.rfind("eight:", 0) == 0) {
+    run(scenes::figure_eight(within(3800), std::stod(what.substr(6)), seed), settings, "");
   } else if (what == "ring") {
-    run(scenes::ring(within(12000), 40, seed), options, "");
+    run(scenes::ring(within(12000), 40, seed), settings, "");
   } else if (what == "new_ground") {
-    run(scenes::new_ground(within(15200), 100, seed), options, "");
+    run(scenes::new_ground(within(15200), 100, seed), settings, "");
   } else if (what == "office") {
-    run(scenes::office(seed), options, "");
+    run(scenes::office(seed), settings, "");
   } else {
-    run(read_log(what, steps), options, what);
+    run(read_log(what, steps), settings, what);
   }
   return 0;
 }

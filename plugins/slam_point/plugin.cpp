@@ -7,6 +7,7 @@
 #include "adapter/option_rows.hpp"
 #include "adapter/point_adapter.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "slam_point/core/thesis_mapper.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -25,36 +26,58 @@ std::uint32_t to_c(LandmarkStatus status) {
 
 static_assert(kNoLandmark == HW_NO_LANDMARK);
 
-/// The mapper behind the plugin ABI.
+enum class Mode : int { ours = 0, thesis = 1 };
+constexpr const char* kModeNames[] = {"ours", "thesis"};
+
+/// The mapper behind the plugin ABI, and in its place, with mode=thesis, the thesis's own algorithm.
 class SlamPoint final : public sdk::Plugin {
  public:
   static const hw_plugin_info_t* info();
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
     add_options(parameters(), options_, slam_point::parameters());
+    parameters().add_choice("mode", &mode_, kModeNames,
+                            "ours: submaps solved together; thesis: groups placed one after another.");
+    parameters().add_choice(
+        "thesis_basis", &thesis_options_.basis, thesis::kBasisNames,
+        "mode=thesis: three: three points of a group are its axes; all: its mean shape is.");
+    parameters().add_choice(
+        "thesis_matching", &thesis_options_.matching, thesis::kMatchingNames,
+        "mode=thesis: nearest: to the last iterations as they were seen; predicted: as the last "
+        "motion moves them.");
+    add_options(parameters(), thesis_options_, thesis::parameters());
   }
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
-    mapper_.emplace(options_);
+    if (mode_ == static_cast<int>(Mode::thesis)) {
+      thesis_.emplace(options_, thesis_options_);
+    } else {
+      mapper_.emplace(options_);
+    }
   }
 
-  void deactivate() override { mapper_.reset(); }
+  void deactivate() override {
+    mapper_.reset();
+    thesis_.reset();
+  }
 
   void reset() override {
-    mapper_->reset();
+    if (mapper_) mapper_->reset();
+    if (thesis_) thesis_->reset();
     adapter_.reset();
   }
 
   void process(const hw_frame_t& frame) override {
-    const Answer& answer = mapper_->process(adapter_.gather(frame));
+    const std::vector<Vec3>& points = adapter_.gather(frame);
+    const Answer& answer = thesis_ ? thesis_->process(points) : mapper_->process(points);
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer);
   }
 
   void report(bool refine) override {
-    const Map map = refine ? mapper_->refined_map() : mapper_->map();
+    const Map map = thesis_ ? thesis_->map() : refine ? mapper_->refined_map() : mapper_->map();
     put_landmarks(map);
     put_submaps(map);
   }
@@ -97,8 +120,11 @@ class SlamPoint final : public sdk::Plugin {
   }
 
   Options options_;
+  thesis::Options thesis_options_;
+  int mode_ = static_cast<int>(Mode::ours);
   PointAdapter<Pose> adapter_;
-  std::optional<Mapper> mapper_;
+  std::optional<Mapper> mapper_;  // one of the two while active
+  std::optional<thesis::Mapper> thesis_;
 };
 
 const hw_plugin_info_t* SlamPoint::info() {
