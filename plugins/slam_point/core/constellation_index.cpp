@@ -123,11 +123,6 @@ void ConstellationIndex::add_triangle(const SubmapGraph& graph, const std::array
   entries_.push_back(entry);
 }
 
-bool ConstellationIndex::is_like(const Sides& a, const Sides& b) const {
-  return std::abs(a[0] - b[0]) <= tolerance_ && std::abs(a[1] - b[1]) <= tolerance_ &&
-         std::abs(a[2] - b[2]) <= tolerance_;
-}
-
 ConstellationIndex::Cell ConstellationIndex::cell_of(const Sides& sides, double shift) const {
   // Cells of twice the tolerance: what is within it of `sides` lies in two along each axis.
   Cell cell;

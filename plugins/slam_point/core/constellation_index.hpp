@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -67,7 +68,7 @@ class ConstellationIndex {
     for (int corner = 0; corner < 8; ++corner) {
       const Cell cell{low[0] + (corner & 1), low[1] + ((corner >> 1) & 1), low[2] + ((corner >> 2) & 1)};
       for (std::uint32_t i = heads_[bucket_of(cell)]; i != kEnd; i = entries_[i].next) {
-        if (entries_[i].cell == cell && is_like(entries_[i].triangle.sides, sides) &&
+        if (is_in(entries_[i], cell) && is_like(entries_[i].triangle.sides, sides) &&
             !visit(entries_[i].triangle))
           return;
       }
@@ -98,7 +99,13 @@ class ConstellationIndex {
 
   void index_landmark(const SubmapGraph& graph, const Work& work, std::uint32_t min_observations);
   void add_triangle(const SubmapGraph& graph, const std::array<Index, 3>& landmarks);
-  bool is_like(const Sides& a, const Sides& b) const;
+  static bool is_in(const Entry& entry, const Cell& cell) {
+    return entry.cell[0] == cell[0] && entry.cell[1] == cell[1] && entry.cell[2] == cell[2];
+  }
+  bool is_like(const Sides& a, const Sides& b) const {
+    return std::abs(a[0] - b[0]) <= tolerance_ && std::abs(a[1] - b[1]) <= tolerance_ &&
+           std::abs(a[2] - b[2]) <= tolerance_;
+  }
   Cell cell_of(const Sides& sides, double shift) const;
   std::size_t bucket_of(const Cell& cell) const;
   void grow();

@@ -25,6 +25,7 @@ constexpr double kSureShare = 0.5;    // of the comparable points, below which a
 constexpr int kSurePoints = 6;        // or all there are, likewise
 constexpr double kLeastShare = 0.4;   // below which there is no pose
 constexpr int kLeastAgreeing = 3;     // points: likewise, where the sensor was expected
+constexpr int kLeastInPlane = 2;      // likewise, of points in a plane
 constexpr int kLeastAfterSearch = 4;  // after a frame without a pose, or of many turns tried
 constexpr int kLeastAfterGap = 5;     // after more than a short gap
 constexpr int kShortGap = 3;          // frames
@@ -38,7 +39,7 @@ constexpr int kMaxSettlePeriod = 1 << 20;
 constexpr int kIndexedPerFrame = 8;          // landmarks whose constellations are noted
 constexpr std::size_t kMovedPerFrame = 100;  // landmarks of a part that moves into another one
 constexpr std::uint64_t kYoungFrames = 10;   // a part with fewer is given up when the sensor gets lost in it
-constexpr std::uint64_t kMeetPeriod = 5;     // frames between looks for other parts, in one that is not young
+constexpr std::uint64_t kMeetPeriod = 10;    // frames between looks for other parts, in one that is not young
 constexpr std::size_t kLeastPartPoints = 5;  // that begin another part
 constexpr int kIndexedAtOnce = 64;           // landmarks of the active submap, when a frame is looked for
 constexpr double kMostTravelBounds = 5.0;    // match bounds of travel a frame that are taken for motion
@@ -321,7 +322,8 @@ void Mapper::State::search_turn() {
 
 bool Mapper::State::is_placed() {
   // The less is known of where the sensor may be, the more places there are where a few points agree by chance.
-  int least = kLeastAgreeing;
+  // Where it is expected, two determine the pose in a plane; but a frame of no more than these has nothing to check them by.
+  int least = planar_ && frame_.size() >= kLeastAgreeing ? kLeastInPlane : kLeastAgreeing;
   if (searched_ || frames_without_pose_ > 0) least = kLeastAfterSearch;
   if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
   if (frames_without_pose_ > kShortGap && agreeing_ >= least) {

@@ -12,11 +12,11 @@ namespace hallway::slam_point {
 namespace {
 
 constexpr std::size_t kMostPoints = 64;
-constexpr std::size_t kMostCentres = 40;
+constexpr std::size_t kMostCentres = 32;
 constexpr std::size_t kQueryNeighbours = 5;
-constexpr std::size_t kMostAlike = 3000;  // looked up in one call
-constexpr int kMostHypotheses = 500;      // tried in one call
-constexpr int kMostRefined = 40;          // of them fitted in full
+constexpr std::size_t kMostAlike = 2000;  // looked up in one call
+constexpr int kMostHypotheses = 300;      // tried in one call
+constexpr int kMostRefined = 24;          // of them fitted in full
 constexpr std::size_t kFirstLooks = 8;    // points near the triangle that decide whether it is worth more
 constexpr double kCoarseNoises = 12.0;
 constexpr double kAgreementNoises = 4.0;
