@@ -92,7 +92,7 @@ void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
-  log::ObservationLog observations(source.has_identities());
+  log::ObservationLog observations(source.has_identities(), source.has_tracks());
   std::vector<log::IterationPose> poses;
   run::SourceFrame frame;
   bool regular = true;
@@ -191,22 +191,27 @@ void add_log_convert_command(CLI::App& group, Action& chosen) {
       ->add_option("log", options->choice.log,
                    "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
                    "(.ply, .pcd) or one "
-                   "of them, a TUM RGB-D folder, the folder of Victoria Park, a ROS 1 .bag")
+                   "of them, a TUM RGB-D folder, the folder of Victoria Park, a table of stereo tracks or of "
+                   "ranges and "
+                   "bearings, a ROS 1 .bag")
       ->required()
       ->type_name("LOG");
   command->add_option("--from", options->from, "What it is [what it looks like]")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"csv", "mcap", "clouds", "tum", "victoria-park", "bag"}));
+      ->check(CLI::IsMember(
+          {"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"}));
   command->add_option("--out", options->out, "File to write if it ends in .mcap, else a folder for CSV files")
       ->required()
       ->type_name("FILE|DIR");
   command
       ->add_option("--truth-poses", options->choice.true_poses,
-                   "CSV file of true poses, for a log that is CSV")
+                   "True poses, for a log that is CSV or a table of stereo tracks or ranges and bearings "
+                   "[what stands beside it]")
       ->type_name("FILE");
   command
-      ->add_option("--truth-landmarks", options->choice.true_landmarks,
-                   "CSV file of true landmarks, for a log that is CSV")
+      ->add_option(
+          "--truth-landmarks", options->choice.true_landmarks,
+          "True landmarks, for a log that is CSV or a table of ranges and bearings [what stands beside it]")
       ->type_name("FILE");
   command
       ->add_option(

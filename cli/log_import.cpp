@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "import/bag.hpp"
 #include "import/cloud_folder.hpp"
+#include "import/landmark_tables.hpp"
 #include "import/tum_folder.hpp"
 #include "import/victoria_park.hpp"
 
@@ -27,16 +28,23 @@ std::optional<std::int64_t> nanoseconds(std::optional<double> seconds) {
 /// A recording as a source of frames that counts what is missing in those it gives.
 class ImportedSource : public run::Source {
  public:
-  explicit ImportedSource(std::unique_ptr<import::Recording> recording) : recording_(std::move(recording)) {
+  /// @param steps  how many frames to give; 0 for all
+  ImportedSource(std::unique_ptr<import::Recording> recording, std::uint32_t steps)
+      : recording_(std::move(recording)), iterations_(recording_->frames()) {
     sensor_.name = recording_->sensor();
+    if (steps > 0) iterations_ = std::min(iterations_, steps);
   }
 
-  std::uint32_t iterations() const override { return recording_->frames(); }
+  std::uint32_t iterations() const override { return iterations_; }
   void read(std::uint32_t iteration, run::SourceFrame& frame) override {
     recording_->read(iteration, frame_);
     frame.t_ns = frame_.t_ns;
     frame.observations.clear();
     for (const auto& point : frame_.points) frame.observations.push_back({.point = point});
+    for (std::size_t i = 0; i < frame_.identities.size(); ++i)
+      frame.observations[i].landmark = frame_.identities[i];
+    for (std::size_t i = 0; i < frame_.tracks.size(); ++i) frame.observations[i].track = frame_.tracks[i];
+    frame.is_tracked = recording_->has_tracks();
     frame.T_world_body = frame_.T_world_body;
     frame.orientation_known = frame_.orientation_known;
     not_finite_ += frame_.not_finite;
@@ -44,8 +52,11 @@ class ImportedSource : public run::Source {
     if (!frame_.T_world_body) ++frames_without_truth_;
   }
   const host::SensorInfo& sensor() const override { return sensor_; }
-  bool has_identities() const override { return false; }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return no_landmarks_; }
+  bool has_identities() const override { return recording_->has_identities(); }
+  bool has_tracks() const override { return recording_->has_tracks(); }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
+    return recording_->true_landmarks();
+  }
 
   /// About the frames that were read, each of them once.
   std::vector<std::string> missing() const {
@@ -63,8 +74,8 @@ class ImportedSource : public run::Source {
 
  private:
   std::unique_ptr<import::Recording> recording_;
+  std::uint32_t iterations_;
   host::SensorInfo sensor_;
-  std::optional<std::vector<log::Landmark>> no_landmarks_;
   import::Frame frame_;
   std::uint64_t not_finite_ = 0;
   std::uint64_t frames_not_finite_ = 0;
@@ -88,6 +99,12 @@ std::optional<import::Camera> camera_of(const ImportChoice& choice) {
   return import::Camera{choice.camera[0], choice.camera[1], choice.camera[2], choice.camera[3]};
 }
 
+import::LandmarkTableOptions table_options(const LogChoice& log){
+    import::LandmarkTableOptions options{.true_poses = log.true_poses, .true_landmarks = log.true_landmarks};
+options.period_ns = nanoseconds(log.period_s).value_or(options.period_ns);
+return options;
+}  // namespace
+
 std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const ImportChoice& choice) {
   const std::uint32_t stride = choice.stride.value_or(1);
   const auto within_ns = nanoseconds(choice.truth_within_s);
@@ -105,6 +122,10 @@ std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const I
       options.truth_within_ns = within_ns.value_or(options.truth_within_ns);
       return import::open_victoria_park(log.log, options);
     }
+    case Kind::kStereoTracks:
+      return import::open_stereo_tracks(log.log, table_options(log));
+    case Kind::kRangeBearing:
+      return import::open_range_bearing(log.log, table_options(log));
     case Kind::kBag:
       break;
   }
@@ -113,7 +134,7 @@ std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const I
   return import::open_bag(log.log, options);
 }
 
-}  // namespace
+}  // namespace hallway::cli
 
 void add_import_options(CLI::App& command, ImportChoice& choice) {
   command
@@ -159,9 +180,9 @@ void check_import_options(std::optional<Kind> kind, const LogChoice& log, const 
       {"--truth-within", choice.truth_within_s.has_value(), {Kind::kTum, Kind::kVictoriaPark, Kind::kBag}},
       {"--topic", !choice.topic.empty(), {Kind::kBag}},
       {"--truth-topic", !choice.truth_topic.empty(), {Kind::kBag}},
-      {"--period", kind && log.period_s, {Kind::kClouds}},
-      {"--truth-poses", kind && !log.true_poses.empty(), {}},
-      {"--truth-landmarks", kind && !log.true_landmarks.empty(), {}},
+      {"--period", kind && log.period_s, {Kind::kClouds, Kind::kStereoTracks, Kind::kRangeBearing}},
+      {"--truth-poses", kind && !log.true_poses.empty(), {Kind::kStereoTracks, Kind::kRangeBearing}},
+      {"--truth-landmarks", kind && !log.true_landmarks.empty(), {Kind::kRangeBearing}},
   };
   for (const Rule& rule : rules) {
     if (!rule.given || (kind && rule.kinds.contains(*kind))) continue;
@@ -175,7 +196,7 @@ OpenedLog open_recording(Kind kind, const LogChoice& log, const ImportChoice& ch
   OpenedLog opened;
   opened.name = name_of(log.log);
   opened.period_ns = recording->period_ns();
-  auto source = std::make_unique<ImportedSource>(std::move(recording));
+  auto source = std::make_unique<ImportedSource>(std::move(recording), log.steps);
   opened.missing = [counts = source.get()] { return counts->missing(); };
   opened.source = std::move(source);
   return opened;

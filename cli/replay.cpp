@@ -9,14 +9,17 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
+#include "console.hpp"
 #include "isolation_options.hpp"
 #include "log/observations.hpp"
+#include "log_import.hpp"
 #include "log_input.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/paced_source.hpp"
 #include "run/record.hpp"
 #include "run/run.hpp"
+#include "run/tracked_source.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::cli {
@@ -36,6 +39,7 @@ struct ReplayOptions {
   std::string out;
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
+  bool ids_as_tracks = false;
   bool foxglove = false;
   bool force = false;
   bool json = false;
@@ -116,12 +120,26 @@ Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
   return stages;
 }
 
+/// A log of our own, or a recording of other programs read as `hallway log convert` reads it.
+OpenedLog open_input(const ReplayOptions& options) {
+  const LogChoice choice{.log = options.observations,
+                         .true_poses = options.true_poses,
+                         .true_landmarks = options.true_landmarks,
+                         .period_s = options.period_s,
+                         .steps = options.steps};
+  const auto kind = import::tell_kind(options.observations);
+  if (!kind) return open_log(choice);
+  check_import_options(kind, choice, {});
+  return open_recording(*kind, choice, {});
+}
+
 int replay(const ReplayOptions& options) {
-  OpenedLog input = open_log({.log = options.observations,
-                              .true_poses = options.true_poses,
-                              .true_landmarks = options.true_landmarks,
-                              .period_s = options.period_s,
-                              .steps = options.steps});
+  OpenedLog input = open_input(options);
+  if (options.ids_as_tracks) {
+    input.source = std::make_unique<run::TrackedSource>(std::move(input.source));
+    input.warnings.push_back("the plugins were told which landmark each point is (--ids-as-tracks)");
+    print_warning(input.warnings.back());
+  }
   std::optional<run::PacedSource> paced;
   if (options.rate) {
     paced.emplace(*input.source, *options.rate,
@@ -203,6 +221,9 @@ void add_replay_command(CLI::App& app, Action& chosen) {
           "Feed frames at their own pace: 1 as recorded, 2 twice as fast [as fast as the plugin answers]")
       ->type_name("X")
       ->check(CLI::Range(1e-3, 1e3));
+  command->add_flag("--ids-as-tracks", options->ids_as_tracks,
+                    "Give plugins the true landmark of each point as the sensor's track of it, for those "
+                    "that need to be told");
   command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
   add_plugin_path_option(*command, options->plugin_path);
   add_isolation_options(*command, options->isolation);

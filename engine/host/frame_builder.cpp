@@ -8,6 +8,7 @@ struct FrameBuilder::Points {
   hw_sample_t sample{};
   hw_points_t payload{};
   std::vector<hw_point3_t> points;
+  std::vector<std::uint64_t> tracks;
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint32_t> pixels;
 };
@@ -38,9 +39,14 @@ std::vector<hw_point3_t>& FrameBuilder::add_points(std::uint32_t sensor_id) {
   reading.sample.t_end_ns = frame_.t_ns;
   reading.sample.payload = &reading.payload;
   reading.points.clear();
+  reading.tracks.clear();
   reading.width = reading.height = 0;
   reading.pixels.clear();
   return reading.points;
+}
+
+std::vector<std::uint64_t>& FrameBuilder::add_tracks() {
+  return points_.at(n_points_ - 1)->tracks;
 }
 
 std::vector<std::uint32_t>& FrameBuilder::add_pixels(std::uint32_t width, std::uint32_t height) {
@@ -59,6 +65,10 @@ const hw_frame_t& FrameBuilder::finish() {
     reading.payload.stride = sizeof(hw_point3_t);
     reading.payload.count = reading.points.size();
     reading.payload.points = reading.points.data();
+    if (!reading.tracks.empty()) {
+      reading.sample.flags |= HW_SAMPLE_TRACKED;
+      reading.payload.track = reading.tracks.data();
+    }
     if (reading.width != 0) {
       reading.payload.width = reading.width;
       reading.payload.height = reading.height;

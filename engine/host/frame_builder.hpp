@@ -27,6 +27,10 @@ class FrameBuilder {
   /// @return the empty list to be filled with points in the sensor's frame, metres; valid until the next call
   std::vector<hw_point3_t>& add_points(std::uint32_t sensor_id);
 
+  /// The sensor follows the points added last from frame to frame.
+  /// @return the empty list to be filled with the id of each of them, HW_NO_TRACK for none; valid until the next call
+  std::vector<std::uint64_t>& add_tracks();
+
   /// The points added last are pixels of an image of `width` > 0 columns and `height` > 0 rows.
   /// @return the empty list to be filled with the pixel (row * width + column) of each of them; valid until the next call
   std::vector<std::uint32_t>& add_pixels(std::uint32_t width, std::uint32_t height);

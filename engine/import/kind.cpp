@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "import/cloud_folder.hpp"
+#include "import/point_table.hpp"
 #include "log/byte_io.hpp"
 
 namespace hallway::import {
@@ -15,10 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kKinds{Kind::kClouds, Kind::kTum, Kind::kVictoriaPark, Kind::kBag};
+constexpr std::array kKinds{Kind::kClouds,       Kind::kTum,          Kind::kVictoriaPark,
+                            Kind::kStereoTracks, Kind::kRangeBearing, Kind::kBag};
 
 std::optional<Kind> kind_of_file(const fs::path& path) {
-  constexpr std::uint64_t kFirstBytes = 16;
+  constexpr std::uint64_t kFirstBytes = 1024;
   std::string begin;
   const log::FileInput file(path);
   file.read(0, std::min(kFirstBytes, file.size()), begin);
@@ -27,6 +29,10 @@ std::optional<Kind> kind_of_file(const fs::path& path) {
     return Kind::kClouds;
   }
   if (path.extension() == ".bag") return Kind::kBag;
+  const std::string_view line = std::string_view(begin).substr(0, begin.find('\n'));
+  if (const auto columns = point_columns_of(line)) {
+    return *columns == PointColumns::kCamera ? Kind::kStereoTracks : Kind::kRangeBearing;
+  }
   return is_cloud_file(path) ? std::optional(Kind::kClouds) : std::nullopt;
 }
 
@@ -61,6 +67,10 @@ const char* kind_name(Kind kind) {
       return "tum";
     case Kind::kVictoriaPark:
       return "victoria-park";
+    case Kind::kStereoTracks:
+      return "stereo-tracks";
+    case Kind::kRangeBearing:
+      return "range-bearing";
     case Kind::kBag:
       break;
   }

@@ -8,14 +8,14 @@
 namespace hallway::import {
 
 /// Kinds of recordings that are read here.
-enum class Kind { kClouds, kTum, kVictoriaPark, kBag };
+enum class Kind { kClouds, kTum, kVictoriaPark, kStereoTracks, kRangeBearing, kBag };
 
-/// "clouds", "tum", "victoria-park", "bag".
+/// "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag".
 const char* kind_name(Kind kind);
 /// The kind of that name, empty for another.
 std::optional<Kind> kind_named(std::string_view name);
 
-/// What a path holds. Of a file its first bytes tell, else the end of its name; of a folder the files in it: `depth.txt` or `associations.txt` a TUM
+/// What a path holds. Of a file its first bytes tell (of a table its first line), else the end of its name; of a folder the files in it: `depth.txt` or `associations.txt` a TUM
 /// folder, `scans.csv` with `observations.csv` Victoria Park, files that end in .ply or .pcd clouds. Empty for a log of our own, and for other files and
 /// what is neither file nor folder. Opens only regular files. Throws Error{kBadInput} for a folder that holds none of all this, Error{kIo}.
 std::optional<Kind> tell_kind(const std::filesystem::path& path);

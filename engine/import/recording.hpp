@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "geom/pose.hpp"
+#include "log/landmarks.hpp"
+#include "log/observations.hpp"
 
 namespace hallway::import {
 
@@ -16,11 +18,13 @@ using PointList = std::vector<std::array<double, 3>>;
 
 /// One moment of a recording.
 struct Frame {
-  std::int64_t t_ns = 0;             ///< as recorded; not below 0
-  PointList points;                  ///< all finite
-  std::uint64_t not_finite = 0;      ///< points that were left out since a coordinate is none
-  std::optional<Pose> T_world_body;  ///< the true pose, where it is known
-  bool orientation_known = true;     ///< false: only the position of T_world_body is meant
+  std::int64_t t_ns = 0;                      ///< as recorded; not below 0
+  PointList points;                           ///< all finite
+  std::vector<log::TrackId> tracks{};         ///< empty, or per point under which id the sensor follows it
+  std::vector<log::LandmarkId> identities{};  ///< empty, or per point its true landmark
+  std::uint64_t not_finite = 0;               ///< points that were left out since a coordinate is none
+  std::optional<Pose> T_world_body;           ///< the true pose, where it is known
+  bool orientation_known = true;              ///< false: only the position of T_world_body is meant
 };
 
 /// What other programs have recorded, frame by frame. A frame is a pure function of its number as long as the files stay as they are.
@@ -38,6 +42,12 @@ class Recording {
   virtual std::string sensor() const = 0;
   /// Whether a true pose is known for any frame.
   virtual bool has_truth() const = 0;
+  /// Whether the sensor follows its points.
+  virtual bool has_tracks() const { return false; }
+  /// Whether the true landmarks of points are known.
+  virtual bool has_identities() const { return false; }
+  /// Where the true landmarks are (world), if that is known.
+  virtual const std::optional<std::vector<log::Landmark>>& true_landmarks() const;
 };
 
 /// Mean time between so many frames from the first time to the last; `otherwise` where there is none.

@@ -13,12 +13,12 @@
 namespace hallway::log {
 namespace {
 
-enum Column : std::size_t { kIteration, kLandmark, kX, kY, kZ };
+enum Column : std::size_t { kIteration, kLandmark, kX, kY, kZ, kTrack };
 
 /// Collects rows into frames.
 class FrameBuilder {
  public:
-  explicit FrameBuilder(bool has_identities) : log_(has_identities) {}
+  FrameBuilder(bool has_identities, bool has_tracks) : log_(has_identities, has_tracks) {}
 
   void add_row(const CsvReader& row) {
     const auto iteration = static_cast<std::uint32_t>(row.whole(kIteration, kMaxIteration));
@@ -33,7 +33,8 @@ class FrameBuilder {
       return;
     }
     if (!begins && empty_) throw row.error("a point stands in an iteration that was said to have none");
-    const Observation observation{row.landmark_or_none(kLandmark), row.vector(kX)};
+    const Observation observation{row.landmark_or_none(kLandmark), row.vector(kX),
+                                  row.landmark_or_none(kTrack)};
     if (begins) begin(iteration);
     frame_.push_back(observation);
   }
@@ -49,7 +50,7 @@ class FrameBuilder {
   /// A row that names its iteration alone says that nothing was seen in it.
   static bool is_empty_frame(const CsvReader& row) {
     return row.text(kX).empty() && row.text(kY).empty() && row.text(kZ).empty() &&
-           row.text(kLandmark).empty();
+           row.text(kLandmark).empty() && row.text(kTrack).empty();
   }
 
   void begin(std::uint32_t iteration) {
@@ -71,11 +72,13 @@ class FrameBuilder {
   bool empty_ = false;
 };
 
-void add_identity(RowWriter& out, LandmarkId landmark) {
-  if (landmark == kNoLandmark) {
+static_assert(kNoTrack == kNoLandmark);  // both are read and written as ids, -1 for none
+
+void add_id(RowWriter& out, std::uint64_t id) {
+  if (id == kNoLandmark) {
     out.word("-1");
   } else {
-    out.whole(landmark);
+    out.whole(id);
   }
 }
 
@@ -102,8 +105,8 @@ void ObservationLog::add_frame(std::uint32_t iteration, std::span<const Observat
 }
 
 ReadLog parse_observations(std::string_view text, const std::string& file) {
-  CsvReader row(text, file, {{"iteration"}, {"landmark_id", false}, {"x"}, {"y"}, {"z"}});
-  FrameBuilder frames(row.has(kLandmark));
+  CsvReader row(text, file, {{"iteration"}, {"landmark_id", false}, {"x"}, {"y"}, {"z"}, {"track", false}});
+  FrameBuilder frames(row.has(kLandmark), row.has(kTrack));
   std::optional<Damage> damage;
   try {
     while (row.next()) frames.add_row(row);
@@ -128,19 +131,25 @@ std::string print_observations(const ObservationLog& log) {
   RowWriter out(',');
   out.word("iteration");
   if (log.has_identities()) out.word("landmark_id");
-  out.word("x").word("y").word("z").end_row();
+  out.word("x").word("y").word("z");
+  if (log.has_tracks()) out.word("track");
+  out.end_row();
   for (const std::uint32_t iteration : log.filled_iterations()) {
     for (const Observation& observation : log.frame(iteration)) {
       out.whole(iteration);
-      if (log.has_identities()) add_identity(out, observation.landmark);
-      out.numbers(observation.point).end_row();
+      if (log.has_identities()) add_id(out, observation.landmark);
+      out.numbers(observation.point);
+      if (log.has_tracks()) add_id(out, observation.track);
+      out.end_row();
     }
   }
   // Empty frames need no row but the last one, without which the log would seem to end earlier.
   if (log.iterations() > 0 && log.frame(log.iterations() - 1).empty()) {
     out.whole(log.iterations() - 1);
     if (log.has_identities()) out.word("");
-    out.word("").word("").word("").end_row();
+    out.word("").word("").word("");
+    if (log.has_tracks()) out.word("");
+    out.end_row();
   }
   return out.take();
 }

@@ -18,11 +18,17 @@ namespace hallway::log {
 /// The highest iteration number that a log may name. Higher ones are damage, such as a time stamp in the wrong column.
 inline constexpr std::uint32_t kMaxIteration = 99'999'999;
 
+/// Id under which the sensor itself follows a point from frame to frame.
+using TrackId = std::uint64_t;
+/// "The sensor does not follow this point."
+inline constexpr TrackId kNoTrack = ~TrackId{0};
+
 /// One observed point.
 struct Observation {
   LandmarkId landmark =
       kNoLandmark;                ///< the true landmark, for scoring only; kNoLandmark where it is not known
   std::array<double, 3> point{};  ///< sensor frame (x forward, y left, z up), metres
+  TrackId track = kNoTrack;       ///< where the sensor follows its points; never a true identity
 };
 
 /// The observations of a run, frame by frame; a frame's observations keep their order. Memory grows with the observations,
@@ -30,9 +36,12 @@ struct Observation {
 class ObservationLog {
  public:
   /// @param has_identities  whether the observations name their true landmarks
-  explicit ObservationLog(bool has_identities = false) : has_identities_(has_identities) {}
+  /// @param has_tracks      whether the sensor follows its points
+  explicit ObservationLog(bool has_identities = false, bool has_tracks = false)
+      : has_identities_(has_identities), has_tracks_(has_tracks) {}
 
   bool has_identities() const { return has_identities_; }
+  bool has_tracks() const { return has_tracks_; }
   /// One more than the last iteration that was added, 0 before the first.
   std::uint32_t iterations() const { return iterations_; }
   /// All observations, in the order of the frames.
@@ -47,6 +56,7 @@ class ObservationLog {
 
  private:
   bool has_identities_;
+  bool has_tracks_;
   std::uint32_t iterations_ = 0;
   std::vector<Observation> observations_;
   std::vector<std::uint32_t> filled_;
@@ -65,8 +75,8 @@ struct ReadLog {
   std::optional<Damage> damage;  ///< empty where the file was read to its end
 };
 
-/// Reads observations from CSV: a header with the columns `iteration`, `x`, `y`, `z` and perhaps `landmark_id` in any
-/// order, then rows of non-decreasing iterations (docs/formats.md).
+/// Reads observations from CSV: a header with the columns `iteration`, `x`, `y`, `z` and perhaps `landmark_id` and `track` in
+/// any order, then rows of non-decreasing iterations (docs/formats.md).
 ///
 /// A bad row ends the reading: the rows before it are kept and the damage is told. Throws Error{kBadInput} with the line if
 /// the header is wrong or the first row is already bad. O(length).

@@ -15,6 +15,10 @@ const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iterati
   for (const log::Observation& seen : frame.observations) {
     points.push_back({seen.point[0], seen.point[1], seen.point[2]});
   }
+  if (frame.is_tracked) {
+    std::vector<std::uint64_t>& tracks = builder.add_tracks();
+    for (const log::Observation& seen : frame.observations) tracks.push_back(seen.track);
+  }
   return builder.finish();
 }
 

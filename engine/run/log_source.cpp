@@ -24,6 +24,7 @@ void LogSource::read(std::uint32_t iteration, SourceFrame& frame) {
   frame.t_ns = period_ns_ * static_cast<std::int64_t>(iteration);
   const auto seen = observations_.frame(iteration);
   frame.observations.assign(seen.begin(), seen.end());
+  frame.is_tracked = observations_.has_tracks();
   frame.T_world_body.reset();
   if (!truth_.poses) return;
   const auto pose =

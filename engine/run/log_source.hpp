@@ -24,6 +24,7 @@ class LogSource : public Source {
   void read(std::uint32_t iteration, SourceFrame& frame) override;
   const host::SensorInfo& sensor() const override { return sensor_; }
   bool has_identities() const override { return observations_.has_identities(); }
+  bool has_tracks() const override { return observations_.has_tracks(); }
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return truth_.landmarks;
   }

@@ -106,7 +106,10 @@ class Collector {
     copy.observations.reserve(points.count);
     for (std::uint64_t i = 0; i < points.count; ++i) {
       copy.observations.push_back(observation_of(*hw_point_at(&points, i)));
+      if (points.track != nullptr) copy.observations.back().track = points.track[i];
     }
+    copy.is_tracked = (frame.samples[0]->flags & HW_SAMPLE_TRACKED) != 0 && points.track != nullptr;
+    run_.has_tracks = run_.has_tracks || copy.is_tracked;
     run_.frames.push_back(std::move(copy));
     sequences_.push_back(frame.sequence);
   }

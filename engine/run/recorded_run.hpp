@@ -16,6 +16,7 @@ struct RecordedRun {
   host::SensorInfo sensor;
   std::int64_t period_ns = 0;  ///< 0 where not known
   bool has_identities = false;
+  bool has_tracks = false;
   std::vector<SourceFrame> frames;
   std::optional<std::vector<log::Landmark>> true_landmarks;
   std::optional<log::McapDamage> damage;  ///< where reading stopped; what stands before it is here
@@ -36,6 +37,7 @@ class RecordedSource : public Source {
   void read(std::uint32_t iteration, SourceFrame& frame) override { frame = run_.frames[iteration]; }
   const host::SensorInfo& sensor() const override { return run_.sensor; }
   bool has_identities() const override { return run_.has_identities; }
+  bool has_tracks() const override { return run_.has_tracks; }
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return run_.true_landmarks;
   }

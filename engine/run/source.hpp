@@ -16,6 +16,7 @@ namespace hallway::run {
 struct SourceFrame {
   std::int64_t t_ns = 0;
   std::vector<log::Observation> observations;  ///< sensor frame; identities are never shown to a plugin
+  bool is_tracked = false;                     ///< the sensor follows its points: Observation::track counts
   std::optional<Pose> T_world_body;            ///< where known
   bool orientation_known = true;               ///< false: only the position of T_world_body is meant
 };
@@ -33,6 +34,8 @@ class Source {
   virtual const host::SensorInfo& sensor() const = 0;
   /// Whether the observations name their true landmarks.
   virtual bool has_identities() const = 0;
+  /// Whether the sensor follows its points in any frame.
+  virtual bool has_tracks() const { return false; }
   /// Where the true landmarks are (world), if that is known.
   virtual const std::optional<std::vector<log::Landmark>>& true_landmarks() const = 0;
 };

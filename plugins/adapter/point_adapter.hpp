@@ -4,6 +4,7 @@
 #include <hallway/plugin.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ class PointAdapter {
   /// sensor that was not announced.
   const std::vector<Vec3>& gather(const hw_frame_t& frame) {
     points_.clear();
+    tracks_.clear();
     ranges_.clear();
     for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
       const hw_sample_t& sample = *frame.samples[k];
@@ -45,6 +47,10 @@ class PointAdapter {
     }
     return points_;
   }
+
+  /// The ids under which the sensors follow the points of gather(), in that order, HW_NO_TRACK for none; empty where no sensor
+  /// follows any. Different sensors' ids are taken for different ones only if they are.
+  const std::vector<std::uint64_t>& tracks() const { return tracks_; }
 
   /// Answers the pose of a frame, or that there is none, and logs where that changes.
   void put_pose(const sdk::Host& host, const hw_frame_t& frame, bool has_pose, const Pose& T_map_sensor) {
@@ -122,6 +128,16 @@ class PointAdapter {
       const Vec3 point(p.x, p.y, p.z);
       points_.push_back(is_reference ? point : sensor.T_reference_sensor * point);
     }
+    add_tracks(sample, points);
+  }
+
+  void add_tracks(const hw_sample_t& sample, const hw_points_t& points) {
+    const bool given = (sample.flags & HW_SAMPLE_TRACKED) != 0 && points.track != nullptr && points.count > 0;
+    if (!given && tracks_.empty()) return;
+    tracks_.resize(points_.size(), HW_NO_TRACK);
+    if (given)
+      std::copy(points.track, points.track + points.count,
+                tracks_.end() - static_cast<std::ptrdiff_t>(points.count));
   }
 
   std::vector<Sensor> sensors_;  ///< those that give points; the first one is the reference
@@ -129,6 +145,7 @@ class PointAdapter {
   Pose T_reference_body_;
   bool lost_ = false;
   std::vector<Vec3> points_;  ///< of this frame, in the reference sensor's frame
+  std::vector<std::uint64_t> tracks_;
   std::vector<Range> ranges_;
   std::vector<std::uint64_t> associations_;
 };

@@ -25,6 +25,9 @@ std::uint32_t to_c(LandmarkStatus status) {
 }
 
 static_assert(kNoLandmark == HW_NO_LANDMARK);
+static_assert(kNoTrack == HW_NO_TRACK);
+
+constexpr const char* kAssociations[] = {"place", "sensor"};  // by Association
 
 enum class Mode : int { ours = 0, thesis = 1 };
 constexpr const char* kModeNames[] = {"ours", "thesis"};
@@ -36,6 +39,9 @@ class SlamPoint final : public sdk::Plugin {
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
     add_options(parameters(), options_, slam_point::parameters());
+    parameters().add_choice(
+        "association", &association_, kAssociations,
+        "What tells which landmark a point is: its place, or the track under which the sensor follows it.");
     parameters().add_choice("mode", &mode_, kModeNames,
                             "ours: submaps solved together; thesis: groups placed one after another.");
     parameters().add_choice(
@@ -50,6 +56,7 @@ class SlamPoint final : public sdk::Plugin {
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
+    options_.association = static_cast<Association>(association_);
     if (mode_ == static_cast<int>(Mode::thesis)) {
       thesis_.emplace(options_, thesis_options_);
     } else {
@@ -70,7 +77,7 @@ class SlamPoint final : public sdk::Plugin {
 
   void process(const hw_frame_t& frame) override {
     const std::vector<Vec3>& points = adapter_.gather(frame);
-    const Answer& answer = thesis_ ? thesis_->process(points) : mapper_->process(points);
+    const Answer& answer = thesis_ ? thesis_->process(points) : mapper_->process(points, adapter_.tracks());
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer);
@@ -120,6 +127,7 @@ class SlamPoint final : public sdk::Plugin {
   }
 
   Options options_;
+  int association_ = 0;  ///< a place in kAssociations
   thesis::Options thesis_options_;
   int mode_ = static_cast<int>(Mode::ours);
   PointAdapter<Pose> adapter_;

@@ -181,6 +181,74 @@ TEST_F(LogImport, VictoriaPark) {
     EXPECT_EQ(again.frame(i).size(), log.frame(i).size());
 }
 
+/// A table of points that a camera followed, and the same points in our own axes.
+std::string stereo_table(std::uint32_t frames, std::vector<Points>& points) {
+  std::string text = "frame,t_s,id,x_right_m,y_down_m,z_fwd_m\n";
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    points.push_back(scene_points(f));
+    for (std::size_t i = 0; i < points.back().size(); ++i) {
+      const auto& p = points.back()[i];
+      text += fmt::format("{},{},{},{},{},{}\n", f, 0.1 * f, 10 * i, -p[1], -p[2], p[0]);
+    }
+  }
+  return text;
+}
+
+TEST_F(LogImport, StereoTracksKeepTheirTracks) {
+  std::vector<Points> points;
+  folder_.write("s_obs3d.csv", stereo_table(8, points));
+  ASSERT_EQ(convert({path("s_obs3d.csv")}).status, 0);
+  const log::ObservationLog log = frames_of(path("log.mcap"));
+  ASSERT_TRUE(log.has_tracks());
+  EXPECT_EQ(log.frame(3)[4].track, 40u);
+  expect_frames(points);
+  // Directly, and by way of the log: the same answers.
+  const std::vector<std::string> ways{path("s_obs3d.csv"), path("log.mcap")};
+  std::vector<std::string> poses;
+  for (const std::string& way : ways) {
+    const Ended ended = hallway({"replay", way, "--plugin", "slam_point", "--set", "association=sensor",
+                                 "--quiet", "--force", "--out", path("sensor")});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    poses.push_back(read_file(fs::path(path("sensor")) / "trajectory.tum"));
+  }
+  EXPECT_EQ(poses[0], poses[1]);
+  EXPECT_FALSE(poses[0].empty());
+}
+
+TEST_F(LogImport, IdsAreTracksOnDemandAlone) {
+  folder_.write(
+      "named.csv",
+      "iteration,landmark_id,x,y,z\n0,1,5,0,0\n0,2,5,3,0\n0,3,5,0,2\n1,3,5,0,2\n1,1,5,0,0\n1,2,5,3,0\n");
+  const auto replay = [&](const std::string& log, bool as_tracks) {
+    std::vector<std::string> arguments{"replay",  path(log), "--plugin", "slam_point",
+                                       "--quiet", "--force", "--out",    path("run")};
+    if (as_tracks) arguments.push_back("--ids-as-tracks");
+    return hallway(arguments);
+  };
+  ASSERT_EQ(replay("named.csv", false).status, 0);
+  EXPECT_FALSE(frames_of(path("run/run.mcap")).has_tracks());
+  const Ended told = replay("named.csv", true);
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.err.find("the plugins were told which landmark each point is"), std::string::npos)
+      << told.err;
+  EXPECT_EQ(frames_of(path("run/run.mcap")).frame(1)[0].track, 3u);
+  folder_.write("nameless.csv", "iteration,x,y,z\n0,5,0,0\n");
+  expect_failure(replay("nameless.csv", true), 2, "does not name the landmarks");
+}
+
+TEST_F(LogImport, RangeAndBearingBringTheirTruth) {
+  folder_.write("r_obs.csv",
+                "frame,t_s,id,range_m,yaw_rad,pitch_rad\n0,1,4,2,0,0\n0,1,5,2,1,0\n0,1,6,2,0,1\n");
+  folder_.write("r_ground_truth.txt", "2 0 0 5 0 0 4\n");
+  folder_.write("r_ground_truth_robot_path.txt", "0 0 0 0 0 0\n");
+  ASSERT_EQ(convert({path("r_obs.csv")}).status, 0);
+  EXPECT_EQ(poses_of(path("log.mcap")).size(), 1u);
+  EXPECT_EQ(frames_of(path("log.mcap")).frame(0)[1].landmark, 5u);
+  EXPECT_TRUE(fs::exists(fs::path(path("csv")) / "truth_landmarks.csv"));
+  expect_failure(convert({path("r_obs.csv"), "--stride", "2"}), 2,
+                 "--stride does not belong to a log of kind range-bearing");
+}
+
 TEST_F(LogImport, TheKindCanBeSaid) {
   folder_.write("cloud.csv", ascii_ply(scene_points(0)));
   EXPECT_EQ(convert({path("cloud.csv")}).status, 0) << "content tells";
@@ -212,7 +280,7 @@ TEST_F(LogImport, WhatIsNoRecordingIsAnErrorWithItsName) {
   expect_failure(convert({path("folder")}), 3, "folder: holds no log");
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   folder_.write("empty", "");
-  for (const char* kind : {"clouds", "tum", "victoria-park", "bag"}) {
+  for (const char* kind : {"clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"}) {
     expect_failure(convert({path("empty"), "--from", kind}), 3, "empty");
     expect_failure(convert({path("missing"), "--from", kind}), 3, "missing");
     expect_failure(convert({path("pipe"), "--from", kind}), 3, "pipe");

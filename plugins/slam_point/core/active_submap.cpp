@@ -2,6 +2,7 @@
 #include "slam_point/core/active_submap.hpp"
 
 #include "slam_point/core/alignment.hpp"
+#include "slam_point/core/robust_fit.hpp"
 
 namespace hallway::slam_point {
 
@@ -13,7 +14,7 @@ void ActiveSubmap::open(SubmapGraph& graph, Index submap) {
     const Member& member = members[m];
     grid_.add(member.mean);
     if (member.count == 0) grid_.remove(m);  // emptied by a merge
-    prior_.push_back({member.mean, member.count});
+    prior_.push_back({member.mean, member.count, member.quality});
   }
 }
 
@@ -22,17 +23,18 @@ void ActiveSubmap::begin_frame(const Pose& T_submap_sensor) {
 }
 
 void ActiveSubmap::join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first,
-                        std::uint64_t activation) {
+                        std::uint64_t activation, double weight) {
   const Vec3 mean = frames_.back().T_submap_sensor * point;
   const Index member = graph.join(graph.active(), landmark, mean, first);
   grid_.add(mean);
   prior_.push_back({});
-  observe(graph, member, point, activation);
+  observe(graph, member, point, activation, weight);
 }
 
-void ActiveSubmap::observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation) {
-  sightings_.push_back({member, point});
-  graph.observe(member, frames_.back().T_submap_sensor * point, activation);
+void ActiveSubmap::observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
+                           double weight) {
+  sightings_.push_back({member, point, weight});
+  graph.observe(member, frames_.back().T_submap_sensor * point, activation, weight);
   grid_.move(member, graph.submaps[graph.active()].members[member].mean);
 }
 
@@ -44,8 +46,7 @@ void ActiveSubmap::realign(SubmapGraph& graph, int sweeps, bool planar, double m
       Alignment alignment(frames_[f].T_submap_sensor);
       for (std::size_t s = frames_[f].first_sighting; s < end; ++s) {
         const Member& member = members[sightings_[s].member];
-        const double n = static_cast<double>(member.count);
-        alignment.add(member.mean, sightings_[s].point, n / (n + 1.0));
+        alignment.add(member.mean, sightings_[s].point, pair_weight(member.weight(), sightings_[s].weight));
       }
       alignment.solve(planar, min_spread_m2, frames_[f].T_submap_sensor);
     }
@@ -58,14 +59,13 @@ void ActiveSubmap::average(SubmapGraph& graph) const {
   for (std::size_t m = 0; m < members.size(); ++m) {
     members[m].mean = prior_[m].mean;
     members[m].count = prior_[m].count;
+    members[m].quality = prior_[m].quality;
   }
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const std::size_t end = f + 1 < frames_.size() ? frames_[f + 1].first_sighting : sightings_.size();
     for (std::size_t s = frames_[f].first_sighting; s < end; ++s) {
-      Member& member = members[sightings_[s].member];
-      ++member.count;
-      member.mean += (frames_[f].T_submap_sensor * sightings_[s].point - member.mean) /
-                     static_cast<double>(member.count);
+      members[sightings_[s].member].average(frames_[f].T_submap_sensor * sightings_[s].point,
+                                            sightings_[s].weight);
     }
   }
 }

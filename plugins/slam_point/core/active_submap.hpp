@@ -22,10 +22,12 @@ class ActiveSubmap {
   void begin_frame(const Pose& T_submap_sensor);
 
   /// Adds a new member for `landmark`, seen at `point` by the frame begun last. `first` says that this frame starts the submap.
-  void join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first, std::uint64_t activation);
+  void join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first, std::uint64_t activation,
+            double weight = 1.0);
 
-  /// Averages an observation of the frame begun last into a member.
-  void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation);
+  /// Averages an observation of the frame begun last into a member. `weight`: see Observation::weight.
+  void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
+               double weight = 1.0);
 
   /// Aligns each kept frame to the members' means again and averages anew, `sweeps` times; what the submap knew when it
   /// was opened counts as it did. `min_spread_m2`: see Alignment::solve; a frame below it keeps its alignment.
@@ -49,10 +51,12 @@ class ActiveSubmap {
   struct Sighting {
     Index member = kNone;
     Vec3 point = Vec3::Zero();  // sensor frame
+    double weight = 1.0;
   };
   struct Prior {
     Vec3 mean = Vec3::Zero();
     std::uint32_t count = 0;
+    double quality = 1.0;
   };
 
   void average(SubmapGraph& graph) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "slam_point/core/alignment.hpp"
@@ -19,15 +20,12 @@ constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same 
 constexpr int kMaxTurnsEachWay = 60;
 constexpr std::size_t kMostScored = 40;  // points of a frame that a turn is judged by
 
-double trust(std::uint32_t count) {
-  const double n = static_cast<double>(count);
-  return n / (n + 1.0);
-}
-
 }  // namespace
 
 FrameMatcher::FrameMatcher(const Options& options)
-    : options_(options), agreement_(kAgreementNoises * options.noise_m) {}
+    : options_(options),
+      agreement_(kAgreementNoises * options.noise_m),
+      reach_(std::max({options.match_bound(), options.map_bound(), agreement_})) {}
 
 FitRules FrameMatcher::rules(bool planar) const {
   // A rotation about an axis is known to noise / sqrt(sum of squared distances from the axis).
@@ -64,19 +62,26 @@ void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
 }
 
 void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T,
-                                 double bound, std::vector<Observation>& frame) {
+                                 double bound, double followed_bound, std::vector<Observation>& frame) {
   const std::vector<Member>& members = graph.submaps[graph.active()].members;
   const Mat3 rotation = T.q.toRotationMatrix();
   const double bound2 = bound * bound;
+  const double reach2 = std::max(bound2, agreement_ * agreement_);
   candidates_.clear();
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
     const Vec3 p = rotation * frame[o].point + T.t;
-    active.visit_members_near(p, [&](Index m) {
+    const auto consider = [&](Index m, double within2) {
       const double d2 = (members[m].mean - p).squaredNorm();
-      if (d2 <= bound2 && taken_[members[m].landmark] == 0)
+      if (d2 <= within2 && taken_[members[m].landmark] == 0)
         candidates_.push_back({d2, o, members[m].landmark});
-    });
+    };
+    if (!frame[o].is_followed()) {
+      active.visit_members_near(p, [&](Index m) { consider(m, std::min(bound2 / frame[o].weight, reach2)); });
+    } else if (frame[o].expected != kNone) {
+      const Index m = graph.landmarks[frame[o].expected].active_member;
+      if (m != kNone) consider(m, followed_bound * followed_bound / frame[o].weight);
+    }
   }
   take_nearest_first(frame);
 }
@@ -93,7 +98,7 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[graph.landmarks[observation.landmark].active_member];
-    const double bound2 = agreement_ * agreement_ / trust(member.count);
+    const double bound2 = agreement_ * agreement_ / pair_weight(member.weight(), observation.weight);
     if ((rotation * observation.point + T.t - member.mean).squaredNorm() <= bound2) continue;
     taken_[observation.landmark] = 0;
     observation.landmark = kNone;
@@ -105,12 +110,24 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
 FrameMatcher::Fit FrameMatcher::match_active(const SubmapGraph& graph, const ActiveSubmap& active,
                                              const Pose& predicted, bool planar,
                                              std::vector<Observation>& frame) {
+  const Fit fit = match_from(graph, active, predicted, planar, options_.match_bound(), frame);
+  const auto comparable = std::count_if(frame.begin(), frame.end(), [&](const Observation& observation) {
+    return observation.expected != kNone && graph.landmarks[observation.expected].active_member != kNone;
+  });
+  if (fit.solved && 2 * fit.agreeing >= comparable) return fit;
+  if (comparable == 0) return fit;
+  return match_from(graph, active, predicted, planar, std::numeric_limits<double>::infinity(), frame);
+}
+
+FrameMatcher::Fit FrameMatcher::match_from(const SubmapGraph& graph, const ActiveSubmap& active,
+                                           const Pose& predicted, bool planar, double followed_bound,
+                                           std::vector<Observation>& frame) {
   Fit fit;
   fit.T_submap_sensor = predicted;
   for (int pass = 0; pass < kMaxMatchPasses; ++pass) {
     begin(graph);
     for (Observation& observation : frame) observation.landmark = kNone;
-    match_members(graph, active, fit.T_submap_sensor, options_.match_bound(), frame);
+    match_members(graph, active, fit.T_submap_sensor, options_.match_bound(), followed_bound, frame);
     const int matched = static_cast<int>(taken_list_.size());
     fit.solved = fit_active(graph, frame, planar, fit.T_submap_sensor);
     if (!fit.solved) break;
@@ -126,7 +143,7 @@ FrameMatcher::Fit FrameMatcher::match_active(const SubmapGraph& graph, const Act
   }
   // What the prediction put too far from its member, or on another one, may agree now.
   const std::size_t before = taken_list_.size();
-  match_members(graph, active, fit.T_submap_sensor, agreement_, frame);
+  match_members(graph, active, fit.T_submap_sensor, agreement_, agreement_, frame);
   fit.agreeing += static_cast<int>(taken_list_.size() - before);
   return fit;
 }
@@ -206,12 +223,17 @@ void FrameMatcher::match_map(const SubmapGraph& graph, const Pose& T_map_sensor,
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
     const Vec3 p = rotation * frame[o].point + T_map_sensor.t;
-    graph.visit_landmarks_near(p, [&](Index l) {
+    const auto consider = [&](Index l, double reach2) {
       const LandmarkRecord& landmark = graph.landmarks[l];
-      const double bound2 = landmark.last_activation >= local_since ? local2 : old2;
+      const double bound2 = (landmark.last_activation >= local_since ? local2 : old2) / frame[o].weight;
       const double d2 = (landmark.position - p).squaredNorm();
-      if (d2 <= bound2 && taken_[l] == 0) candidates_.push_back({d2, o, l});
-    });
+      if (d2 <= std::min(bound2, reach2) && taken_[l] == 0) candidates_.push_back({d2, o, l});
+    };
+    if (!frame[o].is_followed()) {
+      graph.visit_landmarks_near(p, [&](Index l) { consider(l, reach_ * reach_); });
+    } else if (frame[o].expected != kNone) {
+      consider(frame[o].expected, std::numeric_limits<double>::infinity());
+    }
   }
   take_nearest_first(frame);
 }
@@ -223,7 +245,8 @@ bool FrameMatcher::fit_map(const SubmapGraph& graph, const std::vector<Observati
     if (observation.landmark == kNone) continue;
     const LandmarkRecord& landmark = graph.landmarks[observation.landmark];
     if (landmark.count == 0) continue;
-    pairs_.push_back({landmark.position, observation.point, trust(landmark.count)});
+    pairs_.push_back({landmark.position, observation.point, pair_weight(landmark.weight, observation.weight),
+                      observation.weight});
   }
   return robust_fit(pairs_, rules(planar), T_map_sensor);
 }
@@ -236,7 +259,8 @@ bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std:
     for (const Membership& at : graph.landmarks[observation.landmark].memberships) {
       if (at.submap != submap) continue;
       const Member& member = graph.submaps[submap].members[at.member];
-      pairs_.push_back({member.mean, observation.point, trust(member.count)});
+      pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
+                        observation.weight});
     }
   }
   return robust_fit(pairs_, rules(planar), T_submap_sensor);
@@ -245,7 +269,7 @@ bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std:
 bool FrameMatcher::agrees(const SubmapGraph& graph, const Pose& T_map_sensor,
                           const Observation& observation) const {
   const Vec3 residual = T_map_sensor * observation.point - graph.landmarks[observation.landmark].position;
-  return residual.squaredNorm() <= agreement_ * agreement_;
+  return observation.weight * residual.squaredNorm() <= agreement_ * agreement_;
 }
 
 int FrameMatcher::count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,

@@ -17,10 +17,17 @@ struct Observation {
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
+  double weight =
+      1.0;  ///< (noise_m / noise at its range)^2: what it counts for beside a point without range noise
+  TrackId track = kNoTrack;  ///< under which the sensor follows it; kNoTrack: its place tells what it is
+  Index expected = kNone;    ///< the landmark of its track; kNone for a new track
+
+  bool is_followed() const { return track != kNoTrack; }
 };
 
 /// Finds which landmark each point of a frame is (thesis 6.2.5 and 6.5.1). Matching is one-to-one: of all pairs within
-/// the bound the nearest is taken first, so the order of the points does not matter.
+/// the bound the nearest is taken first, so the order of the points does not matter. A point that the sensor follows is
+/// paired with the landmark of its track alone, within the same bounds.
 class FrameMatcher {
  public:
   explicit FrameMatcher(const Options& options);
@@ -33,7 +40,7 @@ class FrameMatcher {
   };
 
   /// Matches to the active submap's members, from the predicted T_submap_sensor, and fits. What does not agree after the fit is
-  /// left unmatched.
+  /// left unmatched. Where most points that the sensor follows do not agree from there, they are tried without a prediction.
   Fit match_active(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
                    std::vector<Observation>& frame);
 
@@ -73,7 +80,7 @@ class FrameMatcher {
   int count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
                      const Pose& T_map_sensor) const;
 
-  /// A residual up to here is noise [m].
+  /// A residual up to here is noise, for a point of weight 1 [m].
   double agreement() const { return agreement_; }
 
   FitRules rules(bool planar) const;
@@ -89,15 +96,19 @@ class FrameMatcher {
   void begin(const SubmapGraph& graph);
   void take_nearest_first(std::vector<Observation>& frame);
   void match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T, double bound,
-                     std::vector<Observation>& frame);
+                     double followed_bound, std::vector<Observation>& frame);
   bool fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar, Pose& T);
   int drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame);
   double score(const SubmapGraph& graph, const Pose& T_map_sensor,
                const std::vector<Observation>& frame) const;
   double turn_step(const std::vector<Observation>& frame, double max_turn_rad);
 
+  Fit match_from(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
+                 double followed_bound, std::vector<Observation>& frame);
+
   Options options_;
   double agreement_;
+  double reach_;  // of the grids that are asked
   std::vector<Candidate> candidates_;
   std::vector<std::uint8_t> taken_;  // landmark -> matched in this frame
   std::vector<Index> taken_list_;

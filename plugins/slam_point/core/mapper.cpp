@@ -15,6 +15,7 @@
 #include "slam_point/core/relocaliser.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/submap_solver.hpp"
+#include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -75,9 +76,10 @@ class Mapper::State {
         constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
         relocaliser_(options, matcher_.rules(true), matcher_.rules(false), options.map_bound()),
         meeting_(kMeetingNoises * options.noise_m),
-        settle_period_(options.global_period) {}
+        settle_period_(options.global_period),
+        ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
-  const Answer& process(std::span<const Vec3> points);
+  const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
   Map map(const std::vector<Pose>& poses) const;
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
@@ -89,8 +91,10 @@ class Mapper::State {
     Vec3 travel = Vec3::Zero();
   };
 
-  void place(std::span<const Vec3> points);
-  void take_points(std::span<const Vec3> points);
+  void place(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_points(std::span<const Vec3> points, std::span<const TrackId> tracks);
+  void take_tracks(std::span<const TrackId> tracks);
+  double weight_of(const Vec3& point) const;
   bool can_start() const;
   void start_map();
   void predict();
@@ -136,6 +140,7 @@ class Mapper::State {
   SubmapGraph graph_;
   ActiveSubmap active_;
   WindowSolver window_solver_;
+  TrackBook tracks_;
   MapStep map_step_;
   MapParts parts_;
   ConstellationIndex constellations_;
@@ -156,6 +161,7 @@ class Mapper::State {
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
+  bool followed_ = false;  // this frame came with the sensor's tracks, and they count
   bool started_ = false;
   bool planar_ = true;
   bool has_pose_ = false;
@@ -172,19 +178,20 @@ class Mapper::State {
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
   LandmarkId first_id_ = 0;       // id of landmark 0
+  bool ranges_count_;             // noise grows with the range
   Answer answer_;
 };
 
-const Answer& Mapper::State::process(std::span<const Vec3> points) {
+const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   constellations_.advance(graph_, kIndexedPerFrame);
   answer_.counters.merged += parts_.advance(graph_, kMovedPerFrame);
-  place(points);
+  place(points, tracks);
   if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
   return answer();
 }
 
-void Mapper::State::place(std::span<const Vec3> points) {
-  take_points(points);
+void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  take_points(points, tracks);
   if (!started_) {
     has_pose_ = can_start();
     if (has_pose_) {
@@ -214,21 +221,41 @@ void Mapper::State::place(std::span<const Vec3> points) {
   integrate();
 }
 
-void Mapper::State::take_points(std::span<const Vec3> points) {
+void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   frame_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Written so that NaN fails.
     if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
     if (points[i].z() != 0.0) planar_ = false;
     frame_.push_back({points[i], i});
+    if (ranges_count_) frame_.back().weight = weight_of(points[i]);
   }
+  take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
   ++answer_.counters.iterations;
 }
 
+double Mapper::State::weight_of(const Vec3& point) const {
+  const double share = options_.noise_m / options_.noise_at(point.norm());
+  return share * share;
+}
+
+void Mapper::State::take_tracks(std::span<const TrackId> tracks) {
+  followed_ = options_.association == Association::sensor && !tracks.empty();
+  if (!followed_) return;
+  for (Observation& observation : frame_) {
+    observation.track = tracks[observation.given];
+    observation.expected = tracks_.landmark_of(observation.track, graph_);
+    const bool elsewhere =
+        observation.expected != kNone && graph_.landmarks[observation.expected].part != graph_.part();
+    if (elsewhere) observation.expected = kNone;
+  }
+}
+
 bool Mapper::State::can_start() const {
   Alignment own(Pose{});
-  for (const Observation& observation : frame_) own.add(observation.point, observation.point, 1.0);
+  for (const Observation& observation : frame_)
+    own.add(observation.point, observation.point, observation.weight);
   const FitRules rules = matcher_.rules(planar_);
   Pose unused;
   return own.pairs() >= kLeastAgreeing && own.solve(planar_, rules.min_spread_m2, unused);
@@ -281,6 +308,7 @@ bool Mapper::State::fit_pose() {
 }
 
 void Mapper::State::search() {
+  if (followed_) return;  // tracks need no prediction
   ++answer_.counters.searches;
   if (!search_constellations()) search_turn();
 }
@@ -465,6 +493,8 @@ bool Mapper::State::start_over() {
   constellations_.clear();
   parts_.clear();
   parts_.begin(graph_);
+  tracks_.clear();
+  for (Observation& observation : frame_) observation.expected = kNone;
   map_step_ = MapStep();
   start_map();
   return true;
@@ -492,13 +522,16 @@ void Mapper::State::add_landmarks() {
   const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
+    if (observation.is_followed() && !tracks_.allows_new(observation)) continue;
     if (observation.landmark != kNone || observation.withheld) continue;
     const Vec3 p = rotation * observation.point + T_map_sensor_.t;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
       if ((graph_.landmarks[l].position - p).squaredNorm() < separation2) alone = false;
     });
-    if (alone) observation.landmark = graph_.add_landmark(p, activation_);
+    if (!alone && !observation.is_followed()) continue;
+    observation.landmark = graph_.add_landmark(p, activation_);
+    tracks_.give(observation.track, observation.landmark);
   }
 }
 
@@ -572,6 +605,7 @@ void Mapper::State::begin_map_step() {
 }
 
 void Mapper::State::merge_landmarks(Index closed) {
+  if (followed_) return;  // who follows two points says that they are two
   const double separation2 = options_.separation() * options_.separation();
   matcher_.mark(graph_, frame_);
   for (const Member& member : graph_.submaps[closed].members) {
@@ -661,9 +695,10 @@ void Mapper::State::integrate() {
     const Index member = landmark.active_member;
     ++last_seen_;
     if (member == kNone) {
-      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_);
+      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_,
+                   observation.weight);
     } else {
-      active_.observe(graph_, member, observation.point, activation_);
+      active_.observe(graph_, member, observation.point, activation_, observation.weight);
     }
   }
   first_of_submap_ = false;
@@ -711,9 +746,9 @@ Map Mapper::State::map(const std::vector<Pose>& poses) const {
     Vec3 sum = Vec3::Zero();
     for (const Membership& at : record.memberships) {
       const Member& member = graph_.submaps[at.submap].members[at.member];
-      sum += static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+      sum += member.weight() * (poses[at.submap] * member.mean);
     }
-    landmark.position = told_from(anchor, {{}, sum / static_cast<double>(record.count)}).t;
+    landmark.position = told_from(anchor, {{}, sum / record.weight}).t;
     map.landmarks.push_back(landmark);
   }
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
@@ -734,8 +769,8 @@ Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-const Answer& Mapper::process(std::span<const Vec3> points) {
-  return state_->process(points);
+const Answer& Mapper::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  return state_->process(points, tracks);
 }
 
 Map Mapper::map() const {

@@ -37,7 +37,13 @@ class Mapper {
   ///
   /// Cost: proportional to the points in view, independent of the size of the map, but for a windowed step over the
   /// last submaps when a submap closes. The answer lives until the next call.
-  const Answer& process(std::span<const Vec3> points);
+  const Answer& process(std::span<const Vec3> points) { return process(points, {}); }
+
+  /// The same for points that the sensor follows: `tracks` is empty or has one entry for each point, kNoTrack for none. With
+  /// Options::association `sensor`, a point is the landmark that its track was given when it was new, as long as it lies
+  /// where that is within the bounds; a track that does not so thrice in a row gets a new landmark. Else tracks are not
+  /// looked at.
+  const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
 
   /// The map as it stands. O(map).
   Map map() const;

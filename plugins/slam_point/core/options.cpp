@@ -12,6 +12,13 @@ constexpr std::array<Parameter, 14> kParameters{{
     {"noise_m", "m", 1e-4, 10.0,
      "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
      &Options::noise_m, nullptr},
+    {"noise_per_m", "1", 0.0, 1.0,
+     "Noise that grows with the range, in metres per metre; added in quadrature. Farther points then count "
+     "for less.",
+     &Options::noise_per_m, nullptr},
+    {"noise_per_m2", "1/m", 0.0, 1.0,
+     "Noise that grows with the square of the range, as of stereo; added in quadrature.",
+     &Options::noise_per_m2, nullptr},
     {"match_bound_m", "m", 0.0, 100.0,
      "Farthest a point may lie from where the motion prediction puts it; 0 means 12 noise_m.",
      &Options::match_bound_m, nullptr},

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string_view>
 
 namespace hallway::slam_point {
 
+/// What tells which landmark a point is.
+enum class Association : int {
+  place,  ///< where it lies
+  sensor  ///< the track under which the sensor follows it; where it has none, its place
+};
+
 /// Every tunable. `noise_m` is the one to choose; the bounds follow from it where they are 0.
 struct Options {
-  double noise_m = 0.05;  ///< standard deviation of one coordinate of an observation [m]
+  double noise_m = 0.05;      ///< standard deviation of one coordinate of an observation [m]
+  double noise_per_m = 0.0;   ///< what is added to the noise per metre of range [1]; see noise_at()
+  double noise_per_m2 = 0.0;  ///< what is added to the noise per square metre of range [1/m]; see noise_at()
   double match_bound_m =
       0.0;  ///< farthest a point may lie from where the prediction puts it [m]; 0: 12 noise_m
   double map_bound_m =
@@ -28,6 +37,13 @@ struct Options {
   int bridge_frames =
       10;  ///< frames without a pose that the last motion is continued for; then a new part begins
   int report_parts = 0;  ///< 1: pose and map are told of whatever part the sensor is in; 0: of the first only
+  Association association = Association::place;
+
+  /// Standard deviation of one coordinate of an observation at a range [m]: independent parts that are constant, grow with
+  /// the range, and grow with its square (stereo, whose disparity is equally exact everywhere).
+  double noise_at(double range_m) const {
+    return std::hypot(noise_m, noise_per_m * range_m, noise_per_m2 * range_m * range_m);
+  }
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;

@@ -75,8 +75,7 @@ void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Po
         place_[member.landmark] = static_cast<Index>(touched_.size());
         touched_.push_back(member.landmark);
       }
-      evidence_.push_back(
-          {rotation * member.mean, static_cast<double>(member.count), place_[member.landmark]});
+      evidence_.push_back({rotation * member.mean, member.weight(), place_[member.landmark]});
     }
   }
   evidence_start_.push_back(static_cast<Index>(evidence_.size()));
@@ -110,7 +109,7 @@ ReducedSystem::Mean ReducedSystem::mean_of(const SubmapGraph& graph, const std::
   double squares = 0.0;
   for (const Membership& at : memberships) {
     const Member& member = graph.submaps[at.submap].members[at.member];
-    const double count = static_cast<double>(member.count);
+    const double count = member.weight();
     const Vec3 place = poses[at.submap] * member.mean - origin;
     sum += count * place;
     squares += count * place.squaredNorm();

@@ -9,8 +9,8 @@
 namespace hallway::slam_point {
 
 /// The normal equations of placing submaps by least squares, with the landmarks eliminated: minimise the sum over
-/// submaps s and members i of count * |T_map_s mean_si - L_i|^2 over the poses of the free submaps and all landmarks,
-/// the other submaps held. Each landmark is the count-weighted mean of its places, so six unknowns a submap are left:
+/// submaps s and members i of weight * |T_map_s mean_si - L_i|^2 over the poses of the free submaps and all landmarks,
+/// the other submaps held. Each landmark is the weighted mean of its places, so six unknowns a submap are left:
 /// translation and rotation, on the left of T_map_s.
 ///
 /// It takes down what it needs, so that its rows can be made later, when the graph has changed. Submaps that the graph
@@ -41,7 +41,7 @@ class ReducedSystem {
     return gradient;
   }
 
-  /// The count-weighted squared distances of a landmark's places from their mean [m^2].
+  /// The weighted squared distances of a landmark's places from their mean [m^2].
   static double cost_of(const SubmapGraph& graph, const std::vector<Pose>& poses, Index landmark);
 
  private:

@@ -276,8 +276,7 @@ bool Relocaliser::fit(const SubmapGraph& graph, Hypothesis& hypothesis) {
   for (Index p = 0; p < points_.size(); ++p) {
     if (hypothesis.landmarks[p] == kNone) continue;
     const LandmarkRecord& landmark = graph.landmarks[hypothesis.landmarks[p]];
-    const double n = static_cast<double>(landmark.count);
-    pairs_.push_back({landmark.position, points_[p], n / (n + 1.0)});
+    pairs_.push_back({landmark.position, points_[p], pair_weight(landmark.weight, 1.0), 1.0});
   }
   return robust_fit(pairs_, planar_ ? planar_rules_ : solid_rules_, hypothesis.T);
 }

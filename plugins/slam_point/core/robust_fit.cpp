@@ -23,7 +23,7 @@ bool robust_fit(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) 
     bool outliers = false;
     const Mat3 rotation = fitted.q.toRotationMatrix();
     for (const Pair& pair : pairs) {
-      const double r2 = (pair.reference - rotation * pair.point - fitted.t).squaredNorm();
+      const double r2 = pair.quality * (pair.reference - rotation * pair.point - fitted.t).squaredNorm();
       outliers = outliers || r2 > inlier2;
       next.add(pair.reference, pair.point, r2 > inlier2 ? pair.weight * inlier2 / r2 : pair.weight);
     }

@@ -53,15 +53,14 @@ void SubmapGraph::deactivate() {
   }
 }
 
-void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation) {
+void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight) {
   Member& m = submaps[active_].members[member];
   LandmarkRecord& landmark = landmarks[m.landmark];
-  ++m.count;
-  m.mean += (p - m.mean) / static_cast<double>(m.count);
+  m.average(p, weight);
   landmark.count = landmark.settled_count + m.count;
   const Vec3 here = active_rotation_ * m.mean + poses[active_].t;
-  landmark.position =
-      (landmark.settled_sum + static_cast<double>(m.count) * here) / static_cast<double>(landmark.count);
+  landmark.weight = landmark.settled_weight + m.weight();
+  landmark.position = (landmark.settled_sum + m.weight() * here) / landmark.weight;
   landmark.last_activation = activation;
   grid_.move(m.landmark, landmark.position);
 }
@@ -70,22 +69,27 @@ void SubmapGraph::resum(Index index) {
   LandmarkRecord& landmark = landmarks[index];
   landmark.settled_sum.setZero();
   landmark.settled_count = 0;
+  landmark.settled_weight = 0.0;
   Vec3 active_sum = Vec3::Zero();
   std::uint32_t active_count = 0;
+  double active_weight = 0.0;
   for (const Membership& at : landmark.memberships) {
     const Member& member = submaps[at.submap].members[at.member];
-    const Vec3 weighted = static_cast<double>(member.count) * (poses[at.submap] * member.mean);
+    const Vec3 weighted = member.weight() * (poses[at.submap] * member.mean);
     if (at.submap == active_) {
       active_sum = weighted;
       active_count = member.count;
+      active_weight = member.weight();
     } else {
       landmark.settled_sum += weighted;
       landmark.settled_count += member.count;
+      landmark.settled_weight += member.weight();
     }
   }
   landmark.count = landmark.settled_count + active_count;
+  landmark.weight = landmark.settled_weight + active_weight;
   if (landmark.count == 0) return;
-  landmark.position = (landmark.settled_sum + active_sum) / static_cast<double>(landmark.count);
+  landmark.position = (landmark.settled_sum + active_sum) / landmark.weight;
   grid_.move(index, landmark.position);
 }
 
@@ -104,11 +108,12 @@ void SubmapGraph::merge(Index into, Index from) {
     }
     // A submap that knew both: one member takes all, the other stays as an empty place so that no number changes.
     Member& whole = members[same->member];
-    const std::uint32_t count = whole.count + member.count;
-    if (count > 0)
-      whole.mean +=
-          (member.mean - whole.mean) * (static_cast<double>(member.count) / static_cast<double>(count));
-    whole.count = count;
+    const double weight = whole.weight() + member.weight();
+    whole.count += member.count;
+    if (whole.count > 0) {
+      whole.mean += (member.mean - whole.mean) * (member.weight() / weight);
+      whole.quality = weight / static_cast<double>(whole.count);
+    }
     if (member.in_first_frame && whole.in_first_frame) --submaps[at.submap].first_frame_size;
     whole.in_first_frame = whole.in_first_frame || member.in_first_frame;
     member.in_first_frame = false;
@@ -119,7 +124,9 @@ void SubmapGraph::merge(Index into, Index from) {
   kept.last_activation = std::max(kept.last_activation, given.last_activation);
   given.memberships.clear();
   given.count = 0;
+  given.weight = 0.0;
   given.settled_count = 0;
+  given.settled_weight = 0.0;
   given.merged_into = into;
   grid_.remove(from);
   resum(into);
@@ -137,6 +144,8 @@ void SubmapGraph::drop(Index submap) {
     }
     landmark.count = 0;
     landmark.settled_count = 0;
+    landmark.weight = 0.0;
+    landmark.settled_weight = 0.0;
     landmark.part = kNone;
     ++dropped_;
     grid_.remove(member.landmark);

@@ -18,7 +18,17 @@ struct Member {
   Index landmark = kNone;
   std::uint32_t count = 0;      ///< observations averaged; 0: emptied by a merge
   bool in_first_frame = false;  ///< seen by the frame that started the submap
-  Vec3 mean = Vec3::Zero();     ///< submap frame [m]
+  Vec3 mean = Vec3::Zero();     ///< weighted by each observation's weight, submap frame [m]
+  double quality = 1.0;         ///< mean weight of its observations (Observation::weight)
+
+  /// What its mean counts for: the sum of its observations' weights.
+  double weight() const { return static_cast<double>(count) * quality; }
+  /// Averages an observation of a weight above 0 into the mean.
+  void average(const Vec3& p, double observation_weight) {
+    ++count;
+    quality += (observation_weight - quality) / static_cast<double>(count);
+    mean += observation_weight * (p - mean) / weight();
+  }
 };
 
 /// Where a landmark stands in a submap.
@@ -35,13 +45,15 @@ struct SubmapRecord {
   bool held = false;                   ///< its pose is the frame of its part: it stays where it is
 };
 
-/// One landmark: the count-weighted mean of its places in all submaps.
+/// One landmark: the mean of its places in all submaps, by their weights.
 struct LandmarkRecord {
   Vec3 position = Vec3::Zero();       ///< map frame [m]
   std::uint32_t count = 0;            ///< observations in all submaps
   std::uint64_t last_activation = 0;  ///< which activation of a submap saw it last
-  Vec3 settled_sum = Vec3::Zero();    ///< count-weighted sum of positions over all submaps but the active one
+  double weight = 0.0;                ///< of its members in all submaps
+  Vec3 settled_sum = Vec3::Zero();    ///< weighted sum of positions over all submaps but the active one
   std::uint32_t settled_count = 0;
+  double settled_weight = 0.0;
   Index active_member = kNone;  ///< its place in the active submap
   Index merged_into = kNone;    ///< set when it turned out to be another landmark
   Index part = 0;               ///< of the map: whose frame `position` is in; kNone when it was given up
@@ -71,7 +83,8 @@ class SubmapGraph {
   Index active() const { return active_; }
 
   /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
-  void observe(Index member, const Vec3& p, std::uint64_t activation);
+  /// `weight`: see Observation::weight.
+  void observe(Index member, const Vec3& p, std::uint64_t activation, double weight = 1.0);
 
   /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
   void resum(Index landmark);

@@ -26,6 +26,11 @@ using LandmarkId = std::uint64_t;
 /// "This observation belongs to no landmark."
 inline constexpr LandmarkId kNoLandmark = ~std::uint64_t{0};
 
+/// Names one point of the world for as long as the sensor itself follows it from frame to frame.
+using TrackId = std::uint64_t;
+/// "The sensor does not follow this point."
+inline constexpr TrackId kNoTrack = ~std::uint64_t{0};
+
 /// How far a landmark is trusted. `dynamic` is reserved: nothing is classified as moving.
 enum class LandmarkStatus { temporary, mapped, dynamic };
 

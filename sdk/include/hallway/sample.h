@@ -25,6 +25,9 @@ enum {
 /// Flag of a sample: hw_points_t.track is given.
 #define HW_SAMPLE_TRACKED 1u
 
+/// "The sensor does not follow this point": an id of hw_points_t.track that many points may have. Since 1.2.
+#define HW_NO_TRACK UINT64_MAX
+
 /// One reading of one sensor. The payload is as large as its own `size` or `count` and `stride` say.
 typedef struct hw_sample_t {
   uint32_t size;        ///< sizeof(hw_sample_t) of the writer

@@ -30,6 +30,24 @@ TEST(FrameBuilder, ASampleSaysWhatItIs) {
   EXPECT_EQ(sample.t_end_ns, 700);
 }
 
+TEST(FrameBuilder, TracksBelongToTheirPoints) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  builder.add_points(0) = {{1, 2, 3}, {4, 5, 6}};
+  builder.add_tracks() = {70, HW_NO_TRACK};
+  builder.add_points(1) = {{7, 8, 9}};
+  const hw_frame_t& frame = builder.finish();
+  EXPECT_EQ(frame.samples[0]->flags, HW_SAMPLE_TRACKED);
+  const auto& points = *static_cast<const hw_points_t*>(frame.samples[0]->payload);
+  EXPECT_EQ(points.track[0], 70u);
+  EXPECT_EQ(points.track[1], HW_NO_TRACK);
+  EXPECT_EQ(frame.samples[1]->flags, 0u);
+  EXPECT_EQ(static_cast<const hw_points_t*>(frame.samples[1]->payload)->track, nullptr);
+  builder.begin(1, 1);
+  builder.add_points(0) = {{1, 2, 3}};
+  EXPECT_EQ(builder.finish().samples[0]->flags, 0u) << "not those of the frame before";
+}
+
 TEST(FrameBuilder, PointsArriveInOrder) {
   FrameBuilder builder;
   builder.begin(0, 0);

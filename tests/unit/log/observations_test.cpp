@@ -72,6 +72,17 @@ TEST(ObservationLog, GivesFramesByIteration) {
   EXPECT_TRUE(log.frame(4'000'000'000u).empty());
 }
 
+TEST(ObservationLog, TracksAreAColumnOfTheirOwn) {
+  const ReadLog read = parse_observations("iteration,track,x,y,z\n0,12,1,2,3\n0,-1,4,5,6\n2,,,,\n", "a.csv");
+  ASSERT_FALSE(read.damage);
+  EXPECT_TRUE(read.log.has_tracks());
+  EXPECT_FALSE(read.log.has_identities());
+  EXPECT_EQ(read.log.frame(0)[0].track, 12u);
+  EXPECT_EQ(read.log.frame(0)[1].track, kNoTrack);
+  EXPECT_EQ(print_observations(read.log), "iteration,x,y,z,track\n0,1,2,3,12\n0,4,5,6,-1\n2,,,,\n");
+  EXPECT_FALSE(parse_observations("iteration,x,y,z\n0,1,2,3\n", "a.csv").log.has_tracks());
+}
+
 TEST(ObservationLog, RefusesFramesOutOfOrder) {
   ObservationLog log;
   log.add_frame(3, {});

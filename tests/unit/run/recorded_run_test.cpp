@@ -7,6 +7,7 @@
 #include "host/frame_bytes.hpp"
 #include "run/log_recorder.hpp"
 #include "run/log_source.hpp"
+#include "run/tracked_source.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::run {
@@ -33,6 +34,17 @@ LogSource three_frames() {
   sensor.name = "eyes";
   sensor.max_range_m = 60;
   return LogSource(std::move(observations), std::move(truth), sensor, kPeriod_ns, 0);
+}
+
+/// Two frames of a sensor that follows all points but one.
+LogSource followed_frames() {
+  log::ObservationLog observations(true, true);
+  const log::Observation first[] = {{.landmark = 7, .point = {1, 2, 3}, .track = 0},
+                                    {.landmark = 8, .point = {4, 5, 6}, .track = log::kNoTrack}};
+  const log::Observation last{.landmark = 8, .point = {7, 8, 9}, .track = 1'000'000'000'000};
+  observations.add_frame(0, first);
+  observations.add_frame(1, {&last, 1});
+  return LogSource(std::move(observations), {}, {}, kPeriod_ns, 0);
 }
 
 nlohmann::ordered_json manifest() {
@@ -68,6 +80,37 @@ std::string log_with(const std::vector<std::pair<std::string_view, std::string>>
   }
   writer.finish();
   return out.text();
+}
+
+std::vector<log::TrackId> tracks_of(Source& source, std::uint32_t iteration) {
+  SourceFrame frame;
+  source.read(iteration, frame);
+  EXPECT_TRUE(frame.is_tracked);
+  std::vector<log::TrackId> tracks;
+  for (const log::Observation& seen : frame.observations) tracks.push_back(seen.track);
+  return tracks;
+}
+
+TEST(RecordedRun, KeepsTheSensorsTracks) {
+  LogSource source = followed_frames();
+  ASSERT_TRUE(source.has_tracks());
+  RecordedSource recorded(read(record(source)), 0);
+  ASSERT_TRUE(recorded.has_tracks());
+  for (const std::uint32_t i : {0u, 1u}) EXPECT_EQ(tracks_of(recorded, i), tracks_of(source, i));
+  LogSource without = three_frames();
+  EXPECT_FALSE(RecordedSource(read(record(without)), 0).has_tracks());
+}
+
+TEST(TrackedSource, ATrackIsTheTrueLandmark) {
+  TrackedSource source(std::make_unique<LogSource>(three_frames()));
+  EXPECT_TRUE(source.has_tracks());
+  EXPECT_EQ(tracks_of(source, 0), (std::vector<log::TrackId>{7, log::kNoTrack}));
+  log::ObservationLog nameless;
+  const log::Observation seen{.landmark = log::kNoLandmark, .point = {1, 2, 3}};
+  nameless.add_frame(0, {&seen, 1});
+  EXPECT_THROW(
+      TrackedSource(std::make_unique<LogSource>(nameless, LogTruth(), host::SensorInfo(), kPeriod_ns, 0)),
+      Error);
 }
 
 std::string frame_bytes(std::uint64_t sequence, std::int64_t t_ns, const std::vector<hw_point3_t>& points) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "run/tracked_source.hpp"
+
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace hallway::run {
+
+static_assert(log::kNoTrack == log::kNoLandmark, "what has no identity has no track");
+
+TrackedSource::TrackedSource(std::unique_ptr<Source> source) : source_(std::move(source)) {
+  if (source_->has_identities()) return;
+  throw Error(ErrorCode::kUsage,
+              "the log does not name the landmarks of its points: there are no ids to track by");
+}
+
+void TrackedSource::read(std::uint32_t iteration, SourceFrame& frame) {
+  source_->read(iteration, frame);
+  frame.is_tracked = true;
+  for (log::Observation& seen : frame.observations) seen.track = seen.landmark;
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "run/source.hpp"
+
+namespace hallway::run {
+
+/// The frames of another source as a sensor would give them that follows every point and never errs: a point's track is its true
+/// landmark. For comparisons with algorithms that do not find out by themselves which point is which.
+class TrackedSource : public Source {
+ public:
+  /// Throws Error{kUsage} where the observations do not name their landmarks.
+  explicit TrackedSource(std::unique_ptr<Source> source);
+
+  std::uint32_t iterations() const override { return source_->iterations(); }
+  void read(std::uint32_t iteration, SourceFrame& frame) override;
+  const host::SensorInfo& sensor() const override { return source_->sensor(); }
+  bool has_identities() const override { return true; }
+  bool has_tracks() const override { return true; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
+    return source_->true_landmarks();
+  }
+
+ private:
+  std::unique_ptr<Source> source_;
+};
+
+}  // namespace hallway::run
