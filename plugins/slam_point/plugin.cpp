@@ -101,6 +101,7 @@ class SlamPoint final : public sdk::Plugin {
                                  {"relocalised", static_cast<double>(counters.relocalised)},
                                  {"parts", static_cast<double>(counters.parts)},
                                  {"parts_joined", static_cast<double>(counters.joined)},
+                                 {"determined", static_cast<double>(answer.determined)},
                                  {"part", answer.in_part ? static_cast<double>(answer.part) : -1.0}};
     host().put_counters(list);
   }

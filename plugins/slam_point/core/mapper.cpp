@@ -22,15 +22,15 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 constexpr int kMaxGlobalSteps = 20;
-constexpr double kSureShare = 0.5;    // of the comparable points, below which a better pose is searched
-constexpr int kSurePoints = 6;        // or all there are, likewise
-constexpr double kLeastShare = 0.4;   // below which there is no pose
-constexpr int kLeastAgreeing = 3;     // points: likewise, where the sensor was expected
-constexpr int kLeastInPlane = 2;      // likewise, of points in a plane
-constexpr int kLeastAfterSearch = 4;  // after a frame without a pose, or of many turns tried
-constexpr int kLeastAfterGap = 5;     // after more than a short gap
-constexpr int kShortGap = 3;          // frames
-constexpr int kTriedAfterGap = 300;   // places, as many as the turns that are tried
+constexpr double kSureShare = 0.5;   // of the comparable points, below which a better pose is searched
+constexpr int kSurePoints = 6;       // or all there are, likewise
+constexpr double kLeastShare = 0.4;  // below which there is no pose
+constexpr int kLeastAgreeing = 3;    // points: likewise, where the sensor was expected
+constexpr int kLeastInPlane = 2;     // likewise, of points in a plane
+constexpr int kLeastAfterLoss = 4;   // after a frame without a pose
+constexpr int kLeastAfterGap = 5;    // after more than a short gap
+constexpr int kShortGap = 3;         // frames
+constexpr int kTriedAfterGap = 300;  // places, as many as the turns that are tried
 constexpr double kMostAfterGap = 1e-3;
 constexpr double kWorthwhileGain =
     0.01;  // fall of the cost for which a step over the whole map is repeated soon
@@ -108,6 +108,7 @@ class Mapper::State {
   bool look_from(const Pose& T_map_sensor);
   bool is_placed();
   std::size_t comparable_points() const;
+  int determined_by_few() const;
   void lose_pose();
   bool recover();
   void gather_frame();
@@ -161,6 +162,7 @@ class Mapper::State {
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
+  bool fits_ = false;      // the matches determine a pose, whether they agree with it or not
   bool followed_ = false;  // this frame came with the sensor's tracks, and they count
   bool started_ = false;
   bool planar_ = true;
@@ -232,6 +234,7 @@ void Mapper::State::take_points(std::span<const Vec3> points, std::span<const Tr
   }
   take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
+  answer_.determined = 0;
   ++answer_.counters.iterations;
 }
 
@@ -296,7 +299,8 @@ void Mapper::State::match_map() {
 
 bool Mapper::State::fit_pose() {
   agreeing_ = 0;
-  if (matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_)) {
+  fits_ = matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  if (fits_) {
     agreeing_ = matcher_.count_agreeing(graph_, frame_, T_map_sensor_);
   }
   if (!fit_.solved) fit_.T_submap_sensor = graph_.poses[graph_.active()].inverse() * T_map_sensor_;
@@ -352,7 +356,8 @@ bool Mapper::State::is_placed() {
   // The less is known of where the sensor may be, the more places there are where a few points agree by chance.
   // Where it is expected, two determine the pose in a plane; but a frame of no more than these has nothing to check them by.
   int least = planar_ && frame_.size() >= kLeastAgreeing ? kLeastInPlane : kLeastAgreeing;
-  if (searched_ || frames_without_pose_ > 0) least = kLeastAfterSearch;
+  if (searched_) least = kLeastAgreeing;
+  if (frames_without_pose_ > 0) least = kLeastAfterLoss;
   if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
   if (frames_without_pose_ > kShortGap && agreeing_ >= least) {
     gather_frame();
@@ -368,7 +373,20 @@ std::size_t Mapper::State::comparable_points() const {
   return std::min(frame_.size(), last_seen_);
 }
 
+/// Degrees of freedom that points near where they were expected determine, when these are too few or on a line.
+int Mapper::State::determined_by_few() const {
+  // What fits and yet does not agree tells nothing, nor does what was expected long ago.
+  if (fits_ || frames_without_pose_ >= options_.bridge_frames) return 0;
+  const auto matched = std::count_if(frame_.begin(), frame_.end(), [](const Observation& observation) {
+    return observation.landmark != kNone;
+  });
+  if (matched == 0) return 0;
+  if (planar_) return 2;
+  return matched == 1 ? 3 : 5;
+}
+
 void Mapper::State::lose_pose() {
+  answer_.determined = determined_by_few();
   for (Observation& observation : frame_) observation.landmark = kNone;
   ++frames_without_pose_;
 }
@@ -710,6 +728,7 @@ Index Mapper::State::told_part() const {
 
 const Answer& Mapper::State::answer() {
   answer_.in_part = has_pose_;
+  if (has_pose_) answer_.determined = planar_ ? 3 : 6;
   answer_.part = started_ ? parts_.number_of(graph_.part()) : 0;
   answer_.has_pose = has_pose_ && graph_.part() == told_part();
   if (answer_.has_pose) {

@@ -25,7 +25,7 @@ class Mapper {
   /// A point that is not finite, or farther than 1e6 m, is skipped and belongs to no landmark.
   ///
   /// The first frame whose points determine a pose starts the map and has the identity pose. A later frame has a
-  /// pose when the points matched to the map determine one: at least three (two in a plane of three in view or more; four after a search for turns or a frame without a
+  /// pose when the points matched to the map determine one: at least three (two in a plane of three in view or more; four after a frame without a
   /// pose, five after more than three such frames), spread so that the rotation's standard deviation is below 0.1 rad; and when
   /// enough of them agree with the map: at least two fifths of the points in view, or of those the last placed frame saw if
   /// fewer. Where that fails, the frame is looked for in all of the map by its constellations of points (Relocaliser).

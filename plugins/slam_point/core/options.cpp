@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/options.hpp"
 
-#include <array>
 #include <sstream>
 #include <stdexcept>
 
 namespace hallway::slam_point {
 namespace {
 
-constexpr std::array<Parameter, 14> kParameters{{
+constexpr Parameter kParameters[] = {
     {"noise_m", "m", 1e-4, 10.0,
      "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
      &Options::noise_m, nullptr},
@@ -60,7 +59,7 @@ constexpr std::array<Parameter, 14> kParameters{{
      "that "
      "the map began with.",
      nullptr, &Options::report_parts},
-}};
+};
 
 }  // namespace
 

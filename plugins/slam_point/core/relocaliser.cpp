@@ -19,7 +19,7 @@ constexpr int kMostHypotheses = 300;      // tried in one call
 constexpr int kMostRefined = 24;          // of them fitted in full
 constexpr std::size_t kFirstLooks = 8;    // points near the triangle that decide whether it is worth more
 constexpr double kCoarseNoises = 12.0;
-constexpr double kAgreementNoises = 4.0;
+constexpr double kPlacementNoises = 4.0;
 constexpr int kPasses = 4;
 constexpr double kMostByChance = 1e-8;
 constexpr double kLeastShareOfPoints = 0.4;
@@ -59,7 +59,7 @@ Relocaliser::Relocaliser(const Options& options, const FitRules& planar_rules, c
       noise_(options.noise_m),
       reach_(reach_m),
       coarse_(std::min(kCoarseNoises * options.noise_m, reach_m)),
-      agreement_(std::min(kAgreementNoises * options.noise_m, reach_m)) {}
+      agreement_(std::min(kPlacementNoises * options.noise_m, reach_m)) {}
 
 bool Relocaliser::locate(const SubmapGraph& graph, const ConstellationIndex& index,
                          const std::vector<Vec3>& points, Index except, bool planar, Placement& placement) {
@@ -130,7 +130,7 @@ void Relocaliser::make_queries() {
 }
 
 void Relocaliser::add_queries(Index centre, const NearestNeighbours& near) {
-  const double least_height = planar_ ? 0.0 : 2.0 * kAgreementNoises * noise_;
+  const double least_height = planar_ ? 0.0 : 2.0 * kPlacementNoises * noise_;
   for (std::size_t i = 0; i < near.size(); ++i) {
     for (std::size_t j = i + 1; j < near.size(); ++j) {
       std::array<Index, 3> vertices{centre, near[i], near[j]};
@@ -138,7 +138,7 @@ void Relocaliser::add_queries(Index centre, const NearestNeighbours& near) {
       const std::array<Vec3, 3> corners{points_[vertices[0]], points_[vertices[1]], points_[vertices[2]]};
       const Triangle triangle = make_triangle(vertices, corners);
       const double area2 = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-      if (triangle.sides[2] < 2.0 * kAgreementNoises * noise_ || area2 < least_height * triangle.sides[0])
+      if (triangle.sides[2] < 2.0 * kPlacementNoises * noise_ || area2 < least_height * triangle.sides[0])
         continue;
       queries_.push_back({triangle, 0, 0});
     }

@@ -75,7 +75,9 @@ struct Counters {
 struct Answer {
   bool has_pose = false;  ///< see Mapper::process for the rule
   Pose T_map_sensor;      ///< defined when has_pose
-  bool in_part = false;   ///< the frame was placed in the part of the map that is numbered `part`
+  int determined =
+      0;  ///< degrees of freedom of the pose that the frame determines: 6, or 3 in a plane, when it is placed
+  bool in_part = false;  ///< the frame was placed in the part of the map that is numbered `part`
   std::uint64_t part =
       0;  ///< parts are numbered in the order of their first frames; the map's own frame is that of part 0
   std::vector<LandmarkId> associations;  ///< one per point given, in their order; kNoLandmark for none
