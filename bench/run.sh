@@ -18,6 +18,8 @@ echo
 echo
 "$build/bin/bench_visibility"
 echo
+"$build/bin/bench_slam_point_speed"
+echo
 "$build/bin/bench_bsp"
 echo
 "$build/bin/bench_edit"

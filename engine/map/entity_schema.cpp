@@ -17,6 +17,7 @@ constexpr double kFarthest_m = 1e5;
 constexpr double kLargestAngle_deg = 3600.0;
 constexpr double kFullTurn_deg = 360.0;
 constexpr double kLargestNoise_m = 1e3;
+constexpr double kLargestNoisePerM = 1.0;
 constexpr double kFarthestMount_m = 1e3;
 
 constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
@@ -86,6 +87,7 @@ constexpr std::array kSensor{
     number("min_range_m", 0.0, kLongest_m, "0"),
     number("max_range_m", 0.0, kLongest_m, "100"),
     numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
+    numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0"),
     numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
     number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
     number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0"),

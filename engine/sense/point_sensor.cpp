@@ -34,6 +34,7 @@ class SpecCheck {
                               format_double(spec_.max_range_m));
     }
     for (const double sigma : spec_.noise_m) check_not_negative("noise_m", sigma);
+    for (const double slope : spec_.noise_per_m) check_not_negative("noise_per_m", slope);
     const Pose& mount = spec_.T_body_sensor;
     if (!mount.t.allFinite() || !(std::abs(mount.q.norm() - 1.0) < kUnitRounding)) {
       fail("T_body_sensor", "is not a finite position and a unit quaternion");
@@ -102,8 +103,10 @@ PointSensor::Seen PointSensor::make_seen(const VisiblePoint& visible, std::uint3
   const Vec3 deviates(noise_.normal(step, first), noise_.normal(step, first + 1),
                       noise_.normal(step, first + 2));
   const auto bits = order_.bits(step, visible.landmark);
+  const Vec3 growing = visible.point.norm() * spec_.noise_per_m;
+  const Vec3 sigma = (spec_.noise_m.array().square() + growing.array().square()).sqrt();
   return {std::uint64_t{bits[0]} << 32 | bits[1],
-          {visible.landmark, visible.point + spec_.noise_m.cwiseProduct(deviates)}};
+          {visible.landmark, visible.point + sigma.cwiseProduct(deviates)}};
 }
 
 }  // namespace hallway::sense

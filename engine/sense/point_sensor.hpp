@@ -22,6 +22,9 @@ struct PointSensorSpec {
   double min_range_m = 0.0;                              ///< distance from the sensor, inclusive
   double max_range_m = 100.0;                            ///< distance from the sensor, inclusive
   Vec3 noise_m = Vec3::Zero();  ///< standard deviation along each axis of the sensor's frame
+  /// Standard deviation of a second, independent part of the noise, per metre of distance from the sensor: together
+  /// sqrt(noise_m^2 + (noise_per_m distance)^2) along each axis.
+  Vec3 noise_per_m = Vec3::Zero();
 };
 
 /// One seen point.

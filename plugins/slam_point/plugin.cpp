@@ -7,6 +7,7 @@
 #include "adapter/option_rows.hpp"
 #include "adapter/point_adapter.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/thesis_mapper.hpp"
 
 namespace hallway::slam_point {
@@ -39,6 +40,9 @@ class SlamPoint final : public sdk::Plugin {
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
     add_options(parameters(), options_, slam_point::parameters());
+    parameters().add_choice(
+        "index", &options_.index, kIndexNames,
+        "What finds points near a place; changes the time a frame takes and nothing else.");
     parameters().add_choice(
         "association", &association_, kAssociations,
         "What tells which landmark a point is: its place, or the track under which the sensor follows it.");

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/submap_graph.hpp"
 
 namespace hallway::slam_point {
@@ -13,7 +13,7 @@ namespace hallway::slam_point {
 class ActiveSubmap {
  public:
   /// `reach_m`: the largest distance that visit_members_near() is asked for [m].
-  explicit ActiveSubmap(double reach_m) : grid_(reach_m) {}
+  explicit ActiveSubmap(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
 
   /// Takes up `submap` of `graph`, new or old, and makes it the graph's active one.
   void open(SubmapGraph& graph, Index submap);
@@ -61,7 +61,7 @@ class ActiveSubmap {
 
   void average(SubmapGraph& graph) const;
 
-  HashGrid grid_;  // of members' means
+  PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
   std::vector<Sighting> sightings_;
   std::vector<Prior> prior_;  // by member: what was known at open()

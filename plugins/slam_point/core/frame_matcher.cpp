@@ -48,16 +48,42 @@ void FrameMatcher::mark(const SubmapGraph& graph, const std::vector<Observation>
   }
 }
 
+void FrameMatcher::take(const Candidate& candidate, std::vector<Observation>& frame) {
+  frame[candidate.observation].landmark = candidate.landmark;
+  taken_[candidate.landmark] = 1;
+  taken_list_.push_back(candidate.landmark);
+}
+
+void FrameMatcher::take_undisputed(std::vector<Observation>& frame) {
+  claims_.resize(taken_.size(), 0);
+  for (const Candidate& candidate : candidates_) {
+    std::uint8_t& claims = claims_[candidate.landmark];
+    if (claims < 2) ++claims;
+  }
+  disputed_.clear();
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Candidate& candidate = candidates_[c];
+    const bool alone =
+        (c == 0 || candidates_[c - 1].observation != candidate.observation) &&
+        (c + 1 == candidates_.size() || candidates_[c + 1].observation != candidate.observation);
+    if (alone && claims_[candidate.landmark] == 1) {
+      take(candidate, frame);
+    } else {
+      disputed_.push_back(candidate);
+    }
+  }
+  for (const Candidate& candidate : candidates_) claims_[candidate.landmark] = 0;
+  std::swap(candidates_, disputed_);
+}
+
 void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
+  take_undisputed(frame);
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.d2, a.observation, a.landmark) < std::tie(b.d2, b.observation, b.landmark);
   });
   for (const Candidate& candidate : candidates_) {
-    Observation& observation = frame[candidate.observation];
-    if (observation.landmark != kNone || taken_[candidate.landmark] != 0) continue;
-    observation.landmark = candidate.landmark;
-    taken_[candidate.landmark] = 1;
-    taken_list_.push_back(candidate.landmark);
+    const bool is_free = frame[candidate.observation].landmark == kNone && taken_[candidate.landmark] == 0;
+    if (is_free) take(candidate, frame);
   }
 }
 
@@ -71,13 +97,14 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
     const Vec3 p = rotation * frame[o].point + T.t;
+    const double near2 = std::min(bound2 / frame[o].weight, reach2);
     const auto consider = [&](Index m, double within2) {
       const double d2 = (members[m].mean - p).squaredNorm();
       if (d2 <= within2 && taken_[members[m].landmark] == 0)
         candidates_.push_back({d2, o, members[m].landmark});
     };
     if (!frame[o].is_followed()) {
-      active.visit_members_near(p, [&](Index m) { consider(m, std::min(bound2 / frame[o].weight, reach2)); });
+      active.visit_members_near(p, [&](Index m) { consider(m, near2); });
     } else if (frame[o].expected != kNone) {
       const Index m = graph.landmarks[frame[o].expected].active_member;
       if (m != kNone) consider(m, followed_bound * followed_bound / frame[o].weight);
@@ -88,7 +115,16 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
 
 bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
                               Pose& T) {
-  return fit_submap(graph, graph.active(), frame, planar, T);
+  // As fit_submap() does, without a search for the member.
+  const std::vector<Member>& members = graph.submaps[graph.active()].members;
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const Member& member = members[graph.landmarks[observation.landmark].active_member];
+    pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
+                      observation.weight});
+  }
+  return robust_fit(pairs_, rules(planar), T);
 }
 
 int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame) {
@@ -98,8 +134,8 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[graph.landmarks[observation.landmark].active_member];
-    const double bound2 = agreement_ * agreement_ / pair_weight(member.weight(), observation.weight);
-    if ((rotation * observation.point + T.t - member.mean).squaredNorm() <= bound2) continue;
+    const double r2 = (rotation * observation.point + T.t - member.mean).squaredNorm();
+    if (r2 * pair_weight(member.weight(), observation.weight) <= agreement_ * agreement_) continue;
     taken_[observation.landmark] = 0;
     observation.landmark = kNone;
     ++dropped;

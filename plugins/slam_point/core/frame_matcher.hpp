@@ -94,6 +94,10 @@ class FrameMatcher {
 
   bool agrees(const SubmapGraph& graph, const Pose& T_map_sensor, const Observation& observation) const;
   void begin(const SubmapGraph& graph);
+  void take(const Candidate& candidate, std::vector<Observation>& frame);
+  /// Takes the candidates that neither their point nor their landmark has another of, and leaves the others in candidates_, which stand
+  /// together by point: what they are does not depend on order, so most of a frame need not be sorted.
+  void take_undisputed(std::vector<Observation>& frame);
   void take_nearest_first(std::vector<Observation>& frame);
   void match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T, double bound,
                      double followed_bound, std::vector<Observation>& frame);
@@ -110,7 +114,9 @@ class FrameMatcher {
   double agreement_;
   double reach_;  // of the grids that are asked
   std::vector<Candidate> candidates_;
-  std::vector<std::uint8_t> taken_;  // landmark -> matched in this frame
+  std::vector<Candidate> disputed_;
+  std::vector<std::uint8_t> claims_;  // landmark -> candidates, at most two; 0 between calls
+  std::vector<std::uint8_t> taken_;   // landmark -> matched in this frame
   std::vector<Index> taken_list_;
   std::vector<Index> strays_;
   std::vector<Pair> pairs_;

@@ -70,8 +70,9 @@ class Mapper::State {
       : options_(checked(options)),
         matcher_(options),
         graph_(std::max(
-            {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()})),
-        active_(std::max(options.match_bound(), matcher_.agreement())),
+                   {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
+               static_cast<IndexKind>(options.index)),
+        active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         parts_(matcher_.agreement()),
         constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
         relocaliser_(options, matcher_.rules(true), matcher_.rules(false), options.map_bound()),
@@ -84,6 +85,7 @@ class Mapper::State {
   const SubmapGraph& graph() const { return graph_; }
   bool planar() const { return planar_; }
   const Options& options() const { return options_; }
+  void time_stages(StageTimes* times) { clock_.add_to(times); }
 
  private:
   struct Motion {
@@ -182,13 +184,16 @@ class Mapper::State {
   LandmarkId first_id_ = 0;       // id of landmark 0
   bool ranges_count_;             // noise grows with the range
   Answer answer_;
+  StageClock clock_;
 };
 
 const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
+  clock_.begin();
   constellations_.advance(graph_, kIndexedPerFrame);
   answer_.counters.merged += parts_.advance(graph_, kMovedPerFrame);
   place(points, tracks);
   if (map_step_.under_way()) map_step_ready_ = map_step_.advance(kWorkPerFrame);
+  clock_.end(Stage::solving);
   return answer();
 }
 
@@ -205,8 +210,10 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   predict();
   match_active_submap();
   match_map();
+  clock_.end(Stage::matching);
   if (!fit_pose()) search();
   has_pose_ = is_placed();
+  clock_.end(Stage::fitting);
   if (!has_pose_) {
     has_pose_ = recover();
     return;
@@ -214,13 +221,18 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
   add_landmarks();
+  const bool is_over = overlap_with_active() < options_.overlap ||
+                       active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
+  clock_.end(Stage::averaging);
   if (meet_part()) {
     take_submap();
-  } else if (overlap_with_active() < options_.overlap ||
-             active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames)) {
+    clock_.end(Stage::closing);
+  } else if (is_over) {
     change_submap();
+    clock_.end(Stage::closing);
   }
   integrate();
+  clock_.end(Stage::averaging);
 }
 
 void Mapper::State::take_points(std::span<const Vec3> points, std::span<const TrackId> tracks) {
@@ -808,6 +820,10 @@ void Mapper::reset() {
 
 const Options& Mapper::options() const {
   return state_->options();
+}
+
+void Mapper::time_stages(StageTimes* times) {
+  state_->time_stages(times);
 }
 
 }  // namespace hallway::slam_point

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "slam_point/core/options.hpp"
+#include "slam_point/core/stage_clock.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -55,6 +56,10 @@ class Mapper {
   void reset();
 
   const Options& options() const;
+
+  /// Adds what each stage of process() takes to `times` [us, wall clock] from now on, until reset(); null: to nothing. `times` must live as long as
+  /// it is added to.
+  void time_stages(StageTimes* times);
 
  private:
   class State;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/options.hpp"
 
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "slam_point/core/point_index.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -55,9 +59,8 @@ constexpr Parameter kParameters[] = {
      "begins.",
      nullptr, &Options::bridge_frames},
     {"report_parts", "1", 0, 1,
-     "1: poses and map are those of the part of the map that the sensor is in; 0: only those of the part "
-     "that "
-     "the map began with.",
+     "1: poses and map are those of the part of the map that the sensor is in; 0: only those of the "
+     "part that the map began with.",
      nullptr, &Options::report_parts},
 };
 
@@ -87,6 +90,8 @@ const Parameter* find_parameter(std::string_view name) {
 }
 
 void Options::validate() const {
+  if (index < 0 || index >= static_cast<int>(std::size(kIndexNames)))
+    throw std::invalid_argument("index is " + std::to_string(index) + "; there is no such structure");
   for (const Parameter& parameter : kParameters) {
     const double value = parameter.get(*this);
     if (value >= parameter.min && value <= parameter.max) continue;

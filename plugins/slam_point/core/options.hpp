@@ -32,7 +32,8 @@ struct Options {
   int min_observations = 5;  ///< observations that make a landmark `mapped`
   double smoothing = 0.5;    ///< share of the newest relative motion in the prediction [1]
   double max_turn_rad =
-      0.35;  ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
+      0.35;       ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
+  int index = 0;  ///< an IndexKind: what finds points near a place
 
   int bridge_frames =
       10;  ///< frames without a pose that the last motion is continued for; then a new part begins

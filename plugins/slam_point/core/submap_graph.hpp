@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -67,7 +67,7 @@ struct LandmarkRecord {
 class SubmapGraph {
  public:
   /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m].
-  explicit SubmapGraph(double reach_m) : grid_(reach_m) {}
+  explicit SubmapGraph(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
 
   /// A submap of the current part. The first of all is held.
   Index add_submap(const Pose& T_map_submap);
@@ -93,7 +93,7 @@ class SubmapGraph {
   /// Not while the active submap holds both.
   void merge(Index into, Index from);
 
-  /// Calls visit(landmark) for each landmark of the current part near p and some farther ones; see HashGrid::visit_near.
+  /// Calls visit(landmark) for each landmark of the current part near p and some farther ones; see PointIndex::visit_near.
   template <typename Visit>
   void visit_landmarks_near(const Vec3& p, Visit&& visit) const {
     visit_part_landmarks_near(part_, p, visit);
@@ -124,7 +124,7 @@ class SubmapGraph {
   std::vector<Pose> poses;  ///< T_map_submap of each submap
 
  private:
-  HashGrid grid_;
+  PointIndex grid_;
   Index active_ = kNone;
   Index part_ = 0;
   std::size_t dropped_ = 0;

@@ -186,6 +186,7 @@ void expect_equal(const sense::PointSensorSpec& a, const sense::PointSensorSpec&
   EXPECT_EQ(a.min_range_m, b.min_range_m);
   EXPECT_EQ(a.max_range_m, b.max_range_m);
   EXPECT_EQ(a.noise_m, b.noise_m);
+  EXPECT_EQ(a.noise_per_m, b.noise_per_m);
 }
 
 TEST(Simulator, TakesTheSensorsOfTheMapWhereTheScenarioHasNone) {
@@ -210,13 +211,15 @@ TEST(Simulator, AllKeysOfAMapsSensorMeanWhatAScenariosDo) {
   const std::string in_map = sensor_entity(
       "a",
       "\"kind\" \"points\"\n\"horizontal_fov_deg\" \"120\"\n\"vertical_fov_deg\" \"30\"\n\"min_range_m\" "
-      "\"0.5\"\n\"max_range_m\" \"7\"\n\"noise_m\" \"0.1 0.2 0.3\"\n\"position_m\" \"1 2 3\"\n\"yaw_deg\" "
+      "\"0.5\"\n\"max_range_m\" \"7\"\n\"noise_m\" \"0.1 0.2 0.3\"\n\"noise_per_m\" \"0.01\"\n\"position_m\" "
+      "\"1 2 3\"\n\"yaw_deg\" "
       "\"10\"\n\"pitch_deg\" \"20\"\n\"roll_deg\" \"30\"\n");
   World mapped(test::scenario_text(), test::map_text("", in_map + sensor_entity("b", "")));
-  World written(test::scenario_text(
-      "[sensor.a]\nkind = 'points'\nhorizontal_fov_deg = 120\nvertical_fov_deg = 30\n"
-      "min_range_m = 0.5\nmax_range_m = 7\nnoise_m = [0.1, 0.2, 0.3]\nposition_m = [1, 2, 3]\n"
-      "yaw_deg = 10\npitch_deg = 20\nroll_deg = 30\n[sensor.b]\nkind = 'points'\n"));
+  World written(
+      test::scenario_text("[sensor.a]\nkind = 'points'\nhorizontal_fov_deg = 120\nvertical_fov_deg = 30\n"
+                          "min_range_m = 0.5\nmax_range_m = 7\nnoise_m = [0.1, 0.2, 0.3]\nnoise_per_m = "
+                          "0.01\nposition_m = [1, 2, 3]\n"
+                          "yaw_deg = 10\npitch_deg = 20\nroll_deg = 30\n[sensor.b]\nkind = 'points'\n"));
   const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
   ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k)
