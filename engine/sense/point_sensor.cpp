@@ -74,8 +74,8 @@ PointSensor::PointSensor(PointSensorSpec spec, const LandmarkIndex& landmarks, c
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
-void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned threads,
-                          std::vector<PointObservation>& out) const {
+void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, std::span<const LandmarkPlace> moved,
+                          unsigned threads, std::vector<PointObservation>& out) const {
   constexpr std::size_t kGrain = 256;
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
   const Vec3& viewpoint = T_world_sensor.t;
@@ -85,7 +85,7 @@ void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned
                 {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
   }
   std::vector<VisiblePoint> visible;
-  visibility_.find(T_world_sensor, threads, visible);
+  visibility_.find(T_world_sensor, moved, threads, visible);
   std::vector<Seen> all(visible.size());
   parallel_for(visible.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) all[i] = make_seen(visible[i], step);

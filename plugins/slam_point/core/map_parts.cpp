@@ -88,18 +88,18 @@ Index MapParts::move(SubmapGraph& graph, Index landmark) {
   if (twin == kNone) return landmark;
   const Index into = std::min(landmark, twin);
   graph.merge(into, std::max(landmark, twin));
-  ++merged_;
+  merges_.push_back({std::max(landmark, twin), into});
   return into;
 }
 
-std::size_t MapParts::advance(SubmapGraph& graph, std::size_t landmarks) {
-  const std::size_t before = merged_;
+void MapParts::advance(SubmapGraph& graph, std::size_t landmarks) {
   while (landmarks > 0 && !waiting_.empty()) {
     const Waiting& waiting = waiting_.front();
     const std::vector<Member>& members = graph.submaps[waiting.submap].members;
     for (; next_member_ < members.size() && landmarks > 0; ++next_member_) {
       const Index landmark = members[next_member_].landmark;
       if (graph.landmarks[landmark].part != waiting.from) continue;
+      if (graph.landmarks[landmark].count == 0) continue;  // found to move
       move(graph, landmark);
       --landmarks;
     }
@@ -107,7 +107,6 @@ std::size_t MapParts::advance(SubmapGraph& graph, std::size_t landmarks) {
     waiting_.pop_front();
     next_member_ = 0;
   }
-  return merged_ - before;
 }
 
 Index MapParts::first() const {
@@ -121,7 +120,7 @@ void MapParts::clear() {
   parts_.clear();
   waiting_.clear();
   alive_ = 0;
-  merged_ = 0;
+  merges_.clear();
   next_member_ = 0;
 }
 

@@ -38,8 +38,8 @@ class MapParts {
 
   /// Moves one landmark of the part that is being moved at once. Returns the landmark that it is from now on. O(its submaps).
   Index move(SubmapGraph& graph, Index landmark);
-  /// Moves about `landmarks` of those that wait, those of the newest submaps first. Returns how many became the same as another.
-  std::size_t advance(SubmapGraph& graph, std::size_t landmarks);
+  /// Moves about `landmarks` of those that wait, those of the newest submaps first.
+  void advance(SubmapGraph& graph, std::size_t landmarks);
 
   /// Counts a frame that was placed in `part`.
   void count_frame(Index part) { ++parts_[part].frames; }
@@ -54,8 +54,14 @@ class MapParts {
   Index number_of(Index part) const { return parts_[part].number; }
   /// The submap whose pose is the frame that the part is told in.
   Index anchor_of(Index part) const { return parts_[part].anchor; }
-  /// Landmarks that became the same as another in joins.
-  std::size_t merged() const { return merged_; }
+  /// Landmark `from` became the same as `into`.
+  struct Merge {
+    Index from = kNone;
+    Index into = kNone;
+  };
+  /// What move() and advance() made the same since forget_merges().
+  const std::vector<Merge>& merges() const { return merges_; }
+  void forget_merges() { merges_.clear(); }
 
   void clear();
 
@@ -77,7 +83,7 @@ class MapParts {
   double twin_bound_;
   std::vector<Part> parts_;
   std::size_t alive_ = 0;
-  std::size_t merged_ = 0;
+  std::vector<Merge> merges_;
   std::deque<Waiting> waiting_;  // submaps whose landmarks are to be moved
   Index next_member_ = 0;        // of the first of them
 };

@@ -80,7 +80,7 @@ TEST(MapParts, TheSmallerOneMovesIntoTheLarger) {
   EXPECT_TRUE(two.parts.is_joining());
   two.finish();
   two.expect_joined(Pose{});
-  EXPECT_EQ(two.parts.merged(), 2u);
+  EXPECT_EQ(two.parts.merges().size(), 2u);
 }
 
 TEST(MapParts, WhicheverIsSaidFirst) {
