@@ -21,7 +21,8 @@ constexpr double kFlatEnough =
 constexpr std::size_t kThinning = 4;                 // of a coarser level: half the density along an edge
 constexpr std::size_t kFewest = 400;                 // points of the coarsest level
 constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples, modulo 1, lie apart from each other
-constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise
+constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise ...
+constexpr double kNarrow = 0.125;                    // ... without those so much narrower than the flat ones are
 
 /// A level of the cloud: every 4^l-th point.
 struct Level {
@@ -115,6 +116,12 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
   return seed;
 }
 
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers) {
@@ -141,12 +148,15 @@ std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size
 
 double noise_of_seeds(const std::vector<Seed>& seeds) {
   if (seeds.empty()) return 0.0;
-  std::vector<double> noise;
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < (seeds.size() + 1) / 2; ++k) radii.push_back(seeds[k].radius);
+  const double narrowest = kNarrow * median(radii);
   const std::size_t best = (seeds.size() + kBestShare - 1) / kBestShare;
-  for (std::size_t k = 0; k < best; ++k) noise.push_back(seeds[k].noise);
-  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
-  std::nth_element(noise.begin(), middle, noise.end());
-  return *middle;
+  std::vector<double> noise;
+  for (const Seed& seed : seeds) {
+    if (seed.radius >= narrowest && noise.size() < best) noise.push_back(seed.noise);
+  }
+  return median(noise);
 }
 
 }  // namespace hallway::em
