@@ -14,9 +14,13 @@ echo
 echo
 /usr/bin/python3 "$here/planes_cost.py" "$build/bin/hallway" "$out"
 echo
+/usr/bin/python3 "$here/real_data.py" "$build/bin/hallway" "$out/real_data"
+echo
 "$build/bin/bench_trace" --benchmark_min_time=0.2
 echo
 "$build/bin/bench_visibility"
+echo
+"$build/bin/bench_slam_point_speed"
 echo
 "$build/bin/bench_bsp"
 echo

@@ -16,6 +16,7 @@
 
 #include "../tests/unit/slam_point/scenes.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/thesis_mapper.hpp"
 
 namespace {
@@ -312,7 +313,8 @@ void run(const Log& log, AnyMapper mapper, const std::string& folder, int runs) 
 constexpr const char* kUsage =
     "usage: bench_slam_point_log FOLDER|eight25|eight100|eight:PER_100M|ring|new_ground|office [steps=N] "
     "[seed=N] [runs=N] "
-    "[mode=ours|thesis] [PARAMETER=VALUE]...\n"
+    "[mode=ours|thesis] "
+    "[index=grid|quadtree|octree|kdtree] [PARAMETER=VALUE]...\n"
     "runs: of each iteration the least time of so many runs counts\n";
 
 /// What the command line asks for besides the log.
@@ -338,6 +340,8 @@ void set(Settings& settings, const std::string& name, const std::string& value) 
   if (name == "mode") {
     if (value != "ours" && value != "thesis") throw std::runtime_error("unknown mode " + value);
     settings.is_thesis = value == "thesis";
+  } else if (name == "index") {
+    settings.options.index = choice(kIndexNames, value);
   } else if (name == "thesis_basis") {
     settings.thesis.basis = choice(thesis::kBasisNames, value);
   } else if (name == "thesis_matching") {

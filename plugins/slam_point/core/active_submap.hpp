@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/submap_graph.hpp"
 
 namespace hallway::slam_point {
@@ -13,7 +13,7 @@ namespace hallway::slam_point {
 class ActiveSubmap {
  public:
   /// `reach_m`: the largest distance that visit_members_near() is asked for [m].
-  explicit ActiveSubmap(double reach_m) : grid_(reach_m) {}
+  explicit ActiveSubmap(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
 
   /// Takes up `submap` of `graph`, new or old, and makes it the graph's active one.
   void open(SubmapGraph& graph, Index submap);
@@ -28,6 +28,9 @@ class ActiveSubmap {
   /// Averages an observation of the frame begun last into a member. `weight`: see Observation::weight.
   void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
                double weight = 1.0);
+
+  /// Takes a member out of the kept frames, so that none is aligned to it again. O(kept sightings).
+  void withdraw(Index member);
 
   /// Aligns each kept frame to the members' means again and averages anew, `sweeps` times; what the submap knew when it
   /// was opened counts as it did. `min_spread_m2`: see Alignment::solve; a frame below it keeps its alignment.
@@ -61,7 +64,7 @@ class ActiveSubmap {
 
   void average(SubmapGraph& graph) const;
 
-  HashGrid grid_;  // of members' means
+  PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
   std::vector<Sighting> sightings_;
   std::vector<Prior> prior_;  // by member: what was known at open()

@@ -11,6 +11,17 @@ namespace {
 constexpr int kMaxNewtonSteps = 30;
 constexpr double kSettled_rad = 1e-8;  // Newton doubles the digits: the step after this one is below rounding
 
+/// Whether the smallest eigenvalue of a symmetric positive definite matrix reaches `least`.
+bool is_spread(const Mat3& curvature, double least) {
+  // det = abc <= a ((b + c) / 2)^2 <= a (trace / 2)^2 settles nearly all cases without eigenvalues.
+  const double trace = curvature.trace();
+  const double determinant = curvature.determinant();
+  if (determinant > 0.0 && 3.99 * determinant >= least * trace * trace) return true;
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+  eigen.computeDirect(curvature, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()(0) >= least;
+}
+
 }  // namespace
 
 Eigen::Quaterniond rotation_exp(const Vec3& v) {
@@ -57,11 +68,7 @@ bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
     q = (rotation_exp(turn) * q).normalized();
     if (size < kSettled_rad) break;
   }
-  if (!planar) {
-    Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-    eigen.computeDirect(curvature, Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()(0) >= min_spread_m2)) return false;
-  }
+  if (!planar && !is_spread(curvature, min_spread_m2)) return false;
   T_a_b.q = q;
   T_a_b.t = guess_.t + mean_a - q * mean_b;
   return true;

@@ -18,6 +18,7 @@ constexpr double kMaxRotationSigma_rad = 0.1;
 constexpr int kMaxMatchPasses = 4;
 constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same way are drift, not neighbours
 constexpr int kMaxTurnsEachWay = 60;
+constexpr std::size_t kLeastFollowed = 4;  // so many can contradict each other
 
 }  // namespace
 
@@ -47,16 +48,42 @@ void FrameMatcher::mark(const SubmapGraph& graph, const std::vector<Observation>
   }
 }
 
+void FrameMatcher::take(const Candidate& candidate, std::vector<Observation>& frame) {
+  frame[candidate.observation].landmark = candidate.landmark;
+  taken_[candidate.landmark] = 1;
+  taken_list_.push_back(candidate.landmark);
+}
+
+void FrameMatcher::take_undisputed(std::vector<Observation>& frame) {
+  claims_.resize(taken_.size(), 0);
+  for (const Candidate& candidate : candidates_) {
+    std::uint8_t& claims = claims_[candidate.landmark];
+    if (claims < 2) ++claims;
+  }
+  disputed_.clear();
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Candidate& candidate = candidates_[c];
+    const bool alone =
+        (c == 0 || candidates_[c - 1].observation != candidate.observation) &&
+        (c + 1 == candidates_.size() || candidates_[c + 1].observation != candidate.observation);
+    if (alone && claims_[candidate.landmark] == 1) {
+      take(candidate, frame);
+    } else {
+      disputed_.push_back(candidate);
+    }
+  }
+  for (const Candidate& candidate : candidates_) claims_[candidate.landmark] = 0;
+  std::swap(candidates_, disputed_);
+}
+
 void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
+  take_undisputed(frame);
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.d2, a.observation, a.landmark) < std::tie(b.d2, b.observation, b.landmark);
   });
   for (const Candidate& candidate : candidates_) {
-    Observation& observation = frame[candidate.observation];
-    if (observation.landmark != kNone || taken_[candidate.landmark] != 0) continue;
-    observation.landmark = candidate.landmark;
-    taken_[candidate.landmark] = 1;
-    taken_list_.push_back(candidate.landmark);
+    const bool is_free = frame[candidate.observation].landmark == kNone && taken_[candidate.landmark] == 0;
+    if (is_free) take(candidate, frame);
   }
 }
 
@@ -70,13 +97,14 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
     const Vec3 p = rotation * frame[o].point + T.t;
+    const double near2 = std::min(bound2 / frame[o].weight, reach2);
     const auto consider = [&](Index m, double within2) {
       const double d2 = (members[m].mean - p).squaredNorm();
       if (d2 <= within2 && taken_[members[m].landmark] == 0)
         candidates_.push_back({d2, o, members[m].landmark});
     };
     if (!frame[o].is_followed()) {
-      active.visit_members_near(p, [&](Index m) { consider(m, std::min(bound2 / frame[o].weight, reach2)); });
+      active.visit_members_near(p, [&](Index m) { consider(m, near2); });
     } else if (frame[o].expected != kNone) {
       const Index m = graph.landmarks[frame[o].expected].active_member;
       if (m != kNone) consider(m, followed_bound * followed_bound / frame[o].weight);
@@ -87,7 +115,16 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
 
 bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
                               Pose& T) {
-  return fit_submap(graph, graph.active(), frame, planar, T);
+  // As fit_submap() does, without a search for the member.
+  const std::vector<Member>& members = graph.submaps[graph.active()].members;
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const Member& member = members[graph.landmarks[observation.landmark].active_member];
+    pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
+                      observation.weight});
+  }
+  return robust_fit(pairs_, rules(planar), T);
 }
 
 int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame) {
@@ -97,8 +134,8 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[graph.landmarks[observation.landmark].active_member];
-    const double bound2 = agreement_ * agreement_ / pair_weight(member.weight(), observation.weight);
-    if ((rotation * observation.point + T.t - member.mean).squaredNorm() <= bound2) continue;
+    const double r2 = (rotation * observation.point + T.t - member.mean).squaredNorm();
+    if (r2 * pair_weight(member.weight(), observation.weight) <= agreement_ * agreement_) continue;
     taken_[observation.landmark] = 0;
     observation.landmark = kNone;
     ++dropped;
@@ -145,6 +182,29 @@ FrameMatcher::Fit FrameMatcher::match_from(const SubmapGraph& graph, const Activ
   match_members(graph, active, fit.T_submap_sensor, agreement_, agreement_, frame);
   fit.agreeing += static_cast<int>(taken_list_.size() - before);
   return fit;
+}
+
+bool FrameMatcher::locate_by_tracks(const SubmapGraph& graph, bool planar,
+                                    const std::vector<Observation>& frame, Pose& T_map_sensor) {
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.expected == kNone || graph.landmarks[observation.expected].count == 0) continue;
+    const LandmarkRecord& landmark = graph.landmarks[observation.expected];
+    pairs_.push_back({landmark.position, observation.point, pair_weight(landmark.weight, observation.weight),
+                      observation.weight});
+  }
+  if (pairs_.size() < kLeastFollowed) return false;
+  Eigen::Matrix3Xd from(3, pairs_.size()), to(3, pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    from.col(static_cast<Eigen::Index>(i)) = pairs_[i].point;
+    to.col(static_cast<Eigen::Index>(i)) = pairs_[i].reference;
+  }
+  // No guess is near, as the fit needs one: a closed form gives it.
+  const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
+  Pose located{Eigen::Quaterniond(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>()};
+  if (!robust_fit(pairs_, rules(planar), located)) return false;
+  T_map_sensor = located;
+  return true;
 }
 
 double FrameMatcher::score(const SubmapGraph& graph, const Pose& T_map_sensor,

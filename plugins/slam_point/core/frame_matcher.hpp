@@ -17,6 +17,8 @@ struct Observation {
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
+  Index moving =
+      kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
   double weight =
       1.0;  ///< (noise_m / noise at its range)^2: what it counts for beside a point without range noise
   TrackId track = kNoTrack;  ///< under which the sensor follows it; kNoTrack: its place tells what it is
@@ -43,6 +45,11 @@ class FrameMatcher {
   /// left unmatched. Where most points that the sensor follows do not agree from there, they are tried without a prediction.
   Fit match_active(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
                    std::vector<Observation>& frame);
+
+  /// Where the frame stands by the landmarks of its points' tracks, wherever in the map they are: for when nothing else tells.
+  /// False, and no pose, when they do not determine it. The frame's matches are not touched.
+  bool locate_by_tracks(const SubmapGraph& graph, bool planar, const std::vector<Observation>& frame,
+                        Pose& T_map_sensor);
 
   /// Where the frame fits the map best, of all turns of each of `bases` (T_map_sensor) about the sensor's z axis by up to
   /// `max_turn_rad`: for when the prediction failed. Matches within the match bound. Returns how many points agree with the map
@@ -94,6 +101,10 @@ class FrameMatcher {
 
   bool agrees(const SubmapGraph& graph, const Pose& T_map_sensor, const Observation& observation) const;
   void begin(const SubmapGraph& graph);
+  void take(const Candidate& candidate, std::vector<Observation>& frame);
+  /// Takes the candidates that neither their point nor their landmark has another of, and leaves the others in candidates_, which stand
+  /// together by point: what they are does not depend on order, so most of a frame need not be sorted.
+  void take_undisputed(std::vector<Observation>& frame);
   void take_nearest_first(std::vector<Observation>& frame);
   void match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T, double bound,
                      double followed_bound, std::vector<Observation>& frame);
@@ -110,7 +121,9 @@ class FrameMatcher {
   double agreement_;
   double reach_;  // of the grids that are asked
   std::vector<Candidate> candidates_;
-  std::vector<std::uint8_t> taken_;  // landmark -> matched in this frame
+  std::vector<Candidate> disputed_;
+  std::vector<std::uint8_t> claims_;  // landmark -> candidates, at most two; 0 between calls
+  std::vector<std::uint8_t> taken_;   // landmark -> matched in this frame
   std::vector<Index> taken_list_;
   std::vector<Index> strays_;
   std::vector<Pair> pairs_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,7 @@ namespace hallway::slam_point {
 /// Points in cubes of one size, found by hashing the cube: insertion, moving and looking near a place cost O(1), whatever
 /// the number of points (the incremental overlapping quadtree of thesis 6.5.1).
 ///
-/// Points are named by consecutive numbers from 0. Memory: 20 bytes a point and a table of at least as many cells.
+/// Points are named by consecutive numbers from 0. Memory: 16 bytes a point and 16 to 32 of its table.
 class HashGrid {
  public:
   /// `reach_m` > 0: the largest distance that visit_near() is asked for [m].
@@ -27,16 +28,16 @@ class HashGrid {
   /// Takes point `i` out for good; its number is not used again.
   void remove(std::uint32_t i) { unlink(i); }
 
-  /// Calls visit(i) once for each point in the (at most eight) cubes that a ball of reach_m about p touches: a superset of the points
-  /// within reach_m. The order depends on the history of the grid, so what the caller makes of it must not.
+  /// Calls visit(i) once for each point in the cubes, at most eight and mostly one to four, that a box of reach_m each way about p touches: a superset
+  /// of the points within reach_m. The order depends on the history of the grid, so what the caller makes of it must not.
   template <typename Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
     if (heads_.empty()) return;
-    const Cell low = cell_of(p - Vec3::Constant(0.5 * size_));
-    for (int corner = 0; corner < 8; ++corner) {
-      const Cell cell{low[0] + (corner & 1), low[1] + ((corner >> 1) & 1), low[2] + ((corner >> 2) & 1)};
-      for (std::uint32_t i = heads_[bucket_of(cell)]; i != kEnd; i = next_[i]) {
-        if (cells_[i] == cell) visit(i);
+    const Cell low = cell_of(p - Vec3::Constant(reach_));
+    const Cell high = cell_of(p + Vec3::Constant(reach_));
+    for (std::int32_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int32_t z = low[2]; z <= high[2]; ++z) visit_cell({x, y, z}, visit);
       }
     }
   }
@@ -48,17 +49,44 @@ class HashGrid {
   static constexpr std::uint32_t kEnd = 0xffffffffu;
   static constexpr std::uint32_t kGone = 0xfffffffeu;
 
-  Cell cell_of(const Vec3& p) const;
-  std::size_t bucket_of(const Cell& cell) const;
+  struct Entry {
+    Cell cell;
+    std::uint32_t next;  // in the same bucket; kGone for a point that was removed
+  };
+
+  template <typename Visit>
+  void visit_cell(const Cell& cell, Visit&& visit) const {
+    for (std::uint32_t i = heads_[bucket_of(cell)]; i != kEnd; i = entries_[i].next) {
+      if (entries_[i].cell == cell) visit(i);
+    }
+  }
+
+  /// The cube that holds p; far cubes share the last one instead of overflowing.
+  Cell cell_of(const Vec3& p) const { return {cell_along(p.x()), cell_along(p.y()), cell_along(p.z())}; }
+  std::int32_t cell_along(double coordinate) const {
+    constexpr double kMaxCell = 1e9;
+    const double scaled = std::clamp(coordinate * inverse_size_, -kMaxCell, kMaxCell);
+    const auto truncated = static_cast<std::int32_t>(scaled);
+    return truncated - (scaled < static_cast<double>(truncated) ? 1 : 0);
+  }
+  std::size_t bucket_of(const Cell& cell) const {
+    // Sums of products with odd numbers without pattern: neighbouring cubes differ in all upper bits.
+    const auto part = [&](std::size_t axis, std::uint64_t factor) {
+      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell[axis])) * factor;
+    };
+    const std::uint64_t h =
+        part(0, 0x9e3779b97f4a7c15u) + part(1, 0xbf58476d1ce4e5b9u) + part(2, 0x94d049bb133111ebu);
+    return static_cast<std::size_t>(h >> 32) & (heads_.size() - 1);
+  }
   void link(std::uint32_t i);
   void unlink(std::uint32_t i);
   void grow();
 
-  double size_;  // twice the reach, so that a ball touches two cubes along each axis
-  double inverse_size_;
+  double reach_;
+  double
+      inverse_size_;  // of a cube: four times the reach, so that a box mostly touches one or two along each axis
   std::vector<std::uint32_t> heads_;
-  std::vector<std::uint32_t> next_;  // kGone for a point that was removed
-  std::vector<Cell> cells_;
+  std::vector<Entry> entries_;  // by point
 };
 
 }  // namespace hallway::slam_point

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "slam_point/core/options.hpp"
+#include "slam_point/core/stage_clock.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -45,13 +46,17 @@ class Mapper {
   /// The map as it stands. O(map).
   Map map() const;
 
-  /// The map with all submaps re-placed together by least squares. The online state is not changed. O(map).
+  /// The map as all evidence places it together (refine_map), with covariances. The online state is not changed.
   Map refined_map() const;
 
   /// Forgets everything but the options.
   void reset();
 
   const Options& options() const;
+
+  /// Adds what each stage of process() takes to `times` [us, wall clock] from now on, until reset(); null: to nothing. `times` must live as long as
+  /// it is added to.
+  void time_stages(StageTimes* times);
 
  private:
   class State;

@@ -2,13 +2,17 @@
 #include "slam_point/core/options.hpp"
 
 #include <array>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "slam_point/core/point_index.hpp"
 
 namespace hallway::slam_point {
 namespace {
 
-constexpr std::array<Parameter, 14> kParameters{{
+constexpr std::array<Parameter, 15> kParameters{{
     {"noise_m", "m", 1e-4, 10.0,
      "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
      &Options::noise_m, nullptr},
@@ -46,6 +50,9 @@ constexpr std::array<Parameter, 14> kParameters{{
     {"min_observations", "observations", 1, 1000000,
      "A landmark with fewer observations is temporary: it may be clutter.", nullptr,
      &Options::min_observations},
+    {"find_moving", "1", 0, 1,
+     "1: landmarks that move are found and kept out of the map; 0: all landmarks are taken to stand.",
+     nullptr, &Options::find_moving},
     {"smoothing", "1", 0.01, 1.0, "Share of the newest relative motion in the motion prediction.",
      &Options::smoothing, nullptr},
     {"max_turn_rad", "rad", 0.0, 3.15,
@@ -79,6 +86,8 @@ const Parameter* find_parameter(std::string_view name) {
 }
 
 void Options::validate() const {
+  if (index < 0 || index >= static_cast<int>(std::size(kIndexNames)))
+    throw std::invalid_argument("index is " + std::to_string(index) + "; there is no such structure");
   for (const Parameter& parameter : kParameters) {
     const double value = parameter.get(*this);
     if (value >= parameter.min && value <= parameter.max) continue;

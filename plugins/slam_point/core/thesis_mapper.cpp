@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam_point/core/alignment.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/robust_fit.hpp"
 #include "slam_point/core/thesis_grouping.hpp"
 #include "slam_point/core/thesis_matcher.hpp"
@@ -33,7 +34,8 @@ class Mapper::State {
   State(const slam_point::Options& common, const Options& options)
       : common_(checked_common(common, options)),
         options_(options),
-        tracks_(Grouping::kept_iterations(options), std::max(common.map_bound(), common.separation())),
+        tracks_(Grouping::kept_iterations(options), std::max(common.map_bound(), common.separation()),
+                static_cast<IndexKind>(common.index)),
         matcher_(common, options),
         grouping_(options, kBasisNoises * common.noise_m) {}
 
@@ -144,7 +146,8 @@ bool Mapper::State::start_over() {
   // A map of one frame that the next frames do not find again is a false start: it knows nothing to keep.
   if (iteration_ > 0 || !can_start()) return false;
   first_id_ += tracks_.size();
-  tracks_ = Tracks(Grouping::kept_iterations(options_), std::max(common_.map_bound(), common_.separation()));
+  tracks_ = Tracks(Grouping::kept_iterations(options_), std::max(common_.map_bound(), common_.separation()),
+                   static_cast<IndexKind>(common_.index));
   grouping_ = Grouping(options_, kBasisNoises * common_.noise_m);
   matcher_ = Matcher(common_, options_);
   to_compare_.clear();

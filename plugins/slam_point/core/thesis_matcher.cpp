@@ -18,7 +18,8 @@ constexpr double kMotionInlierNoises = 6.0;
 Matcher::Matcher(const slam_point::Options& common, const Options& options)
     : common_(common),
       options_(options),
-      grid_(std::max(common.match_bound(), kRefitNoises * common.noise_m)) {}
+      grid_(static_cast<IndexKind>(common.index),
+            std::max(common.match_bound(), kRefitNoises * common.noise_m)) {}
 
 void Matcher::match_recent(Tracks& tracks, Iteration now, const Pose& moved,
                            std::vector<Observation>& frame) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "slam_point/core/frame_matcher.hpp"
-#include "slam_point/core/hash_grid.hpp"
 #include "slam_point/core/options.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/thesis_options.hpp"
 #include "slam_point/core/thesis_tracks.hpp"
 
@@ -40,7 +40,7 @@ class Matcher {
 
   slam_point::Options common_;
   Options options_;
-  HashGrid grid_;
+  PointIndex grid_;
   std::vector<Index> recent_;
   std::vector<Vec3> recent_points_;  // in the frame of the last iteration, where the motion moves them
   std::vector<Pairing> pairings_;

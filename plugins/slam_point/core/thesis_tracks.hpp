@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_point/core/hash_grid.hpp"
+#include "slam_point/core/point_index.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/thesis_history.hpp"
 
@@ -31,7 +31,8 @@ struct Track {
 class Tracks {
  public:
   /// `kept`: iterations whose observations are kept; `reach_m`: the largest distance visit_near() is asked for [m].
-  Tracks(Iteration kept, double reach_m) : kept_(kept), grid_(reach_m), chart_(kept) {}
+  Tracks(Iteration kept, double reach_m, IndexKind index = IndexKind::grid)
+      : kept_(kept), grid_(index, reach_m), chart_(kept) {}
 
   /// Begins an iteration, and drops what is older than the kept ones. O(points in view).
   void begin_iteration(Iteration iteration);
@@ -69,7 +70,7 @@ class Tracks {
   Iteration kept_;
   Iteration now_ = 0;
   std::vector<Track> tracks_;
-  HashGrid grid_;
+  PointIndex grid_;
   std::vector<std::vector<Index>> chart_;  // by iteration modulo kept_
   std::vector<std::uint32_t> listed_;      // track -> the last enumeration that listed it
   std::uint32_t listing_ = 0;
