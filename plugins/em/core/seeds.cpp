@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "em/core/neighbours.hpp"
 
@@ -21,8 +22,8 @@ constexpr double kFlatEnough =
 constexpr std::size_t kThinning = 4;                 // of a coarser level: half the density along an edge
 constexpr std::size_t kFewest = 400;                 // points of the coarsest level
 constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples, modulo 1, lie apart from each other
-constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise ...
-constexpr double kNarrow = 0.125;                    // ... without those so much narrower than the flat ones are
+constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise
+constexpr double kNarrow = 0.125;  // of the median radius of the flatter half: narrower ones do not tell it
 
 /// A level of the cloud: every 4^l-th point.
 struct Level {
@@ -116,10 +117,27 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
   return seed;
 }
 
-double median(std::vector<double>& values) {
+double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The seed of `seeds` (at least one) with the median noise.
+Seed with_median_noise(std::vector<Seed> seeds) {
+  const auto middle = seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 2);
+  std::nth_element(seeds.begin(), middle, seeds.end(),
+                   [](const Seed& left, const Seed& right) { return left.noise < right.noise; });
+  return *middle;
+}
+
+/// The first of `seeds` that are at least so wide, up to `most`.
+std::vector<Seed> first_wide(const std::vector<Seed>& seeds, double radius, std::size_t most) {
+  std::vector<Seed> wide;
+  for (const Seed& seed : seeds) {
+    if (seed.radius >= radius && wide.size() < most) wide.push_back(seed);
+  }
+  return wide;
 }
 
 }  // namespace
@@ -148,15 +166,13 @@ std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size
 
 double noise_of_seeds(const std::vector<Seed>& seeds) {
   if (seeds.empty()) return 0.0;
+  const std::size_t best = (seeds.size() + kBestShare - 1) / kBestShare;
+  const Seed among_all = with_median_noise(first_wide(seeds, 0.0, best));
   std::vector<double> radii;
   for (std::size_t k = 0; k < (seeds.size() + 1) / 2; ++k) radii.push_back(seeds[k].radius);
-  const double narrowest = kNarrow * median(radii);
-  const std::size_t best = (seeds.size() + kBestShare - 1) / kBestShare;
-  std::vector<double> noise;
-  for (const Seed& seed : seeds) {
-    if (seed.radius >= narrowest && noise.size() < best) noise.push_back(seed.noise);
-  }
-  return median(noise);
+  const double narrowest = kNarrow * median(std::move(radii));
+  if (among_all.radius >= narrowest) return among_all.noise;
+  return with_median_noise(first_wide(seeds, narrowest, best)).noise;
 }
 
 }  // namespace hallway::em

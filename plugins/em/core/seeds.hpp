@@ -26,7 +26,7 @@ struct Seed {
 std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers);
 
 /// Noise across planes as the best of the seeds tell it; 0 without seeds. Where a scanner stood close to a surface there
-/// are many points on little of it: neighbourhoods much narrower than the others do not tell the noise of the cloud.
+/// are many points on little of it: if a neighbourhood much narrower than the others would decide, those are left out.
 double noise_of_seeds(const std::vector<Seed>& seeds);
 
 }  // namespace hallway::em
