@@ -93,6 +93,7 @@ class Tracer {
     evaluator_.add({.T_world_body = frame.T_world_body,
                     .orientation_known = frame.orientation_known,
                     .T_map_body = estimate,
+                    .pose_covariance = std::nullopt,
                     .associations = associations,
                     .identities = identities_,
                     .wall_ms = wall_ms,
