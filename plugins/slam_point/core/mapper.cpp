@@ -409,7 +409,7 @@ bool Mapper::State::is_placed() {
   if (searched_) least = kLeastAgreeing;
   if (frames_without_pose_ > 0) least = kLeastAfterLoss;
   if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
-  if (frames_without_pose_ > kShortGap && agreeing_ >= least) {
+  if (frames_without_pose_ > 0 && agreeing_ >= least) {
     gather_frame();
     if (relocaliser_.chance_at(graph_, view_, T_map_sensor_, planar_, kTriedAfterGap) > kMostAfterGap)
       return false;
