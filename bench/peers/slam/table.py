@@ -98,7 +98,7 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("logs", nargs="*", default=DEFAULT_LOGS)
     parser.add_argument("--without-ekf", action="store_true")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     build = arguments.build.resolve()
     arguments.out.mkdir(parents=True, exist_ok=True)
     results = {}
