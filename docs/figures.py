@@ -21,7 +21,7 @@ KEPT = {  # charts that the page shows
     "stationary": ["landmark_rmse"],
     "forty-loops": ["landmark_rmse_by_loop"],
 }
-STUDIES = ["figure-eight", "density", "map-size", "straight", "stationary", "victoria-park", "forty-loops"]
+STUDIES = ["figure-eight", "density", "map-size", "straight", "stationary", "victoria-park", "dynamic", "forty-loops"]
 KINDS = {  # by study: which findings stand in the table; all where it is not here
     "forty-loops": ["landmark RMSE aligned, at the end", "wrong associations", "landmark RMSE of one loop, falling as 1/sqrt(loops)",
                     "floor of landmark RMSE", "change of mean x error over the last 20 loops",
