@@ -56,12 +56,13 @@ fuzz: deps
 bench: build-release
 	bench/run.sh build/release
 
-## em beside PCL, CGAL and Open3D on the same clouds: installs them and builds what wraps them, in a folder of its own
+## em beside PCL, CGAL and Open3D on the same clouds, slam_point beside MRPT and batch maximum likelihood on the same logs: installs and builds them, in a folder of its own
 bench-peers: deps
 	@scripts/install-deps.sh --with-peers
 	cmake -S . -B build/peers -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALLWAY_PEERS=ON -DHALLWAY_TESTS=OFF -DHALLWAY_BENCH=OFF
-	cmake --build build/peers -j $(JOBS) --target hallway em peers
+	cmake --build build/peers -j $(JOBS) --target hallway em slam_point peers slam_peers
 	bench/peers/run.sh build/peers
+	python3 bench/peers/slam/table.py build/peers build/peers/bench-out/slam
 
 ## make the gallery's pictures again
 renders: build-release

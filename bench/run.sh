@@ -14,6 +14,8 @@ echo
 echo
 /usr/bin/python3 "$here/planes_cost.py" "$build/bin/hallway" "$out"
 echo
+/usr/bin/python3 "$here/real_data.py" "$build/bin/hallway" "$out/real_data"
+echo
 "$build/bin/bench_trace" --benchmark_min_time=0.2
 echo
 "$build/bin/bench_visibility"

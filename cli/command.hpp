@@ -13,6 +13,7 @@ void add_serve_command(CLI::App& app, Action& chosen);
 void add_log_command(CLI::App& app, Action& chosen);
 void add_render_command(CLI::App& app, Action& chosen);
 void add_batch_command(CLI::App& app, Action& chosen);
+void add_study_command(CLI::App& app, Action& chosen);
 void add_align_command(CLI::App& app, Action& chosen);
 void add_compare_command(CLI::App& app, Action& chosen);
 void add_doctor_command(CLI::App& app, Action& chosen);

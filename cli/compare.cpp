@@ -10,6 +10,7 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "plugin_sweep.hpp"
 #include "run/pictures.hpp"
 
 namespace hallway::cli {
@@ -31,35 +32,10 @@ struct CompareOptions {
   bool quiet = false;
 };
 
-/// "slam_point:noise_m=0.01,0.05:mode=thesis": a plugin, and values of its parameters that are tried each with each. "FILE.so:ID" names one
-/// of several plugins of a file.
-batch::PluginSweep parse_plugin(const std::string& text) {
-  batch::PluginSweep sweep;
-  for (const std::string_view part : split(text, ':')) {
-    const std::size_t equals = part.find('=');
-    if (equals == std::string_view::npos) {
-      if (!sweep.parameters.empty())
-        throw Error(ErrorCode::kUsage,
-                    fmt::format("--plugin {}: \"{}\" is no param=value", printable(text), printable(part)));
-      sweep.plugin += (sweep.plugin.empty() ? "" : ":") + std::string(part);
-      continue;
-    }
-    batch::PluginSweep::Values values{std::string(part.substr(0, equals)), {}};
-    for (const std::string_view value : split(part.substr(equals + 1), ','))
-      values.values.emplace_back(value);
-    if (sweep.plugin.empty() || values.name.empty() || values.values.empty())
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("--plugin takes NAME[:param=value,...]..., not \"{}\"", printable(text)));
-    sweep.parameters.push_back(std::move(values));
-  }
-  if (sweep.plugin.empty()) throw Error(ErrorCode::kUsage, "--plugin: a plugin has a name");
-  return sweep;
-}
-
 batch::Plan plan_of(const CompareOptions& options) {
   batch::Dimensions dimensions;
   dimensions.inputs = {options.input};
-  for (const std::string& plugin : options.plugins) dimensions.plugins.push_back(parse_plugin(plugin));
+  for (const std::string& plugin : options.plugins) dimensions.plugins.push_back(parse_plugin_sweep(plugin));
   for (const std::string& setting : options.settings)
     dimensions.more.insert(dimensions.more.end(), {"--set", setting});
   if (options.seed) dimensions.more.insert(dimensions.more.end(), {"--seed", fmt::to_string(*options.seed)});

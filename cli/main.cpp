@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_serve_command(app, chosen);
     hallway::cli::add_compare_command(app, chosen);
     hallway::cli::add_batch_command(app, chosen);
+    hallway::cli::add_study_command(app, chosen);
     hallway::cli::add_log_command(app, chosen);
     hallway::cli::add_render_command(app, chosen);
     hallway::cli::add_plugin_command(app, chosen);

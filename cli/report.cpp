@@ -65,7 +65,9 @@ void add_errors(Table& table, const Metrics& metrics) {
     table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose));
   }
   if (metrics.position_rmse_m.aligned) {
-    table.row("position RMSE, aligned", metres(metrics.position_rmse_m.aligned));
+    table.row("position RMSE, aligned", fmt::format("{} online, {} as re-fitted to the map at the end",
+                                                    metres(metrics.position_rmse_m.aligned),
+                                                    metres(metrics.position_rmse_refitted_aligned_m)));
   }
   if (metrics.position_rmse_m.first_pose) {
     table.row("position RMSE, first pose",

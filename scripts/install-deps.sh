@@ -5,7 +5,7 @@
 #
 #   install-deps.sh               what is needed
 #   install-deps.sh --with-ros    and what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
-#   install-deps.sh --with-peers  and the libraries that `make bench-peers` measures em beside: PCL, CGAL, Open3D
+#   install-deps.sh --with-peers  and the libraries that `make bench-peers` measures em and slam_point beside: PCL, CGAL, Open3D; MRPT, Ceres
 set -euo pipefail
 
 optional=()
@@ -13,7 +13,7 @@ case "${1-}" in
   "") ;;
   --with-ros) optional=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev
                          libdiagnostic-msgs-dev libtf2-msgs-dev python3-rosmaster) ;;
-  --with-peers) optional=(libpcl-dev libcgal-dev libopen3d-dev) ;;
+  --with-peers) optional=(libpcl-dev libcgal-dev libopen3d-dev libmrpt-slam-dev libceres-dev) ;;
   *)
     echo "install-deps: unknown option $1; there are --with-ros and --with-peers" >&2
     exit 2

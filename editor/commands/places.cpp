@@ -98,7 +98,26 @@ constexpr std::array kLandmarks{
             .kind = ArgKind::kWhole,
             .help = "another seed puts them elsewhere",
             .low = 0,
-            .high = 9e15}};
+            .high = 9e15},
+    ArgSpec{.name = "moving_share",
+            .kind = ArgKind::kNumber,
+            .help = "how many of a cloud's points move, 0 to 1 [0]",
+            .low = 0,
+            .high = 1},
+    ArgSpec{.name = "speed",
+            .kind = ArgKind::kNumber,
+            .help = "of those, in m/s, root mean square over time [1]",
+            .low = 0,
+            .high = 1e3},
+    ArgSpec{.name = "motion",
+            .kind = ArgKind::kChoice,
+            .help = "of those: each on a way of its own, or in groups that keep their shape [independent]",
+            .choices = "independent group"},
+    ArgSpec{.name = "groups",
+            .kind = ArgKind::kWhole,
+            .help = "how many groups they move in [4]",
+            .low = 1,
+            .high = 1e6}};
 constexpr std::array kLight{kAt,
                             ArgSpec{.name = "brightness",
                                     .kind = ArgKind::kNumber,
@@ -374,6 +393,14 @@ void scatter(Edit& edit, const Arguments& arguments) {
   say_changed(edit, things);
 }
 
+void add_motion(const Arguments& arguments, map::Entity& entity) {
+  for (const char* key : {"moving_share", "speed"}) {
+    if (arguments.has(key)) add_key(entity, key, format_double(arguments.number(key)));
+  }
+  if (arguments.has("motion")) add_key(entity, "motion", arguments.text("motion"));
+  if (arguments.has("groups")) add_key(entity, "groups", std::to_string(arguments.whole("groups")));
+}
+
 void cloud(Edit& edit, const Arguments& arguments) {
   for (const char* needed : {"path", "per_100m", "sideways", "height"}) {
     if (!arguments.has(needed)) {
@@ -397,12 +424,14 @@ void cloud(Edit& edit, const Arguments& arguments) {
                  {{}, "sideways_m", format_double(arguments.number("sideways")), 0},
                  {{}, "height_m", format_double(arguments.number("height")), 0}};
   if (arguments.has("seed")) add_key(entity, "seed", std::to_string(arguments.whole("seed")));
+  add_motion(arguments, entity);
   say_made(edit, {add_entity(edit.state, std::move(entity))});
 }
 
 void landmarks(Edit& edit, const Arguments& arguments) {
   if (!arguments.has("per_m2")) return cloud(edit, arguments);
-  for (const char* other : {"path", "per_100m", "sideways", "height", "name"}) {
+  for (const char* other :
+       {"path", "per_100m", "sideways", "height", "name", "moving_share", "speed", "motion", "groups"}) {
     if (arguments.has(other)) {
       throw Error(
           ErrorCode::kUsage,

@@ -29,6 +29,20 @@ class AssociationScore {
   /// Different true landmarks among the observations.
   std::size_t true_landmarks() const { return seen_.size(); }
 
+  struct Pair {
+    log::LandmarkId map;
+    log::LandmarkId truth;
+    auto operator<=>(const Pair&) const = default;
+  };
+  struct PairHash {
+    std::size_t operator()(const Pair& pair) const;
+  };
+  using Votes = std::unordered_map<Pair, std::uint64_t, PairHash>;
+  /// How many observations of which true landmark were given to which of the map.
+  const Votes& votes() const { return votes_; }
+  /// The different true landmarks among the observations.
+  const std::unordered_set<log::LandmarkId>& seen() const { return seen_; }
+
   /// Owners by map landmark, and the observations given to a landmark that something else owns.
   struct Ownership {
     std::map<log::LandmarkId, log::LandmarkId> owner;  ///< map landmark -> true landmark
@@ -38,17 +52,9 @@ class AssociationScore {
   Ownership ownership() const;
 
  private:
-  struct Pair {
-    log::LandmarkId map;
-    log::LandmarkId truth;
-    auto operator<=>(const Pair&) const = default;
-  };
-  struct PairHash {
-    std::size_t operator()(const Pair& pair) const;
-  };
   std::uint64_t observations_ = 0;
   std::uint64_t none_ = 0;
-  std::unordered_map<Pair, std::uint64_t, PairHash> votes_;
+  Votes votes_;
   std::unordered_set<log::LandmarkId> seen_;
 };
 

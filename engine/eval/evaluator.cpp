@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "eval/evaluator.hpp"
 
+#include <array>
 #include <map>
 #include <set>
 #include <unordered_map>
 
 #include "eval/point_error.hpp"
 #include "eval/time_summary.hpp"
+#include "geom/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -17,10 +19,14 @@ using log::MapLandmark;
 using OwnerMap = std::map<LandmarkId, LandmarkId>;
 using PositionMap = std::unordered_map<LandmarkId, Vec3>;
 
+/// A landmark counts as moved when it has gone so many standard deviations of its sightings.
+constexpr double kMovedNoises = 5.0;
+
 /// Landmarks of a map beside the true ones that own them.
 struct LandmarkPairs {
   std::vector<Vec3> truth;     ///< world
   std::vector<Vec3> estimate;  ///< map frame
+  std::vector<std::optional<std::array<double, 6>>> covariance;
 };
 
 PositionMap positions_by_id(const std::vector<log::Landmark>& landmarks) {
@@ -42,8 +48,24 @@ LandmarkPairs pair_landmarks(std::span<const MapLandmark> map, const OwnerMap& o
     if (position == truth.end()) continue;
     pairs.truth.push_back(position->second);
     pairs.estimate.emplace_back(landmark.position_m.data());
+    pairs.covariance.push_back(landmark.covariance);
   }
   return pairs;
+}
+
+/// The errors of landmarks in the map's frame, after the best fit to the truth, beside the covariances stated for them.
+Consistency landmark_consistency(const LandmarkPairs& pairs) {
+  Consistency consistency;
+  if (pairs.truth.size() < 3) return consistency;
+  const Pose T_map_world = *rigid_fit(pairs.truth, pairs.estimate);
+  for (std::size_t i = 0; i < pairs.truth.size(); ++i) {
+    if (!pairs.covariance[i]) continue;
+    const std::array<double, 6>& c = *pairs.covariance[i];
+    Eigen::Matrix3d covariance;
+    covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+    consistency.add(T_map_world * pairs.truth[i] - pairs.estimate[i], covariance);
+  }
+  return consistency;
 }
 
 /// Counts the mapped landmarks by owner.
@@ -76,21 +98,30 @@ std::uint64_t count_mapped(std::span<const MapLandmark> map) {
 
 }  // namespace
 
+Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
+  if (truth_.has_identities && truth_.landmarks)
+    motion_.emplace(*truth_.landmarks, kMovedNoises * truth_.noise_m);
+}
+
 void Evaluator::add(const Iteration& iteration) {
   ++iterations_;
   if (!iteration.T_map_body) ++lost_;
   if (iteration.T_world_body && iteration.T_map_body) {
     if (iteration.orientation_known) {
-      trajectory_.add(*iteration.T_world_body, *iteration.T_map_body);
+      trajectory_.add(*iteration.T_world_body, *iteration.T_map_body, iteration.pose_covariance);
     } else {
       trajectory_.add_position(iteration.T_world_body->t, *iteration.T_map_body);
     }
   }
+  if (iteration.T_world_body && !iteration.points.empty())
+    refitted_path_.add(iteration.T_world_body->t, iteration.points, iteration.associations);
   if (truth_.has_identities) {
     associations_.add(iteration.associations, iteration.identities);
   } else {
     associations_.add(iteration.associations);
   }
+  if (motion_ && iteration.T_world_body && iteration.orientation_known && !iteration.points.empty())
+    motion_->add(*iteration.T_world_body, iteration.identities, iteration.points);
   if (iteration.wall_ms) wall_ms_.push_back(*iteration.wall_ms);
   if (iteration.cpu_ms) cpu_ms_.push_back(*iteration.cpu_ms);
 }
@@ -106,11 +137,20 @@ Metrics Evaluator::metrics(std::span<const MapLandmark> online,
   if (truth_.has_identities) score_landmarks(online, refined, metrics);
   metrics.position_pairs = trajectory_.pairs();
   metrics.position_rmse_m = trajectory_.position_rmse_m();
+  if (refined) score_refitted_path(*refined, metrics);
   metrics.position_final_m = trajectory_.position_final_m();
   metrics.rotation_rmse_deg = trajectory_.rotation_rmse_deg();
+  metrics.pose_consistency = trajectory_.consistency();
   metrics.iteration_ms = summarize(wall_ms_);
   metrics.iteration_cpu_ms = summarize(cpu_ms_);
   return metrics;
+}
+
+void Evaluator::score_refitted_path(const std::vector<MapLandmark>& refined, Metrics& metrics) const {
+  const auto error = refitted_path_.error(refined);
+  if (!error) return;
+  metrics.position_refitted_pairs = error->frames;
+  metrics.position_rmse_refitted_aligned_m = error->aligned_m;
 }
 
 void Evaluator::score_landmarks(std::span<const MapLandmark> online,
@@ -118,18 +158,29 @@ void Evaluator::score_landmarks(std::span<const MapLandmark> online,
                                 Metrics& metrics) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   metrics.association_errors = ownership.errors;
-  count_landmarks(online, ownership.owner, associations_.true_landmarks(), metrics);
+  OwnerMap owner = ownership.owner;
+  std::vector<MapLandmark> standing;  // what moves is scored apart
+  std::size_t observed = 0;
+  for (const MapLandmark& landmark : online) {
+    const auto owned = owner.find(landmark.id);
+    if (owned == owner.end() || !moves(owned->second)) standing.push_back(landmark);
+  }
+  std::erase_if(owner, [&](const auto& entry) { return moves(entry.second); });
+  for (const LandmarkId landmark : associations_.seen()) observed += moves(landmark) ? 0u : 1u;
+  count_landmarks(standing, owner, observed, metrics);
+  if (motion_) metrics.moving = motion_->metrics(online, associations_.votes());
   if (!truth_.landmarks) return;
   const PositionMap truth = positions_by_id(*truth_.landmarks);
-  const LandmarkPairs pairs = pair_landmarks(online, ownership.owner, truth);
+  const LandmarkPairs pairs = pair_landmarks(online, owner, truth);
   metrics.landmark_pairs = pairs.truth.size();
   if (const auto T_world_map = trajectory_.first_pose_frame()) {
     metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *T_world_map);
   }
   metrics.landmark_rmse_m.aligned = aligned_rmse(pairs.truth, pairs.estimate);
   if (!refined) return;
-  const LandmarkPairs final_pairs = pair_landmarks(*refined, ownership.owner, truth);
+  const LandmarkPairs final_pairs = pair_landmarks(*refined, owner, truth);
   metrics.landmark_rmse_final_aligned_m = aligned_rmse(final_pairs.truth, final_pairs.estimate);
+  metrics.landmark_consistency = landmark_consistency(final_pairs);
 }
 
 }  // namespace hallway::eval

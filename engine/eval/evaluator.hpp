@@ -8,6 +8,8 @@
 
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
+#include "eval/motion_score.hpp"
+#include "eval/refitted_path.hpp"
 #include "eval/trajectory_score.hpp"
 #include "geom/pose.hpp"
 #include "log/landmarks.hpp"
@@ -20,11 +22,15 @@ struct Iteration {
   std::optional<Pose> T_world_body;  ///< the truth, where known
   bool orientation_known = true;     ///< false: of the truth only the position is meant
   std::optional<Pose> T_map_body;    ///< the plugin's estimate; empty where it gave none (lost)
+  /// Of the estimate's error, as hw_pose_output_t says; empty where it is not told.
+  std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;
   /// By observation: the landmark that the plugin took it for, kNoLandmark for none.
   std::span<const log::LandmarkId> associations;
   /// By observation: the true landmark, kNoLandmark for none. As long as `associations`; empty where the input has no
   /// identities.
   std::span<const log::LandmarkId> identities;
+  /// By observation: where it was seen, body frame [m]. As long as `associations`; empty where that is not kept.
+  std::span<const Vec3> points{};
   std::optional<double> wall_ms;  ///< what the plugins took
   std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
 };
@@ -33,13 +39,15 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
+  double noise_m = 0.0;                                 ///< of the sensor: the largest of its axes, standard deviation
 };
 
 /// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
-/// true landmark) that observations have joined, not with the observations; O(1) per observation.
+/// true landmark) that observations have joined, and with the points given where true poses are known (see RefittedPath); O(1)
+/// per observation.
 class Evaluator {
  public:
-  explicit Evaluator(Truth truth) : truth_(std::move(truth)) {}
+  explicit Evaluator(Truth truth);
 
   /// Adds the next iteration. Throws Error{kInternal} if the truth has identities and the two spans differ in length.
   void add(const Iteration& iteration);
@@ -57,14 +65,19 @@ class Evaluator {
                   const std::optional<std::vector<log::MapLandmark>>& refined) const;
 
  private:
+  void score_refitted_path(const std::vector<log::MapLandmark>& refined, Metrics& metrics) const;
   void score_landmarks(std::span<const log::MapLandmark> online,
                        const std::optional<std::vector<log::MapLandmark>>& refined, Metrics& metrics) const;
+
+  bool moves(log::LandmarkId landmark) const { return motion_ && motion_->moves(landmark); }
 
   Truth truth_;
   std::uint64_t iterations_ = 0;
   std::uint64_t lost_ = 0;
   AssociationScore associations_;
+  std::optional<MotionScore> motion_;  ///< where the truth says what moves
   TrajectoryScore trajectory_;
+  RefittedPath refitted_path_;
   std::vector<double> wall_ms_;
   std::vector<double> cpu_ms_;
 };

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "eval/consistency.hpp"
+
 namespace hallway::eval {
 
 /// A root mean square error, with the map put into the world in two ways. Empty where it cannot be computed.
@@ -23,17 +25,38 @@ struct TimeSummary {
   double max = 0.0;
 };
 
+/// How the true landmarks that move were told from those that stand. A true landmark is marked when more of its observations
+/// were given to landmarks of the map with the status dynamic than to mapped ones.
+struct MovingMetrics {
+  std::uint64_t moved = 0;          ///< true landmarks that moved far enough while they were seen long enough
+  std::uint64_t moved_marked = 0;   ///< of those, marked
+  std::uint64_t marked = 0;         ///< true landmarks that are marked
+  std::uint64_t marked_moving = 0;  ///< of those, such as do not stand still
+
+  std::optional<double> recall() const { return share(moved_marked, moved); }
+  std::optional<double> precision() const { return share(marked_moving, marked); }
+
+ private:
+  static std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+    if (whole == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(whole);
+  }
+};
+
 /// How well a run was estimated; docs/metrics.md defines each member. What cannot be computed is empty, never zero.
 struct Metrics {
   std::uint64_t iterations = 0;
   std::uint64_t observations = 0;
   std::uint64_t lost_iterations = 0;  ///< iterations without an estimated pose
 
-  std::optional<std::uint64_t> landmarks_true;        ///< different true landmarks among the observations
-  std::uint64_t landmarks_mapped = 0;                 ///< landmarks of the online map with the status mapped
+  std::optional<std::uint64_t> landmarks_true;  ///< different true landmarks among the observations; here
+                                                ///< and below without those that move
+  std::uint64_t landmarks_mapped = 0;           ///< landmarks of the online map with the status mapped
   std::optional<std::uint64_t> landmarks_duplicated;  ///< mapped ones beyond the first of each true landmark
   std::optional<std::uint64_t> landmarks_missed;  ///< observed true landmarks that no mapped one belongs to
   std::optional<std::uint64_t> landmarks_unmatched;  ///< mapped ones that belong to no true landmark
+
+  std::optional<MovingMetrics> moving;  ///< online map; where the truth says what moves
 
   std::optional<std::uint64_t>
       association_errors;               ///< observations given to another true landmark's landmark
@@ -44,10 +67,16 @@ struct Metrics {
   std::optional<double>
       landmark_rmse_final_aligned_m;  ///< map as re-solved at the end, landmarks fitted rigidly
 
-  std::uint64_t position_pairs = 0;        ///< iterations with both a true and an estimated pose
-  AlignedRmse position_rmse_m;             ///< aligned: positions fitted rigidly (ATE)
+  std::uint64_t position_pairs = 0;  ///< iterations with both a true and an estimated pose
+  AlignedRmse position_rmse_m;       ///< aligned: positions fitted rigidly (ATE)
+  std::uint64_t position_refitted_pairs =
+      0;  ///< iterations with a true pose that the map at the end places anew
+  std::optional<double> position_rmse_refitted_aligned_m;  ///< of those, positions fitted rigidly
   std::optional<double> position_final_m;  ///< error of the last estimate, in the frame of first_pose
   AlignedRmse rotation_rmse_deg;           ///< aligned: orientations fitted by one rotation
+
+  Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
+  Consistency pose_consistency;      ///< poses as answered, after the fit of their positions
 
   std::optional<TimeSummary> iteration_ms;      ///< wall clock
   std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time

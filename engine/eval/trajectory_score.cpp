@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "eval/point_error.hpp"
+#include "geom/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -30,7 +31,9 @@ double rotation_rmse(const std::vector<Quat>& truth, const std::vector<Quat>& es
 
 }  // namespace
 
-void TrajectoryScore::add(const Pose& T_world_body, const Pose& T_map_body) {
+void TrajectoryScore::add(const Pose& T_world_body, const Pose& T_map_body,
+                          const std::optional<Eigen::Matrix<double, 6, 6>>& covariance) {
+  if (covariance) stated_.push_back({truth_.size(), *covariance});
   truth_.push_back(T_world_body.t);
   estimate_.push_back(T_map_body.t);
   truth_q_.push_back(T_world_body.q.normalized());
@@ -38,7 +41,7 @@ void TrajectoryScore::add(const Pose& T_world_body, const Pose& T_map_body) {
 }
 
 void TrajectoryScore::add_position(const Vec3& true_position, const Pose& T_map_body) {
-  add({Quat::Identity(), true_position}, T_map_body);
+  add({Quat::Identity(), true_position}, T_map_body, std::nullopt);
   orientations_known_ = false;
 }
 
@@ -63,6 +66,20 @@ AlignedRmse TrajectoryScore::rotation_rmse_deg() const {
   }
   return {rotation_rmse(truth_q_, estimate_q_, T_world_map->q),
           rotation_rmse(truth_q_, estimate_q_, nearest_rotation(sum))};
+}
+
+Consistency TrajectoryScore::consistency() const {
+  Consistency consistency;
+  if (truth_.size() < 3 || !orientations_known_) return consistency;
+  const Pose T_map_world = *rigid_fit(truth_, estimate_);
+  for (const Stated& stated : stated_) {
+    const Eigen::AngleAxisd turn(T_map_world.q * truth_q_[stated.pair] *
+                                 estimate_q_[stated.pair].conjugate());
+    Eigen::Matrix<double, 6, 1> error;
+    error << T_map_world * truth_[stated.pair] - estimate_[stated.pair], turn.angle() * turn.axis();
+    consistency.add(error, stated.covariance);
+  }
+  return consistency;
 }
 
 std::optional<double> TrajectoryScore::position_final_m() const {

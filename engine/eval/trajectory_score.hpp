@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "eval/consistency.hpp"
 #include "eval/metrics.hpp"
 #include "geom/pose.hpp"
 
@@ -14,7 +15,9 @@ namespace hallway::eval {
 class TrajectoryScore {
  public:
   /// Adds an iteration that has both poses.
-  void add(const Pose& T_world_body, const Pose& T_map_body);
+  /// @param covariance  of the estimate's error, as hw_pose_output_t says, if it is told
+  void add(const Pose& T_world_body, const Pose& T_map_body,
+           const std::optional<Eigen::Matrix<double, 6, 6>>& covariance = std::nullopt);
 
   /// Adds an iteration whose true orientation is not known: from then on there are neither rotation errors nor a frame of
   /// the first pose.
@@ -28,6 +31,9 @@ class TrajectoryScore {
   /// Rotation errors, degrees; `aligned`: after the one rotation of the map that leaves the least sum of squared chordal
   /// distances between true and estimated orientations (Hartley et al. 2013, section 5.3).
   AlignedRmse rotation_rmse_deg() const;
+  /// Errors of the poses in the map's frame, after the best fit of their positions, beside the covariances stated for them.
+  /// Nothing below three pairs or without orientations.
+  Consistency consistency() const;
   /// Position error of the last pair in first_pose_frame(), metres.
   std::optional<double> position_final_m() const;
 
@@ -37,6 +43,11 @@ class TrajectoryScore {
   std::vector<Vec3> estimate_;
   std::vector<Quat> truth_q_;
   std::vector<Quat> estimate_q_;
+  struct Stated {
+    std::size_t pair = 0;
+    Eigen::Matrix<double, 6, 6> covariance;
+  };
+  std::vector<Stated> stated_;
 };
 
 }  // namespace hallway::eval

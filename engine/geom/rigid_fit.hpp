@@ -15,4 +15,8 @@ namespace hallway {
 /// every call. Empty for no points. O(n). Umeyama 1991 without scale (Kabsch 1976).
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to);
 
+/// The same for the weighted sum of squared distances; weights >= 0, one for each pair. Empty where they sum to 0.
+std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,
+                              std::span<const double> weights);
+
 }  // namespace hallway

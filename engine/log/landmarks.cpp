@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "log/landmarks.hpp"
 
+#include <algorithm>
+
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
@@ -9,17 +11,17 @@
 namespace hallway::log {
 namespace {
 
-enum Column : std::size_t { kId, kX, kY, kZ };
+enum Column : std::size_t { kId, kX, kY, kZ, kMoving };
 
 }  // namespace
 
 std::vector<Landmark> parse_landmarks(std::string_view text, const std::string& file) {
-  CsvReader row(text, file, {{"landmark_id"}, {"x"}, {"y"}, {"z"}});
+  CsvReader row(text, file, {{"landmark_id"}, {"x"}, {"y"}, {"z"}, {"moving", false}});
   std::vector<Landmark> landmarks;
   UniqueIds ids;
   while (row.next()) {
     const LandmarkId id = ids.read(row, kId);
-    landmarks.push_back({id, row.vector(kX)});
+    landmarks.push_back({id, row.vector(kX), row.has(kMoving) && row.whole(kMoving, 1) == 1});
   }
   return landmarks;
 }
@@ -30,8 +32,14 @@ std::vector<Landmark> read_landmarks(const std::filesystem::path& path) {
 
 std::string print_landmarks(std::span<const Landmark> landmarks) {
   RowWriter out(',');
-  out.word("landmark_id,x,y,z").end_row();
-  for (const Landmark& landmark : landmarks) out.whole(landmark.id).numbers(landmark.position_m).end_row();
+  const bool any_moves =
+      std::any_of(landmarks.begin(), landmarks.end(), [](const Landmark& l) { return l.moving; });
+  out.word(any_moves ? "landmark_id,x,y,z,moving" : "landmark_id,x,y,z").end_row();
+  for (const Landmark& landmark : landmarks) {
+    out.whole(landmark.id).numbers(landmark.position_m);
+    if (any_moves) out.whole(landmark.moving ? 1 : 0);
+    out.end_row();
+  }
   return out.take();
 }
 

@@ -15,10 +15,12 @@ namespace hallway::log {
 /// A true landmark.
 struct Landmark {
   LandmarkId id = 0;
-  std::array<double, 3> position_m{};  ///< world
+  std::array<double, 3> position_m{};  ///< world; of one that moves: where it is at time 0
+  bool moving = false;                 ///< does not stand still
 };
 
-/// Reads true landmarks from CSV: columns `landmark_id,x,y,z` in any order, each id once. Throws Error{kBadInput} with the
+/// Reads true landmarks from CSV: columns `landmark_id,x,y,z` and, where any moves, `moving` (0 or
+/// 1), in any order, each id once. Throws Error{kBadInput} with the
 /// line of the first thing that is wrong, also for a file that is cut off. The landmarks keep the file's order.
 /// O(n log n).
 ///

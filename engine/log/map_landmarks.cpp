@@ -14,7 +14,9 @@
 namespace hallway::log {
 namespace {
 
-enum Column : std::size_t { kId, kX, kY, kZ, kObservations, kStatus };
+enum Column : std::size_t { kId, kX, kY, kZ, kObservations, kStatus, kCovariance };
+
+constexpr std::size_t kCovarianceSize = 6;
 
 constexpr std::array<std::string_view, 3> kStatusNames = {"temporary", "mapped", "dynamic"};
 
@@ -22,6 +24,25 @@ LandmarkStatus read_status(const CsvReader& row) {
   const auto status = landmark_status(row.text(kStatus));
   if (!status) throw row.bad_field(kStatus, "\"temporary\", \"mapped\" or \"dynamic\"");
   return *status;
+}
+
+/// Whether the table has covariances. Throws for a header with a part of their columns.
+bool has_covariances(const CsvReader& row) {
+  std::size_t parts = 0;
+  for (std::size_t i = 0; i < kCovarianceSize; ++i) parts += row.has(kCovariance + i) ? 1u : 0u;
+  if (parts != 0 && parts != kCovarianceSize)
+    throw row.error("the header has a part of the columns cov_xx … cov_zz; give all or none");
+  return parts != 0;
+}
+
+/// Empty where the row's six fields are.
+std::optional<std::array<double, kCovarianceSize>> read_covariance(const CsvReader& row) {
+  std::size_t empty = 0;
+  for (std::size_t i = 0; i < kCovarianceSize; ++i) empty += row.text(kCovariance + i).empty() ? 1u : 0u;
+  if (empty == kCovarianceSize) return std::nullopt;
+  std::array<double, kCovarianceSize> covariance{};
+  for (std::size_t i = 0; i < kCovarianceSize; ++i) covariance[i] = row.number(kCovariance + i);
+  return covariance;
 }
 
 /// PLY knows whole numbers of 32 bits at most.
@@ -42,13 +63,27 @@ std::optional<LandmarkStatus> landmark_status(std::string_view name) {
 }
 
 std::vector<MapLandmark> parse_map_landmarks(std::string_view text, const std::string& file) {
-  CsvReader row(text, file, {{"id"}, {"x"}, {"y"}, {"z"}, {"observations"}, {"status"}});
+  CsvReader row(text, file,
+                {{"id"},
+                 {"x"},
+                 {"y"},
+                 {"z"},
+                 {"observations"},
+                 {"status"},
+                 {"cov_xx", false},
+                 {"cov_xy", false},
+                 {"cov_xz", false},
+                 {"cov_yy", false},
+                 {"cov_yz", false},
+                 {"cov_zz", false}});
+  const bool covariances = has_covariances(row);
   std::vector<MapLandmark> landmarks;
   UniqueIds ids;
   while (row.next()) {
     const LandmarkId id = ids.read(row, kId);
     const std::uint64_t observations = row.whole(kObservations, std::numeric_limits<std::uint64_t>::max());
     landmarks.push_back({id, row.vector(kX), observations, read_status(row)});
+    if (covariances) landmarks.back().covariance = read_covariance(row);
   }
   return landmarks;
 }
@@ -59,10 +94,20 @@ std::vector<MapLandmark> read_map_landmarks(const std::filesystem::path& path) {
 
 std::string print_map_landmarks(std::span<const MapLandmark> landmarks) {
   RowWriter out(',');
-  out.word("id,x,y,z,observations,status").end_row();
+  const bool covariances = std::any_of(landmarks.begin(), landmarks.end(),
+                                       [](const MapLandmark& l) { return l.covariance.has_value(); });
+  out.word("id,x,y,z,observations,status");
+  if (covariances) out.word("cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz");
+  out.end_row();
   for (const MapLandmark& landmark : landmarks) {
     out.whole(landmark.id).numbers(landmark.position_m).whole(landmark.observations);
-    out.word(landmark_status_name(landmark.status)).end_row();
+    out.word(landmark_status_name(landmark.status));
+    if (landmark.covariance) {
+      out.numbers(*landmark.covariance);
+    } else if (covariances) {
+      for (std::size_t i = 0; i < kCovarianceSize; ++i) out.word("");
+    }
+    out.end_row();
   }
   return out.take();
 }

@@ -32,9 +32,12 @@ struct MapLandmark {
   std::array<double, 3> position_m{};  ///< map frame
   std::uint64_t observations = 0;      ///< how many observations it rests on
   LandmarkStatus status = LandmarkStatus::kMapped;
+  /// Of the error of its position, map frame [m^2]: xx, xy, xz, yy, yz, zz. Nothing where it is not told.
+  std::optional<std::array<double, 6>> covariance{};
 };
 
-/// Reads a plugin's map from CSV: columns `id,x,y,z,observations,status` in any order, each id once. Throws
+/// Reads a plugin's map from CSV: columns `id,x,y,z,observations,status` in any order, each id once; the columns
+/// `cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz` may be there too, with six empty fields where no covariance is told. Throws
 /// Error{kBadInput} with the line of the first thing that is wrong, also for a file that is cut off. The landmarks keep the
 /// file's order. O(n log n).
 ///

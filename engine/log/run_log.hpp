@@ -16,6 +16,7 @@
 #include "log/map_landmarks.hpp"
 #include "log/mcap_writer.hpp"
 #include "log/planes.hpp"
+#include "log/pose_covariances.hpp"
 #include "log/poses.hpp"
 
 namespace hallway::log {
@@ -54,6 +55,7 @@ struct PoseAnswer {
   bool valid = false;  ///< false: the plugin says that it is lost
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
+  std::optional<PoseCovariance> covariance{};             ///< where it was told
 };
 
 /// A drive command that a plugin put.

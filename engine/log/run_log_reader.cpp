@@ -68,8 +68,9 @@ TrueLandmarksMessage true_landmarks(const Json& json) {
   TrueLandmarksMessage message;
   std::unordered_set<LandmarkId> seen;
   for (const Json& entry : json.at("landmarks")) {
-    message.landmarks.push_back(
-        {.id = whole(entry.at("id"), kNoLandmark - 1), .position_m = numbers<3>(entry.at("position_m"))});
+    message.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
+                                 .position_m = numbers<3>(entry.at("position_m")),
+                                 .moving = entry.value("moving", false)});
     if (!seen.insert(message.landmarks.back().id).second) bad("a landmark that stands there twice");
   }
   return message;
@@ -85,6 +86,7 @@ PoseMessage pose_answer(const Json& json) {
   message.pose.position_m = numbers<3>(pose.at("position_m"));
   message.pose.orientation = numbers<4>(pose.at("orientation_wxyz"));
   if (!is_unit(message.pose.orientation)) bad("a quaternion that is not of unit length");
+  if (json.contains("covariance")) message.pose.covariance = numbers<21>(json["covariance"]);
   return message;
 }
 
@@ -97,6 +99,8 @@ MapMessage map_answer(const Json& json) {
                                  .position_m = numbers<3>(entry.at("position_m")),
                                  .observations = whole(entry.at("observations"), UINT64_MAX),
                                  .status = *status});
+    if (entry.contains("covariance_m2"))
+      message.landmarks.back().covariance = numbers<6>(entry["covariance_m2"]);
   }
   for (const Json& submap : json.at("submaps")) {
     const std::uint64_t id = whole(submap.at("id"), UINT64_MAX);

@@ -105,7 +105,9 @@ void RunLogWriter::add_activation(const std::string& json) {
 void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
   Json list = Json::array();
   for (const Landmark& landmark : landmarks) {
-    list.push_back({{"id", landmark.id}, {"position_m", numbers(landmark.position_m)}});
+    Json entry = {{"id", landmark.id}, {"position_m", numbers(landmark.position_m)}};
+    if (landmark.moving) entry["moving"] = true;
+    list.push_back(std::move(entry));
   }
   add(topics::kTrueLandmarks, {}, text_of({{"landmarks", list}}));
 }
@@ -129,6 +131,7 @@ void RunLogWriter::add_identities(const FrameStamp& stamp, std::span<const Landm
 void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
   Json json{{"iteration", stamp.iteration}, {"status", pose.valid ? "valid" : "lost"}};
   if (pose.valid) json["T_map_body"] = pose_json(pose.position_m, pose.orientation);
+  if (pose.valid && pose.covariance) json["covariance"] = numbers(*pose.covariance);
   add(topics::kPose, stamp, text_of(json));
 }
 
@@ -159,6 +162,7 @@ void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark>
                     {"position_m", numbers(landmark.position_m)},
                     {"observations", landmark.observations},
                     {"status", landmark_status_name(landmark.status)}});
+    if (landmark.covariance) list.back()["covariance_m2"] = numbers(*landmark.covariance);
   }
   add(topics::kMap, stamp, text_of({{"landmarks", list}, {"submaps", submaps_json(submap_members)}}));
 }

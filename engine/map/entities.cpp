@@ -12,6 +12,28 @@ namespace {
 constexpr double kMaxPointsPerM2 = 1e6;
 constexpr double kMaxPointsPer100m = 1e6;
 constexpr double kMaxCloudReach_m = 1e5;
+constexpr double kMaxSpeed_m_s = 1e3;
+constexpr std::int64_t kMaxGroups = 1'000'000;
+constexpr std::int64_t kUsualGroups = 4;
+
+/// The keys that say which points move, and how.
+void read_motion(const EntityKeys& keys, LandmarkCloud& cloud) {
+  cloud.moving_share = keys.number_or("moving_share", 0.0, 0.0, 1.0);
+  cloud.speed_m_s = keys.number_or("speed", 1.0, 0.0, kMaxSpeed_m_s);
+  if (keys.has("motion")) {
+    const std::string motion = keys.text("motion");
+    if (motion != "independent" && motion != "group") {
+      throw keys.error("`motion` is `" + printable(motion, 60) + "`; it must be independent or group",
+                       "motion");
+    }
+    if (motion == "group") cloud.motion = CloudMotion::kGroup;
+  }
+  const std::int64_t groups = keys.has("groups") ? keys.integer("groups") : kUsualGroups;
+  if (groups < 1 || groups > kMaxGroups) {
+    throw keys.error("`groups` must be a whole number from 1 to " + std::to_string(kMaxGroups), "groups");
+  }
+  cloud.groups = static_cast<std::uint32_t>(groups);
+}
 
 }  // namespace
 
@@ -42,6 +64,7 @@ std::vector<LandmarkCloud> landmark_clouds(const Document& document) {
     cloud.sideways_m = keys.number("sideways_m", 0.0, kMaxCloudReach_m);
     cloud.height_m = keys.number("height_m", 0.0, kMaxCloudReach_m);
     cloud.seed = keys.seed_or("seed", 0);
+    read_motion(keys, cloud);
     cloud.entity = keys.index();
     cloud.line = entity.line;
     if (!names.insert(cloud.name).second) {

@@ -18,6 +18,9 @@ struct RobotStart {
   int line = 0;
 };
 
+/// How the moving points of a cloud move: each on a way of its own, or in groups that keep their shape.
+enum class CloudMotion { kIndependent, kGroup };
+
 /// Entity `hw_landmark_cloud`: points scattered along a path.
 struct LandmarkCloud {
   std::string name;
@@ -26,6 +29,10 @@ struct LandmarkCloud {
   double sideways_m = 0.0;  ///< largest distance to either side of the path, level
   double height_m = 0.0;    ///< largest distance above and below the path
   std::uint64_t seed = 0;
+  double moving_share = 0.0;  ///< of its points, how many move: 0 to 1
+  double speed_m_s = 0.0;     ///< of those, root mean square over time
+  CloudMotion motion = CloudMotion::kIndependent;
+  std::uint32_t groups = 0;  ///< how many groups they move in
   int entity = 0;
   int line = 0;
 };

@@ -17,7 +17,9 @@ constexpr double kFarthest_m = 1e5;
 constexpr double kLargestAngle_deg = 3600.0;
 constexpr double kFullTurn_deg = 360.0;
 constexpr double kLargestNoise_m = 1e3;
+constexpr double kLargestNoisePerM = 1.0;
 constexpr double kFarthestMount_m = 1e3;
+constexpr double kFastest_m_s = 1e3;
 
 constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
   return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
@@ -76,7 +78,14 @@ constexpr std::array kCloud{required("name", KeyKind::kName),
                             required_number("per_100m", 0.0, kMostPoints),
                             required_number("sideways_m", 0.0, kFarthest_m),
                             required_number("height_m", 0.0, kFarthest_m),
-                            KeySpec{.name = "seed", .kind = KeyKind::kSeed, .fallback = "0"}};
+                            KeySpec{.name = "seed", .kind = KeyKind::kSeed, .fallback = "0"},
+                            number("moving_share", 0.0, 1.0, "0"),
+                            number("speed", 0.0, kFastest_m_s, "1"),
+                            KeySpec{.name = "motion",
+                                    .kind = KeyKind::kChoice,
+                                    .fallback = "independent",
+                                    .choices = "independent group"},
+                            KeySpec{.name = "groups", .kind = KeyKind::kWhole, .fallback = "4"}};
 // What a scenario's sensor may be too.
 constexpr std::array kSensor{
     required("name", KeyKind::kName),
@@ -86,6 +95,7 @@ constexpr std::array kSensor{
     number("min_range_m", 0.0, kLongest_m, "0"),
     number("max_range_m", 0.0, kLongest_m, "100"),
     numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
+    numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0"),
     numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
     number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
     number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0"),

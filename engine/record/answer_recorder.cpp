@@ -38,7 +38,10 @@ std::string activation_text(const LogFacts& facts) {
 log::PoseAnswer pose_answer(const host::PoseOutput& pose) {
   const auto& t = pose.T_map_body.position;
   const auto& q = pose.T_map_body.orientation;
-  return {pose.valid, {t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}};
+  log::PoseAnswer answer{
+      .valid = pose.valid, .position_m = {t[0], t[1], t[2]}, .orientation = {q[0], q[1], q[2], q[3]}};
+  if (pose.covariance) answer.covariance = log::upper_triangle(*pose.covariance);
+  return answer;
 }
 
 AnswerRecorder::AnswerRecorder(log::ByteOutput& output, const LogFacts& facts)

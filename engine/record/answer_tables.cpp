@@ -30,8 +30,7 @@ void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::O
   log::add_row(times_.next_row(), log::IterationTime{.iteration = iteration,
                                                      .wall_ms = milliseconds(time.wall_ns),
                                                      .cpu_ms = milliseconds(time.cpu_ns)});
-  if (const auto& pose = outputs.pose(); pose && pose->valid)
-    log::add_row(trajectory_.next_row(), stamped(t_ns, pose->T_map_body));
+  if (const auto& pose = outputs.pose(); pose && pose->valid) add_pose(iteration, t_ns, *pose);
   if (const auto& command = outputs.drive_command()) {
     if (!commands_) commands_.emplace(folder_ / files::kCommands, ',', log::kCommandColumns);
     log::add_row(commands_->next_row(), log::IterationCommand{.iteration = iteration,
@@ -39,6 +38,16 @@ void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::O
                                                               .angular_rad_s = command->angular_rad_s});
   }
   if (const auto planes = outputs.planes(0)) add_planes(iteration, *planes);
+}
+
+void AnswerTables::add_pose(std::uint32_t iteration, std::int64_t t_ns, const host::PoseOutput& pose) {
+  log::add_row(trajectory_.next_row(), stamped(t_ns, pose.T_map_body));
+  if (!pose.covariance) return;
+  if (!covariances_)
+    covariances_.emplace(folder_ / files::kPoseCovariances, ',', log::kPoseCovarianceColumns);
+  log::add_row(
+      covariances_->next_row(),
+      log::IterationCovariance{.iteration = iteration, .covariance = log::upper_triangle(*pose.covariance)});
 }
 
 void AnswerTables::add_planes(std::uint32_t iteration, const host::PlaneList& list) {
@@ -50,6 +59,7 @@ void AnswerTables::add_planes(std::uint32_t iteration, const host::PlaneList& li
 void AnswerTables::close() {
   trajectory_.close();
   times_.close();
+  if (covariances_) covariances_->close();
   if (commands_) commands_->close();
   if (planes_) planes_->close();
 }

@@ -11,8 +11,8 @@
 
 namespace hallway::record {
 
-/// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first command and
-/// the first planes on, commands.csv and planes.csv. Memory does not grow with the run. All functions throw Error{kIo}.
+/// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first covariance,
+/// the first command and the first planes on, pose_covariances.csv, commands.csv and planes.csv. Memory does not grow with the run. All functions throw Error{kIo}.
 class AnswerTables {
  public:
   explicit AnswerTables(const std::filesystem::path& folder);
@@ -24,11 +24,13 @@ class AnswerTables {
   void close();
 
  private:
+  void add_pose(std::uint32_t iteration, std::int64_t t_ns, const host::PoseOutput& pose);
   void add_planes(std::uint32_t iteration, const host::PlaneList& list);
 
   std::filesystem::path folder_;
   log::RowFile trajectory_;
   log::RowFile times_;
+  std::optional<log::RowFile> covariances_;
   std::optional<log::RowFile> commands_;
   std::optional<log::RowFile> planes_;
 };

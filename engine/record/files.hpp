@@ -14,6 +14,7 @@ inline constexpr const char* kTruePoses = "truth_poses.csv";
 inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
 inline constexpr const char* kTrueTrajectory = "truth.tum";
 inline constexpr const char* kTrajectory = "trajectory.tum";
+inline constexpr const char* kPoseCovariances = "pose_covariances.csv";
 inline constexpr const char* kCommands = "commands.csv";
 inline constexpr const char* kPlanes = "planes.csv";
 inline constexpr const char* kLandmarks = "landmarks.csv";

@@ -4,6 +4,7 @@
 #include <hallway/ext/log.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "base/error.hpp"
@@ -41,13 +42,22 @@ std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   return pose_of(outputs.pose()->T_map_body);
 }
 
+eval::Truth truth_of(const Source& source) {
+  const host::SensorInfo& sensor = source.sensor();
+  const double largest = *std::max_element(std::begin(sensor.noise_m), std::end(sensor.noise_m));
+  return {.has_identities = source.has_identities(),
+          .landmarks = source.true_landmarks(),
+          .noise_m = largest > 0.0 ? largest : 0.0};  // not a number where it is not known
+}
+
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
   Tally(const Source& source, bool keep_observations)
       : source_(source),
         keep_observations_(keep_observations),
-        evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {}
+        T_body_sensor_(pose_of(source.sensor().T_body_sensor)),
+        evaluator_(truth_of(source)) {}
 
   void add(const FrameAnswer& answer) {
     const SourceFrame& frame = answer.frame;
@@ -55,11 +65,16 @@ class Tally {
     if (source_.has_identities()) {
       for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
     }
+    points_.clear();
+    for (const log::Observation& seen : frame.observations)
+      points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
     eval::Iteration iteration{.T_world_body = frame.T_world_body,
                               .orientation_known = frame.orientation_known,
                               .T_map_body = {},
+                              .pose_covariance = {},
                               .associations = associations(answer),
                               .identities = identities_,
+                              .points = points_,
                               .wall_ms = {},
                               .cpu_ms = {}};
     if (answer.outputs != nullptr) add_answer(answer, iteration);
@@ -75,6 +90,10 @@ class Tally {
     iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
     iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
+    if (iteration.T_map_body && answer.outputs->pose()->covariance) {
+      using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+      iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
+    }
   }
 
   std::span<const log::LandmarkId> associations(const FrameAnswer& answer) {
@@ -92,9 +111,11 @@ class Tally {
 
   const Source& source_;
   bool keep_observations_;
+  Pose T_body_sensor_;
   eval::Evaluator evaluator_;
   std::vector<log::LandmarkId> identities_;
   std::vector<log::LandmarkId> none_;
+  std::vector<Vec3> points_;  ///< body frame
   Collected collected_;
 };
 

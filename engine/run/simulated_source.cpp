@@ -30,7 +30,10 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
   for (int axis = 0; axis < 3; ++axis) sensor_.noise_m[axis] = spec.noise_m[axis];
   landmarks_.emplace();
   for (const Vec3& place : simulator.landmarks()) {
-    landmarks_->push_back({.id = landmarks_->size(), .position_m = {place.x(), place.y(), place.z()}});
+    const auto id = static_cast<std::uint32_t>(landmarks_->size());
+    landmarks_->push_back({.id = id,
+                           .position_m = {place.x(), place.y(), place.z()},
+                           .moving = simulator.moving_landmarks().moves(id)});
   }
 }
 

@@ -34,6 +34,7 @@ class SpecCheck {
                               format_double(spec_.max_range_m));
     }
     for (const double sigma : spec_.noise_m) check_not_negative("noise_m", sigma);
+    for (const double slope : spec_.noise_per_m) check_not_negative("noise_per_m", slope);
     const Pose& mount = spec_.T_body_sensor;
     if (!mount.t.allFinite() || !(std::abs(mount.q.norm() - 1.0) < kUnitRounding)) {
       fail("T_body_sensor", "is not a finite position and a unit quaternion");
@@ -73,8 +74,8 @@ PointSensor::PointSensor(PointSensorSpec spec, const LandmarkIndex& landmarks, c
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
-void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned threads,
-                          std::vector<PointObservation>& out) const {
+void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, std::span<const LandmarkPlace> moved,
+                          unsigned threads, std::vector<PointObservation>& out) const {
   constexpr std::size_t kGrain = 256;
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
   const Vec3& viewpoint = T_world_sensor.t;
@@ -84,7 +85,7 @@ void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, unsigned
                 {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
   }
   std::vector<VisiblePoint> visible;
-  visibility_.find(T_world_sensor, threads, visible);
+  visibility_.find(T_world_sensor, moved, threads, visible);
   std::vector<Seen> all(visible.size());
   parallel_for(visible.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) all[i] = make_seen(visible[i], step);
@@ -102,8 +103,10 @@ PointSensor::Seen PointSensor::make_seen(const VisiblePoint& visible, std::uint3
   const Vec3 deviates(noise_.normal(step, first), noise_.normal(step, first + 1),
                       noise_.normal(step, first + 2));
   const auto bits = order_.bits(step, visible.landmark);
+  const Vec3 growing = visible.point.norm() * spec_.noise_per_m;
+  const Vec3 sigma = (spec_.noise_m.array().square() + growing.array().square()).sqrt();
   return {std::uint64_t{bits[0]} << 32 | bits[1],
-          {visible.landmark, visible.point + spec_.noise_m.cwiseProduct(deviates)}};
+          {visible.landmark, visible.point + sigma.cwiseProduct(deviates)}};
 }
 
 }  // namespace hallway::sense

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/random.hpp"
 #include "geom/pose.hpp"
+#include "sense/moving_landmarks.hpp"
 #include "sense/point_visibility.hpp"
 #include "trace/scene.hpp"
 
@@ -22,6 +24,9 @@ struct PointSensorSpec {
   double min_range_m = 0.0;                              ///< distance from the sensor, inclusive
   double max_range_m = 100.0;                            ///< distance from the sensor, inclusive
   Vec3 noise_m = Vec3::Zero();  ///< standard deviation along each axis of the sensor's frame
+  /// Standard deviation of a second, independent part of the noise, per metre of distance from the sensor: together
+  /// sqrt(noise_m^2 + (noise_per_m distance)^2) along each axis.
+  Vec3 noise_per_m = Vec3::Zero();
 };
 
 /// One seen point.
@@ -52,7 +57,13 @@ class PointSensor {
   /// @param step          number of the frame
   /// @param threads       at least 1; no matter to the result
   void observe(const Pose& T_world_body, std::uint32_t step, unsigned threads,
-               std::vector<PointObservation>& out) const;
+               std::vector<PointObservation>& out) const {
+    observe(T_world_body, step, {}, threads, out);
+  }
+  /// The same while some landmarks are elsewhere than the index has them.
+  /// @param moved  where those are, by rising number; an Error{kBadInput} for one that is not finite or too far away
+  void observe(const Pose& T_world_body, std::uint32_t step, std::span<const LandmarkPlace> moved,
+               unsigned threads, std::vector<PointObservation>& out) const;
 
   const PointSensorSpec& spec() const { return spec_; }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "sense/view_volume.hpp"
 
@@ -68,6 +70,40 @@ void PointVisibility::find(const Pose& T_world_sensor, unsigned threads,
   });
   visible.clear();
   for (const auto& part : parts) visible.insert(visible.end(), part.begin(), part.end());
+}
+
+void PointVisibility::find(const Pose& T_world_sensor, std::span<const LandmarkPlace> moved, unsigned threads,
+                           std::vector<VisiblePoint>& visible) const {
+  find(T_world_sensor, threads, visible);
+  if (moved.empty()) return;
+  const auto before = [](const LandmarkPlace& a, std::uint32_t landmark) { return a.landmark < landmark; };
+  std::erase_if(visible, [&](const VisiblePoint& point) {
+    const auto at = std::lower_bound(moved.begin(), moved.end(), point.landmark, before);
+    return at != moved.end() && at->landmark == point.landmark;
+  });
+  find_moved(T_world_sensor, moved, visible);
+}
+
+void PointVisibility::find_moved(const Pose& T_world_sensor, std::span<const LandmarkPlace> moved,
+                                 std::vector<VisiblePoint>& visible) const {
+  const Eigen::Matrix3d to_sensor = T_world_sensor.q.conjugate().toRotationMatrix();
+  std::vector<VisiblePoint> in_view;
+  std::vector<Vec3> ends;
+  for (const LandmarkPlace& at : moved) {
+    if (!at.place.allFinite() || at.place.cwiseAbs().maxCoeff() > trace::Scene::kMaxRayCoordinate) {
+      throw Error(ErrorCode::kBadInput, "its position is not finite or too far from the origin",
+                  {.element = "landmark " + std::to_string(at.landmark)});
+    }
+    const Vec3 point = to_sensor * (at.place - T_world_sensor.t);
+    if (!field_of_view_.contains(point)) continue;
+    in_view.push_back({at.landmark, point});
+    ends.push_back(at.place);
+  }
+  std::vector<std::uint8_t> hidden(ends.size());
+  scene_.occluded_from(T_world_sensor.t, ends, hidden);
+  for (std::size_t i = 0; i < in_view.size(); ++i) {
+    if (hidden[i] == 0) visible.push_back(in_view[i]);
+  }
 }
 
 }  // namespace hallway::sense

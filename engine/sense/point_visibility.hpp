@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sense/field_of_view.hpp"
 #include "sense/landmark_index.hpp"
+#include "sense/moving_landmarks.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::sense {
@@ -31,7 +33,15 @@ class PointVisibility {
   /// @param threads         at least 1
   void find(const Pose& T_world_sensor, unsigned threads, std::vector<VisiblePoint>& visible) const;
 
+  /// The same while some landmarks are elsewhere than the index has them; those stand behind the others.
+  /// @param moved  where those are, by rising number; Error{kBadInput} for one that the scene takes no rays from
+  void find(const Pose& T_world_sensor, std::span<const LandmarkPlace> moved, unsigned threads,
+            std::vector<VisiblePoint>& visible) const;
+
  private:
+  void find_moved(const Pose& T_world_sensor, std::span<const LandmarkPlace> moved,
+                  std::vector<VisiblePoint>& visible) const;
+
   FieldOfView field_of_view_;
   const LandmarkIndex& index_;
   const trace::Scene& scene_;

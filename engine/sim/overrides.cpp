@@ -45,6 +45,7 @@ std::vector<std::string> settable_keys(TomlTable& scenario) {
   for (const std::string& name : sensor_names(scenario)) {
     for (const std::string& key : kSensorKeys) keys.push_back("sensor." + name + "." + key);
   }
+  for (const std::string& key : kCloudKeys) keys.push_back("cloud.NAME." + key);
   for (std::string& key : host::plugin_parameter_keys(scenario)) keys.push_back(std::move(key));
   return keys;
 }
@@ -70,6 +71,13 @@ bool set_sensor(TomlTable& scenario, std::string_view name, std::string_view key
   return true;
 }
 
+/// Clouds are the map's: a scenario need not have a table of that name.
+void set_cloud(TomlTable& scenario, std::string_view name, std::string_view key, TomlNode value) {
+  TomlTable* clouds = table_in(scenario, "cloud");
+  TomlTable* cloud = clouds != nullptr ? table_in(*clouds, name) : nullptr;
+  if (cloud != nullptr) assign(*cloud, key, std::move(value));  // else the reader says what is wrong there
+}
+
 void apply(TomlTable& scenario, const Override& setting) {
   const std::vector<std::string_view> parts = split(setting.key, '.');
   if (parts.size() == 1 && holds(kTopOverrideKeys, parts[0])) {
@@ -83,6 +91,10 @@ void apply(TomlTable& scenario, const Override& setting) {
   if (parts.size() == 3 && parts[0] == "sensor" &&
       set_sensor(scenario, parts[1], parts[2], toml_value_or_text(setting.value)))
     return;
+  if (parts.size() == 3 && parts[0] == "cloud" && holds(kCloudKeys, parts[2])) {
+    set_cloud(scenario, parts[1], parts[2], toml_value_or_text(setting.value));
+    return;
+  }
   const std::size_t dot = setting.key.rfind('.');
   if (dot == std::string::npos) refuse(scenario, setting.key);
   const std::string_view key = setting.key;

@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "base/toml_reader.hpp"
 #include "map/sensors.hpp"
+#include "sim/clouds.hpp"
 #include "sim/overrides.hpp"
 #include "sim/schema.hpp"
 #include "sim/sensors.hpp"
@@ -55,6 +56,7 @@ class ScenarioReader {
     scenario_.limits = host::read_plugin_limits(top, scenario_.limits);
     read_robot(top);
     read_sensors(top);
+    read_clouds(top);
     scenario_.pipeline = host::read_plugin_tables(path_, root_, scenario_.settings);
     for_each_table(top, root_, "picture", kMaxPictures,
                    [&](const TomlTable& table, int line) { read_picture(table, line); });
@@ -133,6 +135,20 @@ class ScenarioReader {
       }
       TableReader sensor = reader("sensor." + name, all.table(name), all.line(name), kSensorKeys);
       scenario_.sensors.push_back(read_sensor(name, sensor));
+    }
+  }
+
+  void read_clouds(const TableReader& top) {
+    const TomlTable& clouds = top.table("cloud");
+    std::vector<std::string> names;
+    for (const TomlEntry& entry : clouds) names.push_back(entry.key);
+    const TableReader all = reader("cloud", clouds, top.line("cloud"), names);
+    for (const std::string& name : names) {
+      if (!std::holds_alternative<TomlTable>(find(clouds, name)->value))
+        throw all.error(name, "must be a table: a cloud is written as [cloud.NAME]");
+      TableReader cloud = reader("cloud." + name, all.table(name), all.line(name), kCloudKeys);
+      const Where where{printable(scenario_.file), all.line(name), "table `cloud." + printable(name) + "`"};
+      scenario_.clouds.push_back({name, read_cloud_keys(cloud), where});
     }
   }
 

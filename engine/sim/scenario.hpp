@@ -13,6 +13,7 @@
 #include "geom/pose.hpp"
 #include "host/plugin_limits.hpp"
 #include "host/plugin_table.hpp"
+#include "map/document.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/setting.hpp"
 
@@ -54,6 +55,13 @@ struct PictureSpec {
   bool shows(PictureLayer layer) const;
 };
 
+/// Keys of an `hw_landmark_cloud` of the map that a scenario sets in its place.
+struct CloudSpec {
+  std::string name;                 ///< of the cloud
+  std::vector<map::KeyValue> keys;  ///< as the map would have them
+  Where where;                      ///< of the table, for messages
+};
+
 /// What is to be run: a map, a robot in it with its sensors, and the plugins that get what it senses. A value; where each
 /// part of it came from stands in `settings`.
 struct Scenario {
@@ -65,6 +73,7 @@ struct Scenario {
   PluginLimits limits{};
   RobotSpec robot;
   std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file; none: those of the map count
+  std::vector<CloudSpec> clouds;                ///< in the order of the file
   std::vector<host::StageSpec> pipeline;        ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order

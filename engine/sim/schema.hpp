@@ -8,13 +8,15 @@ namespace hallway::sim {
 
 /// The keys of a scenario's tables. What they mean stands in docs/formats.md.
 inline const std::vector<std::string> kTopKeys{
-    "schema",           "map",        "seed",  "steps",  "period_s", "call_timeout_s",
-    "memory_limit_mib", "on_failure", "robot", "sensor", "plugin",   "picture"};
+    "schema",     "map",   "seed",   "steps", "period_s", "call_timeout_s", "memory_limit_mib",
+    "on_failure", "robot", "sensor", "cloud", "plugin",   "picture"};
 inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
                                                  "length_m", "width_m",   "bottom_m",   "top_m"};
 inline const std::vector<std::string> kSensorKeys{
-    "kind",    "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
-    "noise_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};
+    "kind",        "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m", "noise_m",
+    "noise_per_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};
+inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",
+                                                 "speed",    "moving_share", "motion",   "groups"};
 inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",
                                                    "cut_z_m", "eye_m", "target_m", "show"};
 

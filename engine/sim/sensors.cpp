@@ -64,6 +64,7 @@ sense::PointSensorSpec read_sensor(const std::string& name, TableReader& sensor,
                            " is above max_range_m = " + format_double(spec.max_range_m));
   }
   spec.noise_m = sensor.vector_or_one("noise_m", range_of("noise_m"), Vec3::Zero());
+  spec.noise_per_m = sensor.vector_or_one("noise_per_m", range_of("noise_per_m"), Vec3::Zero());
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
   const double yaw = angle(sensor, "yaw_deg");
   const double pitch = angle(sensor, "pitch_deg");

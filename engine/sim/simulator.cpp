@@ -13,9 +13,11 @@
 #include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "map/reader.hpp"
-#include "sense/landmarks.hpp"
+#include "sense/cloud_landmarks.hpp"
+#include "sense/face_landmarks.hpp"
 #include "sense/mesh_landmarks.hpp"
 #include "sense/occluders.hpp"
+#include "sim/clouds.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::sim {
@@ -41,16 +43,28 @@ world::CompiledWorld compile_for_run(const map::Document& document, const std::f
   return world::compile(document, settings);
 }
 
+/// What the map's landmarks are made from: the map with the keys that the scenario sets in its clouds.
+map::Document with_clouds(const map::Document& document, const Scenario& scenario) {
+  map::Document changed = document;
+  set_cloud_keys(scenario.clouds, changed);
+  return changed;
+}
+
 /// Points on what the inside of a sealed world sees, on everything where the world is open; none on a sky.
-std::vector<Vec3> find_landmarks(const map::Document& document, const world::CompiledWorld& world,
-                                 const PlacedModels& models) {
+Landmarks find_landmarks(const map::Document& document, const world::CompiledWorld& world,
+                         const PlacedModels& models) {
   const bsp::Compiled& partition = world.partition;
   const auto wanted = [&](std::size_t polygon) {
     const csg::SurfacePolygon& p = partition.surface.polygons[polygon];
     return (!world.sealed() || partition.inside[polygon]) &&
            !map::is_sky(world.brushes.solids[p.solid].faces[p.face].material);
   };
-  std::vector<Vec3> landmarks = sense::make_landmarks(document, world.brushes, partition.surface, wanted);
+  Landmarks made;
+  std::vector<Vec3>& landmarks = made.places;
+  sense::add_face_landmarks(document, world.brushes, partition.surface, wanted, landmarks);
+  const std::size_t first_cloud = landmarks.size();
+  sense::add_cloud_landmarks(document, landmarks);
+  made.moving = sense::MovingLandmarks(document, landmarks, first_cloud);
   const map::FacePoints points = map::face_points(document);
   constexpr double kMostPerM2 = 1e6;
   for (std::size_t i = 0; i < models.meshes.size(); ++i) {
@@ -60,7 +74,7 @@ std::vector<Vec3> find_landmarks(const map::Document& document, const world::Com
     sense::add_mesh_landmarks(models.meshes[i], static_cast<std::uint32_t>(i), per_m2, points.seed,
                               landmarks);
   }
-  return landmarks;
+  return made;
 }
 
 sense::LandmarkIndex make_index(const std::vector<Vec3>& landmarks, const world::CompiledWorld& world) {
@@ -104,8 +118,8 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       path_(map::find_path(document_, scenario.robot.path)),
       step_length_m_(find_step_length(scenario, path_)),
       scene_(sense::make_occluders(world_.partition.surface, triangles_of(models_)), backend),
-      landmarks_(find_landmarks(document_, world_, models_)),
-      landmark_index_(make_index(landmarks_, world_)) {
+      landmarks_(find_landmarks(with_clouds(document_, scenario), world_, models_)),
+      landmark_index_(make_index(landmarks_.places, world_)) {
   take_map_sensors(scenario_, document_);
   sensors_.reserve(scenario_.sensors.size());
   for (const sense::PointSensorSpec& spec : scenario_.sensors) {
@@ -148,10 +162,12 @@ Frame Simulator::step(std::uint32_t index) const {
   frame.step = index;
   frame.t_ns = scenario_.period_ns * std::int64_t{index};
   frame.T_world_body = pose_at(index);
+  std::vector<sense::LandmarkPlace> moved;
+  landmarks_.moving.places_at(static_cast<double>(frame.t_ns) / 1e9, moved);
   frame.readings.resize(sensors_.size());
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     frame.readings[i].sensor = i;
-    sensors_[i].observe(frame.T_world_body, index, threads_, frame.readings[i].observations);
+    sensors_[i].observe(frame.T_world_body, index, moved, threads_, frame.readings[i].observations);
   }
   return frame;
 }

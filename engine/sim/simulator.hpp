@@ -10,6 +10,7 @@
 #include "map/document.hpp"
 #include "map/path.hpp"
 #include "sense/landmark_index.hpp"
+#include "sense/moving_landmarks.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/drive.hpp"
 #include "sim/models.hpp"
@@ -33,6 +34,12 @@ struct Frame {
   std::vector<Reading> readings;  ///< one for each sensor, in their order
 };
 
+/// What a map has for point sensors to see.
+struct Landmarks {
+  std::vector<Vec3> places;       ///< in frame 0, world
+  sense::MovingLandmarks moving;  ///< those that are elsewhere later
+};
+
 /// A robot driven along a path of a map at constant speed until something stops it, with sensors that see the map's landmarks. The first frame
 /// stands at the path's start.
 class Simulator {
@@ -41,7 +48,7 @@ class Simulator {
   /// @param threads  for the work of one frame, at least 1; no result depends on it
   /// Throws Error for a map or a model that cannot be read, a path that the map does not have or that begins in solid, a robot start in
   /// solid, two robot starts, a bad
-  /// `hw_sensor` where the scenario has no sensors. Brushes that are no bodies are left out and stand in problems().
+  /// `hw_sensor` where the scenario has no sensors, a cloud that the scenario has a table for and the map does not. Brushes that are no bodies are left out and stand in problems().
   Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -64,8 +71,10 @@ class Simulator {
   const PlacedModels& models() const { return models_; }
   const map::Path& path() const { return path_; }
   const trace::Scene& scene() const { return scene_; }
-  /// Every point that a sensor can see, world metres; the index is the landmark's number.
-  const std::vector<Vec3>& landmarks() const { return landmarks_; }
+  /// Every point that a sensor can see, world metres, in frame 0; the index is the landmark's number.
+  const std::vector<Vec3>& landmarks() const { return landmarks_.places; }
+  /// Those of them that do not stand still.
+  const sense::MovingLandmarks& moving_landmarks() const { return landmarks_.moving; }
   /// Metres of path from frame to frame.
   double step_length_m() const { return step_length_m_; }
 
@@ -81,7 +90,7 @@ class Simulator {
   double step_length_m_;
   std::optional<double> stop_m_;  ///< of the path, where an obstacle stops the robot
   trace::Scene scene_;
-  std::vector<Vec3> landmarks_;
+  Landmarks landmarks_;
   sense::LandmarkIndex landmark_index_;
   std::vector<sense::PointSensor> sensors_;
   std::vector<Error> problems_;

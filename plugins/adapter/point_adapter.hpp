@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ template <typename Pose>
 class PointAdapter {
  public:
   using Vec3 = Eigen::Vector3d;
+  using Mat3 = Eigen::Matrix3d;
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
 
   /// Takes the sensors that give points. Throws sdk::Failure when there is none.
   void activate(const hw_activation_t& activation) {
@@ -52,9 +55,14 @@ class PointAdapter {
   /// follows any. Different sensors' ids are taken for different ones only if they are.
   const std::vector<std::uint64_t>& tracks() const { return tracks_; }
 
-  /// Answers the pose of a frame, or that there is none, and logs where that changes.
-  void put_pose(const sdk::Host& host, const hw_frame_t& frame, bool has_pose, const Pose& T_map_sensor) {
-    if (has_pose) {
+  /// Answers the pose of a frame, or that there is none, and logs where that changes. `covariance`: of the sensor pose's error
+  /// (position, then rotation vector in the algorithm's map frame), if it is known.
+  void put_pose(const sdk::Host& host, const hw_frame_t& frame, bool has_pose, const Pose& T_map_sensor,
+                const std::optional<Mat6>& covariance = std::nullopt) {
+    if (has_pose && covariance) {
+      const Mat6 of_body = body_covariance(T_map_sensor, *covariance);
+      host.put_pose(body_pose(T_map_sensor), of_body.data());
+    } else if (has_pose) {
       host.put_pose(body_pose(T_map_sensor));
     } else {
       host.put_lost();
@@ -79,6 +87,24 @@ class PointAdapter {
   hw_pose_t body_pose(const Pose& T_map_sensor) const {
     const Pose T = T_body_reference_ * T_map_sensor * T_reference_body_;
     return {{T.t.x(), T.t.y(), T.t.z()}, {T.q.w(), T.q.x(), T.q.y(), T.q.z()}};
+  }
+
+  /// The covariance of body_pose() from that of the sensor pose, as hw_pose_output_t has it; symmetric, so by rows or columns.
+  Mat6 body_covariance(const Pose& T_map_sensor, const Mat6& covariance) const {
+    const Mat3 turn = T_body_reference_.q.toRotationMatrix();
+    const Vec3 arm = T_map_sensor.q * T_reference_body_.t;  // from the sensor to the body
+    Mat3 cross;
+    cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
+    Mat6 motion;
+    motion << turn, -turn * cross, Mat3::Zero(), turn;
+    const Mat6 moved = motion * covariance * motion.transpose();
+    return 0.5 * (moved + moved.transpose());
+  }
+
+  /// The covariance of a point of the algorithm's map in the map's frame.
+  Mat3 map_covariance(const Mat3& covariance) const {
+    const Mat3 turn = T_body_reference_.q.toRotationMatrix();
+    return turn * covariance * turn.transpose();
   }
 
   /// A point of the algorithm's map in the map's frame.

@@ -82,7 +82,7 @@ class SlamPoint final : public sdk::Plugin {
   void process(const hw_frame_t& frame) override {
     const std::vector<Vec3>& points = adapter_.gather(frame);
     const Answer& answer = thesis_ ? thesis_->process(points) : mapper_->process(points, adapter_.tracks());
-    adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
+    adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor, answer.covariance);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer.counters);
   }
@@ -106,12 +106,17 @@ class SlamPoint final : public sdk::Plugin {
 
   void put_landmarks(const Map& map) const {
     std::vector<hw_landmark_t> landmarks;
+    std::vector<double> covariances;  // six for each
+    bool told = false;
     landmarks.reserve(map.landmarks.size());
     for (const Landmark& landmark : map.landmarks) {
       const Vec3 p = adapter_.map_point(landmark.position);
       landmarks.push_back({landmark.id, {p.x(), p.y(), p.z()}, landmark.observations, to_c(landmark.status)});
+      const Mat3 c = landmark.covariance ? adapter_.map_covariance(*landmark.covariance) : Mat3(Mat3::Zero());
+      covariances.insert(covariances.end(), {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)});
+      told = told || landmark.covariance.has_value();
     }
-    host().put_landmarks(landmarks);
+    host().put_landmarks(landmarks, told ? covariances.data() : nullptr);
   }
 
   void put_submaps(const Map& map) const {

@@ -21,10 +21,22 @@ std::set<std::string> names_in(const fs::path& folder) {
 TEST(OutputFolder, HoldsTheDocumentedFiles) {
   const SmallWorld world;
   ASSERT_EQ(world.run({"--quiet"}).status, 0);
-  const std::set<std::string> expected{
-      "run.json",         "run.mcap",      "metrics.json",    "scenario.toml",       "map.map",
-      "observations.csv", "truth.tum",     "truth_poses.csv", "truth_landmarks.csv", "trajectory.tum",
-      "landmarks.csv",    "landmarks.ply", "matches.csv",     "submaps.csv",         "timing.csv"};
+  const std::set<std::string> expected{"run.json",
+                                       "run.mcap",
+                                       "metrics.json",
+                                       "scenario.toml",
+                                       "map.map",
+                                       "observations.csv",
+                                       "truth.tum",
+                                       "truth_poses.csv",
+                                       "truth_landmarks.csv",
+                                       "trajectory.tum",
+                                       "landmarks.csv",
+                                       "landmarks.ply",
+                                       "matches.csv",
+                                       "submaps.csv",
+                                       "timing.csv",
+                                       "pose_covariances.csv"};
   EXPECT_EQ(names_in(world.out()), expected);
 }
 

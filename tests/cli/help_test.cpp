@@ -43,6 +43,13 @@ TEST(Help, OfLog) {
                "--topic", "--truth-topic", "Example"});
 }
 
+TEST(Help, OfStudies) {
+  expect_help({"study", "--help"}, {"constants", "figure-eight", "density", "map-size", "straight",
+                                    "stationary", "victoria-park", "forty-loops", "Example"});
+  expect_help({"study", "straight", "--help"},
+              {"--plugin", "--seeds", "--steps", "--quick", "--out", "--maps", "150, 151", "Example"});
+}
+
 TEST(Help, OfRender) {
   expect_help({"render", "--help"}, {"--view", "--out", "--size", "--cut", "--eye", "Example"});
 }

@@ -43,6 +43,10 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"engine/run",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log",
       "record", "link", "foxglove", "eval", "render", "hallway"}},
+    {"engine/batch", {"base"}},
+    {"engine/study",
+     {"base", "geom", "map",    "csg",  "bsp",    "pvs",  "trace",  "mesh", "world", "sense",  "sim",
+      "host", "log",  "record", "link", "import", "eval", "render", "run",  "batch", "hallway"}},
     {"editor",
      {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval", "render",
       "run"}},
@@ -52,16 +56,16 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"plugins/slam_point/core", {"slam_point"}},
     {"plugins/icp/core", {"icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
-    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",    "pvs",    "trace",  "mesh",   "world",
-             "sense",  "sim",    "host", "conformance", "log",    "record", "link",   "import", "eval",
-             "render", "planes", "run",  "batch",       "editor", "icp",    "hallway"}},
+    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",   "world",
+             "sense",  "sim",    "host", "conformance", "log",   "record", "link",  "import", "eval",
+             "render", "planes", "run",  "batch",       "study", "editor", "icp",   "hallway"}},
 };
 
 const std::set<std::string> kLibraries{"base",       "geom",        "map",    "csg",    "bsp",      "pvs",
                                        "trace",      "mesh",        "world",  "sense",  "sim",      "host",
                                        "log",        "planes",      "record", "link",   "foxglove", "import",
                                        "eval",       "render",      "run",    "editor", "hallway",  "robot",
-                                       "slam_point", "conformance", "em",     "icp"};
+                                       "slam_point", "conformance", "em",     "icp",    "batch",    "study"};
 
 struct Include {
   fs::path file;

@@ -43,6 +43,51 @@ TEST(FigureEight, LoopClosesAndTheMapIsRight) {
   }
 }
 
+/// How landmarks of the figure eight move.
+struct Moving {
+  const char* share;
+  const char* motion;
+};
+
+/// The figure eight at 25 landmarks per 100 m, some of which move.
+json moving_run(const Moving& moving, int seed, int steps, const std::string& folder) {
+  const std::string cloud = "cloud.around_the_path.";
+  return metrics_of(hallway({"run", source_folder() / "maps" / "figure_eight.toml", "--json", "--seed",
+                             std::to_string(seed), "--steps", std::to_string(steps), "--set",
+                             cloud + "seed=" + std::to_string(seed), "--set", cloud + "per_100m=25", "--set",
+                             cloud + "moving_share=" + moving.share, "--set",
+                             cloud + "motion=" + moving.motion, "--out", folder}));
+}
+
+void expect_told_apart(const json& metrics) {
+  EXPECT_EQ(metrics.at("lost_iterations"), 0);
+  const json& moving = metrics.at("moving");
+  EXPECT_GE(moving.at("moved"), 5);
+  EXPECT_GE(moving.at("recall"), 0.97);
+  EXPECT_GE(moving.at("precision"), 0.97);
+  EXPECT_LE(metrics.at("landmark_rmse_m").at("aligned"), 0.06);
+}
+
+TEST(FigureEight, LandmarksThatMoveAreToldFromThoseThatStand) {
+  const TempFolder folder;
+  for (const Moving& moving : {Moving{"0.1", "independent"}, Moving{"0.4", "group"}}) {
+    SCOPED_TRACE(std::string(moving.share) + " " + moving.motion);
+    expect_told_apart(moving_run(moving, 1, sized(900, 3800), folder / moving.motion));
+  }
+}
+
+TEST(FigureEight, EveryShareOfMovingLandmarksIsToldFromTheRest) {
+  if (!long_mode()) GTEST_SKIP() << "long";
+  const TempFolder folder;
+  for (const char* share : {"0.1", "0.2", "0.3", "0.4"}) {
+    for (const char* motion : {"independent", "group"}) {
+      SCOPED_TRACE(std::string(share) + " " + motion);
+      const std::string run = folder / (std::string(share) + motion);
+      expect_told_apart(moving_run({share, motion}, 2, 3800, run));
+    }
+  }
+}
+
 TEST(Office, IsMappedWithoutABreak) {
   const TempFolder folder;
   const json metrics = metrics_of(

@@ -78,7 +78,7 @@ TEST_P(Maps, ReplayOfTheRunsOwnFilesGivesTheSameMapAndPath) {
       hallway({"replay", fs::path(out("a")) / "observations.csv", "--quiet", "--out", out("again")});
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* name : {"trajectory.tum", "landmarks.csv", "landmarks.ply", "submaps.csv", "matches.csv",
-                           "truth.tum", "metrics.json"}) {
+                           "truth.tum", "pose_covariances.csv", "metrics.json"}) {
     EXPECT_EQ(comparable(fs::path(out("a")) / name), comparable(fs::path(out("again")) / name)) << name;
   }
 }

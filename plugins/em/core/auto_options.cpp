@@ -33,7 +33,9 @@ constexpr std::array<OptionRow<AutoOptions>, 10> kRows{{
     {"warm_start", "1", 0, 1,
      "1: the planes of the last frame are tried first, and planes that are the same keep their ids.", nullptr,
      &AutoOptions::warm_start},
-    {"threads", "threads", 1, 64, "Threads that share the work; the result is the same for any number.",
+    {"threads", "threads", 0, 64,
+     "Threads that share the work; 0: as many as there are processors, at most 4. The result is the same for "
+     "any number.",
      nullptr, &AutoOptions::threads},
 }};
 

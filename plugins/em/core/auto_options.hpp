@@ -19,7 +19,7 @@ struct AutoOptions {
   double bend = 0.06;         ///< how much of its width a plane of several facets may be thick; 0: none
   int rougher = 5;            ///< how often surfaces rougher than those found so far are sought; 0: never
   int warm_start = 0;         ///< 1: the planes of the last frame are tried first, and keep their ids
-  int threads = 1;            ///< that share the work; the result is the same for any number
+  int threads = 0;            ///< that share the work, 0: see Workers; the result is the same for any number
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;

@@ -40,10 +40,10 @@ std::uint64_t cell_of(double value, double low, double scale) {
 }
 
 /// Morton code above, index below.
-std::vector<std::uint64_t> words_of(const std::vector<Vec3>& cloud, const Bounds& bounds, Workers& workers) {
+RawVector<std::uint64_t> words_of(std::span<const Vec3> cloud, const Bounds& bounds, Workers& workers) {
   const double longest = (bounds.high - bounds.low).maxCoeff();
   const double scale = longest > 0.0 ? (1 << kAxisBits) / longest : 0.0;
-  std::vector<std::uint64_t> words(cloud.size());
+  RawVector<std::uint64_t> words(cloud.size());
   workers.run_parts(cloud.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& p = cloud[i];
@@ -72,11 +72,11 @@ void make_starts(std::vector<DigitCounts>& slices) {
 
 /// Sorts by the code, equal ones by the order given. Each thread counts and moves a slice of the words; a stable sort has
 /// one result, however they are cut.
-void sort_by_code(std::vector<std::uint64_t>& words, Workers& workers) {
+void sort_by_code(RawVector<std::uint64_t>& words, Workers& workers) {
   const std::size_t slices = std::min(workers.count(), Workers::parts(words.size()));
   const auto begin_of = [&](std::size_t slice) { return slice * words.size() / slices; };
   std::vector<DigitCounts> starts(slices);
-  std::vector<std::uint64_t> moved(words.size());
+  RawVector<std::uint64_t> moved(words.size());
   for (int place = 0; place < kDigits; ++place) {
     workers.run(slices, [&](std::size_t slice, std::size_t) {
       starts[slice].fill(0);
@@ -94,7 +94,7 @@ void sort_by_code(std::vector<std::uint64_t>& words, Workers& workers) {
 }
 
 /// Sorts the words of equal code by exact coordinates, then by index.
-void order_within_cells(const std::vector<Vec3>& cloud, std::vector<std::uint64_t>& words, Workers& workers) {
+void order_within_cells(std::span<const Vec3> cloud, RawVector<std::uint64_t>& words, Workers& workers) {
   const auto same_cell = [&words](std::size_t k) {
     return words[k] >> kIndexBits == words[k - 1] >> kIndexBits;
   };
@@ -129,8 +129,8 @@ std::vector<std::size_t> starts_of(const std::vector<std::size_t>& counts) {
 
 /// The usable points, and their indices in the cloud.
 struct Usable {
-  std::vector<Vec3> points;
-  std::vector<PointIndex> index;
+  RawVector<Vec3> points;
+  RawVector<PointIndex> index;
 };
 
 Usable usable_of(std::span<const Vec3> cloud, Workers& workers) {
@@ -155,7 +155,7 @@ Usable usable_of(std::span<const Vec3> cloud, Workers& workers) {
 }
 
 /// Fills in the points in the order of the words, each place once.
-void take_places(const Usable& usable, const std::vector<std::uint64_t>& words, Workers& workers,
+void take_places(const Usable& usable, const RawVector<std::uint64_t>& words, Workers& workers,
                  CanonicalCloud& result) {
   const auto point = [&](std::size_t k) -> const Vec3& { return usable.points[words[k] & kIndexMask]; };
   const auto is_new = [&](std::size_t k) { return k == 0 || point(k) != point(k - 1); };
@@ -195,7 +195,7 @@ CanonicalCloud canonical_order(std::span<const Vec3> cloud, Workers& workers) {
   workers.run_parts(usable.points.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) usable.points[i] = result.frame.from_cloud(usable.points[i]);
   });
-  std::vector<std::uint64_t> words = words_of(usable.points, robust_bounds(usable.points, workers), workers);
+  RawVector<std::uint64_t> words = words_of(usable.points, robust_bounds(usable.points, workers), workers);
   sort_by_code(words, workers);
   order_within_cells(usable.points, words, workers);
   take_places(usable, words, workers, result);

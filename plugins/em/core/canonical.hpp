@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "em/core/points.hpp"
 #include "em/core/principal_frame.hpp"
+#include "em/core/raw_vector.hpp"
 #include "em/core/types.hpp"
 #include "em/core/workers.hpp"
 
@@ -16,10 +16,10 @@ namespace hallway::em {
 /// that depends on the coordinates alone, in a frame that turns with the cloud. So no result depends on the
 /// order given, and doubling every point changes nothing.
 struct CanonicalCloud {
-  Points points;                     ///< in `frame`, in Morton order
-  CloudFrame frame;                  ///< turns and moves with the cloud
-  std::vector<PointIndex> given;     ///< indices of the points given, grouped by place in `points`
-  std::vector<std::uint32_t> first;  ///< place i was given by given[first[i]] .. given[first[i + 1]]
+  Points points;                   ///< in `frame`, in Morton order
+  CloudFrame frame;                ///< turns and moves with the cloud
+  RawVector<PointIndex> given;     ///< indices of the points given, grouped by place in `points`
+  RawVector<std::uint32_t> first;  ///< place i was given by given[first[i]] .. given[first[i + 1]]
 
   /// The points given that stand at place `i`.
   std::span<const PointIndex> given_at(std::size_t i) const {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "em/core/growth.hpp"
 
 namespace hallway::em {
@@ -14,9 +17,20 @@ struct Evidence {
   double gain = 0.0;         ///< log likelihood of so many members, by chance against by a plane
 };
 
-/// Counts what lies beside the plane, over the same cells: the emptier side tells the background, for
+/// What there is of a grown plane and beside it, whatever is claimed later.
+struct Surroundings {
+  std::vector<std::uint32_t> above;  ///< points in the flank that the normal points to, over the same cells
+  std::vector<std::uint32_t> below;  ///< and in the other one; of both, those that nothing had claimed
+  double flatness = 0.0;             ///< variance of the members across the plane by the smaller one along it
+};
+
+/// Collects them; O(points near the plane).
+Surroundings surroundings_of(const PointField& field, const std::vector<std::uint8_t>& claimed,
+                             const Grown& plane);
+
+/// Counts what lies beside the plane and is unclaimed: the emptier side tells the background, for
 /// on the other one another plane may lie. `volume_density`: points per volume that belong to no plane.
-Evidence evidence_of(const PointField& field, const std::vector<std::uint8_t>& claimed, const Grown& plane,
+Evidence evidence_of(const Surroundings& beside, const std::vector<std::uint8_t>& claimed, const Grown& plane,
                      double sigma, double volume_density);
 
 /// How much a plane may differ from points with the cloud's noise on nothing but one plane.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "em/core/facets.hpp"
+#include "em/core/grouped.hpp"
 #include "em/core/plane_shape.hpp"
 
 namespace hallway::em {
@@ -13,31 +15,38 @@ namespace {
 
 using Places = std::vector<std::uint32_t>;
 
-/// The different points of each group of patches, as places in the canonical cloud, by its first patch.
-std::vector<Places> places_of(const CanonicalCloud& cloud, const Mixture& mixture,
-                              const std::vector<std::uint32_t>& groups) {
-  std::vector<Places> places(mixture.patches.size());
-  for (std::uint32_t i = 0; i < cloud.points.count; ++i) {
-    if (mixture.labels()[i] != kNoPlane) places[groups[mixture.labels()[i]]].push_back(i);
-  }
-  return places;
-}
-
-/// The share of points of its own of each group: that of its patches, by their points.
-std::vector<double> shares_of(Mixture& mixture, const std::vector<std::uint32_t>& groups) {
+/// The share of points of its own of each group: that of its patches, by their points. `sizes`: points of each patch.
+std::vector<double> shares_of(Mixture& mixture, const std::vector<std::uint32_t>& groups,
+                              const std::vector<std::size_t>& sizes) {
   const std::vector<double> of_patches = mixture.exclusive_shares();
-  std::vector<double> points(groups.size(), 0.0);
-  for (const std::uint32_t label : mixture.labels()) {
-    if (label != kNoPlane) points[label] += 1.0;
-  }
   std::vector<double> own(groups.size(), 0.0);
   std::vector<double> all(groups.size(), 0.0);
   for (std::size_t j = 0; j < groups.size(); ++j) {
-    own[groups[j]] += of_patches[j] * points[j];
-    all[groups[j]] += points[j];
+    const auto points = static_cast<double>(sizes[j]);
+    own[groups[j]] += of_patches[j] * points;
+    all[groups[j]] += points;
   }
   for (std::size_t j = 0; j < groups.size(); ++j) own[j] = all[j] > 0.0 ? own[j] / all[j] : 1.0;
   return own;
+}
+
+std::vector<std::size_t> sizes_of(const std::vector<Places>& lists) {
+  std::vector<std::size_t> sizes;
+  for (const Places& list : lists) sizes.push_back(list.size());
+  return sizes;
+}
+
+/// The places of each group, ascending, by its first patch.
+std::vector<Places> joined_places(std::vector<Places> of_patches, const std::vector<std::uint32_t>& groups) {
+  for (std::size_t j = 0; j < groups.size(); ++j) {
+    if (groups[j] == j) continue;
+    Places& first = of_patches[groups[j]];
+    const auto middle = static_cast<std::ptrdiff_t>(first.size());
+    first.insert(first.end(), of_patches[j].begin(), of_patches[j].end());
+    std::inplace_merge(first.begin(), first.begin() + middle, first.end());
+    of_patches[j].clear();
+  }
+  return of_patches;
 }
 
 /// The frame of each group: that of its patch, or through the points of all of its patches.
@@ -105,10 +114,14 @@ Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double b
   Extraction result;
   result.labels.assign(given, kNoPlane);
   result.noise = mixture.noise();
+  const std::vector<std::uint32_t>& patch_of_point = mixture.labels();
+  const std::size_t patches = mixture.patches.size();
+  std::vector<Places> of_patches = grouped(
+      cloud.points.count, patches, [&](std::size_t i) { return patch_of_point[i]; }, workers);
   const std::vector<std::uint32_t> groups =
-      facet_groups(cloud.points, mixture.patches, mixture.labels(), bend);
-  const std::vector<Places> places = places_of(cloud, mixture, groups);
-  const std::vector<double> shares = shares_of(mixture, groups);
+      facet_groups(cloud.points, mixture.patches, of_patches, bend, workers);
+  const std::vector<double> shares = shares_of(mixture, groups, sizes_of(of_patches));
+  const std::vector<Places> places = joined_places(std::move(of_patches), groups);
   const std::vector<PlaneFrame> frames = frames_of(cloud, mixture, groups, places);
   const std::vector<std::size_t> order = by_size(places);
   result.planes.resize(order.size());
@@ -118,17 +131,13 @@ Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double b
     plane.id = k;
     plane.exclusive_share = shares[j];
     describe(cloud, places[j], frames[j], plane);
-    std::size_t members = 0;
     for (const std::uint32_t i : places[j]) {
       for (const PointIndex index : cloud.given_at(i)) result.labels[index] = static_cast<std::uint32_t>(k);
-      members += cloud.given_at(i).size();
     }
-    plane.members.reserve(members);
   });
-  for (std::size_t i = 0; i < given; ++i) {
-    if (result.labels[i] != kNoPlane)
-      result.planes[result.labels[i]].members.push_back(static_cast<PointIndex>(i));
-  }
+  std::vector<Places> members = grouped(
+      given, order.size(), [&](std::size_t i) { return result.labels[i]; }, workers);
+  for (std::size_t k = 0; k < order.size(); ++k) result.planes[k].members = std::move(members[k]);
   return result;
 }
 

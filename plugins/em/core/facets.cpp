@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace hallway::em {
 namespace {
@@ -62,43 +63,78 @@ bool meet(const Patch& larger, const Patch& smaller, const Site& at_smaller) {
          away <= shared * kStep * (larger.sigma + smaller.sigma);
 }
 
+/// Patches by their numbers, the first less than the second.
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Pairs that are turned little enough to be facets of one surface.
+std::vector<Pair> nearly_parallel(const std::vector<Patch>& patches) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    for (std::uint32_t j = i + 1; j < patches.size(); ++j) {
+      const double turn = std::abs(patches[i].frame.normal.dot(patches[j].frame.normal));
+      if (turn >= kLargestTurn) pairs.emplace_back(i, j);
+    }
+  }
+  return pairs;
+}
+
+/// Of the patches in pairs; nothing of the others.
+std::vector<std::optional<Site>> sites_of(const std::vector<Patch>& patches, const std::vector<Pair>& pairs,
+                                          Workers& workers) {
+  std::vector<std::uint8_t> wanted(patches.size(), 0);
+  for (const auto& [i, j] : pairs) wanted[i] = wanted[j] = 1;
+  std::vector<std::optional<Site>> sites(patches.size());
+  workers.run(patches.size(), [&](std::size_t j, std::size_t) {
+    if (wanted[j] != 0) sites[j].emplace(patches[j]);
+  });
+  return sites;
+}
+
+/// The pairs that lie side by side and meet without a step, in the order given.
+std::vector<Pair> meeting(const std::vector<Patch>& patches, std::vector<Pair> pairs, Workers& workers) {
+  const std::vector<std::optional<Site>> sites = sites_of(patches, pairs, workers);
+  std::erase_if(pairs, [&](const Pair& pair) { return !sites[pair.first]->boxes_meet(*sites[pair.second]); });
+  std::vector<std::uint8_t> met(pairs.size(), 0);
+  workers.run(pairs.size(), [&](std::size_t k, std::size_t) {
+    auto [smaller, larger] = pairs[k];
+    if (sites[smaller]->middles.size() >= sites[larger]->middles.size()) std::swap(smaller, larger);
+    met[k] = meet(patches[larger], patches[smaller], *sites[smaller]) ? 1 : 0;
+  });
+  std::vector<Pair> found;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (met[k] != 0) found.push_back(pairs[k]);
+  }
+  return found;
+}
+
 /// Groups as they grow.
 class Groups {
  public:
-  Groups(const Points& points, const std::vector<Patch>& patches, const std::vector<std::uint32_t>& labels)
-      : first_(patches.size()), moments_(patches.size()), beside_(patches.size()) {
+  Groups(const Points& points, const std::vector<Patch>& patches,
+         const std::vector<std::vector<std::uint32_t>>& places, Workers& workers)
+      : first_(patches.size()), moments_(patches.size()) {
     std::iota(first_.begin(), first_.end(), 0u);
-    for (std::size_t i = 0; i < points.count; ++i) {
-      if (labels[i] != kNoPlane) moments_[labels[i]].add(points.at(i));
-    }
-    std::vector<Site> sites;
-    for (const Patch& patch : patches) sites.emplace_back(patch);
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
-      for (std::uint32_t j = i + 1; j < patches.size(); ++j) {
-        const double turn = std::abs(patches[i].frame.normal.dot(patches[j].frame.normal));
-        if (turn < kLargestTurn || !sites[i].boxes_meet(sites[j])) continue;
-        const bool smaller = sites[i].middles.size() < sites[j].middles.size();
-        const std::uint32_t s = smaller ? i : j;
-        const std::uint32_t l = smaller ? j : i;
-        if (meet(patches[l], patches[s], sites[s])) beside_[i].push_back(j);
-      }
-    }
+    beside_ = meeting(patches, nearly_parallel(patches), workers);
+    std::vector<std::uint8_t> wanted(patches.size(), 0);
+    for (const auto& [i, j] : beside_) wanted[i] = wanted[j] = 1;
+    workers.run(patches.size(), [&](std::size_t j, std::size_t) {
+      if (wanted[j] == 0) return;
+      for (const std::uint32_t i : places[j]) moments_[j].add(points.at(i));
+    });
   }
 
   /// Joins the pair that stays flattest, if that is flat within `bend`.
   bool join_best(double bend) {
     double best = bend * bend;
-    std::optional<std::pair<std::uint32_t, std::uint32_t>> pair;
-    for (std::uint32_t i = 0; i < beside_.size(); ++i) {
-      for (const std::uint32_t j : beside_[i]) {
-        const std::uint32_t a = std::min(first_[i], first_[j]);
-        const std::uint32_t b = std::max(first_[i], first_[j]);
-        if (a == b) continue;
-        const double flatness = joint_flatness(a, b);
-        if (flatness >= best) continue;
-        best = flatness;
-        pair = {a, b};
-      }
+    std::optional<Pair> pair;
+    for (const auto& [i, j] : beside_) {
+      const std::uint32_t a = std::min(first_[i], first_[j]);
+      const std::uint32_t b = std::max(first_[i], first_[j]);
+      if (a == b) continue;
+      const double flatness = joint_flatness(a, b);
+      if (flatness >= best) continue;
+      best = flatness;
+      pair = {a, b};
     }
     if (!pair) return false;
     moments_[pair->first].join(moments_[pair->second]);
@@ -117,15 +153,16 @@ class Groups {
   }
 
   std::vector<std::uint32_t> first_;
-  std::vector<Moments> moments_;                    ///< of groups, by their first patch
-  std::vector<std::vector<std::uint32_t>> beside_;  ///< of each patch, later ones
+  std::vector<Moments> moments_;  ///< of groups with more than one patch to come, by their first patch
+  std::vector<Pair> beside_;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> facet_groups(const Points& points, const std::vector<Patch>& patches,
-                                        const std::vector<std::uint32_t>& labels, double bend) {
-  Groups groups(points, patches, labels);
+                                        const std::vector<std::vector<std::uint32_t>>& places, double bend,
+                                        Workers& workers) {
+  Groups groups(points, patches, places, workers);
   while (groups.join_best(bend)) {
   }
   return groups.first();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hallway::em {
 namespace {
@@ -58,9 +59,9 @@ Mixture::Mixture(const PointField& field, double volume, Workers& workers)
       scratch_(workers.count()) {
   const std::size_t n = field.points.blocks() * kBlockSize;
   best_.assign(n, kNoPlane);
-  second_.assign(n, kNoPlane);
-  best_score_.assign(n, 0.0f);
-  second_score_.assign(n, 0.0f);
+  second_.resize(n);
+  best_score_.resize(n);
+  second_score_.resize(n);
 }
 
 double Mixture::log_outlier() const {
@@ -122,11 +123,15 @@ void Mixture::assign_chunk(std::size_t chunk, double outlier, const std::vector<
 void Mixture::assign() {
   const double outlier = log_outlier();
   const std::vector<Reach> reaches = this->reaches(outlier);
-  workers_.run(field_.tree.chunks(), [&](std::size_t chunk, std::size_t worker) {
+  std::vector<std::size_t> unassigned(field_.tree.chunks(), 0);
+  workers_.run(unassigned.size(), [&](std::size_t chunk, std::size_t worker) {
     assign_chunk(chunk, outlier, reaches, scratch_[worker].slab);
+    const std::size_t begin = chunk * BoxTree::kChunkSize;
+    const std::size_t end = std::min(begin + BoxTree::kChunkSize, field_.points.count);
+    unassigned[chunk] =
+        static_cast<std::size_t>(std::count(best_.data() + begin, best_.data() + end, kNoPlane));
   });
-  const auto end = best_.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
-  unassigned_ = static_cast<std::size_t>(std::count(best_.begin(), end, kNoPlane));
+  unassigned_ = std::accumulate(unassigned.begin(), unassigned.end(), std::size_t{0});
 }
 
 std::vector<Moments> Mixture::shared_moments(std::size_t begin, std::size_t end, double outlier) const {

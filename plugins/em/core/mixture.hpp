@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "em/core/patch.hpp"
+#include "em/core/raw_vector.hpp"
 #include "em/core/workers.hpp"
 
 namespace hallway::em {
@@ -88,9 +89,10 @@ class Mixture {
   double volume_;
   Workers& workers_;
   std::size_t unassigned_;
-  std::vector<std::uint32_t> best_, second_;      ///< of each point: patch or kNoPlane
-  std::vector<float> best_score_, second_score_;  ///< that of no patch where there is none
-  std::vector<Scratch> scratch_;                  ///< of each worker
+  std::vector<std::uint32_t> best_;             ///< of each point: patch or kNoPlane
+  RawVector<std::uint32_t> second_;             ///< likewise; like the scores since the first assign()
+  RawVector<float> best_score_, second_score_;  ///< that of no patch where there is none
+  std::vector<Scratch> scratch_;                ///< of each worker
 };
 
 }  // namespace hallway::em

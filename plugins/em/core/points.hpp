@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
+#include "em/core/raw_vector.hpp"
 #include "em/core/types.hpp"
 
 namespace hallway::em {
@@ -16,7 +17,7 @@ inline constexpr std::size_t kBlockSize = 32;
 /// arrays are filled up with NaN to whole blocks, so that a loop over blocks needs no end of its own: NaN is
 /// within nothing.
 struct Points {
-  std::vector<double> x, y, z;
+  RawVector<double> x, y, z;
   std::size_t count = 0;  ///< without the filling
 
   /// Point `i`.
@@ -24,12 +25,13 @@ struct Points {
   /// Number of blocks, the last one filled up.
   std::size_t blocks() const { return (count + kBlockSize - 1) / kBlockSize; }
 
-  /// Makes room for `n` points, all NaN.
+  /// Makes room for `n` points, which are to be set, and fills it up to whole blocks.
   void resize(std::size_t n) {
     count = n;
-    const std::size_t filled = blocks() * kBlockSize;
-    for (std::vector<double>* axis : {&x, &y, &z}) {
-      axis->assign(filled, std::numeric_limits<double>::quiet_NaN());
+    for (RawVector<double>* axis : {&x, &y, &z}) {
+      axis->resize(blocks() * kBlockSize);
+      std::fill(axis->begin() + static_cast<std::ptrdiff_t>(n), axis->end(),
+                std::numeric_limits<double>::quiet_NaN());
     }
   }
   /// Stores point `i`.

@@ -62,7 +62,7 @@ struct StepSums {
 };
 
 /// The sums over the points within `bounds`.
-StepSums step_sums(const std::vector<Vec3>& cloud, const Bounds& bounds, double step, Workers& workers) {
+StepSums step_sums(std::span<const Vec3> cloud, const Bounds& bounds, double step, Workers& workers) {
   const Vec3 middle = middle_of(bounds);
   std::vector<StepSums> parts(Workers::parts(cloud.size()));
   workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -101,7 +101,7 @@ Mat3 covariance_of(const StepSums& sums, const Vec3& mean) {
 }
 
 /// The axis or its opposite, on whose side of the origin more points lie.
-Vec3 towards_most(const std::vector<Vec3>& cloud, const Vec3& origin, const Vec3& axis, Workers& workers) {
+Vec3 towards_most(std::span<const Vec3> cloud, const Vec3& origin, const Vec3& axis, Workers& workers) {
   std::vector<std::int64_t> parts(Workers::parts(cloud.size()), 0);
   workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     std::int64_t balance = 0;
@@ -116,7 +116,7 @@ Vec3 towards_most(const std::vector<Vec3>& cloud, const Vec3& origin, const Vec3
 
 }  // namespace
 
-CloudFrame principal_frame(const std::vector<Vec3>& cloud, Workers& workers) {
+CloudFrame principal_frame(std::span<const Vec3> cloud, Workers& workers) {
   const Bounds bounds = robust_bounds(cloud, workers);
   CloudFrame frame;
   frame.origin = middle_of(bounds);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "em/core/types.hpp"
 #include "em/core/workers.hpp"
@@ -23,6 +23,6 @@ struct CloudFrame {
 /// is done in it does not depend on how the cloud is turned or moved. Strays (see robust_bounds()) are left
 /// out. The points are finite and at least one; sums are of whole numbers, so that their order does not
 /// matter to the last bit. O(n).
-CloudFrame principal_frame(const std::vector<Vec3>& cloud, Workers& workers);
+CloudFrame principal_frame(std::span<const Vec3> cloud, Workers& workers);
 
 }  // namespace hallway::em

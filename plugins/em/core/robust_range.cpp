@@ -48,10 +48,10 @@ Histogram histogram_of(std::span<const Vec3> points, int axis, const Range& rang
 }
 
 /// The part of `range` that holds all but one in kStraysDivisor values at each end, in whole bins.
-Range narrowed(const std::vector<Vec3>& cloud, int axis, const Range& range, Workers& workers) {
+Range narrowed(std::span<const Vec3> cloud, int axis, const Range& range, Workers& workers) {
   std::vector<Histogram> parts(Workers::parts(cloud.size()));
   workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    parts[part] = histogram_of(std::span(cloud).subspan(begin, end - begin), axis, range);
+    parts[part] = histogram_of(cloud.subspan(begin, end - begin), axis, range);
   });
   Histogram all;
   for (const Histogram& part : parts) all.join(part);
@@ -66,7 +66,7 @@ Range narrowed(const std::vector<Vec3>& cloud, int axis, const Range& range, Wor
 
 /// The range of nearly all points along an axis, `range` being that of all: the same, unless a few strays far away make
 /// it more than four times as long, for the Morton cells would be too coarse then.
-Range robust_range(const std::vector<Vec3>& cloud, int axis, Range range, Workers& workers) {
+Range robust_range(std::span<const Vec3> cloud, int axis, Range range, Workers& workers) {
   for (int round = 0; round < kRangeRounds; ++round) {
     const double length = range.high - range.low;
     const double finest = 1e-12 * std::max(std::abs(range.low), std::abs(range.high));
@@ -79,7 +79,7 @@ Range robust_range(const std::vector<Vec3>& cloud, int axis, Range range, Worker
 }
 
 /// The box of all points.
-Bounds bounds_of(const std::vector<Vec3>& cloud, Workers& workers) {
+Bounds bounds_of(std::span<const Vec3> cloud, Workers& workers) {
   std::vector<Bounds> parts(Workers::parts(cloud.size()));
   workers.run_parts(cloud.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Bounds bounds{cloud[begin], cloud[begin]};
@@ -99,7 +99,7 @@ Bounds bounds_of(const std::vector<Vec3>& cloud, Workers& workers) {
 
 }  // namespace
 
-Bounds robust_bounds(const std::vector<Vec3>& cloud, Workers& workers) {
+Bounds robust_bounds(std::span<const Vec3> cloud, Workers& workers) {
   Bounds bounds = bounds_of(cloud, workers);
   for (int axis = 0; axis < 3; ++axis) {
     const Range range = robust_range(cloud, axis, {bounds.low[axis], bounds.high[axis]}, workers);

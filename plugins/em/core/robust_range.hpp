@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "em/core/types.hpp"
 #include "em/core/workers.hpp"
@@ -20,6 +20,6 @@ struct Bounds {
 
 /// The box of all points; but where a few strays far away would make it more than four times as long along an
 /// axis, of nearly all. The points are finite and at least one; their order does not matter. O(n).
-Bounds robust_bounds(const std::vector<Vec3>& cloud, Workers& workers);
+Bounds robust_bounds(std::span<const Vec3> cloud, Workers& workers);
 
 }  // namespace hallway::em

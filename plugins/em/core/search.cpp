@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "em/core/sheets.hpp"
-
 namespace hallway::em {
 namespace {
 
@@ -26,7 +24,6 @@ constexpr double kFinest = 1e-6;  // of the cloud's extent: noise below it is th
 constexpr int kFailures = 2;      // growths that failed around a seed before it is left alone
 constexpr std::size_t kLocalSearches = 32;  // in a round: the flattest that are left
 constexpr double kDoubtful = 0.15;  // variance within two sheets by the whole: above, it may be one plane
-constexpr std::size_t kAhead = 2;   // seeds by thread that are grown at a time
 constexpr std::size_t kPointsPerSeed = 8;  // no more seeds than one for so many points
 
 /// The points that none has claimed, and where each stands in the whole list.
@@ -43,15 +40,6 @@ Unclaimed unclaimed_of(const Points& points, const std::vector<std::uint8_t>& cl
   result.points.resize(result.place.size());
   for (std::size_t k = 0; k < result.place.size(); ++k) result.points.set(k, points.at(result.place[k]));
   return result;
-}
-
-/// Of the members of what grew, over its plane.
-std::vector<double> heights_of(const PointField& field, const Grown& grown) {
-  std::vector<double> heights;
-  heights.reserve(grown.members.size());
-  for (const std::uint32_t i : grown.members)
-    heights.push_back(grown.frame.normal.dot(field.points.at(i) - grown.frame.origin));
-  return heights;
 }
 
 }  // namespace
@@ -94,35 +82,38 @@ void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {
   found_.push_back(std::move(grown));
 }
 
-void PlaneSearch::consider(const Seed& seed, Grown&& grown, double sigma,
-                           std::vector<std::uint8_t>& claimed) {
+void PlaneSearch::consider(Attempt&& attempt, double sigma, std::vector<std::uint8_t>& claimed) {
   const auto fewest = static_cast<std::size_t>(options_.min_points);
+  Grown& grown = attempt.grown;
+  const std::optional<TwoSheets>& sheets = attempt.sheets;
   if (grown.members.size() < fewest) return;
-  const std::optional<TwoSheets> sheets = two_sheets(heights_of(field_, grown), fewest);
   if (!sheets || !(sheets->noise > 0.0)) {
-    judge(std::move(grown), sigma, claimed);
+    judge(std::move(grown), attempt.beside, sigma, claimed);
     return;
   }
   Grower grower(field_, claimed);
   const std::size_t before = found_.size() + pending_.size();
   // The noise was taken for that of two sheets together, as where they are nearer than the points on each.
   for (const double height : {sheets->low, sheets->high}) {
-    Seed thin = seed;
+    Seed thin = *attempt.seed;
     thin.frame = grown.frame;
     thin.frame.origin += height * grown.frame.normal;
     Grown sheet = grower.grow(thin, sheets->noise);
-    if (sheet.members.size() >= fewest) judge(std::move(sheet), sheets->noise, claimed);
+    if (sheet.members.size() < fewest) continue;
+    const Surroundings beside = surroundings_of(field_, claimed, sheet);
+    judge(std::move(sheet), beside, sheets->noise, claimed);
   }
   const bool neither = found_.size() + pending_.size() == before;
   if (neither && sheets->within > kDoubtful) doubtful_.push_back(std::move(grown));
 }
 
-void PlaneSearch::judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed) {
+void PlaneSearch::judge(Grown&& grown, const Surroundings& beside, double sigma,
+                        std::vector<std::uint8_t>& claimed) {
   const auto fewest = static_cast<std::size_t>(options_.min_points);
   const std::size_t n = field_.points.count;
   const double others = static_cast<double>(unclaimed_ - std::min(unclaimed_, grown.members.size()));
   const double volume_density = (others + 0.5) / extent_.cwiseMax(2.0 * kSlabSigmas * sigma).prod();
-  const Evidence evidence = evidence_of(field_, claimed, grown, sigma, volume_density);
+  const Evidence evidence = evidence_of(beside, claimed, grown, sigma, volume_density);
   if (convincing(evidence, kStrict, n, fewest)) {
     accept(std::move(grown), claimed);
     return;
@@ -155,45 +146,23 @@ std::vector<Grown> PlaneSearch::accept_doubtful(double sigma, std::vector<std::u
     const std::vector<std::uint32_t>& members = grown.members;
     const bool free =
         std::all_of(members.begin(), members.end(), [&claimed](std::uint32_t i) { return claimed[i] == 0; });
-    if (free) judge(std::move(grown), sigma, claimed);
+    if (!free) continue;
+    const Surroundings beside = surroundings_of(field_, claimed, grown);
+    judge(std::move(grown), beside, sigma, claimed);
   }
   doubtful_.clear();
   return std::move(found_);
 }
 
-// Several are grown at a time, as if none of them were accepted. Where one relied on points that one before it was then
-// given, it is grown anew: what comes out is the same as one after the other.
 void PlaneSearch::try_all(const Trial& trial, double sigma, std::vector<std::uint8_t>& claimed) {
-  struct Ahead {
-    std::size_t number = 0;
-    std::optional<Seed> seed;
-    Grown grown;
-  };
-  const auto grow = [&](Ahead& ahead) {
-    Grower grower(field_, claimed);
-    ahead.grown = facets_ ? grower.grow_flat(*ahead.seed, sigma) : grower.grow(*ahead.seed, sigma);
-  };
-  std::size_t next = 0;
-  std::size_t tried = 0;
-  while (next < trial.count && tried < trial.most) {
-    std::vector<Ahead> batch;
-    const std::size_t wanted = workers_.count() > 1 ? kAhead * workers_.count() : 1;
-    for (; next < trial.count && batch.size() < wanted; ++next) {
-      if (!trial.skip(next)) batch.push_back({next, {}, {}});
-    }
-    workers_.run(batch.size(), [&](std::size_t i, std::size_t) {
-      batch[i].seed = trial.seed(batch[i].number);
-      if (batch[i].seed) grow(batch[i]);
-    });
-    for (Ahead& ahead : batch) {
-      if (trial.skip(ahead.number)) continue;
-      if (++tried > trial.most) return;
-      if (!ahead.seed) continue;
-      const bool stale = std::any_of(ahead.grown.relied_on.begin(), ahead.grown.relied_on.end(),
-                                     [&claimed](std::uint32_t i) { return claimed[i] != 0; });
-      if (stale) grow(ahead);
-      consider(*ahead.seed, std::move(ahead.grown), sigma, claimed);
-    }
+  GrowthAhead growth(field_, claimed, trial, {sigma, facets_, static_cast<std::size_t>(options_.min_points)},
+                     workers_);
+  std::size_t left = trial.most;
+  for (std::size_t next = 0; next < trial.count && left > 0; ++next) {
+    if (trial.skip(next)) continue;
+    Attempt attempt = growth.take(next, left);
+    --left;
+    if (attempt.seed) consider(std::move(attempt), sigma, claimed);
   }
 }
 
@@ -208,7 +177,8 @@ std::vector<Grown> PlaneSearch::try_warm_seeds(double sigma, std::vector<std::ui
   const std::vector<Seed> seeds = std::exchange(warm_seeds_, {});
   const auto end = claimed.begin() + static_cast<std::ptrdiff_t>(field_.points.count);
   unclaimed_ = static_cast<std::size_t>(std::count(claimed.begin(), end, std::uint8_t{0}));
-  try_all({seeds.size(), seeds.size(), [](std::size_t) { return false; },
+  const auto likely = [&](std::size_t k) -> const Seed& { return seeds[k]; };
+  try_all({seeds.size(), seeds.size(), [](std::size_t) { return false; }, likely,
            [&](std::size_t k) { return std::optional(seeds[k]); }},
           sigma, claimed);
   return std::move(found_);
@@ -229,7 +199,9 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
   const auto skip_grown = [&](std::size_t k) {
     return claimed[place(k)] != 0 || failures_[place(k)] >= kFailures || seeds[k].noise > kRoughSeed * sigma;
   };
-  try_all({seeds.size(), seeds.size(), skip_grown, [&](std::size_t k) { return std::optional(seeds[k]); }},
+  const auto likely = [&](std::size_t k) -> const Seed& { return seeds[k]; };
+  try_all({seeds.size(), seeds.size(), skip_grown, likely,
+           [&](std::size_t k) { return std::optional(seeds[k]); }},
           sigma, claimed);
   const auto skip_searched = [&](std::size_t k) {
     return claimed[place(k)] != 0 || failures_[place(k)] >= 2 * kFailures;
@@ -237,7 +209,7 @@ std::vector<Grown> PlaneSearch::round(double sigma, std::size_t number, std::vec
   const auto search = [&](std::size_t k) {
     return search_locally(free_field, seeds[k].place, seeds[k].radius, sigma, number);
   };
-  try_all({seeds.size(), kLocalSearches, skip_searched, search}, sigma, claimed);
+  try_all({seeds.size(), kLocalSearches, skip_searched, likely, search}, sigma, claimed);
   if (found_.empty()) accept_pending(claimed);
   return std::move(found_);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "em/core/auto_options.hpp"
-#include "em/core/evidence.hpp"
+#include "em/core/growth_ahead.hpp"
 #include "em/core/local_search.hpp"
 #include "em/core/slab_points.hpp"
 #include "em/core/workers.hpp"
@@ -41,17 +41,9 @@ class PlaneSearch {
   std::vector<Grown> try_warm_seeds(double sigma, std::vector<std::uint8_t>& claimed);
   void begin_round(std::vector<std::uint8_t>& claimed);
   std::vector<Grown> round(double sigma, std::size_t number, std::vector<std::uint8_t>& claimed);
-  /// Seeds that are tried one after the other: which, and what each is.
-  struct Trial {
-    std::size_t count = 0;
-    std::size_t most = 0;                   ///< no more than so many are tried
-    std::function<bool(std::size_t)> skip;  ///< whether one is passed over; once true it stays so
-    std::function<std::optional<Seed>(std::size_t)> seed;
-  };
-
   void try_all(const Trial& trial, double sigma, std::vector<std::uint8_t>& claimed);
-  void consider(const Seed& seed, Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
-  void judge(Grown&& grown, double sigma, std::vector<std::uint8_t>& claimed);
+  void consider(Attempt&& attempt, double sigma, std::vector<std::uint8_t>& claimed);
+  void judge(Grown&& grown, const Surroundings& beside, double sigma, std::vector<std::uint8_t>& claimed);
   void accept(Grown&& grown, std::vector<std::uint8_t>& claimed);
   void accept_pending(std::vector<std::uint8_t>& claimed);
   std::vector<Grown> accept_doubtful(double sigma, std::vector<std::uint8_t>& claimed);

@@ -3,6 +3,7 @@
 
 #include <signal.h>
 
+#include <chrono>
 #include <system_error>
 
 namespace hallway::em {
@@ -27,9 +28,24 @@ class WithoutSignals {
   sigset_t before_;
 };
 
+/// A thread that goes to sleep is awake again after about as long: between the loops of one cloud it looks out for so long first.
+constexpr std::chrono::microseconds kLookOut{50};
+
+/// Waits, without sleeping, until `done` or for kLookOut. Other threads that want to run go first.
+template <typename Done>
+void look_out_for(const Done& done) {
+  const auto until = std::chrono::steady_clock::now() + kLookOut;
+  while (!done() && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+}
+
+int threads_of_machine() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, Workers::kMostOfItself);
+}
+
 }  // namespace
 
 Workers::Workers(int threads) {
+  if (threads == 0) threads = threads_of_machine();
   if (threads < 2) return;
   try {
     start(static_cast<std::size_t>(threads) - 1);
@@ -57,6 +73,7 @@ void Workers::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
+    ++posted_;
   }
   wake_.notify_all();
   for (std::thread& thread : threads_) thread.join();
@@ -70,17 +87,30 @@ void Workers::run(std::size_t items, const Task& task) {
   Job job{items, &task, 0, items, nullptr};
   std::unique_lock lock(mutex_);
   job_ = &job;
+  ++posted_;
   wake_.notify_all();
   take_items(0, lock);
   job_ = nullptr;  // who wakes only now goes to sleep again
-  done_.wait(lock, [this] { return busy_ == 0; });
+  const auto all_done = [this] { return busy_ == 0; };
+  if (!all_done()) {
+    lock.unlock();
+    look_out_for(all_done);
+    lock.lock();
+  }
+  done_.wait(lock, all_done);
   if (job.failure) std::rethrow_exception(job.failure);
 }
 
 void Workers::serve(std::size_t worker) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return stop_ || (job_ != nullptr && job_->next < job_->items); });
+    if (!stop_ && !has_items()) {
+      const std::uint64_t seen = posted_;
+      lock.unlock();
+      look_out_for([this, seen] { return posted_ != seen; });
+      lock.lock();
+    }
+    wake_.wait(lock, [this] { return stop_ || has_items(); });
     if (stop_) return;
     ++busy_;
     take_items(worker, lock);

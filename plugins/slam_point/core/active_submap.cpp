@@ -38,6 +38,21 @@ void ActiveSubmap::observe(SubmapGraph& graph, Index member, const Vec3& point, 
   grid_.move(member, graph.submaps[graph.active()].members[member].mean);
 }
 
+void ActiveSubmap::withdraw(Index member) {
+  grid_.remove(member);
+  prior_[member] = {};
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const std::size_t begin = frames_[f].first_sighting;
+    const std::size_t end = f + 1 < frames_.size() ? frames_[f + 1].first_sighting : sightings_.size();
+    frames_[f].first_sighting = kept;
+    for (std::size_t s = begin; s < end; ++s) {
+      if (sightings_[s].member != member) sightings_[kept++] = sightings_[s];
+    }
+  }
+  sightings_.resize(kept);
+}
+
 void ActiveSubmap::realign(SubmapGraph& graph, int sweeps, bool planar, double min_spread_m2) {
   const std::vector<Member>& members = graph.submaps[graph.active()].members;
   for (int sweep = 0; sweep < sweeps; ++sweep) {

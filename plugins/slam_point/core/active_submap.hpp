@@ -29,6 +29,9 @@ class ActiveSubmap {
   void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
                double weight = 1.0);
 
+  /// Takes a member out of the kept frames, so that none is aligned to it again. O(kept sightings).
+  void withdraw(Index member);
+
   /// Aligns each kept frame to the members' means again and averages anew, `sweeps` times; what the submap knew when it
   /// was opened counts as it did. `min_spread_m2`: see Alignment::solve; a frame below it keeps its alignment.
   void realign(SubmapGraph& graph, int sweeps, bool planar, double min_spread_m2);

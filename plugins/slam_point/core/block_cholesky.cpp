@@ -162,6 +162,57 @@ bool BlockCholesky::close_column() {
   return true;
 }
 
+double BlockCholesky::work() const {
+  double blocks = 0.0;
+  for (Place k = 0; k < size(); ++k) {
+    const double rows = static_cast<double>(start_[k + 1] - start_[k]);
+    blocks += 0.5 * rows * (rows + 1.0);
+  }
+  return kBlockProduct * blocks;
+}
+
+void BlockCholesky::invert() {
+  inverse_.resize(rows_.size());
+  for (Place k = size(); k-- > 0;) invert_column(k);
+}
+
+/// From L^T Z = L^-1, which is known above the diagonal: Z_ik = -sum over rows j of column k of Z_ij L_jk L_kk^-1.
+void BlockCholesky::invert_column(Place k) {
+  const Block pivot = blocks_[start_[k]].triangularView<Eigen::Lower>().solve(Block::Identity());
+  const std::size_t first = start_[k] + 1;
+  const std::size_t end = start_[k + 1];
+  for (std::size_t at = first; at < end; ++at) inverse_[at].setZero();
+  for (std::size_t j = first; j < end; ++j) {
+    // Rows of column rows_[j] that column k has too, from the diagonal on: both lists ascend.
+    std::size_t of_j = start_[rows_[j]];
+    for (std::size_t i = j; i < end; ++i) {
+      while (rows_[of_j] != rows_[i]) ++of_j;
+      const Block& z = inverse_[of_j];
+      inverse_[i].noalias() -= z.lazyProduct(blocks_[j]);
+      if (i != j) inverse_[j].noalias() -= z.transpose().lazyProduct(blocks_[i]);
+    }
+  }
+  Block diagonal = pivot;
+  for (std::size_t at = first; at < end; ++at) {
+    inverse_[at] *= pivot;
+    diagonal.noalias() -= blocks_[at].transpose() * inverse_[at];
+  }
+  inverse_[start_[k]] = pivot.transpose() * diagonal;
+}
+
+/// Where the factor's block of these places stands, row >= column.
+std::size_t BlockCholesky::find(Place row, Place column) const {
+  const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(start_[column]);
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(start_[column + 1]);
+  return static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows_.begin());
+}
+
+BlockCholesky::Block BlockCholesky::inverse_block(Place row, Place column) const {
+  const Place a = place_[row];
+  const Place b = place_[column];
+  return a >= b ? inverse_[find(a, b)] : Block(inverse_[find(b, a)].transpose());
+}
+
 void BlockCholesky::solve(std::vector<Vec6>& b) const {
   std::vector<Vec6> x(b.size());
   for (std::size_t i = 0; i < b.size(); ++i) x[place_[i]] = b[i];

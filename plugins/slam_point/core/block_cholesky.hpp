@@ -29,6 +29,13 @@ class BlockCholesky {
   State advance(double& work);
   /// Solves for right-hand side `b`, one vector for each block row, in place. Once advance() has said `done`.
   void solve(std::vector<Vec6>& b) const;
+  /// Multiplications that the factorisation takes. Once analyse() is done.
+  double work() const;
+  /// Finds the blocks of the matrix's inverse where the factor has blocks (Takahashi, Fagan and Chin 1973), among them those
+  /// where the matrix has. Once advance() has said `done`; costs about twice what the factorisation did.
+  void invert();
+  /// A block of the inverse, after invert(), for a place of the matrix that was given, or that of its transpose.
+  Block inverse_block(Place row, Place column) const;
 
  private:
   struct Entry {
@@ -49,6 +56,8 @@ class BlockCholesky {
   void open_column();
   void subtract(const Source& source, double& work);
   bool close_column();
+  void invert_column(Place k);
+  std::size_t find(Place row, Place column) const;
   Place size() const { return static_cast<Place>(place_.size()); }
 
   std::vector<Entry> entries_;            // as given
@@ -58,6 +67,7 @@ class BlockCholesky {
   std::vector<std::size_t> start_;         // place -> where its column begins in rows_, the diagonal first
   std::vector<Place> rows_;                // ascending within a column
   std::vector<Block> blocks_;              // the factor, as rows_
+  std::vector<Block> inverse_;             // likewise
   std::vector<std::size_t> source_start_;  // place -> where the sources of its column begin
   std::vector<Source> sources_;
   std::vector<Block> column_blocks_;  // row -> the open column's block

@@ -18,6 +18,7 @@ constexpr double kMaxRotationSigma_rad = 0.1;
 constexpr int kMaxMatchPasses = 4;
 constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same way are drift, not neighbours
 constexpr int kMaxTurnsEachWay = 60;
+constexpr std::size_t kLeastFollowed = 4;  // so many can contradict each other
 
 }  // namespace
 
@@ -182,6 +183,29 @@ FrameMatcher::Fit FrameMatcher::match_from(const SubmapGraph& graph, const Activ
   match_members(graph, active, fit.T_submap_sensor, agreement_, agreement_, frame);
   fit.agreeing += static_cast<int>(taken_list_.size() - before);
   return fit;
+}
+
+bool FrameMatcher::locate_by_tracks(const SubmapGraph& graph, bool planar,
+                                    const std::vector<Observation>& frame, Pose& T_map_sensor) {
+  pairs_.clear();
+  for (const Observation& observation : frame) {
+    if (observation.expected == kNone || graph.landmarks[observation.expected].count == 0) continue;
+    const LandmarkRecord& landmark = graph.landmarks[observation.expected];
+    pairs_.push_back({landmark.position, observation.point, pair_weight(landmark.weight, observation.weight),
+                      observation.weight});
+  }
+  if (pairs_.size() < kLeastFollowed) return false;
+  Eigen::Matrix3Xd from(3, pairs_.size()), to(3, pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    from.col(static_cast<Eigen::Index>(i)) = pairs_[i].point;
+    to.col(static_cast<Eigen::Index>(i)) = pairs_[i].reference;
+  }
+  // No guess is near, as the fit needs one: a closed form gives it.
+  const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
+  Pose located{Eigen::Quaterniond(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>()};
+  if (!robust_fit(pairs_, rules(planar), located)) return false;
+  T_map_sensor = located;
+  return true;
 }
 
 double FrameMatcher::score(const SubmapGraph& graph, const Pose& T_map_sensor,

@@ -18,6 +18,8 @@ struct Observation {
   Index landmark = kNone;
   Index member = kNone;   ///< of the active submap, where it was matched to one of its members
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
+  Index moving =
+      kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
   double weight =
       1.0;  ///< (noise_m / noise at its range)^2: what it counts for beside a point without range noise
   TrackId track = kNoTrack;  ///< under which the sensor follows it; kNoTrack: its place tells what it is
@@ -44,6 +46,11 @@ class FrameMatcher {
   /// left unmatched. Where most points that the sensor follows do not agree from there, they are tried without a prediction.
   Fit match_active(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& predicted, bool planar,
                    std::vector<Observation>& frame);
+
+  /// Where the frame stands by the landmarks of its points' tracks, wherever in the map they are: for when nothing else tells.
+  /// False, and no pose, when they do not determine it. The frame's matches are not touched.
+  bool locate_by_tracks(const SubmapGraph& graph, bool planar, const std::vector<Observation>& frame,
+                        Pose& T_map_sensor);
 
   /// Where the frame fits the map best, of all turns of each of `bases` (T_map_sensor) about the sensor's z axis by up to
   /// `max_turn_rad`: for when the prediction failed. Matches within the match bound. Returns how many points agree with the map

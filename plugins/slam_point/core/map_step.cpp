@@ -7,23 +7,16 @@
 #include "slam_point/core/alignment.hpp"
 
 namespace hallway::slam_point {
-namespace {
-
-double total_cost(const SubmapGraph& graph, const std::vector<Pose>& poses) {
-  double cost = 0.0;
-  for (Index landmark = 0; landmark < graph.landmarks.size(); ++landmark) {
-    if (!graph.landmarks[landmark].memberships.empty())
-      cost += ReducedSystem::cost_of(graph, poses, landmark);
-  }
-  return cost;
-}
-
-}  // namespace
-
 void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar) {
   std::vector<Index> all(graph.submaps.size());
   std::iota(all.begin(), all.end(), Index{0});
-  system_.take(graph, all, poses, planar);
+  begin(graph, poses, all, newest, planar);
+}
+
+void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
+                    Index newest, bool planar) {
+  system_.take(graph, free, poses, planar);
+  known_ = graph.submaps.size();
   start_.clear();
   newest_slot_ = kNone;
   for (const Index submap : system_.free()) {
@@ -78,20 +71,46 @@ Pose MapStep::moved(const Pose& now, Index slot) const {
   return {(turn * now.q).normalized(), from - move_[slot].head<3>() + turn * (now.t - from)};
 }
 
+/// Those that were taken down, but for what has been merged into another one, and those that the active submap and the submaps
+/// made since have come to hold.
+void MapStep::find_touched(const SubmapGraph& graph) {
+  touched_.clear();
+  for (const Index landmark : system_.touched()) {
+    if (!graph.landmarks[landmark].memberships.empty()) touched_.push_back(landmark);
+  }
+  const auto add = [&](Index submap) {
+    for (const Member& member : graph.submaps[submap].members) {
+      if (member.count > 0) touched_.push_back(member.landmark);
+    }
+  };
+  if (graph.active() != kNone) add(graph.active());
+  if (newest_slot_ != kNone) {
+    for (auto submap = static_cast<Index>(known_); submap < graph.submaps.size(); ++submap) add(submap);
+  }
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+}
+
+double MapStep::cost(const SubmapGraph& graph, const std::vector<Pose>& poses) const {
+  double cost = 0.0;
+  for (const Index landmark : touched_) cost += ReducedSystem::cost_of(graph, poses, landmark);
+  return cost;
+}
+
 StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
   under_way_ = false;
+  find_touched(graph);
   StepCost cost;
-  cost.before = cost.after = total_cost(graph, poses);
+  cost.before = cost.after = this->cost(graph, poses);
   if (!usable_) return cost;
   const std::vector<Pose> before = poses;
   for (Index slot = 0; slot < start_.size(); ++slot) {
     Pose& pose = poses[system_.free()[slot]];
     pose = moved(pose, slot);
   }
-  const std::size_t known = start_.size() + 1;  // submap 0 is held
-  for (std::size_t submap = known; newest_slot_ != kNone && submap < poses.size(); ++submap)
+  for (std::size_t submap = known_; newest_slot_ != kNone && submap < poses.size(); ++submap)
     poses[submap] = moved(poses[submap], newest_slot_);
-  const double after = total_cost(graph, poses);
+  const double after = this->cost(graph, poses);
   if (after < cost.before) {
     cost.after = after;
   } else {

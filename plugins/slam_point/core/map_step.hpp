@@ -14,26 +14,34 @@ struct StepCost {
   double after = 0.0;   ///< equal to `before` when the step was not taken
 };
 
-/// One Gauss-Newton step over all submaps, in slices: begun from the graph as it is, computed while the graph grows,
-/// and then applied to the poses as they have become. What it costs is counted in multiplications, so that what is
+/// One Gauss-Newton step over some or all submaps, the others held, in slices: begun from the graph as it is, computed while
+/// the graph grows, and then applied to the poses as they have become. What it costs is counted in multiplications, so that what is
 /// done in which call depends on the data alone.
 class MapStep {
  public:
-  /// Takes down the whole graph. `newest` is the submap that those made later hang on. O(map).
+  /// Takes down what places `free` (distinct submaps). `newest`, one of them, is the submap that those made later hang on;
+  /// kNone: they stay. O(places of their landmarks).
+  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
+             Index newest, bool planar);
+  /// The same for all submaps. O(map).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar);
   /// Between begin() and apply().
   bool under_way() const { return under_way_; }
   /// Computes for about `work` multiplications. Returns whether the step is ready to be applied.
   bool advance(double work);
   /// Moves each submap by what the step moves it; those made since begin() by what `newest` is moved. Kept only when
-  /// it lowers the sum of squares. Once advance() has returned true. O(map).
+  /// it lowers the sum of squares over touched(). Once advance() has returned true. O(places of those landmarks).
   StepCost apply(const SubmapGraph& graph, std::vector<Pose>& poses);
+  /// After apply(): the landmarks of the submaps that it has moved, or would have, each once.
+  const std::vector<Index>& touched() const { return touched_; }
 
   /// Multiplications that the last step took that was ready; 0 before the first.
   double work() const { return work_; }
 
  private:
   void make_rows(double& left);
+  void find_touched(const SubmapGraph& graph);
+  double cost(const SubmapGraph& graph, const std::vector<Pose>& poses) const;
   void solve();
   Pose moved(const Pose& now, Index slot) const;
 
@@ -41,6 +49,8 @@ class MapStep {
   BlockCholesky factor_;
   std::vector<ReducedSystem::Vec6> move_;  // slot -> the gradient, then how far to go against it
   std::vector<Pose> start_;                // slot -> its pose when the step began
+  std::vector<Index> touched_;
+  std::size_t known_ = 0;  // submaps when the step began
   Index newest_slot_ = kNone;
   Index next_row_ = 0;
   bool analysed_ = false;

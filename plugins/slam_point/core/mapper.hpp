@@ -46,7 +46,7 @@ class Mapper {
   /// The map as it stands. O(map).
   Map map() const;
 
-  /// The map with all submaps re-placed together by least squares. The online state is not changed. O(map).
+  /// The map as all evidence places it together (refine_map), with covariances. The online state is not changed.
   Map refined_map() const;
 
   /// Forgets everything but the options.

@@ -12,7 +12,7 @@
 namespace hallway::slam_point {
 namespace {
 
-constexpr std::array<Parameter, 14> kParameters{{
+constexpr std::array<Parameter, 15> kParameters{{
     {"noise_m", "m", 1e-4, 10.0,
      "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
      &Options::noise_m, nullptr},
@@ -50,6 +50,9 @@ constexpr std::array<Parameter, 14> kParameters{{
     {"min_observations", "observations", 1, 1000000,
      "A landmark with fewer observations is temporary: it may be clutter.", nullptr,
      &Options::min_observations},
+    {"find_moving", "1", 0, 1,
+     "1: landmarks that move are found and kept out of the map; 0: all landmarks are taken to stand.",
+     nullptr, &Options::find_moving},
     {"smoothing", "1", 0.01, 1.0, "Share of the newest relative motion in the motion prediction.",
      &Options::smoothing, nullptr},
     {"max_turn_rad", "rad", 0.0, 3.15,

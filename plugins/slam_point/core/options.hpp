@@ -30,7 +30,9 @@ struct Options {
   int global_period = 5;  ///< closes between steps over the whole map once a loop has closed; 0: never online
   int sweeps = 2;         ///< re-alignments of a submap's own frames at its close
   int min_observations = 5;  ///< observations that make a landmark `mapped`
-  double smoothing = 0.5;    ///< share of the newest relative motion in the prediction [1]
+  int find_moving =
+      1;  ///< 1: landmarks that move are found and kept out of the map; 0: all are taken to stand
+  double smoothing = 0.5;  ///< share of the newest relative motion in the prediction [1]
   double max_turn_rad =
       0.35;       ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
   int index = 0;  ///< an IndexKind: what finds points near a place

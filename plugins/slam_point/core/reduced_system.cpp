@@ -70,6 +70,10 @@ void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Po
     positions_.push_back(poses[submap].t);
     const Mat3 rotation = poses[submap].q.toRotationMatrix();
     for (const Member& member : graph.submaps[submap].members) {
+      if (member.count == 0) {  // keeps its place, and says nothing
+        evidence_.push_back({Vec3::Zero(), 0.0, kNone});
+        continue;
+      }
       if (marked_[member.landmark] == 0) {
         marked_[member.landmark] = 1;
         place_[member.landmark] = static_cast<Index>(touched_.size());
@@ -131,6 +135,7 @@ ReducedSystem::Vec6 ReducedSystem::sum_row(Index row, double& work) {
   std::size_t pairs = 0;
   for (Index e = evidence_start_[row]; e < evidence_start_[row + 1]; ++e) {
     const Evidence& known = evidence_[e];
+    if (known.count == 0.0) continue;
     const Mean& mean = means_[known.landmark];
     const Vec3 residual = known.count * (known.y + positions_[row] - mean.centre);
     gradient.head<3>() += residual;

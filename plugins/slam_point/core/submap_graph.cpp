@@ -50,6 +50,11 @@ void SubmapGraph::deactivate() {
   }
 }
 
+void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
+  if (active_ != kNone) active_rotation_ = poses[active_].q.toRotationMatrix();
+  for (const Index landmark : moved_landmarks) resum(landmark);
+}
+
 void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight) {
   Member& m = submaps[active_].members[member];
   LandmarkRecord& landmark = landmarks[m.landmark];
@@ -90,6 +95,17 @@ void SubmapGraph::resum(Index index) {
   grid_.move(index, landmark.position);
 }
 
+Vec3 SubmapGraph::mean_position(Index landmark) const {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0.0;
+  for (const Membership& at : landmarks[landmark].memberships) {
+    const Member& member = submaps[at.submap].members[at.member];
+    sum += member.weight() * (poses[at.submap] * member.mean);
+    weight += member.weight();
+  }
+  return sum / weight;
+}
+
 void SubmapGraph::merge(Index into, Index from) {
   LandmarkRecord& kept = landmarks[into];
   LandmarkRecord& given = landmarks[from];
@@ -125,6 +141,25 @@ void SubmapGraph::merge(Index into, Index from) {
   given.merged_into = into;
   grid_.remove(from);
   resum(into);
+}
+
+void SubmapGraph::withdraw(Index index) {
+  LandmarkRecord& landmark = landmarks[index];
+  for (const Membership& at : landmark.memberships) {
+    Member& member = submaps[at.submap].members[at.member];
+    if (member.in_first_frame) --submaps[at.submap].first_frame_size;
+    member.in_first_frame = false;
+    member.count = 0;
+  }
+  landmark.memberships.clear();
+  landmark.count = 0;
+  landmark.weight = 0.0;
+  landmark.settled_count = 0;
+  landmark.settled_weight = 0.0;
+  landmark.settled_sum.setZero();
+  landmark.active_member = kNone;
+  landmark.moving = true;
+  grid_.remove(index);
 }
 
 void SubmapGraph::clear() {

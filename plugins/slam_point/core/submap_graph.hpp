@@ -54,6 +54,7 @@ struct LandmarkRecord {
   double settled_weight = 0.0;
   Index active_member = kNone;          ///< its place in the active submap
   Index merged_into = kNone;            ///< set when it turned out to be another landmark
+  bool moving = false;                  ///< found to move: no submap holds it, and none will
   std::vector<Membership> memberships;  ///< in the order of joining
 };
 
@@ -75,6 +76,9 @@ class SubmapGraph {
   void deactivate();
   Index active() const { return active_; }
 
+  /// Takes note that submaps have moved, the active one perhaps among them, and sums up the landmarks of those that have.
+  void take_moved(const std::vector<Index>& moved_landmarks);
+
   /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
   /// `weight`: see Observation::weight.
   void observe(Index member, const Vec3& p, std::uint64_t activation, double weight = 1.0);
@@ -82,9 +86,15 @@ class SubmapGraph {
   /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
   void resum(Index landmark);
 
+  /// Where the evidence puts a landmark that has some, summed up anew [m, map frame]. O(its submaps).
+  Vec3 mean_position(Index landmark) const;
+
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
   /// Not while a submap is active.
   void merge(Index into, Index from);
+
+  /// Takes a landmark that moves out of all submaps: their places for it stay, empty. It is found no more.
+  void withdraw(Index landmark);
 
   /// Calls visit(landmark) for each landmark near p and some farther ones; see PointIndex::visit_near.
   template <typename Visit>

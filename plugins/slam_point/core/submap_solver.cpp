@@ -2,8 +2,11 @@
 #include "slam_point/core/submap_solver.hpp"
 
 #include <limits>
+#include <numeric>
 
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/block_cholesky.hpp"
+#include "slam_point/core/map_step.hpp"
+#include "slam_point/core/reduced_system.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -12,44 +15,21 @@ constexpr double kSettledGain = 1e-9;  // relative fall of the cost that ends th
 
 }  // namespace
 
-StepCost WindowSolver::step(const SubmapGraph& graph, const std::vector<Index>& free, bool planar,
-                            std::vector<Pose>& poses) {
-  system_.take(graph, free, poses, planar);
-  const StepCost none{system_.cost(), system_.cost()};
-  const auto slots = static_cast<Index>(system_.free().size());
-  if (slots == 0) return none;
-  const Eigen::Index n = 6 * static_cast<Eigen::Index>(slots);
-  dense_.setZero(n, n);
-  gradient_.resize(n);
-  double work = 0.0;
-  for (Index row = 0; row < slots; ++row) {
-    const Eigen::Index at = 6 * static_cast<Eigen::Index>(row);
-    gradient_.segment<6>(at) =
-        system_.make_row(row, work, [&](Index column, const ReducedSystem::Block& block) {
-          dense_.block<6, 6>(at, 6 * static_cast<Eigen::Index>(column)) = block;
-        });
+double step_work(const SubmapGraph& graph, bool planar) {
+  std::vector<Index> all(graph.submaps.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  ReducedSystem system;
+  system.take(graph, all, graph.poses, planar);
+  BlockCholesky factor;
+  factor.begin(system.free().size());
+  double rows_work = 0.0;
+  for (Index row = 0; row < system.free().size(); ++row) {
+    system.make_row(row, rows_work,
+                    [&](Index column, const ReducedSystem::Block& block) { factor.add(row, column, block); });
   }
-  factor_.compute(dense_);
-  if (factor_.info() != Eigen::Success) return none;
-  move_ = factor_.solve(gradient_);
-  return move_.allFinite() ? take(graph, poses) : none;
-}
-
-StepCost WindowSolver::take(const SubmapGraph& graph, std::vector<Pose>& poses) {
-  previous_.clear();
-  for (std::size_t slot = 0; slot < system_.free().size(); ++slot) {
-    const auto move = move_.segment<6>(6 * static_cast<Eigen::Index>(slot));
-    Pose& pose = poses[system_.free()[slot]];
-    previous_.push_back(pose);
-    pose.t -= move.head<3>();
-    pose.q = (rotation_exp(-move.tail<3>()) * pose.q).normalized();
-  }
-  StepCost cost{system_.cost(), 0.0};
-  for (const Index landmark : system_.touched()) cost.after += ReducedSystem::cost_of(graph, poses, landmark);
-  if (cost.after < cost.before) return cost;
-  for (std::size_t slot = 0; slot < previous_.size(); ++slot) poses[system_.free()[slot]] = previous_[slot];
-  cost.after = cost.before;
-  return cost;
+  if (system.free().empty()) return 0.0;
+  factor.analyse();
+  return factor.work();
 }
 
 int settle(const SubmapGraph& graph, bool planar, int max_steps, std::vector<Pose>& poses) {

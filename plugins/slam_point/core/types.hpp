@@ -4,12 +4,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hallway::slam_point {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// A rigid transform: `T_a_b * p_b` is the point in frame a. Metres; q is a unit quaternion.
 struct Pose {
@@ -31,15 +33,17 @@ using TrackId = std::uint64_t;
 /// "The sensor does not follow this point."
 inline constexpr TrackId kNoTrack = ~std::uint64_t{0};
 
-/// How far a landmark is trusted. `dynamic` is reserved: nothing is classified as moving.
+/// How far a landmark is trusted; `dynamic`: it moves.
 enum class LandmarkStatus { temporary, mapped, dynamic };
 
 /// One point of the map.
 struct Landmark {
   LandmarkId id = kNoLandmark;
-  Vec3 position = Vec3::Zero();                       ///< map frame [m]
-  std::uint32_t observations = 0;                     ///< how many observations its position averages
+  Vec3 position = Vec3::Zero();    ///< map frame [m]; of one that moves: where it was last seen
+  std::uint32_t observations = 0;  ///< how many observations its position averages
   LandmarkStatus status = LandmarkStatus::temporary;  ///< mapped from Options::min_observations on
+  /// Of its position's error relative to the map as a whole [m^2]: see RefinedMap. Empty where it is not known.
+  std::optional<Mat3> covariance{};
 };
 
 /// One submap: what was seen from about one place.
@@ -65,13 +69,17 @@ struct Counters {
   std::uint64_t reopened = 0;      ///< times an old submap was taken up again
   std::uint64_t global_steps = 0;  ///< times all submaps were re-placed together online
   std::uint64_t merged = 0;        ///< landmarks that turned out to be another one
+  std::uint64_t found_moving = 0;  ///< frames that found landmarks to move
   std::uint64_t searches = 0;      ///< times the motion prediction failed and turns were tried
 };
 
 /// What one frame gave.
 struct Answer {
-  bool has_pose = false;                 ///< see Mapper::process for the rule
-  Pose T_map_sensor;                     ///< defined when has_pose
+  bool has_pose = false;  ///< see Mapper::process for the rule
+  Pose T_map_sensor;      ///< defined when has_pose
+  /// Of the pose's error against the map, as PoseInformation has it [m, rad]: where the map's landmarks in view lie is taken
+  /// as known but for the noise of their own observations. Empty without a pose and while the noise is not known yet.
+  std::optional<Mat6> covariance{};
   std::vector<LandmarkId> associations;  ///< one per point given, in their order; kNoLandmark for none
   Counters counters;
 };

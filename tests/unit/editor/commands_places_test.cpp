@@ -173,6 +173,9 @@ TEST(PlacesCommands, LandmarksAroundAPathAndOnSurfaces) {
       mentions(refusal(map, "landmarks path=way per_100m=1 sideways=1 height=1 on=crate name=b"), "per_m2"));
   EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 path=way"), "belongs to a cloud"));
   EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 on=way"), "no surface"));
+  EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 speed=2"), "belongs to a cloud"));
+  EXPECT_TRUE(mentions(
+      refusal(map, "landmarks path=way per_100m=1 sideways=1 height=1 name=c motion=sideways"), "group"));
   EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=1 on=crate seed=3"), "seed"));
   EXPECT_TRUE(mentions(refusal(map, "landmarks per_m2=-1"), "per_m2"));
   map.run("box from 5,0 to 6,1,1");

@@ -27,6 +27,12 @@ TEST(Workers, DoEachItemOnceHoweverManyThereAre) {
   }
 }
 
+TEST(Workers, AreAFewWhereTheirNumberIsNotGiven) {
+  const Workers workers(0);
+  EXPECT_GE(workers.count(), 1u);
+  EXPECT_LE(workers.count(), static_cast<std::size_t>(Workers::kMostOfItself));
+}
+
 TEST(Workers, NoTwoItemsOfOneWorkerRunAtATime) {
   Workers workers(4);
   std::vector<std::atomic<int>> inside(4);
@@ -84,9 +90,10 @@ void expect_equal(const Plane& left, const Plane& right) {
 
 void expect_same_for_any_number_of_threads(const std::vector<Vec3>& points) {
   AutoOptions options;
+  options.threads = 1;
   const Extraction alone = PlaneExtractor(options).extract(points);
   EXPECT_GE(alone.planes.size(), 4u);
-  for (const int threads : {2, 5}) {
+  for (const int threads : {0, 2, 5}) {
     options.threads = threads;
     const PlaneExtractor extractor(options);
     const Extraction shared = extractor.extract(points);
@@ -120,7 +127,7 @@ TEST(Threads, ChangeNothingInTheCanonicalOrder) {
 
 TEST(Threads, MoreOrFewerThanAllowedAreRefused) {
   AutoOptions options;
-  for (const int threads : {0, -1, 65}) {
+  for (const int threads : {-1, 65}) {
     options.threads = threads;
     EXPECT_THROW(PlaneExtractor{options}, std::invalid_argument);
   }

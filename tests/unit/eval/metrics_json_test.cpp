@@ -19,6 +19,7 @@ Metrics full() {
   metrics.landmarks_duplicated = 1;
   metrics.landmarks_missed = 0;
   metrics.landmarks_unmatched = 2;
+  metrics.moving = MovingMetrics{4, 3, 2, 0};
   metrics.association_errors = 7;
   metrics.associations_none = 8;
   metrics.landmark_pairs = 1144;
@@ -26,6 +27,9 @@ Metrics full() {
   metrics.landmark_rmse_final_aligned_m = 0.125;
   metrics.position_pairs = 3799;
   metrics.position_rmse_m = {0.75, 0.0625};
+  metrics.position_rmse_refitted_aligned_m = 0.03125;
+  metrics.position_refitted_pairs = 3797;
+  metrics.landmark_consistency.add(Eigen::Vector3d(1, 0, 0), Eigen::Matrix3d::Identity() / 3);
   metrics.position_final_m = 1.5;
   metrics.rotation_rmse_deg = {2.5, 3.5};
   metrics.iteration_ms = TimeSummary{1, 2, 3, 4};
@@ -38,10 +42,14 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
       to_json(full()).dump(),
       R"({"schema":"hallway.metrics/1","iterations":3800,"lost_iterations":1,"observations":410484,)"
       R"("associations_none":8,"association_errors":7,"landmarks_true":1145,"landmarks_mapped":1146,)"
-      R"("landmarks_duplicated":1,"landmarks_missed":0,"landmarks_unmatched":2,"landmark_pairs":1144,)"
+      R"("landmarks_duplicated":1,"landmarks_missed":0,"landmarks_unmatched":2,)"
+      R"("moving":{"moved":4,"moved_marked":3,"marked":2,"marked_moving":0,"recall":0.75,"precision":0.0},)"
+      R"("landmark_pairs":1144,)"
       R"("landmark_rmse_m":{"first_pose":0.5,"aligned":0.25,"final_aligned":0.125},"position_pairs":3799,)"
-      R"("position_rmse_m":{"first_pose":0.75,"aligned":0.0625},"position_final_m":1.5,)"
+      R"("position_rmse_m":{"first_pose":0.75,"aligned":0.0625,"refitted_aligned":0.03125},)"
+      R"("position_refitted_pairs":3797,"position_final_m":1.5,)"
       R"("rotation_rmse_deg":{"first_pose":2.5,"aligned":3.5},)"
+      R"("nees":{"landmarks":1.0000000000000002,"landmark_pairs":1,"poses":null,"pose_pairs":0},)"
       R"("iteration_ms":{"mean":1.0,"p50":2.0,"p99":3.0,"max":4.0},)"
       R"("iteration_cpu_ms":{"mean":5.0,"p50":6.0,"p99":7.0,"max":8.0}})");
 }
@@ -50,7 +58,7 @@ TEST(MetricsJson, WhatIsUnknownIsNull) {
   const auto document = to_json(Metrics{});
   for (const std::string key :
        {"association_errors", "landmarks_true", "landmarks_duplicated", "landmarks_missed",
-        "landmarks_unmatched", "position_final_m", "iteration_ms", "iteration_cpu_ms"}) {
+        "landmarks_unmatched", "moving", "position_final_m", "iteration_ms", "iteration_cpu_ms"}) {
     EXPECT_TRUE(document.at(key).is_null()) << key;
   }
   for (const std::string key : {"landmark_rmse_m", "position_rmse_m", "rotation_rmse_deg"}) {

@@ -4,9 +4,10 @@
 usage: metrics_oracle.py RUN.json METRICS.json
 
 RUN.json holds what the evaluator was given:
-  iterations: [{truth, estimate: [x, y, z, qw, qx, qy, qz] or null, associations, identities: [id or -1], wall_ms, cpu_ms}]
+  iterations: [{truth, estimate: [x, y, z, qw, qx, qy, qz] or null, covariance: 6x6 or null, associations, identities:
+    [id or -1], points: [[x, y, z]], wall_ms, cpu_ms}]
   landmarks: {id: [x, y, z]} or null, has_identities: bool
-  online, refined: [{id, position, status}] (refined may be null)
+  online, refined: [{id, position, observations, status, covariance: 3x3 or null}] (refined may be null)
 """
 import json
 import math
@@ -86,6 +87,92 @@ def landmark_pairs(landmark_map, owner, landmarks):
     return [truth for truth, _ in pairs], [estimate for _, estimate in pairs]
 
 
+def weighted_fit(model, data, weights):
+    """R, t with data ~ R model + t; rows are points."""
+    w = np.array(weights)[:, None] / sum(weights)
+    mean_model, mean_data = (w * model).sum(axis=0), (w * data).sum(axis=0)
+    u, _, vt = np.linalg.svd((w * (data - mean_data)).T @ (model - mean_model))
+    r = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ vt))]) @ vt
+    return r, mean_data - r @ mean_model
+
+
+def score_refitted(run, result):
+    if run["refined"] is None:
+        return
+    mapped = {m["id"]: m for m in run["refined"] if m["status"] == "mapped"}
+    truth, estimate = [], []
+    for i in run["iterations"]:
+        if i["truth"] is None:
+            continue
+        pairs = [(p, mapped[a]) for p, a in zip(i["points"], i["associations"]) if a in mapped]
+        points = np.array([p for p, _ in pairs])
+        if len(pairs) < 3:
+            continue
+        landmarks = np.array([m["position"] for _, m in pairs])
+        extents = [np.linalg.svd(side - side.mean(axis=0), compute_uv=False) for side in (points, landmarks)]
+        if any(extent[0] == 0 or extent[1] < 0.01 * extent[0] for extent in extents):
+            continue
+        weights = [m["observations"] / (m["observations"] + 1) for _, m in pairs]
+        _, t = weighted_fit(points, landmarks, weights)
+        truth.append(i["truth"][:3])
+        estimate.append(t)
+    result["position_refitted_pairs"] = len(truth)
+    result["position_rmse_m"]["refitted_aligned"] = aligned_rmse(truth, estimate)
+
+
+def nees(errors):
+    """errors: [(error, covariance)]; what has no variance is left out."""
+    if not errors:
+        return None
+    total, freedom = 0.0, 0
+    for error, covariance in errors:
+        free = np.diag(covariance) != 0
+        total += error[free] @ np.linalg.inv(covariance[np.ix_(free, free)]) @ error[free]
+        freedom += free.sum()
+    return total / freedom
+
+
+def rotation_vector(r):
+    angle = math.acos(max(-1.0, min(1.0, (np.trace(r) - 1) / 2)))
+    skew = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
+    return 0.5 * skew if angle < 1e-7 else angle / (2 * math.sin(angle)) * skew
+
+
+def score_pose_nees(run, result):
+    pairs = [(i["truth"], i["estimate"], i["covariance"]) for i in run["iterations"] if i["truth"] and i["estimate"]]
+    if len(pairs) < 3:
+        return
+    r, t = umeyama(np.array([a[:3] for a, _, _ in pairs]).T, np.array([b[:3] for _, b, _ in pairs]).T)
+    errors = [(np.concatenate([r @ np.array(a[:3]) + t - np.array(b[:3]),
+                               rotation_vector(r @ rotation(a[3:]) @ rotation(b[3:]).T)]), np.array(c))
+              for a, b, c in pairs if c is not None]
+    result["nees"]["poses"], result["nees"]["pose_pairs"] = nees(errors), len(errors)
+
+
+def score_landmark_nees(run, owner, result):
+    pairs = [(np.array(run["landmarks"][str(owner[m["id"]])]), np.array(m["position"]), m["covariance"])
+             for m in run["refined"]
+             if m["status"] == "mapped" and m["id"] in owner and str(owner[m["id"]]) in run["landmarks"]]
+    if len(pairs) < 3:
+        return
+    r, t = umeyama(np.array([a for a, _, _ in pairs]).T, np.array([b for _, b, _ in pairs]).T)
+    errors = [(r @ a + t - b, np.array(c)) for a, b, c in pairs if c is not None]
+    result["nees"]["landmarks"], result["nees"]["landmark_pairs"] = nees(errors), len(errors)
+
+
+def moving(run):
+    """Of a run in which nothing moves: all that is marked is a false alarm."""
+    status = {m["id"]: m["status"] for m in run["online"]}
+    given = {"dynamic": Counter(), "mapped": Counter(), "temporary": Counter()}
+    for iteration in run["iterations"]:
+        for association, identity in zip(iteration["associations"], iteration["identities"]):
+            if identity != -1 and association in status:
+                given[status[association]][identity] += 1
+    marked = sum(count > given["mapped"][truth] for truth, count in given["dynamic"].items())
+    precision = None if marked == 0 else 0.0
+    return {"moved": 0, "moved_marked": 0, "marked": marked, "marked_moving": 0, "recall": None, "precision": precision}
+
+
 def score_landmarks(run, first_pose_frame, result):
     owner, errors = owners(run["iterations"])
     observed = {i for iteration in run["iterations"] for i in iteration["identities"] if i != -1}
@@ -98,6 +185,7 @@ def score_landmarks(run, first_pose_frame, result):
     result["landmarks_unmatched"] = sum(i not in owner for i in mapped)
     if run["landmarks"] is None:
         return
+    result["moving"] = moving(run)
     truth, estimate = landmark_pairs(run["online"], owner, run["landmarks"])
     result["landmark_pairs"] = len(truth)
     if first_pose_frame is not None:
@@ -105,6 +193,7 @@ def score_landmarks(run, first_pose_frame, result):
     result["landmark_rmse_m"]["aligned"] = aligned_rmse(truth, estimate)
     if run["refined"] is not None:
         result["landmark_rmse_m"]["final_aligned"] = aligned_rmse(*landmark_pairs(run["refined"], owner, run["landmarks"]))
+        score_landmark_nees(run, owner, result)
 
 
 def score_trajectory(run, result):
@@ -116,7 +205,7 @@ def score_trajectory(run, result):
     truth_r, estimate_r = [rotation(a[3:]) for a, _ in pairs], [rotation(b[3:]) for _, b in pairs]
     r = truth_r[0] @ estimate_r[0].T
     t = truth[0] - r @ estimate[0]
-    result["position_rmse_m"] = {"first_pose": rmse(truth, estimate, r, t), "aligned": aligned_rmse(truth, estimate)}
+    result["position_rmse_m"].update({"first_pose": rmse(truth, estimate, r, t), "aligned": aligned_rmse(truth, estimate)})
     result["position_final_m"] = float(np.linalg.norm(truth[-1] - (r @ estimate[-1] + t)))
     u, _, vt = np.linalg.svd(sum(a @ b.T for a, b in zip(truth_r, estimate_r)))
     mean = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ vt))]) @ vt
@@ -139,15 +228,20 @@ def evaluate(run):
         "landmarks_duplicated": None,
         "landmarks_missed": None,
         "landmarks_unmatched": None,
+        "moving": None,
         "landmark_pairs": 0,
         "landmark_rmse_m": {"first_pose": None, "aligned": None, "final_aligned": None},
-        "position_rmse_m": {"first_pose": None, "aligned": None},
+        "position_rmse_m": {"first_pose": None, "aligned": None, "refitted_aligned": None},
+        "position_refitted_pairs": 0,
         "position_final_m": None,
         "rotation_rmse_deg": {"first_pose": None, "aligned": None},
+        "nees": {"landmarks": None, "landmark_pairs": 0, "poses": None, "pose_pairs": 0},
         "iteration_ms": summary([i["wall_ms"] for i in iterations if i["wall_ms"] is not None]),
         "iteration_cpu_ms": summary([i["cpu_ms"] for i in iterations if i["cpu_ms"] is not None]),
     }
     first_pose_frame = score_trajectory(run, result)
+    score_refitted(run, result)
+    score_pose_nees(run, result)
     if run["has_identities"]:
         score_landmarks(run, first_pose_frame, result)
     return result

@@ -28,8 +28,10 @@ using Ids = std::vector<LandmarkId>;
 struct RandomIteration {
   std::optional<Pose> truth;
   std::optional<Pose> estimate;
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;
   Ids associations;
   Ids identities;
+  std::vector<Vec3> points;
   std::optional<double> wall_ms;
 };
 
@@ -93,12 +95,14 @@ class RunMaker {
     if (!chance(0.1)) result.truth = truth;
     const Quat wobble = from_yaw_pitch_roll(0.1 * next(), 0.1 * next(), 0.1 * next());
     if (!chance(0.1)) result.estimate = T_map_world_ * truth * Pose{wobble, noise(0.3)};
+    if (chance(0.8)) result.covariance = covariance<6>(false);
     if (!chance(0.1)) result.wall_ms = 0.01 * below(50);
     for (std::uint32_t count = below(12); count > 0; --count) {
       const LandmarkId identity = below(landmarks_);
       const LandmarkId taken_for = chance(0.1) ? below(landmarks_) : identity;
       result.associations.push_back(chance(0.1) ? kNoLandmark : map_id(taken_for, chance(0.2)));
       if (has_identities) result.identities.push_back(chance(0.05) ? kNoLandmark : identity);
+      result.points.push_back(truth.inverse() * position(identity) + noise(0.1));
     }
     return result;
   }
@@ -110,10 +114,24 @@ class RunMaker {
         if (chance(second ? 0.6 : 0.1)) continue;
         const Vec3 place = T_map_world_ * position(id) + noise(0.2);
         const auto status = chance(0.15) ? LandmarkStatus(2 * below(2)) : LandmarkStatus::kMapped;
-        landmarks.push_back({map_id(id, second), {place.x(), place.y(), place.z()}, 1, status});
+        landmarks.push_back({map_id(id, second), {place.x(), place.y(), place.z()}, 1 + below(20), status});
+        if (!chance(0.7)) continue;
+        const Eigen::Matrix3d c = covariance<3>(chance(0.2));
+        landmarks.back().covariance = {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
       }
     }
     return landmarks;
+  }
+
+  /// `flat`: nothing moves along z.
+  template <int N>
+  Eigen::Matrix<double, N, N> covariance(bool flat) {
+    Eigen::Matrix<double, N, N> root;
+    for (double& entry : root.reshaped()) entry = next() - 0.5;
+    if (flat) root.row(2).setZero();
+    Eigen::Matrix<double, N, N> result = root * root.transpose();
+    for (int i = 0; i < N; ++i) result(i, i) += flat && i == 2 ? 0.0 : 0.01;
+    return result;
   }
 
   Random random_;
@@ -130,6 +148,8 @@ Metrics evaluate(const RandomRun& run) {
     entry.T_map_body = iteration.estimate;
     entry.associations = iteration.associations;
     entry.identities = iteration.identities;
+    entry.pose_covariance = iteration.covariance;
+    entry.points = iteration.points;
     entry.wall_ms = iteration.wall_ms;
     if (iteration.wall_ms) entry.cpu_ms = *iteration.wall_ms / 3;
     evaluator.add(entry);
@@ -148,6 +168,16 @@ Json to_json(const Ids& ids) {
   return array;
 }
 
+template <int N>
+Json rows_of(const Eigen::Matrix<double, N, N>& matrix) {
+  Json rows = Json::array();
+  for (int row = 0; row < N; ++row) {
+    rows.push_back(Json::array());
+    for (int column = 0; column < N; ++column) rows.back().push_back(matrix(row, column));
+  }
+  return rows;
+}
+
 Json to_json(const std::vector<MapLandmark>& map) {
   Json array = Json::array();
   for (const MapLandmark& landmark : map) {
@@ -155,6 +185,13 @@ Json to_json(const std::vector<MapLandmark>& map) {
     entry["id"] = landmark.id;
     entry["position"] = landmark.position_m;
     entry["status"] = log::landmark_status_name(landmark.status);
+    entry["observations"] = landmark.observations;
+    entry["covariance"] = nullptr;
+    if (const auto& c = landmark.covariance) {
+      Eigen::Matrix3d matrix;
+      matrix << (*c)[0], (*c)[1], (*c)[2], (*c)[1], (*c)[3], (*c)[4], (*c)[2], (*c)[4], (*c)[5];
+      entry["covariance"] = rows_of(matrix);
+    }
     array.push_back(entry);
   }
   return array;
@@ -178,6 +215,9 @@ Json to_json(const RandomRun& run) {
     entry["estimate"] = to_json(iteration.estimate);
     entry["associations"] = to_json(iteration.associations);
     entry["identities"] = to_json(iteration.identities);
+    entry["covariance"] = iteration.covariance ? rows_of(*iteration.covariance) : Json(nullptr);
+    entry["points"] = Json::array();
+    for (const Vec3& point : iteration.points) entry["points"].push_back({point.x(), point.y(), point.z()});
     entry["wall_ms"] = iteration.wall_ms ? Json(*iteration.wall_ms) : Json(nullptr);
     entry["cpu_ms"] = iteration.wall_ms ? Json(*iteration.wall_ms / 3) : Json(nullptr);
     document["iterations"].push_back(entry);

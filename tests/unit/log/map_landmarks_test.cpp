@@ -7,6 +7,8 @@
 #include <string>
 
 #include "base/file.hpp"
+#include "log/pose_covariances.hpp"
+#include "support/errors.hpp"
 #include "support/random_doubles.hpp"
 #include "support/temp_folder.hpp"
 
@@ -40,6 +42,44 @@ TEST(MapLandmarks, ReadBackToTheSameBits) {
     EXPECT_EQ(back[i].observations, map[i].observations);
     EXPECT_EQ(back[i].status, map[i].status);
   }
+}
+
+TEST(MapLandmarks, CovariancesStandInColumnsOfTheirOwnWhereAnyIsTold) {
+  std::vector<MapLandmark> map = kMap;
+  map[1].covariance = {1, 0.5, 0, 2, -0.25, 1.0 / 3.0};
+  const std::string text = print_map_landmarks(map);
+  EXPECT_EQ(text.substr(0, text.find("\n2,0,0,0")),
+            "id,x,y,z,observations,status,cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz\n"
+            "7,1,-2.5,0.1,12,mapped,,,,,,");
+  const std::vector<MapLandmark> back = parse_map_landmarks(text, "landmarks.csv");
+  ASSERT_EQ(back.size(), map.size());
+  for (std::size_t i = 0; i < map.size(); ++i) EXPECT_EQ(back[i].covariance, map[i].covariance);
+}
+
+TEST(MapLandmarks, APartOfACovarianceIsRefused) {
+  const std::string header = "id,x,y,z,observations,status,cov_xx,cov_xy,cov_xz,cov_yy,cov_yz";
+  for (const std::string& text : {header + "\n", header + ",cov_zz\n7,1,2,3,4,mapped,1,,,2,,3\n"}) {
+    const auto error = test::error_of([&] { parse_map_landmarks(text, "landmarks.csv"); });
+    ASSERT_TRUE(error) << text;
+    EXPECT_EQ(error->code(), ErrorCode::kBadInput) << text;
+  }
+}
+
+TEST(PoseCovariances, ReadBackToTheSameBits) {
+  std::array<double, 36> matrix{};
+  for (std::size_t i = 0; i < 36; ++i)
+    matrix[i] = 1.0 / (1.0 + static_cast<double>(std::min(6 * (i / 6) + i % 6, 6 * (i % 6) + i / 6)));
+  RowWriter out(',');
+  out.word(kPoseCovarianceColumns).end_row();
+  add_row(out, IterationCovariance{3, upper_triangle(matrix)});
+  add_row(out, IterationCovariance{9, PoseCovariance{1.0}});
+  const std::vector<IterationCovariance> back = parse_pose_covariances(out.take(), "pose_covariances.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].iteration, 3u);
+  EXPECT_EQ(back[0].covariance, upper_triangle(matrix));
+  EXPECT_EQ(back[0].covariance[6], matrix[7]) << "yy";
+  EXPECT_EQ(back[0].covariance[20], matrix[35]) << "cc";
+  EXPECT_EQ(back[1].covariance, PoseCovariance{1.0});
 }
 
 TEST(LandmarkStatus, NamesReadBack) {

@@ -39,9 +39,14 @@ void expect_refused(std::string_view topic, const std::string& text) {
 }
 
 TEST(RunLog, AnswersReadBackToTheSameBits) {
-  const PoseAnswer pose{true, {0.1, -1e-300, 1.0 / 3.0}, {0.5, -0.5, 0.5, -0.5}};
+  const PoseAnswer pose{
+      true, {0.1, -1e-300, 1.0 / 3.0}, {0.5, -0.5, 0.5, -0.5}, PoseCovariance{0.1, 0.2, -1e-9}};
   const std::vector<MapLandmark> landmarks{
-      {.id = 7, .position_m = {0.1, 0.2, 0.3}, .observations = 9, .status = LandmarkStatus::kDynamic},
+      {.id = 7,
+       .position_m = {0.1, 0.2, 0.3},
+       .observations = 9,
+       .status = LandmarkStatus::kDynamic,
+       .covariance = std::array{0.1, 0.2, 0.3, 0.4, 0.5, 1.0 / 3.0}},
       {.id = kNoLandmark - 1, .position_m = {-0.0, 2, 3}, .status = LandmarkStatus::kTemporary}};
   const std::vector<IdPair> members{{4, 7}, {4, 8}, {5, 7}};
   StringOutput out;
@@ -59,6 +64,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   EXPECT_TRUE(valid.pose.valid);
   EXPECT_EQ(valid.pose.position_m, pose.position_m);
   EXPECT_EQ(valid.pose.orientation, pose.orientation);
+  EXPECT_EQ(valid.pose.covariance, pose.covariance);
   EXPECT_FALSE(std::get<PoseMessage>(answers[2]).pose.valid);
   const auto& map = std::get<MapMessage>(answers[3]);
   ASSERT_EQ(map.landmarks.size(), landmarks.size());
@@ -67,6 +73,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
     EXPECT_EQ(map.landmarks[i].position_m, landmarks[i].position_m);
     EXPECT_EQ(map.landmarks[i].observations, landmarks[i].observations);
     EXPECT_EQ(map.landmarks[i].status, landmarks[i].status);
+    EXPECT_EQ(map.landmarks[i].covariance, landmarks[i].covariance);
   }
   ASSERT_EQ(map.submap_members.size(), members.size());
   for (std::size_t i = 0; i < members.size(); ++i) {

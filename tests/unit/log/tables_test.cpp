@@ -106,6 +106,16 @@ TEST(Landmarks, ReadBackToTheSameBits) {
   }
 }
 
+TEST(Landmarks, ThatMoveAreMarkedInAColumnThatIsThereForThem) {
+  const std::vector<Landmark> landmarks{{5, {1, 2, 0.1}}, {6, {0, 0, 0}, true}};
+  const std::string text = print_landmarks(landmarks);
+  EXPECT_EQ(text, "landmark_id,x,y,z,moving\n5,1,2,0.1,0\n6,0,0,0,1\n");
+  const std::vector<Landmark> back = parse_landmarks(text, "landmarks.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_FALSE(back[0].moving);
+  EXPECT_TRUE(back[1].moving);
+}
+
 TEST(Landmarks, ArePrintedInTheDocumentedForm) {
   EXPECT_EQ(print_landmarks(std::vector<Landmark>{{5, {1, 2, 0.1}}}), "landmark_id,x,y,z\n5,1,2,0.1\n");
 }
@@ -291,10 +301,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "\"-1\" found"},
         BadTable{"landmark_infinite", landmarks, kLandmarks + "5,1,1,inf\n",
                  "t.csv:3: column z: a finite number is needed, \"inf\" found"},
+        BadTable{"landmark_moving_twice", landmarks, "landmark_id,x,y,z,moving\n4,0,0,0,2\n",
+                 "t.csv:2: column moving: a whole number from 0 to 1 is needed, \"2\" found"},
         BadTable{"landmark_cut_off", landmarks, kLandmarks + "5,1,1,1", kCutOff},
-        BadTable{"map_given_as_truth", landmarks, kMap,
-                 "t.csv:1: the header has no column \"landmark_id\"; needed: landmark_id,x,y,z; it is: "
-                 "id,x,y,z,observations,status"},
+        BadTable{
+            "map_given_as_truth", landmarks, kMap,
+            "t.csv:1: the header has no column \"landmark_id\"; needed: landmark_id,x,y,z,moving; it is: "
+            "id,x,y,z,observations,status"},
         BadTable{"map_twice", map_landmarks, kMap + "4,1,1,1,1,mapped\n",
                  "t.csv:3: landmark 4 stands here for the second time"},
         BadTable{

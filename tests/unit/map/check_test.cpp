@@ -109,6 +109,7 @@ TEST(Check, Sensors) {
                                 {"min_range_m", "2"},
                                 {"max_range_m", "2"},
                                 {"noise_m", "0 0.1 1000"},
+                                {"noise_per_m", "0 0.1 1"},
                                 {"position_m", "-1000 0 1000"},
                                 {"yaw_deg", "-360"},
                                 {"pitch_deg", "360"},

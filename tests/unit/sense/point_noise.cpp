@@ -132,6 +132,30 @@ TEST(PointWithoutNoise, IsExact) {
   }
 }
 
+TEST(PointNoiseOverDistance, GrowsAsItIsSaid) {
+  // The same deviates as without growth, each times what stands in the specification at that distance.
+  const std::vector<Vec3> landmarks{{1.0, 0.0, 0.0}, {3.0, 0.0, 4.0}, {80.0, 0.0, 0.0}};
+  const LandmarkIndex index(landmarks);
+  PointSensorSpec plain = camera();
+  plain.vertical_fov = 2.0;
+  plain.noise_m = Vec3(1, 1, 1);
+  PointSensorSpec growing = plain;
+  growing.noise_m = Vec3(0.1, 0.2, 0.0);
+  growing.noise_per_m = Vec3(0.01, 0.0, 0.02);
+  const PointSensor unit(plain, index, empty_scene(), 7);
+  const PointSensor sensor(growing, index, empty_scene(), 7);
+  const auto one = observe(unit, Pose(), 3), other = observe(sensor, Pose(), 3);
+  ASSERT_EQ(one.size(), 3u);
+  ASSERT_EQ(other.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(one[i].landmark, other[i].landmark);
+    const Vec3& truth = landmarks[one[i].landmark];
+    const double range_m = one[i].landmark == 0 ? 1.0 : one[i].landmark == 1 ? 5.0 : 80.0;
+    const Vec3 sigma(std::hypot(0.1, 0.01 * range_m), 0.2, 0.02 * range_m);
+    EXPECT_LT((other[i].point - truth - sigma.cwiseProduct(one[i].point - truth)).norm(), 1e-12);
+  }
+}
+
 TEST(PointNoiseAtTheBorder, DecidesNothing) {
   // Just inside and just outside of the range; noise of 1 m would carry half of them over.
   std::vector<Vec3> landmarks;

@@ -49,6 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSpec{"MinAboveMax", [](auto& s) { s.min_range_m = 101.0; },
                 "min_range_m is 101, above max_range_m, 100"},
         BadSpec{"NoiseNegative", [](auto& s) { s.noise_m.y() = -0.1; }, "noise_m is -0.1;"},
+        BadSpec{"GrowthNegative", [](auto& s) { s.noise_per_m.x() = -0.1; }, "noise_per_m is -0.1;"},
         BadSpec{"NoiseNan", [](auto& s) { s.noise_m.z() = kNan; }, "noise_m is nan;"},
         BadSpec{"MountNan", [](auto& s) { s.T_body_sensor.t.x() = kNan; }, "T_body_sensor is not"},
         BadSpec{"MountNotUnit", [](auto& s) { s.T_body_sensor.q.w() = 2.0; }, "T_body_sensor is not"}),

@@ -41,6 +41,21 @@ void expect_refused(const Override& setting, const std::string& cause) {
   EXPECT_NE(error->message().find(cause), std::string::npos) << error->what();
 }
 
+TEST(Overrides, SetKeysOfTheMapsClouds) {
+  const Scenario scenario = load_with(
+      {{"cloud.crowd.moving_share", "0.25"}, {"cloud.crowd.motion", "group"}, {"cloud.x.seed", "3"}});
+  ASSERT_EQ(scenario.clouds.size(), 2u);
+  EXPECT_EQ(scenario.clouds[0].name, "crowd");
+  ASSERT_EQ(scenario.clouds[0].keys.size(), 2u);
+  EXPECT_EQ(scenario.clouds[0].keys[0].key, "moving_share");
+  EXPECT_EQ(scenario.clouds[0].keys[0].value, "0.25");
+  EXPECT_EQ(scenario.clouds[0].keys[1].value, "group");
+  EXPECT_EQ(scenario.clouds[1].keys[0].value, "3");
+  EXPECT_EQ(origin_of(scenario, "cloud.crowd.moving_share"), "command line");
+  expect_refused({"cloud.crowd.moving_share", "1.5"}, "1.5");
+  expect_refused({"cloud.crowd.path", "round"}, "no such setting");
+}
+
 TEST(Overrides, StandAboveTheFile) {
   const Scenario scenario = load_with({{"seed", "7"}, {"steps", "3"}, {"period_s", "0.5"}});
   EXPECT_EQ(scenario.seed, 7u);

@@ -128,6 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"NoiseNegative", sensor("noise_m = -0.1"), 10, "sensor.a.noise_m", "out of range"},
         Wrong{"NoiseOfOneAxisNegative", sensor("noise_m = [0, -1, 0]"), 10, "sensor.a.noise_m",
               "-1 is out of range"},
+        Wrong{"NoiseGrowsTooFast", sensor("noise_per_m = 1.5"), 10, "sensor.a.noise_per_m", "out of range"},
         Wrong{"NoiseOfTwoAxes", sensor("noise_m = [0, 1]"), 10, "sensor.a.noise_m", "it has 2"},
         Wrong{"NoiseIsText", sensor("noise_m = 'a'"), 10, "sensor.a.noise_m", "must be a number"},
         Wrong{"PositionIsNumber", sensor("position_m = 1"), 10, "sensor.a.position_m",

@@ -76,16 +76,17 @@ TEST(LoadScenario, TakesDefaults) {
 }
 
 TEST(LoadScenario, ReadsASensor) {
-  const Scenario scenario =
-      load(test::scenario_text("[sensor.left-eye]\nkind = 'points'\nhorizontal_fov_deg = 360\n"
-                               "vertical_fov_deg = 30\nmin_range_m = 1\nmax_range_m = 2.5\n"
-                               "noise_m = [0.1, 0.2, 0]\nposition_m = [1, -2, 3.5]\nyaw_deg = 90\n"));
+  const Scenario scenario = load(test::scenario_text(
+      "[sensor.left-eye]\nkind = 'points'\nhorizontal_fov_deg = 360\n"
+      "vertical_fov_deg = 30\nmin_range_m = 1\nmax_range_m = 2.5\n"
+      "noise_m = [0.1, 0.2, 0]\nnoise_per_m = [0, 0.01, 1]\nposition_m = [1, -2, 3.5]\nyaw_deg = 90\n"));
   const sense::PointSensorSpec& eye = scenario.sensors.at(0);
   EXPECT_DOUBLE_EQ(eye.horizontal_fov, 2 * kPi);
   EXPECT_DOUBLE_EQ(eye.vertical_fov, kPi / 6);
   EXPECT_EQ(eye.min_range_m, 1.0);
   EXPECT_EQ(eye.max_range_m, 2.5);
   EXPECT_EQ(eye.noise_m, Vec3(0.1, 0.2, 0.0));
+  EXPECT_EQ(eye.noise_per_m, Vec3(0.0, 0.01, 1.0));
   EXPECT_EQ(eye.T_body_sensor.t, Vec3(1, -2, 3.5));
   EXPECT_LT((eye.T_body_sensor.q * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-12);
 }

@@ -65,6 +65,42 @@ std::string bytes_of_run(const Scenario& scenario, unsigned threads, trace::Back
   return bytes;
 }
 
+TEST(Simulator, SeesMovingLandmarksWhereTheyAre) {
+  World world(
+      test::scenario_text("[sensor.eyes]\nkind = 'points'\nhorizontal_fov_deg = 360\nvertical_fov_deg = 360\n"
+                          "[cloud.cloud]\nmoving_share = 0.5\nspeed = 0.5\n"),
+      test::map_text(""));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  std::size_t moved = 0;
+  for (const std::uint32_t step : {0u, 30u}) {
+    const Frame frame = simulator.step(step);
+    std::vector<sense::LandmarkPlace> places;
+    simulator.moving_landmarks().places_at(static_cast<double>(frame.t_ns) / 1e9, places);
+    ASSERT_FALSE(places.empty());
+    std::set<std::uint32_t> seen;
+    for (const auto& observation : frame.readings.front().observations) {
+      EXPECT_TRUE(seen.insert(observation.landmark).second) << observation.landmark;
+      Vec3 place = simulator.landmarks()[observation.landmark];
+      for (const auto& at : places) {
+        if (at.landmark == observation.landmark) place = at.place;
+      }
+      EXPECT_LT((frame.T_world_body * observation.point - place).norm(), 1e-9);
+      if ((place - simulator.landmarks()[observation.landmark]).norm() > 0.1) ++moved;
+    }
+    EXPECT_EQ(seen.size(), simulator.landmarks().size());  // nothing hides them
+  }
+  EXPECT_GT(moved, 2u);
+}
+
+TEST(Simulator, ACloudThatTheMapDoesNotHaveIsNamed) {
+  World world(test::scenario_text(std::string(kEyes) + "[cloud.crowd]\nmoving_share = 0.5\n"));
+  const auto error =
+      test::error_of([&] { Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->message().find("no hw_landmark_cloud `crowd`"), std::string::npos) << error->what();
+  EXPECT_EQ(error->where().line, 12);
+}
+
 TEST(Simulator, StartsAtTheBeginningOfThePath) {
   World world(test::scenario_text());
   const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
@@ -186,6 +222,7 @@ void expect_equal(const sense::PointSensorSpec& a, const sense::PointSensorSpec&
   EXPECT_EQ(a.min_range_m, b.min_range_m);
   EXPECT_EQ(a.max_range_m, b.max_range_m);
   EXPECT_EQ(a.noise_m, b.noise_m);
+  EXPECT_EQ(a.noise_per_m, b.noise_per_m);
 }
 
 TEST(Simulator, TakesTheSensorsOfTheMapWhereTheScenarioHasNone) {
@@ -210,13 +247,15 @@ TEST(Simulator, AllKeysOfAMapsSensorMeanWhatAScenariosDo) {
   const std::string in_map = sensor_entity(
       "a",
       "\"kind\" \"points\"\n\"horizontal_fov_deg\" \"120\"\n\"vertical_fov_deg\" \"30\"\n\"min_range_m\" "
-      "\"0.5\"\n\"max_range_m\" \"7\"\n\"noise_m\" \"0.1 0.2 0.3\"\n\"position_m\" \"1 2 3\"\n\"yaw_deg\" "
+      "\"0.5\"\n\"max_range_m\" \"7\"\n\"noise_m\" \"0.1 0.2 0.3\"\n\"noise_per_m\" \"0.01\"\n\"position_m\" "
+      "\"1 2 3\"\n\"yaw_deg\" "
       "\"10\"\n\"pitch_deg\" \"20\"\n\"roll_deg\" \"30\"\n");
   World mapped(test::scenario_text(), test::map_text("", in_map + sensor_entity("b", "")));
-  World written(test::scenario_text(
-      "[sensor.a]\nkind = 'points'\nhorizontal_fov_deg = 120\nvertical_fov_deg = 30\n"
-      "min_range_m = 0.5\nmax_range_m = 7\nnoise_m = [0.1, 0.2, 0.3]\nposition_m = [1, 2, 3]\n"
-      "yaw_deg = 10\npitch_deg = 20\nroll_deg = 30\n[sensor.b]\nkind = 'points'\n"));
+  World written(
+      test::scenario_text("[sensor.a]\nkind = 'points'\nhorizontal_fov_deg = 120\nvertical_fov_deg = 30\n"
+                          "min_range_m = 0.5\nmax_range_m = 7\nnoise_m = [0.1, 0.2, 0.3]\nnoise_per_m = "
+                          "0.01\nposition_m = [1, 2, 3]\n"
+                          "yaw_deg = 10\npitch_deg = 20\nroll_deg = 30\n[sensor.b]\nkind = 'points'\n"));
   const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
   ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k)

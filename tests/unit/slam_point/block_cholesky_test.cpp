@@ -66,6 +66,36 @@ std::vector<Vec6> right_side(int size) {
   return b;
 }
 
+TEST(BlockCholesky, InvertsWhereTheMatrixHasBlocks) {
+  BlockCholesky factor;
+  for (const auto& [size, share] : {std::pair{1, 0.0}, {2, 1.0}, {9, 0.3}, {30, 0.1}, {12, 1.0}, {25, 0.0}}) {
+    const System system = random_system(size, share, static_cast<std::uint64_t>(size));
+    ASSERT_EQ(factorise(factor, system, 1e12), State::done);
+    factor.invert();
+    const Eigen::MatrixXd inverse = system.dense.inverse();
+    for (const System::Entry& entry : system.entries) {
+      const Block expected = inverse.block<6, 6>(6 * static_cast<Eigen::Index>(entry.row),
+                                                 6 * static_cast<Eigen::Index>(entry.column));
+      const double near = 1e-12 * inverse.norm();
+      EXPECT_LT((factor.inverse_block(entry.row, entry.column) - expected).norm(), near);
+      EXPECT_LT((factor.inverse_block(entry.column, entry.row) - expected.transpose()).norm(), near);
+    }
+  }
+}
+
+TEST(BlockCholesky, SaysBeforehandHowMuchWorkItIs) {
+  BlockCholesky factor;
+  const System system = random_system(20, 0.2, 5);
+  ASSERT_EQ(factorise(factor, system, 1e12), State::done);
+  double left = 1e12;
+  factor.begin(20);
+  for (const System::Entry& entry : system.entries) factor.add(entry.row, entry.column, entry.block);
+  factor.analyse();
+  const double work = factor.work();
+  ASSERT_EQ(factor.advance(left), State::done);
+  EXPECT_NEAR(1e12 - left, work, 1e-3);
+}
+
 TEST(BlockCholesky, SolvesWhatADenseFactorisationSolves) {
   BlockCholesky factor;
   for (const auto& [size, share] :

@@ -105,6 +105,43 @@ TEST(MapStep, IsNotTakenWhereItWouldMakeThingsWorse) {
   expect_same_bits(poses, settled);
 }
 
+TEST(MapStep, AWindowLowersTheCostAndHoldsTheRest) {
+  const SubmapGraph graph = noisy_ring(12, false, 3);
+  std::vector<Pose> poses = graph.poses;
+  MapStep step;
+  step.begin(graph, poses, {11, 9, 10, 8}, kNone, false);
+  ASSERT_TRUE(step.advance(kPlenty));
+  const StepCost cost = step.apply(graph, poses);
+  EXPECT_LT(cost.after, cost.before);
+  EXPECT_LT(total_cost(graph, poses), total_cost(graph, graph.poses));
+  for (std::size_t s = 0; s < 8; ++s) {
+    EXPECT_EQ(poses[s].t, graph.poses[s].t);
+    EXPECT_EQ(poses[s].q.coeffs(), graph.poses[s].q.coeffs());
+  }
+}
+
+TEST(MapStep, TellsWhichLandmarksItHasMoved) {
+  SubmapGraph graph = noisy_ring(12, false, 3);
+  MapStep step;
+  step.begin(graph, graph.poses, {8, 9, 10, 11}, 11, false);
+  ASSERT_TRUE(step.advance(kPlenty));
+  // Made meanwhile, and active: it goes along with submap 11.
+  const Index made = graph.add_submap(graph.poses[11]);
+  const Index landmark = graph.add_landmark(graph.poses[11] * Vec3(1.0, 2.0, 0.0), 1);
+  graph.submaps[made].members[graph.join(made, landmark, Vec3(1.0, 2.0, 0.0), true)].count = 1;
+  graph.activate(made);
+  const StepCost cost = step.apply(graph, graph.poses);
+  ASSERT_LT(cost.after, cost.before);
+  graph.take_moved(step.touched());
+  for (Index l = 0; l < graph.landmarks.size(); ++l) {
+    if (graph.landmarks[l].memberships.empty() || graph.landmarks[l].count == 0) continue;
+    EXPECT_LT((graph.landmarks[l].position - graph.mean_position(l)).norm(), 1e-9) << l;
+  }
+  // What is observed from now on counts where the submap has come to lie.
+  graph.observe(0, Vec3(1.0, 2.0, 0.0), 2);
+  EXPECT_LT((graph.landmarks[landmark].position - graph.mean_position(landmark)).norm(), 1e-9);
+}
+
 TEST(MapStep, OneSubmapIsNothingToMove) {
   SubmapGraph graph(1.0);
   graph.add_submap(Pose{});

@@ -90,6 +90,33 @@ TEST(Tracks, APointWithoutTrackIsMatchedByItsPlace) {
   }
 }
 
+TEST(Tracks, TellWhereTheSensorIsAfterItWasCarriedAway) {
+  // Two clouds, one seen after the other, then nothing, then the first again from far away and another side.
+  scenes::Random random(9);
+  std::vector<Vec3> landmarks;
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 centre(i < 15 ? 0.0 : 12.0, 0.0, 0.0);
+    landmarks.push_back(centre + 8.0 * Vec3(random.normal(), random.normal(), random.normal()));
+  }
+  const auto see = [&](const Pose& T, std::size_t first, std::size_t end) {
+    std::vector<scenes::Seen> frame;
+    for (std::size_t i = first; i < end; ++i)
+      frame.push_back({T.inverse() * landmarks[i], static_cast<std::int64_t>(i)});
+    return frame;
+  };
+  Mapper mapper(by_sensor());
+  for (int f = 0; f < 20; ++f) {
+    const Pose T{Eigen::Quaterniond::Identity(), Vec3(0.3 * f, 0.0, 0.0)};
+    ASSERT_TRUE(feed(mapper, see(T, f < 10 ? 0 : 8, f < 10 ? 20 : 30)).has_pose);
+  }
+  for (int f = 0; f < 3; ++f) EXPECT_FALSE(feed(mapper, {}).has_pose);
+  const Pose away{rotation_exp(Vec3(0.0, 2.5, 1.0)), Vec3(-30.0, 5.0, 2.0)};
+  const Answer& answer = feed(mapper, see(away, 0, 12));
+  ASSERT_TRUE(answer.has_pose);
+  EXPECT_NEAR((answer.T_map_sensor.t - away.t).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(answer.T_map_sensor.q.angularDistance(away.q), 0.0, 1e-6);
+}
+
 TEST(Tracks, AnOutlierIsLeftOutAndAMovedTrackBeginsAnew) {
   FollowedFrames log = spinning(12, 0.02, 0.01);
   log[5][7].point += Vec3(0.0, 2.0, 0.0);                                               // once

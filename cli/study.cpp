@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/text.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "isolation_options.hpp"
+#include "plugin_report.hpp"
+#include "plugin_sweep.hpp"
+
+namespace hallway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+  std::vector<std::string> plugins;
+  std::vector<std::string> plugin_path;
+  std::uint32_t seeds = 5;
+  std::uint32_t steps = 0;
+  bool quick = false;
+  std::string out;
+  std::string maps;
+  std::string data;
+  unsigned threads = hardware_threads();
+  IsolationOptions isolation;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Every combination of the values that a sweep has.
+std::vector<study::PluginChoice> choices_of(const batch::PluginSweep& sweep) {
+  std::vector<study::PluginChoice> choices{{.plugin = sweep.plugin}};
+  for (const auto& parameter : sweep.parameters) {
+    std::vector<study::PluginChoice> more;
+    for (const study::PluginChoice& choice : choices) {
+      for (const std::string& value : parameter.values) {
+        more.push_back(choice);
+        more.back().parameters.emplace_back(parameter.name, value);
+      }
+    }
+    choices = std::move(more);
+  }
+  return choices;
+}
+
+study::Request request_of(const study::Study& study, const StudyOptions& options) {
+  study::Request request{.seeds = options.quick ? std::min(options.seeds, 2u) : options.seeds,
+                         .quick = options.quick,
+                         .steps = options.steps};
+  for (const std::string& plugin : options.plugins) {
+    for (study::PluginChoice& choice : choices_of(parse_plugin_sweep(plugin)))
+      request.plugins.push_back(std::move(choice));
+  }
+  if (request.plugins.empty()) request.plugins = study::default_plugins(study);
+  return request;
+}
+
+/// Where installed programs have them; in a build folder a link leads to the sources.
+fs::path maps_folder(const StudyOptions& options) {
+  if (!options.maps.empty()) return options.maps;
+  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/hallway/maps";
+}
+
+fs::path data_folder(const StudyOptions& options) {
+  if (!options.data.empty()) return options.data;
+  const char* named = std::getenv("HALLWAY_DATA");
+  return named != nullptr ? fs::path(named) : maps_folder(options).parent_path() / "data";
+}
+
+void check_out(const fs::path& folder, bool force) {
+  std::error_code none;
+  if (force || !fs::exists(folder / "study.json", none)) return;
+  throw Error(ErrorCode::kIo, "an earlier study is there; --force replaces it",
+              {printable(folder.string(), 4096), 0, {}});
+}
+
+std::uint64_t iterations_of(const std::vector<study::RunSpec>& specs) {
+  std::uint64_t sum = 0;
+  for (const study::RunSpec& spec : specs) sum += spec.iterations();
+  return sum;
+}
+
+std::string summary(const study::Outcome& outcome, const fs::path& folder) {
+  std::string text;
+  for (const study::Table& table : outcome.tables) {
+    if (table.file == "findings" || table.file == "times_findings") text += print_text(table) + "\n";
+  }
+  for (const study::Chart& chart : outcome.charts)
+    text += fmt::format("figure {:<16} {}\n", chart.figures,
+                        printable((folder / (chart.file + ".svg")).string(), 4096));
+  return text + fmt::format("written to {}\n", printable(folder.string(), 4096));
+}
+
+/// One line for each run in which a plugin failed.
+bool report_plugin_failures(const std::vector<study::StudyRun>& runs) {
+  bool any = false;
+  for (const study::StudyRun& run : runs) {
+    if (run.trace.failure.empty()) continue;
+    any = true;
+    print_warning(
+        fmt::format("{}, seed {}: {}", run.spec.group(), run.spec.seed, printable(run.trace.failure, 500)));
+  }
+  return any;
+}
+
+int run_study(const study::Study& study, const StudyOptions& options) {
+  const fs::path folder =
+      options.out.empty() ? fs::path("out") / ("study-" + std::string(study.name)) : fs::path(options.out);
+  check_out(folder, options.force);
+  const study::Request request = request_of(study, options);
+  const std::vector<study::RunSpec> specs = study.plan(request);
+  catch_interrupts();
+  Progress progress("iterations", iterations_of(specs), options.quiet || options.json);
+  const std::vector<study::StudyRun> runs =
+      study::make_runs(specs, {.folders = {.maps = maps_folder(options), .out = folder},
+                               .data = data_folder(options),
+                               .threads = options.threads,
+                               .plugin_folders = plugin_folders(options.plugin_path),
+                               .isolation = isolation_of(options.isolation, apply(options.isolation, {})),
+                               .log = print_plugin_log,
+                               .progress = [&](std::uint64_t done) { progress.update(done); },
+                               .stop = interrupted});
+  if (interrupted()) return interrupt_status();
+  study::Outcome outcome = study.conclude(runs, request);
+  for (study::Table& table : study::common_tables(runs)) outcome.tables.push_back(std::move(table));
+  nlohmann::ordered_json document = study::write_outcome(study, request, outcome, folder);
+  if (options.json) {
+    document["folder"] = printable(folder.string(), 4096);
+    print_json(document);
+  } else if (!options.quiet) {
+    print_result(summary(outcome, folder));
+  }
+  return report_plugin_failures(runs) ? exit_status(ErrorCode::kPluginFault) : 0;
+}
+
+void add_options(CLI::App& command, StudyOptions& options) {
+  command
+      .add_option("--plugin", options.plugins,
+                  "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
+                  "may be given several times [slam_point]")
+      ->type_name("NAME[:param=a,b,...]...")
+      ->take_all()
+      ->expected(1);
+  add_plugin_path_option(command, options.plugin_path);
+  command
+      .add_option("--seeds", options.seeds,
+                  "How many seeds, from 1: each has other noise and other landmarks; curves are medians")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1000u))
+      ->capture_default_str();
+  command.add_option("--steps", options.steps, "Iterations of each run, instead of the study's")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 10'000'000u));
+  command.add_flag("--quick", options.quick, "A small size for trying out: seconds, at most two seeds");
+  command.add_option("--out", options.out, "Folder to write [out/study-<name>]")->type_name("DIR");
+  command.add_option("--maps", options.maps, "Folder of the scenarios [beside the program]")
+      ->type_name("DIR");
+  command.add_option("--data", options.data, "Folder of recorded data [$HALLWAY_DATA]")->type_name("DIR");
+  command.add_option("--threads", options.threads, "Threads of the simulator; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
+  add_limit_options(command, options.isolation);
+  command.add_flag("--force", options.force, "Replace an earlier study in the output folder");
+  command.add_flag("--json", options.json, "Print one JSON document");
+  command.add_flag("--quiet", options.quiet, "Print no progress and no table");
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, Action& chosen) {
+  CLI::App* group = app.add_subcommand(
+      "study", "Repeat an evaluation of the thesis with any plugin: tables, findings and charts");
+  group->require_subcommand(1);
+  group->footer("Example: hallway study straight --plugin slam_point --plugin ./my_slam.so --seeds 3");
+  for (const study::Study& study : study::studies()) {
+    CLI::App* command = group->add_subcommand(std::string(study.name), std::string(study.about));
+    const auto options = std::make_shared<StudyOptions>();
+    add_options(*command, *options);
+    command->footer(
+        fmt::format("Full size: {}. Corresponds to the thesis's figures {}.\n"
+                    "Writes findings.csv, runs.csv, curves.csv, charts as SVG and PNG, and all of it as "
+                    "study.json; facts "
+                    "of the clock stand in times*.csv.\n"
+                    "Exit status: 0 done; 5 a plugin failed in a run, the others count.\n"
+                    "Example: hallway study {} --seeds 3 --out out/{}",
+                    study.size, study.figures, study.name, study.name));
+    command->callback(
+        [&chosen, &study, options] { chosen = [&study, options] { return run_study(study, *options); }; });
+  }
+}
+
+}  // namespace hallway::cli

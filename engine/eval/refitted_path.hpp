@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "log/map_landmarks.hpp"
+
+namespace hallway::eval {
+
+/// The path as the map at the end shows it: each frame placed anew where its points, as the plugin associated them while the
+/// run went on, lie best on the landmarks of that map. Keeps the points until then: 32 bytes each, for at most kMaxPoints.
+class RefittedPath {
+ public:
+  /// Above so many points nothing is kept and no error is known.
+  static constexpr std::size_t kMaxPoints = std::size_t{1} << 23;
+
+  /// Adds a frame whose true position is known. `points`: body frame [m]; as long as `associations`.
+  void add(const Vec3& true_position, std::span<const Vec3> points,
+           std::span<const log::LandmarkId> associations);
+
+  struct Error {
+    std::uint64_t frames = 0;  ///< those placed
+    std::optional<double>
+        aligned_m;  ///< root mean square position error after the best rigid fit; from three frames on
+  };
+  /// The error of the positions of all frames that `map` places: three points or more on its mapped landmarks, neither all near
+  /// one line nor their landmarks (the second principal extent is at least a hundredth of the first). A landmark that rests on n observations
+  /// has the weight n / (n + 1): what the point's noise and its own leave of it. Empty beyond kMaxPoints. O(points).
+  std::optional<Error> error(std::span<const log::MapLandmark> map) const;
+
+ private:
+  struct Sight {
+    log::LandmarkId landmark = 0;
+    Vec3 point = Vec3::Zero();
+  };
+  struct Frame {
+    Vec3 true_position = Vec3::Zero();
+    std::size_t end = 0;  // of its sights
+  };
+  std::vector<Sight> sights_;
+  std::vector<Frame> frames_;
+  bool complete_ = true;
+};
+
+}  // namespace hallway::eval

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+
+#include "study/parts.hpp"
+#include "study/study.hpp"
+
+namespace hallway::study {
+
+std::span<const Study> studies() {
+  static const std::array kStudies{kConstants, kFigureEight, kDensity,      kMapSize,
+                                   kStraight,  kStationary,  kVictoriaPark, kFortyLoops};
+  return kStudies;
+}
+
+}  // namespace hallway::study

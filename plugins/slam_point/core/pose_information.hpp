@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "slam_point/core/types.hpp"
+
+namespace hallway::slam_point {
+
+/// What points matched to landmarks tell of the pose that they were fitted by, for a fit with these weights and observations
+/// whose coordinates have the variance 1.
+class PoseInformation {
+ public:
+  /// Adds a point: `lever` leads from the sensor to it, in the map's frame [m]; `weight` as in the fit.
+  void add(const Vec3& lever, double weight) {
+    const Vec3 weighted = weight * lever;
+    weight_ += weight;
+    sum_ += weighted;
+    outer_ += weighted * lever.transpose();
+  }
+
+  /// Covariance of the pose's error: position (x, y, z), then rotation vector (true = exp(error) * estimate), in the map's
+  /// frame. In `planar` data only x, y and the turn about z vary. Empty where the points leave a direction open.
+  std::optional<Mat6> covariance(bool planar) const;
+
+ private:
+  double weight_ = 0.0;
+  Vec3 sum_ = Vec3::Zero();
+  Mat3 outer_ = Mat3::Zero();
+};
+
+}  // namespace hallway::slam_point

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/segment_store.hpp"
+
+#include <algorithm>
+
+#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/robust_fit.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+constexpr double kLeastFreedom = 100.0;    // below, the noise is not estimated
+constexpr double kOverlap = 0.9;           // of what a frame sees with its segment's first frame, at least
+constexpr std::size_t kMostSegments = 64;  // of one submap; from then on frames go where they fit best
+
+}  // namespace
+
+void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool planar, double min_spread_m2,
+                             const std::vector<Sighting>& sightings) {
+  ++frames_;
+  observations_ += sightings.size();
+  for (const Sighting& sighting : sightings) {
+    if (sighting.landmark >= seen_.size()) {
+      seen_.resize(sighting.landmark + 1u, 0);
+      place_.resize(sighting.landmark + 1u, kNone);
+      placed_.resize(sighting.landmark + 1u, kNone);
+    }
+    seen_[sighting.landmark] = frames_;
+  }
+  const Index chosen = choose(submap, sightings);
+  if (chosen == kNone) {
+    open(start(submap, sightings));
+    average(T_submap_sensor, planar, sightings);
+  } else {
+    if (chosen != open_) open(chosen);
+    average(align(T_submap_sensor, planar, min_spread_m2, sightings), planar, sightings);
+  }
+  ++segments_[open_].frames;
+}
+
+/// The segment that a frame belongs to; kNone for a new one.
+Index SegmentStore::choose(Index submap, const std::vector<Sighting>& sightings) {
+  if (open_ != kNone && segments_[open_].submap == submap &&
+      overlap(segments_[open_], sightings.size()) >= kOverlap) {
+    return open_;
+  }
+  if (submap >= of_submap_.size()) of_submap_.resize(submap + 1u);
+  Index best = kNone;
+  double best_overlap = -1.0;
+  for (const Index segment : of_submap_[submap]) {
+    const double shared = overlap(segments_[segment], sightings.size());
+    if (shared <= best_overlap) continue;
+    best = segment;
+    best_overlap = shared;
+  }
+  return best_overlap >= kOverlap || of_submap_[submap].size() >= kMostSegments ? best : kNone;
+}
+
+/// Jaccard overlap of what the frame sees, `seen` landmarks, and what the segment's first frame saw.
+double SegmentStore::overlap(const Segment& segment, std::size_t seen) const {
+  std::size_t shared = 0;
+  for (const SegmentMember& member : segment.members)
+    shared += member.in_first_frame && seen_[member.landmark] == frames_ ? 1u : 0u;
+  return static_cast<double>(shared) / static_cast<double>(seen + segment.first_frame_size - shared);
+}
+
+Index SegmentStore::start(Index submap, const std::vector<Sighting>& sightings) {
+  const auto index = static_cast<Index>(segments_.size());
+  Segment segment;
+  segment.submap = submap;
+  segment.first_frame_size = static_cast<std::uint32_t>(sightings.size());
+  for (const Sighting& sighting : sightings)
+    segment.members.push_back({sighting.landmark, 0, 0.0, true, Vec3::Zero()});
+  segments_.push_back(std::move(segment));
+  of_submap_[submap].push_back(index);
+  return index;
+}
+
+void SegmentStore::open(Index segment) {
+  open_ = segment;
+  const std::vector<SegmentMember>& members = segments_[segment].members;
+  for (Index m = 0; m < members.size(); ++m) {
+    place_[members[m].landmark] = m;
+    placed_[members[m].landmark] = segment;
+  }
+}
+
+Pose SegmentStore::align(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
+                         const std::vector<Sighting>& sightings) const {
+  const std::vector<SegmentMember>& members = segments_[open_].members;
+  Alignment alignment(T_submap_sensor);
+  for (const Sighting& sighting : sightings) {
+    if (placed_[sighting.landmark] != open_) continue;
+    const SegmentMember& member = members[place_[sighting.landmark]];
+    alignment.add(member.mean, sighting.point, pair_weight(member.weight, sighting.weight));
+  }
+  Pose aligned = T_submap_sensor;
+  alignment.solve(planar, min_spread_m2, aligned);
+  return aligned;
+}
+
+void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings) {
+  std::vector<SegmentMember>& members = segments_[open_].members;
+  const Mat3 rotation = T_submap_sensor.q.toRotationMatrix();
+  std::size_t known = 0;
+  for (const Sighting& sighting : sightings) {
+    if (placed_[sighting.landmark] != open_) {
+      place_[sighting.landmark] = static_cast<Index>(members.size());
+      placed_[sighting.landmark] = open_;
+      members.push_back({sighting.landmark, 0, 0.0, false, Vec3::Zero()});
+    }
+    SegmentMember& member = members[place_[sighting.landmark]];
+    const Vec3 off = rotation * sighting.point + T_submap_sensor.t - member.mean;
+    const double shared = pair_weight(member.weight, sighting.weight);
+    ++member.count;
+    member.weight += sighting.weight;
+    member.mean += (sighting.weight / member.weight) * off;
+    if (member.count == 1) continue;
+    scatter_m2_ += shared * off.squaredNorm();
+    ++known;
+  }
+  freedom_ +=
+      std::max(0.0, planar ? 2.0 * static_cast<double>(known) - 3.0 : 3.0 * static_cast<double>(known) - 6.0);
+}
+
+double SegmentStore::noise2_m2() const {
+  return freedom_ >= kLeastFreedom ? scatter_m2_ / freedom_ : 0.0;
+}
+
+void SegmentStore::clear() {
+  *this = SegmentStore();
+}
+
+}  // namespace hallway::slam_point
