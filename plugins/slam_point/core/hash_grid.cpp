@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kFirstTableSize = 1024;
 constexpr double kCubeReaches = 4.0;
+constexpr double kVisitedReaches =
+    1.125;  // so that neither rounding nor a place that is not told of at once hides a point
 constexpr std::size_t kBucketsPerPoint =
     4;  // at least: most of what a box touches is empty, and should be seen to be
 
@@ -15,7 +17,7 @@ constexpr std::size_t kBucketsPerPoint =
 
 HashGrid::HashGrid(double reach_m)
     : reach_(reach_m),
-      reach2_(reach_m * reach_m * (1.0 + 1e-9)),
+      reach2_(kVisitedReaches * kVisitedReaches * reach_m * reach_m),
       inverse_size_(1.0 / (kCubeReaches * reach_m)) {}
 
 void HashGrid::add(const Vec3& p) {

@@ -28,8 +28,8 @@ class HashGrid {
   /// Takes point `i` out for good; its number is not used again.
   void remove(std::uint32_t i) { unlink(i); }
 
-  /// Calls visit(i) once for each point within reach_m of p, and perhaps some that are a rounding error farther. The order depends on the history of the
-  /// grid, so what the caller makes of it must not. Looks into the cubes, at most eight and mostly one to four, that a box of reach_m each way touches.
+  /// Calls visit(i) once for each point within reach_m of p and some that are a little farther. The order depends on the history of the grid, so what the
+  /// caller makes of it must not. Looks into the cubes, at most eight and mostly one to four, that a box of reach_m each way touches.
   template <typename Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
     if (heads_.empty()) return;
@@ -86,7 +86,7 @@ class HashGrid {
   void grow();
 
   double reach_;
-  double reach2_;  // squared, and a little more, so that rounding hides nothing
+  double reach2_;  // squared, of a little more than the reach
   double
       inverse_size_;  // of a cube: four times the reach, so that a box mostly touches one or two along each axis
   std::vector<std::uint32_t> heads_;
