@@ -18,7 +18,7 @@ LOW_MS, HIGH_MS = 1.0, 5000.0
 
 
 def measure(hallway, points):
-    command = [hallway, "bench-em", "--plugin", "em", "--scenes", str(SCENES), "--seed", "3", "--planes", "12", "--points", str(points),
+    command = [hallway, "bench-em", "--plugin", "em:threads=1", "--scenes", str(SCENES), "--seed", "3", "--planes", "12", "--points", str(points),
                "--sigma", "0.02", "--repeat", "3" if points < 300000 else "1", "--in-process", "--quiet", "--json"]
     document = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     result = document["plugins"][0]

@@ -57,7 +57,7 @@ Found find(const PlanesOptions& options) {
   planes::PlaneFinder finder(parse_plane_plugin(options.plugin), plugin_folders(options.plugin_path),
                              print_plugin_log, isolation_of(options.isolation, apply(options.isolation, {})));
   found.plugin = finder.info();
-  found.answer = finder.find(found.cloud.points, options.repeat);
+  found.answer = finder.find(found.cloud.points, options.repeat, found.cloud.image);
   if (!found.cloud.labels.empty()) {
     found.truth = planes::truth_of_labels(found.cloud);
     found.score = planes::score_planes(found.cloud.points, *found.truth, found.answer.planes);

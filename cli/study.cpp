@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "bin_points.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
@@ -56,7 +57,8 @@ std::vector<study::PluginChoice> choices_of(const batch::PluginSweep& sweep) {
 study::Request request_of(const study::Study& study, const StudyOptions& options) {
   study::Request request{.seeds = options.quick ? std::min(options.seeds, 2u) : options.seeds,
                          .quick = options.quick,
-                         .steps = options.steps};
+                         .steps = options.steps,
+                         .bin_points = slam_point_binning()};
   for (const std::string& plugin : options.plugins) {
     for (study::PluginChoice& choice : choices_of(parse_plugin_sweep(plugin)))
       request.plugins.push_back(std::move(choice));

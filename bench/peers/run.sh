@@ -10,7 +10,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 data=${3:-${HALLWAY_DATA:-$here/../../../shared/data}}
 out=$build/bench-out/peers
 plugins=()
-for plugin in em peer_pcl_ransac peer_pcl_growing peer_cgal_ransac peer_cgal_growing peer_open3d_ransac; do
+for plugin in em:threads=1 peer_pcl_ransac peer_pcl_growing peer_cgal_ransac peer_cgal_growing peer_open3d_ransac; do
   plugins+=(--plugin "$plugin")
 done
 OMP_NUM_THREADS=1 "$build/bin/hallway" bench-em "${plugins[@]}" --scenes-dir "$data/em_scenes" --repeat "$repeat" --in-process --quiet --out "$out"

@@ -10,6 +10,8 @@ Pose optical_from_body() {
 
 void add_depth_points(const Gray16& image, const Camera& camera, std::uint32_t stride, PointCollector& out,
                       double units_per_metre) {
+  const std::uint64_t width = (image.width_px + stride - 1) / stride;
+  out.begin_image(width, (image.height_px + stride - 1) / stride);
   for (std::uint64_t v = 0; v < image.height_px; v += stride) {
     for (std::uint64_t u = 0; u < image.width_px; u += stride) {
       const std::uint16_t units = image.values[v * image.width_px + u];
@@ -17,7 +19,7 @@ void add_depth_points(const Gray16& image, const Camera& camera, std::uint32_t s
       const double forward = static_cast<double>(units) / units_per_metre;
       const double right = (static_cast<double>(u) - camera.cx_px) * forward / camera.fx_px;
       const double down = (static_cast<double>(v) - camera.cy_px) * forward / camera.fy_px;
-      out.add(forward, -right, -down);
+      out.add(forward, -right, -down, v / stride * width + u / stride);
     }
   }
 }

@@ -23,6 +23,7 @@ Pose optical_from_body();
 
 /// The points that a depth image shows, in the frame of the body (x forward, y left, z up), row by row: of each `stride`-th pixel of each `stride`-th
 /// row, from the first of each, those whose depth is not 0.
+/// They are pixels of the image of the pixels that are looked at.
 /// @param units_per_metre  of the image's values
 void add_depth_points(const Gray16& image, const Camera& camera, std::uint32_t stride, PointCollector& out,
                       double units_per_metre = kDepthUnitsPerMetre);

@@ -189,6 +189,7 @@ void read_pcd(std::string_view content, const std::string& file, PointCollector&
   WordLines lines(content, file);
   const Header header = read_header(lines);
   const Coordinates coordinates = find_coordinates(lines, header, header.data == "binary_compressed");
+  if (header.height.value_or(1) > 1) out.begin_image(*header.width, *header.height);
   if (header.data == "ascii") {
     std::size_t words = 0;
     for (const Field& field : header.fields) words += static_cast<std::size_t>(field.count);

@@ -13,10 +13,17 @@ PointCollector::PointCollector(Frame& frame, std::uint32_t stride, std::vector<s
     : frame_(frame), stride_(stride), rows_(rows) {
   if (rows_ != nullptr) rows_->clear();
   frame_.points.clear();
+  frame_.image = {};
   frame_.not_finite = 0;
 }
 
-void PointCollector::add(double x, double y, double z) {
+void PointCollector::begin_image(std::uint64_t width, std::uint64_t height) {
+  if (width == 0 || height == 0 || width > kMaxPixels / height) return;
+  frame_.image.width = static_cast<std::uint32_t>(width);
+  frame_.image.height = static_cast<std::uint32_t>(height);
+}
+
+void PointCollector::add(double x, double y, double z, std::uint64_t pixel) {
   const std::uint64_t row = given_++;
   if (until_next_ > 0) {
     --until_next_;
@@ -34,6 +41,7 @@ void PointCollector::add(double x, double y, double z) {
   }
   if (rows_ != nullptr) rows_->push_back(row);
   frame_.points.push_back({x, y, z});
+  if (frame_.image.width != 0) frame_.image.pixels.push_back(static_cast<std::uint32_t>(pixel));
 }
 
 }  // namespace hallway::import

@@ -16,12 +16,20 @@ namespace hallway::import {
 /// Points in the sensor's frame (x forward, y left, z up), metres.
 using PointList = std::vector<std::array<double, 3>>;
 
+/// The image that points are pixels of.
+struct PixelGrid {
+  std::uint32_t width = 0;  ///< columns; 0: there is no image
+  std::uint32_t height = 0;
+  std::vector<std::uint32_t> pixels{};  ///< of each point: row * width + column; without an image empty
+};
+
 /// One moment of a recording.
 struct Frame {
   std::int64_t t_ns = 0;                      ///< as recorded; not below 0
   PointList points;                           ///< all finite
   std::vector<log::TrackId> tracks{};         ///< empty, or per point under which id the sensor follows it
   std::vector<log::LandmarkId> identities{};  ///< empty, or per point its true landmark
+  PixelGrid image{};                          ///< what the points are pixels of, where that is known
   std::uint64_t not_finite = 0;               ///< points that were left out since a coordinate is none
   std::optional<Pose> T_world_body;           ///< the true pose, where it is known
   bool orientation_known = true;              ///< false: only the position of T_world_body is meant

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -129,6 +130,7 @@ Cloud parse_named(std::string_view content, const fs::path& path, const CloudOpt
   if (*kind == CloudKind::kDepth) read_depth(content, options, out, pixels);
   cloud.n_rows = out.given();
   cloud.not_finite = frame.not_finite;
+  cloud.image = std::move(frame.image);
   cloud.points.reserve(frame.points.size());
   for (const auto& point : frame.points) cloud.points.emplace_back(point[0], point[1], point[2]);
   if (!labels.empty()) cloud.labels = of_points(cloud.rows, labels);

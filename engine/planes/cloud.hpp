@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "import/depth_camera.hpp"
+#include "import/recording.hpp"
 #include "planes/plane.hpp"
 
 namespace hallway::planes {
@@ -19,6 +20,7 @@ struct Cloud {
   std::vector<std::uint64_t>
       rows{};  ///< for each point its row in the file, from 0; of an image its pixel, row by row
   std::vector<std::int64_t> labels{};  ///< for each point; empty where the file has none
+  import::PixelGrid image{};           ///< that the points are pixels of: a depth image, an organised PCD
   std::uint64_t n_rows = 0;            ///< in the file
   std::uint64_t not_finite = 0;        ///< rows left out since a coordinate is none
 };

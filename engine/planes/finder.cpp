@@ -68,7 +68,7 @@ PlaneFinder::PlaneFinder(host::StageSpec plugin, std::vector<std::filesystem::pa
                           names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
-Answer PlaneFinder::find(const std::vector<Vec3>& points, unsigned repeats) {
+Answer PlaneFinder::find(const std::vector<Vec3>& points, unsigned repeats, const import::PixelGrid& image) {
   if (points.size() > import::kMaxFramePoints) {
     throw Error(ErrorCode::kBadInput,
                 fmt::format("{} points, and a frame holds {}", points.size(), import::kMaxFramePoints));
@@ -77,6 +77,7 @@ Answer PlaneFinder::find(const std::vector<Vec3>& points, unsigned repeats) {
   builder.begin(0, 0);
   std::vector<hw_point3_t>& list = builder.add_points(kSensor);
   for (const Vec3& point : points) list.push_back({point.x(), point.y(), point.z()});
+  if (image.width != 0) builder.add_pixels(image.width, image.height) = image.pixels;
   const hw_frame_t& frame = builder.finish();
   Answer answer;
   std::vector<std::int64_t> wall, cpu;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/pipeline.hpp"
+#include "import/recording.hpp"
 #include "planes/plane.hpp"
 
 namespace hallway::planes {
@@ -28,7 +29,8 @@ class PlaneFinder {
 
   /// Throws PluginFailure; Error{kBadInput} for more points than a frame holds.
   /// @param repeats  how often the plugin is asked, at least 1; the last answer counts
-  Answer find(const std::vector<Vec3>& points, unsigned repeats = 1);
+  /// @param image    what the points are pixels of, which the plugin is told
+  Answer find(const std::vector<Vec3>& points, unsigned repeats = 1, const import::PixelGrid& image = {});
 
  private:
   host::Pipeline pipeline_;

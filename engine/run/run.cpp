@@ -24,6 +24,7 @@
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 #include "run/run_files.hpp"
+#include "run/truth_of.hpp"
 #include "run/truth_tables.hpp"
 
 namespace hallway::run {
@@ -40,14 +41,6 @@ struct Collected {
 std::optional<Pose> estimate_of(const host::Outputs& outputs) {
   if (!outputs.pose() || !outputs.pose()->valid) return std::nullopt;
   return pose_of(outputs.pose()->T_map_body);
-}
-
-eval::Truth truth_of(const Source& source) {
-  const host::SensorInfo& sensor = source.sensor();
-  const double largest = *std::max_element(std::begin(sensor.noise_m), std::end(sensor.noise_m));
-  return {.has_identities = source.has_identities(),
-          .landmarks = source.true_landmarks(),
-          .noise_m = largest > 0.0 ? largest : 0.0};  // not a number where it is not known
 }
 
 /// Takes down what comes back of the frames, and scores it.

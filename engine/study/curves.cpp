@@ -24,12 +24,26 @@ std::set<std::string> varied_names(const std::vector<StudyRun>& runs) {
   return varied;
 }
 
-std::string short_name(const RunSpec& spec, const std::set<std::string>& varied) {
+/// The plugin without the parameters that are the same in all runs.
+std::string short_plugin(const PluginChoice& plugin, const std::vector<StudyRun>& runs) {
+  PluginChoice few{.plugin = plugin.plugin};
+  for (const auto& parameter : plugin.parameters) {
+    const bool shared = std::all_of(runs.begin(), runs.end(), [&](const StudyRun& run) {
+      const auto& others = run.spec.plugin.parameters;
+      return std::find(others.begin(), others.end(), parameter) != others.end();
+    });
+    if (!shared) few.parameters.push_back(parameter);
+  }
+  return few.label();
+}
+
+std::string short_name(const RunSpec& spec, const std::set<std::string>& varied,
+                       const std::vector<StudyRun>& runs) {
   std::string name;
   for (const RunLabel& label : spec.labels) {
     if (varied.contains(label.name)) name += (name.empty() ? "" : ", ") + label.name + " " + label.value;
   }
-  if (varied.contains("plugin")) name += (name.empty() ? "" : ", ") + spec.plugin.label();
+  if (varied.contains("plugin")) name += (name.empty() ? "" : ", ") + short_plugin(spec.plugin, runs);
   return name;
 }
 
@@ -49,7 +63,7 @@ std::vector<RunGroup> group_runs(const std::vector<StudyRun>& runs) {
   std::map<std::string, std::size_t> known;
   for (const StudyRun& run : runs) {
     const auto [at, is_new] = known.emplace(run.spec.group(), groups.size());
-    if (is_new) groups.push_back({.name = short_name(run.spec, varied)});
+    if (is_new) groups.push_back({.name = short_name(run.spec, varied, runs)});
     groups[at->second].runs.push_back(&run);
   }
   return groups;

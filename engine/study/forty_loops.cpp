@@ -74,13 +74,23 @@ Table rounds_table(const std::vector<StudyRun>& runs, const Rounds& rounds) {
   return table;
 }
 
-/// Landmark RMSE at the end of each round: medians over the seeds.
+/// Landmark RMSE at the end of each round.
+std::vector<Vec2> rmse_of_rounds(const Trace& trace, const Rounds& rounds) {
+  std::vector<Vec2> points;
+  for (const MapSample& sample : trace.samples) {
+    if (sample.iterations % rounds.steps == 0 && sample.rmse_aligned_m)
+      points.emplace_back(sample.iterations / rounds.steps, *sample.rmse_aligned_m);
+  }
+  return points;
+}
+
+/// The same as medians over the seeds.
 std::vector<Vec2> rmse_by_round(const RunGroup& group, const Rounds& rounds) {
   std::vector<Vec2> points;
   for (std::uint32_t k = 1; k <= rounds.count; ++k) {
     const auto value = group_median(group, [&](const Trace& trace) -> std::optional<double> {
-      for (const MapSample& sample : trace.samples) {
-        if (sample.iterations == k * rounds.steps) return sample.rmse_aligned_m;
+      for (const Vec2& point : rmse_of_rounds(trace, rounds)) {
+        if (point.x() == k) return point.y();
       }
       return std::nullopt;
     });
@@ -89,15 +99,15 @@ std::vector<Vec2> rmse_by_round(const RunGroup& group, const Rounds& rounds) {
   return points;
 }
 
-void add_fall(const RunGroup& group, const std::vector<Vec2>& by_round, Findings& findings) {
+void add_fall(const RunGroup& group, const Rounds& rounds, const std::vector<Vec2>& by_round,
+              Findings& findings) {
   if (const auto fit = fit_root_with_floor(by_round)) {
     findings.add("167", group.name, "landmark RMSE of one loop, falling as 1/sqrt(loops)", fit->scale, "m");
     findings.add("167", group.name, "floor of landmark RMSE", fit->floor, "m");
   }
-  if (const auto fit = fit_power(by_round)) {
-    findings.add("167", group.name, "exponent of landmark RMSE over loops", fit->slope,
-                 fit->slope - fit->slope_half_width, fit->slope + fit->slope_half_width, "1");
-  }
+  add_exponent(
+      group, "167", "exponent of landmark RMSE over loops",
+      [&](const Trace& trace) { return rmse_of_rounds(trace, rounds); }, findings);
 }
 
 /// Of several seeds the interval of their mean.
@@ -147,7 +157,7 @@ Outcome conclude_forty_loops(const std::vector<StudyRun>& runs, const Request& r
              .y = {"landmark RMSE, m, after the best rigid fit", true}};
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const std::vector<Vec2> by_round = rmse_by_round(groups[i], rounds);
-    add_fall(groups[i], by_round, findings);
+    add_fall(groups[i], rounds, by_round, findings);
     add_late_changes(groups[i], rounds, findings);
     fall.series.push_back({.name = groups[i].name,
                            .points = by_round,

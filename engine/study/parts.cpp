@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "study/statistics.hpp"
 
 namespace hallway::study {
 
@@ -16,6 +17,12 @@ std::vector<PluginChoice> default_plugins(const Study& study) {
   if (study.name == "constants") return {plugin};  // adds mode=thesis itself
   PluginChoice faithful = plugin;
   faithful.parameters.insert(faithful.parameters.begin(), {"mode", "thesis"});
+  if (study.name == "victoria-park") {  // trees are in view for a few scans only
+    faithful.parameters = {{"mode", "thesis"},           {"noise_m", "0.25"},
+                           {"separation_m", "2.5"},      {"thesis_levels", "1"},
+                           {"thesis_look_back", "10"},   {"thesis_accuracy_reduction", "5"},
+                           {"thesis_previous_min", "3"}, {"thesis_matching", "predicted"}};
+  }
   return {plugin, faithful};
 }
 
@@ -77,6 +84,19 @@ void add_times(const std::vector<RunGroup>& groups, const std::string& figures, 
     add("iteration, mean", &eval::TimeSummary::mean);
     add("iteration, 99th percentile", &eval::TimeSummary::p99);
     add("iteration, worst", &eval::TimeSummary::max);
+  }
+}
+
+void add_exponent(const RunGroup& group, const std::string& figures, const std::string& what,
+                  const std::function<std::vector<Vec2>(const Trace&)>& points, Findings& findings) {
+  std::vector<double> exponents;
+  for (const StudyRun* run : group.runs) {
+    if (const auto fit = fit_power(points(run->trace))) exponents.push_back(fit->slope);
+  }
+  if (const auto interval = mean_interval(exponents)) {
+    findings.add(figures, group.name, what, interval->value, interval->low, interval->high, "1");
+  } else {
+    findings.add(figures, group.name, what, mean(exponents), "1");
   }
 }
 

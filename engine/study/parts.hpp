@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@
 namespace hallway::study {
 
 // The studies, each in a file of its own.
+extern const Study kBinning;
 extern const Study kConstants;
+extern const Study kDynamic;
 extern const Study kFigureEight;
 extern const Study kDensity;
 extern const Study kMapSize;
@@ -40,6 +43,10 @@ void add_drives(const Request& request, const std::vector<RunLabel>& labels, Dri
 void add_accuracy(const std::vector<RunGroup>& groups, const std::string& figures, Findings& findings);
 /// Mean, 99th percentile and worst CPU time of an iteration.
 void add_times(const std::vector<RunGroup>& groups, const std::string& figures, Findings& findings);
+
+/// Adds the exponent of `points(trace)`, y over x: of several runs the mean of their exponents and its interval.
+void add_exponent(const RunGroup& group, const std::string& figures, const std::string& what,
+                  const std::function<std::vector<Vec2>(const Trace&)>& points, Findings& findings);
 
 /// The chart of landmark errors as the thesis has it: the sum of all distances.
 Chart landmark_error_chart(const std::vector<RunGroup>& groups, const std::string& title,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -67,13 +67,24 @@ struct RunSpec {
   std::uint32_t iterations() const;
 };
 
+/// What binning some points took.
+struct BinCount {
+  std::uint64_t comparisons = 0;  ///< pairs that were compared
+  std::size_t largest = 0;        ///< points in the largest bin
+};
+
+/// Bins so many points by the standard deviations of their distances (thesis 6.5.3), with or without the heuristic that bins which joined
+/// are compared first.
+using BinPoints = std::function<BinCount(
+    std::size_t points, bool priority, const std::function<double(std::uint32_t, std::uint32_t)>& deviation)>;
+
 /// What a study is asked for.
 struct Request {
   std::vector<PluginChoice> plugins{};
   std::uint32_t seeds = 5;
-  bool quick = false;            ///< a size for trying out: seconds
-  std::uint32_t steps = 0;       ///< of each run; 0: the study's own
-  std::filesystem::path data{};  ///< recorded data (docs/data.md)
+  bool quick = false;       ///< a size for trying out: seconds
+  std::uint32_t steps = 0;  ///< of each run; 0: the study's own
+  BinPoints bin_points{};   ///< what `binning` counts the comparisons of; unset: none
 };
 
 }  // namespace hallway::study

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "study/parts.hpp"
-#include "study/statistics.hpp"
 
 namespace hallway::study {
 namespace {
@@ -34,19 +33,22 @@ std::vector<RunSpec> plan_stationary(const Request& request) {
   return specs;
 }
 
+std::vector<Vec2> rmse_over_iterations(const Trace& trace) {
+  std::vector<Vec2> points;
+  for (const MapSample& sample : trace.samples) {
+    if (sample.rmse_aligned_m) points.emplace_back(sample.iterations, *sample.rmse_aligned_m);
+  }
+  return points;
+}
+
 Outcome conclude_stationary(const std::vector<StudyRun>& runs, const Request&) {
   const std::vector<RunGroup> groups = group_runs(runs);
   Findings findings(false);
   add_accuracy(groups, "152", findings);
   Chart chart = landmark_rmse_chart(groups, "Standing still: landmark error", "152");
   chart.x.log = chart.y.log = true;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const std::vector<Vec2>& line = chart.series[i].points;
-    if (const auto fit = fit_power(line)) {
-      findings.add("152", groups[i].name, "exponent of landmark RMSE over iterations", fit->slope,
-                   fit->slope - fit->slope_half_width, fit->slope + fit->slope_half_width, "1");
-    }
-  }
+  for (const RunGroup& group : groups)
+    add_exponent(group, "152", "exponent of landmark RMSE over iterations", rmse_over_iterations, findings);
   if (!chart.series.empty() && !chart.series.front().points.empty()) {
     Series ideal{.name = "1 / sqrt(iterations)", .style = SeriesStyle::kDashed, .colour = {38, 43, 51}};
     const Vec2 first = chart.series.front().points.front();

@@ -7,8 +7,8 @@
 namespace hallway::study {
 
 std::span<const Study> studies() {
-  static const std::array kStudies{kConstants, kFigureEight, kDensity,      kMapSize,
-                                   kStraight,  kStationary,  kVictoriaPark, kFortyLoops};
+  static const std::array kStudies{kBinning,  kConstants,  kFigureEight,  kDensity, kMapSize,
+                                   kStraight, kStationary, kVictoriaPark, kDynamic, kFortyLoops};
   return kStudies;
 }
 

@@ -11,6 +11,7 @@
 #include "record/final_map.hpp"
 #include "run/abi_pose.hpp"
 #include "run/frame_feed.hpp"
+#include "run/truth_of.hpp"
 
 namespace hallway::study {
 namespace {
@@ -22,10 +23,12 @@ class Tracer {
  public:
   explicit Tracer(const run::Source& source)
       : has_identities_(source.has_identities()),
-        evaluator_({.has_identities = source.has_identities(), .landmarks = source.true_landmarks()}) {
+        T_body_sensor_(run::pose_of(source.sensor().T_body_sensor)),
+        evaluator_(run::truth_of(source)) {
     if (!source.true_landmarks()) return;
-    for (const log::Landmark& landmark : *source.true_landmarks())
-      true_place_.emplace(landmark.id, Vec3(landmark.position_m.data()));
+    for (const log::Landmark& landmark : *source.true_landmarks()) {
+      if (!landmark.moving) true_place_.emplace(landmark.id, Vec3(landmark.position_m.data()));
+    }
   }
 
   void add(const run::FrameAnswer& answer) {
@@ -87,6 +90,9 @@ class Tracer {
     if (has_identities_) {
       for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
     }
+    points_.clear();
+    for (const log::Observation& seen : frame.observations)
+      points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
     none_.assign(frame.observations.size(), log::kNoLandmark);
     std::span<const log::LandmarkId> associations = none_;
     if (const auto given = outputs.associations(0)) associations = *given;
@@ -96,6 +102,7 @@ class Tracer {
                     .pose_covariance = std::nullopt,
                     .associations = associations,
                     .identities = identities_,
+                    .points = points_,
                     .wall_ms = wall_ms,
                     .cpu_ms = cpu_ms});
   }
@@ -110,6 +117,8 @@ class Tracer {
   }
 
   bool has_identities_;
+  Pose T_body_sensor_;
+  std::vector<Vec3> points_;  ///< body frame
   eval::Evaluator evaluator_;
   std::unordered_map<log::LandmarkId, Vec3> true_place_;
   std::vector<log::LandmarkId> identities_;

@@ -84,7 +84,7 @@ class SlamPoint final : public sdk::Plugin {
     const Answer& answer = thesis_ ? thesis_->process(points) : mapper_->process(points, adapter_.tracks());
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor, answer.covariance);
     adapter_.put_associations(host(), answer.associations);
-    put_counters(answer.counters);
+    put_counters(answer);
   }
 
   void report(bool refine) override {
@@ -94,13 +94,19 @@ class SlamPoint final : public sdk::Plugin {
   }
 
  private:
-  void put_counters(const Counters& counters) const {
+  void put_counters(const Answer& answer) const {
+    const Counters& counters = answer.counters;
     const hw_counter_t list[] = {{"lost", static_cast<double>(counters.lost)},
                                  {"landmarks", static_cast<double>(counters.landmarks)},
                                  {"submaps", static_cast<double>(counters.submaps)},
                                  {"closes", static_cast<double>(counters.closes)},
                                  {"reopened", static_cast<double>(counters.reopened)},
-                                 {"searches", static_cast<double>(counters.searches)}};
+                                 {"searches", static_cast<double>(counters.searches)},
+                                 {"relocalised", static_cast<double>(counters.relocalised)},
+                                 {"parts", static_cast<double>(counters.parts)},
+                                 {"parts_joined", static_cast<double>(counters.joined)},
+                                 {"determined", static_cast<double>(answer.determined)},
+                                 {"part", answer.in_part ? static_cast<double>(answer.part) : -1.0}};
     host().put_counters(list);
   }
 

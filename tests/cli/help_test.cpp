@@ -44,8 +44,8 @@ TEST(Help, OfLog) {
 }
 
 TEST(Help, OfStudies) {
-  expect_help({"study", "--help"}, {"constants", "figure-eight", "density", "map-size", "straight",
-                                    "stationary", "victoria-park", "forty-loops", "Example"});
+  expect_help({"study", "--help"}, {"constants", "binning", "dynamic", "figure-eight", "density", "map-size",
+                                    "straight", "stationary", "victoria-park", "forty-loops", "Example"});
   expect_help({"study", "straight", "--help"},
               {"--plugin", "--seeds", "--steps", "--quick", "--out", "--maps", "150, 151", "Example"});
 }

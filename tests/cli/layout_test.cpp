@@ -56,9 +56,9 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"plugins/slam_point/core", {"slam_point"}},
     {"plugins/icp/core", {"icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
-    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",   "world",
-             "sense",  "sim",    "host", "conformance", "log",   "record", "link",  "import", "eval",
-             "render", "planes", "run",  "batch",       "study", "editor", "icp",   "hallway"}},
+    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",       "world",
+             "sense",  "sim",    "host", "conformance", "log",   "record", "link",  "import",     "eval",
+             "render", "planes", "run",  "batch",       "study", "editor", "icp",   "slam_point", "hallway"}},
 };
 
 const std::set<std::string> kLibraries{"base",       "geom",        "map",    "csg",    "bsp",      "pvs",

@@ -245,6 +245,7 @@ TEST_F(LogImport, RangeAndBearingBringTheirTruth) {
   EXPECT_EQ(poses_of(path("log.mcap")).size(), 1u);
   EXPECT_EQ(frames_of(path("log.mcap")).frame(0)[1].landmark, 5u);
   EXPECT_TRUE(fs::exists(fs::path(path("csv")) / "truth_landmarks.csv"));
+  fs::remove(path("log.mcap"));
   expect_failure(convert({path("r_obs.csv"), "--stride", "2"}), 2,
                  "--stride does not belong to a log of kind range-bearing");
 }

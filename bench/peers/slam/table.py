@@ -72,7 +72,7 @@ def row(name, result, ml, reference_ms):
     landmarks, cpu = m["landmark_rmse_m"], m["iteration_cpu_ms"]
     cells = [name, f"{m['lost_iterations']}", f"{m['association_errors']}", metres(landmarks["aligned"]), metres(landmarks["final_aligned"]),
              f"{landmarks['final_aligned'] / ml['landmark_rmse_m']['aligned']:.2f}", metres(m["position_rmse_m"]["aligned"]),
-             f"{1000 * cpu['mean']:.0f}", f"{1000 * result['full_map_ms']:.0f}", f"{cpu['max']:.1f}", f"{result['full_map_ms'] / reference_ms:.0f}"]
+             f"{1000 * cpu['mean']:.0f}", f"{1000 * result['full_map_ms']:.0f}", f"{cpu['max']:.1f}", f"{result['full_map_ms'] / reference_ms:.2g}" if result['full_map_ms'] < 10 * reference_ms else f"{result['full_map_ms'] / reference_ms:.0f}"]
     return "| " + " | ".join(cells) + " |"
 
 
@@ -98,7 +98,7 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("logs", nargs="*", default=DEFAULT_LOGS)
     parser.add_argument("--without-ekf", action="store_true")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     build = arguments.build.resolve()
     arguments.out.mkdir(parents=True, exist_ok=True)
     results = {}

@@ -146,7 +146,7 @@ Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const Plane
     find_planes(search, options_, sigma, mixture);
   }
   if (sample.count == canonical.points.count) {
-    return extraction_of(canonical, mixture, options_.bend, cloud.size(), *workers_);
+    return extraction_of(canonical, mixture, options_, cloud.size(), *workers_);
   }
 
   const BoxTree tree(canonical.points, *workers_);
@@ -154,7 +154,7 @@ Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const Plane
   Mixture whole(field, volume, *workers_);
   const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
   settle_with_all(mixture, factor, options_, whole);
-  return extraction_of(canonical, whole, options_.bend, cloud.size(), *workers_);
+  return extraction_of(canonical, whole, options_, cloud.size(), *workers_);
 }
 
 }  // namespace hallway::em

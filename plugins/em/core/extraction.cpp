@@ -9,6 +9,7 @@
 #include "em/core/facets.hpp"
 #include "em/core/grouped.hpp"
 #include "em/core/plane_shape.hpp"
+#include "em/core/seams.hpp"
 
 namespace hallway::em {
 namespace {
@@ -36,14 +37,32 @@ std::vector<std::size_t> sizes_of(const std::vector<Places>& lists) {
   return sizes;
 }
 
+/// Two ascending lists as one.
+Places merged(Places left, const Places& right) {
+  if (right.empty()) return left;
+  const auto middle = static_cast<std::ptrdiff_t>(left.size());
+  left.insert(left.end(), right.begin(), right.end());
+  std::inplace_merge(left.begin(), left.begin() + middle, left.end());
+  return left;
+}
+
+/// Indices of the points given that stand at `places`, ascending.
+std::vector<PointIndex> given_at(const CanonicalCloud& cloud, const Places& places) {
+  std::vector<PointIndex> indices;
+  for (const std::uint32_t i : places) {
+    const auto here = cloud.given_at(i);
+    indices.insert(indices.end(), here.begin(), here.end());
+  }
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
 /// The places of each group, ascending, by its first patch.
 std::vector<Places> joined_places(std::vector<Places> of_patches, const std::vector<std::uint32_t>& groups) {
   for (std::size_t j = 0; j < groups.size(); ++j) {
     if (groups[j] == j) continue;
     Places& first = of_patches[groups[j]];
-    const auto middle = static_cast<std::ptrdiff_t>(first.size());
-    first.insert(first.end(), of_patches[j].begin(), of_patches[j].end());
-    std::inplace_merge(first.begin(), first.begin() + middle, first.end());
+    first = merged(std::move(first), of_patches[j]);
     of_patches[j].clear();
   }
   return of_patches;
@@ -109,8 +128,8 @@ void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFram
 
 }  // namespace
 
-Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double bend, std::size_t given,
-                         Workers& workers) {
+Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, const AutoOptions& options,
+                         std::size_t given, Workers& workers) {
   Extraction result;
   result.labels.assign(given, kNoPlane);
   result.noise = mixture.noise();
@@ -119,25 +138,29 @@ Extraction extraction_of(const CanonicalCloud& cloud, Mixture& mixture, double b
   std::vector<Places> of_patches = grouped(
       cloud.points.count, patches, [&](std::size_t i) { return patch_of_point[i]; }, workers);
   const std::vector<std::uint32_t> groups =
-      facet_groups(cloud.points, mixture.patches, of_patches, bend, workers);
+      facet_groups(cloud.points, mixture.patches, of_patches, options.bend, workers);
   const std::vector<double> shares = shares_of(mixture, groups, sizes_of(of_patches));
   const std::vector<Places> places = joined_places(std::move(of_patches), groups);
   const std::vector<PlaneFrame> frames = frames_of(cloud, mixture, groups, places);
   const std::vector<std::size_t> order = by_size(places);
+  const std::vector<Places> shared = options.seams != 0
+                                         ? places_at_seams(cloud.points, mixture, groups, workers)
+                                         : std::vector<Places>(places.size());
   result.planes.resize(order.size());
   workers.run(order.size(), [&](std::size_t k, std::size_t) {
     const std::size_t j = order[k];
     Plane& plane = result.planes[k];
     plane.id = k;
     plane.exclusive_share = shares[j];
-    describe(cloud, places[j], frames[j], plane);
+    describe(cloud, merged(places[j], shared[j]), frames[j], plane);
     for (const std::uint32_t i : places[j]) {
       for (const PointIndex index : cloud.given_at(i)) result.labels[index] = static_cast<std::uint32_t>(k);
     }
   });
   std::vector<Places> members = grouped(
       given, order.size(), [&](std::size_t i) { return result.labels[i]; }, workers);
-  for (std::size_t k = 0; k < order.size(); ++k) result.planes[k].members = std::move(members[k]);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    result.planes[k].members = merged(std::move(members[k]), given_at(cloud, shared[order[k]]));
   return result;
 }
 

@@ -43,6 +43,8 @@ class Mixture {
 
   /// Each point's patch, or kNoPlane; as long as the points filled up to whole blocks.
   const std::vector<std::uint32_t>& labels() const { return best_; }
+  /// The second best patch of point `i`, or kNoPlane; since the first assign().
+  std::uint32_t second_label(std::size_t i) const { return second_[i]; }
   /// Points of no patch.
   std::size_t unassigned() const { return unassigned_; }
   /// Of the points within each patch's slab and extent, the share that no other patch explains better.

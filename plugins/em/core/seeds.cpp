@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "em/core/neighbours.hpp"
 
@@ -22,6 +23,7 @@ constexpr std::size_t kThinning = 4;                 // of a coarser level: half
 constexpr std::size_t kFewest = 400;                 // points of the coarsest level
 constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples, modulo 1, lie apart from each other
 constexpr std::size_t kBestShare = 4;                // the best quarter tells the noise
+constexpr double kNarrow = 0.125;  // of the median radius of the flatter half: narrower ones do not tell it
 
 /// A level of the cloud: every 4^l-th point.
 struct Level {
@@ -115,6 +117,29 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
   return seed;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The seed of `seeds` (at least one) with the median noise.
+Seed with_median_noise(std::vector<Seed> seeds) {
+  const auto middle = seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 2);
+  std::nth_element(seeds.begin(), middle, seeds.end(),
+                   [](const Seed& left, const Seed& right) { return left.noise < right.noise; });
+  return *middle;
+}
+
+/// The first of `seeds` that are at least so wide, up to `most`.
+std::vector<Seed> first_wide(const std::vector<Seed>& seeds, double radius, std::size_t most) {
+  std::vector<Seed> wide;
+  for (const Seed& seed : seeds) {
+    if (seed.radius >= radius && wide.size() < most) wide.push_back(seed);
+  }
+  return wide;
+}
+
 }  // namespace
 
 std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers) {
@@ -141,12 +166,13 @@ std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size
 
 double noise_of_seeds(const std::vector<Seed>& seeds) {
   if (seeds.empty()) return 0.0;
-  std::vector<double> noise;
   const std::size_t best = (seeds.size() + kBestShare - 1) / kBestShare;
-  for (std::size_t k = 0; k < best; ++k) noise.push_back(seeds[k].noise);
-  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
-  std::nth_element(noise.begin(), middle, noise.end());
-  return *middle;
+  const Seed among_all = with_median_noise(first_wide(seeds, 0.0, best));
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < (seeds.size() + 1) / 2; ++k) radii.push_back(seeds[k].radius);
+  const double narrowest = kNarrow * median(std::move(radii));
+  if (among_all.radius >= narrowest) return among_all.noise;
+  return with_median_noise(first_wide(seeds, narrowest, best)).noise;
 }
 
 }  // namespace hallway::em

@@ -25,7 +25,8 @@ struct Seed {
 /// on a line are left out.
 std::vector<Seed> find_seeds(const Points& points, std::size_t wanted, std::size_t round, Workers& workers);
 
-/// Noise across planes as the best of the seeds tell it; 0 without seeds.
+/// Noise across planes as the best of the seeds tell it; 0 without seeds. Where a scanner stood close to a surface there
+/// are many points on little of it: if a neighbourhood much narrower than the others would decide, those are left out.
 double noise_of_seeds(const std::vector<Seed>& seeds);
 
 }  // namespace hallway::em

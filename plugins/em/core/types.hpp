@@ -27,7 +27,7 @@ struct Plane {
   Vec3 centroid = Vec3::Zero();  ///< of the member points, on the plane
   std::array<Vec3, 4> corners{};    ///< tight rectangle, counter-clockwise seen from where the normal points
   std::vector<Vec3> hull;           ///< convex hull of the members on the plane, counter-clockwise likewise
-  std::vector<PointIndex> members;  ///< ascending; a point at a seam belongs to one plane only here
+  std::vector<PointIndex> members;  ///< ascending; a point at a seam may be a member of two planes
   double rms = 0.0;                 ///< distance of the members from the plane
   double exclusive_share =
       1.0;  ///< of the points within its slab and extent, those that no other plane explains as well
@@ -35,8 +35,9 @@ struct Plane {
 
 /// What an extraction found.
 struct Extraction {
-  std::vector<Plane> planes;          ///< most members first
-  std::vector<std::uint32_t> labels;  ///< for each point its plane's place in `planes`, or kNoPlane
+  std::vector<Plane> planes;  ///< most members first
+  std::vector<std::uint32_t>
+      labels;  ///< for each point its plane's place in `planes`, or kNoPlane; of two planes the likelier one
   double noise =
       0.0;  ///< standard deviation of the points across their planes, as estimated; 0 without planes
 };

@@ -18,6 +18,7 @@ constexpr double kMaxRotationSigma_rad = 0.1;
 constexpr int kMaxMatchPasses = 4;
 constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same way are drift, not neighbours
 constexpr int kMaxTurnsEachWay = 60;
+constexpr std::size_t kMostScored = 40;  // points of a frame that a turn is judged by
 constexpr std::size_t kLeastFollowed = 4;  // so many can contradict each other
 
 }  // namespace
@@ -213,8 +214,10 @@ double FrameMatcher::score(const SubmapGraph& graph, const Pose& T_map_sensor,
   const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
   const double bound2 = options_.match_bound() * options_.match_bound();
   double sum = 0.0;
-  for (const Observation& observation : frame) {
-    const Vec3 p = rotation * observation.point + T_map_sensor.t;
+  // Many points need not all be asked.
+  const std::size_t step = 1 + frame.size() / kMostScored;
+  for (std::size_t o = 0; o < frame.size(); o += step) {
+    const Vec3 p = rotation * frame[o].point + T_map_sensor.t;
     double nearest2 = bound2;
     graph.visit_landmarks_near(
         p, [&](Index l) { nearest2 = std::min(nearest2, (graph.landmarks[l].position - p).squaredNorm()); });

@@ -20,6 +20,13 @@ Index survivor(const SubmapGraph& graph, Index landmark) {
   return landmark;
 }
 
+/// Whether no segment before belongs to the same submap.
+bool first_of_submap(const SegmentStore& store, Index segment) {
+  const std::vector<Segment>& segments = store.segments();
+  return std::none_of(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(segment),
+                      [&](const Segment& other) { return other.submap == segments[segment].submap; });
+}
+
 /// A graph whose submaps are the segments; what the map no longer holds is left out.
 SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& store,
                               const std::vector<Pose>& poses) {
@@ -27,6 +34,9 @@ SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& stor
   for (const LandmarkRecord& landmark : graph.landmarks) fine.add_landmark(landmark.position, 0);
   for (const Segment& segment : store.segments()) {
     const Index at = fine.add_submap(poses[segment.submap]);
+    // One segment of the submap that each part's frame is; and what was given up has nowhere to go.
+    const SubmapRecord& submap = graph.submaps[segment.submap];
+    fine.submaps[at].held = submap.held && (submap.part == kNone || first_of_submap(store, at));
     for (const SegmentMember& member : segment.members) {
       const Index landmark = survivor(graph, member.landmark);
       if (graph.landmarks[landmark].memberships.empty() || member.count == 0) continue;

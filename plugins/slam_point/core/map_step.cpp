@@ -10,6 +10,10 @@ namespace hallway::slam_point {
 void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar) {
   std::vector<Index> all(graph.submaps.size());
   std::iota(all.begin(), all.end(), Index{0});
+  if (newest != kNone) {
+    const Index part = graph.submaps[newest].part;
+    std::erase_if(all, [&](Index submap) { return graph.submaps[submap].part != part; });
+  }
   begin(graph, poses, all, newest, planar);
 }
 

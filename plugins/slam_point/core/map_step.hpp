@@ -23,7 +23,8 @@ class MapStep {
   /// kNone: they stay. O(places of their landmarks).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
              Index newest, bool planar);
-  /// The same for all submaps. O(map).
+  /// The same for all submaps of the part of the graph that `newest` is in; kNone: of all parts. To be begun anew when the part
+  /// changes in another way than by growing. O(map).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar);
   /// Between begin() and apply().
   bool under_way() const { return under_way_; }

@@ -8,11 +8,14 @@
 
 #include "slam_point/core/active_submap.hpp"
 #include "slam_point/core/alignment.hpp"
+#include "slam_point/core/constellation_index.hpp"
 #include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/map_parts.hpp"
 #include "slam_point/core/map_refiner.hpp"
 #include "slam_point/core/map_step.hpp"
 #include "slam_point/core/motion_filter.hpp"
 #include "slam_point/core/pose_information.hpp"
+#include "slam_point/core/relocaliser.hpp"
 #include "slam_point/core/segment_store.hpp"
 #include "slam_point/core/submap_graph.hpp"
 #include "slam_point/core/track_book.hpp"
@@ -21,10 +24,16 @@ namespace hallway::slam_point {
 namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
-constexpr int kMaxDeadReckonedFrames = 25;
 constexpr double kSureShare = 0.5;   // of the comparable points, below which a better pose is searched
 constexpr int kSurePoints = 6;       // or all there are, likewise
 constexpr double kLeastShare = 0.4;  // below which there is no pose
+constexpr int kLeastAgreeing = 3;    // points: likewise, where the sensor was expected
+constexpr int kLeastInPlane = 2;     // likewise, of points in a plane
+constexpr int kLeastAfterLoss = 4;   // after a frame without a pose
+constexpr int kLeastAfterGap = 5;    // after more than a short gap
+constexpr int kShortGap = 3;         // frames
+constexpr int kTriedAfterGap = 300;  // places, as many as the turns that are tried
+constexpr double kMostAfterGap = 1e-3;
 constexpr double kWorthwhileGain =
     1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
 constexpr double kWorkPerClose =
@@ -33,6 +42,25 @@ constexpr double kMostClosesSaved = 100.0;
 constexpr double kMostSteps = 4.0;     // over the whole map, that can be saved up
 constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
 constexpr int kMaxSettlePeriod = 1 << 20;
+constexpr int kIndexedPerFrame = 8;          // landmarks whose constellations are noted
+constexpr std::size_t kMovedPerFrame = 100;  // landmarks of a part that moves into another one
+constexpr std::uint64_t kYoungFrames = 10;   // a part with fewer is given up when the sensor gets lost in it
+constexpr std::uint64_t kMeetPeriod = 10;    // frames between looks for other parts, in one that is not young
+constexpr std::size_t kLeastPartPoints = 5;  // that begin another part
+constexpr int kIndexedAtOnce = 64;           // landmarks of the active submap, when a frame is looked for
+constexpr double kMostTravelBounds = 5.0;    // match bounds of travel a frame that are taken for motion
+constexpr double kMostTurn_rad = 1.0;        // likewise
+constexpr int kFalsePartsAtOnce = 8;
+constexpr int kMostDoublings = 6;
+constexpr std::uint32_t kLeastInView = 3;  // observations of a landmark that is looked for in other parts
+constexpr double kIndexNoises = 4.0;
+constexpr double kMeetingNoises = 12.0;
+
+/// A pose in the frame that `anchor` is in, as told: in the frame of `anchor`. While that is the same frame, nothing is rounded.
+Pose told_from(const Pose& anchor, const Pose& pose) {
+  const bool same = anchor.t.isZero(0.0) && anchor.q.vec().isZero(0.0);
+  return same ? pose : anchor.inverse() * pose;
+}
 
 const Options& checked(const Options& options) {
   options.validate();
@@ -51,6 +79,10 @@ class Mapper::State {
                static_cast<IndexKind>(options.index)),
         active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         motion_filter_(options),
+        parts_(matcher_.agreement()),
+        constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
+        relocaliser_(options, matcher_.rules(true), matcher_.rules(false), options.map_bound()),
+        meeting_(kMeetingNoises * options.noise_m),
         settle_period_(options.global_period),
         ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
@@ -77,17 +109,33 @@ class Mapper::State {
   std::uint64_t local_since() const;
   void match_map();
   bool fit_pose();
+  void search();
+  bool search_constellations();
   void search_turn();
-  bool is_placed() const;
+  bool look_from(const Pose& T_map_sensor);
+  bool is_placed();
   std::size_t comparable_points() const;
+  int determined_by_few() const;
   void lose_pose();
+  bool recover();
+  void gather_frame();
+  void enter(const Placement& found);
+  void leave_part(Index part);
   bool start_over();
+  bool start_part();
+  int frames_to_bridge(bool false_start) const;
+  bool meet_part();
+  void join_part(Index other, const Pose& T_other_part);
+  void drop_steps();
+  void note_joined();
+  void gather_view();
   void learn_motion();
   void add_landmarks();
   bool looks_for_motion() const { return options_.find_moving != 0 && !followed_; }
   void set_moving_apart();
   double overlap_with_active() const;
   void change_submap();
+  void take_submap();
   void close_submap();
   void begin_window_step();
   void plan_map_step();
@@ -100,6 +148,7 @@ class Mapper::State {
   bool reopen(Index submap);
   void open_new_submap();
   void integrate();
+  Index told_part() const;
   bool is_mapped(const LandmarkRecord& landmark) const;
   std::optional<Mat6> pose_covariance() const;
   const Answer& answer();
@@ -117,6 +166,13 @@ class Mapper::State {
   MapStep window_step_;  // over the last submaps
   MapStep map_step_;     // over all
   bool window_step_ready_ = false;
+  MapParts parts_;
+  ConstellationIndex constellations_;
+  Relocaliser relocaliser_;
+  PartMeeting meeting_;
+  Placement found_;         // of this frame, by what it sees alone, where tracking cannot go on to
+  std::vector<Vec3> view_;  // what is looked for in other parts, sensor frame
+  int false_parts_ = 0;     // parts begun that no second frame was placed in, since one was
   bool map_step_ready_ = false;
   bool window_step_due_ = false;  // to be begun at the next frame
   bool map_step_due_ = false;     // to be begun when none over the window is under way
@@ -131,6 +187,7 @@ class Mapper::State {
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
+  bool fits_ = false;      // the matches determine a pose, whether they agree with it or not
   bool followed_ = false;  // this frame came with the sensor's tracks, and they count
   bool started_ = false;
   bool planar_ = true;
@@ -160,6 +217,9 @@ class Mapper::State {
 
 const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<const TrackId> tracks) {
   clock_.begin();
+  constellations_.advance(graph_, kIndexedPerFrame);
+  parts_.advance(graph_, kMovedPerFrame);
+  note_joined();
   apply_steps();
   clock_.end(Stage::solving);
   place(points, tracks);
@@ -172,19 +232,21 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   take_points(points, tracks);
   if (!started_) {
     has_pose_ = can_start();
-    if (has_pose_) start_map();
+    if (has_pose_) {
+      parts_.begin(graph_);
+      start_map();
+    }
     return;
   }
   predict();
   match_active_submap();
   match_map();
   clock_.end(Stage::matching);
-  if (!fit_pose()) search_turn();
+  if (!fit_pose()) search();
   has_pose_ = is_placed();
   clock_.end(Stage::fitting);
   if (!has_pose_) {
-    lose_pose();
-    has_pose_ = start_over();
+    has_pose_ = recover();
     return;
   }
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
@@ -195,7 +257,10 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   const bool is_over = overlap_with_active() < options_.overlap ||
                        active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
   clock_.end(Stage::averaging);
-  if (is_over) {
+  if (meet_part()) {
+    take_submap();
+    clock_.end(Stage::closing);
+  } else if (is_over) {
     change_submap();
     clock_.end(Stage::closing);
   }
@@ -214,6 +279,7 @@ void Mapper::State::take_points(std::span<const Vec3> points, std::span<const Tr
   }
   take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
+  answer_.determined = 0;
   ++answer_.counters.iterations;
 }
 
@@ -228,6 +294,9 @@ void Mapper::State::take_tracks(std::span<const TrackId> tracks) {
   for (Observation& observation : frame_) {
     observation.track = tracks[observation.given];
     observation.expected = tracks_.landmark_of(observation.track, graph_);
+    const bool elsewhere =
+        observation.expected != kNone && graph_.landmarks[observation.expected].part != graph_.part();
+    if (elsewhere) observation.expected = kNone;
   }
 }
 
@@ -237,7 +306,7 @@ bool Mapper::State::can_start() const {
     own.add(observation.point, observation.point, observation.weight);
   const FitRules rules = matcher_.rules(planar_);
   Pose unused;
-  return own.pairs() >= (planar_ ? 2 : 3) && own.solve(planar_, rules.min_spread_m2, unused);
+  return own.pairs() >= kLeastAgreeing && own.solve(planar_, rules.min_spread_m2, unused);
 }
 
 void Mapper::State::start_map() {
@@ -247,12 +316,13 @@ void Mapper::State::start_map() {
   add_landmarks();
   set_moving_apart();
   open_new_submap();
+  parts_.anchor(graph_, graph_.active());
   integrate();
 }
 
 void Mapper::State::predict() {
   predicted_ = last_T_submap_sensor_;
-  const int frames = std::min(frames_without_pose_, kMaxDeadReckonedFrames) + 1;
+  const int frames = std::min(frames_without_pose_, options_.bridge_frames) + 1;
   for (int f = 0; f < frames; ++f) predicted_ = predicted_ * Pose{rotation_exp(motion_.turn), motion_.travel};
 }
 
@@ -279,33 +349,72 @@ void Mapper::State::match_map() {
 
 bool Mapper::State::fit_pose() {
   agreeing_ = 0;
-  if (matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_)) {
+  fits_ = matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  if (fits_) {
     agreeing_ = matcher_.count_agreeing(graph_, frame_, T_map_sensor_);
   }
   if (!fit_.solved) fit_.T_submap_sensor = graph_.poses[graph_.active()].inverse() * T_map_sensor_;
   searched_ = false;
+  found_ = Placement();
   // A few points can agree by chance, so of few nearly all must.
   const auto comparable = static_cast<int>(comparable_points());
   return agreeing_ >= std::min(comparable, kSurePoints) && agreeing_ >= kSureShare * comparable;
 }
 
-void Mapper::State::search_turn() {
-  if (options_.max_turn_rad <= 0.0 || followed_) return;  // tracks need no prediction
+void Mapper::State::search() {
+  if (followed_) return;  // tracks need no prediction
   ++answer_.counters.searches;
+  if (!search_constellations()) search_turn();
+}
+
+/// Looks for the frame by what it sees alone, in all of the map.
+bool Mapper::State::search_constellations() {
+  // What is being joined lies in two frames.
+  if (parts_.is_joining()) return false;
+  constellations_.add_now(graph_, graph_.active(), kIndexedAtOnce);
+  gather_frame();
+  Placement found;
+  if (!relocaliser_.locate(graph_, constellations_, view_, kNone, planar_, found)) return false;
+  ++answer_.counters.relocalised;
+  if (found.part == graph_.part() && look_from(found.T_map_points)) return true;
+  agreeing_ = 0;
+  found_ = found;
+  return true;
+}
+
+/// Matches and fits the frame from a new guess. Whether it is placed then.
+bool Mapper::State::look_from(const Pose& T_map_sensor) {
+  predicted_ = graph_.poses[graph_.active()].inverse() * T_map_sensor;
+  match_active_submap();
+  match_map();
+  fit_pose();
+  searched_ = true;
+  return is_placed();
+}
+
+void Mapper::State::search_turn() {
+  if (options_.max_turn_rad <= 0.0) return;
   const Pose& T_map_submap = graph_.poses[graph_.active()];
   search_bases_.assign({T_map_submap * predicted_, T_map_submap * last_T_submap_sensor_});
   const double reach = std::min(options_.max_turn_rad * (1.0 + frames_without_pose_), std::numbers::pi);
   Pose found;
   if (matcher_.search_turn(graph_, search_bases_, reach, planar_, frame_, found) <= agreeing_) return;
-  predicted_ = T_map_submap.inverse() * found;
-  match_active_submap();
-  match_map();
-  fit_pose();
-  searched_ = true;
+  look_from(found);
 }
 
-bool Mapper::State::is_placed() const {
-  return agreeing_ >= (planar_ ? 2 : 3) &&
+bool Mapper::State::is_placed() {
+  // The less is known of where the sensor may be, the more places there are where a few points agree by chance.
+  // Where it is expected, two determine the pose in a plane; but a frame of no more than these has nothing to check them by.
+  int least = planar_ && frame_.size() >= kLeastAgreeing ? kLeastInPlane : kLeastAgreeing;
+  if (searched_) least = kLeastAgreeing;
+  if (frames_without_pose_ > 0) least = kLeastAfterLoss;
+  if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
+  if (frames_without_pose_ > 0 && agreeing_ >= least) {
+    gather_frame();
+    if (relocaliser_.chance_at(graph_, view_, T_map_sensor_, planar_, kTriedAfterGap) > kMostAfterGap)
+      return false;
+  }
+  return agreeing_ >= least &&
          static_cast<double>(agreeing_) >= kLeastShare * static_cast<double>(comparable_points());
 }
 
@@ -314,19 +423,156 @@ std::size_t Mapper::State::comparable_points() const {
   return std::min(frame_.size(), last_seen_);
 }
 
+/// Degrees of freedom that points near where they were expected determine, when these are too few or on a line.
+int Mapper::State::determined_by_few() const {
+  // What fits and yet does not agree tells nothing, nor does what was expected long ago.
+  if (fits_ || frames_without_pose_ >= options_.bridge_frames) return 0;
+  const auto matched = std::count_if(frame_.begin(), frame_.end(), [](const Observation& observation) {
+    return observation.landmark != kNone;
+  });
+  if (matched == 0) return 0;
+  if (planar_) return 2;
+  return matched == 1 ? 3 : 5;
+}
+
 void Mapper::State::lose_pose() {
+  answer_.determined = determined_by_few();
   for (Observation& observation : frame_) observation.landmark = kNone;
   ++frames_without_pose_;
 }
 
+bool Mapper::State::recover() {
+  lose_pose();
+  if (found_.part != kNone) {
+    enter(found_);
+    return true;
+  }
+  return start_over() || start_part();
+}
+
+void Mapper::State::gather_frame() {
+  view_.clear();
+  for (const Observation& observation : frame_) view_.push_back(observation.point);
+}
+
+/// Goes on from where the frame was found.
+void Mapper::State::enter(const Placement& found) {
+  const Index left = graph_.part();
+  close_submap();
+  graph_.set_part(found.part);
+  if (left != found.part) leave_part(left);
+  T_map_sensor_ = found.T_map_points;
+  frames_without_pose_ = 0;
+  matcher_.mark(graph_, frame_);
+  // Nothing says how the place found drifted against where the sensor was: all of it is old.
+  const std::uint64_t never = ~std::uint64_t{0};
+  matcher_.match_map(graph_, T_map_sensor_, never, options_.map_bound(), frame_);
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  matcher_.drop_strays(graph_, T_map_sensor_, never, frame_);
+  add_landmarks();
+  take_submap();
+  integrate();
+}
+
+void Mapper::State::leave_part(Index part) {
+  window_.clear();
+  drop_steps();
+  if (parts_.frames(part) < kYoungFrames && part != parts_.first()) parts_.drop(graph_, part);
+}
+
+/// Begins another part of the map where the sensor is now: the frames before could not be bridged.
+bool Mapper::State::start_part() {
+  if (parts_.is_joining() || frame_.size() < kLeastPartPoints || !can_start()) return false;
+  const Index left = graph_.part();
+  const bool false_start = parts_.frames(left) == 1;
+  if (frames_without_pose_ <= frames_to_bridge(false_start)) return false;
+  false_parts_ = false_start ? false_parts_ + 1 : 0;
+  close_submap();
+  parts_.begin(graph_);
+  leave_part(left);
+  start_map();
+  return true;
+}
+
+/// A part that no second frame was placed in is begun again at once; what goes on like this is tried ever more seldom.
+int Mapper::State::frames_to_bridge(bool false_start) const {
+  if (!false_start) return options_.bridge_frames;
+  if (false_parts_ < kFalsePartsAtOnce) return 0;
+  return (1 + options_.bridge_frames) << std::min(false_parts_ - kFalsePartsAtOnce, kMostDoublings);
+}
+
+/// Steps under way place submaps as they no longer are.
+void Mapper::State::drop_steps() {
+  window_step_ = MapStep();
+  map_step_ = MapStep();
+  window_step_ready_ = window_step_due_ = false;
+  map_step_ready_ = map_step_due_ = false;
+}
+
+/// Tells what became the same landmark in a join.
+void Mapper::State::note_joined() {
+  for (const MapParts::Merge& merge : parts_.merges()) motion_filter_.merged(merge.from, merge.into);
+  answer_.counters.merged += parts_.merges().size();
+  parts_.forget_merges();
+}
+
+/// The landmarks about the sensor: more of them, and better known, than one frame sees.
+void Mapper::State::gather_view() {
+  const Pose T_sensor_map = T_map_sensor_.inverse();
+  view_.clear();
+  const std::uint64_t frames = parts_.frames(graph_.part());
+  const auto least = static_cast<std::uint32_t>(std::min<std::uint64_t>(kLeastInView, frames));
+  for (const Member& member : graph_.submaps[graph_.active()].members) {
+    if (member.count == 0 || graph_.landmarks[member.landmark].count < least) continue;
+    view_.push_back(T_sensor_map * graph_.landmarks[member.landmark].position);
+  }
+}
+
+/// Looks for what is about the sensor in other parts of the map. True when this part and another one were joined, so that no
+/// submap is active.
+bool Mapper::State::meet_part() {
+  if (parts_.count() < 2 || parts_.is_joining()) return false;
+  const Index here = graph_.part();
+  if (parts_.frames(here) >= kYoungFrames && answer_.counters.iterations % kMeetPeriod != 0) return false;
+  gather_view();
+  Placement found;
+  if (!relocaliser_.locate(graph_, constellations_, view_, here, planar_, found)) return false;
+  const Pose T_other_here = found.T_map_points * T_map_sensor_.inverse();
+  for (Vec3& p : view_) p = T_map_sensor_ * p;
+  if (!meeting_.confirm(here, found.part, T_other_here, view_)) return false;
+  join_part(found.part, T_other_here);
+  return true;
+}
+
+void Mapper::State::join_part(Index other, const Pose& T_other_part) {
+  close_submap();
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  T_map_sensor_ = parts_.join(graph_, other, graph_.part(), T_other_part) * T_map_sensor_;
+  for (Observation& observation : frame_) {
+    if (observation.landmark == kNone) continue;
+    if (graph_.landmarks[observation.landmark].part != graph_.part())
+      observation.landmark = parts_.move(graph_, observation.landmark);
+  }
+  note_joined();
+  matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  drop_steps();
+  loop_closed_ = true;
+  ++answer_.counters.joined;
+}
+
 bool Mapper::State::start_over() {
-  // A map of one frame that the next frames do not find again is a false start: it knows nothing to keep.
-  if (placed_frames_ > 1) return false;
+  // A map of one frame that the next frames do not find again is a false start: it knows nothing to keep. One of a few frames is
+  // when the sensor does not come back to it.
+  const bool waited = frames_without_pose_ > options_.bridge_frames && parts_.count() == 1;
+  if (placed_frames_ > 1 && !(waited && placed_frames_ < kYoungFrames)) return false;
   if (!can_start()) return false;
   first_id_ += graph_.landmarks.size();
   placed_frames_ = 0;
   graph_.clear();
   active_.clear();
+  constellations_.clear();
+  parts_.clear();
+  parts_.begin(graph_);
   motion_filter_.clear();
   segments_.clear();
   window_step_ = MapStep();
@@ -345,13 +591,17 @@ void Mapper::State::learn_motion() {
   const double frames = static_cast<double>(frames_without_pose_ + 1);
   const Vec3 turn = rotation_log(moved.q) / frames;
   const Vec3 travel = moved.t / frames;
+  // What was carried away did not move so.
+  const bool carried =
+      travel.norm() > kMostTravelBounds * options_.match_bound() || turn.norm() > kMostTurn_rad;
+  frames_without_pose_ = 0;
+  last_T_submap_sensor_ = fit_.T_submap_sensor;
+  if (searched_ && carried) return;
   // After a sudden motion the old average says nothing.
   const double share = has_motion_ && !searched_ ? options_.smoothing : 1.0;
   motion_.turn += share * (turn - motion_.turn);
   motion_.travel += share * (travel - motion_.travel);
   has_motion_ = true;
-  frames_without_pose_ = 0;
-  last_T_submap_sensor_ = fit_.T_submap_sensor;
 }
 
 void Mapper::State::add_landmarks() {
@@ -396,6 +646,10 @@ void Mapper::State::change_submap() {
   close_submap();
   // Submaps have moved, and with them what the frame was fitted to.
   matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
+  take_submap();
+}
+
+void Mapper::State::take_submap() {
   const Index old = best_old_submap();
   if (old == kNone || !reopen(old)) open_new_submap();
 }
@@ -411,6 +665,7 @@ void Mapper::State::close_submap() {
   window_step_due_ = !window_step_.under_way();
   plan_map_step();
   merge_landmarks(closed);
+  constellations_.note(graph_, closed);
   ++answer_.counters.closes;
 }
 
@@ -574,6 +829,7 @@ void Mapper::State::open_new_submap() {
 
 void Mapper::State::integrate() {
   ++placed_frames_;
+  parts_.count_frame(graph_.part());
   last_seen_ = 0;
   active_.begin_frame(fit_.T_submap_sensor);
   sightings_.clear();
@@ -617,12 +873,27 @@ std::optional<Mat6> Mapper::State::pose_covariance() const {
   return covariance;
 }
 
+Index Mapper::State::told_part() const {
+  return options_.report_parts != 0 ? graph_.part() : parts_.first();
+}
+
 const Answer& Mapper::State::answer() {
-  answer_.has_pose = has_pose_;
-  answer_.covariance = pose_covariance();
-  if (has_pose_) {
-    answer_.T_map_sensor.t = T_map_sensor_.t + Vec3::Zero();  // no negative zeros
-    answer_.T_map_sensor.q.coeffs() = T_map_sensor_.q.coeffs() + Eigen::Vector4d::Zero();
+  answer_.in_part = has_pose_;
+  if (has_pose_) answer_.determined = planar_ ? 3 : 6;
+  answer_.part = started_ ? parts_.number_of(graph_.part()) : 0;
+  answer_.has_pose = has_pose_ && graph_.part() == told_part();
+  answer_.covariance.reset();
+  if (answer_.has_pose) {
+    const Pose& anchor = graph_.poses[parts_.anchor_of(told_part())];
+    answer_.covariance = pose_covariance();
+    if (answer_.covariance) {
+      Mat6 turn = Mat6::Zero();
+      turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = anchor.q.toRotationMatrix().transpose();
+      *answer_.covariance = turn * *answer_.covariance * turn.transpose();
+    }
+    const Pose T = told_from(anchor, T_map_sensor_);
+    answer_.T_map_sensor.t = T.t + Vec3::Zero();  // no negative zeros
+    answer_.T_map_sensor.q.coeffs() = T.q.coeffs() + Eigen::Vector4d::Zero();
   } else {
     ++answer_.counters.lost;
   }
@@ -630,16 +901,19 @@ const Answer& Mapper::State::answer() {
     const Index landmark = observation.landmark != kNone ? observation.landmark : observation.moving;
     if (landmark != kNone) answer_.associations[observation.given] = first_id_ + landmark;
   }
-  answer_.counters.landmarks = graph_.landmarks.size() - answer_.counters.merged;
+  answer_.counters.landmarks = graph_.landmarks.size() - answer_.counters.merged - graph_.dropped_landmarks();
+  answer_.counters.parts = parts_.count();
   answer_.counters.submaps = graph_.submaps.size();
   return answer_;
 }
 
 void Mapper::State::add_moving(const std::vector<Pose>& poses, Map& map) const {
+  const Pose& anchor = poses[parts_.anchor_of(told_part())];
   for (const MotionTracks::Track& track : motion_filter_.tracks()) {
+    if (graph_.submaps[track.submap].part != told_part()) continue;
     Landmark landmark;
     landmark.id = first_id_ + track.landmark;
-    landmark.position = poses[track.submap] * track.place;
+    landmark.position = told_from(anchor, {{}, poses[track.submap] * track.place}).t;
     landmark.observations = track.sightings;
     landmark.status = LandmarkStatus::dynamic;
     map.landmarks.push_back(landmark);
@@ -651,21 +925,26 @@ void Mapper::State::add_moving(const std::vector<Pose>& poses, Map& map) const {
 /// @param poses  T_map_submap, by which landmarks that move are placed
 Map Mapper::State::map(const std::vector<Pose>& poses) const {
   Map map;
+  if (!started_) return map;
+  const Index part = told_part();
+  const Pose& anchor = poses[parts_.anchor_of(part)];
   for (Index l = 0; l < graph_.landmarks.size(); ++l) {
     const LandmarkRecord& record = graph_.landmarks[l];
-    if (record.merged_into != kNone || record.moving) continue;
+    if (record.merged_into != kNone || record.moving || record.memberships.empty()) continue;
+    if (graph_.submaps[record.memberships.front().submap].part != part) continue;
     Landmark landmark;
     landmark.id = first_id_ + l;
     landmark.observations = record.count;
     if (is_mapped(record)) landmark.status = LandmarkStatus::mapped;
-    landmark.position = graph_.mean_position(l);
+    landmark.position = told_from(anchor, {{}, graph_.mean_position(l)}).t;
     map.landmarks.push_back(landmark);
   }
   add_moving(poses, map);
   for (Index s = 0; s < graph_.submaps.size(); ++s) {
+    if (graph_.submaps[s].part != part) continue;
     Submap submap;
     submap.id = s;
-    submap.T_map_submap = graph_.poses[s];
+    submap.T_map_submap = told_from(anchor, poses[s]);
     for (const Member& member : graph_.submaps[s].members) {
       if (member.count > 0) submap.members.push_back(first_id_ + member.landmark);
     }
@@ -675,17 +954,22 @@ Map Mapper::State::map(const std::vector<Pose>& poses) const {
 }
 
 Map Mapper::State::refined_map() const {
+  if (!started_) return {};
   std::vector<bool> mapped;
-  for (const LandmarkRecord& record : graph_.landmarks) mapped.push_back(is_mapped(record));
+  for (const LandmarkRecord& record : graph_.landmarks)
+    mapped.push_back(is_mapped(record) && record.part == told_part());
   const RefinedMap refined = refine_map(graph_, segments_, mapped, planar_);
+  const Pose& anchor = refined.poses[parts_.anchor_of(told_part())];
+  const Mat3 turn = anchor.q.toRotationMatrix().transpose();
   Map map = this->map(refined.poses);
   for (Landmark& landmark : map.landmarks) {
     if (landmark.status == LandmarkStatus::dynamic) continue;
     const std::size_t index = landmark.id - first_id_;
-    landmark.position = refined.positions[index];
+    landmark.position = told_from(anchor, {{}, refined.positions[index]}).t;
     landmark.covariance = refined.covariances[index];
+    if (landmark.covariance) *landmark.covariance = turn * *landmark.covariance * turn.transpose();
   }
-  for (Submap& submap : map.submaps) submap.T_map_submap = refined.poses[submap.id];
+  for (Submap& submap : map.submaps) submap.T_map_submap = told_from(anchor, refined.poses[submap.id]);
   return map;
 }
 

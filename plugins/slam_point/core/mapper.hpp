@@ -26,12 +26,15 @@ class Mapper {
   /// A point that is not finite, or farther than 1e6 m, is skipped and belongs to no landmark.
   ///
   /// The first frame whose points determine a pose starts the map and has the identity pose. A later frame has a
-  /// pose when the points matched to the map determine one: at least three (two while every z so far was exactly 0:
-  /// planar data), spread so that the rotation's standard deviation is below 0.1 rad; and when enough of them agree
-  /// with the map: at least two fifths of the points in view, or of those the last placed frame saw if fewer.
+  /// pose when the points matched to the map determine one: at least three (two in a plane of three in view or more; four after a frame without a
+  /// pose, five after more than three such frames), spread so that the rotation's standard deviation is below 0.1 rad; and when
+  /// enough of them agree with the map: at least two fifths of the points in view, or of those the last placed frame saw if
+  /// fewer. Where that fails, the frame is looked for in all of the map by its constellations of points (Relocaliser).
   ///
   /// A frame without a pose leaves the map unchanged, and the prediction goes on; but while only one frame is placed,
-  /// a frame that does not fit it starts the map over if it can, with new landmark ids.
+  /// a frame that does not fit it starts the map over if it can, with new landmark ids. After Options::bridge_frames such frames
+  /// the next one that determines a pose of its own begins another part of the map. Its frames are placed in it (`in_part`) and
+  /// have no pose in the map, until the part is found to meet the first one; then the two are one, and poses are told again.
   ///
   /// Cost: proportional to the points in view, independent of the size of the map, but for a windowed step over the
   /// last submaps when a submap closes. The answer lives until the next call.

@@ -12,8 +12,8 @@ constexpr double kMovedDeviations2 = 25.0;  // squared; a landmark that stands d
 constexpr double kMedianChi3 = 2.366;       // of a sum of three squared standard normal deviates
 constexpr std::size_t kLeastCommon = 5;
 constexpr double kFewSuspects = 0.85;  // so many of the landmarks are above suspicion: they decide
-constexpr double kInlierNoises = 4.0;
-constexpr double kMaxRotationSigma_rad = 0.1;
+constexpr double kVerdictInlierNoises = 4.0;
+constexpr double kVerdictRotationSigma_rad = 0.1;
 
 /// Pairs of frames for a landmark in view for so many frames.
 int pairs_for(std::uint64_t frames) {
@@ -103,11 +103,11 @@ bool MotionVerdict::fit(const Pose& guess, bool planar, Pose& T_earlier_later) {
   for (const Common& common : common_) {
     if (!shifts_[common.landmark].suspect) pairs_.push_back({common.earlier, common.later, common.weight});
   }
-  const double spread = noise_m_ / kMaxRotationSigma_rad;
+  const double spread = noise_m_ / kVerdictRotationSigma_rad;
   T_earlier_later = guess;
   const double kept = static_cast<double>(pairs_.size());
   if (pairs_.size() >= kLeastCommon && kept >= kFewSuspects * static_cast<double>(common_.size())) {
-    const FitRules rules{planar, spread * spread, kInlierNoises * noise_m_};
+    const FitRules rules{planar, spread * spread, kVerdictInlierNoises * noise_m_};
     return robust_fit(pairs_, rules, T_earlier_later);
   }
   // Where many are suspected, those that are not may be the ones that move.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/options.hpp"
 
-#include <array>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -12,7 +11,7 @@
 namespace hallway::slam_point {
 namespace {
 
-constexpr std::array<Parameter, 15> kParameters{{
+constexpr Parameter kParameters[] = {
     {"noise_m", "m", 1e-4, 10.0,
      "Standard deviation of one coordinate of an observation; bounds that are 0 derive from it.",
      &Options::noise_m, nullptr},
@@ -58,7 +57,15 @@ constexpr std::array<Parameter, 15> kParameters{{
     {"max_turn_rad", "rad", 0.0, 3.15,
      "How far about the sensor's z axis a turn is searched when the prediction fails; 0 means no search.",
      &Options::max_turn_rad, nullptr},
-}};
+    {"bridge_frames", "frames", 0, 100000,
+     "How many frames without a pose the last motion is continued for; after them a new part of the map "
+     "begins.",
+     nullptr, &Options::bridge_frames},
+    {"report_parts", "1", 0, 1,
+     "1: poses and map are those of the part of the map that the sensor is in; 0: only those of the "
+     "part that the map began with.",
+     nullptr, &Options::report_parts},
+};
 
 }  // namespace
 

@@ -37,6 +37,9 @@ struct Options {
       0.35;       ///< how far from the prediction a turn is searched when it fails [rad]; 0: no search
   int index = 0;  ///< an IndexKind: what finds points near a place
 
+  int bridge_frames =
+      10;  ///< frames without a pose that the last motion is continued for; then a new part begins
+  int report_parts = 0;  ///< 1: pose and map are told of whatever part the sensor is in; 0: of the first only
   Association association = Association::place;
 
   /// Standard deviation of one coordinate of an observation at a range [m]: independent parts that are constant, grow with

@@ -55,7 +55,7 @@ void ReducedSystem::choose(const SubmapGraph& graph, const std::vector<Index>& f
   touched_.clear();
   free_.clear();
   for (const Index submap : free) {
-    if (submap != 0) free_.push_back(submap);
+    if (!graph.submaps[submap].held) free_.push_back(submap);
   }
   std::sort(free_.begin(), free_.end());
   for (Index slot = 0; slot < free_.size(); ++slot) slot_[free_[slot]] = slot;

@@ -13,8 +13,8 @@ namespace hallway::slam_point {
 /// the other submaps held. Each landmark is the weighted mean of its places, so six unknowns a submap are left:
 /// translation and rotation, on the left of T_map_s.
 ///
-/// It takes down what it needs, so that its rows can be made later, when the graph has changed. Submap 0 is always
-/// held: it is the map's frame. Buffers are kept.
+/// It takes down what it needs, so that its rows can be made later, when the graph has changed. Submaps that the graph
+/// has as held stay: they are the frames of the map's parts. Buffers are kept.
 class ReducedSystem {
  public:
   using Block = BlockCholesky::Block;

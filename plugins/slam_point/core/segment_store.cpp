@@ -9,9 +9,9 @@
 namespace hallway::slam_point {
 namespace {
 
-constexpr double kLeastFreedom = 100.0;    // below, the noise is not estimated
-constexpr double kOverlap = 0.9;           // of what a frame sees with its segment's first frame, at least
-constexpr std::size_t kMostSegments = 64;  // of one submap; from then on frames go where they fit best
+constexpr double kLeastNoiseFreedom = 100.0;  // below, the noise is not estimated
+constexpr double kOverlap = 0.9;              // of what a frame sees with its segment's first frame, at least
+constexpr std::size_t kMostSegments = 64;     // of one submap; from then on frames go where they fit best
 
 }  // namespace
 
@@ -124,7 +124,7 @@ void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::
 }
 
 double SegmentStore::noise2_m2() const {
-  return freedom_ >= kLeastFreedom ? scatter_m2_ / freedom_ : 0.0;
+  return freedom_ >= kLeastNoiseFreedom ? scatter_m2_ / freedom_ : 0.0;
 }
 
 void SegmentStore::clear() {

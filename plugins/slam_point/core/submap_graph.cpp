@@ -7,6 +7,8 @@ namespace hallway::slam_point {
 
 Index SubmapGraph::add_submap(const Pose& T_map_submap) {
   submaps.emplace_back();
+  submaps.back().part = part_;
+  submaps.back().held = submaps.size() == 1;
   poses.push_back(T_map_submap);
   return static_cast<Index>(submaps.size() - 1);
 }
@@ -15,6 +17,7 @@ Index SubmapGraph::add_landmark(const Vec3& position, std::uint64_t activation) 
   LandmarkRecord record;
   record.position = position;
   record.last_activation = activation;
+  record.part = part_;
   landmarks.push_back(std::move(record));
   grid_.add(position);
   return static_cast<Index>(landmarks.size() - 1);
@@ -132,6 +135,8 @@ void SubmapGraph::merge(Index into, Index from) {
     member.in_first_frame = false;
     member.count = 0;
   }
+  if (given.active_member != kNone) kept.active_member = given.active_member;
+  given.active_member = kNone;
   kept.last_activation = std::max(kept.last_activation, given.last_activation);
   given.memberships.clear();
   given.count = 0;
@@ -141,6 +146,30 @@ void SubmapGraph::merge(Index into, Index from) {
   given.merged_into = into;
   grid_.remove(from);
   resum(into);
+}
+
+void SubmapGraph::drop(Index submap) {
+  SubmapRecord& record = submaps[submap];
+  for (const Member& member : record.members) {
+    LandmarkRecord& landmark = landmarks[member.landmark];
+    if (member.count == 0 || landmark.part == kNone) continue;
+    std::erase_if(landmark.memberships, [&](const Membership& at) { return at.submap == submap; });
+    if (!landmark.memberships.empty()) {
+      resum(member.landmark);
+      continue;
+    }
+    landmark.count = 0;
+    landmark.settled_count = 0;
+    landmark.weight = 0.0;
+    landmark.settled_weight = 0.0;
+    landmark.part = kNone;
+    ++dropped_;
+    grid_.remove(member.landmark);
+  }
+  record.members = {};
+  record.first_frame_size = 0;
+  record.part = kNone;
+  record.held = true;
 }
 
 void SubmapGraph::withdraw(Index index) {
@@ -168,6 +197,8 @@ void SubmapGraph::clear() {
   poses.clear();
   grid_.clear();
   active_ = kNone;
+  part_ = 0;
+  dropped_ = 0;
 }
 
 }  // namespace hallway::slam_point

@@ -41,6 +41,8 @@ struct Membership {
 struct SubmapRecord {
   std::vector<Member> members;
   std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
+  Index part = 0;                      ///< of the map; kNone when it was given up
+  bool held = false;                   ///< its pose is the frame of its part: it stays where it is
 };
 
 /// One landmark: the mean of its places in all submaps, by their weights.
@@ -52,18 +54,23 @@ struct LandmarkRecord {
   Vec3 settled_sum = Vec3::Zero();    ///< weighted sum of positions over all submaps but the active one
   std::uint32_t settled_count = 0;
   double settled_weight = 0.0;
-  Index active_member = kNone;          ///< its place in the active submap
-  Index merged_into = kNone;            ///< set when it turned out to be another landmark
-  bool moving = false;                  ///< found to move: no submap holds it, and none will
+  Index active_member = kNone;  ///< its place in the active submap
+  Index merged_into = kNone;    ///< set when it turned out to be another landmark
+  Index part = 0;               ///< of the map: whose frame `position` is in; kNone when it was given up
+  bool moving = false;          ///< found to move: no submap holds it, and none will
   std::vector<Membership> memberships;  ///< in the order of joining
 };
 
 /// Submaps, the landmarks that link them, and where both lie in the map.
+///
+/// The map has parts: each a map of its own, in a frame of its own, whose place among the others is not known. One of them is the
+/// current one: what is added belongs to it, and what is near a place is looked for in it.
 class SubmapGraph {
  public:
   /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m].
   explicit SubmapGraph(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
 
+  /// A submap of the current part. The first of all is held.
   Index add_submap(const Pose& T_map_submap);
   /// A landmark that no submap holds yet, at `position` in the map frame [m].
   Index add_landmark(const Vec3& position, std::uint64_t activation);
@@ -90,17 +97,35 @@ class SubmapGraph {
   Vec3 mean_position(Index landmark) const;
 
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
-  /// Not while a submap is active.
+  /// Not while the active submap holds both.
   void merge(Index into, Index from);
 
   /// Takes a landmark that moves out of all submaps: their places for it stay, empty. It is found no more.
   void withdraw(Index landmark);
 
-  /// Calls visit(landmark) for each landmark near p and some farther ones; see PointIndex::visit_near.
+  /// Calls visit(landmark) for each landmark of the current part near p and some farther ones; see PointIndex::visit_near.
   template <typename Visit>
   void visit_landmarks_near(const Vec3& p, Visit&& visit) const {
-    grid_.visit_near(p, visit);
+    visit_part_landmarks_near(part_, p, visit);
   }
+
+  /// The same in any part; p is in its frame.
+  template <typename Visit>
+  void visit_part_landmarks_near(Index part, const Vec3& p, Visit&& visit) const {
+    grid_.visit_near(p, [&](Index l) {
+      if (landmarks[l].part == part) visit(l);
+    });
+  }
+
+  /// The part that the sensor is in.
+  Index part() const { return part_; }
+  /// Makes a part the current one. Not while a submap is active.
+  void set_part(Index part) { part_ = part; }
+
+  /// Gives a submap up for good, with the landmarks that no other submap holds. Not the active one.
+  void drop(Index submap);
+  /// Landmarks that drop() gave up so far.
+  std::size_t dropped_landmarks() const { return dropped_; }
 
   void clear();
 
@@ -111,6 +136,8 @@ class SubmapGraph {
  private:
   PointIndex grid_;
   Index active_ = kNone;
+  Index part_ = 0;
+  std::size_t dropped_ = 0;
   Mat3 active_rotation_ = Mat3::Identity();
 };
 

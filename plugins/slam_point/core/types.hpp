@@ -71,12 +71,20 @@ struct Counters {
   std::uint64_t merged = 0;        ///< landmarks that turned out to be another one
   std::uint64_t found_moving = 0;  ///< frames that found landmarks to move
   std::uint64_t searches = 0;      ///< times the motion prediction failed and turns were tried
+  std::uint64_t relocalised = 0;  ///< times a frame without a pose was found in the map by what it sees alone
+  std::uint64_t parts = 0;        ///< parts that the map has: maps whose place to each other is not known
+  std::uint64_t joined = 0;       ///< times two parts became one
 };
 
 /// What one frame gave.
 struct Answer {
   bool has_pose = false;  ///< see Mapper::process for the rule
   Pose T_map_sensor;      ///< defined when has_pose
+  int determined =
+      0;  ///< degrees of freedom of the pose that the frame determines: 6, or 3 in a plane, when it is placed
+  bool in_part = false;  ///< the frame was placed in the part of the map that is numbered `part`
+  std::uint64_t part =
+      0;  ///< parts are numbered in the order of their first frames; the map's own frame is that of part 0
   /// Of the pose's error against the map, as PoseInformation has it [m, rad]: where the map's landmarks in view lie is taken
   /// as known but for the noise of their own observations. Empty without a pose and while the noise is not known yet.
   std::optional<Mat6> covariance{};

@@ -53,6 +53,34 @@ TEST(Clouds, EveryFormGivesTheSameBits) {
   }
 }
 
+TEST(Clouds, PointsOfAnOrganisedPcdArePixels) {
+  Points points = exact_points(12);
+  points[4][1] = std::numeric_limits<double>::quiet_NaN();
+  for (std::string content :
+       {test::ascii_pcd(points), test::binary_pcd<float>(points), test::compressed_pcd<double>(points)}) {
+    EXPECT_EQ(read(content).image.width, 0u);
+    EXPECT_TRUE(read(content).image.pixels.empty());
+    content.replace(content.find("WIDTH 12\nHEIGHT 1"), 17, "WIDTH 4\nHEIGHT 3");
+    const Frame all = read(content);
+    EXPECT_EQ(all.image.width, 4u);
+    EXPECT_EQ(all.image.height, 3u);
+    EXPECT_EQ(all.image.pixels, (std::vector<std::uint32_t>{0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11}));
+    const Frame thinned = read(content, 3);
+    EXPECT_EQ(thinned.image.width, 4u);
+    EXPECT_EQ(thinned.image.pixels, (std::vector<std::uint32_t>{0, 3, 6, 9}));
+  }
+}
+
+TEST(Clouds, AnImageTooLargeToTellIsNone) {
+  Frame frame;
+  PointCollector points(frame, 1);
+  points.begin_image(1u << 15, (1u << 13) + 1);
+  points.add(1, 2, 3);
+  EXPECT_EQ(frame.image.width, 0u);
+  EXPECT_TRUE(frame.image.pixels.empty());
+  EXPECT_EQ(frame.points.size(), 1u);
+}
+
 TEST(Clouds, DoublesAndDecimalsKeepTheirValue) {
   const Points points{{0.1, -1e-300, 1.0 / 3.0}, {123456789.123456789, 5e-324, -0.0}};
   EXPECT_EQ(read(test::ascii_ply(points)).points, points);

@@ -80,14 +80,20 @@ TEST_F(TumFolder, StrideTakesEachNthPixelOfEachNthRow) {
   open_tum(folder_.path(), thin)->read(1, frame);
   const auto image = TumScene::image(1);
   PointList expected;
+  std::vector<std::uint32_t> pixels;
+  const std::uint32_t columns = (TumScene::kWidth + 6) / 7;
   for (std::uint32_t v = 0; v < TumScene::kHeight; v += 7) {
     for (std::uint32_t u = 0; u < TumScene::kWidth; u += 7) {
       const double z = image[v * TumScene::kWidth + u] / 5000.0;
       if (z == 0.0) continue;
+      pixels.push_back(v / 7 * columns + u / 7);
       expected.push_back({z, -((u - 19.25) * z / 35.0), -((v - 14.5) * z / 36.0)});
     }
   }
   EXPECT_EQ(frame.points, expected);
+  EXPECT_EQ(frame.image.width, columns);
+  EXPECT_EQ(frame.image.height, (TumScene::kHeight + 6) / 7);
+  EXPECT_EQ(frame.image.pixels, pixels);
 }
 
 TEST_F(TumFolder, FramesFarFromAllPosesHaveNone) {

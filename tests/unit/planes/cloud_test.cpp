@@ -80,6 +80,9 @@ TEST_F(Clouds, DepthImageHasPixelsAsRows) {
   const Cloud cloud = read("a.png", png, options);
   EXPECT_EQ(cloud.rows, (Rows{1, 2}));
   EXPECT_EQ(cloud.points, (std::vector<Vec3>{{1, -0.5, 0}, {2, 0, -1}}));
+  EXPECT_EQ(cloud.image.width, 2u);
+  EXPECT_EQ(cloud.image.height, 2u);
+  EXPECT_EQ(cloud.image.pixels, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(refused("a.png", png).code(), ErrorCode::kUsage);
 }
 

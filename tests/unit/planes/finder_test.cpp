@@ -39,6 +39,15 @@ TEST(Finder, ParametersReachThePlugin) {
   EXPECT_EQ(finder("levels.so", {{"step_m", "2", {}}}).find(levels(4).points).planes.size(), 2u);
 }
 
+TEST(Finder, TellsThePluginOfWhichPixelsThePointsAre) {
+  const Case two = levels(2);
+  import::PixelGrid image{.width = 2, .height = static_cast<std::uint32_t>(two.points.size())};
+  for (std::uint32_t i = 0; i < two.points.size(); ++i) image.pixels.push_back(2 * i + 1);
+  PlaneFinder plugin = finder("levels.so", {{"fault", "wants_image", {}}});
+  EXPECT_EQ(plugin.find(two.points, 1, image).planes.size(), 2u);
+  EXPECT_TRUE(plugin.find(two.points).planes.empty());
+}
+
 TEST(Finder, APluginThatPutsNoneFindsNone) {
   EXPECT_TRUE(finder("levels.so", {{"fault", "puts_none", {}}}).find(levels(4).points).planes.empty());
 }

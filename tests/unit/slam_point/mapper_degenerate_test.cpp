@@ -54,6 +54,31 @@ TEST(MapperDegenerate, CollinearPointsAloneGiveNoPose) {
   EXPECT_TRUE(mapper.process(points).has_pose);
 }
 
+TEST(MapperDegenerate, FewPointsTellHowMuchTheyDetermine) {
+  const std::vector<Vec3> points = cloud(10, 1);
+  Mapper mapper{Options()};
+  EXPECT_EQ(mapper.process(points).determined, 6);
+  const auto determined_by = [&](std::vector<Vec3> few) {
+    mapper.process(points);
+    const Answer& answer = mapper.process(few);
+    EXPECT_FALSE(answer.has_pose);
+    EXPECT_FALSE(answer.in_part);
+    return answer.determined;
+  };
+  EXPECT_EQ(determined_by({}), 0);
+  EXPECT_EQ(determined_by({points[0]}), 3);
+  EXPECT_EQ(determined_by({points[0], points[1]}), 5);
+  EXPECT_EQ(determined_by({points[0] + Vec3(3.0, 0.0, 0.0)}), 0);  // not what was expected there
+}
+
+TEST(MapperDegenerate, InAPlaneOnePointDeterminesTwoDegreesOfFreedom) {
+  std::vector<Vec3> points = cloud(10, 1);
+  for (Vec3& p : points) p.z() = 0.0;
+  Mapper mapper{Options()};
+  EXPECT_EQ(mapper.process(points).determined, 3);
+  EXPECT_EQ(mapper.process({points.data(), 1}).determined, 2);
+}
+
 TEST(MapperDegenerate, PointsThatAreNotFiniteOrTooFarAreSkipped) {
   std::vector<Vec3> points = cloud(10, 2);
   const std::size_t good = points.size();
@@ -120,10 +145,13 @@ TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
   EXPECT_TRUE(mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0))).has_pose);
 }
 
-TEST(MapperDegenerate, TwoPlanarPointsAreEnough) {
+TEST(MapperDegenerate, ThreePlanarPointsAreEnoughAndTwoAreNot) {
   Mapper mapper{Options()};
-  EXPECT_TRUE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
-  const Answer& answer = mapper.process(std::vector<Vec3>{{4.9, 3, 0}, {11.9, -4, 0}});
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
+  EXPECT_TRUE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}, {9, 5, 0}}).has_pose);
+  EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);
+  mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}, {9, 5, 0}, {15, 1, 0}});
+  const Answer& answer = mapper.process(std::vector<Vec3>{{4.9, 3, 0}, {11.9, -4, 0}, {8.9, 5, 0}});
   ASSERT_TRUE(answer.has_pose);
   EXPECT_LT((answer.T_map_sensor.t - Vec3(0.1, 0.0, 0.0)).norm(), 1e-9);
 }

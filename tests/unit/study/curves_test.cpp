@@ -24,6 +24,11 @@ TEST(GroupRuns, PutsSeedsTogetherAndNamesWhatDiffers) {
   runs[0].spec.labels = runs[2].spec.labels = {{"density", "50"}};
   EXPECT_EQ(group_runs(runs)[0].name, "density 50, a");
   EXPECT_TRUE(group_runs({}).empty());
+  runs[0].spec.labels = runs[2].spec.labels = runs[1].spec.labels;
+  for (StudyRun& run : runs) run.spec.plugin.parameters = {{"noise_m", "1"}};
+  runs[0].spec.plugin.parameters.emplace_back("mode", "x");
+  EXPECT_EQ(group_runs(runs)[0].name, "a:mode=x");
+  EXPECT_EQ(group_runs(runs)[1].name, "b");
 }
 
 TEST(PartMeans, OfIterations) {

@@ -153,6 +153,44 @@ TEST(MapSize, ComparesTimesAtEqualNumbersOfPoints) {
   EXPECT_NEAR(row[0], 1.1, 1e-12);
 }
 
+TEST(Binning, CountsWhatTheBinningSays) {
+  const Study& study = study_of("binning");
+  Request request = small_request();
+  // Compares all pairs; those that deviate little from the first point are its bin.
+  request.bin_points = [](std::size_t points, bool,
+                          const std::function<double(std::uint32_t, std::uint32_t)>& deviation) {
+    std::size_t largest = 0;
+    for (std::uint32_t i = 0; i < points; ++i) {
+      std::size_t near = 1;
+      for (std::uint32_t k = 0; k < points; ++k) near += k != i && deviation(i, k) < 0.1 ? 1u : 0u;
+      largest = std::max(largest, near);
+    }
+    return BinCount{points * (points - 1) / 2, largest};
+  };
+  std::vector<StudyRun> runs;
+  for (const RunSpec& spec : study.plan(request)) {
+    runs.push_back(
+        test::even_run("a", spec.seed, 20, Vec3::Zero(), spec.label("moving") == "3 %" ? 1.02 : 1.0));
+    runs.back().spec = spec;
+  }
+  const Outcome outcome = study.conclude(runs, request);
+  EXPECT_NEAR(finding(outcome, "time with 3 % moving landmarks over that without").at(0), 1.02, 1e-12);
+  const auto table = std::find_if(outcome.tables.begin(), outcome.tables.end(),
+                                  [](const Table& one) { return one.file == "binning"; });
+  ASSERT_NE(table, outcome.tables.end());
+  for (const auto& row : table->rows) {
+    const double percent = std::get<double>(row[0]), grouped = std::get<double>(row[1]),
+                 n = std::get<double>(row[3]);
+    EXPECT_EQ(std::get<double>(row[4]), n * (n - 1) / 2);
+    const double standing = n - std::round(n * percent / 100) - 4 * std::round(n * grouped / 100);
+    if (percent <= 50) {
+      EXPECT_EQ(std::get<double>(row[5]), standing) << percent << " % of " << n;
+    }
+  }
+  request.bin_points = nullptr;
+  EXPECT_LT(study.conclude(runs, request).tables.size(), outcome.tables.size());
+}
+
 TEST(Outcome, TablesHaveARowForEachRunAndNoTimesButWhereTheySaySo) {
   std::vector<StudyRun> runs{test::even_run("a", 1, 20, {0.1, 0.0, 0.0}, 1.0),
                              test::even_run("a", 2, 20, {0.1, 0.0, 0.0}, 1.0)};

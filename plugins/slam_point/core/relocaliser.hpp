@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam_point/core/constellation_index.hpp"
+#include "slam_point/core/options.hpp"
+#include "slam_point/core/robust_fit.hpp"
+#include "slam_point/core/submap_graph.hpp"
+
+namespace hallway::slam_point {
+
+/// Where a set of points was found in the map.
+struct Placement {
+  Pose T_map_points;   ///< from the frame of the points to that of the part
+  Index part = kNone;  ///< of the map, where they are
+  int agreeing = 0;    ///< points that lie on a landmark of their own up to noise
+  double expected_by_chance =
+      1.0;  ///< how many hypotheses were to be expected that agree as well and are wrong
+};
+
+/// Finds points in the map without any idea of where they are.
+///
+/// Triangles of neighbouring points are looked up in a ConstellationIndex, those with the fewest alike first. Each one alike is a
+/// hypothesis; it is given up when few of the points near the triangle lie on landmarks. Else all points are matched one-to-one
+/// and fitted. The best hypothesis is the answer if all of this holds:
+/// - so many points agree that fewer than 1e-8 wrong hypotheses were to be expected that agree as well: the hypotheses tried
+///   times the binomial chance that so many points beyond the triangle lie on landmarks as dense as those around them. Agreement
+///   is judged within 4, 2 and 1 noise_m, and what says most counts, times three;
+/// - at least two fifths of the points agree;
+/// - no other place has more than three fifths of the points that agree with the best and is more than chance (1e-3, likewise): a
+///   place that repeats is no answer.
+///
+/// Cost: O(points) for a bounded number of hypotheses, whatever the size of the map.
+class Relocaliser {
+ public:
+  Relocaliser(const Options& options, const FitRules& planar_rules, const FitRules& solid_rules,
+              double reach_m);
+
+  /// Looks for `points` in all parts of the map but `except` (kNone: in all). `planar`: every z is 0. False when there is no
+  /// answer.
+  bool locate(const SubmapGraph& graph, const ConstellationIndex& index, const std::vector<Vec3>& points,
+              Index except, bool planar, Placement& placement);
+
+  /// How many wrong hypotheses, of `tried`, were to be expected that agree with the current part as well as these points do at
+  /// T_map_points. O(points).
+  double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points, const Pose& T_map_points,
+                   bool planar, int tried);
+
+ private:
+  /// A triangle of the points.
+  struct Query {
+    Triangle triangle;  // of places in points
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;  // alike, from alike_[first] on
+  };
+  struct Match {
+    double d2 = 0.0;
+    Index point = kNone;
+    Index landmark = kNone;
+  };
+  struct Hypothesis {
+    Pose T;
+    Index part = kNone;
+    std::vector<Index> landmarks;  // point -> the one that it agrees with, or kNone
+    int agreeing = 0;
+  };
+
+  void choose_points(const std::vector<Vec3>& points);
+  void make_queries();
+  void add_queries(Index centre, const NearestNeighbours& near);
+  void look_up(const SubmapGraph& graph, const ConstellationIndex& index, Index except);
+  void look_up_ordered(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
+                       const Triangle& triangle);
+  void try_query(const SubmapGraph& graph, const Query& query);
+  bool is_known(const Triangle& seen, const Triangle& mapped) const;
+  bool pose_of(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped, Pose& T) const;
+  bool is_promising(const SubmapGraph& graph, const Triangle& seen, const Pose& T, Index part);
+  bool refine(const SubmapGraph& graph, Hypothesis& hypothesis);
+  void assign(Hypothesis& hypothesis);
+  void count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesis);
+  void match(const SubmapGraph& graph, const Hypothesis& hypothesis, double bound_m);
+  bool fit(const SubmapGraph& graph, Hypothesis& hypothesis);
+  void keep(Hypothesis& hypothesis);
+  double expected_by_chance(const SubmapGraph& graph, const Hypothesis& place);
+
+  FitRules planar_rules_;
+  FitRules solid_rules_;
+  double noise_;
+  double reach_;
+  double coarse_;     // bound of a first match [m]
+  double agreement_;  // a residual up to here is noise [m]
+  bool planar_ = false;
+  std::vector<Vec3> points_;  // those looked for: nearest to their origin
+  std::vector<std::uint32_t> order_;
+  std::vector<Query> queries_;
+  std::vector<Triangle> alike_;
+  std::vector<std::pair<double, Index>> near_;
+  std::vector<Match> matches_;
+  std::vector<double> residuals2_;
+  std::vector<Pair> pairs_;
+  std::vector<std::uint8_t> taken_;  // landmark -> matched
+  std::vector<Index> taken_list_;
+  Hypothesis trial_;
+  Hypothesis best_;
+  Hypothesis rival_;
+  int tried_ = 0;
+};
+
+}  // namespace hallway::slam_point

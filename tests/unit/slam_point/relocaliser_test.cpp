@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/relocaliser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "scenes.hpp"
+#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/frame_matcher.hpp"
+
+namespace hallway::slam_point {
+namespace {
+
+/// A map of one submap with an index of its constellations.
+class Ground {
+ public:
+  explicit Ground(bool planar) : planar_(planar) {}
+
+  void add_part(Index part, const std::vector<Vec3>& points) {
+    graph_.set_part(part);
+    const Index submap = graph_.add_submap(Pose{});
+    for (const Vec3& p : points) {
+      const Index landmark = graph_.add_landmark(p, 0);
+      const Index member = graph_.join(submap, landmark, p, true);
+      graph_.submaps[submap].members[member].count = 5;
+      graph_.resum(landmark);
+    }
+    index_.note(graph_, submap);
+    index_.advance(graph_, 100000);
+  }
+  bool locate(const std::vector<Vec3>& points, Placement& found, Index except = kNone) {
+    return relocaliser_.locate(graph_, index_, points, except, planar_, found);
+  }
+
+ private:
+  bool planar_;
+  Options options_;
+  FrameMatcher matcher_{options_};
+  SubmapGraph graph_{options_.map_bound()};
+  ConstellationIndex index_{4.0 * options_.noise_m, 5};
+  Relocaliser relocaliser_{options_, matcher_.rules(true), matcher_.rules(false), options_.map_bound()};
+};
+
+std::vector<Vec3> scattered(scenes::Random& random, int count, double size, bool planar) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    points.push_back(Vec3(random.uniform(-size, size), random.uniform(-size, size),
+                          planar ? 0.0 : random.uniform(-5.0, 5.0)));
+  }
+  return points;
+}
+
+Pose anywhere(scenes::Random& random, bool planar) {
+  const double tilt = planar ? 0.0 : 3.0;
+  const Vec3 turn(random.uniform(-tilt, tilt), random.uniform(-tilt, tilt), random.uniform(-3.0, 3.0));
+  return {rotation_exp(turn), Vec3(random.uniform(-80, 80), random.uniform(-80, 80), 0.0)};
+}
+
+/// What is seen of `landmarks` within `range` of the sensor.
+std::vector<Vec3> seen_from(const Pose& T_map_sensor, const std::vector<Vec3>& landmarks, double range,
+                            scenes::Random& random, bool planar) {
+  std::vector<Vec3> points;
+  for (const Vec3& landmark : landmarks) {
+    const Vec3 noise = 0.05 * Vec3(random.normal(), random.normal(), planar ? 0.0 : random.normal());
+    if ((landmark - T_map_sensor.t).norm() < range)
+      points.push_back(T_map_sensor.inverse() * landmark + noise);
+  }
+  return points;
+}
+
+class RelocaliserIn : public testing::TestWithParam<bool> {};
+
+TEST_P(RelocaliserIn, FindsTheSensorWhateverWayItIsTurned) {
+  const bool planar = GetParam();
+  scenes::Random random(1);
+  const std::vector<Vec3> landmarks = scattered(random, 500, 100.0, planar);
+  Ground ground(planar);
+  ground.add_part(0, landmarks);
+  int found = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose truth = anywhere(random, planar);
+    const std::vector<Vec3> points = seen_from(truth, landmarks, 30.0, random, planar);
+    Placement placement;
+    if (points.size() < 10 || !ground.locate(points, placement)) continue;
+    ++found;
+    EXPECT_LT((placement.T_map_points.t - truth.t).norm(), 0.3);
+    EXPECT_LT(placement.T_map_points.q.angularDistance(truth.q), 0.02);
+    EXPECT_LT(placement.expected_by_chance, 1e-8);
+    EXPECT_GE(placement.agreeing, static_cast<int>(points.size()) * 4 / 5);
+  }
+  EXPECT_GE(found, 48);
+}
+
+TEST_P(RelocaliserIn, FindsNothingElsewhere) {
+  const bool planar = GetParam();
+  scenes::Random random(2);
+  Ground ground(planar);
+  ground.add_part(0, scattered(random, 500, 100.0, planar));
+  Placement placement;
+  for (int trial = 0; trial < 50; ++trial)
+    EXPECT_FALSE(ground.locate(scattered(random, 20, 30.0, planar), placement));
+}
+
+TEST_P(RelocaliserIn, APlaceThatRepeatsIsNoAnswer) {
+  const bool planar = GetParam();
+  scenes::Random random(3);
+  const std::vector<Vec3> room = scattered(random, 15, 8.0, planar);
+  std::vector<Vec3> landmarks = room;
+  Ground once(planar);
+  once.add_part(0, landmarks);
+  for (const Vec3& p : room) landmarks.push_back(p + Vec3(60.0, 0.0, 0.0));
+  Ground twice(planar);
+  twice.add_part(0, landmarks);
+  const std::vector<Vec3> points = seen_from(Pose{}, room, 30.0, random, planar);
+  Placement placement;
+  EXPECT_TRUE(once.locate(points, placement));
+  EXPECT_FALSE(twice.locate(points, placement));
+}
+
+TEST_P(RelocaliserIn, APartThatIsNotAskedForIsNotFound) {
+  const bool planar = GetParam();
+  scenes::Random random(4);
+  const std::vector<Vec3> room = scattered(random, 20, 8.0, planar);
+  Ground ground(planar);
+  ground.add_part(0, scattered(random, 100, 50.0, planar));
+  ground.add_part(1, room);
+  const std::vector<Vec3> points = seen_from(Pose{}, room, 30.0, random, planar);
+  Placement placement;
+  ASSERT_TRUE(ground.locate(points, placement));
+  EXPECT_EQ(placement.part, 1u);
+  EXPECT_FALSE(ground.locate(points, placement, 1));
+}
+
+TEST_P(RelocaliserIn, FewPointsAreNoAnswer) {
+  const bool planar = GetParam();
+  scenes::Random random(5);
+  const std::vector<Vec3> landmarks = scattered(random, 500, 100.0, planar);
+  Ground ground(planar);
+  ground.add_part(0, landmarks);
+  Placement placement;
+  for (std::size_t count = 0; count <= 4; ++count) {
+    const std::vector<Vec3> few(landmarks.begin(), landmarks.begin() + static_cast<std::ptrdiff_t>(count));
+    EXPECT_FALSE(ground.locate(few, placement)) << count;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(SpaceAndPlane, RelocaliserIn, testing::Bool());
+
+}  // namespace
+}  // namespace hallway::slam_point
