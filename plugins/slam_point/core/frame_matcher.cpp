@@ -51,6 +51,7 @@ void FrameMatcher::mark(const SubmapGraph& graph, const std::vector<Observation>
 
 void FrameMatcher::take(const Candidate& candidate, std::vector<Observation>& frame) {
   frame[candidate.observation].landmark = candidate.landmark;
+  frame[candidate.observation].member = candidate.member;
   taken_[candidate.landmark] = 1;
   taken_list_.push_back(candidate.landmark);
 }
@@ -102,7 +103,7 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
     const auto consider = [&](Index m, double within2) {
       const double d2 = (members[m].mean - p).squaredNorm();
       if (d2 <= within2 && taken_[members[m].landmark] == 0)
-        candidates_.push_back({d2, o, members[m].landmark});
+        candidates_.push_back({d2, o, members[m].landmark, m});
     };
     if (!frame[o].is_followed()) {
       active.visit_members_near(p, [&](Index m) { consider(m, near2); });
@@ -121,7 +122,7 @@ bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observ
   pairs_.clear();
   for (const Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
-    const Member& member = members[graph.landmarks[observation.landmark].active_member];
+    const Member& member = members[observation.member];
     pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
                       observation.weight});
   }
@@ -134,7 +135,7 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
   int dropped = 0;
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
-    const Member& member = members[graph.landmarks[observation.landmark].active_member];
+    const Member& member = members[observation.member];
     const double r2 = (rotation * observation.point + T.t - member.mean).squaredNorm();
     if (r2 * pair_weight(member.weight(), observation.weight) <= agreement_ * agreement_) continue;
     taken_[observation.landmark] = 0;
@@ -287,7 +288,7 @@ void FrameMatcher::match_map(const SubmapGraph& graph, const Pose& T_map_sensor,
       const LandmarkRecord& landmark = graph.landmarks[l];
       const double bound2 = (landmark.last_activation >= local_since ? local2 : old2) / frame[o].weight;
       const double d2 = (landmark.position - p).squaredNorm();
-      if (d2 <= std::min(bound2, reach2) && taken_[l] == 0) candidates_.push_back({d2, o, l});
+      if (d2 <= std::min(bound2, reach2) && taken_[l] == 0) candidates_.push_back({d2, o, l, kNone});
     };
     if (!frame[o].is_followed()) {
       graph.visit_landmarks_near(p, [&](Index l) { consider(l, reach_ * reach_); });

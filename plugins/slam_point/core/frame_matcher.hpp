@@ -16,6 +16,7 @@ struct Observation {
   Vec3 point = Vec3::Zero();  ///< sensor frame [m]
   std::size_t given = 0;      ///< its place among the points given
   Index landmark = kNone;
+  Index member = kNone;   ///< of the active submap, where it was matched to one of its members
   bool withheld = false;  ///< neither a known landmark nor a new one: this frame cannot tell
   Index moving =
       kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
@@ -97,6 +98,7 @@ class FrameMatcher {
     double d2 = 0.0;
     Index observation = kNone;
     Index landmark = kNone;
+    Index member = kNone;  // of the active submap, where candidates are its members
   };
 
   bool agrees(const SubmapGraph& graph, const Pose& T_map_sensor, const Observation& observation) const;

@@ -8,16 +8,21 @@ namespace {
 
 constexpr std::size_t kFirstTableSize = 1024;
 constexpr double kCubeReaches = 4.0;
+constexpr double kVisitedReaches =
+    1.125;  // so that neither rounding nor a place that is not told of at once hides a point
 constexpr std::size_t kBucketsPerPoint =
     4;  // at least: most of what a box touches is empty, and should be seen to be
 
 }  // namespace
 
-HashGrid::HashGrid(double reach_m) : reach_(reach_m), inverse_size_(1.0 / (kCubeReaches * reach_m)) {}
+HashGrid::HashGrid(double reach_m)
+    : reach_(reach_m),
+      reach2_(kVisitedReaches * kVisitedReaches * reach_m * reach_m),
+      inverse_size_(1.0 / (kCubeReaches * reach_m)) {}
 
 void HashGrid::add(const Vec3& p) {
   const auto i = static_cast<std::uint32_t>(entries_.size());
-  entries_.push_back({cell_of(p), kEnd});
+  entries_.push_back({p, cell_of(p), kEnd});
   if (kBucketsPerPoint * entries_.size() > heads_.size()) {
     grow();
   } else {
@@ -26,6 +31,7 @@ void HashGrid::add(const Vec3& p) {
 }
 
 void HashGrid::move(std::uint32_t i, const Vec3& p) {
+  entries_[i].place = p;
   const Cell cell = cell_of(p);
   if (cell == entries_[i].cell) return;
   unlink(i);

@@ -13,7 +13,7 @@ namespace hallway::slam_point {
 /// Points in cubes of one size, found by hashing the cube: insertion, moving and looking near a place cost O(1), whatever
 /// the number of points (the incremental overlapping quadtree of thesis 6.5.1).
 ///
-/// Points are named by consecutive numbers from 0. Memory: 16 bytes a point and 16 to 32 of its table.
+/// Points are named by consecutive numbers from 0. Memory: 40 bytes a point and 16 to 32 of its table.
 class HashGrid {
  public:
   /// `reach_m` > 0: the largest distance that visit_near() is asked for [m].
@@ -28,8 +28,8 @@ class HashGrid {
   /// Takes point `i` out for good; its number is not used again.
   void remove(std::uint32_t i) { unlink(i); }
 
-  /// Calls visit(i) once for each point in the cubes, at most eight and mostly one to four, that a box of reach_m each way about p touches: a superset
-  /// of the points within reach_m. The order depends on the history of the grid, so what the caller makes of it must not.
+  /// Calls visit(i) once for each point within reach_m of p and some that are a little farther. The order depends on the history of the grid, so what the
+  /// caller makes of it must not. Looks into the cubes, at most eight and mostly one to four, that a box of reach_m each way touches.
   template <typename Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
     if (heads_.empty()) return;
@@ -37,7 +37,7 @@ class HashGrid {
     const Cell high = cell_of(p + Vec3::Constant(reach_));
     for (std::int32_t x = low[0]; x <= high[0]; ++x) {
       for (std::int32_t y = low[1]; y <= high[1]; ++y) {
-        for (std::int32_t z = low[2]; z <= high[2]; ++z) visit_cell({x, y, z}, visit);
+        for (std::int32_t z = low[2]; z <= high[2]; ++z) visit_cell({x, y, z}, p, visit);
       }
     }
   }
@@ -50,14 +50,17 @@ class HashGrid {
   static constexpr std::uint32_t kGone = 0xfffffffeu;
 
   struct Entry {
+    Vec3 place;
     Cell cell;
     std::uint32_t next;  // in the same bucket; kGone for a point that was removed
   };
 
+  /// Most of a cube is farther off than the reach: what is not is told from the place that stands here, without a look at the caller's data.
   template <typename Visit>
-  void visit_cell(const Cell& cell, Visit&& visit) const {
+  void visit_cell(const Cell& cell, const Vec3& p, Visit&& visit) const {
     for (std::uint32_t i = heads_[bucket_of(cell)]; i != kEnd; i = entries_[i].next) {
-      if (entries_[i].cell == cell) visit(i);
+      const Entry& entry = entries_[i];
+      if ((entry.place - p).squaredNorm() <= reach2_ && entry.cell == cell) visit(i);
     }
   }
 
@@ -83,6 +86,7 @@ class HashGrid {
   void grow();
 
   double reach_;
+  double reach2_;  // squared, of a little more than the reach
   double
       inverse_size_;  // of a cube: four times the reach, so that a box mostly touches one or two along each axis
   std::vector<std::uint32_t> heads_;
