@@ -39,8 +39,10 @@ constexpr double kWorthwhileGain =
 constexpr double kWorkPerClose =
     6e5;  // multiplications for steps over the whole map that a close earns; those that factorise a window of 20
 constexpr double kMostClosesSaved = 100.0;
-constexpr double kMostSteps = 4.0;     // over the whole map, that can be saved up
-constexpr double kWorkPerFrame = 6e5;  // on a step over the whole map: some tenths of a millisecond
+constexpr double kMostSteps = 4.0;           // over the whole map, that can be saved up
+constexpr double kWindowWorkPerFrame = 3e5;  // multiplications on the step over the window: 0.2 ms
+constexpr double kMapWorkPerFrame =
+    4e5;  // likewise over the whole map: more, since late steps make later ones later
 constexpr int kMaxSettlePeriod = 1 << 20;
 constexpr int kIndexedPerFrame = 8;          // landmarks whose constellations are noted
 constexpr std::size_t kMovedPerFrame = 100;  // landmarks of a part that moves into another one
@@ -728,9 +730,9 @@ void Mapper::State::advance_steps() {
   const bool window = window_step_.under_way() && !window_step_ready_;
   const bool map = map_step_.under_way() && !map_step_ready_;
   if (window && (!map || answer_.counters.iterations % 2 == 0)) {
-    window_step_ready_ = window_step_.advance(kWorkPerFrame);
+    window_step_ready_ = window_step_.advance(kWindowWorkPerFrame);
   } else if (map) {
-    map_step_ready_ = map_step_.advance(kWorkPerFrame);
+    map_step_ready_ = map_step_.advance(kMapWorkPerFrame);
   }
 }
 
