@@ -432,8 +432,8 @@ bool Mapper::State::is_expected() const {
   return frames_without_pose_ == 0 || (!contradicted_ && !searched_ && frames_without_pose_ <= kShortGap);
 }
 
-/// Whether this frame, which has no pose, tells that the prediction is wrong. One that shows what was expected and does not
-/// determine a pose, as points of much noise do not, speaks for the prediction.
+/// Whether this frame, which has no pose, tells that the prediction is wrong. One that shows what was expected
+/// and does not determine a pose, as points of much noise do not, speaks for the prediction.
 bool Mapper::State::contradicts() const {
   const auto matched = static_cast<int>(matched_points());
   return fits_ || matched < kSurePoints || matched < kSureShare * static_cast<double>(comparable_points());

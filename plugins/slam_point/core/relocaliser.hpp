@@ -44,9 +44,9 @@ class Relocaliser {
               Index except, bool planar, Placement& placement);
 
   /// How many wrong hypotheses, of `tried`, were to be expected that agree with the current part as well as these points do at
-  /// T_map_points. Each point has a noise of its own (standard deviation of a coordinate [m], one for each point) that its
-  /// agreement is judged by, as far as `reach_m`: an exact point tells more than one that has landmarks within its noise
-  /// anywhere. O(points^2), of at most 64 points.
+  /// T_map_points. Each point has a noise of its own (standard deviation of a coordinate [m], one for each point)
+  /// that its agreement is judged by, as far as `reach_m`: an exact point tells more than one that has landmarks
+  /// within its noise anywhere. O(points^2), of at most 64 points.
   double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
                    const std::vector<double>& noises, const Pose& T_map_points, bool planar, int tried);
 

@@ -160,8 +160,8 @@ TEST(MapperLostOnce, ASuddenTurnAboutAnyAxisIsFound) {
   EXPECT_EQ(drive.wrong(), 0);
 }
 
-/// Near landmarks all around, of which a stereo camera knows well where they are, and far ones ahead, which do not determine how
-/// it is turned.
+/// Near landmarks all around, of which a stereo camera knows well where they are, and far ones ahead, which do
+/// not determine how it is turned.
 struct NearAndFar {
   std::vector<Vec3> near;
   std::vector<Vec3> far;
