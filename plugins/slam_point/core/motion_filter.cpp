@@ -26,6 +26,8 @@ void MotionFilter::follow(const SubmapGraph& graph, const Pose& T_map_sensor,
   find_candidates(T_map_sensor, frame);
   tracks_.follow(graph, history_.frames(), candidates_,
                  [&](Index observation, Index landmark) { frame[observation].moving = landmark; });
+  std::erase_if(candidates_,
+                [&](const auto& candidate) { return frame[candidate.observation].moving != kNone; });
   if (candidates_.empty()) return;
   find_missing(graph, frame);
   link_astray(frame);
@@ -57,7 +59,6 @@ void MotionFilter::find_missing(const SubmapGraph& graph, const std::vector<Obse
 void MotionFilter::link_astray(std::vector<Observation>& frame) {
   hops_.clear();
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    if (frame[candidates_[c].observation].moving != kNone) continue;
     for (std::size_t m = 0; m < missing_.size(); ++m) {
       const double d2 = (candidates_[c].place - missing_[m].place).squaredNorm();
       if (d2 <= reach_m_ * reach_m_) hops_.push_back({d2, c, m});

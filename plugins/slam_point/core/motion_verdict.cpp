@@ -64,8 +64,9 @@ void MotionVerdict::begin_session(const SightingHistory& history, const std::vec
   ++session_;
   touched_.clear();
   for (const Suspect& suspect : suspects) shift_of(suspect.landmark).suspect = true;
-  for (const SightingHistory::Sighting& sighting : history.frame(history.frames() - 1))
-    shift_of(sighting.landmark);
+  for (const SightingHistory::Sighting& sighting : history.frame(history.frames() - 1)) {
+    if (!history.is_forgotten(sighting.landmark)) shift_of(sighting.landmark);
+  }
 }
 
 MotionVerdict::Shift& MotionVerdict::shift_of(Index landmark) {
@@ -86,6 +87,7 @@ MotionVerdict::Shift& MotionVerdict::shift_of(Index landmark) {
 void MotionVerdict::find_common(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later) {
   ++stamp_;
   for (const SightingHistory::Sighting& sighting : history.frame(later)) {
+    if (history.is_forgotten(sighting.landmark)) continue;
     shift_of(sighting.landmark);
     stamped_[sighting.landmark] = stamp_;
     later_point_[sighting.landmark] = sighting.point;

@@ -20,13 +20,17 @@ void SightingHistory::rename(Index from, Index into) {
 }
 
 void SightingHistory::forget(Index landmark) {
-  for (std::uint64_t number = oldest(); number < frames_; ++number) {
-    std::erase_if(slot(number).sightings,
-                  [&](const Sighting& sighting) { return sighting.landmark == landmark; });
-  }
+  if (landmark >= forgotten_.size()) forgotten_.resize(landmark + 1, 0);
+  forgotten_[landmark] = 1;
+}
+
+void SightingHistory::clear() {
+  frames_ = 0;
+  forgotten_.clear();
 }
 
 bool SightingHistory::saw_together(Index a, Index b) const {
+  if (is_forgotten(a) || is_forgotten(b)) return false;
   const std::uint64_t first = std::max(oldest(), frames_ > kTogether ? frames_ - kTogether : 0);
   for (std::uint64_t number = frames_; number-- > first;) {
     int seen = 0;

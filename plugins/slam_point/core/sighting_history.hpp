@@ -32,19 +32,22 @@ class SightingHistory {
   std::uint64_t frames() const { return frames_; }
   /// Whether frame `number` is still kept.
   bool holds(std::uint64_t number) const { return number < frames_ && number + kFrames >= frames_; }
-  /// What a kept frame saw.
+  /// What a kept frame saw, forgotten landmarks among it.
   std::span<const Sighting> frame(std::uint64_t number) const { return slot(number).sightings; }
   /// Where a kept frame was placed, when it was: the map may have moved since.
   const Pose& pose(std::uint64_t number) const { return slot(number).T_map_sensor; }
 
   /// Gives the sightings of one landmark to another. O(sightings kept).
   void rename(Index from, Index into);
-  /// Drops the sightings of a landmark. O(sightings kept).
+  /// The sightings of a landmark count no more, now or later. They stay where they are: O(1).
   void forget(Index landmark);
-  /// Whether one of the last kTogether frames saw both. O(their sightings).
+  bool is_forgotten(Index landmark) const {
+    return landmark < forgotten_.size() && forgotten_[landmark] != 0;
+  }
+  /// Whether one of the last kTogether frames saw both, and neither is forgotten. O(their sightings).
   bool saw_together(Index a, Index b) const;
 
-  void clear() { frames_ = 0; }
+  void clear();
 
   static constexpr std::size_t kFrames = 256;
   static constexpr std::size_t kTogether = 64;
@@ -60,6 +63,7 @@ class SightingHistory {
   std::uint64_t oldest() const { return frames_ > kFrames ? frames_ - kFrames : 0; }
 
   std::vector<Frame> ring_ = std::vector<Frame>(kFrames);
+  std::vector<std::uint8_t> forgotten_;  // by landmark
   std::uint64_t frames_ = 0;
 };
 

@@ -56,10 +56,15 @@ TEST(SightingHistory, KnowsWhatWasSeenTogether) {
   history.rename(3, 2);
   history.forget(1);
   EXPECT_FALSE(history.saw_together(1, 2));
+  EXPECT_FALSE(history.saw_together(2, 1));
+  EXPECT_TRUE(history.is_forgotten(1));
+  EXPECT_FALSE(history.is_forgotten(2));
   EXPECT_EQ(history.frame(1).front().landmark, 2u);
   for (std::size_t f = 0; f < SightingHistory::kTogether; ++f) see({4});
   see({4, 5});
   EXPECT_TRUE(history.saw_together(4, 5));
+  history.clear();
+  EXPECT_FALSE(history.is_forgotten(1));
 }
 
 // ---- Watch
