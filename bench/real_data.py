@@ -20,7 +20,8 @@ STEREO = {"noise_m": 0.02, "noise_per_m2": 0.001}
 KITTI_WAYS = (
     ("tracks", {**STEREO, "association": "sensor"}),
     ("tracks, equal weights", {"noise_m": 0.1, "association": "sensor"}),
-    ("place", {**STEREO, "noise_per_m2": 0.0015, "match_bound_m": 1, "map_bound_m": 1, "overlap": 0.15, "window": 1, "global_period": 0}),
+    ("place", {**STEREO, "noise_per_m2": 0.0015, "match_bound_m": 1, "map_bound_m": 1, "overlap": 0.15, "window": 1,
+               "global_period": 0, "find_moving": 0}),
 )
 DEMO_WAYS = (
     ("ids as tracks", ["--ids-as-tracks"], {"noise_m": 0.011, "association": "sensor"}),

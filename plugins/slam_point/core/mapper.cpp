@@ -116,6 +116,9 @@ class Mapper::State {
   void search_turn();
   bool look_from(const Pose& T_map_sensor);
   bool is_placed();
+  bool is_expected() const;
+  bool contradicts() const;
+  std::ptrdiff_t matched_points() const;
   std::size_t comparable_points() const;
   int determined_by_few() const;
   void lose_pose();
@@ -172,9 +175,10 @@ class Mapper::State {
   ConstellationIndex constellations_;
   Relocaliser relocaliser_;
   PartMeeting meeting_;
-  Placement found_;         // of this frame, by what it sees alone, where tracking cannot go on to
-  std::vector<Vec3> view_;  // what is looked for in other parts, sensor frame
-  int false_parts_ = 0;     // parts begun that no second frame was placed in, since one was
+  Placement found_;             // of this frame, by what it sees alone, where tracking cannot go on to
+  std::vector<Vec3> view_;      // what is looked for in other parts, sensor frame
+  std::vector<double> noises_;  // of a frame in view_: standard deviation of a coordinate [m]
+  int false_parts_ = 0;         // parts begun that no second frame was placed in, since one was
   bool map_step_ready_ = false;
   bool window_step_due_ = false;  // to be begun at the next frame
   bool map_step_due_ = false;     // to be begun when none over the window is under way
@@ -196,6 +200,7 @@ class Mapper::State {
   bool has_pose_ = false;
   bool first_of_submap_ = false;
   int frames_without_pose_ = 0;
+  bool contradicted_ = false;  // the prediction, by one of them
   std::uint64_t placed_frames_ = 0;
   std::uint64_t activation_ = 0;
   std::vector<Index> window_;  // the last submaps closed, newest last
@@ -409,15 +414,34 @@ bool Mapper::State::is_placed() {
   // Where it is expected, two determine the pose in a plane; but a frame of no more than these has nothing to check them by.
   int least = planar_ && frame_.size() >= kLeastAgreeing ? kLeastInPlane : kLeastAgreeing;
   if (searched_) least = kLeastAgreeing;
-  if (frames_without_pose_ > 0) least = kLeastAfterLoss;
-  if (frames_without_pose_ > kShortGap) least = kLeastAfterGap;
-  if (frames_without_pose_ > 0 && agreeing_ >= least) {
+  const bool strayed = !is_expected();
+  if (strayed) least = kLeastAfterLoss;
+  if (strayed && frames_without_pose_ > kShortGap) least = kLeastAfterGap;
+  if (strayed && agreeing_ >= least) {
     gather_frame();
-    if (relocaliser_.chance_at(graph_, view_, T_map_sensor_, planar_, kTriedAfterGap) > kMostAfterGap)
+    if (relocaliser_.chance_at(graph_, view_, noises_, T_map_sensor_, planar_, kTriedAfterGap) >
+        kMostAfterGap)
       return false;
   }
   return agreeing_ >= least &&
          static_cast<double>(agreeing_) >= kLeastShare * static_cast<double>(comparable_points());
+}
+
+/// Whether the sensor is where the prediction has it as surely as after a frame with a pose.
+bool Mapper::State::is_expected() const {
+  return frames_without_pose_ == 0 || (!contradicted_ && !searched_ && frames_without_pose_ <= kShortGap);
+}
+
+/// Whether this frame, which has no pose, tells that the prediction is wrong. One that shows what was expected
+/// and does not determine a pose, as points of much noise do not, speaks for the prediction.
+bool Mapper::State::contradicts() const {
+  const auto matched = static_cast<int>(matched_points());
+  return fits_ || matched < kSurePoints || matched < kSureShare * static_cast<double>(comparable_points());
+}
+
+std::ptrdiff_t Mapper::State::matched_points() const {
+  return std::count_if(frame_.begin(), frame_.end(),
+                       [](const Observation& observation) { return observation.landmark != kNone; });
 }
 
 std::size_t Mapper::State::comparable_points() const {
@@ -429,9 +453,7 @@ std::size_t Mapper::State::comparable_points() const {
 int Mapper::State::determined_by_few() const {
   // What fits and yet does not agree tells nothing, nor does what was expected long ago.
   if (fits_ || frames_without_pose_ >= options_.bridge_frames) return 0;
-  const auto matched = std::count_if(frame_.begin(), frame_.end(), [](const Observation& observation) {
-    return observation.landmark != kNone;
-  });
+  const std::ptrdiff_t matched = matched_points();
   if (matched == 0) return 0;
   if (planar_) return 2;
   return matched == 1 ? 3 : 5;
@@ -439,6 +461,7 @@ int Mapper::State::determined_by_few() const {
 
 void Mapper::State::lose_pose() {
   answer_.determined = determined_by_few();
+  contradicted_ = contradicts() || (frames_without_pose_ > 0 && contradicted_);
   for (Observation& observation : frame_) observation.landmark = kNone;
   ++frames_without_pose_;
 }
@@ -454,7 +477,11 @@ bool Mapper::State::recover() {
 
 void Mapper::State::gather_frame() {
   view_.clear();
-  for (const Observation& observation : frame_) view_.push_back(observation.point);
+  noises_.clear();
+  for (const Observation& observation : frame_) {
+    view_.push_back(observation.point);
+    noises_.push_back(options_.noise_m / std::sqrt(observation.weight));
+  }
 }
 
 /// Goes on from where the frame was found.

@@ -29,7 +29,9 @@ class Mapper {
   /// pose when the points matched to the map determine one: at least three (two in a plane of three in view or more; four after a frame without a
   /// pose, five after more than three such frames), spread so that the rotation's standard deviation is below 0.1 rad; and when
   /// enough of them agree with the map: at least two fifths of the points in view, or of those the last placed frame saw if
-  /// fewer. Where that fails, the frame is looked for in all of the map by its constellations of points (Relocaliser).
+  /// fewer. Up to three frames that showed what was expected (six points, and half of those comparable) and did not
+  /// determine a pose do not count as frames without one there. Where that fails, the frame is looked for in all of
+  /// the map by its constellations of points (Relocaliser).
   ///
   /// A frame without a pose leaves the map unchanged, and the prediction goes on; but while only one frame is placed,
   /// a frame that does not fit it starts the map over if it can, with new landmark ids. After Options::bridge_frames such frames

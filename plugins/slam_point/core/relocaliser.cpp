@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -25,20 +26,24 @@ constexpr double kMostByChance = 1e-8;
 constexpr double kLeastShareOfPoints = 0.4;
 constexpr double kRivalShare = 0.6;
 constexpr int kTrianglePoints = 3;
+constexpr double kMostChance = 0.9;    // of one point
 constexpr double kMostOfRival = 1e-3;  // expected by chance: above, a rival is nothing but that
 constexpr std::array<double, 3> kTolerances{
     1.0, 0.5, 0.25};  // parts of what counts as noise that agreement is judged by
 
-/// The chance that at least `least` of `n` come true, each with chance p. O(n).
-double binomial_tail(int n, int least, double p) {
+/// The chance that at least `least` of events that are independent of each other come true, each with its own chance.
+/// O(events * least).
+double chance_of_at_least(int least, const std::vector<double>& chances, std::vector<double>& of_count) {
   if (least <= 0) return 1.0;
-  if (least > n) return 0.0;
-  double sum = 0.0;
-  for (int k = least; k <= n; ++k) {
-    const double choose = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
-    sum += std::exp(choose + k * std::log(p) + (n - k) * std::log1p(-p));
+  const auto most = static_cast<std::size_t>(least);
+  of_count.assign(most + 1, 0.0);  // number that came true, where `least` means that or more -> its chance
+  of_count[0] = 1.0;
+  for (const double p : chances) {
+    of_count[most] += p * of_count[most - 1];
+    for (std::size_t k = most - 1; k > 0; --k) of_count[k] += p * (of_count[k - 1] - of_count[k]);
+    of_count[0] *= 1.0 - p;
   }
-  return std::min(1.0, sum);
+  return std::min(1.0, of_count[most]);
 }
 
 /// An orthonormal frame on a triangle.
@@ -65,6 +70,7 @@ bool Relocaliser::locate(const SubmapGraph& graph, const ConstellationIndex& ind
                          const std::vector<Vec3>& points, Index except, bool planar, Placement& placement) {
   planar_ = planar;
   choose_points(points);
+  widths_.assign(points_.size(), 1.0);
   if (points_.size() <= static_cast<std::size_t>(kTrianglePoints)) return false;
   make_queries();
   look_up(graph, index, except);
@@ -251,9 +257,10 @@ void Relocaliser::match(const SubmapGraph& graph, const Hypothesis& hypothesis, 
   taken_list_.clear();
   for (Index p = 0; p < points_.size(); ++p) {
     const Vec3 at = hypothesis.T * points_[p];
+    const double bound = bound_of(p, bound_m);
     graph.visit_part_landmarks_near(hypothesis.part, at, [&](Index l) {
       const double d2 = (graph.landmarks[l].position - at).squaredNorm();
-      if (d2 <= bound_m * bound_m) matches_.push_back({d2, p, l});
+      if (d2 <= bound * bound) matches_.push_back({d2, p, l});
     });
   }
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
@@ -306,9 +313,12 @@ void Relocaliser::count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesi
 }
 
 double Relocaliser::chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
-                              const Pose& T_map_points, bool planar, int tried) {
+                              const std::vector<double>& noises, const Pose& T_map_points, bool planar,
+                              int tried) {
   planar_ = planar;
   choose_points(points);
+  widths_.clear();
+  for (const std::uint32_t i : order_) widths_.push_back(noises[i] / noise_);
   taken_.resize(graph.landmarks.size(), 0);
   tried_ = tried;
   trial_.T = T_map_points;
@@ -340,30 +350,42 @@ void Relocaliser::keep(Hypothesis& hypothesis) {
   }
 }
 
+double Relocaliser::bound_of(Index point, double bound_m) const {
+  return std::min(widths_[point] * bound_m, reach_);
+}
+
 double Relocaliser::expected_by_chance(const SubmapGraph& graph, const Hypothesis& place) {
   std::size_t others = 0;
-  residuals2_.clear();
+  residuals2_.assign(points_.size(), std::numeric_limits<double>::infinity());
   for (Index p = 0; p < points_.size(); ++p) {
     const Vec3 at = place.T * points_[p];
     graph.visit_part_landmarks_near(place.part, at, [&](Index l) {
       const double d2 = (graph.landmarks[l].position - at).squaredNorm();
-      if (l == place.landmarks[p]) residuals2_.push_back(d2);
+      if (l == place.landmarks[p]) residuals2_[p] = d2;
       if (d2 <= reach_ * reach_ && l != place.landmarks[p]) ++others;
     });
   }
-  const auto n = static_cast<int>(points_.size());
   // One more than was seen, so that nothing is impossible.
-  const double within_reach = (static_cast<double>(others) + 1.0) / n;
+  const double within_reach = (static_cast<double>(others) + 1.0) / static_cast<double>(points_.size());
   double least = 1.0;
-  for (const double share : kTolerances) {
-    const double bound = share * agreement_;
-    const auto agreeing =
-        std::count_if(residuals2_.begin(), residuals2_.end(), [&](double d2) { return d2 <= bound * bound; });
-    const double p = std::min(0.9, within_reach * std::pow(bound / reach_, planar_ ? 2 : 3));
-    least =
-        std::min(least, binomial_tail(n - kTrianglePoints, static_cast<int>(agreeing) - kTrianglePoints, p));
-  }
+  for (const double share : kTolerances) least = std::min(least, chance_within(share, within_reach));
   return std::max(1, tried_) * static_cast<double>(kTolerances.size()) * least;
+}
+
+double Relocaliser::chance_within(double share, double within_reach) {
+  chances_.clear();
+  agreeing_chances_.clear();
+  for (Index p = 0; p < points_.size(); ++p) {
+    const double bound = bound_of(p, share * agreement_);
+    const double chance = std::min(kMostChance, within_reach * std::pow(bound / reach_, planar_ ? 2 : 3));
+    (residuals2_[p] <= bound * bound ? agreeing_chances_ : chances_).push_back(chance);
+  }
+  if (agreeing_chances_.size() <= kTrianglePoints) return 1.0;
+  // Those that say most are taken for the triangle, which was chosen to agree.
+  std::sort(agreeing_chances_.begin(), agreeing_chances_.end());
+  chances_.insert(chances_.end(), agreeing_chances_.begin() + kTrianglePoints, agreeing_chances_.end());
+  const auto beyond = static_cast<int>(agreeing_chances_.size()) - kTrianglePoints;
+  return chance_of_at_least(beyond, chances_, of_count_);
 }
 
 }  // namespace hallway::slam_point

@@ -44,9 +44,11 @@ class Relocaliser {
               Index except, bool planar, Placement& placement);
 
   /// How many wrong hypotheses, of `tried`, were to be expected that agree with the current part as well as these points do at
-  /// T_map_points. O(points).
-  double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points, const Pose& T_map_points,
-                   bool planar, int tried);
+  /// T_map_points. Each point has a noise of its own (standard deviation of a coordinate [m], one for each point)
+  /// that its agreement is judged by, as far as `reach_m`: an exact point tells more than one that has landmarks
+  /// within its noise anywhere. O(points^2), of at most 64 points.
+  double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
+                   const std::vector<double>& noises, const Pose& T_map_points, bool planar, int tried);
 
  private:
   /// A triangle of the points.
@@ -83,7 +85,9 @@ class Relocaliser {
   void match(const SubmapGraph& graph, const Hypothesis& hypothesis, double bound_m);
   bool fit(const SubmapGraph& graph, Hypothesis& hypothesis);
   void keep(Hypothesis& hypothesis);
+  double bound_of(Index point, double bound_m) const;
   double expected_by_chance(const SubmapGraph& graph, const Hypothesis& place);
+  double chance_within(double share, double within_reach);
 
   FitRules planar_rules_;
   FitRules solid_rules_;
@@ -92,13 +96,18 @@ class Relocaliser {
   double coarse_;     // bound of a first match [m]
   double agreement_;  // a residual up to here is noise [m]
   bool planar_ = false;
-  std::vector<Vec3> points_;  // those looked for: nearest to their origin
+  std::vector<Vec3> points_;    // those looked for: nearest to their origin
+  std::vector<double> widths_;  // point -> its noise, in noise_m
   std::vector<std::uint32_t> order_;
   std::vector<Query> queries_;
   std::vector<Triangle> alike_;
   std::vector<std::pair<double, Index>> near_;
   std::vector<Match> matches_;
-  std::vector<double> residuals2_;
+  std::vector<double>
+      residuals2_;               // point -> squared distance from its landmark, infinite where there is none
+  std::vector<double> chances_;  // of points, to lie on a landmark wherever they are
+  std::vector<double> agreeing_chances_;
+  std::vector<double> of_count_;
   std::vector<Pair> pairs_;
   std::vector<std::uint8_t> taken_;  // landmark -> matched
   std::vector<Index> taken_list_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -157,6 +158,74 @@ TEST(MapperLostOnce, ASuddenTurnAboutAnyAxisIsFound) {
     EXPECT_TRUE(drive.right());
   }
   EXPECT_EQ(drive.wrong(), 0);
+}
+
+/// Near landmarks all around, of which a stereo camera knows well where they are, and far ones ahead, which do
+/// not determine how it is turned.
+struct NearAndFar {
+  std::vector<Vec3> near;
+  std::vector<Vec3> far;
+  Options options;
+  scenes::Random random{3};
+  NearAndFar() {
+    for (int i = 0; i < 20; ++i) {
+      const double angle = 0.3 * i;
+      const double range = random.uniform(6.0, 12.0);
+      near.emplace_back(range * std::cos(angle), range * std::sin(angle), random.uniform(-3.0, 3.0));
+    }
+    for (int i = 0; i < 10; ++i)
+      far.emplace_back(60.0 + 2.0 * i, random.uniform(-6.0, 6.0), random.uniform(-4.0, 4.0));
+    options.noise_m = 0.02;
+    options.noise_per_m2 = 0.0015;
+    options.match_bound_m = options.map_bound_m = 1.0;
+  }
+  /// What is seen of landmarks, with a share of the noise that is reckoned with.
+  std::vector<Vec3> see(const std::vector<Vec3>& landmarks, double share = 0.02) {
+    std::vector<Vec3> points;
+    for (const Vec3& p : landmarks) {
+      const double noise = share * options.noise_at(p.norm());
+      points.push_back(p + noise * Vec3(random.normal(), random.normal(), random.normal()));
+    }
+    return points;
+  }
+  std::vector<Vec3> all() const {
+    std::vector<Vec3> both = near;
+    both.insert(both.end(), far.begin(), far.end());
+    return both;
+  }
+};
+
+TEST(MapperLostOnce, FramesThatShowWhatIsExpectedButNoPoseAreBridged) {
+  NearAndFar world;
+  Mapper mapper(world.options);
+  for (int f = 0; f < 20; ++f) ASSERT_TRUE(mapper.process(world.see(world.all())).has_pose) << f;
+  for (int f = 0; f < 3; ++f) ASSERT_FALSE(mapper.process(world.see(world.far)).has_pose) << f;
+  // Three agree where the sensor is expected: too few to tell where else it could be.
+  const std::vector<Vec3> few{world.near[0], world.near[7], world.near[14]};
+  const Answer& answer = mapper.process(world.see(few));
+  ASSERT_TRUE(answer.has_pose);
+  EXPECT_LT(answer.T_map_sensor.t.norm(), 0.2);
+}
+
+TEST(MapperLostOnce, FramesThatShowSomethingElseAreNotBridged) {
+  NearAndFar world;
+  Mapper mapper(world.options);
+  for (int f = 0; f < 20; ++f) ASSERT_TRUE(mapper.process(world.see(world.all())).has_pose) << f;
+  std::vector<Vec3> elsewhere = world.far;
+  for (Vec3& p : elsewhere) p.x() -= 30.0;
+  ASSERT_FALSE(mapper.process(world.see(elsewhere)).has_pose);
+  const std::vector<Vec3> few{world.near[0], world.near[7], world.near[14]};
+  EXPECT_FALSE(mapper.process(world.see(few)).has_pose);
+}
+
+TEST(MapperLostOnce, NoiseThatGrowsWithTheRangeIsNoReasonToStayLost) {
+  NearAndFar world;
+  Mapper mapper(world.options);
+  for (int f = 0; f < 20; ++f) ASSERT_TRUE(mapper.process(world.see(world.all(), 0.8)).has_pose) << f;
+  ASSERT_FALSE(mapper.process({}).has_pose);
+  const Answer& answer = mapper.process(world.see(world.all(), 0.8));
+  ASSERT_TRUE(answer.has_pose);
+  EXPECT_LT(answer.T_map_sensor.t.norm(), 0.2);
 }
 
 /// Maps one stretch, is carried to unknown ground, and drives from there back to the first stretch.

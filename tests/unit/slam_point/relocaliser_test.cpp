@@ -32,6 +32,9 @@ class Ground {
   bool locate(const std::vector<Vec3>& points, Placement& found, Index except = kNone) {
     return relocaliser_.locate(graph_, index_, points, except, planar_, found);
   }
+  double chance_at(const std::vector<Vec3>& points, const std::vector<double>& noises, const Pose& T) {
+    return relocaliser_.chance_at(graph_, points, noises, T, planar_, 1);
+  }
 
  private:
   bool planar_;
@@ -143,6 +146,39 @@ TEST_P(RelocaliserIn, FewPointsAreNoAnswer) {
     const std::vector<Vec3> few(landmarks.begin(), landmarks.begin() + static_cast<std::ptrdiff_t>(count));
     EXPECT_FALSE(ground.locate(few, placement)) << count;
   }
+}
+
+TEST_P(RelocaliserIn, AgreementIsJudgedByTheNoiseOfEachPoint) {
+  const bool planar = GetParam();
+  scenes::Random random(6);
+  const std::vector<Vec3> landmarks = scattered(random, 500, 100.0, planar);
+  Ground ground(planar);
+  ground.add_part(0, landmarks);
+  const Pose truth = scenes::heading(Vec3(5.0, -8.0, 0.0), 0.4);
+  std::vector<Vec3> points;
+  std::vector<double> noises;
+  for (const Vec3& p : seen_from(truth, landmarks, 30.0, random, planar)) {
+    noises.push_back(0.01 * p.norm());
+    const Vec3 noise = noises.back() * Vec3(random.normal(), random.normal(), planar ? 0.0 : random.normal());
+    points.push_back(p + noise);
+  }
+  ASSERT_GE(points.size(), 20u);
+  const std::vector<double> too_small(points.size(), 0.01);
+  EXPECT_LT(ground.chance_at(points, noises, truth), 1e-6);
+  EXPECT_GT(ground.chance_at(points, too_small, truth), 1e-2);
+  for (int trial = 0; trial < 100; ++trial)
+    EXPECT_GT(ground.chance_at(points, noises, anywhere(random, planar)), 1e-3);
+}
+
+/// Points that may lie on a landmark wherever they are tell nothing, however many of them do.
+TEST_P(RelocaliserIn, ManyPointsOfMuchNoiseTellNothing) {
+  const bool planar = GetParam();
+  scenes::Random random(7);
+  Ground ground(planar);
+  ground.add_part(0, scattered(random, 400, 6.0, planar));
+  const std::vector<Vec3> points = scattered(random, 40, 5.0, planar);
+  const std::vector<double> noises(points.size(), 0.2);
+  EXPECT_GT(ground.chance_at(points, noises, Pose{}), 1e-2);
 }
 
 INSTANTIATE_TEST_SUITE_P(SpaceAndPlane, RelocaliserIn, testing::Bool());
