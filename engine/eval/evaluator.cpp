@@ -134,13 +134,14 @@ Metrics Evaluator::metrics(std::span<const MapLandmark> online,
   metrics.lost_iterations = lost_;
   metrics.landmarks_mapped = count_mapped(online);
   metrics.associations_none = associations_.none();
-  if (truth_.has_identities) score_landmarks(online, refined, metrics);
+  std::optional<Pose> T_map_world;
+  if (truth_.has_identities) T_map_world = score_landmarks(online, refined, metrics);
   metrics.position_pairs = trajectory_.pairs();
   metrics.position_rmse_m = trajectory_.position_rmse_m();
   if (refined) score_refitted_path(*refined, metrics);
   metrics.position_final_m = trajectory_.position_final_m();
   metrics.rotation_rmse_deg = trajectory_.rotation_rmse_deg();
-  metrics.pose_consistency = trajectory_.consistency();
+  metrics.pose_consistency = trajectory_.consistency(T_map_world);
   metrics.iteration_ms = summarize(wall_ms_);
   metrics.iteration_cpu_ms = summarize(cpu_ms_);
   return metrics;
@@ -153,9 +154,9 @@ void Evaluator::score_refitted_path(const std::vector<MapLandmark>& refined, Met
   metrics.position_rmse_refitted_aligned_m = error->aligned_m;
 }
 
-void Evaluator::score_landmarks(std::span<const MapLandmark> online,
-                                const std::optional<std::vector<MapLandmark>>& refined,
-                                Metrics& metrics) const {
+std::optional<Pose> Evaluator::score_landmarks(std::span<const MapLandmark> online,
+                                               const std::optional<std::vector<MapLandmark>>& refined,
+                                               Metrics& metrics) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   metrics.association_errors = ownership.errors;
   OwnerMap owner = ownership.owner;
@@ -169,7 +170,7 @@ void Evaluator::score_landmarks(std::span<const MapLandmark> online,
   for (const LandmarkId landmark : associations_.seen()) observed += moves(landmark) ? 0u : 1u;
   count_landmarks(standing, owner, observed, metrics);
   if (motion_) metrics.moving = motion_->metrics(online, associations_.votes());
-  if (!truth_.landmarks) return;
+  if (!truth_.landmarks) return std::nullopt;
   const PositionMap truth = positions_by_id(*truth_.landmarks);
   const LandmarkPairs pairs = pair_landmarks(online, owner, truth);
   metrics.landmark_pairs = pairs.truth.size();
@@ -177,10 +178,13 @@ void Evaluator::score_landmarks(std::span<const MapLandmark> online,
     metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *T_world_map);
   }
   metrics.landmark_rmse_m.aligned = aligned_rmse(pairs.truth, pairs.estimate);
-  if (!refined) return;
-  const LandmarkPairs final_pairs = pair_landmarks(*refined, owner, truth);
-  metrics.landmark_rmse_final_aligned_m = aligned_rmse(final_pairs.truth, final_pairs.estimate);
-  metrics.landmark_consistency = landmark_consistency(final_pairs);
+  if (refined) {
+    const LandmarkPairs final_pairs = pair_landmarks(*refined, owner, truth);
+    metrics.landmark_rmse_final_aligned_m = aligned_rmse(final_pairs.truth, final_pairs.estimate);
+    metrics.landmark_consistency = landmark_consistency(final_pairs);
+  }
+  if (!determine_a_pose(pairs.truth) || !determine_a_pose(pairs.estimate)) return std::nullopt;
+  return rigid_fit(pairs.truth, pairs.estimate);
 }
 
 }  // namespace hallway::eval

@@ -39,7 +39,7 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
-  double noise_m = 0.0;                                 ///< of the sensor: the largest of its axes, standard deviation
+  double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
 };
 
 /// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
@@ -66,8 +66,10 @@ class Evaluator {
 
  private:
   void score_refitted_path(const std::vector<log::MapLandmark>& refined, Metrics& metrics) const;
-  void score_landmarks(std::span<const log::MapLandmark> online,
-                       const std::optional<std::vector<log::MapLandmark>>& refined, Metrics& metrics) const;
+  /// @return T_map_world by the landmarks of `online`, if they determine it
+  std::optional<Pose> score_landmarks(std::span<const log::MapLandmark> online,
+                                      const std::optional<std::vector<log::MapLandmark>>& refined,
+                                      Metrics& metrics) const;
 
   bool moves(log::LandmarkId landmark) const { return motion_ && motion_->moves(landmark); }
 

@@ -76,7 +76,7 @@ struct Metrics {
   AlignedRmse rotation_rmse_deg;           ///< aligned: orientations fitted by one rotation
 
   Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
-  Consistency pose_consistency;      ///< poses as answered, after the fit of their positions
+  Consistency pose_consistency;      ///< poses as answered, after the fit of the online map's landmarks
 
   std::optional<TimeSummary> iteration_ms;      ///< wall clock
   std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time

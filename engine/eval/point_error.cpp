@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/point_error.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 #include <cstddef>
 
@@ -22,6 +24,19 @@ std::optional<double> aligned_rmse(std::span<const Vec3> truth, std::span<const 
   constexpr std::size_t kFewestPoints = 3;
   if (truth.size() < kFewestPoints) return std::nullopt;
   return rmse(truth, estimate, *rigid_fit(estimate, truth));
+}
+
+bool determine_a_pose(const std::vector<Vec3>& points) {
+  constexpr std::size_t kFewestPoints = 3;
+  constexpr double kLeastExtent = 0.01;  // of the largest
+  if (points.size() < kFewestPoints) return false;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
+  const Vec3 squares = eigen.eigenvalues();  // ascending
+  return squares(2) > 0.0 && squares(1) >= kLeastExtent * kLeastExtent * squares(2);
 }
 
 }  // namespace hallway::eval

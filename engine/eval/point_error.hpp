@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geom/pose.hpp"
 
@@ -15,5 +16,8 @@ std::optional<double> rmse(std::span<const Vec3> truth, std::span<const Vec3> es
 /// The same after the rigid motion without scale that makes it least (Umeyama 1991); what `evo_ape --align` prints. Empty
 /// for fewer than three points, whose fit says nothing.
 std::optional<double> aligned_rmse(std::span<const Vec3> truth, std::span<const Vec3> estimate);
+
+/// Whether points are enough, and far enough from one line (a hundredth of their extent along it), to determine a pose by a fit.
+bool determine_a_pose(const std::vector<Vec3>& points);
 
 }  // namespace hallway::eval

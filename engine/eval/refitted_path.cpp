@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "eval/refitted_path.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <unordered_map>
 
 #include "base/error.hpp"
@@ -10,9 +9,6 @@
 
 namespace hallway::eval {
 namespace {
-
-constexpr std::size_t kFewestPoints = 3;
-constexpr double kLeastExtent = 0.01;  // of the largest
 
 /// The points of one frame beside the landmarks that they were taken for.
 struct Matches {
@@ -26,18 +22,6 @@ struct Matches {
     weights.clear();
   }
 };
-
-/// Whether points are enough, and far enough from one line, to determine a pose.
-bool determine_a_pose(const std::vector<Vec3>& points) {
-  if (points.size() < kFewestPoints) return false;
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
-  const Vec3 squares = eigen.eigenvalues();  // ascending
-  return squares(2) > 0.0 && squares(1) >= kLeastExtent * kLeastExtent * squares(2);
-}
 
 }  // namespace
 

@@ -68,10 +68,10 @@ AlignedRmse TrajectoryScore::rotation_rmse_deg() const {
           rotation_rmse(truth_q_, estimate_q_, nearest_rotation(sum))};
 }
 
-Consistency TrajectoryScore::consistency() const {
+Consistency TrajectoryScore::consistency(const std::optional<Pose>& fit) const {
   Consistency consistency;
   if (truth_.size() < 3 || !orientations_known_) return consistency;
-  const Pose T_map_world = *rigid_fit(truth_, estimate_);
+  const Pose T_map_world = fit ? *fit : *rigid_fit(truth_, estimate_);
   for (const Stated& stated : stated_) {
     const Eigen::AngleAxisd turn(T_map_world.q * truth_q_[stated.pair] *
                                  estimate_q_[stated.pair].conjugate());

@@ -31,9 +31,10 @@ class TrajectoryScore {
   /// Rotation errors, degrees; `aligned`: after the one rotation of the map that leaves the least sum of squared chordal
   /// distances between true and estimated orientations (Hartley et al. 2013, section 5.3).
   AlignedRmse rotation_rmse_deg() const;
-  /// Errors of the poses in the map's frame, after the best fit of their positions, beside the covariances stated for them.
+  /// Errors of the poses in the map's frame beside the covariances stated for them. `T_map_world`: how the truth lies in the
+  /// map; empty: by the best fit of the poses' positions, which leaves open how a path on a line is turned about it.
   /// Nothing below three pairs or without orientations.
-  Consistency consistency() const;
+  Consistency consistency(const std::optional<Pose>& T_map_world) const;
   /// Position error of the last pair in first_pose_frame(), metres.
   std::optional<double> position_final_m() const;
 

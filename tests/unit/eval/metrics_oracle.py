@@ -96,6 +96,13 @@ def weighted_fit(model, data, weights):
     return r, mean_data - r @ mean_model
 
 
+def determine_a_pose(points):
+    if len(points) < 3:
+        return False
+    extent = np.linalg.svd(np.array(points) - np.mean(points, axis=0), compute_uv=False)
+    return extent[0] > 0 and extent[1] >= 0.01 * extent[0]
+
+
 def score_refitted(run, result):
     if run["refined"] is None:
         return
@@ -109,8 +116,7 @@ def score_refitted(run, result):
         if len(pairs) < 3:
             continue
         landmarks = np.array([m["position"] for _, m in pairs])
-        extents = [np.linalg.svd(side - side.mean(axis=0), compute_uv=False) for side in (points, landmarks)]
-        if any(extent[0] == 0 or extent[1] < 0.01 * extent[0] for extent in extents):
+        if not (determine_a_pose(points) and determine_a_pose(landmarks)):
             continue
         weights = [m["observations"] / (m["observations"] + 1) for _, m in pairs]
         _, t = weighted_fit(points, landmarks, weights)
@@ -142,7 +148,12 @@ def score_pose_nees(run, result):
     pairs = [(i["truth"], i["estimate"], i["covariance"]) for i in run["iterations"] if i["truth"] and i["estimate"]]
     if len(pairs) < 3:
         return
-    r, t = umeyama(np.array([a[:3] for a, _, _ in pairs]).T, np.array([b[:3] for _, b, _ in pairs]).T)
+    truth, estimate = [a[:3] for a, _, _ in pairs], [b[:3] for _, b, _ in pairs]
+    if run["has_identities"] and run["landmarks"] is not None:
+        of_landmarks = landmark_pairs(run["online"], owners(run["iterations"])[0], run["landmarks"])
+        if all(determine_a_pose(side) for side in of_landmarks):
+            truth, estimate = of_landmarks
+    r, t = umeyama(np.array(truth).T, np.array(estimate).T)
     errors = [(np.concatenate([r @ np.array(a[:3]) + t - np.array(b[:3]),
                                rotation_vector(r @ rotation(a[3:]) @ rotation(b[3:]).T)]), np.array(c))
               for a, b, c in pairs if c is not None]
