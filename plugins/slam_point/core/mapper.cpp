@@ -10,14 +10,17 @@
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/constellation_index.hpp"
 #include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/landmark_merging.hpp"
 #include "slam_point/core/map_parts.hpp"
-#include "slam_point/core/map_refiner.hpp"
-#include "slam_point/core/map_step.hpp"
+#include "slam_point/core/map_report.hpp"
 #include "slam_point/core/motion_filter.hpp"
+#include "slam_point/core/motion_prediction.hpp"
 #include "slam_point/core/pose_information.hpp"
 #include "slam_point/core/relocaliser.hpp"
 #include "slam_point/core/segment_store.hpp"
+#include "slam_point/core/step_schedule.hpp"
 #include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/submap_overlap.hpp"
 #include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
@@ -34,35 +37,17 @@ constexpr int kLeastAfterGap = 5;    // after more than a short gap
 constexpr int kShortGap = 3;         // frames
 constexpr int kTriedAfterGap = 300;  // places, as many as the turns that are tried
 constexpr double kMostAfterGap = 1e-3;
-constexpr double kWorthwhileGain =
-    1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
-constexpr double kWorkPerClose =
-    6e5;  // multiplications for steps over the whole map that a close earns; those that factorise a window of 20
-constexpr double kMostClosesSaved = 100.0;
-constexpr double kMostSteps = 4.0;           // over the whole map, that can be saved up
-constexpr double kWindowWorkPerFrame = 3e5;  // multiplications on the step over the window: 0.2 ms
-constexpr double kMapWorkPerFrame =
-    4e5;  // likewise over the whole map: more, since late steps make later ones later
-constexpr int kMaxSettlePeriod = 1 << 20;
 constexpr int kIndexedPerFrame = 8;          // landmarks whose constellations are noted
 constexpr std::size_t kMovedPerFrame = 100;  // landmarks of a part that moves into another one
 constexpr std::uint64_t kYoungFrames = 10;   // a part with fewer is given up when the sensor gets lost in it
 constexpr std::uint64_t kMeetPeriod = 10;    // frames between looks for other parts, in one that is not young
 constexpr std::size_t kLeastPartPoints = 5;  // that begin another part
 constexpr int kIndexedAtOnce = 64;           // landmarks of the active submap, when a frame is looked for
-constexpr double kMostTravelBounds = 5.0;    // match bounds of travel a frame that are taken for motion
-constexpr double kMostTurn_rad = 1.0;        // likewise
 constexpr int kFalsePartsAtOnce = 8;
 constexpr int kMostDoublings = 6;
 constexpr std::uint32_t kLeastInView = 3;  // observations of a landmark that is looked for in other parts
 constexpr double kIndexNoises = 4.0;
 constexpr double kMeetingNoises = 12.0;
-
-/// A pose in the frame that `anchor` is in, as told: in the frame of `anchor`. While that is the same frame, nothing is rounded.
-Pose told_from(const Pose& anchor, const Pose& pose) {
-  const bool same = anchor.t.isZero(0.0) && anchor.q.vec().isZero(0.0);
-  return same ? pose : anchor.inverse() * pose;
-}
 
 const Options& checked(const Options& options) {
   options.validate();
@@ -85,21 +70,17 @@ class Mapper::State {
         constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
         relocaliser_(options, matcher_.rules(true), matcher_.rules(false), options.map_bound()),
         meeting_(kMeetingNoises * options.noise_m),
-        settle_period_(options.global_period),
+        schedule_(options),
+        prediction_(options.smoothing, options.match_bound()),
         ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
 
   const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
-  Map map() const { return map(graph_.poses); }
+  Map map() const;
   Map refined_map() const;
   const Options& options() const { return options_; }
   void time_stages(StageTimes* times) { clock_.add_to(times); }
 
  private:
-  struct Motion {
-    Vec3 turn = Vec3::Zero();
-    Vec3 travel = Vec3::Zero();
-  };
-
   void place(std::span<const Vec3> points, std::span<const TrackId> tracks);
   void take_points(std::span<const Vec3> points, std::span<const TrackId> tracks);
   void take_tracks(std::span<const TrackId> tracks);
@@ -131,34 +112,22 @@ class Mapper::State {
   int frames_to_bridge(bool false_start) const;
   bool meet_part();
   void join_part(Index other, const Pose& T_other_part);
-  void drop_steps();
   void note_joined();
   void gather_view();
   void learn_motion();
   void add_landmarks();
   bool looks_for_motion() const { return options_.find_moving != 0 && !followed_; }
   void set_moving_apart();
-  double overlap_with_active() const;
   void change_submap();
   void take_submap();
   void close_submap();
-  void begin_window_step();
-  void plan_map_step();
-  void begin_map_step();
-  void apply_steps();
-  void judge_map_step(const StepCost& cost);
-  void advance_steps();
-  void merge_landmarks(Index closed);
-  Index best_old_submap();
   bool reopen(Index submap);
   void open_new_submap();
   void integrate();
   Index told_part() const;
-  bool is_mapped(const LandmarkRecord& landmark) const;
   std::optional<Mat6> pose_covariance() const;
   const Answer& answer();
-  Map map(const std::vector<Pose>& poses) const;
-  void add_moving(const std::vector<Pose>& poses, Map& map) const;
+  MapSource map_source() const;
 
   Options options_;
   FrameMatcher matcher_;
@@ -168,28 +137,23 @@ class Mapper::State {
   SegmentStore segments_;
   std::vector<SegmentStore::Sighting> sightings_;
   TrackBook tracks_;
-  MapStep window_step_;  // over the last submaps
-  MapStep map_step_;     // over all
-  bool window_step_ready_ = false;
   MapParts parts_;
   ConstellationIndex constellations_;
   Relocaliser relocaliser_;
   PartMeeting meeting_;
+  SubmapOverlap overlap_;
+  StepSchedule schedule_;
+  MotionPrediction prediction_;
   Placement found_;             // of this frame, by what it sees alone, where tracking cannot go on to
   std::vector<Vec3> view_;      // what is looked for in other parts, sensor frame
   std::vector<double> noises_;  // of a frame in view_: standard deviation of a coordinate [m]
   int false_parts_ = 0;         // parts begun that no second frame was placed in, since one was
-  bool map_step_ready_ = false;
-  bool window_step_due_ = false;  // to be begun at the next frame
-  bool map_step_due_ = false;     // to be begun when none over the window is under way
 
   std::vector<Observation> frame_;
   FrameMatcher::Fit fit_;
   Pose predicted_;             // T_submap_sensor
   Pose last_T_submap_sensor_;  // of the last frame with a pose
   Pose T_map_sensor_;
-  Motion motion_;  // of one frame, in the frame of the earlier sensor pose
-  bool has_motion_ = false;
   int agreeing_ = 0;           // points of this frame that lie on their landmark up to noise
   std::size_t last_seen_ = 0;  // landmarks seen by the last frame with a pose
   bool searched_ = false;
@@ -203,21 +167,9 @@ class Mapper::State {
   bool contradicted_ = false;  // the prediction, by one of them
   std::uint64_t placed_frames_ = 0;
   std::uint64_t activation_ = 0;
-  std::vector<Index> window_;  // the last submaps closed, newest last
-  std::vector<Index> free_;    // what the step over the window places
   std::vector<Pose> search_bases_;
-  std::vector<std::uint32_t> shared_;  // submap -> landmarks in view of its first frame
-  std::vector<Index> shared_submaps_;
-  bool on_old_ground_ = false;      // what was mapped before the window has been seen since the last close
-  bool was_on_old_ground_ = false;  // the same of the close before
-  bool loop_closed_ = false;        // since the last step over the whole map was begun
-  double earned_work_ = 0.0;        // multiplications that steps over the whole map may take
-  int closes_since_settled_ = 0;
-  int closes_since_loop_ = 0;     // since old ground was met after new
-  double settled_submaps_ = 0.0;  // how many the last step over the whole map places
-  int settle_period_;             // closes between steps over the whole map, as they have proved worth it
-  LandmarkId first_id_ = 0;       // id of landmark 0
-  bool ranges_count_;             // noise grows with the range
+  LandmarkId first_id_ = 0;  // id of landmark 0
+  bool ranges_count_;        // noise grows with the range
   Answer answer_;
   StageClock clock_;
 };
@@ -227,10 +179,10 @@ const Answer& Mapper::State::process(std::span<const Vec3> points, std::span<con
   constellations_.advance(graph_, kIndexedPerFrame);
   parts_.advance(graph_, kMovedPerFrame);
   note_joined();
-  apply_steps();
+  if (schedule_.apply(graph_, planar_, segments_.noise2_m2())) ++answer_.counters.global_steps;
   clock_.end(Stage::solving);
   place(points, tracks);
-  advance_steps();
+  schedule_.advance(answer_.counters.iterations);
   clock_.end(Stage::solving);
   return answer();
 }
@@ -261,7 +213,7 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   if (looks_for_motion()) motion_filter_.follow(graph_, T_map_sensor_, frame_);
   add_landmarks();
   set_moving_apart();
-  const bool is_over = overlap_with_active() < options_.overlap ||
+  const bool is_over = SubmapOverlap::with_active(graph_, frame_) < options_.overlap ||
                        active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
   clock_.end(Stage::averaging);
   if (meet_part()) {
@@ -328,9 +280,8 @@ void Mapper::State::start_map() {
 }
 
 void Mapper::State::predict() {
-  predicted_ = last_T_submap_sensor_;
   const int frames = std::min(frames_without_pose_, options_.bridge_frames) + 1;
-  for (int f = 0; f < frames; ++f) predicted_ = predicted_ * Pose{rotation_exp(motion_.turn), motion_.travel};
+  predicted_ = prediction_.after(last_T_submap_sensor_, frames);
 }
 
 void Mapper::State::match_active_submap() {
@@ -504,8 +455,7 @@ void Mapper::State::enter(const Placement& found) {
 }
 
 void Mapper::State::leave_part(Index part) {
-  window_.clear();
-  drop_steps();
+  schedule_.leave_part();
   if (parts_.frames(part) < kYoungFrames && part != parts_.first()) parts_.drop(graph_, part);
 }
 
@@ -528,14 +478,6 @@ int Mapper::State::frames_to_bridge(bool false_start) const {
   if (!false_start) return options_.bridge_frames;
   if (false_parts_ < kFalsePartsAtOnce) return 0;
   return (1 + options_.bridge_frames) << std::min(false_parts_ - kFalsePartsAtOnce, kMostDoublings);
-}
-
-/// Steps under way place submaps as they no longer are.
-void Mapper::State::drop_steps() {
-  window_step_ = MapStep();
-  map_step_ = MapStep();
-  window_step_ready_ = window_step_due_ = false;
-  map_step_ready_ = map_step_due_ = false;
 }
 
 /// Tells what became the same landmark in a join.
@@ -584,8 +526,7 @@ void Mapper::State::join_part(Index other, const Pose& T_other_part) {
   }
   note_joined();
   matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
-  drop_steps();
-  loop_closed_ = true;
+  schedule_.parts_joined();
   ++answer_.counters.joined;
 }
 
@@ -604,33 +545,19 @@ bool Mapper::State::start_over() {
   parts_.begin(graph_);
   motion_filter_.clear();
   segments_.clear();
-  window_step_ = MapStep();
-  window_step_ready_ = false;
+  schedule_ = StepSchedule(options_);
+  meeting_ = PartMeeting(kMeetingNoises * options_.noise_m);
   tracks_.clear();
   for (Observation& observation : frame_) observation.expected = kNone;
-  map_step_ = MapStep();
-  map_step_ready_ = false;
-  map_step_due_ = false;
   start_map();
   return true;
 }
 
 void Mapper::State::learn_motion() {
   const Pose moved = last_T_submap_sensor_.inverse() * fit_.T_submap_sensor;
-  const double frames = static_cast<double>(frames_without_pose_ + 1);
-  const Vec3 turn = rotation_log(moved.q) / frames;
-  const Vec3 travel = moved.t / frames;
-  // What was carried away did not move so.
-  const bool carried =
-      travel.norm() > kMostTravelBounds * options_.match_bound() || turn.norm() > kMostTurn_rad;
+  prediction_.learn(moved, frames_without_pose_ + 1, searched_);
   frames_without_pose_ = 0;
   last_T_submap_sensor_ = fit_.T_submap_sensor;
-  if (searched_ && carried) return;
-  // After a sudden motion the old average says nothing.
-  const double share = has_motion_ && !searched_ ? options_.smoothing : 1.0;
-  motion_.turn += share * (turn - motion_.turn);
-  motion_.travel += share * (travel - motion_.travel);
-  has_motion_ = true;
 }
 
 void Mapper::State::add_landmarks() {
@@ -658,19 +585,6 @@ void Mapper::State::set_moving_apart() {
   matcher_.fit_map(graph_, frame_, planar_, T_map_sensor_);
 }
 
-double Mapper::State::overlap_with_active() const {
-  const SubmapRecord& submap = graph_.submaps[graph_.active()];
-  std::size_t seen = 0;
-  std::size_t shared = 0;
-  for (const Observation& observation : frame_) {
-    if (observation.landmark == kNone) continue;
-    ++seen;
-    const Index member = graph_.landmarks[observation.landmark].active_member;
-    if (member != kNone && submap.members[member].in_first_frame) ++shared;
-  }
-  return static_cast<double>(shared) / static_cast<double>(seen + submap.first_frame_size - shared);
-}
-
 void Mapper::State::change_submap() {
   close_submap();
   // Submaps have moved, and with them what the frame was fitted to.
@@ -679,7 +593,7 @@ void Mapper::State::change_submap() {
 }
 
 void Mapper::State::take_submap() {
-  const Index old = best_old_submap();
+  const Index old = overlap_.best(graph_, frame_, options_.overlap);
   if (old == kNone || !reopen(old)) open_new_submap();
 }
 
@@ -687,154 +601,14 @@ void Mapper::State::close_submap() {
   const Index closed = graph_.active();
   active_.realign(graph_, options_.sweeps, planar_, matcher_.rules(planar_).min_spread_m2);
   graph_.deactivate();
-  std::erase(window_, closed);
-  if (window_.size() == static_cast<std::size_t>(options_.window)) window_.erase(window_.begin());
-  window_.push_back(closed);
-  // Where closes follow each other faster than a step is computed, the next one takes in what this one leaves out.
-  window_step_due_ = !window_step_.under_way();
-  plan_map_step();
-  merge_landmarks(closed);
+  schedule_.submap_closed(graph_, closed);
+  // Who follows two points says that they are two.
+  if (!followed_) {
+    answer_.counters.merged +=
+        merge_landmarks(graph_, closed, options_.separation(), matcher_, motion_filter_, frame_);
+  }
   constellations_.note(graph_, closed);
   ++answer_.counters.closes;
-}
-
-/// Of the submaps closed last and the one that is active.
-void Mapper::State::begin_window_step() {
-  free_ = window_;
-  if (std::find(free_.begin(), free_.end(), graph_.active()) == free_.end()) free_.push_back(graph_.active());
-  window_step_.begin(graph_, graph_.poses, free_, graph_.active(), planar_);
-  window_step_ready_ = false;
-  window_step_due_ = false;
-}
-
-/// Between frames: what is ready moves submaps, and with them what is active.
-void Mapper::State::apply_steps() {
-  if (window_step_.under_way() && window_step_ready_) {
-    const StepCost cost = window_step_.apply(graph_, graph_.poses);
-    if (cost.after < cost.before) graph_.take_moved(window_step_.touched());
-  } else if (map_step_.under_way() && map_step_ready_) {
-    const StepCost cost = map_step_.apply(graph_, graph_.poses);
-    if (cost.after < cost.before) graph_.take_moved(map_step_.touched());
-    judge_map_step(cost);
-  }
-  // Not both at once: what the one over the window moves, the other would move a second time.
-  if (window_step_due_) {
-    begin_window_step();
-  } else if (map_step_due_ && !window_step_.under_way()) {
-    begin_map_step();
-  }
-}
-
-/// Each frame gives one of the steps a bounded amount of work.
-void Mapper::State::advance_steps() {
-  const bool window = window_step_.under_way() && !window_step_ready_;
-  const bool map = map_step_.under_way() && !map_step_ready_;
-  if (window && (!map || answer_.counters.iterations % 2 == 0)) {
-    window_step_ready_ = window_step_.advance(kWindowWorkPerFrame);
-  } else if (map) {
-    map_step_ready_ = map_step_.advance(kMapWorkPerFrame);
-  }
-}
-
-void Mapper::State::judge_map_step(const StepCost& cost) {
-  ++answer_.counters.global_steps;
-  earned_work_ -= map_step_.work();
-  const bool worth_it = cost.before - cost.after > kWorthwhileGain * segments_.noise2_m2();
-  // While a loop is being closed each close tells more, so one step of little use does not mean that the next is.
-  const bool looping = closes_since_loop_ < 2 * options_.window;
-  settle_period_ =
-      worth_it || looping ? options_.global_period : std::min(2 * settle_period_, kMaxSettlePeriod);
-}
-
-/// Decides at a close whether a step over the whole map is to follow.
-void Mapper::State::plan_map_step() {
-  ++closes_since_settled_;
-  // The share of a close stays the same in a map of any size. The work of a step grows with at most the cube.
-  const double growth = static_cast<double>(graph_.submaps.size()) / std::max(1.0, settled_submaps_);
-  const double work = map_step_.work() * growth * growth * growth;
-  earned_work_ =
-      std::min(earned_work_ + kWorkPerClose, std::max(kMostSteps * work, kMostClosesSaved * kWorkPerClose));
-  // Old ground after new: what the loop tells is not in the map yet.
-  ++closes_since_loop_;
-  if (on_old_ground_ && !was_on_old_ground_) {
-    settle_period_ = options_.global_period;
-    closes_since_loop_ = 0;
-  }
-  was_on_old_ground_ = on_old_ground_;
-  loop_closed_ = loop_closed_ || on_old_ground_;
-  on_old_ground_ = false;
-  map_step_due_ = options_.global_period != 0 && loop_closed_ && !map_step_.under_way() &&
-                  closes_since_settled_ >= settle_period_ && earned_work_ >= work;
-}
-
-void Mapper::State::begin_map_step() {
-  map_step_.begin(graph_, graph_.poses, graph_.active(), planar_);
-  map_step_ready_ = false;
-  map_step_due_ = false;
-  settled_submaps_ = static_cast<double>(graph_.submaps.size());
-  loop_closed_ = false;
-  closes_since_settled_ = 0;
-}
-
-void Mapper::State::merge_landmarks(Index closed) {
-  if (followed_) return;  // who follows two points says that they are two
-  const double separation2 = options_.separation() * options_.separation();
-  matcher_.mark(graph_, frame_);
-  for (const Member& member : graph_.submaps[closed].members) {
-    const Index landmark = member.landmark;
-    if (member.count == 0) continue;
-    Index twin = kNone;
-    double nearest2 = separation2;
-    graph_.visit_landmarks_near(graph_.landmarks[landmark].position, [&](Index other) {
-      const double d2 =
-          (graph_.landmarks[other].position - graph_.landmarks[landmark].position).squaredNorm();
-      // Seen together, they are two. The order of visits is no reason to choose: ties go to the older one.
-      const bool together = matcher_.is_marked(other) && matcher_.is_marked(landmark);
-      if (other == landmark || together || graph_.landmarks[other].count == 0) return;
-      if (d2 < nearest2 && motion_filter_.are_two(landmark, other)) return;
-      if (d2 < nearest2 || (d2 == nearest2 && other < twin)) {
-        nearest2 = d2;
-        twin = other;
-      }
-    });
-    if (twin == kNone) continue;
-    const Index into = std::min(landmark, twin);
-    const Index from = std::max(landmark, twin);
-    graph_.merge(into, from);
-    motion_filter_.merged(from, into);
-    for (Observation& observation : frame_) {
-      if (observation.landmark == from) observation.landmark = into;
-    }
-    matcher_.mark(graph_, frame_);
-    ++answer_.counters.merged;
-  }
-}
-
-Index Mapper::State::best_old_submap() {
-  shared_.resize(graph_.submaps.size(), 0);
-  shared_submaps_.clear();
-  std::uint32_t seen = 0;
-  for (const Observation& observation : frame_) {
-    if (observation.landmark == kNone) continue;
-    ++seen;
-    for (const Membership& at : graph_.landmarks[observation.landmark].memberships) {
-      if (!graph_.submaps[at.submap].members[at.member].in_first_frame) continue;
-      if (shared_[at.submap]++ == 0) shared_submaps_.push_back(at.submap);
-    }
-  }
-  Index best = kNone;
-  double best_overlap = options_.overlap;
-  for (const Index submap : shared_submaps_) {
-    const std::uint32_t shared = shared_[submap];
-    shared_[submap] = 0;
-    const double overlap = static_cast<double>(shared) /
-                           static_cast<double>(seen + graph_.submaps[submap].first_frame_size - shared);
-    if (overlap > best_overlap || (overlap == best_overlap && submap < best)) {
-      best = submap;
-      best_overlap = overlap;
-    }
-  }
-  return best;
 }
 
 bool Mapper::State::reopen(Index submap) {
@@ -867,7 +641,7 @@ void Mapper::State::integrate() {
     sightings_.push_back({observation.landmark, observation.point, observation.weight});
     const LandmarkRecord& landmark = graph_.landmarks[observation.landmark];
     if (landmark.last_activation + static_cast<std::uint64_t>(options_.window) < activation_)
-      on_old_ground_ = true;
+      schedule_.saw_old_ground();
     const Index member = landmark.active_member;
     ++last_seen_;
     if (member == kNone) {
@@ -880,10 +654,6 @@ void Mapper::State::integrate() {
   first_of_submap_ = false;
   segments_.add_frame(graph_.active(), fit_.T_submap_sensor, planar_, matcher_.rules(planar_).min_spread_m2,
                       sightings_);
-}
-
-bool Mapper::State::is_mapped(const LandmarkRecord& landmark) const {
-  return landmark.count >= static_cast<std::uint32_t>(options_.min_observations);
 }
 
 std::optional<Mat6> Mapper::State::pose_covariance() const {
@@ -936,70 +706,18 @@ const Answer& Mapper::State::answer() {
   return answer_;
 }
 
-void Mapper::State::add_moving(const std::vector<Pose>& poses, Map& map) const {
-  const Pose& anchor = poses[parts_.anchor_of(told_part())];
-  for (const MotionTracks::Track& track : motion_filter_.tracks()) {
-    if (graph_.submaps[track.submap].part != told_part()) continue;
-    Landmark landmark;
-    landmark.id = first_id_ + track.landmark;
-    landmark.position = told_from(anchor, {{}, poses[track.submap] * track.place}).t;
-    landmark.observations = track.sightings;
-    landmark.status = LandmarkStatus::dynamic;
-    map.landmarks.push_back(landmark);
-  }
-  std::sort(map.landmarks.begin(), map.landmarks.end(),
-            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
+MapSource Mapper::State::map_source() const {
+  return {graph_,      parts_,    motion_filter_.tracks(),
+          told_part(), first_id_, static_cast<std::uint32_t>(options_.min_observations),
+          planar_};
 }
 
-/// @param poses  T_map_submap, by which landmarks that move are placed
-Map Mapper::State::map(const std::vector<Pose>& poses) const {
-  Map map;
-  if (!started_) return map;
-  const Index part = told_part();
-  const Pose& anchor = poses[parts_.anchor_of(part)];
-  for (Index l = 0; l < graph_.landmarks.size(); ++l) {
-    const LandmarkRecord& record = graph_.landmarks[l];
-    if (record.merged_into != kNone || record.moving || record.memberships.empty()) continue;
-    if (graph_.submaps[record.memberships.front().submap].part != part) continue;
-    Landmark landmark;
-    landmark.id = first_id_ + l;
-    landmark.observations = record.count;
-    if (is_mapped(record)) landmark.status = LandmarkStatus::mapped;
-    landmark.position = told_from(anchor, {{}, graph_.mean_position(l)}).t;
-    map.landmarks.push_back(landmark);
-  }
-  add_moving(poses, map);
-  for (Index s = 0; s < graph_.submaps.size(); ++s) {
-    if (graph_.submaps[s].part != part) continue;
-    Submap submap;
-    submap.id = s;
-    submap.T_map_submap = told_from(anchor, poses[s]);
-    for (const Member& member : graph_.submaps[s].members) {
-      if (member.count > 0) submap.members.push_back(first_id_ + member.landmark);
-    }
-    map.submaps.push_back(std::move(submap));
-  }
-  return map;
+Map Mapper::State::map() const {
+  return started_ ? report_map(map_source()) : Map{};
 }
 
 Map Mapper::State::refined_map() const {
-  if (!started_) return {};
-  std::vector<bool> mapped;
-  for (const LandmarkRecord& record : graph_.landmarks)
-    mapped.push_back(is_mapped(record) && record.part == told_part());
-  const RefinedMap refined = refine_map(graph_, segments_, mapped, planar_);
-  const Pose& anchor = refined.poses[parts_.anchor_of(told_part())];
-  const Mat3 turn = anchor.q.toRotationMatrix().transpose();
-  Map map = this->map(refined.poses);
-  for (Landmark& landmark : map.landmarks) {
-    if (landmark.status == LandmarkStatus::dynamic) continue;
-    const std::size_t index = landmark.id - first_id_;
-    landmark.position = told_from(anchor, {{}, refined.positions[index]}).t;
-    landmark.covariance = refined.covariances[index];
-    if (landmark.covariance) *landmark.covariance = turn * *landmark.covariance * turn.transpose();
-  }
-  for (Submap& submap : map.submaps) submap.T_map_submap = told_from(anchor, refined.poses[submap.id]);
-  return map;
+  return started_ ? report_refined_map(map_source(), segments_) : Map{};
 }
 
 Mapper::Mapper(const Options& options) : state_(std::make_unique<State>(options)) {}

@@ -145,6 +145,31 @@ TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
   EXPECT_TRUE(mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0))).has_pose);
 }
 
+TEST(MapperDegenerate, AFalseStartOfSeveralSubmapsLeavesNothingBehind) {
+  scenes::Log log = scenes::figure_eight(2700, 50, 3);
+  Options options;
+  options.overlap = 0.99;  // nearly each frame closes a submap
+  options.bridge_frames = 3;
+  Mapper mapper(options);
+  const auto see = [&](std::size_t f) -> const Answer& {
+    std::vector<Vec3> points;
+    for (const scenes::Seen& seen : log.frames[f]) points.push_back(seen.point);
+    return mapper.process(points);
+  };
+  for (std::size_t f = 0; f < 9; ++f) ASSERT_TRUE(see(f).has_pose);
+  const std::size_t false_landmarks = mapper.map().landmarks.size();
+  ASSERT_GT(mapper.map().submaps.size(), 3u);
+  for (int f = 0; f <= options.bridge_frames; ++f) EXPECT_FALSE(mapper.process({}).has_pose);
+  const Pose start = log.poses[2600];
+  for (std::size_t f = 2600; f < 2690; ++f) {
+    const Answer& answer = see(f);
+    ASSERT_TRUE(answer.has_pose) << "frame " << f;
+    EXPECT_LT((start * answer.T_map_sensor.t - log.poses[f].t).norm(), 1.0) << "frame " << f;
+    EXPECT_EQ(answer.counters.parts, 1u);
+  }
+  for (const Landmark& landmark : mapper.map().landmarks) EXPECT_GE(landmark.id, false_landmarks);
+}
+
 TEST(MapperDegenerate, ThreePlanarPointsAreEnoughAndTwoAreNot) {
   Mapper mapper{Options()};
   EXPECT_FALSE(mapper.process(std::vector<Vec3>{{5, 3, 0}, {12, -4, 0}}).has_pose);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "slam_point/core/map_parts.hpp"
+#include "slam_point/core/motion_tracks.hpp"
+#include "slam_point/core/segment_store.hpp"
+#include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/types.hpp"
+
+namespace hallway::slam_point {
+
+/// A pose in the frame that `anchor` is in, as told: in the frame of `anchor`. While that is the same frame, nothing is rounded.
+Pose told_from(const Pose& anchor, const Pose& pose);
+
+/// What a map is told from: one part of the graph, in the frame of its anchor.
+struct MapSource {
+  const SubmapGraph& graph;
+  const MapParts& parts;
+  const std::vector<MotionTracks::Track>& moving;
+  Index part = kNone;
+  LandmarkId first_id = 0;             ///< id of landmark 0
+  std::uint32_t min_observations = 0;  ///< from which on a landmark counts as mapped
+  bool planar = true;
+};
+
+/// The map as it stands. O(map).
+Map report_map(const MapSource& source);
+
+/// The map as all evidence in `segments` places it together (refine_map), with covariances.
+Map report_refined_map(const MapSource& source, const SegmentStore& segments);
+
+}  // namespace hallway::slam_point
