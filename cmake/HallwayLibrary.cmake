@@ -37,11 +37,18 @@ function(hallway_reuse_precompiled target owner)
   endif()
 endfunction()
 
-# hallway_compile_quickly(<target>): less optimization for code whose speed does not matter: tests, which are half of what is built, the command
-# line and the editor.
+# hallway_compile_quickly(<target>): less optimization for code whose speed does not matter: the command line, the editor, and tests of code that is
+# itself fast. What headers define is linked once, perhaps as compiled here: so such code is never left without any.
 function(hallway_compile_quickly target)
   if(TARGET ${target})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
+# hallway_compile_plainly(<target>): no optimization at all, for tests.
+function(hallway_compile_plainly target)
+  if(TARGET ${target})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
   endif()
 endfunction()
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-# hallway_add_test(<name> SOURCES a.cpp … [APART a.cpp …] [LIBS …] [LABELS …] [ENV NAME=value …])
+# hallway_add_test(<name> [FAST] SOURCES a.cpp … [APART a.cpp …] [LIBS …] [LABELS …] [ENV NAME=value …])
+#
+# Tests are half of what is built, so most of them are not optimized at all. FAST: those that compute for long.
 #
 # One GoogleTest executable, registered as one ctest test per executable. The label `threads` marks what runs under
 # the thread sanitizer. A test at the size that only `make test-long` runs is registered with hallway_add_long_test.
@@ -20,14 +22,20 @@ if(HALLWAY_SANITIZE)
 endif()
 
 function(hallway_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;APART;LIBS;LABELS;ENV" ${ARGN})
+  cmake_parse_arguments(arg "FAST" "" "SOURCES;APART;LIBS;LABELS;ENV" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
-  hallway_compile_quickly(test_${name})
+  set(precompiled hallway_test_precompiled)
+  if(arg_FAST)
+    set(precompiled hallway_fast_test_precompiled)
+    hallway_compile_quickly(test_${name})
+  else()
+    hallway_compile_plainly(test_${name})
+  endif()
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${arg_LIBS} GTest::gtest GTest::gtest_main)
   hallway_compile_together(test_${name} APART ${arg_APART})
   if(NOT "${arg_SOURCES}" MATCHES "\\.c(;|$)")
-    hallway_reuse_precompiled(test_${name} hallway_test_precompiled)
+    hallway_reuse_precompiled(test_${name} ${precompiled})
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND test_${name})
