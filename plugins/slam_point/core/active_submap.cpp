@@ -20,11 +20,12 @@ void ActiveSubmap::open(SubmapGraph& graph, Index submap) {
 
 void ActiveSubmap::begin_frame(const Pose& T_submap_sensor) {
   frames_.push_back({T_submap_sensor, sightings_.size()});
+  to_submap_ = PointMotion(T_submap_sensor);
 }
 
 void ActiveSubmap::join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first,
                         std::uint64_t activation, double weight) {
-  const Vec3 mean = frames_.back().T_submap_sensor * point;
+  const Vec3 mean = to_submap_ * point;
   const Index member = graph.join(graph.active(), landmark, mean, first);
   grid_.add(mean);
   prior_.push_back({});
@@ -34,7 +35,7 @@ void ActiveSubmap::join(SubmapGraph& graph, Index landmark, const Vec3& point, b
 void ActiveSubmap::observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
                            double weight) {
   sightings_.push_back({member, point, weight});
-  graph.observe(member, frames_.back().T_submap_sensor * point, activation, weight);
+  graph.observe(member, to_submap_ * point, activation, weight);
   grid_.move(member, graph.submaps[graph.active()].members[member].mean);
 }
 
@@ -78,9 +79,9 @@ void ActiveSubmap::average(SubmapGraph& graph) const {
   }
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const std::size_t end = f + 1 < frames_.size() ? frames_[f + 1].first_sighting : sightings_.size();
+    const PointMotion to_submap(frames_[f].T_submap_sensor);
     for (std::size_t s = frames_[f].first_sighting; s < end; ++s) {
-      members[sightings_[s].member].average(frames_[f].T_submap_sensor * sightings_[s].point,
-                                            sightings_[s].weight);
+      members[sightings_[s].member].average(to_submap * sightings_[s].point, sightings_[s].weight);
     }
   }
 }

@@ -66,6 +66,7 @@ class ActiveSubmap {
 
   PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
+  PointMotion to_submap_{Pose{}};  // of the frame begun last
   std::vector<Sighting> sightings_;
   std::vector<Prior> prior_;  // by member: what was known at open()
 };

@@ -87,11 +87,12 @@ void ConstellationIndex::index_landmark(const SubmapGraph& graph, const Work& wo
   const Vec3& place = graph.landmarks[centre].position;
   known_.resize(graph.landmarks.size());
   NearestNeighbours near;
+  // Distances in the submap: its members lie together in memory, and nearly all are too far off to be looked at further.
+  const Vec3& mean = members[work.member].mean;
   for (const Member& member : members) {
-    if (member.landmark == centre || member.count == 0) continue;
-    const LandmarkRecord& other = graph.landmarks[member.landmark];
-    if (other.count < min_observations) continue;
-    near.add(member.landmark, (other.position - place).squaredNorm());
+    const double distance2 = (member.mean - mean).squaredNorm();
+    if (!near.reaches(distance2) || member.landmark == centre || member.count == 0) continue;
+    if (graph.landmarks[member.landmark].count >= min_observations) near.add(member.landmark, distance2);
   }
   NearestNeighbours& known = known_[centre].neighbours;
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -114,13 +115,29 @@ void ConstellationIndex::add_triangle(const SubmapGraph& graph, const std::array
   if (entry.triangle.sides[2] < 2.0 * tolerance_) return;
   entry.cell = cell_of(entry.triangle.sides, 0.0);
   if (entries_.size() >= heads_.size()) grow();
-  std::uint32_t& head = heads_[bucket_of(entry.cell)];
-  for (std::uint32_t i = head; i != kEnd; i = entries_[i].next) {
-    if (entries_[i].triangle.vertices == entry.triangle.vertices) return;
-  }
-  entry.next = head;
-  head = static_cast<std::uint32_t>(entries_.size());
+  if (is_known(entry)) return;
   entries_.push_back(entry);
+  link(static_cast<std::uint32_t>(entries_.size() - 1));
+}
+
+/// Whether a triangle of the same landmarks with the same sides, by their cell, is there. Many have sides like it, so it is
+/// looked for by its vertices.
+bool ConstellationIndex::is_known(const Entry& entry) const {
+  for (std::uint32_t i = named_[bucket_of(entry.triangle.vertices)]; i != kEnd; i = entries_[i].next_named) {
+    if (entries_[i].triangle.vertices == entry.triangle.vertices && entries_[i].cell == entry.cell)
+      return true;
+  }
+  return false;
+}
+
+void ConstellationIndex::link(std::uint32_t i) {
+  Entry& entry = entries_[i];
+  std::uint32_t& head = heads_[bucket_of(entry.cell)];
+  entry.next = head;
+  head = i;
+  std::uint32_t& named = named_[bucket_of(entry.triangle.vertices)];
+  entry.next_named = named;
+  named = i;
 }
 
 ConstellationIndex::Cell ConstellationIndex::cell_of(const Sides& sides, double shift) const {
@@ -134,24 +151,28 @@ ConstellationIndex::Cell ConstellationIndex::cell_of(const Sides& sides, double 
 }
 
 std::size_t ConstellationIndex::bucket_of(const Cell& cell) const {
-  std::uint64_t h = static_cast<std::uint32_t>(cell[0]);
-  h = (h ^ static_cast<std::uint32_t>(cell[1]) * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  h = (h ^ static_cast<std::uint32_t>(cell[2]) * 0x94d049bb133111ebu) * 0xbf58476d1ce4e5b9u;
+  std::array<Index, 3> numbers;
+  for (std::size_t i = 0; i < 3; ++i) numbers[i] = static_cast<Index>(cell[i]);
+  return bucket_of(numbers);
+}
+
+std::size_t ConstellationIndex::bucket_of(const std::array<Index, 3>& numbers) const {
+  std::uint64_t h = numbers[0];
+  h = (h ^ numbers[1] * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  h = (h ^ numbers[2] * 0x94d049bb133111ebu) * 0xbf58476d1ce4e5b9u;
   return static_cast<std::size_t>(h >> 32) & (heads_.size() - 1);
 }
 
 void ConstellationIndex::grow() {
   heads_.assign(std::max(kFirstBuckets, 2 * heads_.size()), kEnd);
-  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-    std::uint32_t& head = heads_[bucket_of(entries_[i].cell)];
-    entries_[i].next = head;
-    head = i;
-  }
+  named_.assign(heads_.size(), kEnd);
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) link(i);
 }
 
 void ConstellationIndex::clear() {
   entries_.clear();
   heads_.clear();
+  named_.clear();
   known_.clear();
   work_.clear();
 }

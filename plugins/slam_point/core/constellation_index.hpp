@@ -30,6 +30,8 @@ class NearestNeighbours {
 
   /// Takes a neighbour in when it is among the nearest `most` (at most kMost) and not there yet. Says whether it did.
   bool add(Index neighbour, double distance2, std::size_t most = kMost);
+  /// Whether what is so far off may be among the nearest kMost.
+  bool reaches(double distance2) const { return size_ < kMost || distance2 <= distances2_[kMost - 1]; }
   std::size_t size() const { return size_; }
   Index operator[](std::size_t i) const { return neighbours_[i]; }
 
@@ -43,7 +45,7 @@ class NearestNeighbours {
 /// found again without any idea of where the sensor is. A landmark makes triangles with pairs of its nearest neighbours.
 ///
 /// Grows with the map as submaps close, a few landmarks a call; looking up costs O(triangles of about these sides).
-/// Memory: about 60 bytes a triangle, some ten triangles a landmark.
+/// Memory: about 70 bytes a triangle, some ten triangles a landmark.
 class ConstellationIndex {
  public:
   /// `tolerance_m`: how much each side of what is looked up may differ [m]. `min_observations`: of a landmark that is indexed.
@@ -86,7 +88,8 @@ class ConstellationIndex {
   struct Entry {
     Triangle triangle;
     Cell cell{};
-    std::uint32_t next = kEnd;
+    std::uint32_t next = kEnd;        // in the same bucket of heads_
+    std::uint32_t next_named = kEnd;  // in the same bucket of named_
   };
   struct Work {
     Index submap = kNone;
@@ -108,13 +111,17 @@ class ConstellationIndex {
   }
   Cell cell_of(const Sides& sides, double shift) const;
   std::size_t bucket_of(const Cell& cell) const;
+  std::size_t bucket_of(const std::array<Index, 3>& numbers) const;
+  bool is_known(const Entry& entry) const;
+  void link(std::uint32_t i);
   void grow();
 
   double tolerance_;
   std::uint32_t min_observations_;
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> heads_;
-  std::vector<Known> known_;  // landmark -> what is known of it
+  std::vector<std::uint32_t> heads_;  // by sides
+  std::vector<std::uint32_t> named_;  // by vertices, of the same size
+  std::vector<Known> known_;          // landmark -> what is known of it
   std::deque<Work> work_;
 };
 

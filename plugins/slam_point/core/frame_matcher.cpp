@@ -18,7 +18,7 @@ constexpr double kMaxRotationSigma_rad = 0.1;
 constexpr int kMaxMatchPasses = 4;
 constexpr std::size_t kLeastDrifted = 3;  // so many old landmarks off the same way are drift, not neighbours
 constexpr int kMaxTurnsEachWay = 60;
-constexpr std::size_t kMostScored = 40;  // points of a frame that a turn is judged by
+constexpr std::size_t kMostScored = 40;    // points of a frame that a turn is judged by
 constexpr std::size_t kLeastFollowed = 4;  // so many can contradict each other
 
 }  // namespace
@@ -92,13 +92,13 @@ void FrameMatcher::take_nearest_first(std::vector<Observation>& frame) {
 void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& active, const Pose& T,
                                  double bound, double followed_bound, std::vector<Observation>& frame) {
   const std::vector<Member>& members = graph.submaps[graph.active()].members;
-  const Mat3 rotation = T.q.toRotationMatrix();
+  const PointMotion motion(T);
   const double bound2 = bound * bound;
   const double reach2 = std::max(bound2, agreement_ * agreement_);
   candidates_.clear();
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
-    const Vec3 p = rotation * frame[o].point + T.t;
+    const Vec3 p = motion * frame[o].point;
     const double near2 = std::min(bound2 / frame[o].weight, reach2);
     const auto consider = [&](Index m, double within2) {
       const double d2 = (members[m].mean - p).squaredNorm();
@@ -131,12 +131,12 @@ bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observ
 
 int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame) {
   const std::vector<Member>& members = graph.submaps[graph.active()].members;
-  const Mat3 rotation = T.q.toRotationMatrix();
+  const PointMotion motion(T);
   int dropped = 0;
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[observation.member];
-    const double r2 = (rotation * observation.point + T.t - member.mean).squaredNorm();
+    const double r2 = (motion * observation.point - member.mean).squaredNorm();
     if (r2 * pair_weight(member.weight(), observation.weight) <= agreement_ * agreement_) continue;
     taken_[observation.landmark] = 0;
     observation.landmark = kNone;
@@ -277,13 +277,13 @@ int FrameMatcher::search_turn(const SubmapGraph& graph, const std::vector<Pose>&
 
 void FrameMatcher::match_map(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
                              double local_bound_m, std::vector<Observation>& frame) {
-  const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
+  const PointMotion motion(T_map_sensor);
   const double local2 = local_bound_m * local_bound_m;
   const double old2 = options_.map_bound() * options_.map_bound();
   candidates_.clear();
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark != kNone) continue;
-    const Vec3 p = rotation * frame[o].point + T_map_sensor.t;
+    const Vec3 p = motion * frame[o].point;
     const auto consider = [&](Index l, double reach2) {
       const LandmarkRecord& landmark = graph.landmarks[l];
       const double bound2 = (landmark.last_activation >= local_since ? local2 : old2) / frame[o].weight;
@@ -327,29 +327,31 @@ bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std:
   return robust_fit(pairs_, rules(planar), T_submap_sensor);
 }
 
-bool FrameMatcher::agrees(const SubmapGraph& graph, const Pose& T_map_sensor,
+bool FrameMatcher::agrees(const SubmapGraph& graph, const PointMotion& to_map,
                           const Observation& observation) const {
-  const Vec3 residual = T_map_sensor * observation.point - graph.landmarks[observation.landmark].position;
+  const Vec3 residual = to_map * observation.point - graph.landmarks[observation.landmark].position;
   return observation.weight * residual.squaredNorm() <= agreement_ * agreement_;
 }
 
 int FrameMatcher::count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,
                                  const Pose& T_map_sensor) const {
+  const PointMotion to_map(T_map_sensor);
   int agreeing = 0;
   for (const Observation& observation : frame) {
-    if (observation.landmark != kNone && agrees(graph, T_map_sensor, observation)) ++agreeing;
+    if (observation.landmark != kNone && agrees(graph, to_map, observation)) ++agreeing;
   }
   return agreeing;
 }
 
 void FrameMatcher::drop_strays(const SubmapGraph& graph, const Pose& T_map_sensor, std::uint64_t local_since,
                                std::vector<Observation>& frame) {
+  const PointMotion to_map(T_map_sensor);
   strays_.clear();
   std::size_t agreeing = 0;
   for (Index o = 0; o < frame.size(); ++o) {
     if (frame[o].landmark == kNone || graph.landmarks[frame[o].landmark].last_activation >= local_since)
       continue;
-    if (agrees(graph, T_map_sensor, frame[o])) {
+    if (agrees(graph, to_map, frame[o])) {
       ++agreeing;
     } else {
       strays_.push_back(o);

@@ -101,7 +101,7 @@ class FrameMatcher {
     Index member = kNone;  // of the active submap, where candidates are its members
   };
 
-  bool agrees(const SubmapGraph& graph, const Pose& T_map_sensor, const Observation& observation) const;
+  bool agrees(const SubmapGraph& graph, const PointMotion& to_map, const Observation& observation) const;
   void begin(const SubmapGraph& graph);
   void take(const Candidate& candidate, std::vector<Observation>& frame);
   /// Takes the candidates that neither their point nor their landmark has another of, and leaves the others in candidates_, which stand

@@ -7,6 +7,7 @@
 #include "slam_point/core/alignment.hpp"
 
 namespace hallway::slam_point {
+
 void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar) {
   std::vector<Index> all(graph.submaps.size());
   std::iota(all.begin(), all.end(), Index{0});
@@ -22,10 +23,12 @@ void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, co
   system_.take(graph, free, poses, planar);
   known_ = graph.submaps.size();
   start_.clear();
+  members_.clear();
   newest_slot_ = kNone;
   for (const Index submap : system_.free()) {
     if (submap == newest) newest_slot_ = static_cast<Index>(start_.size());
     start_.push_back(poses[submap]);
+    members_.push_back(graph.submaps[submap].members.size());
   }
   factor_.begin(start_.size());
   move_.clear();
@@ -75,18 +78,20 @@ Pose MapStep::moved(const Pose& now, Index slot) const {
   return {(turn * now.q).normalized(), from - move_[slot].head<3>() + turn * (now.t - from)};
 }
 
-/// Those that were taken down, but for what has been merged into another one, and those that the active submap and the submaps
-/// made since have come to hold.
+/// Those that were taken down, but for what has been merged into another one, and those that these submaps, the active one and
+/// those made since have come to hold.
 void MapStep::find_touched(const SubmapGraph& graph) {
   touched_.clear();
   for (const Index landmark : system_.touched()) {
     if (!graph.landmarks[landmark].memberships.empty()) touched_.push_back(landmark);
   }
-  const auto add = [&](Index submap) {
-    for (const Member& member : graph.submaps[submap].members) {
-      if (member.count > 0) touched_.push_back(member.landmark);
+  const auto add = [&](Index submap, std::size_t first = 0) {
+    const std::vector<Member>& members = graph.submaps[submap].members;
+    for (std::size_t m = first; m < members.size(); ++m) {
+      if (members[m].count > 0) touched_.push_back(members[m].landmark);
     }
   };
+  for (Index slot = 0; slot < start_.size(); ++slot) add(system_.free()[slot], members_[slot]);
   if (graph.active() != kNone) add(graph.active());
   if (newest_slot_ != kNone) {
     for (auto submap = static_cast<Index>(known_); submap < graph.submaps.size(); ++submap) add(submap);

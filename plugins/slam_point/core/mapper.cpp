@@ -561,12 +561,12 @@ void Mapper::State::learn_motion() {
 }
 
 void Mapper::State::add_landmarks() {
-  const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
+  const PointMotion to_map(T_map_sensor_);
   const double separation2 = options_.separation() * options_.separation();
   for (Observation& observation : frame_) {
     if (observation.is_followed() && !tracks_.allows_new(observation)) continue;
     if (observation.landmark != kNone || observation.withheld || observation.moving != kNone) continue;
-    const Vec3 p = rotation * observation.point + T_map_sensor_.t;
+    const Vec3 p = to_map * observation.point;
     bool alone = true;
     graph_.visit_landmarks_near(p, [&](Index l) {
       if ((graph_.landmarks[l].position - p).squaredNorm() < separation2) alone = false;
@@ -659,13 +659,14 @@ void Mapper::State::integrate() {
 std::optional<Mat6> Mapper::State::pose_covariance() const {
   const double noise2 = segments_.noise2_m2();
   if (!has_pose_ || noise2 == 0.0) return std::nullopt;
-  const Mat3 rotation = T_map_sensor_.q.toRotationMatrix();
+  const PointMotion to_map(T_map_sensor_);
   PoseInformation information;
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
     // This frame's own observation is in the landmark already.
     const double others = graph_.landmarks[observation.landmark].weight - observation.weight;
-    if (others > 0.0) information.add(rotation * observation.point, pair_weight(others, observation.weight));
+    if (others > 0.0)
+      information.add(to_map.turned(observation.point), pair_weight(others, observation.weight));
   }
   std::optional<Mat6> covariance = information.covariance(planar_);
   if (covariance) *covariance *= noise2;

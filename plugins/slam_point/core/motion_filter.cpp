@@ -34,10 +34,10 @@ void MotionFilter::follow(const SubmapGraph& graph, const Pose& T_map_sensor,
 }
 
 void MotionFilter::find_candidates(const Pose& T_map_sensor, const std::vector<Observation>& frame) {
+  const PointMotion to_map(T_map_sensor);
   candidates_.clear();
   for (Index o = 0; o < frame.size(); ++o) {
-    if (frame[o].landmark == kNone && !frame[o].withheld)
-      candidates_.push_back({o, T_map_sensor * frame[o].point});
+    if (frame[o].landmark == kNone && !frame[o].withheld) candidates_.push_back({o, to_map * frame[o].point});
   }
 }
 
@@ -132,13 +132,14 @@ void MotionFilter::suspect_astray(const SubmapGraph& graph, const std::vector<Ob
 
 void MotionFilter::suspect_drifting(const SubmapGraph& graph, const Pose& T_map_sensor,
                                     const std::vector<Observation>& frame) {
-  const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
+  const PointMotion to_map(T_map_sensor);
   for (const Observation& observation : frame) {
     const Index l = observation.landmark;
     if (l == kNone) continue;
     const LandmarkRecord& landmark = graph.landmarks[l];
-    const Vec3 residual = rotation * observation.point + T_map_sensor.t - landmark.position;
-    if (watch_.add(l, std::sqrt(observation.weight) * residual, landmark.count))
+    Vec3 residual = to_map * observation.point - landmark.position;
+    if (observation.weight != 1.0) residual *= std::sqrt(observation.weight);
+    if (watch_.add(l, residual, landmark.count))
       suspects_.push_back({l, watch_.since(l), watch_.acquittals(l)});
   }
 }

@@ -12,6 +12,8 @@ constexpr double kMovedDeviations2 = 25.0;  // squared; a landmark that stands d
 constexpr double kMedianChi3 = 2.366;       // of a sum of three squared standard normal deviates
 constexpr std::size_t kLeastCommon = 5;
 constexpr double kFewSuspects = 0.85;  // so many of the landmarks are above suspicion: they decide
+constexpr std::size_t kMostWitnesses =
+    600;  // landmarks above suspicion that are asked; more tell hardly more
 constexpr double kVerdictInlierNoises = 4.0;
 constexpr double kVerdictRotationSigma_rad = 0.1;
 
@@ -64,9 +66,19 @@ void MotionVerdict::begin_session(const SightingHistory& history, const std::vec
   ++session_;
   touched_.clear();
   for (const Suspect& suspect : suspects) shift_of(suspect.landmark).suspect = true;
-  for (const SightingHistory::Sighting& sighting : history.frame(history.frames() - 1)) {
-    if (!history.is_forgotten(sighting.landmark)) shift_of(sighting.landmark);
+  const auto& newest = history.frame(history.frames() - 1);
+  witness_step_ = static_cast<std::uint32_t>((newest.size() + kMostWitnesses - 1) / kMostWitnesses);
+  for (const SightingHistory::Sighting& sighting : newest) {
+    if (!history.is_forgotten(sighting.landmark) && is_asked(sighting.landmark)) shift_of(sighting.landmark);
   }
+}
+
+/// Suspects, and of the others the same few in all frames, whatever is numbered beside them.
+bool MotionVerdict::is_asked(Index landmark) const {
+  if (witness_step_ <= 1) return true;
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
+  if (((landmark * kOdd) >> 32) % witness_step_ == 0) return true;
+  return landmark < shifts_.size() && shifts_[landmark].session == session_ && shifts_[landmark].suspect;
 }
 
 MotionVerdict::Shift& MotionVerdict::shift_of(Index landmark) {
@@ -87,7 +99,7 @@ MotionVerdict::Shift& MotionVerdict::shift_of(Index landmark) {
 void MotionVerdict::find_common(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later) {
   ++stamp_;
   for (const SightingHistory::Sighting& sighting : history.frame(later)) {
-    if (history.is_forgotten(sighting.landmark)) continue;
+    if (history.is_forgotten(sighting.landmark) || !is_asked(sighting.landmark)) continue;
     shift_of(sighting.landmark);
     stamped_[sighting.landmark] = stamp_;
     later_point_[sighting.landmark] = sighting.point;

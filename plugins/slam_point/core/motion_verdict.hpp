@@ -31,8 +31,8 @@ class MotionVerdict {
   explicit MotionVerdict(double noise_m) : noise_m_(noise_m), consensus_(std::numbers::sqrt2 * noise_m) {}
 
   /// Judges the suspects by the newest frame of `history` and those before it. All that are judged need the same time between the
-  /// blocks as the first; the others stay open, as do those of which too little was seen. At most kMostPairs fits:
-  /// O(kMostPairs * points in view).
+  /// blocks as the first; the others stay open, as do those of which too little was seen. At most kMostPairs fits of some
+  /// hundred landmarks each, and as many looks at the points in view.
   void judge(const SightingHistory& history, const std::vector<Suspect>& suspects, bool planar,
              std::vector<Finding>& findings);
 
@@ -56,6 +56,7 @@ class MotionVerdict {
   };
 
   void begin_session(const SightingHistory& history, const std::vector<Suspect>& suspects);
+  bool is_asked(Index landmark) const;
   Shift& shift_of(Index landmark);
   bool add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later, bool planar);
   void find_common(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later);
@@ -67,6 +68,7 @@ class MotionVerdict {
   MotionConsensus consensus_;
   std::uint64_t session_ = 0;
   std::uint64_t stamp_ = 0;
+  std::uint32_t witness_step_ = 1;      // of so many landmarks above suspicion one is asked
   std::vector<Shift> shifts_;           // by landmark; those of this session count
   std::vector<Index> touched_;          // landmarks of this session
   std::vector<std::uint64_t> stamped_;  // landmark -> stamp_ when the later frame saw it

@@ -17,7 +17,7 @@ class PoseInformation {
     const Vec3 weighted = weight * lever;
     weight_ += weight;
     sum_ += weighted;
-    outer_ += weighted * lever.transpose();
+    add_outer(weighted, lever, outer_);
   }
 
   /// Covariance of the pose's error: position (x, y, z), then rotation vector (true = exp(error) * estimate), in the map's

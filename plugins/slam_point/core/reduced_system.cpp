@@ -22,7 +22,7 @@ void ReducedSystem::PairSums::add(double weight, const Vec3& row, const Vec3& co
   w += weight;
   y_row += weighted;
   y_column += weight * column;
-  y_outer += weighted * column.transpose();
+  add_outer(weighted, column, y_outer);
 }
 
 // With J = [I, -[y]x] for (translation, rotation) of x = exp(rotation) y + t: J_row^T J_column = [I, -[y_column]x;

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/robust_fit.hpp"
 
+#include <cmath>
+
 #include "slam_point/core/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {
 
 constexpr int kMaxPasses = 8;
+constexpr double kSettledWeight =
+    1e-3;  // of all pairs together, where an observation that agrees has up to 1
 
-/// Whether a residual under T exceeds inlier2, each in units of its own noise.
-bool has_outliers(const std::vector<Pair>& pairs, const Pose& T, double inlier2) {
-  const Mat3 rotation = T.q.toRotationMatrix();
+/// Takes from pairs with residuals beyond inlier2 under T, in units of their own noise, what they count too much. Returns
+/// the weight that was taken.
+double lighten_outliers(const std::vector<Pair>& pairs, const Pose& T, double inlier2, Alignment& alignment) {
+  const PointMotion motion(T);
+  double taken = 0.0;
   for (const Pair& pair : pairs) {
-    if (pair.quality * (pair.reference - rotation * pair.point - T.t).squaredNorm() > inlier2) return true;
+    const double r2 = pair.quality * (pair.reference - motion * pair.point).squaredNorm();
+    if (r2 <= inlier2) continue;
+    const double excess = pair.weight * (1.0 - inlier2 / r2);
+    alignment.change(pair.reference, pair.point, -excess);
+    taken += excess;
   }
-  return false;
+  return taken;
 }
 
 }  // namespace
@@ -22,19 +32,16 @@ bool has_outliers(const std::vector<Pair>& pairs, const Pose& T, double inlier2)
 bool robust_fit(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) {
   const std::size_t least = rules.planar ? 2 : 3;
   if (pairs.size() < least) return false;
-  const double inlier2 = rules.inlier_m * rules.inlier_m;
-  Alignment first(T);
-  for (const Pair& pair : pairs) first.add(pair.reference, pair.point, pair.weight);
+  Alignment plain(T);
+  for (const Pair& pair : pairs) plain.add(pair.reference, pair.point, pair.weight);
   Pose fitted;
-  if (!first.solve(rules.planar, rules.min_spread_m2, fitted)) return false;
+  if (!plain.solve(rules.planar, rules.min_spread_m2, fitted)) return false;
+  double taken = 0.0;
   for (int pass = 1; pass < kMaxPasses; ++pass) {
-    if (!has_outliers(pairs, fitted, inlier2)) break;
-    Alignment next(fitted);
-    const Mat3 rotation = fitted.q.toRotationMatrix();
-    for (const Pair& pair : pairs) {
-      const double r2 = pair.quality * (pair.reference - rotation * pair.point - fitted.t).squaredNorm();
-      next.add(pair.reference, pair.point, r2 > inlier2 ? pair.weight * inlier2 / r2 : pair.weight);
-    }
+    Alignment next = plain;
+    const double taken_before = taken;
+    taken = lighten_outliers(pairs, fitted, rules.inlier_m * rules.inlier_m, next);
+    if (std::abs(taken - taken_before) <= kSettledWeight) break;
     if (!next.solve(rules.planar, rules.min_spread_m2, fitted)) return false;
   }
   T = fitted;

@@ -101,7 +101,7 @@ Pose SegmentStore::align(const Pose& T_submap_sensor, bool planar, double min_sp
 
 void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings) {
   std::vector<SegmentMember>& members = segments_[open_].members;
-  const Mat3 rotation = T_submap_sensor.q.toRotationMatrix();
+  const PointMotion to_submap(T_submap_sensor);
   std::size_t known = 0;
   for (const Sighting& sighting : sightings) {
     if (placed_[sighting.landmark] != open_) {
@@ -110,7 +110,7 @@ void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::
       members.push_back({sighting.landmark, 0, 0.0, false, Vec3::Zero()});
     }
     SegmentMember& member = members[place_[sighting.landmark]];
-    const Vec3 off = rotation * sighting.point + T_submap_sensor.t - member.mean;
+    const Vec3 off = to_submap * sighting.point - member.mean;
     const double shared = pair_weight(member.weight, sighting.weight);
     ++member.count;
     member.weight += sighting.weight;

@@ -35,7 +35,7 @@ Index SubmapGraph::join(Index submap, Index landmark, const Vec3& mean, bool in_
 
 void SubmapGraph::activate(Index submap) {
   active_ = submap;
-  active_rotation_ = poses[submap].q.toRotationMatrix();
+  from_active_ = PointMotion(poses[submap]);
   const std::vector<Member>& members = submaps[submap].members;
   for (Index m = 0; m < members.size(); ++m) {
     if (members[m].count == 0) continue;  // emptied by a merge
@@ -45,16 +45,23 @@ void SubmapGraph::activate(Index submap) {
 }
 
 void SubmapGraph::deactivate() {
-  const Index submap = active_;
-  active_ = kNone;
-  for (const Member& member : submaps[submap].members) {
-    landmarks[member.landmark].active_member = kNone;
-    resum(member.landmark);
+  for (const Member& member : submaps[active_].members) {
+    LandmarkRecord& landmark = landmarks[member.landmark];
+    landmark.active_member = kNone;
+    if (member.count == 0) continue;  // emptied by a merge
+    landmark.settled_sum += member.weight() * (from_active_ * member.mean);
+    landmark.settled_count += member.count;
+    landmark.settled_weight += member.weight();
+    landmark.count = landmark.settled_count;
+    landmark.weight = landmark.settled_weight;
+    landmark.position = landmark.settled_sum / landmark.weight;
+    grid_.move(member.landmark, landmark.position);
   }
+  active_ = kNone;
 }
 
 void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
-  if (active_ != kNone) active_rotation_ = poses[active_].q.toRotationMatrix();
+  if (active_ != kNone) from_active_ = PointMotion(poses[active_]);
   for (const Index landmark : moved_landmarks) resum(landmark);
 }
 
@@ -63,7 +70,7 @@ void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation,
   LandmarkRecord& landmark = landmarks[m.landmark];
   m.average(p, weight);
   landmark.count = landmark.settled_count + m.count;
-  const Vec3 here = active_rotation_ * m.mean + poses[active_].t;
+  const Vec3 here = from_active_ * m.mean;
   landmark.weight = landmark.settled_weight + m.weight();
   landmark.position = (landmark.settled_sum + m.weight() * here) / landmark.weight;
   landmark.last_activation = activation;

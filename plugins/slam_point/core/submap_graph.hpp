@@ -138,7 +138,7 @@ class SubmapGraph {
   Index active_ = kNone;
   Index part_ = 0;
   std::size_t dropped_ = 0;
-  Mat3 active_rotation_ = Mat3::Identity();
+  PointMotion from_active_{Pose{}};  // into the map
 };
 
 }  // namespace hallway::slam_point

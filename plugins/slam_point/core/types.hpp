@@ -13,6 +13,13 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+/// Adds a * b^T to `sum`. Written out, because it stands in the innermost loops: Eigen makes a call and a copy of it.
+inline void add_outer(const Vec3& a, const Vec3& b, Mat3& sum) {
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) sum(row, column) += a[row] * b[column];
+  }
+}
+
 /// A rigid transform: `T_a_b * p_b` is the point in frame a. Metres; q is a unit quaternion.
 struct Pose {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< rotation
@@ -21,6 +28,24 @@ struct Pose {
   Vec3 operator*(const Vec3& p) const { return q * p + t; }
   Pose operator*(const Pose& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
   Pose inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
+};
+
+/// A pose as a matrix, to move many points by: written out, as add_outer() is.
+class PointMotion {
+ public:
+  explicit PointMotion(const Pose& pose) : rotation_(pose.q.toRotationMatrix()), t_(pose.t) {}
+
+  Vec3 operator*(const Vec3& p) const { return turned(p) + t_; }
+  /// The rotation alone.
+  Vec3 turned(const Vec3& p) const {
+    return {rotation_(0, 0) * p[0] + rotation_(0, 1) * p[1] + rotation_(0, 2) * p[2],
+            rotation_(1, 0) * p[0] + rotation_(1, 1) * p[1] + rotation_(1, 2) * p[2],
+            rotation_(2, 0) * p[0] + rotation_(2, 1) * p[1] + rotation_(2, 2) * p[2]};
+  }
+
+ private:
+  Mat3 rotation_;
+  Vec3 t_;
 };
 
 /// Names one landmark for the life of a mapper; numbered from 0 in the order of first observation.

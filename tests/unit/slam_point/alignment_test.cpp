@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <vector>
 
 #include "scenes.hpp"
@@ -110,6 +111,39 @@ TEST(RobustFit, AThirdOfWildPairsHardlyMovesThePose) {
   ASSERT_TRUE(robust_fit(pairs, {false, 1.0, 0.2}, robust));
   EXPECT_GT(plain.t.norm(), 0.5);
   EXPECT_LT(robust.t.norm(), 0.05);
+}
+
+/// As defined: the weights that residuals ask for and the pose that weights ask for, in turn, to the end.
+Pose reweighted_to_the_end(const std::vector<Pair>& pairs, double inlier_m) {
+  Pose T;
+  for (int pass = 0; pass < 200; ++pass) {
+    Alignment alignment(T);
+    for (const Pair& pair : pairs) {
+      const double r2 = (pair.reference - T * pair.point).squaredNorm();
+      alignment.add(pair.reference, pair.point, pair.weight * std::min(1.0, inlier_m * inlier_m / r2));
+    }
+    EXPECT_TRUE(alignment.solve(false, 1.0, T));
+  }
+  return T;
+}
+
+TEST(RobustFit, AFewOutliersCountAsTheLastWeightsHaveIt) {
+  constexpr double kSigma_m = 0.05;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    scenes::Random random(seed);
+    std::vector<Pair> pairs;
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 b = random_vec(random, 30.0);
+      const double noise = i % 20 == 0 ? 5.0 * kSigma_m : kSigma_m;
+      pairs.push_back({b + noise * Vec3(random.normal(), random.normal(), random.normal()), b, 0.8});
+    }
+    Pose robust;
+    ASSERT_TRUE(robust_fit(pairs, {false, 1.0, 4.0 * kSigma_m}, robust));
+    const Pose expected = reweighted_to_the_end(pairs, 4.0 * kSigma_m);
+    // The pose itself is known to 5 mm and 0.2 mrad.
+    EXPECT_LT((robust.t - expected.t).norm(), 2e-5) << seed;
+    EXPECT_LT(robust.q.angularDistance(expected.q), 1e-6) << seed;
+  }
 }
 
 TEST(RotationExp, InvertsRotationLog) {

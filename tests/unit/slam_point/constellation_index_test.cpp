@@ -131,6 +131,33 @@ TEST(ConstellationIndex, WhatWasSeenSeldomWaits) {
   EXPECT_GT(index.triangles(), 0u);
 }
 
+TEST(ConstellationIndex, HoldsEachTriangleOnceHoweverManyAreLikeIt) {
+  // On a lattice, shaken so that no two sides are equal, nearly all triangles have the sides of many others.
+  scenes::Random random(6);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 400; ++i)
+    points.push_back(Vec3(2.0 * (i % 20), 2.0 * (i / 20), 0.0) +
+                     0.01 * Vec3(random.normal(), random.normal(), 0.0));
+  const SubmapGraph graph = graph_of(points);
+  ConstellationIndex index(kTolerance_m, 5);
+  for (int look = 0; look < 3; ++look) {
+    index.note(graph, 0);
+    index.advance(graph, 1000);
+    index.add_now(graph, 0, 400);
+  }
+  std::set<std::set<Index>> visited;
+  std::size_t visits = 0;
+  for (const Sides& sides : {Sides{2.83, 2.0, 2.0}, Sides{4.0, 2.0, 2.0}}) {
+    index.visit_like(sides, [&](const Triangle& triangle) {
+      visited.insert({triangle.vertices.begin(), triangle.vertices.end()});
+      ++visits;
+      return true;
+    });
+  }
+  EXPECT_GT(visits, 400u);
+  EXPECT_EQ(visited.size(), visits);
+}
+
 TEST(ConstellationIndex, IsMadeInSlicesAsAtOnce) {
   const SubmapGraph graph = graph_of(scattered(60, 5));
   ConstellationIndex sliced(kTolerance_m, 5);

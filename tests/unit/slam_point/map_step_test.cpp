@@ -130,6 +130,15 @@ TEST(MapStep, TellsWhichLandmarksItHasMoved) {
   const Index landmark = graph.add_landmark(graph.poses[11] * Vec3(1.0, 2.0, 0.0), 1);
   graph.submaps[made].members[graph.join(made, landmark, Vec3(1.0, 2.0, 0.0), true)].count = 1;
   graph.activate(made);
+  // And what an old one has come to hold.
+  const Vec3 beside(0.0, 3.0, 1.0);
+  const Index late = graph.add_landmark(graph.poses[8] * beside, 1);
+  graph.submaps[8].members[graph.join(8, late, beside, false)].count = 4;
+  graph.submaps[made]
+      .members[graph.join(made, late, graph.poses[made].inverse() * (graph.poses[8] * beside), false)]
+      .count = 2;
+  graph.deactivate();
+  graph.activate(graph.add_submap(graph.poses[11]));
   const StepCost cost = step.apply(graph, graph.poses);
   ASSERT_LT(cost.after, cost.before);
   graph.take_moved(step.touched());
@@ -138,6 +147,8 @@ TEST(MapStep, TellsWhichLandmarksItHasMoved) {
     EXPECT_LT((graph.landmarks[l].position - graph.mean_position(l)).norm(), 1e-9) << l;
   }
   // What is observed from now on counts where the submap has come to lie.
+  graph.deactivate();
+  graph.activate(made);
   graph.observe(0, Vec3(1.0, 2.0, 0.0), 2);
   EXPECT_LT((graph.landmarks[landmark].position - graph.mean_position(landmark)).norm(), 1e-9);
 }

@@ -159,11 +159,12 @@ TEST(MotionWatch, CountsWhatIsAstrayAndBeginsAnewAfterAGap) {
 
 // ---- Verdict
 
-/// Thirty points ahead of a sensor that goes forward and turns; some move by `way(point, frame)`.
-SightingHistory made_history(int frames, std::uint64_t seed, const std::function<Vec3(Index, int)>& way) {
+/// Points ahead of a sensor that goes forward and turns; some move by `way(point, frame)`.
+SightingHistory made_history(int frames, std::uint64_t seed, const std::function<Vec3(Index, int)>& way,
+                             int count = 30) {
   scenes::Random random(seed);
   std::vector<Vec3> points;
-  for (int i = 0; i < 30; ++i)
+  for (int i = 0; i < count; ++i)
     points.push_back(Vec3(random.uniform(5.0, 40.0), random.uniform(-12.0, 12.0), random.uniform(-4.0, 4.0)));
   SightingHistory history;
   for (int f = 0; f < frames; ++f) {
@@ -223,6 +224,17 @@ TEST(MotionVerdict, ThoseThatMoveTogetherDoNotPassForTheGround) {
     const auto findings = judged(history, first_points(30));
     for (Index i = 0; i < 30; ++i)
       EXPECT_EQ(findings[i], i < 12 ? Finding::moves : Finding::stands) << "seed " << seed << " point " << i;
+  }
+}
+
+TEST(MotionVerdict, AmongThousandsSomeAreAskedAndAllSuspectsAreJudged) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto way = [](Index i, int f) { return i % 10 == 3 ? Vec3(0, kSigma_m * f, 0) : Vec3(0, 0, 0); };
+    const auto history = made_history(24, seed, way, 3000);
+    const auto findings = judged(history, first_points(40));
+    for (Index i = 0; i < 40; ++i)
+      EXPECT_EQ(findings[i], i % 10 == 3 ? Finding::moves : Finding::stands)
+          << "seed " << seed << " point " << i;
   }
 }
 
