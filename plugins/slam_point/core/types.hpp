@@ -13,10 +13,12 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Adds a * b^T to `sum`. Written out, because it stands in the innermost loops: Eigen makes a call and a copy of it.
+/// Adds a * b^T to `sum`. Written by pairs of rows, which a register holds, because it stands in the innermost loops: of the product as a
+/// whole Eigen makes a call and a copy.
 inline void add_outer(const Vec3& a, const Vec3& b, Mat3& sum) {
   for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) sum(row, column) += a[row] * b[column];
+    sum.col(column).head<2>() += a.head<2>() * b[column];
+    sum(2, column) += a[2] * b[column];
   }
 }
 
@@ -30,7 +32,7 @@ struct Pose {
   Pose inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
 };
 
-/// A pose as a matrix, to move many points by: written out, as add_outer() is.
+/// A pose as a matrix, to move many points by; written as add_outer() is.
 class PointMotion {
  public:
   explicit PointMotion(const Pose& pose) : rotation_(pose.q.toRotationMatrix()), t_(pose.t) {}
@@ -38,9 +40,11 @@ class PointMotion {
   Vec3 operator*(const Vec3& p) const { return turned(p) + t_; }
   /// The rotation alone.
   Vec3 turned(const Vec3& p) const {
-    return {rotation_(0, 0) * p[0] + rotation_(0, 1) * p[1] + rotation_(0, 2) * p[2],
-            rotation_(1, 0) * p[0] + rotation_(1, 1) * p[1] + rotation_(1, 2) * p[2],
-            rotation_(2, 0) * p[0] + rotation_(2, 1) * p[1] + rotation_(2, 2) * p[2]};
+    Vec3 turned;
+    turned.head<2>() = rotation_.col(0).head<2>() * p[0] + rotation_.col(1).head<2>() * p[1] +
+                       rotation_.col(2).head<2>() * p[2];
+    turned[2] = rotation_(2, 0) * p[0] + rotation_(2, 1) * p[1] + rotation_(2, 2) * p[2];
+    return turned;
   }
 
  private:
