@@ -112,8 +112,16 @@ std::string table(const Found& found) {
   const planes::Score& score = *found.score;
   text += fmt::format("{} of {} labelled planes found at IoU 0.8, {} at 0.9, {} at 0.95; {} counted apart\n",
                       score.matched[0], score.truths, score.matched[1], score.matched[2], score.apart);
-  for (const planes::Fault& fault : score.faults)
-    text += "  " + planes::fault_text(fault, *found.truth) + "\n";
+  std::string extra;
+  for (const planes::Fault& fault : score.faults) {
+    if (fault.kind != planes::FaultKind::kExtra) {
+      text += "  " + planes::fault_text(fault, *found.truth) + "\n";
+      continue;
+    }
+    for (const std::size_t plane : fault.found) extra += fmt::format(" {}", plane);
+  }
+  // One line for all: where only some planes are labelled, most that are found are extra.
+  if (!extra.empty()) text += "  extra:" + extra + "\n";
   return text;
 }
 

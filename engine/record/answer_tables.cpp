@@ -2,6 +2,7 @@
 #include "record/answer_tables.hpp"
 
 #include "log/commands.hpp"
+#include "log/pose_covariances.hpp"
 #include "log/timing.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"

@@ -120,6 +120,8 @@ TEST(Planes, TakeLabelsFromAFile) {
   EXPECT_EQ(score.at("iou").at(0).at("recall"), 1.0);
   EXPECT_EQ(score.at("iou").at(0).at("precision"), 0.5);
   EXPECT_EQ(score.at("faults").at("extra"), 1);
+  const Ended text = hallway({"planes", file, "--plugin", levels(), "--labels", truth, "--unlabelled", "0"});
+  EXPECT_NE(text.out.find("\n  extra: 1\n"), std::string::npos) << text.out;
   EXPECT_EQ(planes({file, "--labels", truth}).at("score").at("true_planes"), 2);
   EXPECT_EQ(
       hallway({"planes", file, "--plugin", levels(), "--labels", folder.write("b.txt", "1\n2\n")}).status, 3);

@@ -112,7 +112,10 @@ StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
   StepCost cost;
   cost.before = cost.after = this->cost(graph, poses);
   if (!usable_) return cost;
-  const std::vector<Pose> before = poses;
+  before_.clear();
+  for (const Index submap : system_.free()) before_.push_back(poses[submap]);
+  const auto made = static_cast<std::ptrdiff_t>(newest_slot_ != kNone ? known_ : poses.size());
+  before_.insert(before_.end(), poses.begin() + made, poses.end());
   for (Index slot = 0; slot < start_.size(); ++slot) {
     Pose& pose = poses[system_.free()[slot]];
     pose = moved(pose, slot);
@@ -123,7 +126,9 @@ StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
   if (after < cost.before) {
     cost.after = after;
   } else {
-    poses = before;
+    std::copy(before_.begin() + static_cast<std::ptrdiff_t>(start_.size()), before_.end(),
+              poses.begin() + made);
+    for (Index slot = 0; slot < start_.size(); ++slot) poses[system_.free()[slot]] = before_[slot];
   }
   return cost;
 }

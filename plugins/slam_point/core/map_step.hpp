@@ -50,7 +50,8 @@ class MapStep {
   BlockCholesky factor_;
   std::vector<ReducedSystem::Vec6> move_;  // slot -> the gradient, then how far to go against it
   std::vector<Pose> start_;                // slot -> its pose when the step began
-  std::vector<std::size_t> members_;       // slot -> how many members its submap had then
+  std::vector<Pose> before_;  // of the free submaps and those made since: where they were before apply()
+  std::vector<std::size_t> members_;  // slot -> how many members its submap had then
   std::vector<Index> touched_;
   std::size_t known_ = 0;  // submaps when the step began
   Index newest_slot_ = kNone;

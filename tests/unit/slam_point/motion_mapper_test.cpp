@@ -98,8 +98,8 @@ void expect_told_apart(const Scores& scores, const std::function<bool(std::int64
   int moving = 0;
   for (const auto& [truth, count] : scores.sightings) {
     if (count < 20) continue;
-    const auto of = [&](const std::map<std::int64_t, int>& counts) {
-      const auto at = counts.find(truth);
+    const auto of = [landmark = truth](const std::map<std::int64_t, int>& counts) {
+      const auto at = counts.find(landmark);
       return at == counts.end() ? 0 : at->second;
     };
     const bool marked = of(scores.dynamic) > of(scores.mapped);
