@@ -8,6 +8,7 @@
 #include <ctime>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -268,6 +269,26 @@ void repeat(const Log& log, AnyMapper& mapper, std::vector<double>& wall_us, std
   }
 }
 
+/// Maps the log once more, the clock read between stages, and prints what share of the time each takes.
+void print_stages(const Log& log, Mapper& mapper) {
+  StageTimes times{};
+  mapper.reset();
+  mapper.time_stages(&times);
+  std::vector<Vec3> points;
+  for (const std::vector<Seen>& frame : log.frames) {
+    points.clear();
+    for (const Seen& seen : frame) points.push_back(seen.point);
+    mapper.process(points);
+  }
+  const double total = std::accumulate(times.begin(), times.end(), 0.0);
+  std::printf("stages");
+  for (std::size_t s = 0; s < kStages; ++s)
+    std::printf(" %s %.1f%%", kStageNames[s], 100.0 * times[s] / total);
+  std::printf("\n");
+}
+/// The thesis's algorithm does not tell.
+void print_stages(const Log&, const thesis::Mapper&) {}
+
 template <typename AnyMapper>
 void run(const Log& log, AnyMapper mapper, const std::string& folder, int runs) {
   Votes votes;
@@ -308,6 +329,7 @@ void run(const Log& log, AnyMapper mapper, const std::string& folder, int runs) 
   for (int again = 1; again < runs; ++again) repeat(log, mapper, wall_us, cpu_us);
   print_times("iteration_wall_us", std::move(wall_us));
   print_times("iteration_cpu_us", std::move(cpu_us));
+  print_stages(log, mapper);
 }
 
 constexpr const char* kUsage =

@@ -134,7 +134,9 @@ Cost mapper_cost(const Scene& scene, IndexKind kind) {
     Mapper staged(options_for(kind));
     StageTimes times{};
     staged.time_stages(&times);
-    least_stages.resize(frames.size(), StageTimes{1e300, 1e300, 1e300, 1e300, 1e300});
+    StageTimes none;
+    none.fill(1e300);
+    least_stages.resize(frames.size(), none);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       times.fill(0.0);
       staged.process(frames[i]);

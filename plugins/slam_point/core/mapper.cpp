@@ -210,9 +210,13 @@ void Mapper::State::place(std::span<const Vec3> points, std::span<const TrackId>
   }
   matcher_.drop_strays(graph_, T_map_sensor_, local_since(), frame_);
   learn_motion();
+  clock_.end(Stage::averaging);
   if (looks_for_motion()) motion_filter_.follow(graph_, T_map_sensor_, frame_);
+  clock_.end(Stage::moving);
   add_landmarks();
+  clock_.end(Stage::averaging);
   set_moving_apart();
+  clock_.end(Stage::moving);
   const bool is_over = SubmapOverlap::with_active(graph_, frame_) < options_.overlap ||
                        active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
   clock_.end(Stage::averaging);

@@ -12,13 +12,14 @@ enum class Stage : std::size_t {
   matching,   ///< prediction, and which landmark each point is
   fitting,    ///< the pose; the search for a turn where it fails
   averaging,  ///< new landmarks, and means of those seen
+  moving,     ///< what looks for landmarks that move, and follows them
   closing,  ///< a submap's end: its frames aligned again, the window solved, landmarks merged, the next submap
   solving   ///< a slice of a step over the whole map
 };
 
-inline constexpr std::size_t kStages = 5;
-inline constexpr const char* kStageNames[kStages] = {"matching", "fitting", "averaging", "closing",
-                                                     "solving"};
+inline constexpr std::size_t kStages = 6;
+inline constexpr const char* kStageNames[kStages] = {"matching", "fitting", "averaging", "moving",
+                                                     "closing", "solving"};
 
 /// What one iteration's stages took [us].
 using StageTimes = std::array<double, kStages>;
