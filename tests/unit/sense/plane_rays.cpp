@@ -158,7 +158,7 @@ TEST_P(PlaneRays, AgreeWithWhatIsSeen) {
   PlaneSensorSpec spec = test::plane_camera();
   spec.view = GetParam();
   Counts counts;
-  const std::uint32_t rounds = test::long_mode() ? 300 : 12;
+  const std::uint32_t rounds = test::sized(12u, 300u);
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const Scenery scenery(random_brushes(random, round));
     for (std::uint64_t place = 0; place < 4; ++place) {
