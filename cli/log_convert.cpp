@@ -8,7 +8,9 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "log/landmarks.hpp"
+#include "log/observed_planes.hpp"
 #include "log/poses.hpp"
+#include "log/true_walls.hpp"
 #include "log_command.hpp"
 #include "log_foxglove.hpp"
 #include "log_import.hpp"
@@ -93,13 +95,18 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
   log::ObservationLog observations(source.has_identities(), source.has_tracks());
+  log::ObservedPlaneLog planes(source.has_identities());
   std::vector<log::IterationPose> poses;
   run::SourceFrame frame;
   bool regular = true;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
     stop_if_interrupted();
     source.read(i, frame);
-    observations.add_frame(i, frame.observations);
+    if (frame.is_of_planes) {
+      planes.add_frame(i, frame.planes);
+    } else {
+      observations.add_frame(i, frame.observations);
+    }
     if (frame.T_world_body) poses.push_back(pose_of(i, frame));
     if (regular) warn_of_times(i, frame, opened.period_ns);
     regular = regular && frame.t_ns == opened.period_ns * static_cast<std::int64_t>(i);
@@ -108,10 +115,15 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   manifest["sensors"] = Json::array({record::print_sensor(source.sensor())});
   manifest["iterations"] = source.iterations();
   const fs::path& path = folder.working_path();
-  log::write_observations(path / run::files::kObservations, observations);
+  if (source.sensor().kind == HW_SAMPLE_PLANES) {
+    log::write_observed_planes(path / run::files::kObservedPlanes, planes);
+  } else {
+    log::write_observations(path / run::files::kObservations, observations);
+  }
   if (!poses.empty()) log::write_poses(path / run::files::kTruePoses, poses);
   if (source.true_landmarks())
     log::write_landmarks(path / run::files::kTrueLandmarks, *source.true_landmarks());
+  if (source.true_walls()) log::write_true_walls(path / run::files::kTrueWalls, *source.true_walls());
   write_file_atomically(path / run::files::kRun,
                         manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   folder.commit();

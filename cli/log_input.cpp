@@ -9,9 +9,11 @@
 #include "console.hpp"
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"
+#include "log/observed_planes.hpp"
 #include "log/poses.hpp"
-#include "record/sensor_json.hpp"
+#include "log/true_walls.hpp"
 #include "log/unfinished_input.hpp"
+#include "record/sensor_json.hpp"
 #include "run/log_source.hpp"
 #include "run/record.hpp"
 #include "run/recorded_run.hpp"
@@ -29,6 +31,7 @@ struct Files {
   std::optional<nlohmann::ordered_json> manifest;  ///< run.json of its folder
   std::optional<fs::path> true_poses;
   std::optional<fs::path> true_landmarks;
+  std::optional<fs::path> true_walls;
 };
 
 std::optional<fs::path> if_there(const fs::path& path) {
@@ -41,9 +44,10 @@ fs::path log_file(const std::string& log) {
   std::error_code code;
   const fs::path path = log;
   if (!fs::is_directory(path, code)) return path;
-  const bool only_mcap =
-      !fs::exists(path / run::files::kObservations, code) && fs::exists(path / run::files::kLog, code);
-  return path / (only_mcap ? run::files::kLog : run::files::kObservations);
+  for (const char* name : {run::files::kObservations, run::files::kObservedPlanes, run::files::kLog}) {
+    if (fs::exists(path / name, code)) return path / name;
+  }
+  return path / run::files::kObservations;
 }
 
 /// A log is often called obs.csv: the folder says more.
@@ -58,10 +62,13 @@ Files find_files(const LogChoice& choice, const fs::path& observations) {
   Files files;
   files.observations = observations;
   const fs::path folder = observations.parent_path();
-  if (observations.filename() == run::files::kObservations && run::is_run_folder(folder)) {
+  const bool is_named = observations.filename() == run::files::kObservations ||
+                        observations.filename() == run::files::kObservedPlanes;
+  if (is_named && run::is_run_folder(folder)) {
     files.manifest = run::read_manifest(folder);
     files.true_poses = if_there(folder / run::files::kTruePoses);
     files.true_landmarks = if_there(folder / run::files::kTrueLandmarks);
+    files.true_walls = if_there(folder / run::files::kTrueWalls);
   }
   if (!choice.true_poses.empty()) files.true_poses = choice.true_poses;
   if (!choice.true_landmarks.empty()) files.true_landmarks = choice.true_landmarks;
@@ -110,16 +117,30 @@ OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
     opened.inputs.push_back({file.filename().string(), read_file(file)});
     return opened.inputs.back().content;
   };
-  log::ReadLog read = log::parse_observations(read_input(path), path.string());
-  if (read.damage) warn(opened, log::describe(*read.damage, read.log, path.string()));
+  const std::string text = read_input(path);
   run::LogTruth truth;
   if (files.true_poses)
     truth.poses = log::parse_poses(read_input(*files.true_poses), files.true_poses->string());
   if (files.true_landmarks) {
     truth.landmarks = log::parse_landmarks(read_input(*files.true_landmarks), files.true_landmarks->string());
   }
-  opened.source = std::make_unique<run::LogSource>(std::move(read.log), std::move(truth),
-                                                   sensor_of(files.manifest), opened.period_ns, choice.steps);
+  if (files.true_walls)
+    truth.walls = log::parse_true_walls(read_input(*files.true_walls), files.true_walls->string());
+  const auto take = [&](auto read) {
+    if (read.damage) warn(opened, log::describe(*read.damage, read.log, path.string()));
+    try {
+      opened.source = std::make_unique<run::LogSource>(
+          std::move(read.log), std::move(truth), sensor_of(files.manifest), opened.period_ns, choice.steps);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.message(),
+                  {.file = printable(path.string()), .element = error.where().element});
+    }
+  };
+  if (log::is_of_planes(text)) {
+    take(log::parse_observed_planes(text, path.string()));
+  } else {
+    take(log::parse_observations(text, path.string()));
+  }
   return opened;
 }
 

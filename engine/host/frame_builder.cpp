@@ -4,13 +4,46 @@
 namespace hallway::host {
 
 /// A reading with the memory that its members point to; its address never changes.
-struct FrameBuilder::Points {
+struct FrameBuilder::Reading {
   hw_sample_t sample{};
-  hw_points_t payload{};
+  hw_points_t points_payload{};
   std::vector<hw_point3_t> points;
   std::vector<std::uint64_t> tracks;
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint32_t> pixels;
+  hw_planes_t planes_payload{};
+  PlaneReading planes;
+
+  void finish_points() {
+    points_payload = {};
+    points_payload.size = sizeof points_payload;
+    points_payload.stride = sizeof(hw_point3_t);
+    points_payload.count = points.size();
+    points_payload.points = points.data();
+    if (!tracks.empty()) {
+      sample.flags |= HW_SAMPLE_TRACKED;
+      points_payload.track = tracks.data();
+    }
+    if (width != 0) {
+      points_payload.width = width;
+      points_payload.height = height;
+      points_payload.pixel = pixels.data();
+    }
+    sample.payload = &points_payload;
+  }
+
+  void finish_planes() {
+    planes_payload = {};
+    planes_payload.size = sizeof planes_payload;
+    planes_payload.stride = sizeof(hw_plane_t);
+    planes_payload.count = planes.planes.size();
+    planes_payload.planes = planes.planes.data();
+    planes_payload.sample = HW_NO_SAMPLE;
+    planes_payload.hull_stride = sizeof(hw_point3_t);
+    planes_payload.n_hull_points = planes.hull_points.size();
+    planes_payload.hull_points = planes.hull_points.data();
+    sample.payload = &planes_payload;
+  }
 };
 
 FrameBuilder::FrameBuilder() {
@@ -20,24 +53,28 @@ FrameBuilder::FrameBuilder() {
 FrameBuilder::~FrameBuilder() = default;
 
 void FrameBuilder::begin(std::uint64_t sequence, std::int64_t t_ns) {
-  n_points_ = 0;
+  n_readings_ = 0;
   frame_ = {};
   frame_.size = sizeof frame_;
   frame_.sequence = sequence;
   frame_.t_ns = t_ns;
 }
 
-std::vector<hw_point3_t>& FrameBuilder::add_points(std::uint32_t sensor_id) {
-  if (n_points_ == points_.size()) points_.push_back(std::make_unique<Points>());
-  Points& reading = *points_[n_points_++];
+FrameBuilder::Reading& FrameBuilder::add_reading(std::uint32_t kind, std::uint32_t sensor_id) {
+  if (n_readings_ == readings_.size()) readings_.push_back(std::make_unique<Reading>());
+  Reading& reading = *readings_[n_readings_++];
   reading.sample = {};
   reading.sample.size = sizeof reading.sample;
-  reading.sample.kind = HW_SAMPLE_POINTS;
+  reading.sample.kind = kind;
   reading.sample.sensor_id = sensor_id;
   reading.sample.sequence = frame_.sequence;
   reading.sample.t_begin_ns = frame_.t_ns;
   reading.sample.t_end_ns = frame_.t_ns;
-  reading.sample.payload = &reading.payload;
+  return reading;
+}
+
+std::vector<hw_point3_t>& FrameBuilder::add_points(std::uint32_t sensor_id) {
+  Reading& reading = add_reading(HW_SAMPLE_POINTS, sensor_id);
   reading.points.clear();
   reading.tracks.clear();
   reading.width = reading.height = 0;
@@ -46,33 +83,31 @@ std::vector<hw_point3_t>& FrameBuilder::add_points(std::uint32_t sensor_id) {
 }
 
 std::vector<std::uint64_t>& FrameBuilder::add_tracks() {
-  return points_.at(n_points_ - 1)->tracks;
+  return readings_.at(n_readings_ - 1)->tracks;
 }
 
 std::vector<std::uint32_t>& FrameBuilder::add_pixels(std::uint32_t width, std::uint32_t height) {
-  Points& reading = *points_.at(n_points_ - 1);
+  Reading& reading = *readings_.at(n_readings_ - 1);
   reading.width = width;
   reading.height = height;
   return reading.pixels;
 }
 
+FrameBuilder::PlaneReading& FrameBuilder::add_planes(std::uint32_t sensor_id) {
+  PlaneReading& planes = add_reading(HW_SAMPLE_PLANES, sensor_id).planes;
+  planes.planes.clear();
+  planes.hull_points.clear();
+  return planes;
+}
+
 const hw_frame_t& FrameBuilder::finish() {
   samples_.clear();
-  for (std::size_t i = 0; i < n_points_; ++i) {
-    Points& reading = *points_[i];
-    reading.payload = {};
-    reading.payload.size = sizeof reading.payload;
-    reading.payload.stride = sizeof(hw_point3_t);
-    reading.payload.count = reading.points.size();
-    reading.payload.points = reading.points.data();
-    if (!reading.tracks.empty()) {
-      reading.sample.flags |= HW_SAMPLE_TRACKED;
-      reading.payload.track = reading.tracks.data();
-    }
-    if (reading.width != 0) {
-      reading.payload.width = reading.width;
-      reading.payload.height = reading.height;
-      reading.payload.pixel = reading.pixels.data();
+  for (std::size_t i = 0; i < n_readings_; ++i) {
+    Reading& reading = *readings_[i];
+    if (reading.sample.kind == HW_SAMPLE_PLANES) {
+      reading.finish_planes();
+    } else {
+      reading.finish_points();
     }
     samples_.push_back(&reading.sample);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <hallway/planes.h>
 #include <hallway/sample.h>
 
 #include <cstdint>
@@ -35,13 +36,27 @@ class FrameBuilder {
   /// @return the empty list to be filled with the pixel (row * width + column) of each of them; valid until the next call
   std::vector<std::uint32_t>& add_pixels(std::uint32_t width, std::uint32_t height);
 
+  /// The planes of a reading, and what their hulls are made of (hw_plane_t.first_hull).
+  struct PlaneReading {
+    std::vector<hw_plane_t> planes;
+    std::vector<hw_point3_t> hull_points;
+  };
+
+  /// Adds an instantaneous reading of planes that a sensor gives itself, as add_points() does.
+  /// @return the empty lists to be filled, sensor frame, metres; valid until the next call
+  PlaneReading& add_planes(std::uint32_t sensor_id);
+
   /// The frame, as the ABI has it; valid until the next begin().
   const hw_frame_t& finish();
 
  private:
-  struct Points;
-  std::vector<std::unique_ptr<Points>> points_;  ///< the first n_points_ count; the others keep their memory
-  std::size_t n_points_ = 0;
+  struct Reading;
+
+  Reading& add_reading(std::uint32_t kind, std::uint32_t sensor_id);
+
+  std::vector<std::unique_ptr<Reading>>
+      readings_;  ///< the first n_readings_ count; the others keep their memory
+  std::size_t n_readings_ = 0;
   std::vector<const hw_sample_t*> samples_;
   hw_frame_t frame_{};
 };

@@ -11,12 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "log/frame_list.hpp"
+#include "log/frame_rows.hpp"
 #include "log/landmark_id.hpp"
 
 namespace hallway::log {
-
-/// The highest iteration number that a log may name. Higher ones are damage, such as a time stamp in the wrong column.
-inline constexpr std::uint32_t kMaxIteration = 99'999'999;
 
 /// Id under which the sensor itself follows a point from frame to frame.
 using TrackId = std::uint64_t;
@@ -31,9 +30,8 @@ struct Observation {
   TrackId track = kNoTrack;       ///< where the sensor follows its points; never a true identity
 };
 
-/// The observations of a run, frame by frame; a frame's observations keep their order. Memory grows with the observations,
-/// not with the iteration numbers.
-class ObservationLog {
+/// The observations of a run.
+class ObservationLog : public FrameList<Observation> {
  public:
   /// @param has_identities  whether the observations name their true landmarks
   /// @param has_tracks      whether the sensor follows its points
@@ -42,31 +40,12 @@ class ObservationLog {
 
   bool has_identities() const { return has_identities_; }
   bool has_tracks() const { return has_tracks_; }
-  /// One more than the last iteration that was added, 0 before the first.
-  std::uint32_t iterations() const { return iterations_; }
   /// All observations, in the order of the frames.
-  std::span<const Observation> observations() const { return observations_; }
-  /// The iterations that have observations, increasing.
-  std::span<const std::uint32_t> filled_iterations() const { return filled_; }
-  /// The observations of an iteration; empty where nothing was seen and after the end. O(log iterations).
-  std::span<const Observation> frame(std::uint32_t iteration) const;
-  /// Adds the next frame, which may be empty. Iterations left out are empty frames. Throws Error{kInternal} if
-  /// `iteration` is not above all earlier ones or is above kMaxIteration.
-  void add_frame(std::uint32_t iteration, std::span<const Observation> observations);
+  std::span<const Observation> observations() const { return all(); }
 
  private:
   bool has_identities_;
   bool has_tracks_;
-  std::uint32_t iterations_ = 0;
-  std::vector<Observation> observations_;
-  std::vector<std::uint32_t> filled_;
-  std::vector<std::size_t> begin_;  ///< by place in filled_: where its observations begin
-};
-
-/// Where reading stopped before the end of a file.
-struct Damage {
-  int line = 0;       ///< 1-based line of the first thing that was not read
-  std::string cause;  ///< what is wrong there
 };
 
 /// What could be read of a log.

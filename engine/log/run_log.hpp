@@ -18,6 +18,7 @@
 #include "log/planes.hpp"
 #include "log/pose_covariances.hpp"
 #include "log/poses.hpp"
+#include "log/true_walls.hpp"
 
 namespace hallway::log {
 
@@ -31,6 +32,7 @@ inline constexpr std::string_view kActivation = "/hallway/activation";          
 inline constexpr std::string_view kTruePose = "/hallway/truth/pose";            ///< T_world_body
 inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    ///< of the observations
 inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
+inline constexpr std::string_view kTrueWalls = "/hallway/truth/walls";          ///< world
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
 inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
@@ -76,6 +78,7 @@ class RunLogWriter {
   /// JSON: the period and the sensors.
   void add_activation(const std::string& json);
   void add_true_landmarks(std::span<const Landmark> landmarks);
+  void add_true_walls(std::span<const TrueWall> walls);
   /// A frame in the form of host/frame_bytes.hpp.
   void add_frame(const FrameStamp& stamp, std::string_view bytes);
   void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
@@ -120,10 +123,13 @@ struct IdentitiesMessage {
 struct TrueLandmarksMessage {
   std::vector<Landmark> landmarks;
 };
+struct TrueWallsMessage {
+  std::vector<TrueWall> walls;
+};
 
 /// What replay needs of a log; std::monostate for all else.
 using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, TruePoseMessage,
-                                IdentitiesMessage, TrueLandmarksMessage>;
+                                IdentitiesMessage, TrueLandmarksMessage, TrueWallsMessage>;
 
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.

@@ -76,6 +76,20 @@ TrueLandmarksMessage true_landmarks(const Json& json) {
   return message;
 }
 
+TrueWallsMessage true_walls(const Json& json) {
+  TrueWallsMessage message;
+  std::unordered_set<LandmarkId> seen;
+  for (const Json& entry : json.at("walls")) {
+    TrueWall& wall = message.walls.emplace_back();
+    wall.id = whole(entry.at("id"), kNoLandmark - 1);
+    const Json& corners = entry.at("corners_m");
+    if (!corners.is_array() || corners.size() != wall.corners_m.size()) bad("a wall without four corners");
+    for (std::size_t i = 0; i < wall.corners_m.size(); ++i) wall.corners_m[i] = numbers<3>(corners[i]);
+    if (!seen.insert(wall.id).second) bad("a wall that stands there twice");
+  }
+  return message;
+}
+
 PoseMessage pose_answer(const Json& json) {
   PoseMessage message{.iteration = iteration_of(json), .pose = {}};
   const std::string status = json.at("status").get<std::string>();
@@ -116,6 +130,7 @@ RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kTruePose) return true_pose(parse_json(data));
   if (topic == topics::kIdentities) return identities(parse_json(data));
   if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
+  if (topic == topics::kTrueWalls) return true_walls(parse_json(data));
   return {};
 }
 
@@ -140,7 +155,7 @@ auto parse_message(const McapChannel& channel, const McapMessage& message, Parse
 }  // namespace
 
 bool is_of_whole_log(std::string_view topic) {
-  return topic == topics::kActivation || topic == topics::kTrueLandmarks;
+  return topic == topics::kActivation || topic == topics::kTrueLandmarks || topic == topics::kTrueWalls;
 }
 
 RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message) {

@@ -112,6 +112,13 @@ void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
   add(topics::kTrueLandmarks, {}, text_of({{"landmarks", list}}));
 }
 
+void RunLogWriter::add_true_walls(std::span<const TrueWall> walls) {
+  Json list = Json::array();
+  for (const TrueWall& wall : walls)
+    list.push_back({{"id", wall.id}, {"corners_m", points_json(wall.corners_m)}});
+  add(topics::kTrueWalls, {}, text_of({{"walls", list}}));
+}
+
 void RunLogWriter::add_frame(const FrameStamp& stamp, std::string_view bytes) {
   add(topics::kFrame, stamp, bytes);
 }

@@ -18,6 +18,7 @@ constexpr double kLargestAngle_deg = 3600.0;
 constexpr double kFullTurn_deg = 360.0;
 constexpr double kLargestNoise_m = 1e3;
 constexpr double kLargestNoisePerM = 1.0;
+constexpr double kLargestNoise_deg = 90.0;
 constexpr double kFarthestMount_m = 1e3;
 constexpr double kFastest_m_s = 1e3;
 
@@ -89,17 +90,22 @@ constexpr std::array kCloud{required("name", KeyKind::kName),
 // What a scenario's sensor may be too.
 constexpr std::array kSensor{
     required("name", KeyKind::kName),
-    KeySpec{.name = "kind", .kind = KeyKind::kChoice, .fallback = "points", .choices = "points"},
+    KeySpec{.name = "kind", .kind = KeyKind::kChoice, .fallback = "points", .choices = "points planes"},
     field_of_view("horizontal_fov_deg", "90"),
     field_of_view("vertical_fov_deg", "60"),
     number("min_range_m", 0.0, kLongest_m, "0"),
     number("max_range_m", 0.0, kLongest_m, "100"),
     numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
-    numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0"),
+    of_variant("points", numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0")),
     numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
     number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
-    number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
-    number("roll_deg", -kFullTurn_deg, kFullTurn_deg, "0")};
+    of_variant("points", number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
+    of_variant("points", number("roll_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
+    of_variant("planes", {.name = "bounded_sides", .kind = KeyKind::kFlag, .fallback = "0"}),
+    of_variant("planes", {.name = "occlusion", .kind = KeyKind::kFlag, .fallback = "1"}),
+    of_variant("planes", number("min_length_m", 0.0, kLongest_m, "0.05")),
+    of_variant("planes", number("noise_angle_deg", 0.0, kLargestNoise_deg, "0")),
+    of_variant("planes", number("noise_end_m", 0.0, kLargestNoise_m, "0"))};
 constexpr std::array kMesh{kOrigin,
                            required("model", KeyKind::kText),
                            kAngle,
@@ -128,7 +134,7 @@ constexpr std::array kSchema{
     EntitySpec{.classname = "hw_path", .selector = "shape", .keys = kPath},
     point("hw_waypoint", kWaypoint),
     point("hw_landmark_cloud", kCloud),
-    point("hw_sensor", kSensor),
+    EntitySpec{.classname = "hw_sensor", .selector = "kind", .keys = kSensor},
     point("hw_mesh", kMesh),
     point("light", kLight, true),
 };

@@ -46,7 +46,7 @@ hw_pose_t read_pose(const Json& json) {
 
 Json print_sensor(const host::SensorInfo& sensor) {
   return {{"name", sensor.name},
-          {"kind", "points"},
+          {"kind", sensor.kind == HW_SAMPLE_PLANES ? "planes" : "points"},
           {"T_body_sensor", print_pose(sensor.T_body_sensor)},
           {"horizontal_fov_rad", known(sensor.horizontal_fov)},
           {"vertical_fov_rad", known(sensor.vertical_fov)},
@@ -59,6 +59,7 @@ host::SensorInfo read_sensor(const Json& json) {
   return read_checked("sensor", [&] {
     host::SensorInfo sensor;
     sensor.name = json.at("name").get<std::string>();
+    if (json.value("kind", "points") == "planes") sensor.kind = HW_SAMPLE_PLANES;
     sensor.T_body_sensor = read_pose(json.at("T_body_sensor"));
     sensor.horizontal_fov = number_or_unknown(json.at("horizontal_fov_rad"));
     sensor.vertical_fov = number_or_unknown(json.at("vertical_fov_rad"));

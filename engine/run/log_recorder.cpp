@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "run/log_recorder.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace hallway::run {
 namespace {
 
 constexpr std::uint32_t kSensorId = 0;
+
+void copy(const std::array<double, 3>& from, double (&to)[3]) {
+  std::copy(from.begin(), from.end(), to);
+}
+
+void add_planes(host::FrameBuilder& builder, std::span<const log::ObservedPlane> planes) {
+  host::FrameBuilder::PlaneReading& reading = builder.add_planes(kSensorId);
+  for (const log::ObservedPlane& seen : planes) {
+    hw_plane_t& plane = reading.planes.emplace_back();
+    plane.id = seen.plane.id;
+    copy(seen.plane.normal, plane.normal);
+    plane.offset_m = seen.plane.offset_m;
+    copy(seen.plane.centroid_m, plane.centroid);
+    for (std::size_t i = 0; i < 4; ++i) copy(seen.plane.corners_m[i], plane.corners[i]);
+    plane.n_points = seen.plane.points;
+    plane.rms_m = seen.plane.rms_m;
+    plane.exclusive_share = seen.plane.exclusive_share;
+    plane.first_hull = seen.hull_m.empty() ? 0 : reading.hull_points.size();
+    plane.n_hull = seen.hull_m.size();
+    for (const auto& point : seen.hull_m) reading.hull_points.push_back({point[0], point[1], point[2]});
+  }
+}
 
 }  // namespace
 
 const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iteration,
                               const SourceFrame& frame) {
   builder.begin(iteration, frame.t_ns);
+  if (frame.is_of_planes) {
+    add_planes(builder, frame.planes);
+    return builder.finish();
+  }
   std::vector<hw_point3_t>& points = builder.add_points(kSensorId);
   for (const log::Observation& seen : frame.observations) {
     points.push_back({seen.point[0], seen.point[1], seen.point[2]});
@@ -30,6 +59,7 @@ LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
                          .has_identities = source.has_identities()}),
       source_(source) {
   if (source.true_landmarks()) recorder_.writer().add_true_landmarks(*source.true_landmarks());
+  if (source.true_walls()) recorder_.writer().add_true_walls(*source.true_walls());
 }
 
 void LogRecorder::add_view(bool has_answers) {
@@ -45,8 +75,7 @@ void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth
   const log::FrameStamp& stamp = recorder_.stamp();
   if (view_) view_->add_frame(stamp, given);
   if (source_.has_identities()) {
-    ids_.clear();
-    for (const log::Observation& seen : truth.observations) ids_.push_back(seen.landmark);
+    truth.identities(ids_);
     writer.add_identities(stamp, ids_);
   }
   if (!truth.T_world_body) return;

@@ -13,7 +13,7 @@
 
 namespace hallway::run {
 
-/// The frame that plugins are given: the points of one instantaneous reading, and nothing of what is true. Valid until the
+/// The frame that plugins are given: the points, or the planes, of one instantaneous reading, and nothing of what is true. Valid until the
 /// builder is used again.
 const hw_frame_t& build_frame(host::FrameBuilder& builder, std::uint32_t iteration, const SourceFrame& frame);
 

@@ -27,6 +27,9 @@ class PacedSource : public Source {
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return source_.true_landmarks();
   }
+  const std::optional<std::vector<log::TrueWall>>& true_walls() const override {
+    return source_.true_walls();
+  }
 
  private:
   struct Start {

@@ -12,6 +12,7 @@
 #include "host/frame_bytes.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
+#include "record/plane_answers.hpp"
 #include "record/sensor_json.hpp"
 
 namespace hallway::run {
@@ -69,12 +70,17 @@ class Collector {
   void operator()(const log::IdentitiesMessage& message) {
     SourceFrame* frame = frame_of(message.iteration);
     if (frame == nullptr) return;
-    if (message.ids.size() != frame->observations.size()) {
-      bad(fmt::format("{} identities for {} points", message.ids.size(), frame->observations.size()));
+    const std::size_t seen = frame->is_of_planes ? frame->planes.size() : frame->observations.size();
+    if (message.ids.size() != seen) {
+      bad(fmt::format("{} identities for {} {}", message.ids.size(), seen,
+                      frame->is_of_planes ? "planes" : "points"));
     }
-    for (std::size_t i = 0; i < message.ids.size(); ++i) frame->observations[i].landmark = message.ids[i];
+    for (std::size_t i = 0; i < seen; ++i) {
+      (frame->is_of_planes ? frame->planes[i].wall : frame->observations[i].landmark) = message.ids[i];
+    }
   }
   void operator()(log::TrueLandmarksMessage&& message) { run_.true_landmarks = std::move(message.landmarks); }
+  void operator()(log::TrueWallsMessage&& message) { run_.true_walls = std::move(message.walls); }
 
  private:
   static Json parse_json(const std::string& text, const char* what) {
@@ -97,11 +103,23 @@ class Collector {
       bad(fmt::format("frame {} has {} readings; replay takes frames of one", frame.sequence,
                       frame.n_samples));
     }
-    if (frame.samples[0]->kind != HW_SAMPLE_POINTS) {
-      bad(fmt::format("frame {} has no points; replay takes frames of points", frame.sequence));
-    }
     SourceFrame copy;
     copy.t_ns = frame.t_ns;
+    copy.is_of_planes = run_.sensor.kind == HW_SAMPLE_PLANES;
+    if (frame.samples[0]->kind != run_.sensor.kind) {
+      const char* kind = copy.is_of_planes ? "planes" : "points";
+      bad(fmt::format("frame {} has no {}, which its sensor gives", frame.sequence, kind));
+    }
+    if (copy.is_of_planes) {
+      add_planes(frame, copy);
+    } else {
+      add_points(frame, copy);
+    }
+    run_.frames.push_back(std::move(copy));
+    sequences_.push_back(frame.sequence);
+  }
+
+  void add_points(const hw_frame_t& frame, SourceFrame& copy) {
     const auto& points = *static_cast<const hw_points_t*>(frame.samples[0]->payload);
     copy.observations.reserve(points.count);
     for (std::uint64_t i = 0; i < points.count; ++i) {
@@ -110,8 +128,24 @@ class Collector {
     }
     copy.is_tracked = (frame.samples[0]->flags & HW_SAMPLE_TRACKED) != 0 && points.track != nullptr;
     run_.has_tracks = run_.has_tracks || copy.is_tracked;
-    run_.frames.push_back(std::move(copy));
-    sequences_.push_back(frame.sequence);
+  }
+
+  static void add_planes(const hw_frame_t& frame, SourceFrame& copy) {
+    const auto& planes = *static_cast<const hw_planes_t*>(frame.samples[0]->payload);
+    if (planes.sample != HW_NO_SAMPLE)
+      bad(fmt::format("frame {} has planes that were found in another reading", frame.sequence));
+    copy.planes.reserve(planes.count);
+    for (std::uint64_t i = 0; i < planes.count; ++i) {
+      const hw_plane_t& plane = *hw_plane_at(&planes, i);
+      log::ObservedPlane& seen = copy.planes.emplace_back();
+      seen.plane = record::plane_row(plane);
+      for (std::uint64_t k = 0; k < plane.n_hull; ++k) {
+        const auto* at =
+            static_cast<const char*>(planes.hull_points) + (plane.first_hull + k) * planes.hull_stride;
+        const auto& point = *static_cast<const hw_point3_t*>(static_cast<const void*>(at));
+        seen.hull_m.push_back({point.x, point.y, point.z});
+      }
+    }
   }
 
   /// Null for what belongs to no frame: it may have been cut off.

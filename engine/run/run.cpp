@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 /// Everything that is collected while a run goes on and written at its end.
 struct Collected {
   log::ObservationLog observations{true};
+  log::ObservedPlaneLog planes{true};
   TruthTables truth;
 };
 
@@ -55,9 +56,7 @@ class Tally {
   void add(const FrameAnswer& answer) {
     const SourceFrame& frame = answer.frame;
     identities_.clear();
-    if (source_.has_identities()) {
-      for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
-    }
+    if (source_.has_identities()) frame.identities(identities_);
     points_.clear();
     for (const log::Observation& seen : frame.observations)
       points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
@@ -93,12 +92,16 @@ class Tally {
     if (answer.outputs != nullptr) {
       if (const auto given = answer.outputs->associations(0)) return *given;
     }
-    none_.assign(answer.frame.observations.size(), log::kNoLandmark);
+    none_.assign(answer.frame.observations.size() + answer.frame.planes.size(), log::kNoLandmark);
     return none_;
   }
 
   void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
-    if (keep_observations_) collected_.observations.add_frame(iteration, frame.observations);
+    if (keep_observations_ && frame.is_of_planes) {
+      collected_.planes.add_frame(iteration, frame.planes);
+    } else if (keep_observations_) {
+      collected_.observations.add_frame(iteration, frame.observations);
+    }
     collected_.truth.add(iteration, frame);
   }
 
@@ -116,7 +119,12 @@ void write_input(const fs::path& folder, const RunPlan& plan, const Source& sour
                  const Collected& collected) {
   write_attachments(folder, plan.attachments);
   collected.truth.write(folder, source);
-  if (plan.write_observations) log::write_observations(folder / files::kObservations, collected.observations);
+  if (!plan.write_observations) return;
+  if (source.sensor().kind == HW_SAMPLE_PLANES) {
+    log::write_observed_planes(folder / files::kObservedPlanes, collected.planes);
+  } else {
+    log::write_observations(folder / files::kObservations, collected.observations);
+  }
 }
 
 void write_matches(const fs::path& folder, const eval::Evaluator& evaluator) {

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <variant>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "run/abi_pose.hpp"
@@ -20,7 +23,10 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
             scenario.sensors.size()),
         {.file = printable(scenario.file)});
   }
-  const sense::PointSensorSpec& spec = scenario.sensors.front();
+  std::visit([this](const auto& spec) { take(spec); }, scenario.sensors.front());
+}
+
+void SimulatedSource::take(const sense::PointSensorSpec& spec) {
   sensor_.name = spec.name;
   sensor_.T_body_sensor = abi_pose(spec.T_body_sensor);
   sensor_.horizontal_fov = spec.horizontal_fov;
@@ -29,24 +35,71 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
   sensor_.max_range_m = spec.max_range_m;
   for (int axis = 0; axis < 3; ++axis) sensor_.noise_m[axis] = spec.noise_m[axis];
   landmarks_.emplace();
-  for (const Vec3& place : simulator.landmarks()) {
+  for (const Vec3& place : simulator_.landmarks()) {
     const auto id = static_cast<std::uint32_t>(landmarks_->size());
     landmarks_->push_back({.id = id,
                            .position_m = {place.x(), place.y(), place.z()},
-                           .moving = simulator.moving_landmarks().moves(id)});
+                           .moving = simulator_.moving_landmarks().moves(id)});
   }
 }
+
+void SimulatedSource::take(const sense::PlaneSensorSpec& spec) {
+  sensor_.kind = HW_SAMPLE_PLANES;
+  sensor_.name = spec.name;
+  sensor_.T_body_sensor = abi_pose(spec.T_body_sensor);
+  sensor_.horizontal_fov = spec.view.horizontal_fov;
+  sensor_.vertical_fov = spec.vertical_fov;
+  sensor_.min_range_m = spec.view.min_range_m;
+  sensor_.max_range_m = spec.view.max_range_m;
+  sensor_.noise_m[0] = sensor_.noise_m[1] = spec.noise_m;  // along the normals, which are level
+  sensor_.noise_m[2] = 0.0;
+  walls_.emplace();
+  for (const sense::Wall& wall : simulator_.walls(0)->walls) {
+    const Vec2 &l = wall.left, &r = wall.right;
+    walls_->push_back({.id = walls_->size(),
+                       .corners_m = {{{l.x(), l.y(), wall.low_m},
+                                      {r.x(), r.y(), wall.low_m},
+                                      {r.x(), r.y(), wall.high_m},
+                                      {l.x(), l.y(), wall.high_m}}}});
+  }
+}
+
+namespace {
+
+std::array<double, 3> numbers_of(const Vec3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+log::ObservedPlane plane_of(const sense::PlaneObservation& seen, std::uint64_t id) {
+  log::ObservedPlane observed;
+  observed.wall = seen.wall;
+  observed.plane.id = id;
+  observed.plane.normal = numbers_of(seen.plane.normal);
+  observed.plane.offset_m = seen.plane.offset;
+  observed.plane.centroid_m = numbers_of(seen.centroid);
+  for (std::size_t i = 0; i < seen.corners.size(); ++i)
+    observed.plane.corners_m[i] = numbers_of(seen.corners[i]);
+  observed.plane.exclusive_share = 1.0;
+  return observed;
+}
+
+}  // namespace
 
 void SimulatedSource::read(std::uint32_t iteration, SourceFrame& frame) {
   const sim::Frame step = simulator_.step(iteration);
   frame.t_ns = step.t_ns;
   frame.T_world_body = step.T_world_body;
   frame.orientation_known = true;
+  frame.is_of_planes = sensor_.kind == HW_SAMPLE_PLANES;
   frame.observations.clear();
-  for (const sense::PointObservation& seen : step.readings.front().observations) {
+  frame.planes.clear();
+  const sim::Reading& reading = step.readings.front();
+  for (const sense::PointObservation& seen : reading.observations) {
     frame.observations.push_back(
         {.landmark = seen.landmark, .point = {seen.point.x(), seen.point.y(), seen.point.z()}});
   }
+  for (const sense::PlaneObservation& seen : reading.planes)
+    frame.planes.push_back(plane_of(seen, frame.planes.size()));
 }
 
 }  // namespace hallway::run

@@ -17,11 +17,16 @@ class SimulatedSource : public Source {
   const host::SensorInfo& sensor() const override { return sensor_; }
   bool has_identities() const override { return true; }
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return landmarks_; }
+  const std::optional<std::vector<log::TrueWall>>& true_walls() const override { return walls_; }
 
  private:
+  void take(const sense::PointSensorSpec& spec);
+  void take(const sense::PlaneSensorSpec& spec);
+
   const sim::Simulator& simulator_;
   host::SensorInfo sensor_;
-  std::optional<std::vector<log::Landmark>> landmarks_;
+  std::optional<std::vector<log::Landmark>> landmarks_;  ///< where the sensor is one of points
+  std::optional<std::vector<log::TrueWall>> walls_;      ///< where it is one of planes
 };
 
 }  // namespace hallway::run

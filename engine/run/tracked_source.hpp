@@ -11,7 +11,7 @@ namespace hallway::run {
 /// landmark. For comparisons with algorithms that do not find out by themselves which point is which.
 class TrackedSource : public Source {
  public:
-  /// Throws Error{kUsage} where the observations do not name their landmarks.
+  /// Throws Error{kUsage} where the observations do not name their landmarks, or are no points.
   explicit TrackedSource(std::unique_ptr<Source> source);
 
   std::uint32_t iterations() const override { return source_->iterations(); }
@@ -21,6 +21,9 @@ class TrackedSource : public Source {
   bool has_tracks() const override { return true; }
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return source_->true_landmarks();
+  }
+  const std::optional<std::vector<log::TrueWall>>& true_walls() const override {
+    return source_->true_walls();
   }
 
  private:

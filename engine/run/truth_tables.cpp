@@ -2,6 +2,7 @@
 #include "run/truth_tables.hpp"
 
 #include "log/landmarks.hpp"
+#include "log/true_walls.hpp"
 #include "record/files.hpp"
 
 namespace hallway::run {
@@ -30,6 +31,7 @@ void TruthTables::write(const std::filesystem::path& folder, const Source& sourc
     log::write_poses(folder / files::kTruePoses, poses_);
   }
   if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
+  if (source.true_walls()) log::write_true_walls(folder / files::kTrueWalls, *source.true_walls());
 }
 
 }  // namespace hallway::run

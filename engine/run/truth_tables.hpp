@@ -18,7 +18,7 @@ class TruthTables {
  public:
   /// Frames in their order.
   void add(std::uint32_t iteration, const SourceFrame& frame);
-  /// Writes truth.tum, truth_poses.csv and truth_landmarks.csv, as far as the truth is known. Throws Error{kIo}.
+  /// Writes truth.tum, truth_poses.csv, truth_landmarks.csv and true_walls.csv, as far as the truth is known. Throws Error{kIo}.
   void write(const std::filesystem::path& folder, const Source& source) const;
 
  private:

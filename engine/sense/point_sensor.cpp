@@ -2,64 +2,25 @@
 #include "sense/point_sensor.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "sense/spec_check.hpp"
 
 namespace hallway::sense {
 namespace {
 
-constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
-constexpr double kAngleRounding = 1e-9;  ///< radians; 360 degrees may come out a hair above 2 pi
-constexpr double kUnitRounding = 1e-6;   ///< of a quaternion's length
-constexpr double kDegrees = 360.0 / kFullTurn;
-
-/// Throws at the first wrong member of a spec.
-class SpecCheck {
- public:
-  explicit SpecCheck(const PointSensorSpec& spec) : spec_(spec) {}
-
-  void run() const {
-    if (spec_.name.empty()) fail("name", "is empty");
-    check_angle("horizontal_fov", spec_.horizontal_fov);
-    check_angle("vertical_fov", spec_.vertical_fov);
-    check_not_negative("min_range_m", spec_.min_range_m);
-    check_not_negative("max_range_m", spec_.max_range_m);
-    if (spec_.min_range_m > spec_.max_range_m) {
-      fail("min_range_m", "is " + format_double(spec_.min_range_m) + ", above max_range_m, " +
-                              format_double(spec_.max_range_m));
-    }
-    for (const double sigma : spec_.noise_m) check_not_negative("noise_m", sigma);
-    for (const double slope : spec_.noise_per_m) check_not_negative("noise_per_m", slope);
-    const Pose& mount = spec_.T_body_sensor;
-    if (!mount.t.allFinite() || !(std::abs(mount.q.norm() - 1.0) < kUnitRounding)) {
-      fail("T_body_sensor", "is not a finite position and a unit quaternion");
-    }
-  }
-
- private:
-  void check_angle(const char* member, double angle) const {
-    if (angle > 0.0 && angle <= kFullTurn + kAngleRounding) return;
-    fail(member, "is " + format_double(angle * kDegrees) + " degrees; it must be above 0 and at most 360");
-  }
-  void check_not_negative(const char* member, double value) const {
-    if (value >= 0.0 && std::isfinite(value)) return;
-    fail(member, "is " + format_double(value) + "; it must be a finite number that is not negative");
-  }
-  [[noreturn]] void fail(const std::string& member, const std::string& problem) const {
-    throw Error(ErrorCode::kBadInput, member + " " + problem,
-                {.element = "sensor `" + printable(spec_.name) + "`"});
-  }
-
-  const PointSensorSpec& spec_;
-};
-
 const PointSensorSpec& checked(const PointSensorSpec& spec) {
-  SpecCheck(spec).run();
+  const SpecCheck check(spec.name);
+  check.angle("horizontal_fov", spec.horizontal_fov);
+  check.angle("vertical_fov", spec.vertical_fov);
+  check.ranges(spec.min_range_m, spec.max_range_m);
+  for (const double sigma : spec.noise_m) check.not_negative("noise_m", sigma);
+  for (const double slope : spec.noise_per_m) check.not_negative("noise_per_m", slope);
+  check.mount(spec.T_body_sensor);
   return spec;
 }
 

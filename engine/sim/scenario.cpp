@@ -133,8 +133,8 @@ class ScenarioReader {
       if (!map::is_sensor_name(name)) {
         throw all.error(name, "a sensor's name is 1 to 64 of the characters a-z, A-Z, 0-9, _ and -");
       }
-      TableReader sensor = reader("sensor." + name, all.table(name), all.line(name), kSensorKeys);
-      scenario_.sensors.push_back(read_sensor(name, sensor));
+      scenario_.sensors.push_back(
+          read_sensor(name, {scenario_.file, all.table(name), all.line(name), scenario_.settings}));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/error.hpp"
@@ -14,6 +15,7 @@
 #include "host/plugin_limits.hpp"
 #include "host/plugin_table.hpp"
 #include "map/document.hpp"
+#include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/setting.hpp"
 
@@ -55,6 +57,9 @@ struct PictureSpec {
   bool shows(PictureLayer layer) const;
 };
 
+/// What a sensor is, of one kind or the other.
+using SensorSpec = std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec>;
+
 /// Keys of an `hw_landmark_cloud` of the map that a scenario sets in its place.
 struct CloudSpec {
   std::string name;                 ///< of the cloud
@@ -72,9 +77,9 @@ struct Scenario {
   std::int64_t period_ns = 100'000'000;  ///< from frame to frame
   PluginLimits limits{};
   RobotSpec robot;
-  std::vector<sense::PointSensorSpec> sensors;  ///< in the order of the file; none: those of the map count
-  std::vector<CloudSpec> clouds;                ///< in the order of the file
-  std::vector<host::StageSpec> pipeline;        ///< in the order of the file
+  std::vector<SensorSpec> sensors;        ///< in the order of the file; none: those of the map count
+  std::vector<CloudSpec> clouds;          ///< in the order of the file
+  std::vector<host::StageSpec> pipeline;  ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order
 

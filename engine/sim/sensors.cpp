@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "base/text.hpp"
 #include "map/sensors.hpp"
@@ -25,7 +26,11 @@ double angle(TableReader& sensor, const char* key) {
   return number(sensor, key) * (std::numbers::pi / 180.0);
 }
 
-/// A key's value as a scenario would have it: a list where it is several numbers.
+bool flag(TableReader& sensor, const char* key) {
+  return sensor.flag(key, map::sensor_key(key).fallback == "1");
+}
+
+/// A list where it is several numbers.
 TomlNode node_of(const map::KeyValue& pair) {
   TomlArray numbers;
   for (const std::string_view part : split(pair.value, ' ')) {
@@ -36,33 +41,54 @@ TomlNode node_of(const map::KeyValue& pair) {
   return {.value = std::move(numbers), .line = pair.line};
 }
 
+/// A key's value as a scenario would have it.
+TomlNode value_of(const map::KeySpec& key, const map::KeyValue& pair) {
+  if (key.kind == map::KeyKind::kFlag && (pair.value == "0" || pair.value == "1"))
+    return {.value = pair.value == "1", .line = pair.line};
+  return node_of(pair);
+}
+
 /// The table that a scenario would have for a sensor of a map.
 TomlTable table_of(const map::Entity& entity) {
   TomlTable table;
-  for (const std::string& key : kSensorKeys) {
+  for (const map::KeySpec& key : map::find_entity_spec(entity.classname())->keys) {
+    if (key.name == "name") continue;
     for (const map::KeyValue& pair : entity.keys) {
-      if (pair.key == key) table.push_back({key, node_of(pair)});
+      if (pair.key == key.name) table.push_back({pair.key, value_of(key, pair)});
     }
   }
   return table;
 }
 
-}  // namespace
+const std::vector<std::string> kKinds{"points", "planes"};
+constexpr std::size_t kPlanes = 1;
 
-sense::PointSensorSpec read_sensor(const std::string& name, TableReader& sensor,
-                                   const std::optional<std::size_t>& kind) {
+/// The keys of sensors of a table's kind; all there are where that is none, so that it is the kind that is refused.
+std::vector<std::string> known_keys(const TomlTable& table) {
+  const TomlNode* kind = find(table, "kind");
+  const auto* name = kind != nullptr ? std::get_if<std::string>(&kind->value) : nullptr;
+  if (name == nullptr || *name == kKinds[0]) return kPointSensorKeys;
+  if (*name == kKinds[kPlanes]) return kPlaneSensorKeys;
+  std::vector<std::string> all = kPointSensorKeys;
+  all.insert(all.end(), kPlaneSensorKeys.begin(), kPlaneSensorKeys.end());
+  return all;
+}
+
+void check_ranges(const TableReader& sensor, double min_range_m, double max_range_m) {
+  if (min_range_m <= max_range_m) return;
+  throw sensor.error(sensor.has("min_range_m") ? "min_range_m" : "max_range_m",
+                     "min_range_m = " + format_double(min_range_m) +
+                         " is above max_range_m = " + format_double(max_range_m));
+}
+
+sense::PointSensorSpec read_points(const std::string& name, TableReader& sensor) {
   sense::PointSensorSpec spec;
   spec.name = name;
-  sensor.choice("kind", {"points"}, kind);
   spec.horizontal_fov = angle(sensor, "horizontal_fov_deg");
   spec.vertical_fov = angle(sensor, "vertical_fov_deg");
   spec.min_range_m = number(sensor, "min_range_m");
   spec.max_range_m = number(sensor, "max_range_m");
-  if (spec.min_range_m > spec.max_range_m) {
-    throw sensor.error(sensor.has("min_range_m") ? "min_range_m" : "max_range_m",
-                       "min_range_m = " + format_double(spec.min_range_m) +
-                           " is above max_range_m = " + format_double(spec.max_range_m));
-  }
+  check_ranges(sensor, spec.min_range_m, spec.max_range_m);
   spec.noise_m = sensor.vector_or_one("noise_m", range_of("noise_m"), Vec3::Zero());
   spec.noise_per_m = sensor.vector_or_one("noise_per_m", range_of("noise_per_m"), Vec3::Zero());
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
@@ -73,13 +99,41 @@ sense::PointSensorSpec read_sensor(const std::string& name, TableReader& sensor,
   return spec;
 }
 
+sense::PlaneSensorSpec read_planes(const std::string& name, TableReader& sensor) {
+  sense::PlaneSensorSpec spec;
+  spec.name = name;
+  spec.view.horizontal_fov = angle(sensor, "horizontal_fov_deg");
+  spec.vertical_fov = angle(sensor, "vertical_fov_deg");
+  spec.view.min_range_m = number(sensor, "min_range_m");
+  spec.view.max_range_m = number(sensor, "max_range_m");
+  check_ranges(sensor, spec.view.min_range_m, spec.view.max_range_m);
+  spec.view.bounded_sides = flag(sensor, "bounded_sides");
+  spec.view.occlusion = flag(sensor, "occlusion");
+  spec.view.min_length_m = number(sensor, "min_length_m");
+  spec.noise_m = number(sensor, "noise_m");
+  spec.noise_angle = angle(sensor, "noise_angle_deg");
+  spec.noise_end_m = number(sensor, "noise_end_m");
+  spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
+  spec.T_body_sensor.q = from_yaw_pitch_roll(angle(sensor, "yaw_deg"), 0.0, 0.0);
+  return spec;
+}
+
+}  // namespace
+
+SensorSpec read_sensor(const std::string& name, const SensorTable& where,
+                       const std::optional<std::size_t>& kind) {
+  TableReader sensor(where.file, "sensor." + name, where.table, where.line, known_keys(where.table),
+                     where.settings);
+  if (sensor.choice("kind", kKinds, kind) == kPlanes) return read_planes(name, sensor);
+  return read_points(name, sensor);
+}
+
 void take_map_sensors(Scenario& scenario, const map::Document& document) {
   if (!scenario.sensors.empty()) return;
   for (const map::Entity* entity : map::sensors(document)) {
     const std::string name = map::EntityKeys(document, *entity).text("name");
     const TomlTable table = table_of(*entity);
-    TableReader sensor(document.file, "sensor." + name, table, entity->line, kSensorKeys, scenario.settings);
-    scenario.sensors.push_back(read_sensor(name, sensor, 0));
+    scenario.sensors.push_back(read_sensor(name, {document.file, table, entity->line, scenario.settings}, 0));
   }
 }
 

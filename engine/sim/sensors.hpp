@@ -4,19 +4,27 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "map/document.hpp"
-#include "sense/point_sensor.hpp"
 #include "sim/scenario.hpp"
 #include "sim/table_reader.hpp"
 
 namespace hallway::sim {
 
+/// Where a sensor's table stands, and where its settings are noted.
+struct SensorTable {
+  const std::string& file;
+  const TomlTable& table;
+  int line = 0;
+  std::vector<Setting>& settings;
+};
+
 /// What a sensor's table says. Ranges and defaults are those of a map's sensors (map::sensor_key()).
 /// @param kind  counts where the table has no `kind`; none: it must have one
-/// Throws Error for a value that is wrong, as TableReader does.
-sense::PointSensorSpec read_sensor(const std::string& name, TableReader& sensor,
-                                   const std::optional<std::size_t>& kind = std::nullopt);
+/// Throws Error for a value that is wrong, and for a key that sensors of its kind do not have, as TableReader does.
+SensorSpec read_sensor(const std::string& name, const SensorTable& where,
+                       const std::optional<std::size_t>& kind = std::nullopt);
 
 /// Gives a scenario that has no sensors those of its map (entities `hw_sensor`, in the order of the file), and notes their settings.
 /// Throws Error{kBadInput} with the map's file and line for one that is wrong.

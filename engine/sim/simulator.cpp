@@ -50,18 +50,20 @@ map::Document with_clouds(const map::Document& document, const Scenario& scenari
   return changed;
 }
 
-/// Points on what the inside of a sealed world sees, on everything where the world is open; none on a sky.
+/// What sensors see: what bounds the inside of a sealed world, everything where the world is open; no sky.
+bool is_seen(const world::CompiledWorld& world, std::size_t polygon) {
+  const csg::SurfacePolygon& p = world.partition.surface.polygons[polygon];
+  return (!world.sealed() || world.partition.inside[polygon]) &&
+         !map::is_sky(world.brushes.solids[p.solid].faces[p.face].material);
+}
+
+/// Points on what sensors see.
 Landmarks find_landmarks(const map::Document& document, const world::CompiledWorld& world,
                          const PlacedModels& models) {
-  const bsp::Compiled& partition = world.partition;
-  const auto wanted = [&](std::size_t polygon) {
-    const csg::SurfacePolygon& p = partition.surface.polygons[polygon];
-    return (!world.sealed() || partition.inside[polygon]) &&
-           !map::is_sky(world.brushes.solids[p.solid].faces[p.face].material);
-  };
+  const auto wanted = [&](std::size_t polygon) { return is_seen(world, polygon); };
   Landmarks made;
   std::vector<Vec3>& landmarks = made.places;
-  sense::add_face_landmarks(document, world.brushes, partition.surface, wanted, landmarks);
+  sense::add_face_landmarks(document, world.brushes, world.partition.surface, wanted, landmarks);
   const std::size_t first_cloud = landmarks.size();
   sense::add_cloud_landmarks(document, landmarks);
   made.moving = sense::MovingLandmarks(document, landmarks, first_cloud);
@@ -121,14 +123,38 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       landmarks_(find_landmarks(with_clouds(document_, scenario), world_, models_)),
       landmark_index_(make_index(landmarks_.places, world_)) {
   take_map_sensors(scenario_, document_);
-  sensors_.reserve(scenario_.sensors.size());
-  for (const sense::PointSensorSpec& spec : scenario_.sensors) {
-    sensors_.emplace_back(spec, landmark_index_, scene_, scenario_.seed);
-  }
+  make_sensors();
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
   check_robot_start(document_, world_);
   stop_at_obstacle();
+  check_poses();
+}
+
+void Simulator::make_sensors() {
+  sensors_.reserve(scenario_.sensors.size());
+  for (const SensorSpec& spec : scenario_.sensors) {
+    std::unique_ptr<const sense::WallPlan>& plan = plans_.emplace_back();
+    if (const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec)) {
+      const double height_m = (path_.at(0.0) * planes->T_body_sensor).t.z();
+      const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
+      plan = std::make_unique<const sense::WallPlan>(
+          sense::make_wall_plan(world_.partition.surface, wanted, height_m, triangles_of(models_)));
+      sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, *planes, *plan, scenario_.seed);
+    } else {
+      sensors_.emplace_back(std::in_place_type<sense::PointSensor>, std::get<sense::PointSensorSpec>(spec),
+                            landmark_index_, scene_, scenario_.seed);
+    }
+  }
+}
+
+/// Sensors of planes demand a level way; before the run, for it is long.
+void Simulator::check_poses() const {
+  for (const Sensor& sensor : sensors_) {
+    const auto* planes = std::get_if<sense::PlaneSensor>(&sensor);
+    for (std::uint32_t i = 0; planes != nullptr && i < scenario_.steps; ++i)
+      planes->check_pose(pose_at(i), i);
+  }
 }
 
 void Simulator::stop_at_obstacle() {
@@ -166,8 +192,14 @@ Frame Simulator::step(std::uint32_t index) const {
   landmarks_.moving.places_at(static_cast<double>(frame.t_ns) / 1e9, moved);
   frame.readings.resize(sensors_.size());
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    frame.readings[i].sensor = i;
-    sensors_[i].observe(frame.T_world_body, index, moved, threads_, frame.readings[i].observations);
+    Reading& reading = frame.readings[i];
+    reading.sensor = i;
+    if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[i])) {
+      planes->observe(frame.T_world_body, index, reading.planes);
+    } else {
+      std::get<sense::PointSensor>(sensors_[i])
+          .observe(frame.T_world_body, index, moved, threads_, reading.observations);
+    }
   }
   return frame;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "base/error.hpp"
@@ -11,7 +13,9 @@
 #include "map/path.hpp"
 #include "sense/landmark_index.hpp"
 #include "sense/moving_landmarks.hpp"
+#include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/wall_plan.hpp"
 #include "sim/drive.hpp"
 #include "sim/models.hpp"
 #include "sim/scenario.hpp"
@@ -22,8 +26,9 @@ namespace hallway::sim {
 
 /// What one sensor sees in one frame.
 struct Reading {
-  std::size_t sensor = 0;  ///< index in Scenario::sensors
-  std::vector<sense::PointObservation> observations;
+  std::size_t sensor = 0;                             ///< index in Scenario::sensors
+  std::vector<sense::PointObservation> observations;  ///< of a sensor of points
+  std::vector<sense::PlaneObservation> planes;        ///< of a sensor of planes
 };
 
 /// One moment of a run.
@@ -48,7 +53,8 @@ class Simulator {
   /// @param threads  for the work of one frame, at least 1; no result depends on it
   /// Throws Error for a map or a model that cannot be read, a path that the map does not have or that begins in solid, a robot start in
   /// solid, two robot starts, a bad
-  /// `hw_sensor` where the scenario has no sensors, a cloud that the scenario has a table for and the map does not. Brushes that are no bodies are left out and stand in problems().
+  /// `hw_sensor` where the scenario has no sensors, a cloud that the scenario has a table for and the map does not, a way that is not
+  /// level where there is a sensor of planes. Brushes that are no bodies are left out and stand in problems().
   Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -75,11 +81,18 @@ class Simulator {
   const std::vector<Vec3>& landmarks() const { return landmarks_.places; }
   /// Those of them that do not stand still.
   const sense::MovingLandmarks& moving_landmarks() const { return landmarks_.moving; }
+  /// The walls that a sensor of planes sees; the index is the wall's number. Null for a sensor of another kind.
+  /// @param sensor  index in Scenario::sensors
+  const sense::WallPlan* walls(std::size_t sensor) const { return plans_[sensor].get(); }
   /// Metres of path from frame to frame.
   double step_length_m() const { return step_length_m_; }
 
  private:
+  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor>;
+
+  void make_sensors();
   void stop_at_obstacle();
+  void check_poses() const;
 
   Scenario scenario_;
   unsigned threads_;
@@ -92,7 +105,8 @@ class Simulator {
   trace::Scene scene_;
   Landmarks landmarks_;
   sense::LandmarkIndex landmark_index_;
-  std::vector<sense::PointSensor> sensors_;
+  std::vector<std::unique_ptr<const sense::WallPlan>> plans_;  ///< by sensor
+  std::vector<Sensor> sensors_;
   std::vector<Error> problems_;
 };
 

@@ -19,14 +19,14 @@ class IcpOffice : public testing::Test {
  protected:
   static sim::Scenario scenario() {
     sim::Scenario scenario = sim::load_scenario(test::source_folder() / "maps" / "office.toml");
-    scenario.sensors.front().noise_m = Vec3::Zero();
+    std::get<sense::PointSensorSpec>(scenario.sensors.front()).noise_m = Vec3::Zero();
     return scenario;
   }
 
   Seen seen(std::uint32_t step) const { return simulator_.step(step).readings.front().observations; }
   /// Where the sensor is, seen from where it was at first.
   icp::Pose truth(std::uint32_t step) const {
-    const Pose& mount = scenario_.sensors.front().T_body_sensor;
+    const Pose& mount = std::get<sense::PointSensorSpec>(scenario_.sensors.front()).T_body_sensor;
     const Pose T = (simulator_.pose_at(0) * mount).inverse() * simulator_.pose_at(step) * mount;
     return {T.q, T.t};
   }

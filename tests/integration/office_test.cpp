@@ -22,7 +22,7 @@ struct Office {
       trace::Backend::kBruteForce};
 
   Vec3 viewpoint(const sim::Frame& frame) const {
-    return frame.T_world_body * scenario.sensors.front().T_body_sensor.t;
+    return frame.T_world_body * std::get<sense::PointSensorSpec>(scenario.sensors.front()).T_body_sensor.t;
   }
 };
 
@@ -43,7 +43,7 @@ TEST(Office, EveryObservationHasAFreeLineOfSight) {
 
 TEST(Office, WallsHideMostOfWhatIsInTheFieldOfView) {
   const Office office;
-  const sense::PointSensorSpec& sensor = office.scenario.sensors.front();
+  const auto& sensor = std::get<sense::PointSensorSpec>(office.scenario.sensors.front());
   std::size_t in_view = 0;
   std::size_t seen = 0;
   for (std::uint32_t step = 0; step < office.scenario.steps; step += 50) {

@@ -79,8 +79,8 @@ TEST(Overrides, TheLaterOfTwoCounts) {
 TEST(Overrides, SetASensor) {
   const Scenario scenario =
       load_with({{"sensor.eyes.noise_m", "[1, 2, 3]"}, {"sensor.eyes.max_range_m", "4"}});
-  EXPECT_EQ(scenario.sensors.at(0).noise_m, Vec3(1, 2, 3));
-  EXPECT_EQ(scenario.sensors.at(0).max_range_m, 4.0);
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(scenario.sensors.at(0)).noise_m, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(scenario.sensors.at(0)).max_range_m, 4.0);
   EXPECT_EQ(origin_of(scenario, "sensor.eyes.max_range_m"), "command line");
 }
 

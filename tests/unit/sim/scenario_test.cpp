@@ -62,7 +62,7 @@ TEST(LoadScenario, TakesDefaults) {
   EXPECT_EQ(scenario.seed, 1u);
   EXPECT_EQ(scenario.period_ns, 100'000'000);
   ASSERT_EQ(scenario.sensors.size(), 1u);
-  const sense::PointSensorSpec& eyes = scenario.sensors[0];
+  const auto& eyes = std::get<sense::PointSensorSpec>(scenario.sensors[0]);
   EXPECT_EQ(eyes.name, "eyes");
   EXPECT_DOUBLE_EQ(eyes.horizontal_fov, kPi / 2);
   EXPECT_DOUBLE_EQ(eyes.vertical_fov, kPi / 3);
@@ -80,7 +80,7 @@ TEST(LoadScenario, ReadsASensor) {
       "[sensor.left-eye]\nkind = 'points'\nhorizontal_fov_deg = 360\n"
       "vertical_fov_deg = 30\nmin_range_m = 1\nmax_range_m = 2.5\n"
       "noise_m = [0.1, 0.2, 0]\nnoise_per_m = [0, 0.01, 1]\nposition_m = [1, -2, 3.5]\nyaw_deg = 90\n"));
-  const sense::PointSensorSpec& eye = scenario.sensors.at(0);
+  const auto& eye = std::get<sense::PointSensorSpec>(scenario.sensors.at(0));
   EXPECT_DOUBLE_EQ(eye.horizontal_fov, 2 * kPi);
   EXPECT_DOUBLE_EQ(eye.vertical_fov, kPi / 6);
   EXPECT_EQ(eye.min_range_m, 1.0);
@@ -92,16 +92,16 @@ TEST(LoadScenario, ReadsASensor) {
 }
 
 TEST(LoadScenario, TakesOneNoiseForAllAxes) {
-  EXPECT_EQ(load(test::scenario_text("[sensor.a]\nkind = 'points'\nnoise_m = 0.05\n")).sensors.at(0).noise_m,
-            Vec3::Constant(0.05));
+  const Scenario one = load(test::scenario_text("[sensor.a]\nkind = 'points'\nnoise_m = 0.05\n"));
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(one.sensors.at(0)).noise_m, Vec3::Constant(0.05));
 }
 
 TEST(LoadScenario, KeepsTheSensorsInTheOrderOfTheFile) {
   const Scenario scenario =
       load(test::scenario_text("[sensor.z]\nkind = 'points'\n[sensor.a]\nkind = 'points'\n"));
   ASSERT_EQ(scenario.sensors.size(), 2u);
-  EXPECT_EQ(scenario.sensors[0].name, "z");
-  EXPECT_EQ(scenario.sensors[1].name, "a");
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(scenario.sensors[0]).name, "z");
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(scenario.sensors[1]).name, "a");
 }
 
 TEST(LoadScenario, ReadsThePipeline) {

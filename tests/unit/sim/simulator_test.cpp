@@ -179,7 +179,8 @@ TEST(Simulator, MountsEachSensorOnTheRobot) {
     ASSERT_EQ(frame.readings.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_EQ(frame.readings[k].sensor, k);
-      const Pose T_world_sensor = frame.T_world_body * world.scenario().sensors[k].T_body_sensor;
+      const Pose T_world_sensor =
+          frame.T_world_body * std::get<sense::PointSensorSpec>(world.scenario().sensors[k]).T_body_sensor;
       for (const sense::PointObservation& observation : frame.readings[k].observations) {
         const Vec3 truth = simulator.landmarks()[observation.landmark];
         EXPECT_LT((T_world_sensor * observation.point - truth).norm(), 0.25);
@@ -237,7 +238,8 @@ TEST(Simulator, TakesTheSensorsOfTheMapWhereTheScenarioHasNone) {
   const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
   ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k)
-    expect_equal(simulator.scenario().sensors[k], written.scenario().sensors[k]);
+    expect_equal(std::get<sense::PointSensorSpec>(simulator.scenario().sensors[k]),
+                 std::get<sense::PointSensorSpec>(written.scenario().sensors[k]));
   // All the same, noise included.
   EXPECT_EQ(bytes_of_run(mapped.scenario(), 1, trace::Backend::kBruteForce),
             bytes_of_run(written.scenario(), 1, trace::Backend::kBruteForce));
@@ -259,7 +261,8 @@ TEST(Simulator, AllKeysOfAMapsSensorMeanWhatAScenariosDo) {
   const Simulator simulator(mapped.scenario(), 1, trace::Backend::kBruteForce);
   ASSERT_EQ(simulator.scenario().sensors.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k)
-    expect_equal(simulator.scenario().sensors[k], written.scenario().sensors[k]);
+    expect_equal(std::get<sense::PointSensorSpec>(simulator.scenario().sensors[k]),
+                 std::get<sense::PointSensorSpec>(written.scenario().sensors[k]));
   // The record of the settings is the same but for where they were said.
   const auto values_of = [](const Scenario& scenario) {
     std::set<std::string> values;
@@ -284,7 +287,7 @@ TEST(Simulator, IgnoresTheSensorsOfTheMapWhereTheScenarioHasItsOwn) {
   World world(test::scenario_text(kEyes), test::map_text(test::pillars(), in_map));
   const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
   ASSERT_EQ(simulator.scenario().sensors.size(), 1u);
-  EXPECT_EQ(simulator.scenario().sensors[0].name, "eyes");
+  EXPECT_EQ(std::get<sense::PointSensorSpec>(simulator.scenario().sensors[0]).name, "eyes");
   for (const Setting& setting : simulator.scenario().settings)
     EXPECT_FALSE(setting.key.starts_with("sensor.b")) << setting.key;
 }

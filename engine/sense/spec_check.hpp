@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "geom/pose.hpp"
+
+namespace hallway::sense {
+
+/// Checks the members that the specifications of all sensors have. Every function throws Error{kBadInput} that names the
+/// sensor and the member.
+class SpecCheck {
+ public:
+  /// Keeps a reference to `sensor`, its name, which may not be empty.
+  explicit SpecCheck(const std::string& sensor);
+
+  /// Above 0 and up to 2 pi.
+  void angle(const char* member, double radians) const;
+  /// Finite, not below 0.
+  void not_negative(const char* member, double value) const;
+  /// Both not negative, and in their order.
+  void ranges(double min_range_m, double max_range_m) const;
+  /// A finite position and a unit quaternion.
+  void mount(const Pose& T_body_sensor) const;
+
+ private:
+  [[noreturn]] void fail(const std::string& member, const std::string& problem) const;
+
+  const std::string& sensor_;
+};
+
+}  // namespace hallway::sense

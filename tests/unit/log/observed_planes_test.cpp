@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Tables of planes that a sensor gave, and of true walls.
+#include "log/observed_planes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "log/true_walls.hpp"
+#include "support/errors.hpp"
+#include "support/random_doubles.hpp"
+
+namespace hallway::log {
+namespace {
+
+using test::error_of;
+using test::same_bits;
+
+constexpr const char* kHeader =
+    "iteration,wall_id,nx,ny,nz,offset_m,cx,cy,cz,x0,y0,z0,x1,y1,z1,x2,y2,z2,x3,y3,z3\n";
+
+bool same_geometry(const Plane& a, const Plane& b) {
+  const auto numbers = [](const Plane& plane) {
+    std::vector<double> all(plane.normal.begin(), plane.normal.end());
+    all.push_back(plane.offset_m);
+    all.insert(all.end(), plane.centroid_m.begin(), plane.centroid_m.end());
+    for (const auto& corner : plane.corners_m) all.insert(all.end(), corner.begin(), corner.end());
+    return all;
+  };
+  const std::vector<double> x = numbers(a), y = numbers(b);
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), same_bits);
+}
+
+ObservedPlane random_plane(LandmarkId wall, std::uint32_t step) {
+  const std::vector<double> values = test::random_doubles(19, step);
+  ObservedPlane seen;
+  seen.wall = wall;
+  for (std::size_t i = 0; i < 3; ++i) {
+    seen.plane.normal[i] = values[i];
+    seen.plane.centroid_m[i] = values[4 + i];
+    for (std::size_t k = 0; k < 4; ++k) seen.plane.corners_m[k][i] = values[7 + 3 * k + i];
+  }
+  seen.plane.offset_m = values[3];
+  return seen;
+}
+
+ReadPlaneLog parse(const std::string& text) {
+  return parse_observed_planes(text, "planes.csv");
+}
+
+TEST(ObservedPlanes, ReadBackToTheSameBits) {
+  ObservedPlaneLog log(true);
+  const std::vector<ObservedPlane> two{random_plane(7, 1), random_plane(kNoLandmark, 2)};
+  const std::vector<ObservedPlane> one{random_plane(0, 3)};
+  log.add_frame(0, two);
+  log.add_frame(3, one);
+  log.add_frame(5, {});
+  const ReadPlaneLog back = parse(print_observed_planes(log));
+  ASSERT_FALSE(back.damage);
+  EXPECT_TRUE(back.log.has_identities());
+  EXPECT_EQ(back.log.iterations(), 6u);
+  ASSERT_EQ(back.log.frame(0).size(), 2u);
+  ASSERT_EQ(back.log.frame(3).size(), 1u);
+  EXPECT_TRUE(back.log.frame(1).empty());
+  EXPECT_TRUE(back.log.frame(5).empty());
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(same_geometry(back.log.frame(0)[i].plane, two[i].plane)) << i;
+    EXPECT_EQ(back.log.frame(0)[i].wall, two[i].wall);
+    EXPECT_EQ(back.log.frame(0)[i].plane.id, i) << "its place in its frame";
+    EXPECT_EQ(back.log.frame(0)[i].plane.exclusive_share, 1.0);
+    EXPECT_EQ(back.log.frame(0)[i].plane.points, 0u);
+  }
+  EXPECT_EQ(back.log.frame(3)[0].plane.id, 0u);
+  EXPECT_EQ(print_observed_planes(back.log), print_observed_planes(log));
+}
+
+TEST(ObservedPlanes, NeedNoIdentities) {
+  ObservedPlaneLog log;
+  const std::vector<ObservedPlane> one{random_plane(7, 1)};
+  log.add_frame(0, one);
+  const std::string text = print_observed_planes(log);
+  EXPECT_TRUE(text.starts_with("iteration,nx,")) << text;
+  const ReadPlaneLog back = parse(text);
+  EXPECT_FALSE(back.log.has_identities());
+  EXPECT_EQ(back.log.frame(0)[0].wall, kNoLandmark);
+}
+
+TEST(ObservedPlanes, AreToldFromPointsByTheirHeader) {
+  EXPECT_TRUE(is_of_planes(kHeader));
+  EXPECT_TRUE(is_of_planes("iteration, offset_m \r\n1,2\n"));
+  EXPECT_FALSE(is_of_planes("iteration,landmark_id,x,y,z\n0,1,offset_m,2,3\n"));
+  EXPECT_FALSE(is_of_planes(""));
+}
+
+TEST(ObservedPlanes, AreReadUpToTheFirstBadRow) {
+  const std::string good = "0,4,0,0,-1,-2,0,0,2,1,1,2,-1,1,2,-1,-1,2,1,-1,2\n";
+  const ReadPlaneLog read = parse(kHeader + good + "1,4,0,0,-1,-2,0,0,2,1,1,2,-1,1,2,-1,-1,2,1,-1,nan\n");
+  ASSERT_TRUE(read.damage);
+  EXPECT_EQ(read.damage->line, 3);
+  EXPECT_EQ(read.log.frame(0).size(), 1u);
+  EXPECT_NE(describe(*read.damage, read.log, "planes.csv").find("1 planes, iterations below 1"),
+            std::string::npos);
+  EXPECT_TRUE(parse(kHeader + good + "0,,,,,,,,,,,,,,,,,,,,\n").damage) << "nothing beside something";
+  EXPECT_TRUE(parse(std::string(kHeader) + "3,,,,,,,,,,,,,,,,,,,,\n" + good).damage)
+      << "an earlier iteration";
+  EXPECT_TRUE(error_of([&] { parse(kHeader + good.substr(0, 30) + "\n"); })) << "already the first";
+  EXPECT_TRUE(error_of([&] { parse("iteration,nx,ny,nz,offset_m\n"); }));
+}
+
+TEST(TrueWalls, ReadBackToTheSameBits) {
+  const std::vector<double> values = test::random_doubles(24, 5);
+  std::vector<TrueWall> walls(2);
+  for (std::size_t i = 0; i < 24; ++i) walls[i / 12].corners_m[i % 12 / 3][i % 3] = values[i];
+  walls[1].id = 9;
+  const std::vector<TrueWall> back = parse_true_walls(print_true_walls(walls), "true_walls.csv");
+  ASSERT_EQ(back.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back[i].id, walls[i].id);
+    EXPECT_EQ(back[i].corners_m, walls[i].corners_m);
+  }
+  EXPECT_TRUE(print_true_walls(walls).starts_with("wall_id,x0,y0,z0,x1,"));
+}
+
+TEST(TrueWalls, HaveDistinctIds) {
+  const std::string row = "1,0,0,0,1,0,0,1,0,1,0,0,1\n";
+  const std::string header = print_true_walls({});
+  EXPECT_EQ(parse_true_walls(header + row, "a").size(), 1u);
+  EXPECT_TRUE(error_of([&] { parse_true_walls(header + row + row, "a"); }));
+}
+
+}  // namespace
+}  // namespace hallway::log
