@@ -8,10 +8,10 @@
 namespace hallway::slam_plane {
 namespace {
 
-constexpr double kGateSigmas = 4.0;  // of an end
+constexpr double kEndGateSigmas = 4.0;  // of an end
 constexpr double kWorstHeading_rad = 0.1;
-constexpr double kHold = 1e10;  // information that holds an open direction where it is [1/m^2]
-constexpr int kSteps = 3;       // the last one with ends gated
+constexpr double kHoldOpen = 1e10;  // information that holds an open direction where it is [1/m^2]
+constexpr int kSteps = 3;           // the last one with ends gated
 
 void add_row(const Vec3& gradient, double residual, double weight, Mat3& h, Vec3& g) {
   h += weight * gradient * gradient.transpose();
@@ -21,10 +21,6 @@ void add_row(const Vec3& gradient, double residual, double weight, Mat3& h, Vec3
 }  // namespace
 
 FrameFit::FrameFit(const Options& options) : noise_(options.noise()), undetermined_(options.undetermined_m) {}
-
-void FrameFit::add(const Sighting& sighting, const WallEstimate& wall) {
-  pairs_.push_back({&sighting, &wall});
-}
 
 bool FrameFit::end_row(const Pair& pair, const Pose2& T, Ends ends, Row& row) const {
   const WallEstimate& wall = *pair.wall;
@@ -36,11 +32,11 @@ bool FrameFit::end_row(const Pair& pair, const Pose2& T, Ends ends, Row& row) co
   Vec2 arm[2];
   double doubt = 1.0;
   for (int k = 0; k < 2; ++k) {
-    if (!pair.sighting->corner[k] || !wall.known[k]) continue;
+    if (!pair.end[k] || !pair.sighting->corner[k] || !wall.known[k]) continue;
     arm[k] = T.rotate(pair.sighting->end[k]);
     residual[k] = wall.basis.along(arm[k] + T.t) - wall.end[k];
     variance[k] = own + shared + wall.variance[k];
-    const double ratio2 = residual[k] * residual[k] / (kGateSigmas * kGateSigmas * variance[k]);
+    const double ratio2 = residual[k] * residual[k] / (kEndGateSigmas * kEndGateSigmas * variance[k]);
     if (ends == Ends::gated && ratio2 > 1.0) continue;
     if (ends == Ends::doubted) doubt = std::max(doubt, 1.0 + ratio2);
     use[k] = true;
@@ -87,9 +83,9 @@ void FrameFit::step(Pose2& T, Ends ends, PoseInformation& information) const {
   if (information.open > 0) {
     const Vec2& u = information.direction;
     h.topLeftCorner<2, 2>() +=
-        kHold * (information.open == 2 ? Mat2(Mat2::Identity()) : Mat2(u * u.transpose()));
+        kHoldOpen * (information.open == 2 ? Mat2(Mat2::Identity()) : Mat2(u * u.transpose()));
   }
-  if (!information.heading) h(2, 2) += kHold;
+  if (!information.heading) h(2, 2) += kHoldOpen;
   const Vec3 x = h.ldlt().solve(g);
   if (x.allFinite()) T = T.moved(x.head<2>(), x(2));
 }
@@ -133,7 +129,7 @@ bool FrameFit::end_agrees(std::size_t pair, int end, const Pose2& T) const {
   if (!sighting.corner[end] || !wall.known[end]) return false;
   const double residual = wall.basis.along(T * sighting.end[end]) - wall.end[end];
   const double variance = noise_.end * noise_.end + noise_.along * noise_.along + wall.variance[end];
-  return residual * residual <= kGateSigmas * kGateSigmas * variance;
+  return residual * residual <= kEndGateSigmas * kEndGateSigmas * variance;
 }
 
 PoseInformation FrameFit::own_information(const std::vector<Sighting>& frame) const {

@@ -25,7 +25,13 @@ class FrameFit {
 
   void clear() { pairs_.clear(); }
   /// A piece and its wall. `wall` must live until the fit is over. Estimates are in the frame that the pose is sought in.
-  void add(const Sighting& sighting, const WallEstimate& wall);
+  void add(const Sighting& sighting, const WallEstimate& wall) {
+    pairs_.push_back({&sighting, &wall, {true, true}});
+  }
+  /// The same without the ends that are not to count.
+  void add(const Sighting& sighting, const WallEstimate& wall, bool end_a, bool end_b) {
+    pairs_.push_back({&sighting, &wall, {end_a, end_b}});
+  }
   std::size_t pairs() const { return pairs_.size(); }
 
   /// Moves T_frame_robot to the best fit. A direction of the position that the pairs leave open (worse than Options::undetermined_m)
@@ -46,6 +52,7 @@ class FrameFit {
   struct Pair {
     const Sighting* sighting;
     const WallEstimate* wall;
+    bool end[2];  // that it may count
   };
   /// A residual, its variance, and its derivatives by x, y and heading.
   struct Row {

@@ -15,6 +15,24 @@ constexpr double kWideBound_m = 0.5;
 constexpr double kQueryStep_m = 1.5;  // less than twice the reach of the index
 constexpr double kRivalOverlap = 0.3;
 
+/// How a segment of the map's frame lies beside a wall.
+struct Overlap {
+  Overlap(const WallEstimate& wall, const Vec2& a, const Vec2& b) {
+    const double from = wall.basis.along(a);
+    const double to = wall.basis.along(b);
+    length = std::max(to - from, 1e-9);
+    const double begin = std::max(from, wall.reach[kEndA]);
+    const double end = std::min(to, wall.reach[kEndB]);
+    shared = end - begin;
+    const double share = std::clamp((0.5 * (begin + end) - from) / length, 0.0, 1.0);
+    middle = a + share * (b - a);
+  }
+
+  double length;  // of the segment along the wall [m]
+  double shared;  // of that, where the wall was seen; below 0: the distance between the two
+  Vec2 middle;    // of the segment, where both are
+};
+
 }  // namespace
 
 FrameMatcher::FrameMatcher(const Options& options)
@@ -28,22 +46,20 @@ double FrameMatcher::score(const WallEstimate& wall, const Vec2& a, const Vec2& 
   const WallBasis& basis = wall.basis;
   if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > sine_)
     return 0.0;
-  const double offset = std::abs(basis.across(0.5 * (a + b)));
+  const Overlap overlap(wall, a, b);
+  const double shorter = std::min(overlap.length, wall.reach[kEndB] - wall.reach[kEndA]);
+  if (overlap.shared <= kLeastOverlap * shorter || overlap.shared <= 0.0) return 0.0;
+  const double offset = std::abs(basis.across(overlap.middle));
   if (offset >= bound) return 0.0;
-  const double from = basis.along(a);
-  const double to = basis.along(b);
-  const double shorter = std::min(to - from, wall.reach[kEndB] - wall.reach[kEndA]);
-  const double overlap = std::min(to, wall.reach[kEndB]) - std::max(from, wall.reach[kEndA]);
-  if (overlap <= kLeastOverlap * shorter || overlap <= 0.0) return 0.0;
-  return std::min(1.0, overlap / (to - from)) + std::min(1.0, overlap / std::max(shorter, 1e-9)) +
-         (1.0 - offset / bound);
+  return std::min(1.0, overlap.shared / overlap.length) +
+         std::min(1.0, overlap.shared / std::max(shorter, 1e-9)) + (1.0 - offset / bound);
 }
 
 void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>& recent,
                                    const std::vector<Sighting>& frame, Pose2& T) {
   turns_.clear();
   for (const Sighting& sighting : frame) {
-    const Vec2 middle = T * sighting.middle;
+    const Vec2 end[2] = {T * sighting.end[kEndA], T * sighting.end[kEndB]};
     const Vec2 direction = T.rotate(sighting.direction);
     double nearest = kWideBound_m;
     double turn = 0.0;
@@ -51,9 +67,8 @@ void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>&
       const WallEstimate& wall = map.walls[w].estimate;
       const double cosine = wall.basis.direction.dot(direction);
       if (cosine < 0.9) continue;
-      const double s = wall.basis.along(middle);
-      const double beyond = std::max({0.0, wall.reach[kEndA] - s, s - wall.reach[kEndB]});
-      const double distance = std::hypot(wall.basis.across(middle), beyond);
+      const Overlap overlap(wall, end[kEndA], end[kEndB]);
+      const double distance = std::hypot(wall.basis.across(overlap.middle), std::min(0.0, overlap.shared));
       if (distance >= nearest) continue;
       const double angle = std::atan2(cross(direction, wall.basis.direction), cosine);
       if (std::abs(angle) > kWideAngle_rad) continue;

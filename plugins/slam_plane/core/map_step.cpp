@@ -10,7 +10,9 @@ namespace hallway::slam_plane {
 namespace {
 
 constexpr double kHuber_m = 0.1;       // an end that is farther off counts less
+constexpr double kHold = 100.0;        // information that holds a submap of lines where it is [1/m^2]
 constexpr double kMostTurn_rad = 0.5;  // more is no small step
+constexpr double kMostMove_m = 5.0;    // likewise
 
 /// How the lines and ends of a submap, as seen in the map, move with the submap's pose about its own origin.
 Eigen::Matrix<double, 4, 3> motion(const WallBasis& basis, const Vec2& origin) {
@@ -61,6 +63,10 @@ void MapStep::begin(const WallMap& map) {
   for (const SubmapRecord& submap : map.submaps) poses_.push_back(submap.T_map_submap);
   diagonal_.assign(n, Mat3::Zero());
   reduced_.assign(n, Mat3::Zero());
+  for (std::size_t s = 0; s < n; ++s) {
+    // Walls that are parallel but for noise would carry it far along them.
+    if (map.submaps[s].lines_only) diagonal_[s].diagonal() = reduced_[s].diagonal() = Vec3(kHold, kHold, 0.0);
+  }
   r_.assign(n, Vec3::Zero());
   x_.assign(n, Vec3::Zero());
   links_.clear();
@@ -130,7 +136,9 @@ void MapStep::finish_gathering() {
   z_.resize(n);
   for (std::size_t s = 0; s < n; ++s) {
     Mat3 block = reduced_[s];
-    block.diagonal().array() += 1e-9 * diagonal_[s].diagonal().array() + 1e-9;
+    // What nothing determines is left alone: a floor far above what rounding leaves there.
+    const double position = diagonal_[s](0, 0) + diagonal_[s](1, 1);
+    block.diagonal() += 1e-6 * Vec3(position, position, diagonal_[s](2, 2)) + Vec3::Constant(1e-9);
     preconditioner_[s] = block.inverse();
     if (!preconditioner_[s].allFinite()) preconditioner_[s].setZero();
   }
@@ -208,7 +216,7 @@ bool MapStep::apply(WallMap& map) {
   stage_ = Stage::idle;
   largest_move_ = 0.0;
   for (const Vec3& x : x_) {
-    if (!x.allFinite() || std::abs(x(2)) > kMostTurn_rad) return false;
+    if (!x.allFinite() || std::abs(x(2)) > kMostTurn_rad || x.head<2>().norm() > kMostMove_m) return false;
     largest_move_ = std::max({largest_move_, x.head<2>().norm(), std::abs(x(2))});
   }
   const std::size_t n = poses_.size();

@@ -21,12 +21,15 @@ constexpr std::uint64_t kYoungFrames = 100;  // likewise, as one whose place amo
 constexpr double kStray2 = 36.0;        // squared distance of a piece that is not its wall's, in variances
 constexpr double kStrayBound_m = 0.05;  // below which none strays
 constexpr double kDriftBound_m = 0.1;   // of a gap that matching by place can bridge
-constexpr double kGapShare = 0.5;       // of the predicted motion that may be wrong in a gap
+constexpr double kGapSpeed = 1.5;       // times the fastest motion so far, that a robot may move unseen
 constexpr double kGapStep_m = 0.01;     // and what is added each frame
-constexpr std::uint64_t kSearchPeriod = 5;  // frames between looks for the end of a gap
-constexpr double kAlongGap = 0.7;           // cosine between a wall and a gap whose corners tell of it
-constexpr int kTies = 3;                    // frames that agree on that
-constexpr std::uint32_t kLeastAgainst = 3;  // sightings beyond a corner that disprove it
+constexpr std::size_t kMostYoung = 12;  // walls that are looked for
+constexpr std::uint64_t kSearchPeriod = 10;  // frames between looks for the end of a gap
+constexpr int kBridgeFrames = 10;            // without a known wall, before the map goes on elsewhere
+constexpr double kAlongGap = 0.7;            // cosine between a wall and a gap whose corners tell of it
+constexpr double kTwinSine = 0.02;           // of the largest angle between walls that are one
+constexpr int kTies = 3;                     // frames that agree on that
+constexpr std::uint32_t kLeastAgainst = 3;   // sightings beyond a corner that disprove it
 constexpr double kGateSigmas = 4.0;
 constexpr double kBeyond_m = 0.03;
 constexpr double kWorkPerFrame = 4000.0;  // of the step over all submaps
@@ -62,7 +65,8 @@ class Mapper::State {
   void start_map();
   void predict();
   void match();
-  PoseInformation fit_map(std::uint32_t before_epoch = ~0u);
+  void match_from(const Pose2& T_map_robot);
+  PoseInformation fit_map(std::uint32_t before_epoch, Pose2& T);
   PoseInformation fit_submap();
   void drop_strays();
   void watch_gap();
@@ -78,6 +82,8 @@ class Mapper::State {
   void integrate();
   void note_ends(const Sighting& sighting, bool (&corner)[2]);
   void merge_twins(Index submap);
+  void merge_twin(Index wall);
+  void look_for_twins();
   void merge(Index kept, Index gone);
   void plan_step();
   void advance_step();
@@ -107,7 +113,12 @@ class Mapper::State {
   Lost lost_ = Lost::nothing_seen;
   Pose2 T_map_robot_;
   Pose2 T_submap_robot_;
-  Pose2 motion_;  // of one frame
+  Pose2 motion_;             // of one frame
+  double fastest_ = 0.0;     // motion so far [m a frame]
+  Index next_twin_ = 0;      // wall that is looked at for twins
+  int frames_lost_ = 0;      // in a row
+  double seen_shift_ = 0.0;  // that the last look for the end of a gap found
+  bool has_seen_shift_ = false;
   PoseInformation in_map_;
   PoseInformation in_submap_;
   int closes_since_step_ = 0;
@@ -172,7 +183,9 @@ void Mapper::State::start_map() {
 void Mapper::State::place() {
   predict();
   match();
-  if (fit_.pairs() == 0) return lose(frame_.empty() ? Lost::nothing_seen : Lost::nothing_known);
+  if (frame_.empty()) return lose(Lost::nothing_seen);
+  if (fit_.pairs() == 0 && ++frames_lost_ <= kBridgeFrames) return lose(Lost::nothing_known);
+  frames_lost_ = 0;
   has_pose_ = true;
   lost_ = Lost::no;
   drop_strays();
@@ -183,6 +196,7 @@ void Mapper::State::place() {
   integrate();
   note_seen();
   search_gap();
+  look_for_twins();
 }
 
 void Mapper::State::predict() {
@@ -191,11 +205,19 @@ void Mapper::State::predict() {
 }
 
 void Mapper::State::match() {
+  const Pose2 predicted = T_map_robot_;
+  match_from(predicted);
+  // It may have stopped.
+  if (fit_.pairs() == 0) match_from(predicted * motion_.inverse());
+}
+
+void Mapper::State::match_from(const Pose2& T_map_robot) {
+  T_map_robot_ = T_map_robot;
   matcher_.correct_heading(map_, recent_, frame_, T_map_robot_);
   matcher_.match_recent(map_, recent_, T_map_robot_, frame_);
-  in_map_ = fit_map();
+  in_map_ = fit_map(kNone, T_map_robot_);
   matcher_.match_map(map_, epochs_known(), T_map_robot_, frame_);
-  in_map_ = fit_map();
+  in_map_ = fit_map(kNone, T_map_robot_);
 }
 
 /// The oldest epoch whose walls are known to lie where the map has them, seen from here.
@@ -206,16 +228,16 @@ std::uint32_t Mapper::State::epochs_known() const {
   return 0;
 }
 
-PoseInformation Mapper::State::fit_map(std::uint32_t before_epoch) {
+/// Fits a pose to the map as it was known before an epoch.
+PoseInformation Mapper::State::fit_map(std::uint32_t before_epoch, Pose2& T) {
   fit_.clear();
   for (const Sighting& sighting : frame_) {
     if (sighting.wall == kNone || map_.walls[sighting.wall].epoch >= before_epoch) continue;
-    fit_.add(sighting, map_.walls[sighting.wall].estimate);
+    const WallRecord& wall = map_.walls[sighting.wall];
+    fit_.add(sighting, wall.estimate, wall.corner_epoch[kEndA] < before_epoch,
+             wall.corner_epoch[kEndB] < before_epoch);
   }
-  Pose2 T = T_map_robot_;
-  const PoseInformation information = fit_.solve(T);
-  if (before_epoch == ~0u) T_map_robot_ = T;
-  return information;
+  return fit_.solve(T);
 }
 
 PoseInformation Mapper::State::fit_submap() {
@@ -231,8 +253,15 @@ PoseInformation Mapper::State::fit_submap() {
   const PoseInformation information = fit_.solve(T_submap_robot_);
   const Pose2 moved = before.inverse() * T_submap_robot_;
   const double share = options_.smoothing;
-  motion_ = Pose2::at(motion_.t + share * (moved.t - motion_.t),
+  // Along a gap nothing was measured, and the step out of it is none that the robot made.
+  Vec2 step = moved.t;
+  if (!was_tied_ && !gaps_.empty()) {
+    const Vec2 along = T_map_robot_.unrotate(gaps_.back().direction);
+    step += along * along.dot(motion_.t - moved.t);
+  }
+  motion_ = Pose2::at(motion_.t + share * (step - motion_.t),
                       motion_.heading() + share * angle_between(motion_.r, moved.r));
+  fastest_ = std::max(fastest_, motion_.t.norm());
   return information;
 }
 
@@ -257,19 +286,27 @@ void Mapper::State::watch_gap() {
     if (was_tied_) {
       ++epoch_;
       ++answer_.counters.gaps;
-      gaps_.push_back({epoch_, in_map_.direction, 0.0});
+      // Where no wall is known, the way ahead is what is known least.
+      const bool any = in_map_.heading;
+      gaps_.push_back(
+          {epoch_, any ? in_map_.direction : T_map_robot_.r, any ? 0.0 : kBridgeFrames * fastest_});
     }
     Gap& gap = gaps_.back();
-    const Vec2 travel = T_map_robot_.rotate(motion_.t);
-    gap.range_m += kGapShare * std::abs(travel.dot(gap.direction)) + kGapStep_m;
+    // How far it can have gone; standing about, a robot does not go far.
+    const double travel = std::abs(T_map_robot_.rotate(motion_.t).dot(gap.direction));
+    const double fastest = kGapSpeed * fastest_ * std::abs(T_map_robot_.r.dot(gap.direction));
+    gap.range_m += std::max(travel, fastest) + kGapStep_m;
   }
   was_tied_ = tied;
   close_gaps();
 }
 
-/// A frame that older walls determine knows no gap since them.
+/// A frame that older walls determine where it was expected knows no gap since them.
 void Mapper::State::close_gaps() {
-  while (!gaps_.empty() && was_tied_ && fit_map(gaps_.back().epoch).determined()) {
+  while (!gaps_.empty() && was_tied_) {
+    Pose2 T = T_map_robot_;
+    if (!fit_map(gaps_.back().epoch, T).determined()) return;
+    if ((T.t - T_map_robot_.t).norm() > kDriftBound_m) return;
     gaps_.pop_back();
     ++answer_.counters.gaps_closed;
   }
@@ -385,6 +422,9 @@ void Mapper::State::note_ends(const Sighting& sighting, bool (&corner)[2]) {
     if (gaps_.empty() || wall.epoch >= gaps_.back().epoch)
       compare(wall.estimate, T_map_robot_, options_.map_bound_m);
     if (beyond) ++wall.against[k];
+    if (!gaps_.empty() && gaps_.back().range_m > kDriftBound_m && wall.corners[k] > 0 &&
+        wall.corner_epoch[k] < gaps_.back().epoch)
+      corner[k] = false;  // it is known where it was, and not yet where this is
     if (corner[k] && astray) {
       ++wall.astray[k];
       corner[k] = false;
@@ -451,12 +491,23 @@ void Mapper::State::search_gap() {
           map_.walls[w].count >= static_cast<std::uint32_t>(options_.min_observations))
         young.push_back(w);
     }
+    if (young.size() > kMostYoung) {
+      std::stable_sort(young.begin(), young.end(),
+                       [&](Index a, Index b) { return map_.walls[a].last_seen > map_.walls[b].last_seen; });
+      young.resize(kMostYoung);
+    }
     Vec2 step;
     if (young.empty() || !search_.find(map_, young, *gap, step, twins_)) continue;
+    const double shift = step.dot(gap->direction);
+    const bool again = has_seen_shift_ && std::abs(shift - seen_shift_) < kDriftBound_m;
+    has_seen_shift_ = !again;
+    seen_shift_ = shift;
+    if (!again) return;
     const Gap found = *gap;
     gaps_.erase(std::next(gap).base());
     return take_shift(found, step, twins_);
   }
+  has_seen_shift_ = false;
 }
 
 /// A wall that was in view all through the last gap shows a corner that is known from before it: that tells how far the robot went,
@@ -469,7 +520,7 @@ bool Mapper::State::tie_by_corner() {
     const double along = wall.estimate.basis.direction.dot(gap.direction);
     if (wall.epoch >= gap.epoch || std::abs(along) < kAlongGap) continue;
     for (int k = 0; k < 2; ++k) {
-      if (!wall.estimate.known[k] || !sighting.corner[k]) continue;
+      if (!wall.estimate.known[k] || !sighting.corner[k] || wall.corner_epoch[k] >= gap.epoch) continue;
       const double shift =
           (wall.estimate.end[k] - wall.estimate.basis.along(T_map_robot_ * sighting.end[k])) / along;
       if (std::abs(shift) < std::abs(nearest)) nearest = shift;
@@ -513,27 +564,37 @@ void Mapper::State::merge(Index kept, Index gone) {
   if (std::find(recent_.begin(), recent_.end(), kept) == recent_.end()) recent_.push_back(kept);
 }
 
-/// Walls of a submap that lie where others do are these.
-void Mapper::State::merge_twins(Index s) {
-  const auto least = static_cast<std::uint32_t>(options_.min_observations);
-  for (std::size_t m = 0; m < map_.submaps[s].members.size(); ++m) {
-    const Index w = map_.submaps[s].members[m].wall;
-    if (w == kNone || map_.walls[w].count < least) continue;
-    const WallEstimate& wall = map_.walls[w].estimate;
-    Index twin = kNone;
-    map_.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])), [&](Index other) {
-      if (other == w || map_.walls[other].count < least || other > twin) return;
-      if (std::max(map_.walls[other].epoch, map_.walls[w].epoch) > 0 && !gaps_.empty()) {
-        const std::uint32_t known = epochs_known();
-        if ((map_.walls[other].epoch < known) != (map_.walls[w].epoch < known)) return;
-      }
-      bool contradict = false;
-      if (are_twins(map_.walls[other].estimate, wall, Vec2::Zero(), 0.5 * options_.match_bound_m, 0.02,
-                    contradict))
-        twin = other;
-    });
-    if (twin != kNone) merge(std::min(w, twin), std::max(w, twin));
+void Mapper::State::merge_twins(Index submap) {
+  for (std::size_t m = 0; m < map_.submaps[submap].members.size(); ++m) {
+    const Index w = map_.submaps[submap].members[m].wall;
+    if (w != kNone) merge_twin(w);
   }
+}
+
+/// A wall that lies where another one does is the same.
+void Mapper::State::merge_twin(Index w) {
+  const auto least = static_cast<std::uint32_t>(options_.min_observations);
+  if (map_.walls[w].merged_into != kNone || map_.walls[w].count < least) return;
+  const WallEstimate& wall = map_.walls[w].estimate;
+  const std::uint32_t known = epochs_known();
+  Index twin = kNone;
+  map_.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])), [&](Index other) {
+    if (other == w || map_.walls[other].count < least || other > twin) return;
+    // Where two lie to each other beyond a gap is not known.
+    if ((map_.walls[other].epoch < known) != (map_.walls[w].epoch < known)) return;
+    bool contradict = false;
+    if (are_twins(map_.walls[other].estimate, wall, Vec2::Zero(), 0.5 * options_.match_bound_m, kTwinSine,
+                  contradict))
+      twin = other;
+  });
+  if (twin != kNone) merge(std::min(w, twin), std::max(w, twin));
+}
+
+/// Each frame looks at one wall: some turn out to have twins only once the map has settled.
+void Mapper::State::look_for_twins() {
+  if (map_.walls.empty()) return;
+  if (next_twin_ >= map_.walls.size()) next_twin_ = 0;
+  merge_twin(next_twin_++);
 }
 
 /// The step over all submaps pays once a loop has closed; else now and then.

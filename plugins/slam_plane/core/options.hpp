@@ -32,7 +32,7 @@ struct Options {
   double overlap = 0.7;  ///< a submap closes when what is seen overlaps its first frame less
   int max_submap_frames = 200;  ///< and after this many frames
   int min_observations = 5;     ///< of a wall that is mapped
-  double smoothing = 0.5;       ///< share of the newest motion in the predicted one
+  double smoothing = 0.3;       ///< share of the newest motion in the predicted one
 
   Noise noise() const {
     return {noise_m, noise_angle_deg * std::numbers::pi / 180.0, noise_end_m, noise_along_m};

@@ -12,10 +12,10 @@ constexpr double kCrossing = 0.3;    // sine of the least angle at which a line 
 constexpr double kWindow_m = 0.15;   // of votes that agree
 constexpr double kRival_m = 0.3;     // from which on a displacement is another one
 constexpr double kRivalShare = 0.6;  // of the support that a rival may have
-constexpr int kLeastSupport = 3;
-constexpr int kLeastWalls = 2;
-constexpr double kSampleStep_m = 1.5;
-constexpr double kLeastOverlap = 0.5;
+constexpr int kLeastSupport = 5;
+constexpr int kLeastWalls = 3;
+constexpr double kSampleStep_m = 2.0;
+constexpr double kTwinOverlap = 0.5;
 constexpr double kCornerBound_m = 0.15;
 constexpr double kTwinAngle_rad = 0.03;
 
@@ -33,7 +33,7 @@ bool are_twins(const WallEstimate& wall, const WallEstimate& other, const Vec2& 
   const double to = std::min(basis.along(b), wall.reach[kEndB]);
   const double shorter =
       std::min(other.reach[kEndB] - other.reach[kEndA], wall.reach[kEndB] - wall.reach[kEndA]);
-  if (to - from <= kLeastOverlap * shorter || to <= from) return false;
+  if (to - from <= kTwinOverlap * shorter || to <= from) return false;
   // Where both were seen.
   const Vec2 middle = basis.point(0.5 * (from + to));
   const Vec2 there = other.basis.point(other.basis.along(middle - step)) + step;
@@ -60,11 +60,12 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
   const Vec2& d = o.basis.direction;
   if (d.dot(y.basis.direction) <= 0.0 || std::abs(cross(d, y.basis.direction)) > sine_) return;
   const double crossing = cross(d, gap.direction);
-  bool contradict = false;
   const auto take = [&](double shift, Kind kind) {
-    if (std::abs(shift) > gap.range_m) return;
-    if (are_twins(o, y, shift * gap.direction, bound_, sine_, contradict))
-      votes_.push_back({shift, young, old, kind});
+    bool contradict = false;
+    if (std::abs(shift) > gap.range_m || !are_twins(o, y, shift * gap.direction, bound_, sine_, contradict))
+      return false;
+    votes_.push_back({shift, young, old, kind});
+    return true;
   };
   if (std::abs(crossing) > kCrossing) {
     // Where they overlap the angle between them counts least; the middle of the shorter one stands for that.
@@ -72,12 +73,14 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
     const WallEstimate& shorter = short_young ? y : o;
     const Vec2 middle = shorter.basis.point(0.5 * (shorter.reach[kEndA] + shorter.reach[kEndB]));
     const double offset = short_young ? o.basis.across(middle) : -y.basis.across(middle);
-    take(-offset / crossing, Kind::line);
+    const double shift = -offset / crossing;
+    const bool corners = (y.known[kEndA] && o.known[kEndA]) || (y.known[kEndB] && o.known[kEndB]);
+    if (take(shift, Kind::line) && corners)
+      take(shift, Kind::corner);  // which agree, or it would not be taken
     return;
   }
   for (int k = 0; k < 2; ++k) {
     if (!y.known[k] || !o.known[k]) continue;
-    contradict = false;
     take((o.end[k] - o.basis.along(y.basis.point(y.end[k]))) / d.dot(gap.direction), Kind::corner);
   }
 }

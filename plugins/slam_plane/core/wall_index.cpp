@@ -8,8 +8,10 @@ namespace hallway::slam_plane {
 namespace {
 
 constexpr double kCell_m = 4.0;
-constexpr double kSlack_m = 0.25;  // that a segment's ends may move before it is put in anew
-constexpr double kStep_m = 1.0;    // between places of a segment that are looked at
+constexpr double kSlack_m = 0.25;          // that a segment's ends may move before it is put in anew
+constexpr double kMostLength_m = 1e4;      // longer segments are not found
+constexpr double kMostCoordinate_m = 1e8;  // nor farther ones
+constexpr double kStep_m = 1.0;            // between places of a segment that are looked at
 
 }  // namespace
 
@@ -27,6 +29,7 @@ void WallIndex::put(Index wall, const Vec2& a, const Vec2& b) {
   const double slack2 = kSlack_m * kSlack_m;
   if (entry.in && (entry.a - a).squaredNorm() < slack2 && (entry.b - b).squaredNorm() < slack2) return;
   remove(wall);
+  if (!((b - a).norm() < kMostLength_m) || !(a.cwiseAbs().maxCoeff() < kMostCoordinate_m)) return;
   entry.in = true;
   entry.a = a;
   entry.b = b;

@@ -106,7 +106,9 @@ void WallMap::observe(Index m, const Pose2& T_submap_robot, const Sighting& sigh
   const double share = 1.0 / wall.count;
   wall.z_low += share * (sighting.z_low - wall.z_low);
   wall.z_high += share * (sighting.z_high - wall.z_high);
-  for (int k = 0; k < 2; ++k) wall.corners[k] += corner[k] ? 1u : 0u;
+  for (int k = 0; k < 2; ++k) {
+    if (corner[k] && wall.corners[k]++ == 0) wall.corner_epoch[k] = submaps[active_].epoch;
+  }
 }
 
 void WallMap::update(Index w) {
@@ -188,7 +190,12 @@ void WallMap::merge(Index into, Index from) {
   kept.z_low += share * (gone.z_low - kept.z_low);
   kept.z_high += share * (gone.z_high - kept.z_high);
   kept.count += gone.count;
-  for (int k = 0; k < 2; ++k) kept.corners[k] += gone.corners[k];
+  for (int k = 0; k < 2; ++k) {
+    const bool both = kept.corners[k] > 0 && gone.corners[k] > 0;
+    if (both) kept.corner_epoch[k] = std::min(kept.corner_epoch[k], gone.corner_epoch[k]);
+    if (kept.corners[k] == 0) kept.corner_epoch[k] = gone.corner_epoch[k];
+    kept.corners[k] += gone.corners[k];
+  }
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);
   kept.epoch = std::min(kept.epoch, gone.epoch);
   gone.memberships.clear();

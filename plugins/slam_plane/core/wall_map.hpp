@@ -42,10 +42,11 @@ struct WallRecord {
   std::uint32_t astray[2] = {0, 0};   ///< of the end as a corner elsewhere
   double z_low = 0.0;                 ///< means [m]
   double z_high = 0.0;
-  std::uint32_t epoch = 0;              ///< how many gaps there had been when it was first seen; see Gap
-  std::uint64_t last_seen = 0;          ///< iteration
-  Index merged_into = kNone;            ///< set when it turned out to be another wall
-  std::vector<Membership> memberships;  ///< in the order of joining
+  std::uint32_t epoch = 0;                 ///< how many gaps there had been when it was first seen; see Gap
+  std::uint32_t corner_epoch[2] = {0, 0};  ///< the same of the first sighting of an end as a corner
+  std::uint64_t last_seen = 0;             ///< iteration
+  Index merged_into = kNone;               ///< set when it turned out to be another wall
+  std::vector<Membership> memberships;     ///< in the order of joining
 
   Index active_member = kNone;  ///< its place in the active submap
   WallBasis settled_basis;      ///< of `settled`

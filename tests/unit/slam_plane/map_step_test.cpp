@@ -131,7 +131,7 @@ TEST(MapStep, WhatNothingDeterminesIsNotMoved) {
   WallMap map{Options{}};
   const Index w[2] = {map.add_wall(0, 1), map.add_wall(0, 1)};
   for (int s = 0; s < 2; ++s) {
-    map.activate(map.add_submap(Pose2::at({0.3 * s, 0.1 * s}, 0.0), s == 1, 0));
+    map.activate(map.add_submap(Pose2::at({0.3 * s, 0.1 * s}, 0.0), false, 0));
     for (int k = 0; k < 2; ++k) {
       map.join(map.active(), w[k], true);
       const Sighting seen_now = k == 0 ? seen(Pose2{}, {1, 2}, {9, 2}) : seen(Pose2{}, {9, -2}, {1, -2});

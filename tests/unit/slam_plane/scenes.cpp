@@ -201,13 +201,13 @@ Scene featureless_loop(int laps) {
   std::vector<Vec2> outer, inner;
   add_side(outer, {0, 0}, {40, 0},
            {{4.0, 5.0, 0.3}, {11.0, 12.0, 0.3}, {19.0, 20.2, 0.3}, {27.0, 28.0, 0.25}, {34, 35, 0.3}});
-  add_side(outer, {40, 0}, {40, 14}, {{4.5, 5.5, 0.3}, {9.0, 10.0, 0.4}});
-  add_side(outer, {40, 14}, {0, 14}, {});
-  add_side(outer, {0, 14}, {0, 0}, {{4.0, 5.0, 0.3}, {8.2, 9.4, 0.3}});
+  add_side(outer, {40, 0}, {40, 18}, {{4.5, 5.5, 0.3}, {9.0, 10.0, 0.4}});
+  add_side(outer, {40, 18}, {0, 18}, {{3.5, 4.5, 0.3}, {6.0, 7.0, 0.3}});
+  add_side(outer, {0, 18}, {0, 0}, {{4.0, 5.0, 0.3}, {8.2, 9.4, 0.3}});
   add_outline(scene.walls, outer);
-  add_side(inner, {2.4, 2.4}, {2.4, 11.6}, {{4.0, 5.0, 0.3}});
-  add_side(inner, {2.4, 11.6}, {37.6, 11.6}, {});
-  add_side(inner, {37.6, 11.6}, {37.6, 2.4}, {{5.0, 6.0, 0.3}});
+  add_side(inner, {2.4, 2.4}, {2.4, 15.6}, {{4.0, 5.0, 0.3}});
+  add_side(inner, {2.4, 15.6}, {37.6, 15.6}, {});
+  add_side(inner, {37.6, 15.6}, {37.6, 2.4}, {{5.0, 6.0, 0.3}});
   add_side(inner, {37.6, 2.4}, {2.4, 2.4}, {{6.0, 7.0, 0.3}, {14.5, 15.5, 0.3}, {24.0, 25.0, 0.3}});
   add_outline(scene.walls, inner);
   const auto add_path = [&](const std::vector<Vec2>& corners, double step) {
@@ -221,9 +221,9 @@ Scene featureless_loop(int laps) {
     scene.path.insert(scene.path.end(), part.begin(), part.end());
   };
   for (int i = 0; i < laps; ++i) {
-    add_path({{i == 0 ? 5.0 : 1.2, 1.2}, {38.8, 1.2}, {38.8, 12.8}, {21.0, 12.8}}, 0.08);
-    add_path({{21.0, 12.8}, {1.2, 12.8}}, 0.12);
-    add_path({{1.2, 12.8}, {1.2, 1.2}}, 0.08);
+    add_path({{i == 0 ? 5.0 : 1.2, 1.2}, {38.8, 1.2}, {38.8, 16.8}, {21.0, 16.8}}, 0.08);
+    add_path({{21.0, 16.8}, {1.2, 16.8}}, 0.12);
+    add_path({{1.2, 16.8}, {1.2, 1.2}}, 0.08);
   }
   add_path({{1.2, 1.2}, {12.0, 1.2}}, 0.08);
   return scene;
