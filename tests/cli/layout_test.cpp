@@ -54,6 +54,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"loaders", {"base", "geom", "mesh", "import"}},
     {"plugins/em/core", {"em"}},
     {"plugins/slam_point/core", {"slam_point"}},
+    {"plugins/slam_plane/core", {"slam_plane"}},
     {"plugins/icp/core", {"icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
     {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",       "world",
@@ -65,7 +66,7 @@ const std::set<std::string> kLibraries{"base",       "geom",        "map",    "c
                                        "trace",      "mesh",        "world",  "sense",  "sim",      "host",
                                        "log",        "planes",      "record", "link",   "foxglove", "import",
                                        "eval",       "render",      "run",    "editor", "hallway",  "robot",
-                                       "slam_point", "conformance", "em",     "icp",    "batch",    "study"};
+                                       "slam_point", "slam_plane",  "conformance", "em", "icp", "batch", "study"};
 
 struct Include {
   fs::path file;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/core/frame_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hallway::slam_plane {
+namespace {
+
+constexpr double kLeastOverlap = 0.5;  // of the shorter one
+constexpr double kWideAngle_rad =
+    0.35;  // between a piece and what it may be, before the heading is corrected
+constexpr double kWideBound_m = 0.5;
+constexpr double kQueryStep_m = 1.5;  // less than twice the reach of the index
+constexpr double kRivalOverlap = 0.3;
+
+/// How a segment of the map's frame lies beside a wall.
+struct Overlap {
+  Overlap(const WallEstimate& wall, const Vec2& a, const Vec2& b) {
+    const double from = wall.basis.along(a);
+    const double to = wall.basis.along(b);
+    length = std::max(to - from, 1e-9);
+    const double begin = std::max(from, wall.reach[kEndA]);
+    const double end = std::min(to, wall.reach[kEndB]);
+    shared = end - begin;
+    const double share = std::clamp((0.5 * (begin + end) - from) / length, 0.0, 1.0);
+    middle = a + share * (b - a);
+  }
+
+  double length;  // of the segment along the wall [m]
+  double shared;  // of that, where the wall was seen; below 0: the distance between the two
+  Vec2 middle;    // of the segment, where both are
+};
+
+}  // namespace
+
+FrameMatcher::FrameMatcher(const Options& options)
+    : near_bound_(options.match_bound_m),
+      map_bound_(options.map_bound_m),
+      angle_(options.match_angle_deg * std::numbers::pi / 180.0),
+      sine_(std::sin(angle_)) {}
+
+double FrameMatcher::score(const WallEstimate& wall, const Vec2& a, const Vec2& b, const Vec2& direction,
+                           double bound) const {
+  const WallBasis& basis = wall.basis;
+  if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > sine_)
+    return 0.0;
+  const Overlap overlap(wall, a, b);
+  const double shorter = std::min(overlap.length, wall.reach[kEndB] - wall.reach[kEndA]);
+  if (overlap.shared <= kLeastOverlap * shorter || overlap.shared <= 0.0) return 0.0;
+  const double offset = std::abs(basis.across(overlap.middle));
+  if (offset >= bound) return 0.0;
+  return std::min(1.0, overlap.shared / overlap.length) +
+         std::min(1.0, overlap.shared / std::max(shorter, 1e-9)) + (1.0 - offset / bound);
+}
+
+void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>& recent,
+                                   const std::vector<Sighting>& frame, Pose2& T) {
+  turns_.clear();
+  for (const Sighting& sighting : frame) {
+    const Vec2 end[2] = {T * sighting.end[kEndA], T * sighting.end[kEndB]};
+    const Vec2 direction = T.rotate(sighting.direction);
+    double nearest = kWideBound_m;
+    double turn = 0.0;
+    for (const Index w : recent) {
+      const WallEstimate& wall = map.walls[w].estimate;
+      const double cosine = wall.basis.direction.dot(direction);
+      if (cosine < 0.9) continue;
+      const Overlap overlap(wall, end[kEndA], end[kEndB]);
+      const double distance = std::hypot(wall.basis.across(overlap.middle), std::min(0.0, overlap.shared));
+      if (distance >= nearest) continue;
+      const double angle = std::atan2(cross(direction, wall.basis.direction), cosine);
+      if (std::abs(angle) > kWideAngle_rad) continue;
+      nearest = distance;
+      turn = angle;
+    }
+    if (nearest < kWideBound_m) turns_.push_back(turn);
+  }
+  if (turns_.empty()) return;
+  const auto middle = turns_.begin() + static_cast<std::ptrdiff_t>(turns_.size() / 2);
+  std::nth_element(turns_.begin(), middle, turns_.end());
+  T = T.moved(Vec2::Zero(), *middle);
+}
+
+void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, const Pose2& T,
+                                std::vector<Sighting>& frame) {
+  scores_.assign(frame.size(), 0.0);
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    Sighting& sighting = frame[i];
+    const Vec2 a = T * sighting.end[kEndA];
+    const Vec2 b = T * sighting.end[kEndB];
+    const Vec2 direction = T.rotate(sighting.direction);
+    for (const Index w : recent) {
+      const double fit = score(map.walls[w].estimate, a, b, direction, near_bound_);
+      if (fit <= scores_[i]) continue;
+      scores_[i] = fit;
+      sighting.wall = w;
+    }
+  }
+  resolve_rivals(map, T, frame);
+}
+
+bool FrameMatcher::contradicts(const WallEstimate& wall, const Sighting& sighting,
+                               const Vec2 (&end)[2]) const {
+  for (int k = 0; k < 2; ++k) {
+    if (!wall.known[k]) continue;
+    const double beyond = (k == kEndA ? -1.0 : 1.0) * (wall.basis.along(end[k]) - wall.end[k]);
+    if (beyond > 2.0 * map_bound_ || (sighting.corner[k] && beyond < -2.0 * map_bound_)) return true;
+  }
+  return false;
+}
+
+void FrameMatcher::match_map(const WallMap& map, std::uint32_t since, const Pose2& T,
+                             std::vector<Sighting>& frame) {
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    Sighting& sighting = frame[i];
+    if (sighting.wall != kNone) continue;
+    const Vec2 end[2] = {T * sighting.end[kEndA], T * sighting.end[kEndB]};
+    const Vec2 direction = T.rotate(sighting.direction);
+    scores_[i] = 0.0;
+    const int steps = 1 + static_cast<int>(sighting.length / kQueryStep_m);
+    for (int step = 0; step <= steps; ++step) {
+      map.visit_near(end[0] + (end[1] - end[0]) * (static_cast<double>(step) / steps), [&](Index w) {
+        const WallRecord& wall = map.walls[w];
+        if (wall.epoch < since) return;
+        const double fit = score(wall.estimate, end[0], end[1], direction, map_bound_);
+        if (fit == 0.0 || fit < scores_[i] || (fit == scores_[i] && w >= sighting.wall)) return;
+        if (contradicts(wall.estimate, sighting, end)) return;
+        scores_[i] = fit;
+        sighting.wall = w;
+      });
+    }
+  }
+  resolve_rivals(map, T, frame);
+}
+
+/// Two pieces may be parts of one wall, but not the same part.
+void FrameMatcher::resolve_rivals(const WallMap& map, const Pose2& T, std::vector<Sighting>& frame) {
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    for (std::size_t k = i + 1; k < frame.size() && frame[i].wall != kNone; ++k) {
+      if (frame[k].wall != frame[i].wall) continue;
+      const WallBasis& basis = map.walls[frame[i].wall].estimate.basis;
+      const auto [a, b] = std::pair(basis.along(T * frame[i].end[0]), basis.along(T * frame[i].end[1]));
+      const auto [c, d] = std::pair(basis.along(T * frame[k].end[0]), basis.along(T * frame[k].end[1]));
+      if (std::min(b, d) - std::max(a, c) < kRivalOverlap * std::min(b - a, d - c)) continue;
+      frame[scores_[i] >= scores_[k] ? k : i].wall = kNone;
+    }
+  }
+}
+
+}  // namespace hallway::slam_plane

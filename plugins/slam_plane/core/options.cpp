@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/core/options.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace hallway::slam_plane {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"noise_m", "m", 1e-4, 1.0, "Standard deviation of a piece's place across its wall.", &Options::noise_m,
+     nullptr},
+    {"noise_angle_deg", "deg", 1e-3, 10.0, "Standard deviation of a piece's direction, about its middle.",
+     &Options::noise_angle_deg, nullptr},
+    {"noise_end_m", "m", 1e-4, 1.0, "Standard deviation of each end of a piece by itself, along its wall.",
+     &Options::noise_end_m, nullptr},
+    {"noise_along_m", "m", 0.0, 1.0, "Standard deviation of a whole piece along its wall.",
+     &Options::noise_along_m, nullptr},
+    {"match_bound_m", "m", 1e-3, 10.0, "Farthest that a piece may lie from a wall that was seen just before.",
+     &Options::match_bound_m, nullptr},
+    {"map_bound_m", "m", 1e-3, 10.0, "Farthest that a piece may lie from a wall that was seen earlier.",
+     &Options::map_bound_m, nullptr},
+    {"match_angle_deg", "deg", 0.1, 45.0, "Largest angle between a piece and its wall.",
+     &Options::match_angle_deg, nullptr},
+    {"corner_sigmas", "1", 1.0, 20.0,
+     "An end within so many standard deviations of the border of what can be seen is a cut and no corner.",
+     &Options::corner_sigmas, nullptr},
+    {"border_margin_deg", "deg", 0.0, 20.0, "What is added to that at the sides of the view.",
+     &Options::border_margin_deg, nullptr},
+    {"corner_sightings", "observations", 1, 1000, "Sightings that make an end a certain corner.", nullptr,
+     &Options::corner_sightings},
+    {"undetermined_m", "m", 1e-3, 10.0,
+     "Standard deviation of the position above which a direction counts as undetermined.",
+     &Options::undetermined_m, nullptr},
+    {"overlap", "1", 0.05, 0.99,
+     "A submap closes when the walls in view and those of its first frame overlap (Jaccard) less than this.",
+     &Options::overlap, nullptr},
+    {"max_submap_frames", "frames", 2, 100000,
+     "A submap closes, and may be taken up again, after so many frames.", nullptr,
+     &Options::max_submap_frames},
+    {"min_observations", "observations", 1, 1000000,
+     "A wall with fewer observations is temporary: it may be clutter.", nullptr, &Options::min_observations},
+    {"smoothing", "1", 0.01, 1.0, "Share of the newest relative motion in the motion prediction.",
+     &Options::smoothing, nullptr},
+};
+
+}  // namespace
+
+std::span<const Parameter> parameters() {
+  return kParameters;
+}
+
+void Options::validate() const {
+  for (const Parameter& parameter : kParameters) {
+    const double value = parameter.real != nullptr ? this->*parameter.real : this->*parameter.whole;
+    if (value >= parameter.min && value <= parameter.max) continue;
+    std::ostringstream text;
+    text << parameter.name << " is " << value << ' ' << parameter.unit << "; it must be between "
+         << parameter.min << " and " << parameter.max;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+}  // namespace hallway::slam_plane

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/core/shift_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace hallway::slam_plane {
+namespace {
+
+constexpr double kCrossing = 0.3;    // sine of the least angle at which a line crosses the direction
+constexpr double kWindow_m = 0.15;   // of votes that agree
+constexpr double kRival_m = 0.3;     // from which on a displacement is another one
+constexpr double kRivalShare = 0.6;  // of the support that a rival may have
+constexpr int kLeastSupport = 5;
+constexpr int kLeastWalls = 3;
+constexpr double kSampleStep_m = 2.0;
+constexpr double kTwinOverlap = 0.5;
+constexpr double kCornerBound_m = 0.15;
+constexpr double kTwinAngle_rad = 0.03;
+
+}  // namespace
+
+bool are_twins(const WallEstimate& wall, const WallEstimate& other, const Vec2& step, double bound_m,
+               double sine, bool& contradict) {
+  const WallBasis& basis = wall.basis;
+  const Vec2& direction = other.basis.direction;
+  if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > sine)
+    return false;
+  const Vec2 a = other.basis.point(other.reach[kEndA]) + step;
+  const Vec2 b = other.basis.point(other.reach[kEndB]) + step;
+  const double from = std::max(basis.along(a), wall.reach[kEndA]);
+  const double to = std::min(basis.along(b), wall.reach[kEndB]);
+  const double shorter =
+      std::min(other.reach[kEndB] - other.reach[kEndA], wall.reach[kEndB] - wall.reach[kEndA]);
+  if (to - from <= kTwinOverlap * shorter || to <= from) return false;
+  // Where both were seen.
+  const Vec2 middle = basis.point(0.5 * (from + to));
+  const Vec2 there = other.basis.point(other.basis.along(middle - step)) + step;
+  if (std::abs(basis.across(there)) > bound_m) return false;
+  for (int k = 0; k < 2; ++k) {
+    const double sign = k == kEndA ? -1.0 : 1.0;
+    const double end = basis.along(other.basis.point(other.reach[k]) + step);
+    const double beyond = sign * (end - wall.reach[k]);
+    const bool off =
+        (wall.known[k] && beyond > kCornerBound_m) || (other.known[k] && beyond < -kCornerBound_m);
+    if (off) contradict = true;
+  }
+  return !contradict;
+}
+
+ShiftSearch::ShiftSearch(const Options& options)
+    : bound_(options.match_bound_m),
+      sine_(std::sin(kTwinAngle_rad)),
+      least_count_(static_cast<std::uint32_t>(options.min_observations)) {}
+
+void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& gap) {
+  const WallEstimate& y = map.walls[young].estimate;
+  const WallEstimate& o = map.walls[old].estimate;
+  const Vec2& d = o.basis.direction;
+  if (d.dot(y.basis.direction) <= 0.0 || std::abs(cross(d, y.basis.direction)) > sine_) return;
+  const double crossing = cross(d, gap.direction);
+  const auto take = [&](double shift, Kind kind) {
+    bool contradict = false;
+    if (std::abs(shift) > gap.range_m || !are_twins(o, y, shift * gap.direction, bound_, sine_, contradict))
+      return false;
+    votes_.push_back({shift, young, old, kind});
+    return true;
+  };
+  if (std::abs(crossing) > kCrossing) {
+    // Where they overlap the angle between them counts least; the middle of the shorter one stands for that.
+    const bool short_young = y.reach[kEndB] - y.reach[kEndA] < o.reach[kEndB] - o.reach[kEndA];
+    const WallEstimate& shorter = short_young ? y : o;
+    const Vec2 middle = shorter.basis.point(0.5 * (shorter.reach[kEndA] + shorter.reach[kEndB]));
+    const double offset = short_young ? o.basis.across(middle) : -y.basis.across(middle);
+    const double shift = -offset / crossing;
+    const bool corners = (y.known[kEndA] && o.known[kEndA]) || (y.known[kEndB] && o.known[kEndB]);
+    if (take(shift, Kind::line) && corners)
+      take(shift, Kind::corner);  // which agree, or it would not be taken
+    return;
+  }
+  for (int k = 0; k < 2; ++k) {
+    if (!y.known[k] || !o.known[k]) continue;
+    take((o.end[k] - o.basis.along(y.basis.point(y.end[k]))) / d.dot(gap.direction), Kind::corner);
+  }
+}
+
+void ShiftSearch::vote(const WallMap& map, Index young, const Gap& gap) {
+  const WallEstimate& y = map.walls[young].estimate;
+  seen_.clear();
+  const Vec2 a = y.basis.point(y.reach[kEndA]);
+  const Vec2 b = y.basis.point(y.reach[kEndB]);
+  const int steps = 1 + static_cast<int>((b - a).norm() / kSampleStep_m);
+  const int shifts = 1 + static_cast<int>(gap.range_m / kSampleStep_m);
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = -shifts; j <= shifts; ++j) {
+      const Vec2 p = a + (b - a) * (static_cast<double>(i) / steps) +
+                     gap.direction * (gap.range_m * static_cast<double>(j) / shifts);
+      map.visit_near(p, [&](Index w) {
+        const WallRecord& wall = map.walls[w];
+        if (wall.epoch >= gap.epoch || wall.count < least_count_) return;
+        seen_.push_back(w);
+      });
+    }
+  }
+  std::sort(seen_.begin(), seen_.end());
+  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+  for (const Index old : seen_) vote(map, young, old, gap);
+}
+
+/// Of votes next to each other in their order: how many lines and corners of young walls.
+int ShiftSearch::support(std::size_t first, std::size_t end) const {
+  voters_.clear();
+  for (std::size_t i = first; i < end; ++i) voters_.emplace_back(votes_[i].young, votes_[i].kind);
+  std::sort(voters_.begin(), voters_.end());
+  return static_cast<int>(std::unique(voters_.begin(), voters_.end()) - voters_.begin());
+}
+
+int ShiftSearch::rival_support(double shift) const {
+  int most = 0;
+  for (std::size_t first = 0, end = 0; first < votes_.size(); ++first) {
+    if (std::abs(votes_[first].shift - shift) < kRival_m) continue;
+    end = std::max(end, first + 1);
+    while (end < votes_.size() && votes_[end].shift <= votes_[first].shift + kWindow_m &&
+           std::abs(votes_[end].shift - shift) >= kRival_m)
+      ++end;
+    most = std::max(most, support(first, end));
+  }
+  return most;
+}
+
+bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
+                       std::vector<Twins>& twins) {
+  votes_.clear();
+  for (const Index w : young) vote(map, w, gap);
+  std::sort(votes_.begin(), votes_.end(), [](const Vote& a, const Vote& b) {
+    return std::tie(a.shift, a.young, a.old) < std::tie(b.shift, b.young, b.old);
+  });
+  int most = 0;
+  double best = 0.0;
+  for (std::size_t first = 0, end = 0; first < votes_.size(); ++first) {
+    while (end < votes_.size() && votes_[end].shift <= votes_[first].shift + kWindow_m) ++end;
+    const int found = support(first, end);
+    if (found <= most) continue;
+    most = found;
+    best = votes_[first + (end - first) / 2].shift;  // their median
+  }
+  if (most < kLeastSupport || rival_support(best) > kRivalShare * most) return false;
+  step = best * gap.direction;
+  twins.clear();
+  int against = 0;
+  for (const Index y : young) {
+    seen_.clear();
+    for (const Vote& v : votes_) {
+      if (v.young == y && std::abs(v.shift - best) <= kWindow_m) seen_.push_back(v.old);
+    }
+    if (!seen_.empty()) {
+      twins.push_back({seen_.front(), y});
+      continue;
+    }
+    const WallEstimate& wall = map.walls[y].estimate;
+    Index twin = kNone;
+    bool any_contradicts = false;
+    map.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])) + step, [&](Index w) {
+      if (map.walls[w].epoch >= gap.epoch || map.walls[w].count < least_count_) return;
+      bool contradict = false;
+      if (are_twins(map.walls[w].estimate, wall, step, bound_, sine_, contradict)) twin = std::min(twin, w);
+      any_contradicts = any_contradicts || contradict;
+    });
+    if (twin != kNone) twins.push_back({twin, y});
+    if (twin == kNone && any_contradicts) ++against;
+  }
+  return static_cast<int>(twins.size()) >= kLeastWalls && 2 * against < most;
+}
+
+}  // namespace hallway::slam_plane

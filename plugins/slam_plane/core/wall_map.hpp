@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam_plane/core/wall_evidence.hpp"
+#include "slam_plane/core/wall_index.hpp"
+
+namespace hallway::slam_plane {
+
+/// What one submap knows of one wall, from its own frames only.
+struct Member {
+  Index wall = kNone;           ///< kNone: emptied
+  bool in_first_frame = false;  ///< seen by the frame that started the submap
+  WallEvidence evidence;
+  WallEstimate estimate;  ///< from this evidence alone, in the submap's frame
+};
+
+/// One submap's evidence, and where it lies.
+struct SubmapRecord {
+  Pose2 T_map_submap;
+  bool lines_only = false;  ///< its frames left a direction open: ends are no evidence here
+  std::uint32_t frames = 0;
+  std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
+  std::uint32_t epoch = 0;             ///< see WallRecord::epoch
+  std::vector<Member> members;
+};
+
+/// Where a wall stands in a submap.
+struct Membership {
+  Index submap = kNone;
+  Index member = kNone;
+};
+
+/// One wall of the map: what all submaps tell of it together.
+struct WallRecord {
+  WallEstimate estimate;              ///< map frame
+  std::uint32_t count = 0;            ///< sightings in all submaps
+  std::uint32_t corners[2] = {0, 0};  ///< of an end as a corner, in determined frames
+  std::uint32_t against[2] = {0, 0};  ///< sightings of more wall beyond the corner
+  std::uint32_t astray[2] = {0, 0};   ///< of the end as a corner elsewhere
+  double z_low = 0.0;                 ///< means [m]
+  double z_high = 0.0;
+  std::uint32_t epoch = 0;                 ///< how many gaps there had been when it was first seen; see Gap
+  std::uint32_t corner_epoch[2] = {0, 0};  ///< the same of the first sighting of an end as a corner
+  std::uint64_t last_seen = 0;             ///< iteration
+  Index merged_into = kNone;               ///< set when it turned out to be another wall
+  std::vector<Membership> memberships;     ///< in the order of joining
+
+  Index active_member = kNone;  ///< its place in the active submap
+  WallBasis settled_basis;      ///< of `settled`
+  WallForm settled;             ///< what all submaps but the active one tell
+  double settled_reach[2] = {0.0, 0.0};
+  bool has_settled = false;
+};
+
+/// Submaps, the walls that link them, and where both lie in the map. One submap is active: it takes up what frames see.
+class WallMap {
+ public:
+  explicit WallMap(const Options& options);
+
+  Index add_submap(const Pose2& T_map_submap, bool lines_only, std::uint32_t epoch);
+  Index add_wall(std::uint32_t epoch, std::uint64_t iteration);
+  Index join(Index submap, Index wall, bool in_first_frame);
+
+  /// Makes `submap` the one that observe() writes to; kNone: none.
+  void activate(Index submap);
+  Index active() const { return active_; }
+
+  /// Adds what a frame at T_submap_robot saw to the active submap. `corner`: which ends are evidence. O(1).
+  void observe(Index member, const Pose2& T_submap_robot, const Sighting& sighting, const bool (&corner)[2]);
+  /// Brings a wall's estimate up to date after observe(). O(1).
+  void update(Index wall);
+  /// Sums a wall up again from all its submaps, after these have moved. O(its submaps).
+  void refresh(Index wall);
+  void refresh_all();
+
+  /// Takes back that an end is a corner, in all submaps.
+  void revoke_corner(Index wall, int end);
+
+  /// Gives all evidence of `from` to `into`. O(their submaps).
+  void merge(Index into, Index from);
+  /// The wall that a wall has become.
+  Index resolve(Index wall) const;
+
+  /// Moves all submaps from `epoch` on by a step in the map frame, and the walls with them. O(map).
+  void shift(std::uint32_t epoch, const Vec2& step);
+
+  bool is_corner(const WallRecord& wall, int end) const { return wall.corners[end] >= corner_sightings_; }
+  const Noise& noise() const { return noise_; }
+
+  template <typename Visit>
+  void visit_near(const Vec2& p, Visit&& visit) const {
+    index_.visit_near(p, visit);
+  }
+
+  std::vector<WallRecord> walls;
+  std::vector<SubmapRecord> submaps;
+
+ private:
+  void add_form(const Membership& at, const WallBasis& basis, WallForm& form, double (&reach)[2],
+                bool& first) const;
+  void settle(WallRecord& wall);
+
+  Noise noise_;
+  std::uint32_t corner_sightings_;
+  WallIndex index_;
+  Index active_ = kNone;
+};
+
+}  // namespace hallway::slam_plane

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <hallway/plugin.hpp>
+
+#include <optional>
+#include <vector>
+
+#include "adapter/option_rows.hpp"
+#include "slam_plane/core/mapper.hpp"
+#include "slam_plane/plane_adapter.hpp"
+
+namespace hallway::slam_plane {
+namespace {
+
+static_assert(kNoWall == HW_NO_LANDMARK);
+
+/// The mapper behind the plugin ABI. Walls have ids where landmarks have them.
+class SlamPlane final : public sdk::Plugin {
+ public:
+  static const hw_plugin_info_t* info();
+
+  explicit SlamPlane(const hw_host_t* host) : Plugin(host) {
+    add_options(parameters(), options_, slam_plane::parameters());
+    parameters().add("range_bounds_sides", &range_bounds_sides_, 0, 1, "1",
+                     "1: the sensor's range bounds distances; 0: it bounds depths, straight ahead.");
+  }
+
+  void activate(const hw_activation_t& activation) override {
+    adapter_.activate(activation);
+    adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
+    mapper_.emplace(options_);
+  }
+
+  void deactivate() override { mapper_.reset(); }
+
+  void reset() override {
+    if (mapper_) mapper_->reset();
+  }
+
+  void process(const hw_frame_t& frame) override {
+    const Answer& answer = mapper_->process(adapter_.gather(frame), adapter_.view());
+    if (answer.has_pose) {
+      const Eigen::Matrix<double, 6, 6> covariance =
+          adapter_.body_covariance(answer.T_map_robot, answer.covariance);
+      host().put_pose(PlaneAdapter::to_c(adapter_.body_pose(answer.T_map_robot)), covariance.data());
+    } else {
+      host().put_lost();
+    }
+    adapter_.put_associations(host(), answer.associations);
+    put_counters(answer);
+  }
+
+  void report(bool refine) override {
+    const Map map = refine ? mapper_->refined_map() : mapper_->map();
+    std::vector<hw_submap_t> submaps;
+    std::vector<std::uint64_t> members;
+    for (const Submap& submap : map.submaps) {
+      submaps.push_back({submap.id, PlaneAdapter::to_c(adapter_.body_pose(submap.T_map_submap)),
+                         members.size(), submap.members.size()});
+      members.insert(members.end(), submap.members.begin(), submap.members.end());
+    }
+    host().put_submaps(submaps, members);
+  }
+
+ private:
+  void put_counters(const Answer& answer) const {
+    const Counters& counters = answer.counters;
+    const hw_counter_t list[] = {
+        {"lost", static_cast<double>(counters.lost)},
+        {"walls", static_cast<double>(counters.walls)},
+        {"submaps", static_cast<double>(counters.submaps)},
+        {"closes", static_cast<double>(counters.closes)},
+        {"reopened", static_cast<double>(counters.reopened)},
+        {"degenerate", static_cast<double>(counters.degenerate)},
+        {"gaps", static_cast<double>(counters.gaps)},
+        {"gaps_closed", static_cast<double>(counters.gaps_closed)},
+        {"global_steps", static_cast<double>(counters.global_steps)},
+        {"merged", static_cast<double>(counters.merged)},
+        {"corners_revoked", static_cast<double>(counters.corners_revoked)},
+        {"undetermined_x", answer.undetermined.x()},
+        {"undetermined_y", answer.undetermined.y()},
+        {"untied_x", answer.untied.x()},
+        {"untied_y", answer.untied.y()},
+    };
+    host().put_counters(list);
+  }
+
+  Options options_;
+  int range_bounds_sides_ = 0;
+  PlaneAdapter adapter_;
+  std::optional<Mapper> mapper_;  // while active
+};
+
+const hw_plugin_info_t* SlamPlane::info() {
+  static constexpr std::uint32_t kInputs[] = {HW_SAMPLE_PLANES};
+  static constexpr std::uint32_t kOutputs[] = {HW_OUTPUT_POSE, HW_OUTPUT_ASSOCIATIONS, HW_OUTPUT_SUBMAPS,
+                                               HW_OUTPUT_COUNTERS};
+  static constexpr hw_plugin_info_t kInfo = sdk::plugin_info(
+      "slam_plane", "Relative plane SLAM", "0.1.0", "Hallway",
+      "Maps walls seen in part, without odometry or identities, by submaps of lines and corners.", kInputs,
+      kOutputs);
+  return &kInfo;
+}
+
+}  // namespace
+}  // namespace hallway::slam_plane
+
+HALLWAY_PLUGINS(hallway::slam_plane::SlamPlane);

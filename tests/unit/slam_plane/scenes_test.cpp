@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "support/long_mode.hpp"
+#include "unit/slam_plane/runs.hpp"
+
+namespace hallway::slam_plane::test {
+namespace {
+
+struct Limits {
+  double corner = 1.3;    // times the yardstick's
+  double position = 1.1;  // likewise
+};
+
+/// Runs a scene with several seeds and holds the pooled errors against the yardstick's.
+void hold(const Scene& scene, const Sensor& sensor, const Limits& limits) {
+  Score ours, batch;
+  const int seeds = sized(1, 20);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Run result = run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(100 + seed));
+    ours.add(result.score);
+    batch.add(result.batch);
+    EXPECT_EQ(result.missing, 0) << scene.name << " seed " << seed;
+    EXPECT_EQ(result.duplicated, 0) << scene.name << " seed " << seed;
+    EXPECT_EQ(result.wrong, 0) << scene.name << " seed " << seed;
+    EXPECT_EQ(result.false_corners, 0) << scene.name << " seed " << seed;
+  }
+  EXPECT_LE(ours.corner_rmse(), limits.corner * batch.corner_rmse()) << scene.name;
+  EXPECT_LE(ours.position_rmse(), limits.position * batch.position_rmse()) << scene.name;
+}
+
+Sensor sensor_of(bool occlusion, bool all_round = false) {
+  Sensor sensor;
+  sensor.occlusion = occlusion;
+  if (all_round) sensor.view.horizontal_fov_rad = 7.0;
+  return sensor;
+}
+
+TEST(Scenes, FourWallsComeToTheYardstick) {
+  hold(four_walls(sized(250, 1000)), sensor_of(false, true), {});
+}
+
+TEST(Scenes, CorridorAndBackComesToTheYardstick) {
+  hold(corridor_return(), sensor_of(false), {});
+}
+
+TEST(Scenes, CorridorLoopComesToTheYardstick) {
+  hold(corridor_loop(sized(1, 2)), sensor_of(false), {});
+}
+
+TEST(Scenes, FeaturelessSideIsBridged) {
+  hold(featureless_loop(1), sensor_of(false), {});
+}
+
+TEST(Scenes, OcclusionCostsLittle) {
+  const Limits limits{2.0, 1.3};
+  hold(corridor_return(), sensor_of(true), limits);
+  hold(corridor_loop(sized(1, 2)), sensor_of(true), limits);
+  hold(featureless_loop(1), sensor_of(true), limits);
+}
+
+TEST(Scenes, WithoutNoiseTheMapIsExact) {
+  for (const bool occlusion : {false, true}) {
+    for (const Scene& scene : {corridor_return(), corridor_loop(1), featureless_loop(1)}) {
+      Sensor sensor = sensor_of(occlusion);
+      sensor.noise_m = sensor.noise_angle_rad = sensor.noise_end_m = 0.0;
+      const Run result = run(scene, sensor, Options{}, 1, false);
+      EXPECT_EQ(result.missing, 0) << scene.name;
+      EXPECT_LE(result.score.worst_corner, 1e-3) << scene.name;
+      EXPECT_LE(result.score.position_rmse(), 1e-3) << scene.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hallway::slam_plane::test

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/core/shift_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/slam_plane/pieces.hpp"
+
+namespace hallway::slam_plane::test {
+namespace {
+
+const Gap kGap{1, Vec2(1, 0), 3.0};  // along x
+
+/// Walls before a gap, and the same ones after it displaced by `off` along x.
+struct Displaced {
+  WallMap map{Options{}};
+  std::vector<Index> young;
+
+  Index add(const Vec2& a, const Vec2& b, std::uint32_t epoch, bool corner_a, bool corner_b) {
+    const Index w = map.add_wall(epoch, 1);
+    map.activate(map.add_submap(Pose2{}, false, epoch));
+    map.join(map.active(), w, true);
+    const Sighting s = seen(Pose2{}, a, b, corner_a, corner_b);
+    for (int i = 0; i < 6; ++i) map.observe(map.walls[w].active_member, Pose2{}, s, s.corner);
+    map.update(w);
+    if (epoch > 0) young.push_back(w);
+    return w;
+  }
+  void add_both(const Vec2& a, const Vec2& b, double off, bool corner_a = false, bool corner_b = false) {
+    add(a, b, 0, corner_a, corner_b);
+    add(a + Vec2(off, 0), b + Vec2(off, 0), 1, corner_a, corner_b);
+  }
+  bool find(Vec2& step, std::vector<Twins>& twins) {
+    return ShiftSearch(Options{}).find(map, young, kGap, step, twins);
+  }
+};
+
+TEST(ShiftSearch, WallsAcrossTheGapTellTheDisplacement) {
+  Displaced d;
+  d.add_both({5, 1}, {5, 0}, 0.8);
+  d.add_both({6.5, 2}, {6.5, 1}, 0.8);
+  d.add_both({9, -1}, {9, -2}, 0.8);
+  Vec2 step;
+  std::vector<Twins> twins;
+  ASSERT_TRUE(d.find(step, twins));
+  EXPECT_NEAR((step - Vec2(-0.8, 0)).norm(), 0.0, 1e-6);
+  EXPECT_EQ(twins.size(), 3u);
+}
+
+TEST(ShiftSearch, CornersOfWallsAlongTheGapTellItToo) {
+  Displaced d;
+  d.add_both({2, 2}, {5, 2}, -0.6, false, true);
+  d.add_both({7, -2}, {3, -2}, -0.6, true, false);
+  d.add_both({8, 1}, {8, 0}, -0.6);
+  Vec2 step;
+  std::vector<Twins> twins;
+  ASSERT_TRUE(d.find(step, twins));
+  EXPECT_NEAR((step - Vec2(0.6, 0)).norm(), 0.0, 1e-6);
+  EXPECT_EQ(twins.size(), 3u);
+}
+
+TEST(ShiftSearch, TooFewWallsTellNothing) {
+  Displaced d;
+  d.add_both({5, 1}, {5, 0}, 0.8);
+  d.add_both({2, 3}, {8, 3}, 0.8);
+  Vec2 step;
+  std::vector<Twins> twins;
+  EXPECT_FALSE(d.find(step, twins));
+}
+
+TEST(ShiftSearch, WhatRepeatsItselfIsWaitedFor) {
+  Displaced d;
+  for (int i = 0; i < 4; ++i) d.add({5.0 + i, 1}, {5.0 + i, 0}, 0, false, false);
+  for (int i = 1; i < 3; ++i) d.add({5.4 + i, 1}, {5.4 + i, 0}, 1, false, false);
+  d.add({5.4, 1}, {5.4, 0}, 1, false, false);
+  Vec2 step;
+  std::vector<Twins> twins;
+  EXPECT_FALSE(d.find(step, twins));
+}
+
+TEST(ShiftSearch, CornersThatContradictForbid) {
+  Displaced d;
+  d.add_both({5, 1}, {5, 0}, 0.8);
+  d.add_both({6.5, 2}, {6.5, 1}, 0.8);
+  d.add_both({9, -1}, {9, -2}, 0.8);
+  for (int i = 0; i < 3; ++i) {  // walls that are longer than those they would be
+    d.add({2.0 + i, 4.0 + i}, {2.0 + i, 3.0 + i}, 0, true, true);
+    d.add({2.8 + i, 4.5 + i}, {2.8 + i, 2.5 + i}, 1, true, true);
+  }
+  Vec2 step;
+  std::vector<Twins> twins;
+  EXPECT_FALSE(d.find(step, twins));
+}
+
+TEST(ShiftSearch, DisplacementBeyondTheRangeIsNone) {
+  Displaced d;
+  d.add_both({5, 1}, {5, 0}, 3.8);
+  d.add_both({6.5, 2}, {6.5, 1}, 3.8);
+  d.add_both({9, -1}, {9, -2}, 3.8);
+  Vec2 step;
+  std::vector<Twins> twins;
+  EXPECT_FALSE(d.find(step, twins));
+}
+
+}  // namespace
+}  // namespace hallway::slam_plane::test
