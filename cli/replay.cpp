@@ -184,12 +184,13 @@ void add_replay_command(CLI::App& app, Action& chosen) {
       app.add_subcommand("replay", "Feed recorded observations to a plugin, and measure what it maps");
   const auto options = std::make_shared<ReplayOptions>();
   command
-      ->add_option("observations", options->observations,
-                   "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), an "
-                   ".mcap log, "
-                   "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
-                   "parameters and "
-                   "truth with them")
+      ->add_option(
+          "observations", options->observations,
+          "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or of "
+          "observed planes, an .mcap log, "
+          "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
+          "parameters and "
+          "truth with them")
       ->required()
       ->type_name("LOG");
   command->add_option("--plugin", options->plugin, "Plugin to run: an id or a .so file")

@@ -43,7 +43,10 @@ constexpr ArgSpec part(std::string_view name, ArgKind kind, std::string_view hel
 
 constexpr std::array kSensor{
     ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
-    ArgSpec{.name = "kind", .kind = ArgKind::kChoice, .help = "what it sees [points]", .choices = "points"},
+    ArgSpec{.name = "kind",
+            .kind = ArgKind::kChoice,
+            .help = "what it sees [points]",
+            .choices = "points planes"},
     part("horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"),
     part("vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"),
     part("min_range", ArgKind::kLength, "nearest distance seen [0]"),

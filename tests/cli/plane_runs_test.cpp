@@ -133,7 +133,7 @@ TEST_F(PlaneRuns, AreConvertedThereAndBack) {
   expect_same_answers(first(), out("again"));
 }
 
-TEST_F(PlaneRuns, AreServedToARobotProgram) {
+TEST_F(PlaneRuns, HaveTheTrueWallsInTheirLogAndNoTracks) {
   const Ended ended = hallway({"log", "info", first() / "run.mcap", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("/hallway/truth/walls"), std::string::npos);
