@@ -14,6 +14,7 @@ constexpr double kRival_m = 0.3;     // from which on a displacement is another 
 constexpr double kRivalShare = 0.6;  // of the support that a rival may have
 constexpr int kLeastSupport = 5;
 constexpr int kLeastWalls = 3;
+constexpr double kLeastShare = 0.6;  // of the young walls that are to be found among the old ones
 constexpr double kSampleStep_m = 2.0;
 constexpr double kTwinOverlap = 0.5;
 constexpr double kCornerBound_m = 0.15;
@@ -170,7 +171,9 @@ bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, cons
     if (twin != kNone) twins.push_back({twin, y});
     if (twin == kNone && any_contradicts) ++against;
   }
-  return static_cast<int>(twins.size()) >= kLeastWalls && 2 * against < most;
+  const auto found = static_cast<double>(twins.size());
+  return found >= kLeastWalls && found >= kLeastShare * static_cast<double>(young.size()) &&
+         2 * against < most;
 }
 
 }  // namespace hallway::slam_plane
