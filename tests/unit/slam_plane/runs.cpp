@@ -22,11 +22,11 @@ Options options_for(const Sensor& sensor) {
   return options;
 }
 
-Run run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
-        bool with_batch) {
+Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
+            bool with_batch) {
   const std::vector<TrueFrame> frames = observe(scene, sensor, seed);
   Mapper mapper(options);
-  Run result;
+  Mapping result;
   std::vector<std::vector<WallId>> associations;
   std::map<WallId, std::map<int, int>> votes;
   std::vector<int> seen(scene.walls.size(), 0);

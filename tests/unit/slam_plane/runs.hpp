@@ -11,7 +11,7 @@
 namespace hallway::slam_plane::test {
 
 /// What a mapper made of a scene.
-struct Run {
+struct Mapping {
   Score score;            ///< of the refined map, with each pose fitted to it
   Score batch;            ///< of the yardstick
   int missing = 0;        ///< true walls seen in at least 20 frames that the map does not have
@@ -26,8 +26,8 @@ struct Run {
 };
 
 /// Maps a scene. `seed` chooses the noise.
-Run run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
-        bool with_batch = true);
+Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
+            bool with_batch = true);
 
 /// The mapper's options for a sensor.
 Options options_for(const Sensor& sensor);
