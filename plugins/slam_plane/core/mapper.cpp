@@ -599,7 +599,7 @@ void Mapper::State::merge_twin(Index w) {
   if (twin != kNone) merge(std::min(w, twin), std::max(w, twin));
 }
 
-/// Two walls out of view, on one line with a short distance between, neither of which was seen to end there.
+/// Two walls out of view, on one line with a short distance between or a short overlap, neither of which was seen to end there.
 bool Mapper::State::are_parts(const WallRecord& one, const WallRecord& other) const {
   const std::uint64_t now = answer_.counters.iterations;
   if (std::min(one.count, other.count) < kPartSightings) return false;
@@ -610,10 +610,12 @@ bool Mapper::State::are_parts(const WallRecord& one, const WallRecord& other) co
     return false;
   const Vec2 end[2] = {other.estimate.basis.point(other.estimate.reach[kEndA]),
                        other.estimate.basis.point(other.estimate.reach[kEndB])};
+  const double shorter = std::min(one.estimate.reach[kEndB] - one.estimate.reach[kEndA],
+                                  other.estimate.reach[kEndB] - other.estimate.reach[kEndA]);
   for (int k = 0; k < 2; ++k) {  // the end of `one` that faces the other
     const double sign = k == kEndA ? -1.0 : 1.0;
     const double apart = sign * (basis.along(end[1 - k]) - one.estimate.reach[k]);
-    if (apart < 0.0 || apart > kPartDistance_m) continue;
+    if (apart < -0.5 * shorter || apart > kPartDistance_m) continue;  // more overlap makes twins
     return !one.estimate.known[k] && !other.estimate.known[1 - k] &&
            std::abs(basis.across(end[1 - k])) < kStrayBound_m;
   }
