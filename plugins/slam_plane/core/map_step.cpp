@@ -9,10 +9,12 @@
 namespace hallway::slam_plane {
 namespace {
 
-constexpr double kHuber_m = 0.1;       // an end that is farther off counts less
-constexpr double kHold = 100.0;        // information that holds a submap of lines where it is [1/m^2]
-constexpr double kMostTurn_rad = 0.5;  // more is no small step
-constexpr double kMostMove_m = 5.0;    // likewise
+constexpr double kHuber_m = 0.1;        // an end that is farther off counts less
+constexpr double kHold = 1.0;           // information that holds a submap where it is (Levenberg) [1/m^2]
+constexpr double kHoldLines = 100.0;    // likewise, of one whose frames left a direction open
+constexpr double kHoldHeading = 100.0;  // [1/rad^2]
+constexpr double kMostTurn_rad = 0.5;   // more is no small step
+constexpr double kMostMove_m = 5.0;     // likewise
 
 /// How the lines and ends of a submap, as seen in the map, move with the submap's pose about its own origin.
 Eigen::Matrix<double, 4, 3> motion(const WallBasis& basis, const Vec2& origin) {
@@ -64,8 +66,9 @@ void MapStep::begin(const WallMap& map) {
   diagonal_.assign(n, Mat3::Zero());
   reduced_.assign(n, Mat3::Zero());
   for (std::size_t s = 0; s < n; ++s) {
-    // Walls that are parallel but for noise would carry it far along them.
-    if (map.submaps[s].lines_only) diagonal_[s].diagonal() = reduced_[s].diagonal() = Vec3(kHold, kHold, 0.0);
+    // What is known next to nothing of, walls that are parallel but for noise would carry far along them.
+    const double position = map.submaps[s].lines_only ? kHoldLines : kHold;
+    diagonal_[s].diagonal() = reduced_[s].diagonal() = Vec3(position, position, kHoldHeading);
   }
   r_.assign(n, Vec3::Zero());
   x_.assign(n, Vec3::Zero());
@@ -188,7 +191,7 @@ void MapStep::iterate() {
   const double beta = next / rz_;
   rz_ = next;
   for (std::size_t s = 0; s < p_.size(); ++s) p_[s] = z_[s] + beta * p_[s];
-  const int most = 20 + 6 * static_cast<int>(p_.size());
+  const int most = 20 + 20 * static_cast<int>(p_.size());
   if (!(rz_ > tolerance_ * tolerance_ * first_rz_) || iterations_ >= most) stage_ = Stage::done;
 }
 

@@ -24,17 +24,20 @@ constexpr double kDriftBound_m = 0.1;   // of a gap that matching by place can b
 constexpr double kGapSpeed = 1.5;       // times the fastest motion so far, that a robot may move unseen
 constexpr double kGapStep_m = 0.01;     // and what is added each frame
 constexpr std::size_t kMostYoung = 12;  // walls that are looked for
-constexpr std::uint64_t kSearchPeriod = 10;  // frames between looks for the end of a gap
-constexpr int kBridgeFrames = 10;            // without a known wall, before the map goes on elsewhere
-constexpr double kAlongGap = 0.7;            // cosine between a wall and a gap whose corners tell of it
-constexpr double kTwinSine = 0.02;           // of the largest angle between walls that are one
-constexpr int kTies = 3;                     // frames that agree on that
-constexpr std::uint32_t kLeastAgainst = 3;   // sightings beyond a corner that disprove it
+constexpr std::uint64_t kSearchPeriod = 10;   // frames between looks for the end of a gap
+constexpr double kPartDistance_m = 0.9;       // between two walls that may be parts of one
+constexpr std::uint32_t kPartSightings = 20;  // of each of them
+constexpr std::uint64_t kPartFrames = 30;     // since they were seen: their ends had their chance
+constexpr int kBridgeFrames = 10;             // without a known wall, before the map goes on elsewhere
+constexpr double kAlongGap = 0.7;             // cosine between a wall and a gap whose corners tell of it
+constexpr double kTwinSine = 0.02;            // of the largest angle between walls that are one
+constexpr int kTies = 3;                      // frames that agree on that
+constexpr std::uint32_t kLeastAgainst = 3;    // sightings beyond a corner that disprove it
 constexpr double kGateSigmas = 4.0;
 constexpr double kBeyond_m = 0.03;
 constexpr double kWorkPerFrame = 4000.0;  // of the step over all submaps
 constexpr double kRefineWork = 1e12;
-constexpr int kRefineSteps = 6;
+constexpr int kRefineSteps = 15;
 constexpr double kSettled = 1e-6;  // a move that is none [m, rad]
 
 const Options& checked(const Options& options) {
@@ -83,6 +86,7 @@ class Mapper::State {
   void note_ends(const Sighting& sighting, bool (&corner)[2]);
   void merge_twins(Index submap);
   void merge_twin(Index wall);
+  bool are_parts(const WallRecord& one, const WallRecord& other) const;
   void look_for_twins();
   void merge(Index kept, Index gone);
   void plan_step();
@@ -571,23 +575,51 @@ void Mapper::State::merge_twins(Index submap) {
   }
 }
 
-/// A wall that lies where another one does is the same.
+/// A wall that lies where another one does is the same, and so are two parts of one line between which something hides the rest.
 void Mapper::State::merge_twin(Index w) {
   const auto least = static_cast<std::uint32_t>(options_.min_observations);
   if (map_.walls[w].merged_into != kNone || map_.walls[w].count < least) return;
   const WallEstimate& wall = map_.walls[w].estimate;
   const std::uint32_t known = epochs_known();
   Index twin = kNone;
-  map_.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])), [&](Index other) {
+  const auto look_at = [&](Index other) {
     if (other == w || map_.walls[other].count < least || other > twin) return;
     // Where two lie to each other beyond a gap is not known.
     if ((map_.walls[other].epoch < known) != (map_.walls[w].epoch < known)) return;
     bool contradict = false;
     if (are_twins(map_.walls[other].estimate, wall, Vec2::Zero(), 0.5 * options_.match_bound_m, kTwinSine,
-                  contradict))
+                  contradict) ||
+        are_parts(map_.walls[other], map_.walls[w]))
       twin = other;
-  });
+  };
+  for (const double share : {0.0, 0.5, 1.0}) {
+    map_.visit_near(wall.basis.point(wall.reach[kEndA] + share * (wall.reach[kEndB] - wall.reach[kEndA])),
+                    look_at);
+  }
   if (twin != kNone) merge(std::min(w, twin), std::max(w, twin));
+}
+
+/// Two walls out of view, on one line with a short distance between or a short overlap, neither of which was seen to end there.
+bool Mapper::State::are_parts(const WallRecord& one, const WallRecord& other) const {
+  const std::uint64_t now = answer_.counters.iterations;
+  if (std::min(one.count, other.count) < kPartSightings) return false;
+  if (std::max(one.last_seen, other.last_seen) + kPartFrames > now) return false;
+  const WallBasis& basis = one.estimate.basis;
+  const Vec2& direction = other.estimate.basis.direction;
+  if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > kTwinSine)
+    return false;
+  const Vec2 end[2] = {other.estimate.basis.point(other.estimate.reach[kEndA]),
+                       other.estimate.basis.point(other.estimate.reach[kEndB])};
+  const double shorter = std::min(one.estimate.reach[kEndB] - one.estimate.reach[kEndA],
+                                  other.estimate.reach[kEndB] - other.estimate.reach[kEndA]);
+  for (int k = 0; k < 2; ++k) {  // the end of `one` that faces the other
+    const double sign = k == kEndA ? -1.0 : 1.0;
+    const double apart = sign * (basis.along(end[1 - k]) - one.estimate.reach[k]);
+    if (apart < -0.5 * shorter || apart > kPartDistance_m) continue;  // more overlap makes twins
+    return !one.estimate.known[k] && !other.estimate.known[1 - k] &&
+           std::abs(basis.across(end[1 - k])) < kStrayBound_m;
+  }
+  return false;
 }
 
 /// Each frame looks at one wall: some turn out to have twins only once the map has settled.

@@ -29,8 +29,8 @@ struct Options {
   int corner_sightings = 5;        ///< that make an end certain
   double undetermined_m =
       0.1;               ///< standard deviation of a position above which its direction is undetermined
-  double overlap = 0.7;  ///< a submap closes when what is seen overlaps its first frame less
-  int max_submap_frames = 200;  ///< and after this many frames
+  double overlap = 0.8;  ///< a submap closes when what is seen overlaps its first frame less
+  int max_submap_frames = 100;  ///< and after this many frames
   int min_observations = 5;     ///< of a wall that is mapped
   double smoothing = 0.3;       ///< share of the newest motion in the predicted one
 

@@ -12,8 +12,9 @@ constexpr double kCrossing = 0.3;    // sine of the least angle at which a line 
 constexpr double kWindow_m = 0.15;   // of votes that agree
 constexpr double kRival_m = 0.3;     // from which on a displacement is another one
 constexpr double kRivalShare = 0.6;  // of the support that a rival may have
-constexpr int kLeastSupport = 5;
+constexpr int kLeastSupport = 6;
 constexpr int kLeastWalls = 3;
+constexpr double kLeastShare = 0.45;  // of the young walls that are to be found among the old ones
 constexpr double kSampleStep_m = 2.0;
 constexpr double kTwinOverlap = 0.5;
 constexpr double kCornerBound_m = 0.15;
@@ -62,7 +63,8 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
   const double crossing = cross(d, gap.direction);
   const auto take = [&](double shift, Kind kind) {
     bool contradict = false;
-    if (std::abs(shift) > gap.range_m || !are_twins(o, y, shift * gap.direction, bound_, sine_, contradict))
+    if (std::abs(shift) > gap.range_m ||
+        !are_twins(o, y, shift * gap.direction + across_, bound_, sine_, contradict))
       return false;
     votes_.push_back({shift, young, old, kind});
     return true;
@@ -72,7 +74,7 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
     const bool short_young = y.reach[kEndB] - y.reach[kEndA] < o.reach[kEndB] - o.reach[kEndA];
     const WallEstimate& shorter = short_young ? y : o;
     const Vec2 middle = shorter.basis.point(0.5 * (shorter.reach[kEndA] + shorter.reach[kEndB]));
-    const double offset = short_young ? o.basis.across(middle) : -y.basis.across(middle);
+    const double offset = short_young ? o.basis.across(middle + across_) : -y.basis.across(middle - across_);
     const double shift = -offset / crossing;
     const bool corners = (y.known[kEndA] && o.known[kEndA]) || (y.known[kEndB] && o.known[kEndB]);
     if (take(shift, Kind::line) && corners)
@@ -81,7 +83,7 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
   }
   for (int k = 0; k < 2; ++k) {
     if (!y.known[k] || !o.known[k]) continue;
-    take((o.end[k] - o.basis.along(y.basis.point(y.end[k]))) / d.dot(gap.direction), Kind::corner);
+    take((o.end[k] - o.basis.along(y.basis.point(y.end[k]) + across_)) / d.dot(gap.direction), Kind::corner);
   }
 }
 
@@ -131,6 +133,16 @@ int ShiftSearch::rival_support(double shift) const {
 
 bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
                        std::vector<Twins>& twins) {
+  // On the way through a gap some drift across it comes together too.
+  for (const double across : {0.0, 1.0, -1.0, 2.0, -2.0}) {
+    across_ = across * bound_ * left_of(gap.direction);
+    if (find_beside(map, young, gap, step, twins)) return true;
+  }
+  return false;
+}
+
+bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
+                              std::vector<Twins>& twins) {
   votes_.clear();
   for (const Index w : young) vote(map, w, gap);
   std::sort(votes_.begin(), votes_.end(), [](const Vote& a, const Vote& b) {
@@ -146,7 +158,7 @@ bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, cons
     best = votes_[first + (end - first) / 2].shift;  // their median
   }
   if (most < kLeastSupport || rival_support(best) > kRivalShare * most) return false;
-  step = best * gap.direction;
+  step = best * gap.direction + across_;
   twins.clear();
   int against = 0;
   for (const Index y : young) {
@@ -170,7 +182,9 @@ bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, cons
     if (twin != kNone) twins.push_back({twin, y});
     if (twin == kNone && any_contradicts) ++against;
   }
-  return static_cast<int>(twins.size()) >= kLeastWalls && 2 * against < most;
+  const auto found = static_cast<double>(twins.size());
+  return found >= kLeastWalls && found >= kLeastShare * static_cast<double>(young.size()) &&
+         2 * against < most;
 }
 
 }  // namespace hallway::slam_plane

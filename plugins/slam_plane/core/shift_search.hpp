@@ -37,13 +37,15 @@ class ShiftSearch {
     Kind kind;
   };
 
+  bool find_beside(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
+                   std::vector<Twins>& twins);
   void vote(const WallMap& map, Index young, const Gap& gap);
   void vote(const WallMap& map, Index young, Index old, const Gap& gap);
   int support(std::size_t first, std::size_t end) const;
   int rival_support(double shift) const;
-  bool agree(const WallMap& map, Index young, Index old, const Vec2& step, bool& contradict) const;
 
   double bound_;
+  Vec2 across_ = Vec2::Zero();  // displacement across the gap that is tried
   double sine_;
   std::uint32_t least_count_;
   std::vector<Vote> votes_;

@@ -140,9 +140,15 @@ TEST(MapStep, WhatNothingDeterminesIsNotMoved) {
   }
   map.activate(kNone);
   map.refresh_all();
-  const std::vector<Pose2> poses = stepped(map, 1e12);
-  EXPECT_NEAR(poses[1].t.x(), 0.3, 1e-6);
-  EXPECT_NEAR(poses[1].t.y(), 0.0, 1e-6);
+  MapStep step;
+  for (int i = 0; i < 3; ++i) {
+    step.begin(map);
+    step.advance(map, 1e12);
+    ASSERT_TRUE(step.apply(map));
+    map.refresh_all();
+  }
+  EXPECT_NEAR(map.submaps[1].T_map_submap.t.x(), 0.3, 1e-3);
+  EXPECT_NEAR(map.submaps[1].T_map_submap.t.y(), 0.0, 1e-4);
 }
 
 TEST(MapStep, NewSubmapsMoveWithTheLastOne) {

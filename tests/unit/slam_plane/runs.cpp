@@ -9,6 +9,7 @@ namespace hallway::slam_plane::test {
 namespace {
 
 constexpr int kLeastSeen = 20;
+constexpr double kOverlap_m = 0.2;
 constexpr double kFalseCorner_m = 0.1;
 
 }  // namespace
@@ -22,11 +23,11 @@ Options options_for(const Sensor& sensor) {
   return options;
 }
 
-Run run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
-        bool with_batch) {
+Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
+            bool with_batch) {
   const std::vector<TrueFrame> frames = observe(scene, sensor, seed);
   Mapper mapper(options);
-  Run result;
+  Mapping result;
   std::vector<std::vector<WallId>> associations;
   std::map<WallId, std::map<int, int>> votes;
   std::vector<int> seen(scene.walls.size(), 0);
@@ -59,13 +60,23 @@ Run run(const Scene& scene, const Sensor& sensor, const Options& options, std::u
 
   Solution solution;
   solution.walls.resize(scene.walls.size());
+  std::vector<std::vector<Wall>> parts(scene.walls.size());
   std::vector<std::uint32_t> observations(scene.walls.size(), 0);
   for (const Wall& wall : result.map.walls) {
     if (wall.status != WallStatus::mapped) continue;
     const int truth = majority.count(wall.id) != 0 ? majority[wall.id] : -1;
     if (truth < 0) continue;
     const auto w = static_cast<std::size_t>(truth);
-    if (solution.walls[w].known) ++result.duplicated;
+    const auto overlaps = [&](const Wall& other) {
+      const Vec2 d = (other.b - other.a).normalized();
+      const double length = (other.b - other.a).norm();
+      return std::min(length, d.dot(wall.b - other.a)) - std::max(0.0, d.dot(wall.a - other.a)) > kOverlap_m;
+    };
+    if (!parts[w].empty()) {
+      const bool twice = std::any_of(parts[w].begin(), parts[w].end(), overlaps);
+      ++(twice ? result.duplicated : result.split);
+    }
+    parts[w].push_back(wall);
     if (wall.observations <= observations[w]) continue;
     observations[w] = wall.observations;
     ScoredWall& scored = solution.walls[w];

@@ -11,11 +11,12 @@
 namespace hallway::slam_plane::test {
 
 /// What a mapper made of a scene.
-struct Run {
+struct Mapping {
   Score score;            ///< of the refined map, with each pose fitted to it
   Score batch;            ///< of the yardstick
   int missing = 0;        ///< true walls seen in at least 20 frames that the map does not have
-  int duplicated = 0;     ///< walls of the map beyond the first one of a true wall
+  int duplicated = 0;     ///< walls of the map that are a part of a true wall which another one is too
+  int split = 0;          ///< walls of the map that are another part of a true wall than the first one
   int wrong = 0;          ///< pieces taken for a wall that is mostly another one
   int false_corners = 0;  ///< certain corners that are none, by more than 0.1 m
   double online2 =
@@ -26,8 +27,8 @@ struct Run {
 };
 
 /// Maps a scene. `seed` chooses the noise.
-Run run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
-        bool with_batch = true);
+Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
+            bool with_batch = true);
 
 /// The mapper's options for a sensor.
 Options options_for(const Sensor& sensor);

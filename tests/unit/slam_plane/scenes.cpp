@@ -146,14 +146,14 @@ Scene four_walls(int frames) {
 
 Scene corridor_loop(int laps) {
   Scene scene{"corridor_loop", {}, {}};
-  // Outer 30 x 20, corridor 2.4 wide about a block; niches (doors) in both outlines at uneven places.
+  // Outer 30 x 20, corridor 2.4 wide about a block; niches (doors) in both outlines at uneven places, one where each side ends.
   std::vector<Vec2> outer, inner;
   add_side(outer, {0, 0}, {30, 0},
-           {{4.0, 5.0, 0.3}, {9.5, 10.5, 0.3}, {17.0, 18.2, 0.25}, {24.0, 25.0, 0.3}});
-  add_side(outer, {30, 0}, {30, 20}, {{5.0, 6.0, 0.3}, {12.0, 13.0, 0.4}});
+           {{1.7, 2.7, 0.3}, {9.5, 10.5, 0.3}, {17.0, 18.2, 0.25}, {24.0, 25.0, 0.3}});
+  add_side(outer, {30, 0}, {30, 20}, {{1.7, 2.7, 0.3}, {12.0, 13.0, 0.4}});
   add_side(outer, {30, 20}, {0, 20},
-           {{3.0, 4.0, 0.3}, {11.0, 12.0, 0.3}, {15.5, 16.5, 0.25}, {23.0, 24.2, 0.3}});
-  add_side(outer, {0, 20}, {0, 0}, {{4.5, 5.5, 0.3}, {11.5, 12.7, 0.3}});
+           {{1.7, 2.7, 0.3}, {11.0, 12.0, 0.3}, {15.5, 16.5, 0.25}, {23.0, 24.2, 0.3}});
+  add_side(outer, {0, 20}, {0, 0}, {{1.7, 2.7, 0.3}, {11.5, 12.7, 0.3}});
   add_outline(scene.walls, outer);
   // The block's outline clockwise, so that the corridor is on its left; niches go into the block.
   add_side(inner, {2.4, 2.4}, {2.4, 17.6}, {{4.0, 5.0, 0.3}, {9.0, 10.0, 0.3}, {12.5, 13.5, 0.3}});
@@ -200,10 +200,10 @@ Scene featureless_loop(int laps) {
   Scene scene{"featureless_loop", {}, {}};
   std::vector<Vec2> outer, inner;
   add_side(outer, {0, 0}, {40, 0},
-           {{4.0, 5.0, 0.3}, {11.0, 12.0, 0.3}, {19.0, 20.2, 0.3}, {27.0, 28.0, 0.25}, {34, 35, 0.3}});
-  add_side(outer, {40, 0}, {40, 18}, {{4.5, 5.5, 0.3}, {9.0, 10.0, 0.4}});
-  add_side(outer, {40, 18}, {0, 18}, {{3.5, 4.5, 0.3}, {6.0, 7.0, 0.3}});
-  add_side(outer, {0, 18}, {0, 0}, {{4.0, 5.0, 0.3}, {8.2, 9.4, 0.3}});
+           {{1.7, 2.7, 0.3}, {11.0, 12.0, 0.3}, {19.0, 20.2, 0.3}, {27.0, 28.0, 0.25}, {34, 35, 0.3}});
+  add_side(outer, {40, 0}, {40, 18}, {{1.7, 2.7, 0.3}, {9.0, 10.0, 0.4}});
+  add_side(outer, {40, 18}, {0, 18}, {{1.7, 2.7, 0.3}, {6.0, 7.0, 0.3}});
+  add_side(outer, {0, 18}, {0, 0}, {{1.7, 2.7, 0.3}, {8.2, 9.4, 0.3}});
   add_outline(scene.walls, outer);
   add_side(inner, {2.4, 2.4}, {2.4, 15.6}, {{4.0, 5.0, 0.3}});
   add_side(inner, {2.4, 15.6}, {37.6, 15.6}, {});

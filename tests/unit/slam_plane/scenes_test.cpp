@@ -15,9 +15,9 @@ struct Limits {
 /// Runs a scene with several seeds and holds the pooled errors against the yardstick's.
 void hold(const Scene& scene, const Sensor& sensor, const Limits& limits) {
   Score ours, batch;
-  const int seeds = sized(1, 20);
+  const int seeds = hallway::test::sized(1, 20);
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Run result = run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(100 + seed));
+    const Mapping result = run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(100 + seed));
     ours.add(result.score);
     batch.add(result.batch);
     EXPECT_EQ(result.missing, 0) << scene.name << " seed " << seed;
@@ -37,7 +37,7 @@ Sensor sensor_of(bool occlusion, bool all_round = false) {
 }
 
 TEST(Scenes, FourWallsComeToTheYardstick) {
-  hold(four_walls(sized(250, 1000)), sensor_of(false, true), {});
+  hold(four_walls(hallway::test::sized(250, 1000)), sensor_of(false, true), {});
 }
 
 TEST(Scenes, CorridorAndBackComesToTheYardstick) {
@@ -45,7 +45,7 @@ TEST(Scenes, CorridorAndBackComesToTheYardstick) {
 }
 
 TEST(Scenes, CorridorLoopComesToTheYardstick) {
-  hold(corridor_loop(sized(1, 2)), sensor_of(false), {});
+  hold(corridor_loop(hallway::test::sized(1, 2)), sensor_of(false), {});
 }
 
 TEST(Scenes, FeaturelessSideIsBridged) {
@@ -55,7 +55,7 @@ TEST(Scenes, FeaturelessSideIsBridged) {
 TEST(Scenes, OcclusionCostsLittle) {
   const Limits limits{2.0, 1.3};
   hold(corridor_return(), sensor_of(true), limits);
-  hold(corridor_loop(sized(1, 2)), sensor_of(true), limits);
+  hold(corridor_loop(hallway::test::sized(1, 2)), sensor_of(true), limits);
   hold(featureless_loop(1), sensor_of(true), limits);
 }
 
@@ -64,7 +64,7 @@ TEST(Scenes, WithoutNoiseTheMapIsExact) {
     for (const Scene& scene : {corridor_return(), corridor_loop(1), featureless_loop(1)}) {
       Sensor sensor = sensor_of(occlusion);
       sensor.noise_m = sensor.noise_angle_rad = sensor.noise_end_m = 0.0;
-      const Run result = run(scene, sensor, Options{}, 1, false);
+      const Mapping result = run(scene, sensor, Options{}, 1, false);
       EXPECT_EQ(result.missing, 0) << scene.name;
       EXPECT_LE(result.score.worst_corner, 1e-3) << scene.name;
       EXPECT_LE(result.score.position_rmse(), 1e-3) << scene.name;

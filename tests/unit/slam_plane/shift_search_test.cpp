@@ -36,9 +36,9 @@ struct Displaced {
 
 TEST(ShiftSearch, WallsAcrossTheGapTellTheDisplacement) {
   Displaced d;
-  d.add_both({5, 1}, {5, 0}, 0.8);
-  d.add_both({6.5, 2}, {6.5, 1}, 0.8);
-  d.add_both({9, -1}, {9, -2}, 0.8);
+  d.add_both({5, 1}, {5, 0}, 0.8, true, true);  // each by its line, and by corners that agree
+  d.add_both({6.5, 2}, {6.5, 1}, 0.8, true, true);
+  d.add_both({9, -1}, {9, -2}, 0.8, true, true);
   Vec2 step;
   std::vector<Twins> twins;
   ASSERT_TRUE(d.find(step, twins));
@@ -50,12 +50,13 @@ TEST(ShiftSearch, CornersOfWallsAlongTheGapTellItToo) {
   Displaced d;
   d.add_both({2, 2}, {5, 2}, -0.6, false, true);
   d.add_both({7, -2}, {3, -2}, -0.6, true, false);
-  d.add_both({8, 1}, {8, 0}, -0.6);
+  d.add_both({8, 1}, {8, 0}, -0.6, true, true);
+  d.add_both({9, 3}, {9, 2}, -0.6, true, true);
   Vec2 step;
   std::vector<Twins> twins;
   ASSERT_TRUE(d.find(step, twins));
   EXPECT_NEAR((step - Vec2(0.6, 0)).norm(), 0.0, 1e-6);
-  EXPECT_EQ(twins.size(), 3u);
+  EXPECT_EQ(twins.size(), 4u);
 }
 
 TEST(ShiftSearch, TooFewWallsTellNothing) {
@@ -79,9 +80,9 @@ TEST(ShiftSearch, WhatRepeatsItselfIsWaitedFor) {
 
 TEST(ShiftSearch, CornersThatContradictForbid) {
   Displaced d;
-  d.add_both({5, 1}, {5, 0}, 0.8);
-  d.add_both({6.5, 2}, {6.5, 1}, 0.8);
-  d.add_both({9, -1}, {9, -2}, 0.8);
+  d.add_both({5, 1}, {5, 0}, 0.8, true, true);
+  d.add_both({6.5, 2}, {6.5, 1}, 0.8, true, true);
+  d.add_both({9, -1}, {9, -2}, 0.8, true, true);
   for (int i = 0; i < 3; ++i) {  // walls that are longer than those they would be
     d.add({2.0 + i, 4.0 + i}, {2.0 + i, 3.0 + i}, 0, true, true);
     d.add({2.8 + i, 4.5 + i}, {2.8 + i, 2.5 + i}, 1, true, true);
@@ -93,9 +94,9 @@ TEST(ShiftSearch, CornersThatContradictForbid) {
 
 TEST(ShiftSearch, DisplacementBeyondTheRangeIsNone) {
   Displaced d;
-  d.add_both({5, 1}, {5, 0}, 3.8);
-  d.add_both({6.5, 2}, {6.5, 1}, 3.8);
-  d.add_both({9, -1}, {9, -2}, 3.8);
+  d.add_both({5, 1}, {5, 0}, 3.8, true, true);
+  d.add_both({6.5, 2}, {6.5, 1}, 3.8, true, true);
+  d.add_both({9, -1}, {9, -2}, 3.8, true, true);
   Vec2 step;
   std::vector<Twins> twins;
   EXPECT_FALSE(d.find(step, twins));
