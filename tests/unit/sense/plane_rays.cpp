@@ -120,7 +120,7 @@ struct Counts {
 };
 
 void compare(const Scenery& scenery, const PlaneSensorSpec& spec, const Pose& pose, Counts& counts) {
-  const auto planes = observe(PlaneSensor(spec, scenery.plan, 1), pose);
+  const auto planes = test::observe(PlaneSensor(spec, scenery.plan, 1), pose);
   for (int i = 0; i < kRays; ++i) {
     const double bearing =
         (2.0 * (i + 0.37) / kRays - 1.0) * std::min(0.55 * spec.view.horizontal_fov, kHalfTurn);
