@@ -62,11 +62,11 @@ const std::map<std::string, std::set<std::string>> kAllowed{
              "render", "planes", "run",  "batch",       "study", "editor", "icp",   "slam_point", "hallway"}},
 };
 
-const std::set<std::string> kLibraries{"base",       "geom",        "map",    "csg",    "bsp",      "pvs",
-                                       "trace",      "mesh",        "world",  "sense",  "sim",      "host",
-                                       "log",        "planes",      "record", "link",   "foxglove", "import",
-                                       "eval",       "render",      "run",    "editor", "hallway",  "robot",
-                                       "slam_point", "slam_plane",  "conformance", "em", "icp", "batch", "study"};
+const std::set<std::string> kLibraries{
+    "base",       "geom",       "map",         "csg",    "bsp", "pvs",    "trace",   "mesh",
+    "world",      "sense",      "sim",         "host",   "log", "planes", "record",  "link",
+    "foxglove",   "import",     "eval",        "render", "run", "editor", "hallway", "robot",
+    "slam_point", "slam_plane", "conformance", "em",     "icp", "batch",  "study"};
 
 struct Include {
   fs::path file;
