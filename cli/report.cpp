@@ -33,7 +33,8 @@ std::string metres(const std::optional<double>& value) {
 }
 
 void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
-  if (!metrics.landmarks_true) {
+  // Plugins that give a path alone, or walls, have nothing to be missed.
+  if (!metrics.landmarks_true || metrics.landmarks_mapped == 0) {
     table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
     return;
   }

@@ -212,7 +212,8 @@ std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
   std::string text = fmt::format("{} iterations", metrics.value("iterations", 0));
   const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
-  if (mapped.is_number()) text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
+  if (mapped.is_number() && mapped.get<std::uint64_t>() > 0)
+    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
   const auto rmse = metrics.find("landmark_rmse_m");
   if (rmse != metrics.end() && rmse->is_object() && rmse->contains("final_aligned") &&
       (*rmse)["final_aligned"].is_number()) {
