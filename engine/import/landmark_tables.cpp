@@ -91,7 +91,8 @@ Quat orientation_in(const log::CsvReader& rows, std::size_t first_column) {
   return Quat(r).normalized();
 }
 
-TruePoses read_camera_poses(const fs::path& path) {
+/// The poses of the first `frames` frames that have one. Poses of later frames are checked and left out: no frame's points go with them.
+TruePoses read_camera_poses(const fs::path& path, std::uint32_t frames) {
   const std::string text = read_file(path);
   log::CsvReader rows(text, shown(path),
                       {{"frame"},
@@ -119,6 +120,7 @@ TruePoses read_camera_poses(const fs::path& path) {
     last = frame;
     const auto t = rows.vector(kPosition);
     const Pose T_world_camera{orientation_in(rows, kRotation), Vec3(t[0], t[1], t[2])};
+    if (frame >= frames) continue;
     poses.resize(frame + std::size_t{1});
     poses[frame] = T_body_camera * T_world_camera * T_body_camera.inverse();
   }
@@ -180,7 +182,7 @@ std::unique_ptr<Recording> open_stereo_tracks(const fs::path& table, const Landm
       parse_point_table(read_file(table), shown(table), PointColumns::kCamera, options.period_ns);
   TruePoses poses;
   if (const auto path = file_beside(options.true_poses, table, "obs3d.csv", "ins_campose.csv")) {
-    poses = read_camera_poses(*path);
+    poses = read_camera_poses(*path, points.frames());
   }
   return std::make_unique<TableRecording>(std::move(points), Ids::kTracks, "stereo", std::move(poses),
                                           std::nullopt);

@@ -147,6 +147,19 @@ TEST_F(LandmarkTables, APoseThatIsNoRotationIsAnError) {
   }
 }
 
+TEST_F(LandmarkTables, PosesOfFramesBeyondTheTableTakeNoMemory) {
+  const std::string table = folder_.write("e_obs3d.csv", "frame,id,x_right_m,y_down_m,z_fwd_m\n0,0,1,0,5\n");
+  folder_.write("e_ins_campose.csv",
+                "frame,r00,r01,r02,tx,r10,r11,r12,ty,r20,r21,r22,tz\n"
+                "0,1,0,0,0,0,1,0,0,0,0,1,7\n99999999,1,0,0,0,0,1,0,0,0,0,1,0\n");
+  const auto recording = open_stereo_tracks(table, {});
+  EXPECT_EQ(recording->frames(), 1u);
+  Frame frame;
+  recording->read(0, frame);
+  ASSERT_TRUE(frame.T_world_body);
+  EXPECT_EQ(frame.T_world_body->t.x(), 7.0);
+}
+
 TEST(LandmarkTablesData, TheDemosPointsLieOnItsTrueLandmarks) {
   HALLWAY_DATA_OR_SKIP(folder, "landmarks");
   const auto recording = open_range_bearing(folder / "kf-slam_6D_demo_obs.csv", {});
