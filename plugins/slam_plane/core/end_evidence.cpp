@@ -9,6 +9,7 @@ namespace {
 constexpr std::uint32_t kLeastAgainst = 3;  // sightings beyond a corner that disprove it
 constexpr double kAgainstSigmas = 4.0;
 constexpr double kBeyond_m = 0.03;
+constexpr double kSamePlace_m = 0.15;  // of ends that are seen in one place
 
 }  // namespace
 
@@ -22,9 +23,22 @@ EndEvidence::Against EndEvidence::compare(const WallEstimate& wall, const Vec2& 
   return {sign * off > gate + kBeyond_m, std::abs(off) > gate};
 }
 
+/// Of the end where the wall was seen farthest.
+void EndEvidence::note_hidden(const Frame& frame, const Sighting& sighting, WallRecord& wall) {
+  if (wall.count == 0) return;
+  for (int k = 0; k < 2; ++k) {
+    const double sign = k == kEndA ? -1.0 : 1.0;
+    const double place = wall.estimate.basis.along(frame.T_map_robot * sighting.end[k]);
+    const double beyond = sign * (place - wall.estimate.reach[k]);
+    if (beyond > kSamePlace_m) wall.hidden[k] = 0;
+    if (sighting.hidden[k] && beyond > -kSamePlace_m) ++wall.hidden[k];
+  }
+}
+
 void EndEvidence::judge(const OpenGaps& gaps, const Frame& frame, const Sighting& sighting, WallMap& map,
                         bool (&corner)[2]) const {
   WallRecord& wall = map.walls[sighting.wall];
+  note_hidden(frame, sighting, wall);
   const SubmapRecord& submap = map.submaps[map.active()];
   corner[kEndA] = corner[kEndB] = false;
   if (submap.lines_only) return;

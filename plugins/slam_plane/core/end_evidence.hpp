@@ -26,6 +26,8 @@ class EndEvidence {
   /// What an end at a pose says against a corner that is known.
   Against compare(const WallEstimate& wall, const Vec2& place, int end, double slack) const;
 
+  static void note_hidden(const Frame& frame, const Sighting& sighting, WallRecord& wall);
+
   Noise noise_;
   double map_bound_m_;
 };

@@ -8,7 +8,10 @@ namespace hallway::slam_plane {
 namespace {
 
 constexpr std::uint64_t kRecentFrames = 15;  // for which a wall out of view is still looked for first
-constexpr double kStray2 = 36.0;        // squared distance of a piece that is not its wall's, in variances
+constexpr double kLeastCrossing =
+    0.5;                          // sine between the heading and a direction in which nothing is measured
+constexpr double kStray2 = 36.0;  // squared distance of a piece that is not its wall's, in variances
+constexpr double kStrayTurn_rad = 0.05;
 constexpr double kStrayBound_m = 0.05;  // below which none strays
 
 }  // namespace
@@ -26,7 +29,7 @@ void FrameLocator::locate_from(const Pose2& T_map_robot, const WallMap& map, std
   Pose2& T = frame.T_map_robot;
   T = T_map_robot;
   matcher_.correct_heading(map, recent_, frame.sightings, T);
-  matcher_.match_recent(map, recent_, T, frame.sightings);
+  matcher_.match_recent(map, recent_, frame.iteration, T, frame.sightings);
   fit_map(map, frame, kNone, T);
   matcher_.match_map(map, since, T, frame.sightings);
   frame.in_map = fit_map(map, frame, kNone, T);
@@ -37,7 +40,7 @@ PoseInformation FrameLocator::fit_map(const WallMap& map, const Frame& frame, st
                                       Pose2& T) {
   fit_.clear();
   for (const Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone || map.walls[sighting.wall].epoch >= before_epoch) continue;
+    if (sighting.wall == kNone || sighting.stray || map.walls[sighting.wall].epoch >= before_epoch) continue;
     const WallRecord& wall = map.walls[sighting.wall];
     fit_.add(sighting, wall.estimate, wall.corner_epoch[kEndA] < before_epoch,
              wall.corner_epoch[kEndB] < before_epoch);
@@ -45,23 +48,28 @@ PoseInformation FrameLocator::fit_map(const WallMap& map, const Frame& frame, st
   return fit_.solve(T);
 }
 
-void FrameLocator::drop_strays(const WallMap& map, Frame& frame) const {
+void FrameLocator::find_strays(const WallMap& map, Frame& frame) {
   std::size_t pair = 0;
-  std::erase_if(frame.sightings, [&](const Sighting& sighting) {
-    if (sighting.wall == kNone) return false;
+  bool any = false;
+  for (Sighting& sighting : frame.sightings) {
+    if (sighting.wall == kNone || sighting.stray) continue;
     const WallRecord& wall = map.walls[sighting.wall];
     const bool recent = wall.last_seen + kRecentFrames >= frame.iteration;
     const double offset = std::abs(wall.estimate.basis.across(frame.T_map_robot * sighting.middle));
     const double distance2 = fit_.line_distance2(pair++, frame.T_map_robot);
-    return recent && offset > kStrayBound_m && distance2 > kStray2;
-  });
+    const Vec2 direction = frame.T_map_robot.rotate(sighting.direction);
+    const double turn = std::abs(cross(wall.estimate.basis.direction, direction));
+    sighting.stray = recent && (offset > kStrayBound_m || turn > kStrayTurn_rad) && distance2 > kStray2;
+    any = any || sighting.stray;
+  }
+  if (any) frame.in_map = fit_map(map, frame, kNone, frame.T_map_robot);
 }
 
 void FrameLocator::locate_in_submap(const WallMap& map, Frame& frame) {
   const SubmapRecord& submap = map.submaps[map.active()];
   fit_.clear();
   for (const Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone) continue;
+    if (sighting.wall == kNone || sighting.stray) continue;
     const Index member = map.walls[sighting.wall].active_member;
     if (member != kNone) fit_.add(sighting, submap.members[member].estimate);
   }
@@ -72,9 +80,15 @@ void FrameLocator::locate_in_submap(const WallMap& map, Frame& frame) {
 void FrameLocator::note_motion(const Pose2& before, const Frame& frame, const Vec2& untied) {
   const Pose2 moved = before.inverse() * frame.T_submap_robot;
   Vec2 step = moved.t;
-  // Where nothing was measured, no step was made that is known.
-  const Vec2 along = frame.T_map_robot.unrotate(untied);
-  step += along * along.dot(motion_.t - moved.t);
+  if (untied != Vec2::Zero()) {
+    // Nothing was measured along it. A robot goes where it looks (thesis 4.3.6, rules 24 and 25), which tells the step by its other part unless it
+    // looks along it.
+    const Vec2 along = frame.T_map_robot.unrotate(untied);
+    const Vec2 other = left_of(along);
+    const double slide = std::abs(other.x()) > kLeastCrossing ? other.dot(moved.t) / other.x() * along.x()
+                                                              : along.dot(motion_.t);
+    step = other.dot(moved.t) * other + slide * along;
+  }
   motion_ = Pose2::at(motion_.t + smoothing_ * (step - motion_.t),
                       motion_.heading() + smoothing_ * angle_between(motion_.r, moved.r));
   fastest_ = std::max(fastest_, motion_.t.norm());

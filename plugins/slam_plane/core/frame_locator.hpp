@@ -23,8 +23,8 @@ class FrameLocator {
   /// How many pieces locate() found a wall for.
   std::size_t known() const { return known_; }
 
-  /// Takes out pieces that do not lie on their walls at the pose that locate() found: they are none of them, and no walls of their own.
-  void drop_strays(const WallMap& map, Frame& frame) const;
+  /// Sets Sighting::stray of pieces that do not lie on their walls at the pose that locate() found, and finds it anew without them.
+  void find_strays(const WallMap& map, Frame& frame);
 
   /// Sets Frame::T_submap_robot and in_submap from the active submap alone.
   void locate_in_submap(const WallMap& map, Frame& frame);

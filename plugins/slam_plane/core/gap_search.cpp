@@ -55,7 +55,8 @@ std::optional<GapShift> GapSearch::find(const WallMap& map, const OpenGaps& gaps
 std::vector<Index> GapSearch::walls_since(const WallMap& map, const Gap& gap) const {
   std::vector<Index> young;
   for (const Index w : young_) {
-    if (map.walls[w].epoch >= gap.epoch && map.walls[w].count >= least_count_) young.push_back(w);
+    if (map.walls[w].epoch >= gap.epoch && map.walls[w].count >= least_count_ && !map.walls[w].is_dynamic)
+      young.push_back(w);
   }
   if (young.size() > kMostYoung) {
     std::stable_sort(young.begin(), young.end(),
@@ -73,7 +74,7 @@ std::optional<GapShift> GapSearch::tie_by_corner(const WallMap& map, const Gap& 
   for (const Sighting& sighting : frame.sightings) {
     const WallRecord& wall = map.walls[sighting.wall];
     const double along = wall.estimate.basis.direction.dot(gap.direction);
-    if (wall.epoch >= gap.epoch || std::abs(along) < kAlongGap) continue;
+    if (sighting.stray || wall.epoch >= gap.epoch || std::abs(along) < kAlongGap) continue;
     for (int k = 0; k < 2; ++k) {
       if (!wall.estimate.known[k] || !sighting.corner[k] || wall.corner_epoch[k] >= gap.epoch) continue;
       const double place = wall.estimate.basis.along(frame.T_map_robot * sighting.end[k]);

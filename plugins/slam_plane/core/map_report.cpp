@@ -16,7 +16,11 @@ Wall told_wall(WallId id, const WallRecord& record, std::uint32_t min_observatio
   wall.z_low = record.z_low;
   wall.z_high = record.z_high;
   wall.observations = record.count;
-  if (record.count >= min_observations) wall.status = WallStatus::mapped;
+  if (record.is_dynamic) {
+    wall.status = WallStatus::dynamic;
+  } else if (record.count >= min_observations) {
+    wall.status = WallStatus::mapped;
+  }
   return wall;
 }
 
@@ -26,7 +30,7 @@ Map told(const WallMap& walls, int min_observations) {
   Map map;
   for (Index w = 0; w < walls.walls.size(); ++w) {
     const WallRecord& record = walls.walls[w];
-    if (record.merged_into != kNone || record.memberships.empty()) continue;
+    if (record.merged_into != kNone || (record.memberships.empty() && !record.is_dynamic)) continue;
     map.walls.push_back(told_wall(w, record, static_cast<std::uint32_t>(min_observations)));
   }
   for (Index s = 0; s < walls.submaps.size(); ++s) {

@@ -2,14 +2,19 @@
 #include "slam_plane/core/map_solver.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hallway::slam_plane {
 namespace {
 
-constexpr int kClosesToStep = 10;       // least number of submaps closed between two steps
-constexpr int kClosesToStepAgain = 5;   // on old ground
-constexpr int kClosesOfLoop = 1 << 20;  // as many as any map asks for
-constexpr double kWorkPerFrame = 4000.0;
+constexpr int kClosesToStep = 5;   // least number of submaps closed between two steps
+constexpr std::size_t kNear = 16;  // submaps of a step about the active one
+constexpr double kTolerance = 1e-4;
+constexpr double kWorkPerFrame = 400.0;  // on a part of the map
+constexpr double kWholeWork = 150.0;     // on all of it: it takes as many frames as it takes
+constexpr double kUrgentWork = 4000.0;   // of a frame, after a loop
+constexpr double kWorkAtOnce = 10000.0;  // of refreshing what is about the robot
+constexpr double kWorkOfForm = 4.0;      // that is summed up
 constexpr double kSettleWork = 1e12;
 constexpr double kSettleTolerance = 1e-9;
 constexpr int kSettleSteps = 15;
@@ -17,24 +22,57 @@ constexpr double kSettled = 1e-6;  // a move that is none [m, rad]
 
 }  // namespace
 
-void MapSolver::note_loop() {
-  on_old_ground_ = true;
-  closes_ = kClosesOfLoop;
+void MapSolver::note_loop(WallMap& map) {
+  on_old_ground_ = is_urgent_ = true;
+  stale_ = whole_map(map).walls;
+  next_stale_ = 0;
+  refresh(map, kWorkAtOnce);
 }
 
 void MapSolver::plan(const WallMap& map) {
-  if (step_.under_way()) return;
-  const int period = on_old_ground_ ? kClosesToStepAgain : kClosesToStep;
-  if (closes_ < std::max<int>(period, static_cast<int>(map.submaps.size() / 10))) return;
-  closes_ = 0;
-  on_old_ground_ = false;
-  step_.begin(map);
+  if (step_.under_way() || next_stale_ < stale_.size()) return;
+  step_.set_tolerance(kTolerance);
+  const int period = std::max<int>(kClosesToStep, static_cast<int>(map.submaps.size() / 10));
+  if (is_urgent_ || (on_old_ground_ && closes_since_whole_ >= period)) {
+    closes_ = 0;
+    is_whole_ = true;
+    step_.begin(map);
+  } else if (closes_ >= kClosesToStep) {
+    closes_ = 0;
+    is_whole_ = false;
+    step_.begin(map, surroundings(map, kNear));
+  }
 }
 
 bool MapSolver::advance(WallMap& map) {
-  if (!step_.under_way() || !step_.advance(map, kWorkPerFrame) || !step_.apply(map)) return false;
-  map.refresh_all();
+  const double work = is_urgent_ ? kUrgentWork : is_whole_ ? kWholeWork : kWorkPerFrame;
+  if (next_stale_ < stale_.size()) {
+    refresh(map, work);
+    return false;
+  }
+  if (!step_.under_way() || !step_.advance(map, work)) return false;
+  if (is_whole_) {
+    closes_since_whole_ = 0;
+    on_old_ground_ = is_urgent_ = false;
+  }
+  if (!step_.apply(map)) return false;
+  stale_ = step_.walls();
+  next_stale_ = 0;
+  refresh(map, kWorkAtOnce);
   return true;
+}
+
+void MapSolver::refresh(WallMap& map, double work) {
+  for (; next_stale_ < stale_.size() && work > 0.0; ++next_stale_) {
+    const Index wall = stale_[next_stale_];
+    work -= kWorkOfForm * static_cast<double>(1 + 2 * map.walls[wall].memberships.size());
+    map.refresh(wall);
+  }
+}
+
+WallMap MapSolver::refreshed(WallMap map) const {
+  for (std::size_t i = next_stale_; i < stale_.size(); ++i) map.refresh(stale_[i]);
+  return map;
 }
 
 WallMap settled(WallMap map) {

@@ -38,13 +38,14 @@ class Mapper::State {
         map_(options) {}
 
   const Answer& process(std::span<const Piece> pieces, const View& view);
-  Map map() const { return told(map_, options_.min_observations); }
-  Map refined_map() const { return told(settled(map_), options_.min_observations); }
+  Map map() const { return told(solver_.refreshed(map_), options_.min_observations); }
+  Map refined_map() const { return told(settled(solver_.refreshed(map_)), options_.min_observations); }
   const Options& options() const { return options_; }
 
  private:
   void start_map();
   void place();
+  void follow_strays();
   void watch_gaps();
   void add_walls();
   void choose_submap();
@@ -117,7 +118,8 @@ void Mapper::State::place() {
   frames_lost_ = 0;
   has_pose_ = true;
   lost_ = Lost::no;
-  locator_.drop_strays(map_, frame_);
+  follow_strays();
+  if (frame_.sightings.empty()) return lose(Lost::nothing_known);
   locator_.locate_in_submap(map_, frame_);
   locator_.note_motion(before, frame_, gaps_.untied());
   watch_gaps();
@@ -127,6 +129,25 @@ void Mapper::State::place() {
   note_seen();
   search_gap();
   look_for_twins();
+}
+
+/// Pieces that do not lie where their walls do are no evidence: their walls may move, or they are of none.
+void Mapper::State::follow_strays() {
+  locator_.find_strays(map_, frame_);
+  for (const Sighting& sighting : frame_.sightings) {
+    if (!sighting.stray) continue;
+    map_.note_trail(sighting.wall, frame_.iteration, frame_.T_map_robot, sighting);
+    if (map_.note_stray(sighting.wall)) {
+      solver_.abandon();
+      ++answer_.counters.dynamic;
+    }
+    WallRecord& wall = map_.walls[sighting.wall];
+    wall.last_seen = frame_.iteration;
+    if (!wall.is_dynamic) continue;
+    ++wall.count;
+    answer_.associations[sighting.given] = sighting.wall;
+  }
+  std::erase_if(frame_.sightings, [](const Sighting& sighting) { return sighting.stray; });
 }
 
 void Mapper::State::watch_gaps() {
@@ -203,6 +224,8 @@ void Mapper::State::note_seen() {
     WallRecord& wall = map_.walls[sighting.wall];
     if (wall.last_seen + kOldFrames < frame_.iteration) solver_.note_old_ground();
     wall.last_seen = frame_.iteration;
+    wall.strays = 0;
+    map_.note_trail(sighting.wall, frame_.iteration, frame_.T_map_robot, sighting);
   }
   locator_.note_seen(map_, frame_);
   gap_search_.note_seen(gaps_, frame_);
@@ -219,9 +242,9 @@ void Mapper::State::bridge(const GapShift& shift) {
   solver_.abandon();
   map_.shift(shift.gap.epoch, shift.step);
   frame_.T_map_robot.t += shift.step;
+  solver_.note_loop(map_);
   for (const Twins& pair : shift.twins) merge(pair.kept, pair.gone);
   ++answer_.counters.gaps_closed;
-  solver_.note_loop();
   solver_.plan(map_);
 }
 

@@ -13,16 +13,20 @@ constexpr double kTwinSine = 0.02;            // of the largest angle between wa
 constexpr double kPartDistance_m = 0.9;       // between two walls that may be parts of one
 constexpr double kPartOffset_m = 0.05;        // of the one from the line of the other
 constexpr std::uint32_t kPartSightings = 20;  // of each of them
-constexpr std::uint64_t kPartFrames = 30;     // since they were seen: their ends had their chance
+constexpr std::uint32_t kPartHidden =
+    3;  // of the ends that face each other, with something in front of the rest
+constexpr std::uint64_t kPartFrames = 30;  // since they were seen: their ends had their chance
 
 }  // namespace
 
 Index TwinFinder::twin_of(const WallMap& map, Index w, std::uint32_t known, std::uint64_t iteration) const {
-  if (map.walls[w].merged_into != kNone || map.walls[w].count < least_count_) return kNone;
+  if (map.walls[w].merged_into != kNone || map.walls[w].is_dynamic || map.walls[w].count < least_count_)
+    return kNone;
   const WallEstimate& wall = map.walls[w].estimate;
   Index twin = kNone;
   const auto look_at = [&](Index other) {
-    if (other == w || map.walls[other].count < least_count_ || other > twin) return;
+    if (other == w || map.walls[other].is_dynamic || map.walls[other].count < least_count_ || other > twin)
+      return;
     if ((map.walls[other].epoch < known) != (map.walls[w].epoch < known)) return;
     bool contradict = false;
     if (are_twins(map.walls[other].estimate, wall, Vec2::Zero(), bound_m_, kTwinSine, contradict) ||
@@ -36,7 +40,7 @@ Index TwinFinder::twin_of(const WallMap& map, Index w, std::uint32_t known, std:
   return twin;
 }
 
-/// Two walls out of view, on one line with a short distance between or a short overlap, neither of which was seen to end there.
+/// Two walls out of view, on one line with a short overlap, or a short distance between which something hides.
 bool TwinFinder::are_parts(const WallRecord& one, const WallRecord& other, std::uint64_t iteration) const {
   if (std::min(one.count, other.count) < kPartSightings) return false;
   if (std::max(one.last_seen, other.last_seen) + kPartFrames > iteration) return false;
@@ -53,6 +57,7 @@ bool TwinFinder::are_parts(const WallRecord& one, const WallRecord& other, std::
     const double apart = sign * (basis.along(end[1 - k]) - one.estimate.reach[k]);
     if (apart < -0.5 * shorter || apart > kPartDistance_m) continue;  // more overlap makes twins
     return !one.estimate.known[k] && !other.estimate.known[1 - k] &&
+           (apart <= 0.0 || std::min(one.hidden[k], other.hidden[1 - k]) >= kPartHidden) &&
            std::abs(basis.across(end[1 - k])) < kPartOffset_m;
   }
   return false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/long_mode.hpp"
 #include "unit/slam_plane/runs.hpp"
 
@@ -69,6 +71,39 @@ TEST(Scenes, WithoutNoiseTheMapIsExact) {
       EXPECT_LE(result.score.worst_corner, 1e-3) << scene.name;
       EXPECT_LE(result.score.position_rmse(), 1e-3) << scene.name;
     }
+  }
+}
+
+/// Counts walls of the map that are called dynamic.
+void expect_dynamic(const Scene& scene, const Sensor& sensor, int dynamic) {
+  for (int seed = 1; seed <= hallway::test::sized(1, 20); ++seed) {
+    const Mapping result =
+        run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(200 + seed), false);
+    const auto found = std::count_if(result.map.walls.begin(), result.map.walls.end(),
+                                     [](const Wall& wall) { return wall.status == WallStatus::dynamic; });
+    EXPECT_EQ(found, dynamic) << scene.name << " seed " << seed;
+  }
+}
+
+TEST(Scenes, WallsThatMoveAreCalledDynamic) {
+  for (const bool occlusion : {false, true}) {
+    Scene scene = corridor_loop(1);
+    scene.path.resize(std::min<std::size_t>(scene.path.size(), 450));
+    const std::size_t door = scene.walls.size();
+    scene.walls.push_back({{9.0, 1.4}, {9.0, 0.6}});  // ahead, across the corridor, and goes before the robot
+    scene.motions.push_back({door, 25, 100, {0.04, 0.0}, 0.0});
+    expect_dynamic(scene, sensor_of(occlusion), 1);
+    scene.motions.back() = {door, 15, 30, Vec2::Zero(), -0.03};  // opens
+    expect_dynamic(scene, sensor_of(occlusion), 1);
+  }
+}
+
+TEST(Scenes, NothingThatStandsIsCalledDynamic) {
+  for (const bool occlusion : {false, true}) {
+    for (const Scene& scene : {corridor_return(), corridor_loop(1), featureless_loop(1)})
+      EXPECT_EQ(
+          run(scene, sensor_of(occlusion), options_for(sensor_of(occlusion)), 5, false).counters.dynamic, 0u)
+          << scene.name;
   }
 }
 
