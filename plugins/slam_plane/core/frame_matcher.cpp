@@ -15,7 +15,7 @@ constexpr double kWideBound_m = 0.5;
 constexpr double kQueryStep_m = 1.5;  // less than twice the reach of the index
 constexpr double kRivalOverlap = 0.3;
 constexpr std::uint64_t kTrailFrames = 3;  // for which a wall may be where it was seen last
-constexpr double kTrailShare = 0.5;        // of the bound, that it may have gone since
+constexpr double kTrailShare = 0.8;        // of the bound, that it may have gone since
 
 /// How a segment of the map's frame lies beside a wall.
 struct Overlap {
