@@ -75,6 +75,7 @@ class SlamPlane final : public sdk::Plugin {
         {"gaps_closed", static_cast<double>(counters.gaps_closed)},
         {"global_steps", static_cast<double>(counters.global_steps)},
         {"merged", static_cast<double>(counters.merged)},
+        {"dynamic", static_cast<double>(counters.dynamic)},
         {"corners_revoked", static_cast<double>(counters.corners_revoked)},
         {"undetermined_x", answer.undetermined.x()},
         {"undetermined_y", answer.undetermined.y()},

@@ -52,11 +52,13 @@ void CornerJudge::judge(const View& view, std::vector<Sighting>& frame) const {
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     Sighting& sighting = frame[i / 2];
     const int end = static_cast<int>(i % 2);
-    bool cut = at_border(view, sighting, end, ends_[i]);
-    for (std::size_t k = 0; k < ends_.size() && !cut; ++k) {
-      if (k / 2 != i / 2) cut = behind_end(ends_[i], ends_[k]);
+    const bool cut = at_border(view, sighting, end, ends_[i]);
+    bool hidden = false;
+    for (std::size_t k = 0; k < ends_.size() && !cut && !hidden; ++k) {
+      if (k / 2 != i / 2) hidden = behind_end(ends_[i], ends_[k]);
     }
-    sighting.corner[end] = !cut;
+    sighting.hidden[end] = hidden;
+    sighting.corner[end] = !cut && !hidden;
   }
 }
 

@@ -15,7 +15,7 @@ class CornerJudge {
  public:
   explicit CornerJudge(const Options& options);
 
-  /// Sets Sighting::corner of all. O(n^2) in the pieces of a frame, a few nanoseconds a pair.
+  /// Sets Sighting::corner and hidden of all. O(n^2) in the pieces of a frame, a few nanoseconds a pair.
   void judge(const View& view, std::vector<Sighting>& frame) const;
 
  private:

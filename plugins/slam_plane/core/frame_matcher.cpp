@@ -14,6 +14,8 @@ constexpr double kWideAngle_rad =
 constexpr double kWideBound_m = 0.5;
 constexpr double kQueryStep_m = 1.5;  // less than twice the reach of the index
 constexpr double kRivalOverlap = 0.3;
+constexpr std::uint64_t kTrailFrames = 3;  // for which a wall may be where it was seen last
+constexpr double kTrailShare = 0.8;        // of the bound, that it may have gone since
 
 /// How a segment of the map's frame lies beside a wall.
 struct Overlap {
@@ -83,8 +85,8 @@ void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>&
   T = T.moved(Vec2::Zero(), *middle);
 }
 
-void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, const Pose2& T,
-                                std::vector<Sighting>& frame) {
+void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, std::uint64_t iteration,
+                                const Pose2& T, std::vector<Sighting>& frame) {
   scores_.assign(frame.size(), 0.0);
   for (std::size_t i = 0; i < frame.size(); ++i) {
     Sighting& sighting = frame[i];
@@ -92,10 +94,20 @@ void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& re
     const Vec2 b = T * sighting.end[kEndB];
     const Vec2 direction = T.rotate(sighting.direction);
     for (const Index w : recent) {
-      const double fit = score(map.walls[w].estimate, a, b, direction, near_bound_);
-      if (fit <= scores_[i]) continue;
-      scores_[i] = fit;
+      const WallRecord& wall = map.walls[w];
+      const double fit = score(wall.estimate, a, b, direction, near_bound_);
+      if (fit > scores_[i]) {
+        scores_[i] = fit;
+        sighting.wall = w;
+        sighting.stray = wall.is_dynamic;
+      }
+      if (fit > 0.0 || wall.is_dynamic || !wall.trail_is_off || wall.trail_seen + kTrailFrames < iteration)
+        continue;
+      const double stray_fit = score(wall.trail, a, b, direction, kTrailShare * near_bound_);
+      if (stray_fit <= scores_[i]) continue;
+      scores_[i] = stray_fit;
       sighting.wall = w;
+      sighting.stray = true;
     }
   }
   resolve_rivals(map, T, frame);
@@ -129,6 +141,7 @@ void FrameMatcher::match_map(const WallMap& map, std::uint32_t since, const Pose
         if (contradicts(wall.estimate, sighting, end)) return;
         scores_[i] = fit;
         sighting.wall = w;
+        sighting.stray = wall.is_dynamic;
       });
     }
   }
@@ -144,7 +157,9 @@ void FrameMatcher::resolve_rivals(const WallMap& map, const Pose2& T, std::vecto
       const auto [a, b] = std::pair(basis.along(T * frame[i].end[0]), basis.along(T * frame[i].end[1]));
       const auto [c, d] = std::pair(basis.along(T * frame[k].end[0]), basis.along(T * frame[k].end[1]));
       if (std::min(b, d) - std::max(a, c) < kRivalOverlap * std::min(b - a, d - c)) continue;
-      frame[scores_[i] >= scores_[k] ? k : i].wall = kNone;
+      Sighting& loser = frame[scores_[i] >= scores_[k] ? k : i];
+      loser.wall = kNone;
+      loser.stray = false;
     }
   }
 }

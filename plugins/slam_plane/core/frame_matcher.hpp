@@ -18,9 +18,10 @@ class FrameMatcher {
   void correct_heading(const WallMap& map, const std::vector<Index>& recent,
                        const std::vector<Sighting>& frame, Pose2& T_map_robot);
 
-  /// Gives walls seen just before to the pieces that have none.
-  void match_recent(const WallMap& map, const std::vector<Index>& recent, const Pose2& T_map_robot,
-                    std::vector<Sighting>& frame);
+  /// Gives walls seen just before to the pieces that have none, by where the walls are, or else, as strays, by where they were seen a few
+  /// iterations ago. Sets Sighting::stray.
+  void match_recent(const WallMap& map, const std::vector<Index>& recent, std::uint64_t iteration,
+                    const Pose2& T_map_robot, std::vector<Sighting>& frame);
 
   /// Gives any walls to the pieces that have none, but those of an epoch before `since`, and none whose corners
   /// contradict. O(pieces), flat in the size of the map.

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hallway::slam_plane {
 namespace {
@@ -59,22 +60,27 @@ Mat2 inverse_or_zero(const Mat2& m) {
 
 }  // namespace
 
-void MapStep::begin(const WallMap& map) {
-  const std::size_t n = map.submaps.size();
+void MapStep::begin(const WallMap& map, Surroundings part) {
+  part_ = std::move(part);
+  const std::size_t n = part_.submaps.size();
+  slots_.assign(map.submaps.size(), kNone);
   poses_.clear();
-  for (const SubmapRecord& submap : map.submaps) poses_.push_back(submap.T_map_submap);
   diagonal_.assign(n, Mat3::Zero());
   reduced_.assign(n, Mat3::Zero());
-  for (std::size_t s = 0; s < n; ++s) {
+  for (Index slot = 0; slot < n; ++slot) {
+    const SubmapRecord& submap = map.submaps[part_.submaps[slot]];
+    slots_[part_.submaps[slot]] = slot;
+    poses_.push_back(submap.T_map_submap);
     // What is known next to nothing of, walls that are parallel but for noise would carry far along them.
-    const double position = map.submaps[s].lines_only ? kHoldLines : kHold;
-    diagonal_[s].diagonal() = reduced_[s].diagonal() = Vec3(position, position, kHoldHeading);
+    const double position = submap.lines_only ? kHoldLines : kHold;
+    diagonal_[slot].diagonal() = reduced_[slot].diagonal() = Vec3(position, position, kHoldHeading);
   }
+  first_slot_ = slots_.empty() ? kNone : slots_[0];
+  active_ = map.active() != kNone ? map.active() : static_cast<Index>(map.submaps.size() - 1);
   r_.assign(n, Vec3::Zero());
   x_.assign(n, Vec3::Zero());
   links_.clear();
   columns_.clear();
-  walls_ = map.walls.size();
   next_wall_ = 0;
   iterations_ = 0;
   stage_ = Stage::gather;
@@ -86,13 +92,15 @@ void MapStep::gather(const WallMap& map, Index w) {
   const WallBasis& basis = wall.estimate.basis;
   Column column{links_.size(), 0, Mat2::Zero(), Mat2::Zero()};
   WallForm sum;
+  bool is_held = false;  // by a submap that stays
   forms_.clear();
   for (const Membership& at : wall.memberships) {
-    if (at.submap >= poses_.size()) continue;
+    if (at.submap >= slots_.size()) continue;
     const SubmapRecord& submap = map.submaps[at.submap];
     const WallEvidence& evidence = submap.members[at.member].evidence;
     if (evidence.count() == 0) continue;
-    const Pose2 T = poses_[at.submap].inverse();
+    const Index slot = slots_[at.submap];
+    const Pose2 T = (slot == kNone ? submap.T_map_submap : poses_[slot]).inverse();
     WallForm form = evidence.form({T * basis.origin, T.rotate(basis.direction)}, map.noise());
     for (int k = 0; k < 2; ++k) {
       if (!wall.estimate.known[k]) {
@@ -104,12 +112,16 @@ void MapStep::gather(const WallMap& map, Index w) {
       const double off = std::abs((k == kEndA ? form.f_a : form.f_b) / e - wall.estimate.end[k]);
       if (off > kHuber_m) scale_end(form, k, kHuber_m / off);
     }
-    forms_.push_back(form);
-    links_.push_back({at.submap, Mat34::Zero()});
     sum.add(form);
+    if (slot == kNone) {
+      is_held = true;
+      continue;
+    }
+    forms_.push_back(form);
+    links_.push_back({slot, Mat34::Zero()});
   }
   column.end = links_.size();
-  if (column.end - column.first < 2) {  // tells nothing of the poses
+  if (column.end - column.first < (is_held ? 1 : 2)) {  // tells nothing of the poses
     links_.resize(column.first);
     return;
   }
@@ -122,13 +134,13 @@ void MapStep::gather(const WallMap& map, Index w) {
   for (std::size_t i = column.first; i < column.end; ++i) {
     Link& link = links_[i];
     const WallForm& form = forms_[i - column.first];
-    const Eigen::Matrix<double, 4, 3> D = motion(basis, poses_[link.submap].t);
+    const Eigen::Matrix<double, 4, 3> D = motion(basis, poses_[link.slot].t);
     const Eigen::Matrix4d h = matrix(form);
     link.coupling = D.transpose() * h;
     const Mat3 own = link.coupling * D;
-    diagonal_[link.submap] += own;
-    reduced_[link.submap] += own - link.coupling * inverse * link.coupling.transpose();
-    r_[link.submap] += link.coupling * solution - D.transpose() * vector(form);
+    diagonal_[link.slot] += own;
+    reduced_[link.slot] += own - link.coupling * inverse * link.coupling.transpose();
+    r_[link.slot] += link.coupling * solution - D.transpose() * vector(form);
   }
   columns_.push_back(column);
 }
@@ -145,7 +157,7 @@ void MapStep::finish_gathering() {
     preconditioner_[s] = block.inverse();
     if (!preconditioner_[s].allFinite()) preconditioner_[s].setZero();
   }
-  r_[0].setZero();
+  if (first_slot_ != kNone) r_[first_slot_].setZero();
   rz_ = 0.0;
   for (std::size_t s = 0; s < n; ++s) {
     z_[s] = preconditioner_[s] * r_[s];
@@ -162,13 +174,13 @@ void MapStep::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
   for (const Column& column : columns_) {
     Vec4 sum = Vec4::Zero();
     for (std::size_t i = column.first; i < column.end; ++i)
-      sum += links_[i].coupling.transpose() * x[links_[i].submap];
+      sum += links_[i].coupling.transpose() * x[links_[i].slot];
     Vec4 wall;
     wall.head<2>() = column.line_inverse * sum.head<2>();
     wall.tail<2>() = column.ends_inverse * sum.tail<2>();
-    for (std::size_t i = column.first; i < column.end; ++i) y[links_[i].submap] -= links_[i].coupling * wall;
+    for (std::size_t i = column.first; i < column.end; ++i) y[links_[i].slot] -= links_[i].coupling * wall;
   }
-  y[0].setZero();
+  if (first_slot_ != kNone) y[first_slot_].setZero();
 }
 
 void MapStep::iterate() {
@@ -198,13 +210,14 @@ void MapStep::iterate() {
 bool MapStep::advance(const WallMap& map, double work) {
   while (work > 0.0) {
     if (stage_ == Stage::gather) {
-      if (next_wall_ == walls_) {
+      if (next_wall_ == part_.walls.size()) {
         finish_gathering();
         stage_ = first_rz_ > 0.0 ? Stage::solve : Stage::done;
         continue;
       }
-      work -= 4.0 * static_cast<double>(1 + map.walls[next_wall_].memberships.size());
-      gather(map, next_wall_++);
+      const Index wall = part_.walls[next_wall_++];
+      work -= 4.0 * static_cast<double>(1 + map.walls[wall].memberships.size());
+      gather(map, wall);
     } else if (stage_ == Stage::solve) {
       work -= static_cast<double>(links_.size() + 2 * p_.size());
       iterate();
@@ -222,14 +235,12 @@ bool MapStep::apply(WallMap& map) {
     if (!x.allFinite() || std::abs(x(2)) > kMostTurn_rad || x.head<2>().norm() > kMostMove_m) return false;
     largest_move_ = std::max({largest_move_, x.head<2>().norm(), std::abs(x(2))});
   }
-  const std::size_t n = poses_.size();
-  for (std::size_t s = 0; s < n; ++s)
-    map.submaps[s].T_map_submap = poses_[s].moved(x_[s].head<2>(), x_[s](2));
-  if (map.submaps.size() > n) {
-    const Pose2 carried = map.submaps[n - 1].T_map_submap * poses_[n - 1].inverse();
-    for (std::size_t s = n; s < map.submaps.size(); ++s)
-      map.submaps[s].T_map_submap = carried * map.submaps[s].T_map_submap;
-  }
+  const Pose2 active = map.submaps[active_].T_map_submap;
+  for (std::size_t slot = 0; slot < x_.size(); ++slot)
+    map.submaps[part_.submaps[slot]].T_map_submap = poses_[slot].moved(x_[slot].head<2>(), x_[slot](2));
+  const Pose2 carried = map.submaps[active_].T_map_submap * active.inverse();
+  for (std::size_t s = slots_.size(); s < map.submaps.size(); ++s)
+    map.submaps[s].T_map_submap = carried * map.submaps[s].T_map_submap;
   return true;
 }
 

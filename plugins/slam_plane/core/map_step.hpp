@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_plane/core/wall_map.hpp"
+#include "slam_plane/core/surroundings.hpp"
 
 namespace hallway::slam_plane {
 
@@ -15,8 +15,10 @@ namespace hallway::slam_plane {
 /// moved in. Ends that are far off count less (Huber). The first submap stays.
 class MapStep {
  public:
-  /// Starts a step from the map as it is. O(submaps).
-  void begin(const WallMap& map);
+  /// Starts a step of the whole map as it is. O(map), little of each part.
+  void begin(const WallMap& map) { begin(map, whole_map(map)); }
+  /// Starts one of these submaps alone, by the walls in them; all others stay.
+  void begin(const WallMap& map, Surroundings part);
   bool under_way() const { return stage_ != Stage::idle; }
   void abandon() { stage_ = Stage::idle; }
 
@@ -24,10 +26,12 @@ class MapStep {
   /// grown since begin(), but no wall may have been merged.
   bool advance(const WallMap& map, double work);
 
-  /// The corrected poses, by submap; submaps that are newer than begin() move with the last one of then. Once advance() said true. False when the
-  /// step is not to be trusted: then nothing is moved.
+  /// Puts the submaps where they belong; those that are newer than begin() move with the one that was active then. Once advance() said true. False
+  /// when the step is not to be trusted: then nothing is moved.
   bool apply(WallMap& map);
 
+  /// The walls of the submaps that apply() moved: those whose estimates are to be refreshed, nearest to the active submap first.
+  const std::vector<Index>& walls() const { return part_.walls; }
   /// Conjugate-gradient iterations of the last step.
   int iterations() const { return iterations_; }
   /// The longest way and the largest turn that apply() moved a submap by [m, rad].
@@ -42,7 +46,7 @@ class MapStep {
   enum class Stage { idle, gather, solve, done };
 
   struct Link {
-    Index submap;
+    Index slot;      // of its submap
     Mat34 coupling;  // D'H: derivative of the pose by the wall
   };
   struct Column {       // a wall
@@ -59,10 +63,13 @@ class MapStep {
 
   Stage stage_ = Stage::idle;
   double tolerance_ = 1e-5;
-  std::size_t walls_ = 0;
-  Index next_wall_ = 0;
-  std::vector<Pose2> poses_;
-  std::vector<Mat3> diagonal_;  // sum of D'HD by submap
+  Surroundings part_;         // what is moved
+  std::vector<Index> slots_;  // by submap: its place in part_, kNone for those that stay
+  Index first_slot_ = kNone;  // of the first submap
+  Index active_ = kNone;      // submap when the step began
+  std::size_t next_wall_ = 0;
+  std::vector<Pose2> poses_;    // by slot, as all that follows
+  std::vector<Mat3> diagonal_;  // sum of D'HD
   std::vector<Mat3> reduced_;   // the same less what walls take
   std::vector<Mat3> preconditioner_;
   std::vector<Vec3> x_, r_, z_, p_, q_;

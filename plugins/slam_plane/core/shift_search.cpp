@@ -12,13 +12,25 @@ constexpr double kCrossing = 0.3;    // sine of the least angle at which a line 
 constexpr double kWindow_m = 0.15;   // of votes that agree
 constexpr double kRival_m = 0.3;     // from which on a displacement is another one
 constexpr double kRivalShare = 0.6;  // of the support that a rival may have
-constexpr int kLeastSupport = 6;
+constexpr int kLeastSupport = 3;
+constexpr int kMostSupport = 6;  // that is asked for
 constexpr int kLeastWalls = 3;
 constexpr double kLeastShare = 0.45;  // of the young walls that are to be found among the old ones
+constexpr double kWide_m = 2.0;       // range from which on that is asked for; of narrower gaps less
 constexpr double kSampleStep_m = 2.0;
 constexpr double kTwinOverlap = 0.5;
 constexpr double kCornerBound_m = 0.15;
 constexpr double kTwinAngle_rad = 0.03;
+
+/// Agreements that are asked for: the more displacements there are to choose from, the more agree by chance.
+int least_support(const Gap& gap) {
+  const double choices = 1.0 + 2.0 * gap.range_m / kWindow_m;
+  return std::clamp(1 + static_cast<int>(std::ceil(std::log2(choices))), kLeastSupport, kMostSupport);
+}
+
+double least_share(const Gap& gap) {
+  return kLeastShare * std::min(1.0, gap.range_m / kWide_m);
+}
 
 }  // namespace
 
@@ -100,7 +112,7 @@ void ShiftSearch::vote(const WallMap& map, Index young, const Gap& gap) {
                      gap.direction * (gap.range_m * static_cast<double>(j) / shifts);
       map.visit_near(p, [&](Index w) {
         const WallRecord& wall = map.walls[w];
-        if (wall.epoch >= gap.epoch || wall.count < least_count_) return;
+        if (wall.epoch >= gap.epoch || wall.count < least_count_ || wall.is_dynamic) return;
         seen_.push_back(w);
       });
     }
@@ -157,7 +169,7 @@ bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& youn
     most = found;
     best = votes_[first + (end - first) / 2].shift;  // their median
   }
-  if (most < kLeastSupport || rival_support(best) > kRivalShare * most) return false;
+  if (most < least_support(gap) || rival_support(best) > kRivalShare * most) return false;
   step = best * gap.direction + across_;
   twins.clear();
   int against = 0;
@@ -174,7 +186,8 @@ bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& youn
     Index twin = kNone;
     bool any_contradicts = false;
     map.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])) + step, [&](Index w) {
-      if (map.walls[w].epoch >= gap.epoch || map.walls[w].count < least_count_) return;
+      const WallRecord& other = map.walls[w];
+      if (other.epoch >= gap.epoch || other.count < least_count_ || other.is_dynamic) return;
       bool contradict = false;
       if (are_twins(map.walls[w].estimate, wall, step, bound_, sine_, contradict)) twin = std::min(twin, w);
       any_contradicts = any_contradicts || contradict;
@@ -183,7 +196,7 @@ bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& youn
     if (twin == kNone && any_contradicts) ++against;
   }
   const auto found = static_cast<double>(twins.size());
-  return found >= kLeastWalls && found >= kLeastShare * static_cast<double>(young.size()) &&
+  return found >= kLeastWalls && found >= least_share(gap) * static_cast<double>(young.size()) &&
          2 * against < most;
 }
 

@@ -22,7 +22,9 @@ struct Sighting {
   double z_high = 0.0;
   std::size_t given = 0;            ///< which of the pieces given it is
   bool corner[2] = {false, false};  ///< judged to be a true corner, by this frame's geometry
+  bool hidden[2] = {false, false};  ///< judged to be where something in front hides the rest
   Index wall = kNone;               ///< what it was taken for
+  bool stray = false;               ///< it does not lie where its wall does
 };
 
 }  // namespace hallway::slam_plane

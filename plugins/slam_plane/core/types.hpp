@@ -76,7 +76,11 @@ using WallId = std::uint64_t;
 inline constexpr WallId kNoWall = ~std::uint64_t{0};
 
 /// How far a wall is trusted.
-enum class WallStatus { temporary, mapped };
+enum class WallStatus {
+  temporary,  ///< seen too seldom
+  mapped,
+  dynamic,  ///< it moves: it is where it was seen last, and tells nothing of any pose
+};
 
 /// One wall of the map: a facing segment.
 struct Wall {
@@ -117,6 +121,7 @@ struct Counters {
   std::uint64_t gaps_closed = 0;      ///< times it was found again
   std::uint64_t global_steps = 0;     ///< times all submaps were placed together
   std::uint64_t merged = 0;           ///< walls that turned out to be another one
+  std::uint64_t dynamic = 0;          ///< walls that turned out to move
   std::uint64_t corners_revoked = 0;  ///< ends taken for corners that turned out not to be any
 };
 

@@ -2,11 +2,19 @@
 #include "slam_plane/core/wall_map.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace hallway::slam_plane {
 namespace {
 
+constexpr double kOff_m = 0.05;              // of a sighting from its wall, more than noise is likely to do
+constexpr double kOff_rad = 0.05;            // likewise
+constexpr std::uint32_t kDynamicStrays = 8;  // in a row
+constexpr double kDynamicMove_m = 0.15;      // across the line, between the first and the last of them
+constexpr double kDynamicTurn_rad = 0.15;    // or that much turned
 constexpr bool kBoth[2] = {true, true};
+constexpr double kLargestTurn_rad = 1e-3;  // of a wall against the basis of its sums, which is for small ones
 
 WallBasis moved(const Pose2& T, const WallBasis& basis) {
   return {T * basis.origin, T.rotate(basis.direction)};
@@ -47,17 +55,14 @@ Index WallMap::join(Index submap, Index wall, bool in_first_frame) {
   record.members.back().in_first_frame = in_first_frame;
   if (in_first_frame) ++record.first_frame_size;
   walls[wall].memberships.push_back({submap, member});
-  if (submap == active_) {
-    walls[wall].active_member = member;
-    settle(walls[wall]);
-  }
+  if (submap == active_) walls[wall].active_member = member;
   return member;
 }
 
 void WallMap::activate(Index submap) {
   if (active_ != kNone) {
     for (const Member& member : submaps[active_].members) {
-      if (member.wall != kNone) walls[member.wall].active_member = kNone;
+      if (member.wall != kNone) settle_active(walls[member.wall]);
     }
   }
   active_ = submap;
@@ -94,6 +99,21 @@ void WallMap::settle(WallRecord& wall) {
     add_form(at, wall.settled_basis, wall.settled, wall.settled_reach, first);
   }
   wall.has_settled = !first;
+}
+
+/// Takes what the active submap tells into the sum of what the others do; that submap is no longer active.
+void WallMap::settle_active(WallRecord& wall) {
+  const Membership at{active_, wall.active_member};
+  wall.active_member = kNone;
+  const double turn = cross(wall.settled_basis.direction, wall.estimate.basis.direction);
+  if (!wall.has_settled || std::abs(turn) > kLargestTurn_rad) {
+    const Index active = std::exchange(active_, kNone);
+    settle(wall);
+    active_ = active;
+    return;
+  }
+  bool first = false;
+  add_form(at, wall.settled_basis, wall.settled, wall.settled_reach, first);
 }
 
 void WallMap::observe(Index m, const Pose2& T_submap_robot, const Sighting& sighting,
@@ -151,6 +171,56 @@ void WallMap::refresh_all() {
   for (Index w = 0; w < walls.size(); ++w) refresh(w);
 }
 
+void WallMap::note_trail(Index w, std::uint64_t iteration, const Pose2& T_map_robot,
+                         const Sighting& sighting) {
+  WallRecord& wall = walls[w];
+  wall.trail_seen = iteration;
+  wall.trail.basis = {T_map_robot * sighting.middle, T_map_robot.rotate(sighting.direction)};
+  wall.trail.reach[kEndA] = -0.5 * sighting.length;
+  wall.trail.reach[kEndB] = 0.5 * sighting.length;
+  const WallBasis& basis = wall.estimate.basis;
+  wall.trail_is_off = std::abs(basis.across(wall.trail.basis.origin)) > kOff_m ||
+                      std::abs(cross(basis.direction, wall.trail.basis.direction)) > kOff_rad;
+}
+
+bool WallMap::note_stray(Index w) {
+  WallRecord& wall = walls[w];
+  if (wall.strays++ == 0) wall.strays_begin = wall.trail.basis;
+  bool turns_dynamic = false;
+  if (!wall.is_dynamic && wall.strays >= kDynamicStrays) {
+    const double move = wall.strays_begin.across(wall.trail.basis.origin);
+    const double turn = angle_between(wall.strays_begin.direction, wall.trail.basis.direction);
+    turns_dynamic = std::abs(move) > kDynamicMove_m || std::abs(turn) > kDynamicTurn_rad;
+  }
+  if (turns_dynamic) make_dynamic(w);
+  if (wall.is_dynamic) place_dynamic(w);
+  return turns_dynamic;
+}
+
+/// Takes a wall out of all submaps.
+void WallMap::make_dynamic(Index w) {
+  WallRecord& wall = walls[w];
+  wall.is_dynamic = true;
+  for (const Membership& at : wall.memberships) {
+    SubmapRecord& submap = submaps[at.submap];
+    if (submap.members[at.member].in_first_frame) --submap.first_frame_size;
+    submap.members[at.member] = Member{};
+  }
+  wall.memberships.clear();
+  wall.active_member = kNone;
+  wall.settled = WallForm{};
+  wall.has_settled = false;
+}
+
+void WallMap::place_dynamic(Index w) {
+  WallRecord& wall = walls[w];
+  wall.estimate = wall.trail;
+  wall.estimate.p_tt = noise_.angle * noise_.angle;
+  wall.estimate.p_oo = noise_.normal * noise_.normal;
+  index_.put(w, wall.estimate.basis.point(wall.estimate.reach[kEndA]),
+             wall.estimate.basis.point(wall.estimate.reach[kEndB]));
+}
+
 void WallMap::revoke_corner(Index w, int end) {
   WallRecord& wall = walls[w];
   for (const Membership& at : wall.memberships) {
@@ -196,6 +266,12 @@ void WallMap::merge(Index into, Index from) {
     if (kept.corners[k] == 0) kept.corner_epoch[k] = gone.corner_epoch[k];
     kept.corners[k] += gone.corners[k];
   }
+  for (int k = 0; k < 2; ++k) {  // what is known of the end that is farther out
+    const double sign = k == kEndA ? -1.0 : 1.0;
+    const Vec2 end = gone.estimate.basis.point(gone.estimate.reach[k]);
+    if (sign * (kept.estimate.basis.along(end) - kept.estimate.reach[k]) > 0.0)
+      kept.hidden[k] = gone.hidden[k];
+  }
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);
   kept.epoch = std::min(kept.epoch, gone.epoch);
   gone.memberships.clear();
@@ -214,7 +290,7 @@ void WallMap::shift(std::uint32_t epoch, const Vec2& step) {
   for (SubmapRecord& submap : submaps) {
     if (submap.epoch >= epoch) submap.T_map_submap.t += step;
   }
-  refresh_all();
+  for (WallRecord& wall : walls) wall.trail_seen = 0;
 }
 
 }  // namespace hallway::slam_plane

@@ -40,6 +40,7 @@ struct WallRecord {
   std::uint32_t corners[2] = {0, 0};  ///< of an end as a corner, in determined frames
   std::uint32_t against[2] = {0, 0};  ///< sightings of more wall beyond the corner
   std::uint32_t astray[2] = {0, 0};   ///< of the end as a corner elsewhere
+  std::uint32_t hidden[2] = {0, 0};   ///< of the end where it was seen farthest, hidden by something in front
   double z_low = 0.0;                 ///< means [m]
   double z_high = 0.0;
   std::uint32_t epoch = 0;                 ///< how many gaps there had been when it was first seen; see Gap
@@ -47,6 +48,13 @@ struct WallRecord {
   std::uint64_t last_seen = 0;             ///< iteration
   Index merged_into = kNone;               ///< set when it turned out to be another wall
   std::vector<Membership> memberships;     ///< in the order of joining
+
+  WallEstimate trail;            ///< where it was seen last
+  std::uint64_t trail_seen = 0;  ///< iteration of that
+  bool trail_is_off = false;     ///< that is not where it is
+  std::uint32_t strays = 0;      ///< sightings in a row that did not lie where the wall is
+  WallBasis strays_begin;        ///< where the first of them lay
+  bool is_dynamic = false;       ///< it moves; its estimate is where it was seen last, and it is in no submap
 
   Index active_member = kNone;  ///< its place in the active submap
   WallBasis settled_basis;      ///< of `settled`
@@ -76,6 +84,12 @@ class WallMap {
   void refresh(Index wall);
   void refresh_all();
 
+  /// Takes note of where a wall was seen last.
+  void note_trail(Index wall, std::uint64_t iteration, const Pose2& T_map_robot, const Sighting& sighting);
+  /// Takes note that a wall was last seen, by note_trail(), where it does not lie. True if that has gone on so long and so far that the wall is dynamic
+  /// from now on. A dynamic wall is moved to where it was seen.
+  bool note_stray(Index wall);
+
   /// Takes back that an end is a corner, in all submaps.
   void revoke_corner(Index wall, int end);
 
@@ -84,7 +98,7 @@ class WallMap {
   /// The wall that a wall has become.
   Index resolve(Index wall) const;
 
-  /// Moves all submaps from `epoch` on by a step in the map frame, and the walls with them. O(map).
+  /// Moves all submaps from `epoch` on by a step in the map frame. Their walls are to be refreshed. O(map), little of each part.
   void shift(std::uint32_t epoch, const Vec2& step);
 
   bool is_corner(const WallRecord& wall, int end) const { return wall.corners[end] >= corner_sightings_; }
@@ -102,6 +116,9 @@ class WallMap {
   void add_form(const Membership& at, const WallBasis& basis, WallForm& form, double (&reach)[2],
                 bool& first) const;
   void settle(WallRecord& wall);
+  void make_dynamic(Index wall);
+  void place_dynamic(Index wall);
+  void settle_active(WallRecord& wall);
 
   Noise noise_;
   std::uint32_t corner_sightings_;

@@ -24,6 +24,7 @@ TEST(CornerJudge, EndInTheOpenIsACorner) {
 TEST(CornerJudge, EndAtTheSideOfTheViewIsACut) {
   const auto frame = judged({sighting({5, 4.99}, {5, -1})});
   EXPECT_FALSE(frame[0].corner[kEndA]);
+  EXPECT_FALSE(frame[0].hidden[kEndA]);
   EXPECT_TRUE(frame[0].corner[kEndB]);
 }
 
@@ -46,6 +47,7 @@ TEST(CornerJudge, WhatIsBehindAnEdgeIsCutAndTheEdgeIsACorner) {
   const auto frame = judged({sighting({3, 1}, {3, 0}), sighting({6, 0}, {6, -2})});
   EXPECT_TRUE(frame[0].corner[kEndB]);
   EXPECT_FALSE(frame[1].corner[kEndA]);
+  EXPECT_TRUE(frame[1].hidden[kEndA]);
   EXPECT_TRUE(frame[1].corner[kEndB]);
 }
 

@@ -26,13 +26,13 @@ struct SmallMap {
   }
   Index recent_match(const Sighting& s) {
     std::vector<Sighting> frame{s};
-    FrameMatcher(options).match_recent(map, all, Pose2{}, frame);
+    FrameMatcher(options).match_recent(map, all, 100, Pose2{}, frame);
     return frame[0].wall;
   }
   Index map_match(const Sighting& s, std::uint32_t since = 0) {
     std::vector<Sighting> frame{s};
     FrameMatcher matcher(options);
-    matcher.match_recent(map, {}, Pose2{}, frame);
+    matcher.match_recent(map, {}, 100, Pose2{}, frame);
     matcher.match_map(map, since, Pose2{}, frame);
     return frame[0].wall;
   }
@@ -64,7 +64,7 @@ TEST(FrameMatcher, OfTwoPiecesAtOnePlaceTheBetterOneIsTheWall) {
   SmallMap m;
   const Index w = m.add({5, 2}, {5, -2});
   std::vector<Sighting> frame{sighting({5.1, 2}, {5.1, -2}), sighting({5.01, 2}, {5.01, -2})};
-  FrameMatcher(m.options).match_recent(m.map, m.all, Pose2{}, frame);
+  FrameMatcher(m.options).match_recent(m.map, m.all, 100, Pose2{}, frame);
   EXPECT_EQ(frame[0].wall, kNone);
   EXPECT_EQ(frame[1].wall, w);
 }
@@ -73,7 +73,7 @@ TEST(FrameMatcher, TwoPartsOfOneWallAreBothTheWall) {
   SmallMap m;
   const Index w = m.add({5, 2}, {5, -2});
   std::vector<Sighting> frame{sighting({5, 2}, {5, 0.5}), sighting({5, -0.5}, {5, -2})};
-  FrameMatcher(m.options).match_recent(m.map, m.all, Pose2{}, frame);
+  FrameMatcher(m.options).match_recent(m.map, m.all, 100, Pose2{}, frame);
   EXPECT_EQ(frame[0].wall, w);
   EXPECT_EQ(frame[1].wall, w);
 }

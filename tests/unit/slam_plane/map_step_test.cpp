@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 #include "base/random.hpp"
@@ -151,17 +153,47 @@ TEST(MapStep, WhatNothingDeterminesIsNotMoved) {
   EXPECT_NEAR(map.submaps[1].T_map_submap.t.y(), 0.0, 1e-4);
 }
 
-TEST(MapStep, NewSubmapsMoveWithTheLastOne) {
+TEST(MapStep, NewSubmapsMoveWithTheActiveOne) {
   WallMap map = displaced_map(4, 8);
+  map.activate(5);
   MapStep step;
   step.begin(map);
-  const Pose2 last = map.submaps.back().T_map_submap;
+  const Pose2 last = map.submaps[5].T_map_submap;
   const Pose2 relative = Pose2::at({1, 2}, 0.3);
   map.add_submap(last * relative, false, 0);
   step.advance(map, 1e12);
   ASSERT_TRUE(step.apply(map));
-  const Pose2 now = map.submaps[7].T_map_submap.inverse() * map.submaps[8].T_map_submap;
+  const Pose2 now = map.submaps[5].T_map_submap.inverse() * map.submaps[8].T_map_submap;
   EXPECT_NEAR((now.t - relative.t).norm(), 0.0, 1e-9);
+}
+
+TEST(MapStep, StepOfAPartLeavesTheRest) {
+  WallMap map = displaced_map(5, 12);
+  map.activate(9);
+  const std::vector<SubmapRecord> before = map.submaps;
+  const Surroundings part = surroundings(map, 4);
+  ASSERT_EQ(part.submaps.size(), 4u);
+  EXPECT_EQ(part.submaps.front(), 9u);
+  MapStep step;
+  step.begin(map, part);
+  step.advance(map, 1e12);
+  ASSERT_TRUE(step.apply(map));
+  for (Index s = 0; s < 12; ++s) {
+    const bool in = std::find(part.submaps.begin(), part.submaps.end(), s) != part.submaps.end();
+    const bool stays = map.submaps[s].T_map_submap.t == before[s].T_map_submap.t;
+    EXPECT_EQ(stays, !in || s == 0) << s;
+  }
+}
+
+TEST(MapStep, WholeMapIsAllThatThereIs) {
+  WallMap map = displaced_map(6, 9);
+  map.add_submap(Pose2{}, false, 0);  // which nothing hangs together with
+  map.activate(3);
+  const Surroundings all = whole_map(map);
+  EXPECT_EQ(all.submaps.size(), 10u);
+  EXPECT_EQ(all.submaps.front(), 3u);
+  EXPECT_EQ(all.submaps.back(), 9u);
+  EXPECT_EQ(all.walls.size(), 6u);
 }
 
 }  // namespace

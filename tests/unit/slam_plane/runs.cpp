@@ -25,7 +25,11 @@ Options options_for(const Sensor& sensor) {
 
 Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
             bool with_batch) {
-  const std::vector<TrueFrame> frames = observe(scene, sensor, seed);
+  return run(scene, observe(scene, sensor, seed), sensor, options, with_batch);
+}
+
+Mapping run(const Scene& scene, const std::vector<TrueFrame>& frames, const Sensor& sensor,
+            const Options& options, bool with_batch) {
   Mapper mapper(options);
   Mapping result;
   std::vector<std::vector<WallId>> associations;

@@ -30,6 +30,10 @@ struct Mapping {
 Mapping run(const Scene& scene, const Sensor& sensor, const Options& options, std::uint64_t seed,
             bool with_batch = true);
 
+/// The same of frames that were seen already.
+Mapping run(const Scene& scene, const std::vector<TrueFrame>& frames, const Sensor& sensor,
+            const Options& options, bool with_batch = true);
+
 /// The mapper's options for a sensor.
 Options options_for(const Sensor& sensor);
 

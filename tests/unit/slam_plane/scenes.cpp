@@ -229,6 +229,19 @@ Scene featureless_loop(int laps) {
   return scene;
 }
 
+std::vector<TrueWall> Scene::walls_at(std::size_t frame) const {
+  std::vector<TrueWall> now = walls;
+  for (const Motion& motion : motions) {
+    const std::size_t past = frame > motion.first ? std::min(frame - motion.first, motion.frames) : 0;
+    const auto n = static_cast<double>(past);
+    TrueWall& wall = now[motion.wall];
+    const Vec2 reach = Pose2::at(Vec2::Zero(), n * motion.turn_rad).rotate(wall.b - wall.a);
+    wall.a += n * motion.step;
+    wall.b = wall.a + reach;
+  }
+  return now;
+}
+
 std::vector<TrueFrame> observe(const Scene& scene, const Sensor& sensor, std::uint64_t seed) {
   const Random random(seed, stream_id("slam_plane.scenes"));
   std::vector<TrueFrame> frames;
@@ -237,7 +250,7 @@ std::vector<TrueFrame> observe(const Scene& scene, const Sensor& sensor, std::ui
     frame.T_world_robot = scene.path[i];
     const Pose2 T_robot_world = scene.path[i].inverse();
     std::vector<TrueWall> local;
-    for (const TrueWall& wall : scene.walls)
+    for (const TrueWall& wall : scene.walls_at(i))
       local.push_back({T_robot_world * wall.a, T_robot_world * wall.b});
     std::uint64_t index = 0;
     for (std::size_t w = 0; w < local.size(); ++w) {

@@ -14,11 +14,24 @@ struct TrueWall {
   Vec2 a, b;
 };
 
+/// A wall that moves, by the same step and turn (about its end a) each frame of a time.
+struct Motion {
+  std::size_t wall = 0;
+  std::size_t first = 0;  ///< frame
+  std::size_t frames = 0;
+  Vec2 step = Vec2::Zero();
+  double turn_rad = 0.0;
+};
+
 /// Walls and the robot's poses, one for each iteration.
 struct Scene {
   std::string name;
   std::vector<TrueWall> walls;
   std::vector<Pose2> path;
+  std::vector<Motion> motions = {};
+
+  /// The walls as they are in a frame.
+  std::vector<TrueWall> walls_at(std::size_t frame) const;
 };
 
 /// Four walls about the robot, which circles; all are always seen, as parts, in a full circle of view.

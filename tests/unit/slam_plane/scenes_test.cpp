@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/long_mode.hpp"
 #include "unit/slam_plane/runs.hpp"
 
@@ -69,6 +71,48 @@ TEST(Scenes, WithoutNoiseTheMapIsExact) {
       EXPECT_LE(result.score.worst_corner, 1e-3) << scene.name;
       EXPECT_LE(result.score.position_rmse(), 1e-3) << scene.name;
     }
+  }
+}
+
+/// Expects one wall to be called dynamic, and the others to be where they are: what moves is to tell nothing of anything.
+void expect_one_dynamic(const Scene& scene, const Sensor& sensor, double most_m) {
+  for (int seed = 1; seed <= hallway::test::sized(1, 20); ++seed) {
+    const Mapping result =
+        run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(200 + seed), false);
+    const auto found = std::count_if(result.map.walls.begin(), result.map.walls.end(),
+                                     [](const Wall& wall) { return wall.status == WallStatus::dynamic; });
+    EXPECT_EQ(found, 1) << "seed " << seed;
+    EXPECT_EQ(result.missing, 1) << "seed " << seed;  // the one that moves
+    EXPECT_LE(result.score.corner_rmse(), most_m) << "seed " << seed;
+  }
+}
+
+/// A corridor with a door ahead, across it: the last wall.
+Scene corridor_with_door(const Motion& motion) {
+  Scene scene = corridor_loop(1);
+  scene.path.resize(450);
+  scene.motions.push_back(motion);
+  scene.motions.back().wall = scene.walls.size();
+  scene.walls.push_back({{9.0, 1.4}, {9.0, 0.6}});
+  return scene;
+}
+
+TEST(Scenes, WallThatGoesAwayIsCalledDynamic) {
+  expect_one_dynamic(corridor_with_door({0, 25, 100, {0.04, 0.0}, 0.0}), sensor_of(false), 0.005);
+}
+
+TEST(Scenes, DoorThatOpensIsCalledDynamic) {
+  const Scene scene = corridor_with_door({0, 15, 30, Vec2::Zero(), -0.03});
+  expect_one_dynamic(scene, sensor_of(false), 0.005);
+  expect_one_dynamic(scene, sensor_of(true), 0.01);
+}
+
+TEST(Scenes, NothingThatStandsIsCalledDynamic) {
+  for (const bool occlusion : {false, true}) {
+    for (const Scene& scene : {corridor_return(), corridor_loop(1), featureless_loop(1)})
+      EXPECT_EQ(
+          run(scene, sensor_of(occlusion), options_for(sensor_of(occlusion)), 5, false).counters.dynamic, 0u)
+          << scene.name;
   }
 }
 

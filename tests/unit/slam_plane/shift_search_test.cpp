@@ -68,6 +68,19 @@ TEST(ShiftSearch, TooFewWallsTellNothing) {
   EXPECT_FALSE(d.find(step, twins));
 }
 
+TEST(ShiftSearch, NarrowGapAsksForLess) {
+  Displaced d;
+  d.add_both({5, 1}, {5, 0}, 0.2, true, true);
+  d.add_both({2, 3}, {4, 3}, 0.2, true, true);
+  d.add_both({2, -3}, {8, -3}, 0.2, true, true);
+  for (int i = 0; i < 5; ++i) d.add({3.0 + i, 6}, {3.5 + i, 6}, 1, false, false);  // not seen before
+  Vec2 step;
+  std::vector<Twins> twins;
+  EXPECT_FALSE(d.find(step, twins));
+  ASSERT_TRUE(ShiftSearch(Options{}).find(d.map, d.young, {1, Vec2(1, 0), 0.3}, step, twins));
+  EXPECT_NEAR((step - Vec2(-0.2, 0)).norm(), 0.0, 1e-6);
+}
+
 TEST(ShiftSearch, WhatRepeatsItselfIsWaitedFor) {
   Displaced d;
   for (int i = 0; i < 4; ++i) d.add({5.0 + i, 1}, {5.0 + i, 0}, 0, false, false);

@@ -87,6 +87,7 @@ TEST(WallMap, ShiftMovesWhatCameAfterTheGap) {
   map.activate(map.add_submap(Pose2{}, false, 1));
   for (int i = 0; i < 5; ++i) observe(map, young, Pose2{}, {1, 4}, {3, 4}, true);
   map.shift(1, {0.5, 0.0});
+  map.refresh_all();
   const WallEstimate& moved = map.walls[young].estimate;
   EXPECT_NEAR((moved.basis.point(moved.end[kEndA]) - Vec2(1.5, 4)).norm(), 0.0, 1e-9);
   const WallEstimate& kept = map.walls[old].estimate;

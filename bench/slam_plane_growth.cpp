@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// What the plane mapper takes as more walls are in view, as its map grows and as its life grows. Times are of the thread's CPU, iteration by iteration the
+// least of several identical runs.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "base/random.hpp"
+#include "slam_plane/core/mapper.hpp"
+
+namespace {
+
+using namespace hallway::slam_plane;
+
+constexpr int kRuns = 5;
+constexpr double kStep_m = 0.1;
+constexpr double kRange_m = 12.0;     // depth
+constexpr double kPiece_m = 0.6;      // half of the longest wall
+constexpr double kLeastSeen_m = 0.1;  // shorter parts are not told
+constexpr double kBand_m = 13.0;      // on each side of the road, in which walls stand
+
+double cpu_us() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+double resident_mb() {
+  std::ifstream status("/proc/self/statm");
+  double total = 0.0;
+  double resident = 0.0;
+  status >> total >> resident;
+  return resident * 4096.0 / 1e6;
+}
+
+struct Segment {
+  Vec2 a, b;
+};
+
+/// A straight road between walls that stand about in cells, one in each, made when they are needed: any length takes no memory. Or a circle of it, which is
+/// driven round and round. Nothing hides anything, so that the number in view is what the cells' size says.
+class Road {
+ public:
+  /// `visible`: walls in view, about. `lap_m`: after which it returns to its beginning; 0: never.
+  Road(double visible, double lap_m) : random_(1, hallway::stream_id("bench.slam_plane_growth")) {
+    // The view is a triangle of range² m² on average; of each wall one side is told, and half of them turn that to the robot.
+    cell_ = std::sqrt(0.5 * kRange_m * kRange_m / visible);
+    rows_ = 2 * static_cast<std::int64_t>(std::ceil(kBand_m / cell_));
+    if (lap_m > 0.0) {
+      columns_ = std::max<std::int64_t>(1, std::llround(lap_m / cell_));
+      radius_ = static_cast<double>(columns_) * cell_ / (2.0 * std::numbers::pi);
+    }
+  }
+
+  /// Walls on a lap.
+  double walls() const { return static_cast<double>(columns_ * rows_); }
+  double lap_m() const { return static_cast<double>(columns_) * cell_; }
+
+  const std::vector<Piece>& see(std::uint32_t step) {
+    const double s = kStep_m * static_cast<double>(step);
+    const Pose2 inverse = place(s).inverse();
+    pieces_.clear();
+    const double reach = kRange_m * std::numbers::sqrt2;
+    const auto first = static_cast<std::int64_t>(std::floor((s - reach) / cell_));
+    const auto last = static_cast<std::int64_t>(std::floor((s + reach) / cell_));
+    const std::int64_t most = columns_ > 0 ? first + columns_ - 1 : last;
+    for (std::int64_t column = first; column <= std::min(last, most); ++column) {
+      for (std::int64_t row = 0; row < rows_; ++row)
+        tell(wall(column, row), inverse, step, named(column) * rows_ + row);
+    }
+    return pieces_;
+  }
+
+ private:
+  /// Of the robot at a length of road, or of what stands there.
+  Pose2 place(double s) const {
+    if (columns_ == 0) return {Vec2(s, 0.0), Vec2(1.0, 0.0)};
+    const double angle = s / radius_;
+    return Pose2::at(radius_ * Vec2(std::sin(angle), 1.0 - std::cos(angle)), angle);
+  }
+
+  std::int64_t named(std::int64_t column) const {
+    return columns_ == 0 ? column + 1000 : ((column % columns_) + columns_) % columns_;
+  }
+
+  Segment wall(std::int64_t column, std::int64_t row) const {
+    const auto key = static_cast<std::uint32_t>(named(column) * rows_ + row);
+    const double most = std::min(kPiece_m, 0.35 * cell_);
+    const double half = random_.uniform(key, 0, 0.5 * most, most);
+    const double angle = random_.uniform(key, 1, 0.0, 2.0 * std::numbers::pi);
+    const Pose2 at = place(cell_ * (static_cast<double>(column) + random_.uniform(key, 2, 0.4, 0.6)));
+    const double beside = cell_ * (static_cast<double>(row) + random_.uniform(key, 3, 0.4, 0.6) -
+                                   0.5 * static_cast<double>(rows_));
+    const Vec2 middle = at * Vec2(0.0, beside);
+    const Vec2 along = at.rotate(Pose2::at(Vec2::Zero(), angle).rotate(Vec2(half, 0.0)));
+    return {middle - along, middle + along};
+  }
+
+  /// What of a wall is within 45 degrees of the way ahead and within range, with noise.
+  void tell(const Segment& wall, const Pose2& inverse, std::uint32_t step, std::int64_t name) {
+    Vec2 a = inverse * wall.a;
+    Vec2 b = inverse * wall.b;
+    if (cross(a, b) >= 0.0) return;
+    for (const Vec2& inwards : {Vec2(1.0, 1.0), Vec2(1.0, -1.0)}) {
+      if (!clip(inwards.dot(a), inwards.dot(b), a, b)) return;
+    }
+    if (!clip(kRange_m - a.x(), kRange_m - b.x(), a, b) || (b - a).norm() < kLeastSeen_m) return;
+    const auto key = static_cast<std::uint64_t>(8 * name);
+    const Noise noise = Options{}.noise();
+    const Vec2 d = (b - a).normalized();
+    const Vec2 middle = 0.5 * (a + b) + noise.normal * random_.normal(step, key + 4) * left_of(d);
+    const Vec2 turned = Pose2::at(Vec2::Zero(), noise.angle * random_.normal(step, key + 5)).rotate(d);
+    const double half = 0.5 * (b - a).norm();
+    pieces_.push_back({middle - (half + noise.end * random_.normal(step, key + 6)) * turned,
+                       middle + (half + noise.end * random_.normal(step, key + 7)) * turned, 0.0, 2.5});
+  }
+
+  /// Keeps the part of a->b where a linear function, f at its ends, is not below 0.
+  static bool clip(double fa, double fb, Vec2& a, Vec2& b) {
+    if (fa < 0.0 && fb < 0.0) return false;
+    const Vec2 crossing = a + fa / (fa - fb) * (b - a);
+    if (fa < 0.0) a = crossing;
+    if (fb < 0.0) b = crossing;
+    return true;
+  }
+
+  hallway::Random random_;
+  double cell_ = 1.0;
+  std::int64_t rows_ = 0;
+  std::int64_t columns_ = 0;  // of a lap; 0: it never returns
+  double radius_ = 0.0;
+  std::vector<Piece> pieces_;
+};
+
+struct Drive {
+  std::vector<double> us;       // by iteration, the least of all runs
+  std::vector<double> visible;  // likewise
+  Counters counters;
+};
+
+Drive drive(double visible, double lap_m, std::size_t steps, int runs = kRuns) {
+  Drive result;
+  result.us.assign(steps, 1e300);
+  result.visible.assign(steps, 0.0);
+  for (int run = 0; run < runs; ++run) {
+    Road road(visible, lap_m);
+    Mapper mapper{Options()};
+    for (std::size_t i = 0; i < steps; ++i) {
+      const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
+      const double start = cpu_us();
+      result.counters = mapper.process(pieces, View{}).counters;
+      result.us[i] = std::min(result.us[i], cpu_us() - start);
+      result.visible[i] = static_cast<double>(pieces.size());
+    }
+  }
+  return result;
+}
+
+double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(from),
+                         values.begin() + static_cast<std::ptrdiff_t>(to), 0.0) /
+         static_cast<double>(to - from);
+}
+
+void print_header(const char* what) {
+  std::printf("\n%s, us of CPU an iteration\n%9s %9s %9s %8s %8s %8s %8s %8s %6s\n", what, "asked", "walls",
+              "submaps", "in view", "mean", "p99", "worst", "ratio", "lost");
+}
+
+/// Of the iterations from `from` on. `first`: the mean that the ratio is to; set by the first row.
+void print_row(double asked, const Drive& drive, std::size_t from, double& first) {
+  const std::size_t n = drive.us.size();
+  std::vector<double> sorted(drive.us.begin() + static_cast<std::ptrdiff_t>(from), drive.us.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double us = mean(drive.us, from, n);
+  if (first == 0.0) first = us;
+  std::printf("%9.0f %9.0f %9.0f %8.1f %8.1f %8.1f %8.1f %8.2f %6.0f\n", asked,
+              static_cast<double>(drive.counters.walls), static_cast<double>(drive.counters.submaps),
+              mean(drive.visible, from, n), us, sorted[sorted.size() * 99 / 100], sorted.back(), us / first,
+              static_cast<double>(drive.counters.lost));
+}
+
+void by_walls_in_view() {
+  print_header("walls in view, on a road that never returns");
+  double first = 0.0;
+  std::vector<std::pair<double, double>> cost;  // in view, mean
+  for (const double visible : {5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
+    const Drive d = drive(visible, 0.0, 1500);
+    print_row(visible, d, 500, first);
+    cost.emplace_back(mean(d.visible, 500, 1500), mean(d.us, 500, 1500));
+  }
+  const auto [n0, t0] = cost.front();
+  const auto [n1, t1] = cost.back();
+  std::printf("growth from %.0f to %.0f in view: exponent %.2f; n log n over that range: %.2f\n", n0, n1,
+              std::log(t1 / t0) / std::log(n1 / n0),
+              std::log(n1 * std::log(n1) / (n0 * std::log(n0))) / std::log(n1 / n0));
+}
+
+void by_map_size(double most) {
+  print_header("map size, third lap of a circle");
+  double first = 0.0;
+  for (const double walls : {50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0}) {
+    if (walls > most) break;
+    const double per_m = Road(10.0, 1000.0).walls() / Road(10.0, 1000.0).lap_m();
+    const double lap = Road(10.0, walls / per_m).lap_m();
+    const auto steps = static_cast<std::size_t>(lap / kStep_m);
+    print_row(walls, drive(10.0, lap, 3 * steps), 2 * steps, first);
+  }
+}
+
+void new_ground(double most) {
+  print_header("new ground, tenths of a run");
+  const double per_m = Road(10.0, 1000.0).walls() / Road(10.0, 1000.0).lap_m();
+  const auto steps = static_cast<std::size_t>(most / per_m / kStep_m);
+  const Drive d = drive(10.0, 0.0, steps);
+  double first = 0.0;
+  print_row(most, d, 0, first);
+  for (std::size_t tenth = 0; tenth < 10; ++tenth)
+    std::printf(" %7.1f", mean(d.us, tenth * steps / 10, (tenth + 1) * steps / 10));
+  std::printf("\nlast tenth / second tenth: %.3f\n",
+              mean(d.us, 9 * steps / 10, steps) / mean(d.us, steps / 10, 2 * steps / 10));
+}
+
+void known_ground(std::uint64_t iterations) {
+  std::printf("\nknown ground, round a circle of about 60 m\n%10s %8s %9s %8s %8s %8s\n", "iterations",
+              "walls", "submaps", "mean", "worst", "MB");
+  Road road(10.0, 60.0);
+  Mapper mapper{Options()};
+  const double before_mb = resident_mb();
+  double sum = 0.0, worst = 0.0;
+  std::uint64_t next = 1000, since = 0;
+  for (std::uint64_t i = 1; i <= iterations; ++i) {
+    const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
+    const double start = cpu_us();
+    const Counters& counters = mapper.process(pieces, View{}).counters;
+    const double us = cpu_us() - start;
+    sum += us;
+    worst = std::max(worst, us);
+    ++since;
+    if (i != next && i != iterations) continue;
+    std::printf("%10.0f %8.0f %9.0f %8.1f %8.1f %8.1f\n", static_cast<double>(i),
+                static_cast<double>(counters.walls), static_cast<double>(counters.submaps),
+                sum / static_cast<double>(since), worst, resident_mb() - before_mb);
+    sum = worst = 0.0;
+    since = 0;
+    next = next < 10000 ? 10000 : next < 100000 ? 100000 : next + 100000;
+  }
+}
+
+}  // namespace
+
+/// The most walls of a map and the iterations on known ground, or 5000 and 1e6.
+int main(int argc, char** argv) {
+  const double most_walls = argc > 1 ? std::strtod(argv[1], nullptr) : 5000.0;
+  const double iterations = argc > 2 ? std::strtod(argv[2], nullptr) : 1e6;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  by_walls_in_view();
+  by_map_size(most_walls);
+  new_ground(most_walls);
+  known_ground(static_cast<std::uint64_t>(iterations));
+}
