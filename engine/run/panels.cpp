@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -29,7 +30,10 @@ Vec3 place_in(const Pose& T, const std::array<double, 3>& v) {
   return T * Vec3(v.data());
 }
 
-/// What one frame saw and what was found in it, world.
+/// Largest z of the normal of a plane that counts as upright: floors would cover all else.
+constexpr double kUpright = 0.5;
+
+/// What one frame saw and which upright planes were found in it, world.
 struct Moment {
   std::uint32_t iteration = 0;
   std::vector<Vec3> points;
@@ -74,7 +78,7 @@ Moment read_moment(const Record& record) {
   if (!T_world_body) return moment;
   const Pose T_world_sensor = *T_world_body * mount_of(record);
   for (const log::IterationPlane& plane : planes) {
-    if (plane.iteration != moment.iteration) continue;
+    if (plane.iteration != moment.iteration || std::abs(plane.plane.normal[2]) > kUpright) continue;
     std::array<Vec3, 4>& corners = moment.planes.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) corners[i] = place_in(T_world_sensor, plane.plane.corners_m[i]);
   }
@@ -112,8 +116,8 @@ render::Picture points_panel(const Record& record, const Moment& moment) {
 }
 
 render::Picture planes_panel(const Record& record, const Moment& moment) {
-  render::Picture picture =
-      panel(record, "planes found", fmt::format("{} in frame {}", moment.planes.size(), moment.iteration));
+  render::Picture picture = panel(record, "upright planes found",
+                                  fmt::format("{} in frame {}", moment.planes.size(), moment.iteration));
   for (std::size_t i = 0; i < moment.planes.size(); ++i) {
     render::Segments outline{
         .pairs = {}, .colour = render::submap_colour(i), .width_px = 2.0, .opacity = 1.0, .label = {}};

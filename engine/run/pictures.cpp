@@ -107,6 +107,7 @@ void add_submaps(render::Picture& picture, const Record& record, const LandmarkP
 
 void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
                    const Pose& T_world_map) {
+  if (record.landmarks.empty() && !record.planes.empty()) return;  // what was mapped are walls
   const LandmarkPlaces mapped = mapped_places(record, T_world_map);
   Box extent;
   render::Markers estimates{.positions = {},

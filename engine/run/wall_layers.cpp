@@ -10,8 +10,8 @@
 namespace hallway::run {
 namespace {
 
-/// More planes than this have no numbers in a picture.
-constexpr std::size_t kMostNumbers = 80;
+/// More mapped planes than this have no numbers in a picture.
+constexpr std::ptrdiff_t kMostNumbers = 80;
 
 Vec3 point_of(const std::array<double, 3>& v) {
   return {v[0], v[1], v[2]};
@@ -72,7 +72,9 @@ void add_mapped(render::Picture& picture, const Record& record, const Pose& T_wo
 
 void add_stars(render::Picture& picture, const Record& record, const Pose& T_world_map) {
   std::unordered_map<std::uint64_t, Vec3> middles;
-  for (const log::MappedPlane& plane : record.planes) middles[plane.id] = T_world_map * middle_of(plane);
+  for (const log::MappedPlane& plane : record.planes) {
+    if (plane.status == log::LandmarkStatus::kMapped) middles[plane.id] = T_world_map * middle_of(plane);
+  }
   std::map<std::uint64_t, std::vector<std::uint64_t>> members;
   for (const log::IdPair& member : record.submaps) members[member.first].push_back(member.second);
   for (const log::SubmapPose& submap : record.submap_poses) {
@@ -97,9 +99,13 @@ void add_stars(render::Picture& picture, const Record& record, const Pose& T_wor
 }
 
 void add_numbers(render::Picture& picture, const Record& record, const Pose& T_world_map) {
-  if (record.planes.size() > kMostNumbers) return;
+  const auto is_mapped = [](const log::MappedPlane& plane) {
+    return plane.status == log::LandmarkStatus::kMapped;
+  };
+  const auto mapped = std::count_if(record.planes.begin(), record.planes.end(), is_mapped);
+  if (mapped > kMostNumbers) return;
   for (const log::MappedPlane& plane : record.planes) {
-    if (plane.status == log::LandmarkStatus::kMapped)
+    if (is_mapped(plane))
       picture.labels.push_back(
           {.position = T_world_map * middle_of(plane), .text = std::to_string(plane.id)});
   }
