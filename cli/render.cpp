@@ -56,13 +56,15 @@ std::optional<Vec3> optional_place(const char* option, const std::string& text) 
 sim::PictureSpec spec_of(const RenderOptions& options) {
   sim::PictureSpec spec;
   spec.file = options.out;
-  spec.view = options.view == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
+  spec.view = options.view == "top"      ? sim::PictureView::kTop
+              : options.view == "panels" ? sim::PictureView::kPanels
+                                         : sim::PictureView::kPerspective;
   parse_size(options.size, spec);
   spec.cut_z_m = options.cut_z_m;
   spec.eye_m = optional_place("--eye", options.eye);
   spec.target_m = optional_place("--target", options.target);
   if (spec.eye_m.has_value() != spec.target_m.has_value()) refuse("--eye and --target are given together");
-  if (spec.eye_m && spec.view == sim::PictureView::kTop)
+  if (spec.eye_m && spec.view != sim::PictureView::kPerspective)
     refuse("--eye and --target belong to --view perspective");
   return spec;
 }
@@ -95,8 +97,9 @@ int render(const RenderOptions& options) {
   spec.show = show.run;
   check_output_file(options.out);
   std::error_code code;
-  const std::string png =
-      fs::is_directory(options.input, code) ? draw_run(options, spec, show) : draw_map(options, spec, show);
+  const bool is_run = fs::is_directory(options.input, code);
+  if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");
+  const std::string png = is_run ? draw_run(options, spec, show) : draw_map(options, spec, show);
   write_file_atomically(options.out, png);
   if (options.json) {
     print_json({{"schema", "hallway.picture/1"},
@@ -116,8 +119,11 @@ void add_render_command(CLI::App& app, Action& chosen) {
   command->add_option("input", options->input, "A .map file, or the folder of a run")
       ->required()
       ->type_name("MAP|RUN");
-  command->add_option("--view", options->view, "top: like a plan; perspective: from a viewpoint")
-      ->check(CLI::IsMember({"top", "perspective"}))
+  command
+      ->add_option("--view", options->view,
+                   "top: like a plan; perspective: from a viewpoint; panels: of a run in which planes were "
+                   "found in points, four in one")
+      ->check(CLI::IsMember({"top", "perspective", "panels"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "PNG file to write; an earlier one is replaced")
       ->required()

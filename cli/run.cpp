@@ -64,6 +64,7 @@ int run_scenario(const RunOptions& options) {
                                 plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, scenario.limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, scenario.limits.on_failure);
+  if (run::maps_planes(pipeline)) source.add_walls();
 
   const std::string name = fs::path(scenario.file).stem().string();
   run::ManifestFacts facts{.command = "run",

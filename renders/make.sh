@@ -34,4 +34,15 @@ cp "$work/flat.png" "$here/tutorial.png"
 # Planes: truth beside result.
 "$hallway" bench-em --plugin em --scenes 1 --seed 2 --planes 12..12 --points 12000..12000 --sigma 0.01..0.02 --pictures 1 --out "$work/planes" --quiet
 cp "$work/planes"/*.png "$here/planes.png"
+# Walls as slam_plane maps them with noise, over the true ones, with the stars of its submaps (thesis 4.3).
+noise=(--set sensor.eyes.noise_m=0.02 --set sensor.eyes.noise_angle_deg=0.3 --set sensor.eyes.noise_end_m=0.005)
+for scenario in four_planes hallway hallway_return key_points loop_corridor motion_model bad_pairs roll_back pseudo_merge many_planes; do
+  "$hallway" run "$here/../maps/$scenario.toml" "${noise[@]}" --out "$work/$scenario" --quiet
+  "$hallway" render "$work/$scenario" --view top --cut 1.5 --size 760x520 --show map,truth,estimate,walls,submaps --out "$here/walls_$scenario.png"
+done
+# Points, the planes that em finds in them, and the map of these planes (thesis chapter 5).
+for scenario in em_corridor em_floor; do
+  "$hallway" run "$here/../maps/$scenario.toml" --out "$work/$scenario" --quiet
+  "$hallway" render "$work/$scenario" --view panels --size 1280x900 --out "$here/$scenario.png"
+done
 ls -l "$here"/*.png

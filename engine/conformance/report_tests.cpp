@@ -68,7 +68,8 @@ void reporting_changes_nothing(const Subject& subject, Remains&) {
 }
 
 constexpr Test kTests[] = {
-    {"report-valid", "The map that report() puts is as output.h says, without associations and planes.",
+    {"report-valid",
+     "The map that report() puts is as output.h and mapped_planes.h say, without associations and planes.",
      reports_a_valid_map},
     {"report-refined", "report() with HW_REPORT_REFINE succeeds, and puts a map that is as output.h says.",
      reports_a_valid_refined_map},

@@ -101,9 +101,18 @@ std::uint64_t count_mapped(std::span<const MapLandmark> map) {
 Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
   if (truth_.has_identities && truth_.landmarks)
     motion_.emplace(*truth_.landmarks, kMovedNoises * truth_.noise_m);
+  if (truth_.has_identities && truth_.walls) planes_.emplace(*truth_.walls);
+}
+
+void Evaluator::add_planes(const Iteration& iteration) {
+  planes_->add(iteration.given_planes, iteration.T_world_body, iteration.wall_places);
+  if (iteration.T_world_body && iteration.T_map_body && iteration.orientation_known)
+    planes_->add_pose(static_cast<std::uint32_t>(iterations_), *iteration.T_world_body,
+                      *iteration.T_map_body);
 }
 
 void Evaluator::add(const Iteration& iteration) {
+  if (planes_) add_planes(iteration);
   ++iterations_;
   if (!iteration.T_map_body) ++lost_;
   if (iteration.T_world_body && iteration.T_map_body) {

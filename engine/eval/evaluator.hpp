@@ -9,6 +9,7 @@
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
 #include "eval/motion_score.hpp"
+#include "eval/plane_score.hpp"
 #include "eval/refitted_path.hpp"
 #include "eval/trajectory_score.hpp"
 #include "geom/pose.hpp"
@@ -31,6 +32,9 @@ struct Iteration {
   std::span<const log::LandmarkId> identities;
   /// By observation: where it was seen, body frame [m]. As long as `associations`; empty where that is not kept.
   std::span<const Vec3> points{};
+  /// The planes that the plugin was given, by a sensor or by a plugin before it, and where true walls were seen.
+  std::span<const GivenPlane> given_planes{};
+  std::span<const WallPlace> wall_places{};
   std::optional<double> wall_ms;  ///< what the plugins took
   std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
 };
@@ -39,6 +43,8 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
+  /// Where the true walls are, each id once; empty where the plugin maps no planes.
+  std::optional<std::vector<log::TrueWall>> walls{};
   double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
 };
 
@@ -63,8 +69,11 @@ class Evaluator {
   /// @param refined  the map as re-solved at the end under the same ids; empty where the plugin does not do so
   Metrics metrics(std::span<const log::MapLandmark> online,
                   const std::optional<std::vector<log::MapLandmark>>& refined) const;
+  /// The same for maps of planes; null where the true walls are not known.
+  const PlaneScore* planes() const { return planes_ ? &*planes_ : nullptr; }
 
  private:
+  void add_planes(const Iteration& iteration);
   void score_refitted_path(const std::vector<log::MapLandmark>& refined, Metrics& metrics) const;
   /// @return T_map_world by the landmarks of `online`, if they determine it
   std::optional<Pose> score_landmarks(std::span<const log::MapLandmark> online,
@@ -78,6 +87,7 @@ class Evaluator {
   std::uint64_t lost_ = 0;
   AssociationScore associations_;
   std::optional<MotionScore> motion_;  ///< where the truth says what moves
+  std::optional<PlaneScore> planes_;   ///< where the truth has walls
   TrajectoryScore trajectory_;
   RefittedPath refitted_path_;
   std::vector<double> wall_ms_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "eval/consistency.hpp"
+#include "eval/plane_metrics.hpp"
 
 namespace hallway::eval {
 
@@ -77,6 +78,8 @@ struct Metrics {
 
   Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
   Consistency pose_consistency;      ///< poses as answered, after the fit of the online map's landmarks
+
+  std::optional<PlaneMetrics> planes;  ///< where the true walls are known and the pipeline maps planes
 
   std::optional<TimeSummary> iteration_ms;      ///< wall clock
   std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time

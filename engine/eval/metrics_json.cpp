@@ -66,6 +66,7 @@ Json to_json(const Metrics& metrics) {
                       {"landmark_pairs", metrics.landmark_consistency.count()},
                       {"poses", number(metrics.pose_consistency.mean())},
                       {"pose_pairs", metrics.pose_consistency.count()}};
+  document["planes"] = to_json(metrics.planes);
   document["iteration_ms"] = to_json(metrics.iteration_ms);
   document["iteration_cpu_ms"] = to_json(metrics.iteration_cpu_ms);
   return document;

@@ -11,6 +11,9 @@ namespace hallway::eval {
 /// what could not be computed is null.
 nlohmann::ordered_json to_json(const Metrics& metrics);
 
+/// The member `planes`; null for none.
+nlohmann::ordered_json to_json(const std::optional<PlaneMetrics>& planes);
+
 /// {"mean", "p50", "p99", "max"}; null for none.
 nlohmann::ordered_json to_json(const std::optional<TimeSummary>& times);
 

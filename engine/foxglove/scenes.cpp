@@ -52,13 +52,39 @@ Colour colour_of(log::LandmarkStatus status) {
   return kTemporaryColour;
 }
 
-Line star(const std::vector<Vec3>& places, const Colour& colour) {
+Vec3 middle_of(const std::vector<Vec3>& places) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& place : places) middle += place / static_cast<double>(places.size());
+  return middle;
+}
+
+Vec3 middle_of(const log::MappedPlane& plane) {
+  std::vector<Vec3> places;
+  for (const log::MappedCorner& corner : plane.outline) places.push_back(vector_of(corner.position_m));
+  return middle_of(places);
+}
+
+Line star(const Vec3& middle, const std::vector<Vec3>& places, const Colour& colour) {
   Line line{.kind = Line::Kind::kPairs, .points = {}, .width_px = 1.0, .colour = colour};
   for (const Vec3& place : places) {
     line.points.push_back(middle);
     line.points.push_back(place);
+  }
+  return line;
+}
+
+/// The edges of a plane that are certain, or those that are not.
+Line edges_of(const log::MappedPlane& plane, bool certain) {
+  constexpr double kCertainWidth_px = 3.0;
+  Line line{.kind = Line::Kind::kPairs,
+            .points = {},
+            .width_px = certain ? kCertainWidth_px : 1.0,
+            .colour = colour_of(plane.status)};
+  const std::vector<log::MappedCorner>& outline = plane.outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    if (outline[i].edge_certain != certain) continue;
+    line.points.push_back(vector_of(outline[i].position_m));
+    line.points.push_back(vector_of(outline[(i + 1) % outline.size()].position_m));
   }
   return line;
 }
@@ -83,19 +109,46 @@ Entity landmark_balls(std::span<const log::MapLandmark> landmarks) {
   return entity;
 }
 
-Entity submap_stars(std::span<const log::MapLandmark> landmarks, std::span<const log::IdPair> members) {
-  std::unordered_map<log::LandmarkId, Vec3> places;
-  for (const log::MapLandmark& landmark : landmarks) {
-    if (landmark.status == log::LandmarkStatus::kMapped) places[landmark.id] = vector_of(landmark.position_m);
+Entity mapped_plane_outlines(std::span<const log::MappedPlane> planes) {
+  Entity entity{.frame = frames::kMap, .id = "mapped planes", .lines = {}, .balls = {}};
+  for (const log::MappedPlane& plane : planes) {
+    for (const bool certain : {false, true}) {
+      Line edges = edges_of(plane, certain);
+      if (!edges.points.empty()) entity.lines.push_back(std::move(edges));
+    }
   }
-  std::map<std::uint64_t, std::vector<Vec3>> submaps;
-  for (const log::IdPair& member : members) {
-    const auto place = places.find(member.second);
-    if (place != places.end()) submaps[member.first].push_back(place->second);
+  return entity;
+}
+
+Entity submap_stars(const log::MapAnswer& map) {
+  std::unordered_map<log::LandmarkId, Vec3> points, planes;
+  for (const log::MapLandmark& landmark : map.landmarks) {
+    if (landmark.status == log::LandmarkStatus::kMapped) points[landmark.id] = vector_of(landmark.position_m);
   }
+  for (const log::MappedPlane& plane : map.planes) {
+    if (plane.status == log::LandmarkStatus::kMapped) planes[plane.id] = middle_of(plane);
+  }
+  struct Star {
+    std::vector<Vec3> points, planes;
+  };
+  std::map<std::uint64_t, Star> stars;
+  for (const log::IdPair& member : map.submap_members) {
+    if (const auto place = points.find(member.second); place != points.end())
+      stars[member.first].points.push_back(place->second);
+    if (const auto place = planes.find(member.second); place != planes.end())
+      stars[member.first].planes.push_back(place->second);
+  }
+  std::unordered_map<std::uint64_t, Vec3> origins;
+  for (const log::SubmapPose& submap : map.submaps) origins[submap.id] = vector_of(submap.position_m);
   Entity entity{.frame = frames::kMap, .id = "submaps", .lines = {}, .balls = {}};
-  for (const auto& [submap, joined] : submaps) {
-    entity.lines.push_back(star(joined, kSubmapColours[entity.lines.size() % kSubmapColours.size()]));
+  std::size_t n = 0;
+  for (const auto& [submap, joined] : stars) {
+    const Colour& colour = kSubmapColours[n++ % kSubmapColours.size()];
+    if (!joined.points.empty()) entity.lines.push_back(star(middle_of(joined.points), joined.points, colour));
+    const auto origin = origins.find(submap);
+    if (!joined.planes.empty())
+      entity.lines.push_back(
+          star(origin != origins.end() ? origin->second : middle_of(joined.planes), joined.planes, colour));
   }
   return entity;
 }

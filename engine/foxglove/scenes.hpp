@@ -4,9 +4,8 @@
 #include <span>
 
 #include "foxglove/messages.hpp"
-#include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
-#include "log/map_landmarks.hpp"
+#include "log/map_answer.hpp"
 
 namespace hallway::foxglove {
 
@@ -22,7 +21,11 @@ Entity true_landmark_balls(std::span<const log::Landmark> landmarks);
 /// ones purple.
 Entity landmark_balls(std::span<const log::MapLandmark> landmarks);
 
-/// The mapped landmarks of each submap, joined to its middle by lines of one colour, in the frame "map".
-Entity submap_stars(std::span<const log::MapLandmark> landmarks, std::span<const log::IdPair> members);
+/// The outlines of a plugin's planes, coloured as landmarks are, in the frame "map"; edges that are certain are wider.
+Entity mapped_plane_outlines(std::span<const log::MappedPlane> planes);
+
+/// The mapped landmarks of each submap, joined to its middle by lines of one colour, and the middles of its mapped planes, joined to its origin;
+/// in the frame "map".
+Entity submap_stars(const log::MapAnswer& map);
 
 }  // namespace hallway::foxglove

@@ -20,6 +20,7 @@ constexpr const char* kPoints = "/foxglove/points";
 constexpr const char* kPose = "/foxglove/pose";
 constexpr const char* kPath = "/foxglove/path";
 constexpr const char* kLandmarks = "/foxglove/landmarks";
+constexpr const char* kMappedPlanes = "/foxglove/mapped_planes";
 constexpr const char* kSubmaps = "/foxglove/submaps";
 constexpr const char* kTruePose = "/foxglove/truth/pose";
 constexpr const char* kTruePath = "/foxglove/truth/path";
@@ -115,11 +116,13 @@ void View::place_map(const log::FrameStamp& stamp, const Pose& T_map_body) {
   }
 }
 
-void View::add_map(const log::FrameStamp& stamp, std::span<const log::MapLandmark> landmarks,
-                   std::span<const log::IdPair> submap_members) {
-  put(topics::kLandmarks, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, landmark_balls(landmarks)));
-  put(topics::kSubmaps, Schema::kSceneUpdate, stamp,
-      print_scene(stamp.t_ns, submap_stars(landmarks, submap_members)));
+void View::add_map(const log::FrameStamp& stamp, const log::MapAnswer& map) {
+  put(topics::kLandmarks, Schema::kSceneUpdate, stamp,
+      print_scene(stamp.t_ns, landmark_balls(map.landmarks)));
+  if (!map.planes.empty())
+    put(topics::kMappedPlanes, Schema::kSceneUpdate, stamp,
+        print_scene(stamp.t_ns, mapped_plane_outlines(map.planes)));
+  put(topics::kSubmaps, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, submap_stars(map)));
 }
 
 void View::add_log(const LogLine& line) {

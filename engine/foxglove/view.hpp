@@ -45,8 +45,7 @@ class View {
   void add_frame(const log::FrameStamp& stamp, const hw_frame_t& frame);
   void add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose);
   void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
-  void add_map(const log::FrameStamp& stamp, std::span<const log::MapLandmark> landmarks,
-               std::span<const log::IdPair> submap_members);
+  void add_map(const log::FrameStamp& stamp, const log::MapAnswer& map);
 
   /// Something that was said, at the time of the frame that was added last or, before there is one, of the first.
   void add_log(const LogLine& line);

@@ -68,6 +68,7 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   outputs_.association_ranges_.clear();
   outputs_.association_ids_.clear();
   outputs_.planes_.clear();
+  outputs_.mapped_planes_.clear();
   outputs_.submaps_.clear();
   outputs_.submap_members_.clear();
   outputs_.n_counters_ = 0;
@@ -105,6 +106,8 @@ hw_status_t OutputCollector::copy(const hw_output_t& output) {
       return copy_submaps(payload_of<hw_submaps_t>(output));
     case HW_OUTPUT_PLANES:
       return copy_planes(payload_of<hw_planes_t>(output));
+    case HW_OUTPUT_MAPPED_PLANES:
+      return copy_mapped_planes(payload_of<hw_mapped_planes_t>(output));
     case HW_OUTPUT_COUNTERS:
       return copy_counters(payload_of<hw_counters_t>(output));
     default:
@@ -209,6 +212,12 @@ hw_status_t OutputCollector::copy_planes(const hw_planes_t& planes) {
   return HW_OK;
 }
 
+hw_status_t OutputCollector::copy_mapped_planes(const hw_mapped_planes_t& planes) {
+  demand(HW_HAS(&planes, hw_mapped_planes_t, corners), "a payload that is too small");
+  outputs_.mapped_planes_.add(planes);
+  return HW_OK;
+}
+
 hw_status_t OutputCollector::copy_submaps(const hw_submaps_t& submaps) {
   demand(HW_HAS(&submaps, hw_submaps_t, members), "a payload that is too small");
   const Strided<hw_submap_t> list(submaps.submaps, submaps.count, submaps.stride);
@@ -257,16 +266,20 @@ hw_status_t OutputCollector::fault(hw_status_t status, std::string text) {
 
 std::string OutputCollector::finish() {
   open_ = false;
-  if (fault_.empty()) check_distinct_landmarks();
+  if (fault_.empty()) check_distinct_ids();
   return fault_;
 }
 
-void OutputCollector::check_distinct_landmarks() {
+void OutputCollector::check_distinct_ids() {
+  const std::span<const hw_mapped_plane_t> planes = outputs_.mapped_planes_.planes();
   sorted_ids_.clear();
   for (const hw_landmark_t& landmark : outputs_.landmarks_) sorted_ids_.push_back(landmark.id);
+  for (const hw_mapped_plane_t& plane : planes) sorted_ids_.push_back(plane.id);
   std::sort(sorted_ids_.begin(), sorted_ids_.end());
   const auto twice = std::adjacent_find(sorted_ids_.begin(), sorted_ids_.end());
-  if (twice != sorted_ids_.end()) fault_ = fmt::format("landmarks: two of them have the id {}", *twice);
+  if (twice == sorted_ids_.end()) return;
+  fault_ = fmt::format("{}: two of them have the id {}",
+                       planes.empty() ? "landmarks" : "landmarks and mapped_planes", *twice);
 }
 
 }  // namespace hallway::host

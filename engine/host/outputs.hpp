@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/mapped_plane_list.hpp"
 #include "host/plane_lists.hpp"
 
 namespace hallway::host {
@@ -57,6 +58,8 @@ class Outputs {
   std::optional<std::span<const std::uint64_t>> associations(std::uint32_t sample) const;
   /// The planes found in that sample of the frame; nothing if not put.
   std::optional<PlaneList> planes(std::uint32_t sample) const { return planes_.of(sample); }
+  /// The planes of the map, ids distinct from each other's and from the landmarks'.
+  const MappedPlaneList& mapped_planes() const { return mapped_planes_; }
   /// The submaps, in the order put.
   std::span<const hw_submap_t> submaps() const { return submaps_; }
   /// The landmarks of a submap of this object.
@@ -80,6 +83,7 @@ class Outputs {
   std::vector<AssociationRange> association_ranges_;
   std::vector<std::uint64_t> association_ids_;
   PlaneLists planes_;
+  MappedPlaneList mapped_planes_;
   std::vector<hw_submap_t> submaps_;
   std::vector<std::uint64_t> submap_members_;
   std::vector<Counter> counters_;  ///< the first n_counters_ count; the others keep their memory
@@ -109,12 +113,14 @@ class OutputCollector {
   void copy_landmark_covariances(const double* covariances, std::size_t first);
   hw_status_t copy_associations(const hw_associations_t& associations);
   hw_status_t copy_planes(const hw_planes_t& planes);
+  hw_status_t copy_mapped_planes(const hw_mapped_planes_t& planes);
   hw_status_t copy_submaps(const hw_submaps_t& submaps);
   hw_status_t copy_counters(const hw_counters_t& counters);
   hw_status_t fault(hw_status_t status, std::string text);
   /// The number of elements of a sample that an output is about. Throws Malformed where there is no such sample.
   std::uint64_t elements_of(std::uint32_t sample) const;
-  void check_distinct_landmarks();
+  /// Among landmarks and mapped planes, which have one numbering.
+  void check_distinct_ids();
 
   Outputs outputs_;
   const hw_frame_t* frame_ = nullptr;

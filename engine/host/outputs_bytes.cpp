@@ -97,6 +97,19 @@ void read_planes(ByteReader& reader, OutputCollector& collector) {
   }
 }
 
+void read_mapped_planes(ByteReader& reader, OutputCollector& collector) {
+  const auto list = reader.get_list<hw_mapped_plane_t>();
+  const auto corners = reader.get_list<hw_mapped_corner_t>();
+  auto planes = sized<hw_mapped_planes_t>();
+  planes.stride = sizeof(hw_mapped_plane_t);
+  planes.count = list.count;
+  planes.planes = list.first;
+  planes.corner_stride = sizeof(hw_mapped_corner_t);
+  planes.n_corners = corners.count;
+  planes.corners = corners.first;
+  if (list.count != 0 || corners.count != 0) put(collector, HW_OUTPUT_MAPPED_PLANES, &planes);
+}
+
 void read_submaps(ByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_submap_t>();
   const auto members = reader.get_list<std::uint64_t>();
@@ -169,6 +182,8 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
   writer.put_list(outputs.landmark_covariances());
   write_associations(writer, outputs, n_samples);
   write_planes(writer, outputs, n_samples);
+  writer.put_list(outputs.mapped_planes().planes());
+  writer.put_list(outputs.mapped_planes().corners());
   writer.put_list(outputs.submaps());
   writer.put_list(outputs.all_members());
   writer.put<std::uint64_t>(outputs.counters().size());
@@ -184,6 +199,7 @@ void read_outputs(ByteReader& reader, OutputCollector& collector) {
   read_landmarks(reader, collector);
   read_associations(reader, collector);
   read_planes(reader, collector);
+  read_mapped_planes(reader, collector);
   read_submaps(reader, collector);
   read_counters(reader, collector);
 }

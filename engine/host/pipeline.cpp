@@ -54,6 +54,7 @@ void Pipeline::start() {
   }
   in_turn_ = takes_what_others_find();
   submitted_ = nullptr;
+  with_planes_ = nullptr;
   started_ = true;
 }
 
@@ -123,6 +124,7 @@ const Outputs& Pipeline::collect_in_turn() {
     outputs = &collect(*plugin);
     frame = &plane_samples_.add(*outputs);
   }
+  with_planes_ = frame;
   return *outputs;
 }
 

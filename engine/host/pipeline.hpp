@@ -71,6 +71,9 @@ class Pipeline {
   const Outputs& collect();
   /// Feeds one frame to every plugin, in order. @return the last one's outputs, valid until the next call
   const Outputs& process(const hw_frame_t& frame);
+  /// The frame that was collected last with the planes that plugins found in it; null where no plugin takes what another one finds. Valid until
+  /// the next call.
+  const hw_frame_t* frame_with_planes() const { return with_planes_; }
   /// The last plugin's map.  @return valid until the next call
   const Outputs& report(bool refine);
   /// Forgets the maps.
@@ -105,6 +108,7 @@ class Pipeline {
   bool in_turn_ = false;                   ///< a plugin is fed only when those before it have answered
   const hw_frame_t* submitted_ = nullptr;  ///< then: the frame that is to be collected
   PlaneSamples plane_samples_;
+  const hw_frame_t* with_planes_ = nullptr;
   CallTime last_call_;
 };
 

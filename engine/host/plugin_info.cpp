@@ -51,9 +51,10 @@ std::string sample_kind_name(std::uint32_t kind) {
 }
 
 std::string output_kind_name(std::uint32_t kind) {
-  static constexpr std::array kNames = {"pose",   "landmarks", "associations", "submaps",       "counters",
-                                        "planes", "segments",  "topology",     "drive_command", "drawing"};
-  static_assert(kNames.size() == HW_OUTPUT_DRAWING);
+  static constexpr std::array kNames = {"pose",          "landmarks", "associations", "submaps",
+                                        "counters",      "planes",    "segments",     "topology",
+                                        "drive_command", "drawing",   "mapped_planes"};
+  static_assert(kNames.size() == HW_OUTPUT_MAPPED_PLANES);
   return kind_name(kind, kNames);
 }
 

@@ -11,9 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
-#include "log/map_landmarks.hpp"
+#include "log/map_answer.hpp"
 #include "log/mcap_writer.hpp"
 #include "log/planes.hpp"
 #include "log/pose_covariances.hpp"
@@ -89,8 +88,7 @@ class RunLogWriter {
   /// The planes that were found in the frame's reading.
   void add_planes(const FrameStamp& stamp, std::span<const PlaneAnswer> planes);
   /// The map at the end, under the stamp of the last frame.
-  void add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
-               std::span<const IdPair> submap_members);
+  void add_map(const FrameStamp& stamp, const MapAnswer& map);
   /// Makes sure that what was added survives the end of the program (McapWriter::keep_chunk).
   void keep();
   /// Writes what is left and the index.
@@ -140,8 +138,7 @@ struct PoseMessage {
   PoseAnswer pose;
 };
 struct MapMessage {
-  std::vector<MapLandmark> landmarks;
-  std::vector<IdPair> submap_members;
+  MapAnswer map;
 };
 
 /// What a plugin answered; std::monostate for all else.

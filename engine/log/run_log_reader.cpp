@@ -104,24 +104,52 @@ PoseMessage pose_answer(const Json& json) {
   return message;
 }
 
+LandmarkStatus status_of(const Json& json) {
+  const auto status = landmark_status(json.at("status").get<std::string>());
+  if (!status) bad("a status that is none");
+  return *status;
+}
+
+MappedPlane mapped_plane(const Json& json) {
+  MappedPlane plane{.id = whole(json.at("id"), kNoLandmark - 1),
+                    .observations = whole(json.at("observations"), UINT64_MAX),
+                    .status = status_of(json),
+                    .normal = numbers<3>(json.at("normal")),
+                    .offset_m = numbers<1>(Json::array({json.at("offset_m")}))[0]};
+  for (const Json& corner : json.at("outline"))
+    plane.outline.push_back({numbers<3>(corner.at("position_m")), corner.at("edge_certain").get<bool>()});
+  if (plane.outline.size() < 3) bad("a plane of fewer than 3 corners");
+  return plane;
+}
+
+/// A submap's pose is there since mapped planes are.
+void read_submap(const Json& json, MapAnswer& map) {
+  const std::uint64_t id = whole(json.at("id"), UINT64_MAX);
+  if (json.contains("T_map_submap")) {
+    const Json& pose = json["T_map_submap"];
+    map.submaps.push_back({.id = id,
+                           .position_m = numbers<3>(pose.at("position_m")),
+                           .orientation = numbers<4>(pose.at("orientation_wxyz"))});
+    if (!is_unit(map.submaps.back().orientation)) bad("a quaternion that is not of unit length");
+  }
+  for (const Json& landmark : json.at("landmark_ids"))
+    map.submap_members.push_back({id, whole(landmark, kNoLandmark - 1)});
+}
+
 MapMessage map_answer(const Json& json) {
-  MapMessage message;
+  MapAnswer map;
   for (const Json& entry : json.at("landmarks")) {
-    const auto status = landmark_status(entry.at("status").get<std::string>());
-    if (!status) bad("a status that is none");
-    message.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
-                                 .position_m = numbers<3>(entry.at("position_m")),
-                                 .observations = whole(entry.at("observations"), UINT64_MAX),
-                                 .status = *status});
-    if (entry.contains("covariance_m2"))
-      message.landmarks.back().covariance = numbers<6>(entry["covariance_m2"]);
+    map.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
+                             .position_m = numbers<3>(entry.at("position_m")),
+                             .observations = whole(entry.at("observations"), UINT64_MAX),
+                             .status = status_of(entry)});
+    if (entry.contains("covariance_m2")) map.landmarks.back().covariance = numbers<6>(entry["covariance_m2"]);
   }
-  for (const Json& submap : json.at("submaps")) {
-    const std::uint64_t id = whole(submap.at("id"), UINT64_MAX);
-    for (const Json& landmark : submap.at("landmark_ids"))
-      message.submap_members.push_back({id, whole(landmark, kNoLandmark - 1)});
+  if (json.contains("planes")) {
+    for (const Json& plane : json["planes"]) map.planes.push_back(mapped_plane(plane));
   }
-  return message;
+  for (const Json& submap : json.at("submaps")) read_submap(submap, map);
+  return {std::move(map)};
 }
 
 RunMessage parse(std::string_view topic, std::string_view data) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "base/error.hpp"
 #include "log/run_log.hpp"
@@ -30,15 +31,34 @@ Json ids_json(std::span<const LandmarkId> ids) {
   return list;
 }
 
-Json submaps_json(std::span<const IdPair> members) {
+/// Submaps with their members: those with a pose in their order, then those of which only members are known.
+Json submaps_json(const MapAnswer& map) {
   Json submaps = Json::array();
-  for (const IdPair& pair : members) {
-    if (submaps.empty() || submaps.back()["id"] != pair.first) {
+  std::unordered_map<std::uint64_t, std::size_t> place;
+  for (const SubmapPose& submap : map.submaps) {
+    place.emplace(submap.id, submaps.size());
+    submaps.push_back({{"id", submap.id},
+                       {"T_map_submap", pose_json(submap.position_m, submap.orientation)},
+                       {"landmark_ids", Json::array()}});
+  }
+  for (const IdPair& pair : map.submap_members) {
+    if (place.emplace(pair.first, submaps.size()).second)
       submaps.push_back({{"id", pair.first}, {"landmark_ids", Json::array()}});
-    }
-    submaps.back()["landmark_ids"].push_back(pair.second);
+    submaps[place.at(pair.first)]["landmark_ids"].push_back(pair.second);
   }
   return submaps;
+}
+
+Json mapped_plane_json(const MappedPlane& plane) {
+  Json outline = Json::array();
+  for (const MappedCorner& corner : plane.outline)
+    outline.push_back({{"position_m", numbers(corner.position_m)}, {"edge_certain", corner.edge_certain}});
+  return {{"id", plane.id},
+          {"observations", plane.observations},
+          {"status", landmark_status_name(plane.status)},
+          {"normal", numbers(plane.normal)},
+          {"offset_m", numbers(std::array{plane.offset_m})[0]},
+          {"outline", std::move(outline)}};
 }
 
 template <typename List>
@@ -161,17 +181,22 @@ void RunLogWriter::add_planes(const FrameStamp& stamp, std::span<const PlaneAnsw
   add(topics::kPlanes, stamp, text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"planes", list}}));
 }
 
-void RunLogWriter::add_map(const FrameStamp& stamp, std::span<const MapLandmark> landmarks,
-                           std::span<const IdPair> submap_members) {
+void RunLogWriter::add_map(const FrameStamp& stamp, const MapAnswer& map) {
   Json list = Json::array();
-  for (const MapLandmark& landmark : landmarks) {
+  for (const MapLandmark& landmark : map.landmarks) {
     list.push_back({{"id", landmark.id},
                     {"position_m", numbers(landmark.position_m)},
                     {"observations", landmark.observations},
                     {"status", landmark_status_name(landmark.status)}});
     if (landmark.covariance) list.back()["covariance_m2"] = numbers(*landmark.covariance);
   }
-  add(topics::kMap, stamp, text_of({{"landmarks", list}, {"submaps", submaps_json(submap_members)}}));
+  Json json{{"landmarks", std::move(list)}};
+  if (!map.planes.empty()) {
+    Json& planes = json["planes"] = Json::array();
+    for (const MappedPlane& plane : map.planes) planes.push_back(mapped_plane_json(plane));
+  }
+  json["submaps"] = submaps_json(map);
+  add(topics::kMap, stamp, text_of(json));
 }
 
 void RunLogWriter::keep() {

@@ -77,7 +77,7 @@ void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
 }
 
 void AnswerRecorder::record_map(const FinalMap& map) {
-  writer_.add_map(stamp_, map.landmarks, map.submap_members);
+  writer_.add_map(stamp_, map);
 }
 
 }  // namespace hallway::record

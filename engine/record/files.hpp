@@ -19,10 +19,14 @@ inline constexpr const char* kTrajectory = "trajectory.tum";
 inline constexpr const char* kPoseCovariances = "pose_covariances.csv";
 inline constexpr const char* kCommands = "commands.csv";
 inline constexpr const char* kPlanes = "planes.csv";
+inline constexpr const char* kFoundPlanes = "found_planes.csv";
 inline constexpr const char* kLandmarks = "landmarks.csv";
 inline constexpr const char* kLandmarksPly = "landmarks.ply";
+inline constexpr const char* kPoseErrors = "pose_errors.csv";
 inline constexpr const char* kMatches = "matches.csv";
+inline constexpr const char* kMappedPlanes = "mapped_planes.csv";
 inline constexpr const char* kSubmaps = "submaps.csv";
+inline constexpr const char* kSubmapPoses = "submap_poses.csv";
 inline constexpr const char* kTiming = "timing.csv";
 
 }  // namespace hallway::record::files

@@ -2,6 +2,7 @@
 #include "record/final_map.hpp"
 
 #include "record/files.hpp"
+#include "record/plane_answers.hpp"
 
 namespace hallway::record {
 namespace {
@@ -25,6 +26,24 @@ std::optional<std::array<double, 6>> covariance_of(std::span<const host::Landmar
   return covariances[landmark];
 }
 
+log::MappedPlane copy_plane(const host::MappedPlaneList& list, const hw_mapped_plane_t& plane) {
+  log::MappedPlane copy{.id = plane.id,
+                        .observations = plane.observations,
+                        .status = status_of(plane.status),
+                        .normal = three(plane.normal),
+                        .offset_m = plane.offset_m};
+  for (const hw_mapped_corner_t& corner : list.outline(plane))
+    copy.outline.push_back({three(corner.position), (corner.flags & HW_EDGE_CERTAIN) != 0});
+  return copy;
+}
+
+log::SubmapPose copy_pose(const hw_submap_t& submap) {
+  const auto& q = submap.T_map_submap.orientation;
+  return {.id = submap.id,
+          .position_m = three(submap.T_map_submap.position),
+          .orientation = {q[0], q[1], q[2], q[3]}};
+}
+
 }  // namespace
 
 FinalMap copy_map(const host::Outputs* report) {
@@ -34,16 +53,18 @@ FinalMap copy_map(const host::Outputs* report) {
   for (std::size_t i = 0; i < report->landmarks().size(); ++i) {
     const hw_landmark_t& landmark = report->landmarks()[i];
     map.landmarks.push_back({.id = landmark.id,
-                             .position_m = {landmark.position[0], landmark.position[1], landmark.position[2]},
+                             .position_m = three(landmark.position),
                              .observations = landmark.observations,
                              .status = status_of(landmark.status),
                              .covariance = covariance_of(covariances, i)});
   }
+  const host::MappedPlaneList& planes = report->mapped_planes();
+  for (const hw_mapped_plane_t& plane : planes.planes()) map.planes.push_back(copy_plane(planes, plane));
   for (const hw_submap_t& submap : report->submaps()) {
+    map.submaps.push_back(copy_pose(submap));
     for (const std::uint64_t member : report->members(submap))
       map.submap_members.push_back({submap.id, member});
   }
-  map.submaps = report->submaps().size();
   return map;
 }
 
@@ -51,6 +72,8 @@ void write_map(const std::filesystem::path& folder, const FinalMap& map) {
   log::write_map_landmarks(folder / files::kLandmarks, map.landmarks);
   log::write_landmarks_ply(folder / files::kLandmarksPly, map.landmarks);
   log::write_id_pairs(folder / files::kSubmaps, map.submap_members, log::kSubmapColumns);
+  if (!map.submaps.empty()) log::write_submap_poses(folder / files::kSubmapPoses, map.submaps);
+  if (!map.planes.empty()) log::write_mapped_planes(folder / files::kMappedPlanes, map.planes);
 }
 
 }  // namespace hallway::record

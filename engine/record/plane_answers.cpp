@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/plane_answers.hpp"
 
-#include <array>
-
 namespace hallway::record {
-namespace {
-
-std::array<double, 3> three(const double (&numbers)[3]) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-}  // namespace
-
 log::Plane plane_row(const hw_plane_t& plane) {
   return {.id = plane.id,
           .normal = three(plane.normal),

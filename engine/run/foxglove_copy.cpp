@@ -100,9 +100,7 @@ class Shower {
   void operator()(const log::TrueLandmarksMessage& message) { view_.set_true_landmarks(message.landmarks); }
   void operator()(const log::TrueWallsMessage&) {}  // no view shows them
   void operator()(const log::PoseMessage& message) { view_.add_pose(stamp_, message.pose); }
-  void operator()(const log::MapMessage& message) {
-    view_.add_map(stamp_, message.landmarks, message.submap_members);
-  }
+  void operator()(const log::MapMessage& message) { view_.add_map(stamp_, message.map); }
 
  private:
   foxglove::View& view_;

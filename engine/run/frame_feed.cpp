@@ -43,6 +43,7 @@ void FrameFeed::next(bool last, const std::function<void(const hw_frame_t&, cons
     if (!alive_) return;
     answer.outputs = &pipeline_.collect();
     answer.time = pipeline_.last_call();
+    answer.with_planes = pipeline_.frame_with_planes();
   });
   take(answer);
   const std::uint32_t iteration = done_++;

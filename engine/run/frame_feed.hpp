@@ -19,6 +19,8 @@ struct FrameAnswer {
   const host::Outputs* outputs =
       nullptr;            ///< null where there is none: the pipeline failed at it or before it
   host::CallTime time{};  ///< where there is an answer
+  /// The frame with the planes that plugins found in it; null where none takes such.
+  const hw_frame_t* with_planes = nullptr;
 };
 
 /// Feeds the frames of a source to a pipeline, in order, and does what the plan says when a plugin fails. The answers are the same however many

@@ -100,7 +100,7 @@ void LogRecorder::record_answer(const host::Outputs& outputs) {
 
 void LogRecorder::record_map(const record::FinalMap& map) {
   recorder_.record_map(map);
-  if (view_) view_->add_map(recorder_.stamp(), map.landmarks, map.submap_members);
+  if (view_) view_->add_map(recorder_.stamp(), map);
 }
 
 void LogRecorder::finish() {

@@ -18,6 +18,8 @@
 #include "render/draw.hpp"
 #include "render/png.hpp"
 #include "run/abi_pose.hpp"
+#include "run/panels.hpp"
+#include "run/wall_layers.hpp"
 
 namespace hallway::run {
 namespace {
@@ -105,6 +107,7 @@ void add_submaps(render::Picture& picture, const Record& record, const LandmarkP
 
 void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
                    const Pose& T_world_map) {
+  if (record.landmarks.empty() && !record.planes.empty()) return;  // what was mapped are walls
   const LandmarkPlaces mapped = mapped_places(record, T_world_map);
   Box extent;
   render::Markers estimates{.positions = {},
@@ -208,6 +211,19 @@ std::string number_text(const nlohmann::ordered_json& value, const char* format)
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : std::string("unknown");
 }
 
+/// What metrics.json says of the walls; empty where it says nothing.
+std::string walls_text(const nlohmann::ordered_json& metrics) {
+  const auto planes = metrics.find("planes");
+  if (planes == metrics.end() || !planes->is_object()) return {};
+  const nlohmann::ordered_json& map = planes->value("final", nlohmann::ordered_json::object());
+  std::string text =
+      fmt::format(", {} of {} walls mapped", map.value("walls_mapped", 0), planes->value("walls_true", 0));
+  const auto corners = map.find("corner_m");
+  if (corners != map.end() && corners->is_object())
+    text += ", corners " + number_text(corners->value("rms", nlohmann::ordered_json()), "{:.4f}") + " m RMS";
+  return text;
+}
+
 std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
   std::string text = fmt::format("{} iterations", metrics.value("iterations", 0));
@@ -219,6 +235,7 @@ std::string subtitle_of(const Record& record) {
       (*rmse)["final_aligned"].is_number()) {
     text += ", landmark RMSE " + number_text((*rmse)["final_aligned"], "{:.4f}") + " m";
   }
+  text += walls_text(metrics);
   const auto positions = metrics.find("position_rmse_m");
   if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number()) {
     text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
@@ -238,7 +255,8 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
 
 render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan) {
   render::View view;
-  view.kind = spec.view == sim::PictureView::kTop ? render::ViewKind::kTop : render::ViewKind::kPerspective;
+  view.kind =
+      spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
   view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
@@ -349,8 +367,10 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
     if (!map_view.wireframe)
       picture.surfaces.insert(picture.surfaces.end(), record.models.begin(), record.models.end());
   }
-  const Pose T_world_path = align_path(record).value_or(Pose());
+  const std::optional<Pose> T_world_planes = align_planes(record);
+  const Pose T_world_path = T_world_planes ? *T_world_planes : align_path(record).value_or(Pose());
   const Pose T_world_map = align_landmarks(record).value_or(T_world_path);
+  add_walls(picture, record, spec, T_world_map);
   if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
   add_landmarks(picture, record, spec, T_world_map);
   add_paths(picture, record, spec, T_world_path);
@@ -369,6 +389,7 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 }
 
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
+  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
   const render::Plan plan =
       record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
   return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan);

@@ -2,11 +2,13 @@
 #include "run/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "eval/plane_score.hpp"
 #include "geom/rigid_fit.hpp"
 #include "map/reader.hpp"
 #include "run/map_view.hpp"
@@ -40,6 +42,11 @@ Vec3 vector_of(const std::array<double, 3>& v) {
   return {v[0], v[1], v[2]};
 }
 
+Pose pose_of(const log::StampedPose& pose) {
+  const auto& q = pose.orientation;
+  return {Quat(q[0], q[1], q[2], q[3]).normalized(), vector_of(pose.position_m)};
+}
+
 }  // namespace
 
 bool is_run_folder(const fs::path& folder) {
@@ -59,12 +66,16 @@ nlohmann::ordered_json read_manifest(const fs::path& folder) {
 
 Record read_record(const fs::path& folder) {
   Record record;
+  record.folder = folder;
   record.run = read_manifest(folder);
   record.metrics = read_json(folder / files::kMetrics);
   record.trajectory = log::read_tum(folder / files::kTrajectory);
   record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
   record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
   record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);
+  record.true_walls = read_if_there(folder / files::kTrueWalls, log::read_true_walls);
+  record.planes = read_if_there(folder / files::kMappedPlanes, log::read_mapped_planes);
+  record.submap_poses = read_if_there(folder / files::kSubmapPoses, log::read_submap_poses);
   record.matches = read_if_there(folder / files::kMatches, [](const fs::path& path) {
     return log::read_id_pairs(path, log::kMatchColumns);
   });
@@ -117,6 +128,20 @@ std::optional<Pose> align_path(const Record& record) {
   }
   if (from.size() < kPairsForFit) return std::nullopt;
   return rigid_fit(from, to);
+}
+
+std::optional<Pose> align_planes(const Record& record) {
+  if (record.planes.empty() || record.true_walls.empty()) return std::nullopt;
+  eval::PlaneScore score(record.true_walls);
+  for (const log::IdPair& match : record.matches)
+    score.add(std::array{eval::GivenPlane{.wall = match.second, .taken_for = match.first}}, std::nullopt, {});
+  if (!record.trajectory.empty()) {
+    const log::StampedPose& first = record.trajectory.front();
+    const auto truth = std::find_if(record.truth.begin(), record.truth.end(),
+                                    [&](const log::StampedPose& pose) { return pose.t_s == first.t_s; });
+    if (truth != record.truth.end()) score.add_pose(0, pose_of(*truth), pose_of(first));
+  }
+  return score.alignment(record.planes);
 }
 
 }  // namespace hallway::run

@@ -11,6 +11,9 @@
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
+#include "log/mapped_planes.hpp"
+#include "log/submap_poses.hpp"
+#include "log/true_walls.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
 #include "render/picture.hpp"
@@ -22,6 +25,7 @@ namespace files = record::files;
 
 /// What a run folder holds, read back; empty where the run had none.
 struct Record {
+  std::filesystem::path folder{};             ///< for what is not here: observations and planes
   nlohmann::ordered_json run;                 ///< run.json
   nlohmann::ordered_json metrics;             ///< metrics.json
   std::optional<world::CompiledWorld> world;  ///< of map.map, without visible sets
@@ -30,8 +34,11 @@ struct Record {
   std::vector<log::StampedPose> trajectory;   ///< T_map_body
   std::vector<log::Landmark> true_landmarks;  ///< world
   std::vector<log::MapLandmark> landmarks;    ///< map frame
-  std::vector<log::IdPair> matches;           ///< landmark, true landmark
-  std::vector<log::IdPair> submaps;           ///< submap, landmark
+  std::vector<log::TrueWall> true_walls;      ///< world
+  std::vector<log::MappedPlane> planes;       ///< map frame
+  std::vector<log::IdPair> matches;           ///< landmark or plane, true landmark or wall
+  std::vector<log::IdPair> submaps;           ///< submap, landmark or plane
+  std::vector<log::SubmapPose> submap_poses;  ///< T_map_submap
 };
 
 /// Whether a folder is one that a run has written.
@@ -46,6 +53,9 @@ Record read_record(const std::filesystem::path& folder);
 /// T_world_map by the best rigid fit of the mapped landmarks to their true counterparts; empty if fewer than three pairs
 /// are known.
 std::optional<Pose> align_landmarks(const Record& record);
+
+/// T_world_map by the mapped planes, as PlaneScore::alignment() has it; empty where none were mapped or no true walls are known.
+std::optional<Pose> align_planes(const Record& record);
 
 /// T_world_map by the best rigid fit of the estimated positions to the true ones of the same time; empty if fewer than
 /// three pairs are known.

@@ -2,6 +2,7 @@
 #include "run/run.hpp"
 
 #include <hallway/ext/log.h>
+#include <hallway/output.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "run/abi_pose.hpp"
+#include "run/found_table.hpp"
 #include "run/frame_feed.hpp"
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
@@ -26,6 +28,7 @@
 #include "run/run_files.hpp"
 #include "run/truth_of.hpp"
 #include "run/truth_tables.hpp"
+#include "run/wall_sight.hpp"
 
 namespace hallway::run {
 namespace {
@@ -47,11 +50,14 @@ std::optional<Pose> estimate_of(const host::Outputs& outputs) {
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
-  Tally(const Source& source, bool keep_observations)
+  /// @param maps_planes  whether what the pipeline maps is planes
+  Tally(const Source& source, bool keep_observations, bool maps_planes)
       : source_(source),
         keep_observations_(keep_observations),
         T_body_sensor_(pose_of(source.sensor().T_body_sensor)),
-        evaluator_(truth_of(source)) {}
+        evaluator_(truth_for(source, maps_planes)) {
+    if (evaluator_.planes() != nullptr) wall_sight_.emplace(source);
+  }
 
   void add(const FrameAnswer& answer) {
     const SourceFrame& frame = answer.frame;
@@ -67,9 +73,16 @@ class Tally {
                               .associations = associations(answer),
                               .identities = identities_,
                               .points = points_,
+                              .given_planes = {},
+                              .wall_places = {},
                               .wall_ms = {},
                               .cpu_ms = {}};
     if (answer.outputs != nullptr) add_answer(answer, iteration);
+    if (wall_sight_) {
+      wall_sight_->read(answer);
+      iteration.given_planes = wall_sight_->given();
+      iteration.wall_places = wall_sight_->places();
+    }
     evaluator_.add(iteration);
     keep_truth(answer.iteration, frame);
   }
@@ -78,6 +91,12 @@ class Tally {
   const Collected& collected() const { return collected_; }
 
  private:
+  static eval::Truth truth_for(const Source& source, bool maps_planes) {
+    eval::Truth truth = truth_of(source);
+    if (!maps_planes) truth.walls.reset();
+    return truth;
+  }
+
   void add_answer(const FrameAnswer& answer, eval::Iteration& iteration) {
     iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
     iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
@@ -109,6 +128,7 @@ class Tally {
   bool keep_observations_;
   Pose T_body_sensor_;
   eval::Evaluator evaluator_;
+  std::optional<WallSight> wall_sight_;  ///< where maps of planes are scored
   std::vector<log::LandmarkId> identities_;
   std::vector<log::LandmarkId> none_;
   std::vector<Vec3> points_;  ///< body frame
@@ -128,11 +148,13 @@ void write_input(const fs::path& folder, const RunPlan& plan, const Source& sour
 }
 
 void write_matches(const fs::path& folder, const eval::Evaluator& evaluator) {
+  if (!evaluator.has_identities()) return;
+  const eval::PlaneScore* planes = evaluator.planes();
+  const eval::AssociationScore& score = planes != nullptr ? planes->associations() : evaluator.associations();
   std::vector<log::IdPair> matches;
-  for (const auto& [landmark, truth] : evaluator.associations().ownership().owner) {
+  for (const auto& [landmark, truth] : score.ownership().owner)
     matches.push_back({.first = landmark, .second = truth});
-  }
-  if (evaluator.has_identities()) log::write_id_pairs(folder / files::kMatches, matches, log::kMatchColumns);
+  log::write_id_pairs(folder / files::kMatches, matches, log::kMatchColumns);
 }
 
 nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, const RunResult& result,
@@ -191,14 +213,21 @@ std::map<std::string, std::string> draw_pictures(const fs::path& folder, const R
 
 }  // namespace
 
+bool maps_planes(const host::Pipeline& pipeline) {
+  if (pipeline.facts().empty()) return false;
+  const std::vector<std::uint32_t>& outputs = pipeline.facts().back().info.outputs;
+  return std::find(outputs.begin(), outputs.end(), HW_OUTPUT_MAPPED_PLANES) != outputs.end();
+}
+
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
   record::OutputFolder output(plan.folder, plan.replace);
   const fs::path& folder = output.working_path();
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
   record::AnswerTables tables(folder);
+  FoundTable found(folder);
   host::FrameBuilder builder;
-  Tally tally(source, plan.write_observations);
+  Tally tally(source, plan.write_observations, maps_planes(pipeline));
   FrameFeed feed(source, pipeline, plan);
   EventView events(plan, feed, recorder);
   RunResult result;
@@ -215,6 +244,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
         recorder.record_answer(*answer.outputs);
         tables.add(answer.iteration, answer.frame.t_ns, *answer.outputs, answer.time);
       }
+      found.add(answer);
       tally.add(answer);
     };
     feed.next(result.stopped, give, take);
@@ -227,11 +257,16 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
   tables.close();
+  found.close();
   feed.close();
   result.failures = feed.failures();
   events.update();
   result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
-  result.submaps = refined.submaps;
+  if (const eval::PlaneScore* planes = tally.evaluator().planes()) {
+    result.metrics.planes = planes->metrics(online.planes, refined.planes);
+    log::write_pose_errors(folder / files::kPoseErrors, planes->pose_errors(online.planes));
+  }
+  result.submaps = refined.submaps.size();
 
   write_input(folder, plan, source, tally.collected());
   record::write_map(folder, refined);

@@ -54,6 +54,9 @@ struct RunResult {
   record::Failures failures;                    ///< of the pipeline
 };
 
+/// Whether the last plugin of a pipeline that was started maps planes.
+bool maps_planes(const host::Pipeline& pipeline);
+
 /// Feeds every frame of the source to the pipeline, scores what it answers and writes the run folder (docs/formats.md).
 ///
 /// The folder appears whole or not at all. Same source, pipeline and plan give the same bytes, but for timing.csv,

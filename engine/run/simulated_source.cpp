@@ -53,8 +53,18 @@ void SimulatedSource::take(const sense::PlaneSensorSpec& spec) {
   sensor_.max_range_m = spec.view.max_range_m;
   sensor_.noise_m[0] = sensor_.noise_m[1] = spec.noise_m;  // along the normals, which are level
   sensor_.noise_m[2] = 0.0;
+  set_walls(*simulator_.walls(0));
+}
+
+void SimulatedSource::add_walls() {
+  if (walls_) return;
+  const double height_m = (simulator_.pose_at(0) * pose_of(sensor_.T_body_sensor)).t.z();
+  set_walls(simulator_.walls_at(height_m));
+}
+
+void SimulatedSource::set_walls(const sense::WallPlan& plan) {
   walls_.emplace();
-  for (const sense::Wall& wall : simulator_.walls(0)->walls) {
+  for (const sense::Wall& wall : plan.walls) {
     const Vec2 &l = wall.left, &r = wall.right;
     walls_->push_back({.id = walls_->size(),
                        .corners_m = {{{l.x(), l.y(), wall.low_m},

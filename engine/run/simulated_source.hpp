@@ -12,6 +12,9 @@ class SimulatedSource : public Source {
   /// Keeps a reference to the simulator. Throws Error{kBadInput} unless the scenario has exactly one sensor.
   explicit SimulatedSource(const sim::Simulator& simulator);
 
+  /// Makes the true walls known also of a sensor of points: those at its height.
+  void add_walls();
+
   std::uint32_t iterations() const override { return simulator_.scenario().steps; }
   void read(std::uint32_t iteration, SourceFrame& frame) override;
   const host::SensorInfo& sensor() const override { return sensor_; }
@@ -22,11 +25,12 @@ class SimulatedSource : public Source {
  private:
   void take(const sense::PointSensorSpec& spec);
   void take(const sense::PlaneSensorSpec& spec);
+  void set_walls(const sense::WallPlan& plan);
 
   const sim::Simulator& simulator_;
   host::SensorInfo sensor_;
   std::optional<std::vector<log::Landmark>> landmarks_;  ///< where the sensor is one of points
-  std::optional<std::vector<log::TrueWall>> walls_;      ///< where it is one of planes
+  std::optional<std::vector<log::TrueWall>> walls_;      ///< where it is one of planes, or they were added
 };
 
 }  // namespace hallway::run

@@ -34,9 +34,9 @@ constexpr Range kBodySize_m{0.001, 100.0};
 constexpr Range kBodyHeight_m{-100.0, 100.0};
 constexpr Range kPeriod_s{1e-6, 60.0};
 
-const std::vector<std::string> kViews{"top", "perspective"};  // in the order of PictureView
-const std::vector<std::string> kLayers{"map",    "truth",   "estimate", "landmarks",
-                                       "errors", "submaps", "frustum"};  // in the order of PictureLayer
+const std::vector<std::string> kViews{"top", "perspective", "panels"};  // in the order of PictureView
+const std::vector<std::string> kLayers{"map",     "truth",   "estimate", "landmarks", "errors",
+                                       "submaps", "frustum", "walls"};  // in the order of PictureLayer
 
 /// Reads one scenario, table by table.
 class ScenarioReader {
@@ -170,7 +170,7 @@ class ScenarioReader {
                           "give `eye_m` and `target_m` together");
     }
     if (picture.has("eye_m")) {
-      if (spec.view == PictureView::kTop) throw picture.error("eye_m", "a top view has no eye");
+      if (spec.view != PictureView::kPerspective) throw picture.error("eye_m", "a top view has no eye");
       spec.eye_m = picture.vector("eye_m", kWorld_m);
       spec.target_m = picture.vector("target_m", kWorld_m);
       if (*spec.eye_m == *spec.target_m) throw picture.error("target_m", "is the same point as `eye_m`");

@@ -34,10 +34,10 @@ using host::OnFailure;
 using host::PluginLimits;
 using host::short_plugin_name;
 
-enum class PictureView { kTop, kPerspective };
+enum class PictureView { kTop, kPerspective, kPanels };
 
 /// What a picture can show.
-enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum };
+enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum, kWalls };
 
 /// The names of the layers, in the order of PictureLayer.
 const std::vector<std::string>& picture_layer_names();

@@ -137,15 +137,18 @@ void Simulator::make_sensors() {
     std::unique_ptr<const sense::WallPlan>& plan = plans_.emplace_back();
     if (const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec)) {
       const double height_m = (path_.at(0.0) * planes->T_body_sensor).t.z();
-      const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
-      plan = std::make_unique<const sense::WallPlan>(
-          sense::make_wall_plan(world_.partition.surface, wanted, height_m, triangles_of(models_)));
+      plan = std::make_unique<const sense::WallPlan>(walls_at(height_m));
       sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, *planes, *plan, scenario_.seed);
     } else {
       sensors_.emplace_back(std::in_place_type<sense::PointSensor>, std::get<sense::PointSensorSpec>(spec),
                             landmark_index_, scene_, scenario_.seed);
     }
   }
+}
+
+sense::WallPlan Simulator::walls_at(double height_m) const {
+  const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
+  return sense::make_wall_plan(world_.partition.surface, wanted, height_m, triangles_of(models_));
 }
 
 /// Sensors of planes demand a level way; before the run, for it is long.

@@ -84,6 +84,8 @@ class Simulator {
   /// The walls that a sensor of planes sees; the index is the wall's number. Null for a sensor of another kind.
   /// @param sensor  index in Scenario::sensors
   const sense::WallPlan* walls(std::size_t sensor) const { return plans_[sensor].get(); }
+  /// The walls at a height, metres, as a sensor of planes there sees them. O(n log n) in the surface.
+  sense::WallPlan walls_at(double height_m) const;
   /// Metres of path from frame to frame.
   double step_length_m() const { return step_length_m_; }
 

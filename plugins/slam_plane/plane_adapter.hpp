@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -53,7 +54,8 @@ class PlaneAdapter {
                                               ", which is not the one that they are taken from");
       const auto& planes = *static_cast<const hw_planes_t*>(sample.payload);
       samples_.push_back({k, pieces_.size()});
-      for (std::uint64_t i = 0; i < planes.count; ++i) pieces_.push_back(piece_of(*hw_plane_at(&planes, i)));
+      for (std::uint64_t i = 0; i < planes.count; ++i)
+        pieces_.push_back(piece_of(planes, *hw_plane_at(&planes, i)));
     }
     return pieces_;
   }
@@ -67,6 +69,31 @@ class PlaneAdapter {
                            : walls.end();
       host.put_associations(samples_[i].sample, std::vector<std::uint64_t>(begin, end));
     }
+  }
+
+  /// Answers the walls of a map as upright rectangles.
+  void put_walls(const sdk::Host& host, const std::vector<Wall>& walls) const {
+    std::vector<hw_mapped_plane_t> planes;
+    std::vector<hw_mapped_corner_t> corners;
+    for (const Wall& wall : walls) {
+      const Vec2 a = T_body_sensor_ * wall.a, b = T_body_sensor_ * wall.b;
+      if ((b - a).norm() < kLeastLength) continue;
+      const Vec2 normal = -left_of((b - a).normalized());
+      hw_mapped_plane_t& plane = planes.emplace_back();
+      plane = {wall.id,
+               {normal.x(), normal.y(), 0.0},
+               normal.dot(a),
+               wall.observations,
+               status_of(wall.status),
+               corners.size(),
+               4};
+      const double low = wall.z_low + t_body_sensor_.z(), high = wall.z_high + t_body_sensor_.z();
+      corners.push_back({{a.x(), a.y(), low}, 0, 0});
+      corners.push_back({{b.x(), b.y(), low}, wall.certain[kEndB] ? HW_EDGE_CERTAIN : 0, 0});
+      corners.push_back({{b.x(), b.y(), high}, 0, 0});
+      corners.push_back({{a.x(), a.y(), high}, wall.certain[kEndA] ? HW_EDGE_CERTAIN : 0, 0});
+    }
+    host.put_mapped_planes(planes, corners);
   }
 
   /// T_map_body of a sensor pose or of a submap's, which is one.
@@ -99,6 +126,12 @@ class PlaneAdapter {
   static constexpr double kUpright = 0.999;   // cosine of the largest tilt of the sensor
   static constexpr double kLeastLevel = 0.9;  // length of a wall's normal within the level
 
+  static constexpr double kLeastLength = 1e-6;  // of a wall that has a direction [m]
+
+  static std::uint32_t status_of(WallStatus status) {
+    return status == WallStatus::mapped ? HW_LANDMARK_MAPPED : HW_LANDMARK_TEMPORARY;
+  }
+
   struct Sample {
     std::uint32_t sample;
     std::size_t first;  // of its pieces
@@ -114,8 +147,22 @@ class PlaneAdapter {
     return only;
   }
 
-  /// The plane from its left to its right corner; without length, which no wall is, where it is no wall.
-  static Piece piece_of(const hw_plane_t& plane) {
+  /// Calls `take` with the points that bound a plane: of its hull where that is told, for the rectangle may lie askew, else its corners.
+  template <typename Take>
+  static void visit_bounds(const hw_planes_t& planes, const hw_plane_t& plane, Take take) {
+    for (std::uint64_t i = 0; i < plane.n_hull; ++i) {
+      const char* at =
+          static_cast<const char*>(planes.hull_points) + (plane.first_hull + i) * planes.hull_stride;
+      hw_point3_t point;
+      std::memcpy(&point, at, sizeof point);
+      take(Vec3(point.x, point.y, point.z));
+    }
+    if (plane.n_hull > 0) return;
+    for (const auto& corner : plane.corners) take(Vec3(corner[0], corner[1], corner[2]));
+  }
+
+  /// The plane from its left to its right end; without length, which no wall is, where it is no wall.
+  static Piece piece_of(const hw_planes_t& planes, const hw_plane_t& plane) {
     const Vec2 normal(plane.normal[0], plane.normal[1]);
     Piece piece;
     if (normal.norm() < kLeastLevel) return piece;
@@ -123,14 +170,14 @@ class PlaneAdapter {
     const Vec2 d = left_of(n);  // of two walls that meet the robot's eye, from left to right
     const Vec2 centre(plane.centroid[0], plane.centroid[1]);
     double from = 0.0, to = 0.0;
-    piece.z_low = piece.z_high = plane.corners[0][2];
-    for (const auto& corner : plane.corners) {
-      const double s = d.dot(Vec2(corner[0], corner[1]) - centre);
+    piece.z_low = piece.z_high = plane.centroid[2];
+    visit_bounds(planes, plane, [&](const Vec3& point) {
+      const double s = d.dot(point.head<2>() - centre);
       from = std::min(from, s);
       to = std::max(to, s);
-      piece.z_low = std::min(piece.z_low, corner[2]);
-      piece.z_high = std::max(piece.z_high, corner[2]);
-    }
+      piece.z_low = std::min(piece.z_low, point.z());
+      piece.z_high = std::max(piece.z_high, point.z());
+    });
     piece.a = centre + from * d;
     piece.b = centre + to * d;
     return piece;

@@ -58,6 +58,7 @@ class SlamPlane final : public sdk::Plugin {
                          members.size(), submap.members.size()});
       members.insert(members.end(), submap.members.begin(), submap.members.end());
     }
+    adapter_.put_walls(host(), map.walls);
     host().put_submaps(submaps, members);
   }
 
@@ -93,8 +94,8 @@ class SlamPlane final : public sdk::Plugin {
 
 const hw_plugin_info_t* SlamPlane::info() {
   static constexpr std::uint32_t kInputs[] = {HW_SAMPLE_PLANES};
-  static constexpr std::uint32_t kOutputs[] = {HW_OUTPUT_POSE, HW_OUTPUT_ASSOCIATIONS, HW_OUTPUT_SUBMAPS,
-                                               HW_OUTPUT_COUNTERS};
+  static constexpr std::uint32_t kOutputs[] = {
+      HW_OUTPUT_POSE, HW_OUTPUT_ASSOCIATIONS, HW_OUTPUT_MAPPED_PLANES, HW_OUTPUT_SUBMAPS, HW_OUTPUT_COUNTERS};
   static constexpr hw_plugin_info_t kInfo = sdk::plugin_info(
       "slam_plane", "Relative plane SLAM", "0.1.0", "Hallway",
       "Maps walls seen in part, without odometry or identities, by submaps of lines and corners.", kInputs,

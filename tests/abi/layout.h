@@ -134,6 +134,30 @@ AT(hw_planes_t, hull_points, 40);
 AT(hw_planes_t, n_members, 48);
 AT(hw_planes_t, members, 56);
 
+SIZE(hw_mapped_corner_t, 32);
+AT(hw_mapped_corner_t, position, 0);
+AT(hw_mapped_corner_t, flags, 24);
+AT(hw_mapped_corner_t, reserved, 28);
+
+SIZE(hw_mapped_plane_t, 64);
+AT(hw_mapped_plane_t, id, 0);
+AT(hw_mapped_plane_t, normal, 8);
+AT(hw_mapped_plane_t, offset_m, 32);
+AT(hw_mapped_plane_t, observations, 40);
+AT(hw_mapped_plane_t, status, 44);
+AT(hw_mapped_plane_t, first_corner, 48);
+AT(hw_mapped_plane_t, n_corners, 56);
+
+SIZE(hw_mapped_planes_t, 48);
+AT(hw_mapped_planes_t, size, 0);
+AT(hw_mapped_planes_t, stride, 4);
+AT(hw_mapped_planes_t, count, 8);
+AT(hw_mapped_planes_t, planes, 16);
+AT(hw_mapped_planes_t, corner_stride, 24);
+AT(hw_mapped_planes_t, reserved, 28);
+AT(hw_mapped_planes_t, n_corners, 32);
+AT(hw_mapped_planes_t, corners, 40);
+
 SIZE(hw_counter_t, 16);
 AT(hw_counter_t, name, 0);
 AT(hw_counter_t, value, 8);

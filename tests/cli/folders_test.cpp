@@ -35,6 +35,7 @@ TEST(OutputFolder, HoldsTheDocumentedFiles) {
                                        "landmarks.ply",
                                        "matches.csv",
                                        "submaps.csv",
+                                       "submap_poses.csv",
                                        "timing.csv",
                                        "pose_covariances.csv"};
   EXPECT_EQ(names_in(world.out()), expected);

@@ -6,7 +6,7 @@
 namespace hallway::em {
 namespace {
 
-constexpr std::array<OptionRow<AutoOptions>, 11> kRows{{
+constexpr std::array<OptionRow<AutoOptions>, 12> kRows{{
     {"noise", "length", 0.0, 1e9,
      "Standard deviation of the points across their planes; 0 means that the cloud tells it.",
      &AutoOptions::noise, nullptr},
@@ -30,6 +30,9 @@ constexpr std::array<OptionRow<AutoOptions>, 11> kRows{{
     {"rougher", "searches", 0, 10,
      "How often, after the first search, surfaces rougher than those found so far are sought.", nullptr,
      &AutoOptions::rougher},
+    {"gap", "length", 0.0, 1e9,
+     "Planes are split where their points leave a gap wider than this; 0: they are not.", &AutoOptions::gap,
+     nullptr},
     {"seams", "1", 0, 1,
      "1: a point within the noise of two planes that meet is a member of both; 0: of the likelier one.",
      nullptr, &AutoOptions::seams},

@@ -18,9 +18,10 @@ struct AutoOptions {
   int passes = 4;             ///< passes of expectation and maximisation after a search at most
   double bend = 0.06;         ///< how much of its width a plane of several facets may be thick; 0: none
   int rougher = 5;            ///< how often surfaces rougher than those found so far are sought; 0: never
-  int seams = 0;              ///< 1: a point within the noise of two planes that meet is a member of both
-  int warm_start = 0;         ///< 1: the planes of the last frame are tried first, and keep their ids
-  int threads = 0;            ///< that share the work, 0: see Workers; the result is the same for any number
+  double gap = 0.0;    ///< planes are split where their points leave a wider gap [length]; 0: they are not
+  int seams = 0;       ///< 1: a point within the noise of two planes that meet is a member of both
+  int warm_start = 0;  ///< 1: the planes of the last frame are tried first, and keep their ids
+  int threads = 0;     ///< that share the work, 0: see Workers; the result is the same for any number
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;

@@ -5,6 +5,7 @@
 
 #include "em/core/canonical.hpp"
 #include "em/core/extraction.hpp"
+#include "em/core/gaps.hpp"
 #include "em/core/mixture.hpp"
 #include "em/core/search.hpp"
 
@@ -114,6 +115,12 @@ std::vector<Seed> seeds_from(const PlaneMemory& memory, const CloudFrame& frame,
   return seeds;
 }
 
+Extraction with_gaps(std::span<const Vec3> cloud, const AutoOptions& options, Extraction found) {
+  if (options.gap > 0.0)
+    split_at_gaps(cloud, options.gap, static_cast<std::size_t>(options.min_points), found);
+  return found;
+}
+
 }  // namespace
 
 PlaneExtractor::PlaneExtractor(const AutoOptions& options) : options_(options) {
@@ -146,7 +153,7 @@ Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const Plane
     find_planes(search, options_, sigma, mixture);
   }
   if (sample.count == canonical.points.count) {
-    return extraction_of(canonical, mixture, options_, cloud.size(), *workers_);
+    return with_gaps(cloud, options_, extraction_of(canonical, mixture, options_, cloud.size(), *workers_));
   }
 
   const BoxTree tree(canonical.points, *workers_);
@@ -154,7 +161,7 @@ Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const Plane
   Mixture whole(field, volume, *workers_);
   const double factor = static_cast<double>(canonical.points.count) / static_cast<double>(sample.count);
   settle_with_all(mixture, factor, options_, whole);
-  return extraction_of(canonical, whole, options_, cloud.size(), *workers_);
+  return with_gaps(cloud, options_, extraction_of(canonical, whole, options_, cloud.size(), *workers_));
 }
 
 }  // namespace hallway::em

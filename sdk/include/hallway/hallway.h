@@ -19,6 +19,7 @@
 #include "factory.h"
 #include "growth.h"
 #include "host.h"
+#include "mapped_planes.h"
 #include "output.h"
 #include "planes.h"
 #include "plugin.h"

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "growth.h"
+#include "mapped_planes.h"
 #include "planes.h"
 #include "pose.h"
 
@@ -19,7 +20,8 @@ enum {
   HW_OUTPUT_SEGMENTS = 7,       ///< reserved
   HW_OUTPUT_TOPOLOGY = 8,       ///< reserved
   HW_OUTPUT_DRIVE_COMMAND = 9,  ///< hw_drive_command_t; at most one in a call, in process() only
-  HW_OUTPUT_DRAWING = 10        ///< reserved
+  HW_OUTPUT_DRAWING = 10,       ///< reserved
+  HW_OUTPUT_MAPPED_PLANES = 11  ///< hw_mapped_planes_t; several in a call are one list; since 1.3
 };
 
 /// One answer of a plugin, handed to hw_host_vtable_t.put(). The host copies it before put() returns.
@@ -87,8 +89,8 @@ typedef struct hw_landmarks_t {
   const double* covariances;
 } hw_landmarks_t;
 
-/// Payload of HW_OUTPUT_ASSOCIATIONS: for each element of one sample, in its order, the landmark that it was
-/// taken for.
+/// Payload of HW_OUTPUT_ASSOCIATIONS: for each element of one sample, in its order, the landmark or mapped plane that
+/// it was taken for.
 typedef struct hw_associations_t {
   uint32_t size;                 ///< sizeof(hw_associations_t) of the writer
   uint32_t sample;               ///< index of the sample in hw_frame_t.samples
@@ -100,8 +102,9 @@ typedef struct hw_associations_t {
 typedef struct hw_submap_t {
   uint64_t id;             ///< names the submap for the life of the plugin
   hw_pose_t T_map_submap;  ///< finite, unit quaternion (to 1e-6)
-  uint64_t first_member;   ///< its landmarks are members[first_member … first_member + n_members - 1]
-  uint64_t n_members;      ///< number of its landmarks
+  /// Its landmarks, or mapped planes, are members[first_member … first_member + n_members - 1].
+  uint64_t first_member;
+  uint64_t n_members;  ///< number of its members
 } hw_submap_t;
 
 /// Payload of HW_OUTPUT_SUBMAPS. A landmark may be a member of several submaps.

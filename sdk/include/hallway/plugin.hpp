@@ -126,6 +126,19 @@ class Host {
     put(HW_OUTPUT_SUBMAPS, payload);
   }
 
+  /// Answers the planes of the map; their outlines are ranges of `corners`.
+  void put_mapped_planes(const std::vector<hw_mapped_plane_t>& planes,
+                         const std::vector<hw_mapped_corner_t>& corners) const {
+    hw_mapped_planes_t payload{};
+    payload.stride = sizeof(hw_mapped_plane_t);
+    payload.count = planes.size();
+    payload.planes = planes.data();
+    payload.corner_stride = sizeof(hw_mapped_corner_t);
+    payload.n_corners = corners.size();
+    payload.corners = corners.data();
+    put(HW_OUTPUT_MAPPED_PLANES, payload);
+  }
+
   /// Answers the planes found in sample `sample` of the frame; their hulls are ranges of `hull_points`, their points
   /// ranges of `members`.
   void put_planes(std::uint32_t sample, const std::vector<hw_plane_t>& planes,

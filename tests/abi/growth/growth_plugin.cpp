@@ -76,6 +76,20 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
 
   void report(bool) override {
     host().put_landmarks({{7, {1, 2, 3}, 4, HW_LANDMARK_MAPPED}, {8, {5, 6, 7}, 8, HW_LANDMARK_TEMPORARY}});
+#if HW_ABI_MINOR >= 3
+    host().put_mapped_planes({{ 9,
+                                {0, 0, 1},
+                                0,
+                                1,
+                                HW_LANDMARK_MAPPED,
+                                0,
+                                3 }},
+                             {{{0, 0, 0}, HW_EDGE_CERTAIN, 0},
+                              {{1, 0, 0}, 0, 0},
+                              { {0, 1, 0},
+                                0,
+                                0 }});
+#endif
     host().put_submaps({{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}}, {7, 8});
   }
 

@@ -32,6 +32,21 @@ Metrics full() {
   metrics.landmark_consistency.add(Eigen::Vector3d(1, 0, 0), Eigen::Matrix3d::Identity() / 3);
   metrics.position_final_m = 1.5;
   metrics.rotation_rmse_deg = {2.5, 3.5};
+  PlaneMetrics& planes = metrics.planes.emplace();
+  planes.observations = 90;
+  planes.associations_none = 5;
+  planes.association_errors = 6;
+  planes.walls_true = 12;
+  planes.online = {.mapped = 14, .walls_mapped = 11, .walls_missing = 1, .duplicated = 2, .unmatched = 3};
+  planes.refined = {.mapped = 13,
+                    .walls_mapped = 12,
+                    .aligned = true,
+                    .angle_deg = ErrorSummary{13, 0.5, 0.75, 2},
+                    .offset_m = ErrorSummary{13, 0.25, 0.5, 1},
+                    .corner_m = ErrorSummary{20, 0.125, 0.25, 0.5},
+                    .extent_iou_mean = 0.75,
+                    .extent_iou_least = 0.5};
+  planes.position_m = ErrorSummary{80, 1, 2, 3};
   metrics.iteration_ms = TimeSummary{1, 2, 3, 4};
   metrics.iteration_cpu_ms = TimeSummary{5, 6, 7, 8};
   return metrics;
@@ -50,6 +65,15 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
       R"("position_refitted_pairs":3797,"position_final_m":1.5,)"
       R"("rotation_rmse_deg":{"first_pose":2.5,"aligned":3.5},)"
       R"("nees":{"landmarks":1.0000000000000002,"landmark_pairs":1,"poses":null,"pose_pairs":0},)"
+      R"("planes":{"observations":90,"associations_none":5,"association_errors":6,"walls_true":12,)"
+      R"("online":{"mapped":14,"walls_mapped":11,"walls_missing":1,"duplicated":2,"unmatched":3,)"
+      R"("aligned_by":"first_pose","angle_deg":null,"offset_m":null,"corner_m":null,)"
+      R"("extent_iou":{"mean":null,"least":null}},)"
+      R"("final":{"mapped":13,"walls_mapped":12,"walls_missing":0,"duplicated":0,"unmatched":0,)"
+      R"("aligned_by":"corners","angle_deg":{"count":13,"mean":0.5,"rms":0.75,"max":2.0},)"
+      R"("offset_m":{"count":13,"mean":0.25,"rms":0.5,"max":1.0},)"
+      R"("corner_m":{"count":20,"mean":0.125,"rms":0.25,"max":0.5},"extent_iou":{"mean":0.75,"least":0.5}},)"
+      R"("position_m":{"count":80,"mean":1.0,"rms":2.0,"max":3.0},"heading_deg":null},)"
       R"("iteration_ms":{"mean":1.0,"p50":2.0,"p99":3.0,"max":4.0},)"
       R"("iteration_cpu_ms":{"mean":5.0,"p50":6.0,"p99":7.0,"max":8.0}})");
 }
@@ -58,7 +82,7 @@ TEST(MetricsJson, WhatIsUnknownIsNull) {
   const auto document = to_json(Metrics{});
   for (const std::string key :
        {"association_errors", "landmarks_true", "landmarks_duplicated", "landmarks_missed",
-        "landmarks_unmatched", "moving", "position_final_m", "iteration_ms", "iteration_cpu_ms"}) {
+        "landmarks_unmatched", "moving", "position_final_m", "planes", "iteration_ms", "iteration_cpu_ms"}) {
     EXPECT_TRUE(document.at(key).is_null()) << key;
   }
   for (const std::string key : {"landmark_rmse_m", "position_rmse_m", "rotation_rmse_deg"}) {

@@ -247,6 +247,7 @@ def evaluate(run):
         "position_final_m": None,
         "rotation_rmse_deg": {"first_pose": None, "aligned": None},
         "nees": {"landmarks": None, "landmark_pairs": 0, "poses": None, "pose_pairs": 0},
+        "planes": None,
         "iteration_ms": summary([i["wall_ms"] for i in iterations if i["wall_ms"] is not None]),
         "iteration_cpu_ms": summary([i["cpu_ms"] for i in iterations if i["cpu_ms"] is not None]),
     }

@@ -45,7 +45,7 @@ std::vector<log::MapLandmark> map_with(LandmarkStatus of_1, LandmarkStatus of_3,
 }
 
 Evaluator moving_evaluator() {
-  return Evaluator(Truth{true, four_landmarks(), kSensorNoise_m});
+  return Evaluator(Truth{.has_identities = true, .landmarks = four_landmarks(), .noise_m = kSensorNoise_m});
 }
 
 constexpr auto kIsMapped = LandmarkStatus::kMapped;

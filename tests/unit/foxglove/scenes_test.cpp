@@ -48,7 +48,7 @@ TEST(FoxgloveScenes, BallsGrowWithTheExtent) {
 TEST(FoxgloveScenes, ASubmapJoinsItsMappedLandmarksToTheirMiddle) {
   const auto landmarks = landmarks_of_each_status();
   const std::vector<log::IdPair> members{{2, 8}, {1, 5}, {1, 6}, {2, 5}, {1, 99}};
-  const Entity entity = submap_stars(landmarks, members);
+  const Entity entity = submap_stars({.landmarks = landmarks, .submap_members = members});
   EXPECT_EQ(entity.frame, "map");
   ASSERT_EQ(entity.lines.size(), 2u);
   ASSERT_EQ(entity.lines[0].points.size(), 2u) << "6 is not mapped, 99 is not there";
@@ -60,6 +60,35 @@ TEST(FoxgloveScenes, ASubmapJoinsItsMappedLandmarksToTheirMiddle) {
   EXPECT_EQ(entity.lines[1].points[3], Vec3(1, 2, 3));
   EXPECT_EQ(entity.lines[1].kind, Line::Kind::kPairs);
   EXPECT_FALSE(same(entity.lines[0].colour, entity.lines[1].colour));
+}
+
+log::MappedPlane square(log::LandmarkId id, double x) {
+  return {.id = id,
+          .normal = {-1, 0, 0},
+          .offset_m = -x,
+          .outline = {{{x, 1, 0}, false}, {{x, -1, 0}, true}, {{x, -1, 2}, false}, {{x, 1, 2}, false}}};
+}
+
+TEST(FoxgloveScenes, CertainEdgesOfAMappedPlaneAreWider) {
+  const Entity entity = mapped_plane_outlines(std::vector{square(3, 5)});
+  EXPECT_EQ(entity.frame, "map");
+  ASSERT_EQ(entity.lines.size(), 2u);
+  EXPECT_EQ(entity.lines[0].points.size(), 6u);
+  ASSERT_EQ(entity.lines[1].points.size(), 2u);
+  EXPECT_EQ(entity.lines[1].points[0], Vec3(5, -1, 0));
+  EXPECT_EQ(entity.lines[1].points[1], Vec3(5, -1, 2));
+  EXPECT_GT(entity.lines[1].width_px, entity.lines[0].width_px);
+}
+
+TEST(FoxgloveScenes, ASubmapJoinsItsPlanesToItsOrigin) {
+  const Entity entity = submap_stars({.planes = {square(3, 5), square(4, 7)},
+                                      .submaps = {{.id = 9, .position_m = {0.5, 0, 0}}},
+                                      .submap_members = {{9, 3}, {9, 4}}});
+  ASSERT_EQ(entity.lines.size(), 1u);
+  ASSERT_EQ(entity.lines[0].points.size(), 4u);
+  EXPECT_EQ(entity.lines[0].points[0], Vec3(0.5, 0, 0));
+  EXPECT_EQ(entity.lines[0].points[1], Vec3(5, 0, 1));
+  EXPECT_EQ(entity.lines[0].points[3], Vec3(7, 0, 1));
 }
 
 }  // namespace

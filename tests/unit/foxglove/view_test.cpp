@@ -197,7 +197,7 @@ TEST(FoxgloveView, AllTimesAreThoseOfFrames) {
   log.view().add_log({HW_LOG_ERROR, "slam", "at a frame"});
   log.add_frame(8);
   log.view().add_picture("a.png", "bytes");
-  log.view().add_map(ViewLog::stamp(8), {}, {});
+  log.view().add_map(ViewLog::stamp(8), {});
   const auto topics = log.messages();
   const auto expect_stamp = [&](const Message& message, std::uint32_t iteration) {
     EXPECT_EQ(message.sequence, iteration);

@@ -51,6 +51,15 @@ void put_everything(OutputCollector& collector) {
   const hw_planes_t in_planes{
       sizeof in_planes, sizeof(hw_plane_t), 2, planes, 0, sizeof(hw_point3_t), 1, hull, 2, elements};
   put(collector, HW_OUTPUT_PLANES, &in_planes);
+  const hw_mapped_plane_t walls[]{{11, {0, 1, 0}, 2, 5, HW_LANDMARK_MAPPED, 0, 4},
+                                  {12, {0, 0, 1}, 0, 6, HW_LANDMARK_TEMPORARY, 4, 3}};
+  const hw_mapped_corner_t corners[]{{{1, 2, 0}, 0, 0}, {{0, 2, 0}, HW_EDGE_CERTAIN, 0},
+                                     {{0, 2, 1}, 0, 0}, {{1, 2, 1}, 0, 0},
+                                     {{0, 0, 0}, 0, 0}, {{1, 0, 0}, 0, 0},
+                                     {{1, 1, 0}, 0, 0}};
+  const hw_mapped_planes_t mapped{
+      sizeof mapped, sizeof(hw_mapped_plane_t), 2, walls, sizeof(hw_mapped_corner_t), 0, 7, corners};
+  put(collector, HW_OUTPUT_MAPPED_PLANES, &mapped);
   const std::uint64_t members[]{7, 9, 7};
   const hw_submap_t parts[]{{1, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 2}, {2, {{0, 0, 1}, {0, 0, 0, 1}}, 2, 1}};
   hw_submaps_t submaps{sizeof submaps, sizeof(hw_submap_t), 2, parts, 3, members};
@@ -112,6 +121,12 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   EXPECT_EQ(planes->planes[1].normal[1], 1);
   EXPECT_TRUE(std::ranges::equal(planes->members_of(planes->planes[1]), std::vector<std::uint32_t>{0, 2}));
   EXPECT_EQ(planes->hull_of(planes->planes[1]).size(), 1u);
+  const MappedPlaneList& mapped = outputs.mapped_planes();
+  ASSERT_EQ(mapped.planes().size(), 2u);
+  EXPECT_EQ(mapped.planes()[1].id, 12u);
+  ASSERT_EQ(mapped.outline(mapped.planes()[0]).size(), 4u);
+  EXPECT_EQ(mapped.outline(mapped.planes()[0])[1].flags, HW_EDGE_CERTAIN);
+  EXPECT_EQ(mapped.outline(mapped.planes()[1])[2].position[1], 1);
   ASSERT_EQ(outputs.submaps().size(), 2u);
   EXPECT_TRUE(std::ranges::equal(outputs.members(outputs.submaps()[1]), std::vector<std::uint64_t>{7}));
   EXPECT_EQ(outputs.counters()[1].name, "a_long_name_of_a_counter");
@@ -152,6 +167,11 @@ TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
         EXPECT_TRUE(std::isfinite(plane.offset_m));
         for (const std::uint32_t member : planes->members_of(plane)) EXPECT_LT(member, 3u);
       }
+    }
+    const MappedPlaneList& mapped = reader_.outputs().mapped_planes();
+    for (const hw_mapped_plane_t& plane : mapped.planes()) {
+      EXPECT_TRUE(std::isfinite(plane.offset_m));
+      EXPECT_GE(mapped.outline(plane).size(), 3u);
     }
     for (const hw_submap_t& submap : reader_.outputs().submaps()) {
       EXPECT_LE(reader_.outputs().members(submap).size(), 3u);

@@ -220,6 +220,100 @@ TEST(Outputs, MembersOfSeveralListsOfSubmapsAreKeptApart) {
   EXPECT_EQ(outputs.members(outputs.submaps()[1])[0], 11u);
 }
 
+/// A wall of 2 x 1 m at x = 3 whose right end is certain; its corners are the first four of a list.
+hw_mapped_plane_t wall(std::uint64_t id) {
+  return {id, {-1, 0, 0}, -3, 9, HW_LANDMARK_MAPPED, 0, 4};
+}
+
+std::vector<hw_mapped_corner_t> wall_corners() {
+  return {{{3, 1, 0}, 0, 0}, {{3, -1, 0}, HW_EDGE_CERTAIN, 0}, {{3, -1, 1}, 0, 0}, {{3, 1, 1}, 0, 0}};
+}
+
+hw_status_t put_mapped(OutputCollector& collector, const std::vector<hw_mapped_plane_t>& planes,
+                       const std::vector<hw_mapped_corner_t>& corners) {
+  hw_mapped_planes_t payload{};
+  payload.stride = sizeof(hw_mapped_plane_t);
+  payload.count = planes.size();
+  payload.planes = planes.data();
+  payload.corner_stride = sizeof(hw_mapped_corner_t);
+  payload.n_corners = corners.size();
+  payload.corners = corners.data();
+  return put(collector, HW_OUTPUT_MAPPED_PLANES, payload);
+}
+
+TEST(MappedPlanes, OutlinesOfSeveralListsAreKeptApart) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  hw_mapped_plane_t second = wall(8);
+  second.first_corner = 1;
+  std::vector<hw_mapped_corner_t> corners = wall_corners();
+  corners.insert(corners.begin(), corners.front());
+  EXPECT_EQ(put_mapped(collector, {wall(7)}, wall_corners()), HW_OK);
+  EXPECT_EQ(put_mapped(collector, {second}, corners), HW_OK);
+  EXPECT_EQ(collector.finish(), "");
+  const MappedPlaneList& mapped = collector.outputs().mapped_planes();
+  ASSERT_EQ(mapped.planes().size(), 2u);
+  for (const hw_mapped_plane_t& plane : mapped.planes()) {
+    ASSERT_EQ(mapped.outline(plane).size(), 4u);
+    EXPECT_EQ(mapped.outline(plane)[1].flags, HW_EDGE_CERTAIN) << plane.id;
+    EXPECT_EQ(mapped.outline(plane)[1].position[1], -1) << plane.id;
+  }
+  collector.begin(nullptr, {});
+  EXPECT_TRUE(collector.outputs().mapped_planes().planes().empty());
+}
+
+TEST(MappedPlanes, HaveIdsThatNoLandmarkHas) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  const hw_landmark_t landmark{7, {0, 0, 0}, 1, HW_LANDMARK_MAPPED};
+  hw_landmarks_t landmarks{};
+  landmarks.stride = sizeof landmark;
+  landmarks.count = 1;
+  landmarks.landmarks = &landmark;
+  EXPECT_EQ(put(collector, HW_OUTPUT_LANDMARKS, landmarks), HW_OK);
+  EXPECT_EQ(put_mapped(collector, {wall(7)}, wall_corners()), HW_OK);
+  EXPECT_NE(collector.finish().find("two of them have the id 7"), std::string::npos);
+}
+
+TEST(MappedPlanes, ThatAreNoneAreRefusedWithTheCause) {
+  struct Case {
+    const char* said;
+    void (*spoil)(hw_mapped_plane_t& plane, std::vector<hw_mapped_corner_t>& corners);
+  };
+  using Corners = std::vector<hw_mapped_corner_t>;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Case cases[] = {
+      {"an id that stands for no landmark", [](hw_mapped_plane_t& p, Corners&) { p.id = HW_NO_LANDMARK; }},
+      {"unknown status 3", [](hw_mapped_plane_t& p, Corners&) { p.status = 3; }},
+      {"a number that is not finite", [](hw_mapped_plane_t& p, Corners&) { p.offset_m = kNan; }},
+      {"a normal that is not of unit length", [](hw_mapped_plane_t& p, Corners&) { p.normal[0] = -1.1; }},
+      {"fewer than 3 corners", [](hw_mapped_plane_t& p, Corners&) { p.n_corners = 2; }},
+      {"corners beyond their list", [](hw_mapped_plane_t& p, Corners&) { p.n_corners = UINT64_MAX; }},
+      {"corners beyond their list", [](hw_mapped_plane_t& p, Corners&) { p.first_corner = 1; }},
+      {"a corner that is not finite", [](hw_mapped_plane_t&, Corners& c) { c[2].position[2] = kNan; }},
+      {"a corner that is not on it", [](hw_mapped_plane_t&, Corners& c) { c[2].position[0] = 3.1; }},
+      {"corners that run clockwise", [](hw_mapped_plane_t&, Corners& c) { std::swap(c[1], c[3]); }},
+  };
+  for (const Case& spoilt : cases) {
+    OutputCollector collector;
+    collector.begin(nullptr, {});
+    hw_mapped_plane_t plane = wall(7);
+    Corners corners = wall_corners();
+    spoilt.spoil(plane, corners);
+    EXPECT_EQ(put_mapped(collector, {plane}, corners), HW_ERROR_DATA) << spoilt.said;
+    const std::string problem = collector.finish();
+    EXPECT_NE(problem.find("mapped_planes: "), std::string::npos) << problem;
+    EXPECT_NE(problem.find(spoilt.said), std::string::npos) << problem;
+  }
+}
+
+TEST(MappedPlanes, DoNotShareCorners) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  EXPECT_EQ(put_mapped(collector, {wall(7), wall(8)}, wall_corners()), HW_ERROR_DATA);
+  EXPECT_NE(collector.finish().find("plane 8 has corners of the plane before it"), std::string::npos);
+}
+
 /// A frame of a reading of one point and one of three, known as samples 4 and 9.
 class Planes : public testing::Test {
  protected:

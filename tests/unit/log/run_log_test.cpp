@@ -54,7 +54,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   writer.add_frame({3, 10}, "bytes");
   writer.add_pose({3, 10}, pose);
   writer.add_pose({4, 20}, {});
-  writer.add_map({4, 20}, landmarks, members);
+  writer.add_map({4, 20}, {.landmarks = landmarks, .submap_members = members});
   writer.finish();
   const std::vector<AnswerMessage> answers = answers_of(out.text());
   ASSERT_EQ(answers.size(), 4u);
@@ -66,7 +66,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   EXPECT_EQ(valid.pose.orientation, pose.orientation);
   EXPECT_EQ(valid.pose.covariance, pose.covariance);
   EXPECT_FALSE(std::get<PoseMessage>(answers[2]).pose.valid);
-  const auto& map = std::get<MapMessage>(answers[3]);
+  const MapAnswer& map = std::get<MapMessage>(answers[3]).map;
   ASSERT_EQ(map.landmarks.size(), landmarks.size());
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     EXPECT_EQ(map.landmarks[i].id, landmarks[i].id);
@@ -80,6 +80,30 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
     EXPECT_EQ(map.submap_members[i].first, members[i].first);
     EXPECT_EQ(map.submap_members[i].second, members[i].second);
   }
+}
+
+TEST(RunLog, MappedPlanesAndSubmapsReadBackToTheSameBits) {
+  const MapAnswer map{
+      .planes = {{.id = 7,
+                  .observations = 12,
+                  .status = LandmarkStatus::kTemporary,
+                  .normal = {0.6, -0.8, 0},
+                  .offset_m = 1.0 / 3.0,
+                  .outline = {{{0, 0.1, 0}, true}, {{1, 2, 0}, false}, {{1, 2, 1e-300}, true}}}},
+      .submaps = {{.id = 4, .position_m = {0.1, 2, 3}, .orientation = {0, 1, 0, 0}},
+                  {.id = 5, .position_m = {1, 2, 3}}},
+      .submap_members = {{5, 7}, {6, 7}}};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  writer.add_map({4, 20}, map);
+  writer.finish();
+  const std::vector<AnswerMessage> answers = answers_of(out.text());
+  ASSERT_EQ(answers.size(), 1u);
+  const MapAnswer& read = std::get<MapMessage>(answers[0]).map;
+  EXPECT_EQ(read.planes, map.planes);
+  EXPECT_EQ(read.submaps, map.submaps);
+  ASSERT_EQ(read.submap_members.size(), 2u) << "also of a submap whose pose is not told";
+  EXPECT_EQ(read.submap_members[1].first, 6u);
 }
 
 TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {

@@ -12,9 +12,12 @@
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
+#include "log/mapped_planes.hpp"
 #include "log/planes.hpp"
+#include "log/pose_errors.hpp"
 #include "log/poses.hpp"
 #include "log/row_file.hpp"
+#include "log/submap_poses.hpp"
 #include "log/timing.hpp"
 #include "support/data.hpp"
 #include "support/errors.hpp"
@@ -77,6 +80,58 @@ TEST(Poses, MayBePositionsAlone) {
   EXPECT_FALSE(poses[0].orientation_known);
   EXPECT_TRUE(same(poses[0].position_m, {1, 2.5, -3}));
   EXPECT_EQ(print_poses(poses), text);
+}
+
+TEST(MappedPlanes, ReadBackToTheSameBits) {
+  const std::vector<double> values = test::random_doubles(40, 5);
+  std::vector<MappedPlane> planes(2);
+  std::size_t next = 0;
+  const auto three = [&] {
+    next += 3;
+    return std::array{values[next - 3], values[next - 2], values[next - 1]};
+  };
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i] = {.id = kNoLandmark - 1 - i,
+                 .observations = 7 + i,
+                 .status = i == 0 ? LandmarkStatus::kDynamic : LandmarkStatus::kMapped,
+                 .normal = three(),
+                 .offset_m = values[39 - i]};
+    for (std::size_t k = 0; k < 4 - i; ++k) planes[i].outline.push_back({three(), k == 1});
+  }
+  EXPECT_EQ(parse_mapped_planes(print_mapped_planes(planes), "mapped_planes.csv"), planes);
+}
+
+TEST(MappedPlanes, ArePrintedInTheDocumentedForm) {
+  const std::string text =
+      "plane_id,observations,status,nx,ny,nz,offset_m,corner,x,y,z,edge_certain\n"
+      "4,9,mapped,0,0,1,2,0,0,0,2,0\n4,9,mapped,0,0,1,2,1,1,0,2,1\n4,9,mapped,0,0,1,2,2,1,1,2,0\n";
+  EXPECT_EQ(print_mapped_planes(parse_mapped_planes(text, "mapped_planes.csv")), text);
+}
+
+TEST(MappedPlanes, AreRefusedWhereTheirCornersAreNotInARow) {
+  const std::string header = "plane_id,observations,status,nx,ny,nz,offset_m,corner,x,y,z,edge_certain\n";
+  const auto row = [](int plane, int corner) {
+    return std::to_string(plane) + ",9,mapped,0,0,1,2," + std::to_string(corner) + ",0,0,2,0\n";
+  };
+  const std::string whole = row(4, 0) + row(4, 1) + row(4, 2);
+  EXPECT_FALSE(error_of([&] { parse_mapped_planes(header + whole, "t"); }));
+  for (const std::string& rows :
+       {row(4, 1), row(4, 0) + row(4, 2), row(4, 0) + row(4, 1), whole + row(5, 3), whole + whole,
+        row(4, 0) + row(4, 1) + row(5, 0), whole + "5,9,gone,0,0,1,2,0,0,0,2,0\n"}) {
+    EXPECT_TRUE(error_of([&] { parse_mapped_planes(header + rows, "t"); })) << rows;
+  }
+}
+
+TEST(SubmapPoses, ReadBackToTheSameBits) {
+  const std::vector<SubmapPose> poses{{5, {0.1, -1e-300, 1.0 / 3.0}, {0.5, -0.5, 0.5, -0.5}}, {0, {1, 2, 3}}};
+  EXPECT_EQ(parse_submap_poses(print_submap_poses(poses), "submap_poses.csv"), poses);
+  EXPECT_TRUE(error_of(
+      [] { parse_submap_poses("submap_id,x,y,z,qw,qx,qy,qz\n1,0,0,0,2,0,0,0\n", "submap_poses.csv"); }));
+}
+
+TEST(PoseErrors, ArePrintedInTheDocumentedForm) {
+  EXPECT_EQ(print_pose_errors(std::vector<PoseErrorRow>{{3, 0.5, -0.25}}),
+            "iteration,position_m,heading_deg\n3,0.5,-0.25\n");
 }
 
 TEST(IdPairs, ReadBackToTheSameValues) {

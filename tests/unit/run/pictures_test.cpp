@@ -95,5 +95,71 @@ TEST(RunPicture, ASubmapIsLinkedToItsLandmarks) {
   EXPECT_EQ(links, 4u);
 }
 
+/// A room of 4 x 4 m of which three walls were mapped, `error_m` too far east, from one submap.
+Record room_record(double error_m) {
+  Record record;
+  record.run = {{"name", "room"}};
+  record.metrics = {{"iterations", 4}};
+  const double corners[4][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const auto &r = corners[i], &l = corners[(i + 1) % 4];
+    record.true_walls.push_back(
+        {.id = i, .corners_m = {{{l[0], l[1], 0}, {r[0], r[1], 0}, {r[0], r[1], 2}, {l[0], l[1], 2}}}});
+    if (i == 3) continue;
+    log::MappedPlane& plane = record.planes.emplace_back();
+    plane.id = 20 + i;
+    plane.normal = {i == 1 ? -1.0 : 0.0, i == 0 ? 1.0 : i == 2 ? -1.0 : 0.0, 0};
+    for (std::size_t k = 0; k < 4; ++k) {
+      plane.outline.push_back({record.true_walls.back().corners_m[k], k == 1});
+      plane.outline.back().position_m[0] += error_m;
+    }
+    record.matches.push_back({20 + i, i});
+    record.submaps.push_back({7, 20 + i});
+  }
+  record.submap_poses.push_back({.id = 7, .position_m = {1 + error_m, 1, 0}});
+  return record;
+}
+
+const render::Segments* segments_of(const render::Picture& picture, const std::string& label) {
+  for (const render::Segments& segments : picture.segments) {
+    if (segments.label == label) return &segments;
+  }
+  return nullptr;
+}
+
+TEST(RunPicture, MappedWallsLieOnTheTrueOnesWhereTheFitPutsThem) {
+  const render::Picture picture = compose_picture(room_record(0.5), everything());
+  ASSERT_NE(segments_of(picture, "true walls"), nullptr);
+  ASSERT_NE(segments_of(picture, "mapped walls"), nullptr);
+  EXPECT_EQ(segments_of(picture, "true walls")->pairs.size(), 16u);
+  ASSERT_EQ(segments_of(picture, "mapped walls")->pairs.size(), 12u);
+  for (const auto& edge : segments_of(picture, "mapped walls")->pairs) {
+    for (const Vec3& end : edge)
+      EXPECT_NEAR(std::abs(end.x() - 2.0), 2.0, 1e-9) << "a common shift is fitted away";
+  }
+  ASSERT_NE(markers_of(picture, "certain ends"), nullptr);
+  EXPECT_EQ(markers_of(picture, "certain ends")->positions.size(), 3u);
+}
+
+TEST(RunPicture, StarsLeadFromASubmapsOriginToItsWalls) {
+  const render::Picture picture = compose_picture(room_record(0.0), everything());
+  std::size_t stars = 0;
+  for (const render::Segments& segments : picture.segments) {
+    if (!segments.label.empty()) continue;
+    ++stars;
+    ASSERT_EQ(segments.pairs.size(), 3u);
+    for (const auto& ray : segments.pairs) EXPECT_NEAR((ray[0] - Vec3(1, 1, 0)).norm(), 0.0, 1e-9);
+  }
+  EXPECT_EQ(stars, 1u);
+}
+
+TEST(RunPicture, WithoutTheLayerThereAreNoMappedWalls) {
+  sim::PictureSpec spec;
+  spec.show = {sim::PictureLayer::kTruth};
+  const render::Picture picture = compose_picture(room_record(0.0), spec);
+  EXPECT_EQ(segments_of(picture, "mapped walls"), nullptr);
+  EXPECT_NE(segments_of(picture, "true walls"), nullptr);
+}
+
 }  // namespace
 }  // namespace hallway::run

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "eval/plane_score.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "eval/point_error.hpp"
+#include "geom/rigid_fit.hpp"
+
+namespace hallway::eval {
+namespace {
+
+using log::LandmarkStatus;
+using log::MappedPlane;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kLevel = 1e-3;  ///< largest z of the normal of an upright plane
+
+Vec3 vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// Errors of one kind, one after the other.
+class Errors {
+ public:
+  void add(double error) {
+    const double size = std::abs(error);
+    ++summary_.count;
+    sum_ += size;
+    squares_ += size * size;
+    summary_.max = std::max(summary_.max, size);
+  }
+  std::optional<ErrorSummary> summary() const {
+    if (summary_.count == 0) return std::nullopt;
+    ErrorSummary summary = summary_;
+    const auto n = static_cast<double>(summary.count);
+    summary.mean = sum_ / n;
+    summary.rms = std::sqrt(squares_ / n);
+    return summary;
+  }
+
+ private:
+  ErrorSummary summary_;
+  double sum_ = 0.0;
+  double squares_ = 0.0;
+};
+
+/// A line through a point in a direction, which is unit.
+struct Line {
+  Vec3 point = Vec3::Zero();
+  Vec3 direction = Vec3::Zero();
+
+  Vec3 nearest(const Vec3& p) const { return point + direction.dot(p - point) * direction; }
+};
+
+/// An end of a mapped plane that is said to be certain, by its middle, and the true end that it stands for.
+struct End {
+  Vec3 middle = Vec3::Zero();  ///< map frame
+  Line truth;                  ///< world
+  Vec3 true_middle = Vec3::Zero();
+};
+
+std::vector<End> certain_ends(const MappedPlane& plane, const std::vector<Vec3>& corners) {
+  std::vector<End> ends;
+  const std::size_t n = plane.outline.size();
+  if (n != corners.size()) return ends;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!plane.outline[i].edge_certain) continue;
+    const Vec3 &a = corners[i], &b = corners[(i + 1) % n];
+    const Vec3 middle =
+        0.5 * (vector_of(plane.outline[i].position_m) + vector_of(plane.outline[(i + 1) % n].position_m));
+    ends.push_back({middle, {a, (b - a).normalized()}, 0.5 * (a + b)});
+  }
+  return ends;
+}
+
+Vec3 middle_of(const MappedPlane& plane) {
+  Vec3 middle = Vec3::Zero();
+  for (const log::MappedCorner& corner : plane.outline)
+    middle += vector_of(corner.position_m) / static_cast<double>(plane.outline.size());
+  return middle;
+}
+
+double angle_deg(const Vec3& a, const Vec3& b) {
+  return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double iou(double from_a, double to_a, double from_b, double to_b) {
+  const double both = std::max(std::min(to_a, to_b) - std::max(from_a, from_b), 0.0);
+  const double either = (to_a - from_a) + (to_b - from_b) - both;
+  return either > 0.0 ? both / either : 0.0;
+}
+
+double heading_of(const Quat& q) {
+  const Vec3 forward = q * Vec3::UnitX();
+  return std::atan2(forward.y(), forward.x());
+}
+
+}  // namespace
+
+PlaneScore::PlaneScore(std::span<const log::TrueWall> walls) {
+  for (const log::TrueWall& wall : walls) {
+    Face face;
+    for (const auto& corner : wall.corners_m) face.corners.push_back(vector_of(corner));
+    const Vec3 along = face.corners[1] - face.corners[0];
+    face.length_m = along.norm();
+    if (!(face.length_m > 0.0)) continue;
+    face.along = along / face.length_m;
+    face.normal = face.along.cross(face.corners[3] - face.corners[0]).normalized();
+    face.from_m = face.length_m;
+    faces_.emplace(wall.id, std::move(face));
+  }
+}
+
+void PlaneScore::add(std::span<const GivenPlane> given, const std::optional<Pose>& T_world_body,
+                     std::span<const WallPlace> places) {
+  std::vector<log::LandmarkId> taken_for, walls;
+  for (const GivenPlane& plane : given) {
+    taken_for.push_back(plane.taken_for);
+    walls.push_back(plane.wall);
+  }
+  associations_.add(taken_for, walls);
+  if (!T_world_body) return;
+  std::map<log::LandmarkId, std::pair<double, double>> seen;
+  for (const WallPlace& place : places) {
+    const auto found = faces_.find(place.wall);
+    if (found == faces_.end()) continue;
+    const Face& face = found->second;
+    const double s =
+        std::clamp(face.along.dot(*T_world_body * place.place - face.corners[0]), 0.0, face.length_m);
+    const auto [entry, is_new] = seen.try_emplace(place.wall, s, s);
+    entry->second = {std::min(entry->second.first, s), std::max(entry->second.second, s)};
+  }
+  for (const auto& [wall, extent] : seen) {
+    Face& face = faces_.at(wall);
+    face.from_m = std::min(face.from_m, extent.first);
+    face.to_m = std::max(face.to_m, extent.second);
+    if (extent.second - extent.first >= kLeastLength_m) ++face.frames;
+  }
+}
+
+void PlaneScore::add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body) {
+  poses_.push_back({iteration, T_world_body, T_map_body});
+}
+
+std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const MappedPlane> map) const {
+  const AssociationScore::Ownership ownership = associations_.ownership();
+  std::vector<Pair> pairs;
+  for (const MappedPlane& plane : map) {
+    const auto owner = ownership.owner.find(plane.id);
+    if (plane.status != LandmarkStatus::kMapped || owner == ownership.owner.end()) continue;
+    if (const auto face = faces_.find(owner->second); face != faces_.end())
+      pairs.push_back({&plane, &face->second});
+  }
+  return pairs;
+}
+
+std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& by_corners) const {
+  bool level = true;
+  std::vector<Vec3> from, to;
+  for (const Pair& pair : pairs) {
+    level = level && std::abs(pair.plane->normal[2]) < kLevel && std::abs(pair.face->normal.z()) < kLevel;
+    for (const End& end : certain_ends(*pair.plane, pair.face->corners)) {
+      from.push_back(end.middle);
+      to.push_back(end.true_middle);
+    }
+  }
+  if (level) {
+    for (std::vector<Vec3>* points : {&from, &to}) {
+      for (Vec3& point : *points) point.z() = 0.0;
+    }
+  }
+  by_corners = determine_a_pose(from) && determine_a_pose(to);
+  if (by_corners) {
+    Pose T_world_map = *rigid_fit(from, to);
+    if (level && !poses_.empty())
+      T_world_map.t.z() = poses_.front().T_world_body.t.z() - poses_.front().T_map_body.t.z();
+    return T_world_map;
+  }
+  if (poses_.empty()) return std::nullopt;
+  return poses_.front().T_world_body * poses_.front().T_map_body.inverse();
+}
+
+std::optional<Pose> PlaneScore::alignment(std::span<const MappedPlane> map) const {
+  bool by_corners = false;
+  return alignment(pairs_of(map), by_corners);
+}
+
+void PlaneScore::count(std::span<const MappedPlane> map, PlaneMapMetrics& metrics) const {
+  const AssociationScore::Ownership ownership = associations_.ownership();
+  std::set<log::LandmarkId> owners;
+  for (const MappedPlane& plane : map) {
+    if (plane.status != LandmarkStatus::kMapped) continue;
+    ++metrics.mapped;
+    const auto owner = ownership.owner.find(plane.id);
+    if (owner == ownership.owner.end()) {
+      ++metrics.unmatched;
+    } else if (!owners.insert(owner->second).second) {
+      ++metrics.duplicated;
+    }
+  }
+  for (const auto& [wall, face] : faces_) {
+    if (is_asked_for(face)) ++(owners.contains(wall) ? metrics.walls_mapped : metrics.walls_missing);
+  }
+}
+
+PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
+  PlaneMapMetrics metrics;
+  count(map, metrics);
+  const std::vector<Pair> pairs = pairs_of(map);
+  const std::optional<Pose> T_world_map = alignment(pairs, metrics.aligned);
+  if (!T_world_map) return metrics;
+  Errors angles, offsets, corners;
+  double iou_sum = 0.0;
+  for (const auto& [plane, face] : pairs) {
+    angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
+    offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
+    for (const End& end : certain_ends(*plane, face->corners)) {
+      const Vec3 middle = *T_world_map * end.middle;
+      corners.add((middle - end.truth.nearest(middle)).norm());
+    }
+    double from = face->length_m * 1e9, to = -from;
+    for (const log::MappedCorner& corner : plane->outline) {
+      const double s = face->along.dot(*T_world_map * vector_of(corner.position_m) - face->corners[0]);
+      from = std::min(from, s);
+      to = std::max(to, s);
+    }
+    const double share = face->to_m > face->from_m ? iou(from, to, face->from_m, face->to_m) : 0.0;
+    iou_sum += share;
+    metrics.extent_iou_least = std::min(metrics.extent_iou_least.value_or(1.0), share);
+  }
+  metrics.angle_deg = angles.summary();
+  metrics.offset_m = offsets.summary();
+  metrics.corner_m = corners.summary();
+  if (!pairs.empty()) metrics.extent_iou_mean = iou_sum / static_cast<double>(pairs.size());
+  return metrics;
+}
+
+std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const MappedPlane> map) const {
+  std::vector<log::PoseErrorRow> errors;
+  const std::optional<Pose> T_world_map = alignment(map);
+  if (!T_world_map) return errors;
+  for (const TwoPoses& poses : poses_) {
+    const Pose placed = *T_world_map * poses.T_map_body;
+    const double turn = heading_of(placed.q) - heading_of(poses.T_world_body.q);
+    errors.push_back({poses.iteration, (placed.t - poses.T_world_body.t).norm(),
+                      kDegrees * std::remainder(turn, 2.0 * std::numbers::pi)});
+  }
+  return errors;
+}
+
+PlaneMetrics PlaneScore::metrics(std::span<const MappedPlane> online,
+                                 std::span<const MappedPlane> refined) const {
+  PlaneMetrics metrics;
+  metrics.observations = associations_.observations();
+  metrics.associations_none = associations_.none();
+  metrics.association_errors = associations_.ownership().errors;
+  for (const auto& [wall, face] : faces_) metrics.walls_true += is_asked_for(face) ? 1u : 0u;
+  metrics.online = score(online);
+  metrics.refined = score(refined);
+  Errors positions, headings;
+  for (const log::PoseErrorRow& error : pose_errors(online)) {
+    positions.add(error.position_m);
+    headings.add(error.heading_deg);
+  }
+  metrics.position_m = positions.summary();
+  metrics.heading_deg = headings.summary();
+  return metrics;
+}
+
+}  // namespace hallway::eval

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "eval/association_score.hpp"
+#include "eval/plane_metrics.hpp"
+#include "geom/pose.hpp"
+#include "log/mapped_planes.hpp"
+#include "log/pose_errors.hpp"
+#include "log/true_walls.hpp"
+
+namespace hallway::eval {
+
+/// A plane that a mapper was given.
+struct GivenPlane {
+  log::LandmarkId wall = log::kNoLandmark;       ///< the true wall that it is of
+  log::LandmarkId taken_for = log::kNoLandmark;  ///< the plane of the map that it was taken for
+};
+
+/// A place on a true wall that a sensor saw, body frame, with its noise.
+struct WallPlace {
+  log::LandmarkId wall = log::kNoLandmark;
+  Vec3 place = Vec3::Zero();
+};
+
+/// Scores maps of planes against the true walls; docs/metrics.md defines the numbers. Memory grows with the iterations, the walls and the different
+/// pairs (mapped plane, wall).
+class PlaneScore {
+ public:
+  /// Frames that a wall must have been seen in, with at least kLeastLength_m of it in each, to be asked for.
+  static constexpr std::uint32_t kLeastFrames = 20;
+  static constexpr double kLeastLength_m = 0.3;
+
+  /// @param walls  each id once, corners as TrueWall says
+  explicit PlaneScore(std::span<const log::TrueWall> walls);
+
+  /// Adds what a frame's mapper was given, and what was seen of walls where the true pose is known. O(1) each.
+  void add(std::span<const GivenPlane> given, const std::optional<Pose>& T_world_body,
+           std::span<const WallPlace> places);
+  /// Adds an iteration that has both poses.
+  void add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body);
+
+  /// @param online, refined  the maps after the last iteration and as re-solved, each id once
+  PlaneMetrics metrics(std::span<const log::MappedPlane> online,
+                       std::span<const log::MappedPlane> refined) const;
+
+  /// Which true wall's planes were taken for which plane of the map.
+  const AssociationScore& associations() const { return associations_; }
+
+  /// The errors of the poses, where the alignment of a map puts them; empty where it has none.
+  std::vector<log::PoseErrorRow> pose_errors(std::span<const log::MappedPlane> map) const;
+
+  /// How a map lies in the world: by the best fit of its certain ends to the true ones, if three of them not near one line are known, else by the
+  /// first pose. Where all its normals are level the fit leaves heights alone.
+  std::optional<Pose> alignment(std::span<const log::MappedPlane> map) const;
+
+ private:
+  struct Face {
+    std::vector<Vec3> corners;
+    Vec3 normal = Vec3::Zero();
+    Vec3 along = Vec3::Zero();  ///< unit, from the first corner to the second
+    double length_m = 0.0;
+    double from_m = 0.0,
+           to_m = 0.0;         ///< what was seen of it, along it from the first corner; to < from: nothing
+    std::uint32_t frames = 0;  ///< with enough of it
+  };
+  struct Pair {
+    const log::MappedPlane* plane;
+    const Face* face;
+  };
+  struct TwoPoses {
+    std::uint32_t iteration;
+    Pose T_world_body, T_map_body;
+  };
+
+  bool is_asked_for(const Face& face) const { return face.frames >= kLeastFrames; }
+  std::vector<Pair> pairs_of(std::span<const log::MappedPlane> map) const;
+  std::optional<Pose> alignment(const std::vector<Pair>& pairs, bool& by_corners) const;
+  PlaneMapMetrics score(std::span<const log::MappedPlane> map) const;
+  void count(std::span<const log::MappedPlane> map, PlaneMapMetrics& metrics) const;
+
+  std::map<log::LandmarkId, Face> faces_;
+  AssociationScore associations_;
+  std::vector<TwoPoses> poses_;
+};
+
+}  // namespace hallway::eval

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "log/id_pairs.hpp"
+#include "log/map_landmarks.hpp"
+#include "log/mapped_planes.hpp"
+#include "log/submap_poses.hpp"
+
+namespace hallway::log {
+
+/// The map that a pipeline put in report().
+struct MapAnswer {
+  std::vector<MapLandmark> landmarks{};
+  std::vector<MappedPlane> planes{};
+  std::vector<SubmapPose> submaps{};
+  std::vector<IdPair> submap_members{};  ///< submap, landmark or plane
+};
+
+}  // namespace hallway::log
