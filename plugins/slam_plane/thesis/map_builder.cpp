@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/map_builder.hpp"
+
+#include <algorithm>
+
+#include "slam_plane/thesis/resize.hpp"
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr double kMoved_m = 1e-4;  // a submap that moves less takes no others along
+
+std::optional<Pose2> by_anchors(const Submap& submap) {
+  std::vector<PlanePair> pairs;
+  for (const Anchor& anchor : submap.anchors) {
+    const Member* member = submap.find(anchor.track);
+    if (member != nullptr && member->reference.valid())
+      append_pairs(member->reference, anchor.reference, pairs);
+  }
+  const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
+  if (!alignment || !alignment->determined) return std::nullopt;
+  return alignment->T_to_from;
+}
+
+/// Grows `plane` by what another reference of it tells: ends that are known, else the larger size.
+void grow(Reference& plane, const Reference& other) {
+  const Vec2 direction = plane.place.direction;
+  Segment segment = plane.place.segment();
+  const Segment seen = other.place.segment();
+  for (int end = 0; end < 2; ++end) {
+    const int far = 1 - end;
+    if (plane.known[end]) continue;
+    const double sign = end == kEndA ? -1.0 : 1.0;
+    if (other.known[end]) {
+      segment.end[end] += direction * direction.dot(seen.end[end] - segment.end[end]);
+      plane.known[end] = true;
+    } else if (plane.known[far] && other.known[far] && other.place.size > segment.length()) {
+      segment.end[end] = segment.end[far] + sign * direction * other.place.size;
+    }
+  }
+  plane.place.middle = segment.middle();
+  plane.place.size = direction.dot(segment.end[kEndB] - segment.end[kEndA]);
+}
+
+}  // namespace
+
+Reference moved(const Pose2& T, const Reference& reference) {
+  Reference result = reference;
+  result.place.middle = T * reference.place.middle;
+  result.place.direction = T.rotate(reference.place.direction);
+  return result;
+}
+
+std::optional<Pose2> MapBuilder::link(const Submap& from, const Submap& to, int min_planes) {
+  std::vector<PlanePair> pairs;
+  int shared = 0;
+  for (const Member& member : from.members()) {
+    if (!member.reference.valid()) continue;
+    const Member* other = to.find(member.track);
+    if (other == nullptr || !other->reference.valid()) continue;
+    append_pairs(member.reference, other->reference, pairs);
+    ++shared;
+  }
+  if (shared < min_planes) return std::nullopt;
+  const std::optional<Alignment> alignment = align(pairs, Pose2{});
+  if (!alignment || !alignment->determined) return std::nullopt;
+  return alignment->T_to_from;
+}
+
+bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps, const TrackBook& tracks) const {
+  Submap& submap = submaps[index];
+  const Pose2 before = submap.T_map_submap;
+  const bool was = submap.placed;
+  std::optional<Pose2> T;
+  if (!submap.anchors.empty()) T = by_anchors(submap);
+  for (std::size_t i = 0; i < submap.links.size() && !T; ++i) {
+    const Submap& base = submaps[submap.links[i]];
+    if (submap.links[i] > index || !base.placed) continue;
+    const std::optional<Pose2> T_base = link(submap, base, 2);
+    if (T_base) T = base.T_map_submap * *T_base;
+  }
+  static_cast<void>(tracks);
+  if (!T) return false;
+  submap.T_map_submap = *T;
+  submap.placed = true;
+  return !was || (before.t - T->t).norm() > kMoved_m || (before.r - T->r).norm() > kMoved_m;
+}
+
+void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks) {
+  std::vector<Reference> seen;
+  for (const SubmapIndex index : tracks.submaps(track)) {
+    const Submap& submap = submaps[index];
+    if (!submap.placed) continue;
+    const Member* member = submap.find(track);
+    if (member != nullptr && member->reference.valid())
+      seen.push_back(moved(submap.T_map_submap, member->reference));
+  }
+  if (seen.empty()) return;
+  std::stable_sort(seen.begin(), seen.end(), [](const Reference& a, const Reference& b) {
+    const int ends_a = a.known[0] + a.known[1];
+    const int ends_b = b.known[0] + b.known[1];
+    return ends_a != ends_b ? ends_a > ends_b : a.shared > b.shared;
+  });
+  Reference plane = seen.front();
+  for (const Reference& other : seen) grow(plane, other);
+  if (planes_.size() <= track) planes_.resize(tracks.size());
+  if (!planes_[track].valid()) ++valid_;
+  planes_[track].reference = plane;
+}
+
+void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps,
+                       const TrackBook& tracks) {
+  std::vector<SubmapIndex> order(changed.begin(), changed.end());
+  std::sort(order.begin(), order.end());
+  std::vector<TrackId> touched;
+  for (const SubmapIndex index : order) {
+    place(index, submaps, tracks);
+    if (!submaps[index].placed) continue;
+    for (const Member& member : submaps[index].members()) touched.push_back(member.track);
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const TrackId track : touched) combine(track, submaps, tracks);
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "slam_plane/thesis/membership.hpp"
+#include "slam_plane/thesis/options.hpp"
+#include "slam_plane/thesis/pair_order.hpp"
+#include "slam_plane/thesis/reference.hpp"
+#include "slam_plane/thesis/track_book.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// A plane in a submap.
+struct Member {
+  TrackId track = 0;
+  Iteration joined = 0;
+  bool confirmed = false;   ///< compared over enough iterations (Rule 32)
+  Reference reference;      ///< in the submap's frame
+  Comparison comparison;    ///< with `parent`, that placed it; of the first member that of its first child
+  Comparison saved;         ///< the best one so far with `saved_parent` (Rule 36)
+  TrackId parent = 0;
+  TrackId saved_parent = 0;
+};
+
+/// A plane whose place in the map's frame is given: what aligns a submap that no other one places (Rules 4, 27).
+struct Anchor {
+  TrackId track = 0;
+  Reference reference;  ///< map's frame
+};
+
+/// Planes that were visible together, placed relative to each other by comparisons of pairs (thesis 4.3.2, 4.4.3.2).
+class Submap {
+ public:
+  Submap(std::uint64_t id, Iteration created) : id_(id), created_(created) {}
+
+  std::uint64_t id() const { return id_; }
+  Iteration created() const { return created_; }
+  const std::vector<Member>& members() const { return members_; }
+  const Member* find(TrackId track) const;
+  bool contains(TrackId track) const { return find(track) != nullptr; }
+  void add(TrackId track, Iteration now);
+
+  /// When all members were visible together (Rule 7).
+  Intervals common(const TrackBook& tracks) const;
+
+  /// Places the members relative to each other if one of them has a new sighting (thesis 4.5 ComputeXPoint). @returns whether it was done.
+  bool compute(PairComparer& comparer, const TrackBook& tracks, const Options& options, Iteration now);
+
+  /// Members that after long enough are still compared over too few iterations (Rules 31, 32); the others are confirmed.
+  std::optional<TrackId> too_short(const Options& options, Iteration now);
+
+  /// Takes a member as it is: it is not asked for again.
+  void confirm(TrackId track);
+
+  /// Rolls back to iteration k: members that joined later are no more, nor what was saved later. O(members).
+  void truncate(Iteration k);
+
+  Pose2 T_map_submap;              ///< defined when placed
+  bool placed = false;
+  std::vector<Anchor> anchors;     ///< if there are any they place it
+  Iteration anchored = -1;         ///< when they were set by a motion model
+  std::vector<SubmapIndex> links;  ///< of submaps that it is linked to; the first one it was made from
+  bool by_motion = false;          ///< made from a motion model: placed by where the robot was
+
+ private:
+  void reorder(PairComparer& comparer, const TrackBook& tracks, Iteration now);
+  void place_child(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
+                   const CompareOptions& options);
+  Comparison best_comparison(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
+                             const CompareOptions& options);
+
+  std::uint64_t id_;
+  Iteration created_;
+  std::vector<Member> members_;
+  std::vector<PairEdge> order_;
+  Iteration ordered_ = -1;      // when the order was chosen; -1: never
+  Iteration computed_to_ = -1;  // newest sighting that was taken in
+};
+
+}  // namespace hallway::slam_plane::thesis
