@@ -97,8 +97,8 @@ void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, cons
   }
   if (seen.empty()) return;
   std::stable_sort(seen.begin(), seen.end(), [](const Reference& a, const Reference& b) {
-    const int ends_a = a.known[0] + a.known[1];
-    const int ends_b = b.known[0] + b.known[1];
+    const int ends_a = int{a.known[0]} + int{a.known[1]};
+    const int ends_b = int{b.known[0]} + int{b.known[1]};
     return ends_a != ends_b ? ends_a > ends_b : a.shared > b.shared;
   });
   Reference plane = seen.front();

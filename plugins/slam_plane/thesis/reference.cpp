@@ -7,14 +7,6 @@
 #include "slam_plane/thesis/resize.hpp"
 
 namespace hallway::slam_plane::thesis {
-namespace {
-
-bool key_of(const Placement& place, int end) {
-  return place.key == (end == kEndA ? KeyPoint::left : KeyPoint::right);
-}
-
-}  // namespace
-
 void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]) {
   ends[0] = ends[1] = false;
   if (!comparison.has_keys()) return;
