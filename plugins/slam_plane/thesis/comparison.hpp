@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "slam_plane/thesis/pair_sums.hpp"
 #include "slam_plane/thesis/sighting.hpp"
 #include "slam_plane/thesis/track.hpp"
 #include "slam_plane/thesis/track_options.hpp"
@@ -33,6 +34,13 @@ struct Placement {
   Segment segment() const;
 };
 
+/// What is summed up of a pair on one interval.
+struct IntervalSummary {
+  Interval interval;
+  PairSums sums;      ///< of the iterations in which both were seen, with a credible size
+  TrackSize size[2];  ///< of both on the interval
+};
+
 /// Where plane b lies relative to plane a, from all iterations of one interval in which both were seen (thesis 4.3.4, 4.4.3.6). In a's frame: a lies along the x axis, its left end first,
 /// its estimated middle at the origin (Rule 3).
 struct Comparison {
@@ -55,6 +63,9 @@ struct Comparison {
   Placement placement(int which) const;
 };
 
+/// The same the other way round: a relative to b, in b's frame.
+Comparison inverse(const Comparison& comparison);
+
 /// Whether what one comparison was made from is better than another: larger planes, or alike and over more iterations (Rules 18, 36). One that is not valid is worse than any
 /// that is. Not a strict order where sizes are alike in a chain.
 bool better(const Comparison& a, const Comparison& b, const CompareOptions& options);
@@ -62,7 +73,16 @@ bool better(const Comparison& a, const Comparison& b, const CompareOptions& opti
 /// Intervals in which both planes were seen and neither turned from growing to shrinking or back (Rule 18), in the order of time. O(phases).
 Intervals comparable_intervals(const Track& a, const Track& b);
 
-/// Compares two tracks on the best interval, from the sightings themselves. The oracle of PairComparer::compare, which gives the same bits. O(n log n) in what is kept.
+/// Of several intervals the one to compare on: where both planes are largest; of those that are alike in that, the one with the most iterations (Rule 18), the latest one
+/// of several. Null if there is none.
+const IntervalSummary* best_summary(std::span<const IntervalSummary> summaries,
+                                    const CompareOptions& options);
+
+/// The comparison that a summary gives: rotation, then offset and key points from the combination of ends with the least deviation (Rules 3, 13, 14, 15). O(1).
+Comparison evaluate(const IntervalSummary& summary, const CompareOptions& options);
+
+/// Compares two tracks on the best interval, from the sightings themselves. The oracle of PairComparer::compare, which gives the same bits. The plane with the
+/// smaller id is the one along x while summing; the result is turned round if that is b. O(n log n) in what is kept.
 Comparison compare_uncached(const Track& a, const Track& b, const CompareOptions& options);
 
 /// The same on a given interval, whatever happened in it (Rule 19).

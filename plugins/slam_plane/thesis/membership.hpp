@@ -19,7 +19,7 @@ bool fits(const Intervals& common, const Track& candidate, int min_interval);
 Iteration shrinkage(const Intervals& common, const Track& candidate);
 
 /// Which members link a submap to a new one that `newcomer` causes: up to `count` indices of members that were visible at a time with it, those first that came
-/// into view last (Rule 9), the nearer of two that came together. Fewer if there are fewer (Rule 8 wants two).
+/// into view last (Rule 9); of two that came together the one seen with it for longer. Fewer if there are fewer (Rule 8 wants two).
 std::vector<int> linking_members(std::span<const Track* const> members, const Track& newcomer, int count);
 
 /// What is to be thought of a member (Rules 31, 32).

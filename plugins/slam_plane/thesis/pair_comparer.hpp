@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <list>
 #include <map>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "slam_plane/thesis/comparison.hpp"
 #include "slam_plane/thesis/pair_statistics.hpp"
@@ -55,6 +57,7 @@ class PairComparer {
   std::size_t max_pairs_;
   std::list<Entry> entries_;  // the one used last first
   std::map<Key, std::list<Entry>::iterator> by_key_;
+  std::vector<IntervalSummary> candidates_;  // of the comparison in hand
   CompareCounters counters_;
 };
 

@@ -18,14 +18,8 @@ struct PairEdge {
   bool operator==(const PairEdge&) const = default;
 };
 
-/// A pair that may be compared, and what it is worth: how many iterations, less if the planes are parallel.
-struct WeightedPair {
-  int a = 0;
-  int b = 0;
-  double weight = 0.0;  ///< pairs that are worth nothing are not used
-};
-
-/// Weight of a pair: the iterations it was compared over; for parallel planes 0.95 of that, so that others are preferred; 0 without key points (Rules 15, 30).
+/// Weight of a pair: the iterations it was compared over; for parallel planes 0.95 of that, so that others are preferred; without key points next to nothing, so that it is
+/// used only where nothing else connects a member (Rules 15, 30); 0 if it is not valid.
 double pair_weight(const Comparison& comparison);
 
 /// The order of comparisons of a submap with n members: a spanning tree with the greatest sum of weights (Rule 30), rooted in member 0, each parent before its children. A pair's weight is asked
@@ -38,8 +32,7 @@ std::vector<PairEdge> maximum_spanning_tree(int n, const std::function<double(in
 /// Exact; O(n log n). It is the first order of a submap's comparisons, before anything is compared.
 std::vector<PairEdge> interval_spanning_tree(std::span<const Interval> visible);
 
-/// Rule 30 for the members of a submap: maximum_spanning_tree with pair_weight. A member that only pairs without key points connect comes last, by
-/// those. The comparisons that were made are kept by the comparer.
+/// Rule 30 for the members of a submap: maximum_spanning_tree with pair_weight. The comparisons that were made are kept by the comparer.
 std::vector<PairEdge> order_comparisons(PairComparer& comparer, std::span<const Track* const> members);
 
 /// Compares along the edges and chains the results (Rules 2, 28): each member in the frame of member 0, not valid where it could not be placed.

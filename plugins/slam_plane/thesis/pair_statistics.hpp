@@ -2,21 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <vector>
 
+#include "slam_plane/thesis/comparison.hpp"
 #include "slam_plane/thesis/pair_sums.hpp"
 #include "slam_plane/thesis/ring_buffer.hpp"
 #include "slam_plane/thesis/track.hpp"
 
 namespace hallway::slam_plane::thesis {
-
-/// What is known of a pair on one interval.
-struct IntervalSummary {
-  Interval interval;
-  int shared = 0;  ///< sightings that take part
-  TrackSize size[2];
-};
 
 /// Running sums of one pair of tracks. Of every eighth shared sighting it keeps what all up to there add up to; so the sums on any interval come from two of those and at most
 /// fourteen sightings, wherever the interval is split later, and a roll back only drops the newest.
@@ -33,7 +26,7 @@ class PairStatistics {
   /// Sums over the shared sightings of an interval. O(log n).
   PairSums sums(const Track& a, const Track& b, const Interval& interval) const;
 
-  /// Sizes and count on an interval; remembered until that changes.
+  /// Sums and sizes on an interval, less what is too long to be true (Rule 20); remembered until the interval changes. Valid until the next call of anything but sums(). O(log n), and Track::largest.
   const IntervalSummary& summary(const Track& a, const Track& b, const Interval& interval,
                                  const CompareOptions& options);
 
@@ -44,13 +37,13 @@ class PairStatistics {
   };
 
   std::size_t first_checkpoint(Iteration k) const;
+  static void exclude_outliers(const Track& a, const Track& b, IntervalSummary& summary);
 
   RingBuffer<Checkpoint> checkpoints_;
-  PairSums total_;
-  Iteration updated_to_;
-  Iteration last_shared_;
+  PairSums total_;        // of all shared sightings up to updated_to_
+  Iteration updated_to_;  // all that was shared up to it is in
   int since_checkpoint_ = 0;
-  std::vector<IntervalSummary> summaries_;  // in the order of time
+  std::vector<IntervalSummary> summaries_;  // by the interval's first iteration, one for each
 };
 
 }  // namespace hallway::slam_plane::thesis

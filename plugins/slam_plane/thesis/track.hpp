@@ -44,6 +44,8 @@ class Track {
 
   std::size_t size() const { return sightings_.size(); }
   bool empty() const { return sightings_.empty(); }
+  /// Sightings kept at most.
+  std::size_t capacity() const { return sightings_.capacity(); }
   /// All sightings ever pushed, less those truncated.
   std::int64_t pushed() const { return pushed_; }
   /// The i-th that is kept, the oldest first.
@@ -77,11 +79,11 @@ class Track {
     Iteration run_first = 0;  // where the interval without a gap began
   };
 
-  void start_phase(Iteration first, Iteration known_since);
   void watch_trend();
+  void split(Iteration end);
   void index_newest();
+  void truncate_index();
   void drop_oldest();
-  LargestLengths block_of(std::int64_t block) const;
 
   TrackId id_;
   TrackOptions options_;
@@ -100,8 +102,14 @@ struct TrackSize {
   double size = 0.0;  ///< [m]; 0 if nothing was seen in the interval
   int outliers = 0;
   std::array<Iteration, LargestLengths::kKept> outlier{};  ///< the first `outliers` are set
+
+  bool excludes(Iteration k) const;
 };
 
+/// From the largest lengths of the sightings in question.
+TrackSize backed_size(const LargestLengths& largest, const CompareOptions& options);
+
+/// Of a track's sightings in an interval. Complexity as Track::largest.
 TrackSize size_in(const Track& track, const Interval& interval, const CompareOptions& options);
 
 }  // namespace hallway::slam_plane::thesis
