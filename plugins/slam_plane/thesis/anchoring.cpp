@@ -49,7 +49,8 @@ std::uint64_t anchor_after_motion(const Pose2& T_map_robot, const Options& optio
     Submap& submap = state.submaps[index];
     std::vector<PlanePair> pairs;
     for (const Member& member : submap.members()) {
-      if (!member.reference.valid() || !std::binary_search(state.seen.begin(), state.seen.end(), member.track))
+      if (!member.reference.valid() ||
+          !std::binary_search(state.seen.begin(), state.seen.end(), member.track))
         continue;
       append_pairs(member.reference, state.locator.seen(state.tracks[member.track], state.now), pairs);
     }

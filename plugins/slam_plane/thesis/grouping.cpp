@@ -8,9 +8,9 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kFirstReadings = 3;        // of the planes of the very first submap
-constexpr int kForgetAfter = 50;         // iterations for which an unassigned track is kept out of view
-constexpr int kLeastLinks = 2;           // Rule 8
+constexpr int kFirstReadings = 3;         // of the planes of the very first submap
+constexpr int kForgetAfter = 50;          // iterations for which an unassigned track is kept out of view
+constexpr int kLeastLinks = 2;            // Rule 8
 constexpr std::size_t kLookThrough = 64;  // submaps that are looked through for a link
 
 void join(TrackId track, SubmapIndex submap, State& state) {

@@ -28,9 +28,9 @@ class Hints {
 
   /// Whether a track may join a submap that there is.
   bool may_join(TrackId track, SubmapIndex submap) const {
-    return count(track) < 2 &&
-           std::none_of(hints_.begin(), hints_.end(),
-                        [&](const Hint& hint) { return hint.track == track && hint.submap == submap; });
+    return count(track) < 2 && std::none_of(hints_.begin(), hints_.end(), [&](const Hint& hint) {
+             return hint.track == track && hint.submap == submap;
+           });
   }
 
   /// Whether a track may cause a new submap; after three hints it is left out of the map.

@@ -11,15 +11,9 @@ void Locator::note(TrackId track, const bool (&ends)[2], Iteration now) {
 }
 
 void Locator::note(const Submap& submap, Iteration now) {
-  const std::vector<Member>& members = submap.members();
-  for (std::size_t i = 1; i < members.size(); ++i) {
-    const Comparison& comparison = members[i].comparison;
-    if (!comparison.has_keys() || comparison.interval.last < now) continue;
-    bool ends[2];
-    static_ends(comparison, 0, options_.compare(), ends);
-    note(members[i].parent, ends, now);
-    static_ends(comparison, 1, options_.compare(), ends);
-    note(members[i].track, ends, now);
+  for (const Member& member : submap.members()) {
+    if (member.still_parent[0] || member.still_parent[1]) note(member.parent, member.still_parent, now);
+    if (member.still[0] || member.still[1]) note(member.track, member.still, now);
   }
 }
 
@@ -37,29 +31,27 @@ Reference Locator::seen(const Track& track, Iteration now) const {
 }
 
 void Locator::recalculate(TrackId id, std::span<const TrackId> tracks_now, const TrackBook& tracks,
-                          PairComparer& comparer, Iteration now) {
-  const Phase* phase = tracks[id].phase_at(now);
-  if (phase == nullptr) return;
-  std::vector<const Track*> others;
+                          StaticPairs& pairs, Iteration now) {
   for (const TrackId other : tracks_now) {
-    if (other != id) others.push_back(&tracks[other]);
+    if (other == id) continue;
+    const PairHistory& history = pairs.update(tracks[id], tracks[other]);
+    if (history.since < 0 || history.updated != now) continue;
+    note(id, history.still[other < id ? 1 : 0], now);
+    return;
   }
-  const KeyPoint key = recalculated_key(comparer, tracks[id], phase->interval, others);
-  const bool ends[2] = {key == KeyPoint::left, key == KeyPoint::right};
-  note(id, ends, now);
 }
 
 std::optional<Alignment> Locator::locate(std::span<const TrackId> tracks_now, const TrackBook& tracks,
-                                         const MapBuilder& map, PairComparer& comparer, Iteration now,
+                                         const MapBuilder& map, StaticPairs& pairs, Iteration now,
                                          const Pose2& guess) {
-  std::vector<PlanePair> pairs;
+  std::vector<PlanePair> evidence;
   for (const TrackId id : tracks_now) {
     const MappedPlane* plane = map.find(id);
     if (plane == nullptr) continue;
-    if (id >= static_.size() || static_[id].at != now) recalculate(id, tracks_now, tracks, comparer, now);
-    append_pairs(seen(tracks[id], now), plane->reference, pairs);
+    if (id >= static_.size() || static_[id].at != now) recalculate(id, tracks_now, tracks, pairs, now);
+    append_pairs(seen(tracks[id], now), plane->reference, evidence);
   }
-  return align(pairs, guess);
+  return align(evidence, guess);
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -26,8 +26,9 @@ class Locator {
 
   /// The robot's pose from the tracks that are seen now. An end that no submap tells of is looked for in comparisons with the others
   /// (Rule 19). `guess` tells what they leave open. Nothing if none is in the map.
-  std::optional<Alignment> locate(std::span<const TrackId> tracks_now, const TrackBook& tracks, const MapBuilder& map,
-                                  PairComparer& comparer, Iteration now, const Pose2& guess);
+  std::optional<Alignment> locate(std::span<const TrackId> tracks_now, const TrackBook& tracks,
+                                  const MapBuilder& map, StaticPairs& pairs, Iteration now,
+                                  const Pose2& guess);
 
   void clear() { static_.clear(); }
 
@@ -37,8 +38,8 @@ class Locator {
     bool end[2] = {false, false};
   };
 
-  void recalculate(TrackId id, std::span<const TrackId> tracks_now, const TrackBook& tracks, PairComparer& comparer,
-                   Iteration now);
+  void recalculate(TrackId id, std::span<const TrackId> tracks_now, const TrackBook& tracks,
+                   StaticPairs& pairs, Iteration now);
 
   Options options_;
   std::vector<StaticEnds> static_;  // by track

@@ -46,7 +46,8 @@ void chart(State& state) {
 /// Tracks seen in the last few iterations.
 void keep_recent(const Options& options, State& state) {
   std::erase_if(state.recent, [&](TrackId id) {
-    return state.tracks[id].empty() || state.tracks[id].newest().iteration + options.recent_iterations < state.now;
+    return state.tracks[id].empty() ||
+           state.tracks[id].newest().iteration + options.recent_iterations < state.now;
   });
   std::vector<TrackId> all;
   std::set_union(state.recent.begin(), state.recent.end(), state.seen.begin(), state.seen.end(),
@@ -60,8 +61,8 @@ void hand_over(TrackId from, TrackId to, State& state) {
   const Track& young = state.tracks[from];
   const Iteration last = track.empty() ? -1 : track.newest().iteration;
   for (std::size_t i = young.lower_bound(last + 1); i < young.size(); ++i) track.push(young[i]);
-  state.comparer.forget(to);
-  state.comparer.forget(from);
+  state.pairs.forget(to);
+  state.pairs.forget(from);
   state.tracks[from].truncate(-1);
   std::replace(state.recent.begin(), state.recent.end(), from, to);
   std::sort(state.recent.begin(), state.recent.end());

@@ -44,6 +44,10 @@ Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interv
   return evaluate(statistics(a, b).summary(a, b, interval, options_), options_);
 }
 
+PairSums PairComparer::sums_in(const Track& a, const Track& b, const Interval& interval) {
+  return statistics(a, b).sums(a, b, interval);
+}
+
 void PairComparer::truncate(Iteration k) {
   for (Entry& entry : entries_) entry.statistics.truncate(k);
 }

@@ -35,6 +35,9 @@ class PairComparer {
   /// The same on a given interval (Rule 19).
   Comparison compare_in(const Track& a, const Track& b, const Interval& interval);
 
+  /// What the shared sightings of an interval add up to, whatever their sizes; a's name before b's. O(log n).
+  PairSums sums_in(const Track& a, const Track& b, const Interval& interval);
+
   /// Rolls back: to be called with Track::truncate of all tracks, before anything is compared again. O(pairs + forgotten).
   void truncate(Iteration k);
 

@@ -59,4 +59,23 @@ void append_pairs(const Reference& from, const Reference& to, std::vector<PlaneP
   pairs.push_back(pair);
 }
 
+void grow(Reference& plane, const Reference& other) {
+  const Vec2 direction = plane.place.direction;
+  Segment segment = plane.place.segment();
+  const Segment seen = other.place.segment();
+  for (int end = 0; end < 2; ++end) {
+    const int far = 1 - end;
+    if (plane.known[end]) continue;
+    const double sign = end == kEndA ? -1.0 : 1.0;
+    if (other.known[end]) {
+      segment.end[end] += direction * direction.dot(seen.end[end] - segment.end[end]);
+      plane.known[end] = true;
+    } else if (plane.known[far] && other.known[far] && other.place.size > segment.length()) {
+      segment.end[end] = segment.end[far] + sign * direction * other.place.size;
+    }
+  }
+  plane.place.middle = segment.middle();
+  plane.place.size = direction.dot(segment.end[kEndB] - segment.end[kEndA]);
+}
+
 }  // namespace hallway::slam_plane::thesis

@@ -26,6 +26,9 @@ Reference reference_of(const Comparison& comparison, int which, const CompareOpt
 /// Places plane b of a comparison in the frame of `base`, which holds plane a. Not valid if the two tell of no common end of a.
 Reference chained(Reference& base, const Comparison& comparison, const CompareOptions& options);
 
+/// Grows a plane by what another reference of it in the same frame tells: ends that it knows, else a larger size.
+void grow(Reference& plane, const Reference& other);
+
 /// One plane's references in two frames as evidence of how the frames lie to each other (Rule 17). Appends one pair for each end that both know, else one for the line alone.
 void append_pairs(const Reference& from, const Reference& to, std::vector<PlanePair>& pairs);
 

@@ -59,7 +59,7 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   const Iteration k = record.iteration;
   state.now = k;
   state.tracks.truncate(k);
-  state.comparer.truncate(k);
+  state.pairs.truncate(k);
   forget_submaps(k, state);
   state.carried = *record.after;
   state.recent = record.recent;
@@ -72,7 +72,7 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   state.map.clear();
   std::vector<SubmapIndex> all(state.submaps.size());
   std::iota(all.begin(), all.end(), SubmapIndex{0});
-  for (Submap& submap : state.submaps) submap.compute(state.comparer, state.tracks, options, k);
+  for (Submap& submap : state.submaps) submap.compute(state.pairs, state.tracks, options, k);
   state.map.build(all, state.submaps, state.tracks);
 }
 

@@ -28,7 +28,9 @@ class History {
   /// Whether the state after iteration k can be had again.
   bool reaches(Iteration k) const;
   /// The record of an iteration that is kept.
-  const Record& at(Iteration k) const { return records_[static_cast<std::size_t>(k - records_.front().iteration)]; }
+  const Record& at(Iteration k) const {
+    return records_[static_cast<std::size_t>(k - records_.front().iteration)];
+  }
   /// Takes the records after k out, in the order of time.
   std::vector<Record> take_after(Iteration k);
   void clear() { records_.clear(); }

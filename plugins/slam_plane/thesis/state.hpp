@@ -30,35 +30,37 @@ struct Carried {
   std::vector<Unassigned> unassigned;
   SubmapIndex current = kNoSubmap;  ///< the current submap (Rule 22)
   MotionModel motion;
-  bool located = false;             ///< the last iteration had a pose
-  bool after_motion = false;        ///< a motion model was on and no old submap was met since (Rules 29, 37)
+  bool located = false;       ///< the last iteration had a pose
+  bool after_motion = false;  ///< a motion model was on and no old submap was met since (Rules 29, 37)
 };
 
 /// All that the steps of an iteration work on.
 struct State {
   explicit State(const Options& options)
       : tracks(options.track()),
-        comparer(options.compare()),
+        pairs(options.compare()),
         map(options),
         locator(options),
-        carried{{}, kNoSubmap, MotionModel(options.motion_after, options.motion_parallel_deg), false, false} {}
+        carried{{}, kNoSubmap, MotionModel(options.motion_after, options.motion_parallel_deg), false, false} {
+  }
 
   Iteration now = -1;
   Iteration start = -1;  ///< iteration with the first piece; its robot frame is the map's
   TrackBook tracks;
   std::vector<Submap> submaps;
-  PairComparer comparer;
+  StaticPairs pairs;
   MapBuilder map;
   Locator locator;
   Hints hints;
   Carried carried;
 
-  std::vector<Match> matches;              ///< of this iteration
-  std::vector<TrackId> seen;               ///< tracks of this iteration, ascending
-  std::vector<TrackId> recent;              ///< tracks of the last few iterations, ascending
-  std::vector<SubmapIndex> unanchored;        ///< begun by a motion model and not placed yet
-  std::vector<TrackId> met_again;          ///< tracks that were found in the map in this iteration (Rule 11)
-  std::vector<std::pair<SubmapIndex, int>> chart;  ///< how many seen tracks each submap has, ascending (Rule 22)
+  std::vector<Match> matches;           ///< of this iteration
+  std::vector<TrackId> seen;            ///< tracks of this iteration, ascending
+  std::vector<TrackId> recent;          ///< tracks of the last few iterations, ascending
+  std::vector<SubmapIndex> unanchored;  ///< begun by a motion model and not placed yet
+  std::vector<TrackId> met_again;       ///< tracks that were found in the map in this iteration (Rule 11)
+  std::vector<std::pair<SubmapIndex, int>>
+      chart;  ///< how many seen tracks each submap has, ascending (Rule 22)
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/thesis/submap.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 namespace hallway::slam_plane::thesis {
@@ -33,49 +34,78 @@ Intervals Submap::common(const TrackBook& tracks) const {
   return common_intervals(tracks_of(members_, tracks));
 }
 
-bool Submap::compute(PairComparer& comparer, const TrackBook& tracks, const Options& options, Iteration now) {
+bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options& options, Iteration now) {
   Iteration newest = -1;
   for (const Member& member : members_) newest = std::max(newest, tracks[member.track].newest().iteration);
   if (newest <= computed_to_) return false;
   computed_to_ = newest;
-  if (ordered_ < 0 || now - ordered_ >= options.reorder_every) reorder(comparer, tracks, now);
-  for (Member& member : members_) member.reference = {};
-  const CompareOptions& compare = comparer.options();
-  for (const PairEdge& edge : order_) place_child(edge, comparer, tracks, compare);
+  if (ordered_ < 0 || now - ordered_ >= options.reorder_every) reorder(pairs, tracks, now);
+  for (Member& member : members_) {
+    member.reference = {};
+    for (int end = 0; end < 2; ++end) member.still[end] = member.still_parent[end] = false;
+  }
+  for (const PairEdge& edge : order_) place_child(edge, pairs, tracks, now);
   return true;
 }
 
-void Submap::reorder(PairComparer& comparer, const TrackBook& tracks, Iteration now) {
-  order_ = order_comparisons(comparer, tracks_of(members_, tracks));
+void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
+  const auto n = static_cast<int>(members_.size());
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(n, n);
+  for (int a = 0; a < n; ++a) {
+    for (int b = a + 1; b < n; ++b) {
+      const Track& in_a = tracks[members_[static_cast<std::size_t>(a)].track];
+      const Track& in_b = tracks[members_[static_cast<std::size_t>(b)].track];
+      weights(a, b) = weights(b, a) = pairs.update(in_a, in_b).shared();
+    }
+  }
+  int root = 0;
+  for (int a = 1; a < n; ++a) {
+    if (weights.row(a).sum() > weights.row(root).sum()) root = a;
+  }
+  const auto from_root = [root](int i) { return i == 0 ? root : i == root ? 0 : i; };
+  const auto weight = [&](int a, int b) { return weights(from_root(a), from_root(b)); };
+  order_ = maximum_spanning_tree(n, weight, weight);
+  for (PairEdge& edge : order_) edge = {from_root(edge.parent), from_root(edge.child)};
   ordered_ = now;
 }
 
-Comparison Submap::best_comparison(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
-                                   const CompareOptions& options) {
-  Member& child = members_[static_cast<std::size_t>(edge.child)];
-  const TrackId parent = members_[static_cast<std::size_t>(edge.parent)].track;
-  const Comparison now = comparer.compare(tracks[parent], tracks[child.track]);
-  child.parent = parent;
-  const bool same = child.saved.valid && child.saved_parent == parent;
-  if (same && !better(now, child.saved, options)) return child.saved;
-  if (now.valid) {
-    child.saved = now;
-    child.saved_parent = parent;
-  }
-  return now;
-}
-
-void Submap::place_child(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
-                         const CompareOptions& options) {
+void Submap::place_child(const PairEdge& edge, StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
   Member& child = members_[static_cast<std::size_t>(edge.child)];
   Member& parent = members_[static_cast<std::size_t>(edge.parent)];
-  child.comparison = best_comparison(edge, comparer, tracks, options);
-  if (!child.comparison.has_keys()) return;
-  if (edge.parent == 0 && !parent.reference.valid()) {
-    parent.reference = reference_of(child.comparison, 0, options);
-    parent.comparison = child.comparison;
+  const Track& child_track = tracks[child.track];
+  const Track& parent_track = tracks[parent.track];
+  const PairHistory& history = pairs.update(parent_track, child_track);
+  const CompareOptions& options = pairs.comparer().options();
+  child.parent = parent.track;
+  place_by(history, parent_track, child_track, parent, child, edge.parent == order_.front().parent, options);
+  if (history.since < 0 || history.updated != now) return;
+  const bool swapped = child.track < parent.track;
+  for (int end = 0; end < 2; ++end) {
+    child.still_parent[end] = history.still[swapped ? 1 : 0][end];
+    child.still[end] = history.still[swapped ? 0 : 1][end];
   }
-  if (parent.reference.valid()) child.reference = chained(parent.reference, child.comparison, options);
+}
+
+void Submap::place_by(const PairHistory& history, const Track& parent_track, const Track& child_track,
+                      Member& parent, Member& child, bool is_root,
+                      const CompareOptions& options) {
+  child.comparison = {};
+  for (const Comparison& saved : history.saved) {
+    const Comparison comparison = StaticPairs::oriented(saved, parent_track, child_track);
+    if (!child.comparison.valid) child.comparison = comparison;
+    if (is_root && !parent.reference.valid()) {
+      parent.reference = reference_of(comparison, 0, options);
+      parent.comparison = comparison;
+    }
+    if (!parent.reference.valid()) return;
+    const Reference seen = chained(parent.reference, comparison, options);
+    if (!seen.valid()) continue;
+    if (child.reference.valid()) {
+      grow(child.reference, seen);
+    } else {
+      child.reference = seen;
+    }
+  }
 }
 
 std::optional<TrackId> Submap::too_short(const Options& options, Iteration now) {
@@ -94,9 +124,6 @@ void Submap::confirm(TrackId track) {
 
 void Submap::truncate(Iteration k) {
   std::erase_if(members_, [&](const Member& member) { return member.joined > k; });
-  for (Member& member : members_) {
-    if (member.saved.interval.last > k) member.saved = {};
-  }
   ordered_ = computed_to_ = -1;
 }
 

@@ -9,6 +9,7 @@
 #include "slam_plane/thesis/options.hpp"
 #include "slam_plane/thesis/pair_order.hpp"
 #include "slam_plane/thesis/reference.hpp"
+#include "slam_plane/thesis/static_pairs.hpp"
 #include "slam_plane/thesis/track_book.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -17,12 +18,12 @@ namespace hallway::slam_plane::thesis {
 struct Member {
   TrackId track = 0;
   Iteration joined = 0;
-  bool confirmed = false;   ///< compared over enough iterations (Rule 32)
-  Reference reference;      ///< in the submap's frame
-  Comparison comparison;    ///< with `parent`, that placed it; of the first member that of its first child
-  Comparison saved;         ///< the best one so far with `saved_parent` (Rule 36)
+  bool confirmed = false;  ///< compared over enough iterations (Rule 32)
+  Reference reference;     ///< in the submap's frame
+  Comparison comparison;   ///< with `parent`, that placed it; of the first member that of its first child
   TrackId parent = 0;
-  TrackId saved_parent = 0;
+  bool still[2] = {false, false};         ///< its ends that stand still now
+  bool still_parent[2] = {false, false};  ///< and its parent's
 };
 
 /// A plane whose place in the map's frame is given: what aligns a submap that no other one places (Rules 4, 27).
@@ -47,7 +48,7 @@ class Submap {
   Intervals common(const TrackBook& tracks) const;
 
   /// Places the members relative to each other if one of them has a new sighting (thesis 4.5 ComputeXPoint). @returns whether it was done.
-  bool compute(PairComparer& comparer, const TrackBook& tracks, const Options& options, Iteration now);
+  bool compute(StaticPairs& pairs, const TrackBook& tracks, const Options& options, Iteration now);
 
   /// Members that after long enough are still compared over too few iterations (Rules 31, 32); the others are confirmed.
   std::optional<TrackId> too_short(const Options& options, Iteration now);
@@ -58,7 +59,7 @@ class Submap {
   /// Rolls back to iteration k: members that joined later are no more, nor what was saved later. O(members).
   void truncate(Iteration k);
 
-  Pose2 T_map_submap;              ///< defined when placed
+  Pose2 T_map_submap;  ///< defined when placed
   bool placed = false;
   std::vector<Anchor> anchors;     ///< if there are any they place it
   Iteration anchored = -1;         ///< when they were set by a motion model
@@ -66,11 +67,10 @@ class Submap {
   bool by_motion = false;          ///< made from a motion model: placed by where the robot was
 
  private:
-  void reorder(PairComparer& comparer, const TrackBook& tracks, Iteration now);
-  void place_child(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
-                   const CompareOptions& options);
-  Comparison best_comparison(const PairEdge& edge, PairComparer& comparer, const TrackBook& tracks,
-                             const CompareOptions& options);
+  void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
+  void place_child(const PairEdge& edge, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
+  void place_by(const PairHistory& history, const Track& parent_track, const Track& child_track, Member& parent,
+                Member& child, bool is_root, const CompareOptions& options);
 
   std::uint64_t id_;
   Iteration created_;

@@ -55,7 +55,7 @@ class ThesisMapper::Engine {
     changed_.clear();
     for (const SubmapIndex index : submaps_in_view()) {
       Submap& submap = state_.submaps[index];
-      if (!submap.compute(state_.comparer, state_.tracks, options_, state_.now)) continue;
+      if (!submap.compute(state_.pairs, state_.tracks, options_, state_.now)) continue;
       changed_.push_back(index);
       state_.locator.note(submap, state_.now);
       judge(index);
@@ -99,7 +99,7 @@ class ThesisMapper::Engine {
     if (state_.start == state_.now) {
       location_ = Alignment{Pose2{}, true, Vec2::Zero(), true};
     } else if (motion.has_pose()) {
-      location_ = state_.locator.locate(state_.seen, state_.tracks, state_.map, state_.comparer, state_.now,
+      location_ = state_.locator.locate(state_.seen, state_.tracks, state_.map, state_.pairs, state_.now,
                                         motion.predicted());
     }
     if (!location_) {
@@ -112,7 +112,8 @@ class ThesisMapper::Engine {
     }
     state_.carried.located = location_.has_value();
     if (motion.active()) state_.carried.after_motion = true;
-    if (location_) counters_.submaps_after_motion += anchor_after_motion(location_->T_to_from, options_, state_);
+    if (location_)
+      counters_.submaps_after_motion += anchor_after_motion(location_->T_to_from, options_, state_);
   }
 
   /// Goes back to before the hinted event and does everything again (Rules 33, 34).
@@ -142,15 +143,16 @@ class ThesisMapper::Engine {
       answer_.covariance = covariance_of(*location_);
     }
     answer_.associations.assign(pieces, kNoWall);
-    for (const Match& match : state_.matches) answer_.associations[match.piece] = wall_of(match.track, state_);
+    for (const Match& match : state_.matches)
+      answer_.associations[match.piece] = wall_of(match.track, state_);
     Counters& counters = answer_.counters;
     ++counters.iterations;
     if (!location_) ++counters.lost;
     counters.walls = count_walls(state_);
     counters.submaps = state_.submaps.size();
     counters.degenerate = degenerate_;
-    counters_.comparisons = state_.comparer.counters().comparisons;
-    counters_.cache_hits = state_.comparer.counters().hits;
+    counters_.comparisons = state_.pairs.comparer().counters().comparisons;
+    counters_.cache_hits = state_.pairs.comparer().counters().hits;
   }
 
   Options options_;

@@ -11,11 +11,11 @@ namespace hallway::slam_plane::thesis {
 
 /// Totals of the thesis's algorithm, beside those of both modes.
 struct ThesisCounters {
-  std::uint64_t comparisons = 0;          ///< of pairs of planes
-  std::uint64_t cache_hits = 0;           ///< of them, those that needed only what was new
-  std::uint64_t roll_backs = 0;           ///< Rule 33
-  std::uint64_t replayed = 0;             ///< iterations done again by them
-  std::uint64_t submaps_after_motion = 0; ///< placed by a motion model
+  std::uint64_t comparisons = 0;           ///< of pairs of planes
+  std::uint64_t cache_hits = 0;            ///< of them, those that needed only what was new
+  std::uint64_t roll_backs = 0;            ///< Rule 33
+  std::uint64_t replayed = 0;              ///< iterations done again by them
+  std::uint64_t submaps_after_motion = 0;  ///< placed by a motion model
 };
 
 /// Maps walls seen in part by a moving robot, without odometry and without identities: the relative plane algorithm as the thesis has it (chapter 4). Planes that are seen
