@@ -18,11 +18,26 @@ void join(TrackId track, SubmapIndex submap, State& state) {
   state.tracks.submaps(track).push_back(submap);
 }
 
+bool has(const std::vector<TrackId>& tracks, TrackId track) {
+  return std::find(tracks.begin(), tracks.end(), track) != tracks.end();
+}
+
+/// Whether a comparison with a member of the list tells where the track is.
+bool comparable(TrackId track, TrackId member, State& state) {
+  return member != track && state.pairs.update(state.tracks[track], state.tracks[member]).shared() > 0;
+}
+
+bool comparable(TrackId track, const Submap& submap, State& state) {
+  return std::any_of(submap.members().begin(), submap.members().end(),
+                     [&](const Member& member) { return comparable(track, member.track, state); });
+}
+
 /// Joins a submap in which all members were visible together with it (Rule 7).
 bool try_join(TrackId track, SubmapIndex submap, const Options& options, State& state) {
   if (!state.hints.may_join(track, submap) || state.submaps[submap].contains(track)) return false;
   const int least = std::min<int>(options.min_readings, static_cast<int>(state.tracks[track].size()));
   if (!fits(state.submaps[submap].common(state.tracks), state.tracks[track], least)) return false;
+  if (state.submaps.size() > 1 && !comparable(track, state.submaps[submap], state)) return false;
   join(track, submap, state);
   return true;
 }
@@ -43,19 +58,6 @@ std::vector<SubmapIndex> reachable(const State& state) {
   return order;
 }
 
-/// Members of a submap that can link it to a new one that `newcomer` causes (Rules 8, 9).
-std::vector<TrackId> links_in(const Submap& submap, TrackId newcomer, const Options& options,
-                              const State& state) {
-  std::vector<const Track*> placed;
-  for (const Member& member : submap.members()) {
-    if (member.track != newcomer && member.reference.valid()) placed.push_back(&state.tracks[member.track]);
-  }
-  std::vector<TrackId> result;
-  for (const int i : linking_members(placed, state.tracks[newcomer], options.link_planes))
-    result.push_back(placed[static_cast<std::size_t>(i)]->id());
-  return result;
-}
-
 SubmapIndex make_submap(State& state) {
   const SubmapIndex index = state.submaps.size();
   state.submaps.emplace_back(index, state.now);
@@ -67,20 +69,58 @@ void connect(SubmapIndex a, SubmapIndex b, State& state) {
   state.submaps[b].links.push_back(a);
 }
 
-/// A new submap of a track and of the members of an older one that link both.
+/// Members of submaps about the current one that can link them to a new one that `newcomer` causes, those of one submap first (Rules 8, 9, 12), and the submaps that they are of.
+struct Links {
+  std::vector<TrackId> tracks;
+  std::vector<SubmapIndex> submaps;
+  bool compared = false;  ///< one of them can be compared with the newcomer
+};
+
+void take_links(SubmapIndex base, TrackId newcomer, const Options& options, State& state, Links& links) {
+  bool taken = false;
+  for (const bool compared : {true, false}) {
+    std::vector<const Track*> list;
+    for (const Member& member : state.submaps[base].members()) {
+      if (member.track == newcomer || !member.reference.valid() || has(links.tracks, member.track)) continue;
+      if (comparable(newcomer, member.track, state) == compared) list.push_back(&state.tracks[member.track]);
+    }
+    const int wanted = options.link_planes - static_cast<int>(links.tracks.size());
+    for (const int i : linking_members(list, state.tracks[newcomer], wanted)) {
+      links.tracks.push_back(list[static_cast<std::size_t>(i)]->id());
+      links.compared = links.compared || compared;
+      taken = true;
+    }
+  }
+  if (taken) links.submaps.push_back(base);
+}
+
+void begin(TrackId track, const Links& links, State& state) {
+  const SubmapIndex made = make_submap(state);
+  for (const TrackId id : links.tracks) {
+    join(id, made, state);
+    state.submaps[made].confirm(id);
+  }
+  join(track, made, state);
+  for (const SubmapIndex base : links.submaps) connect(made, base, state);
+  state.carried.current = made;
+}
+
+/// A new submap of a track and of members of older ones that link them.
 bool begin_linked(TrackId track, const Options& options, State& state) {
+  Links several;
   for (const SubmapIndex base : reachable(state)) {
     if (!state.submaps[base].placed) continue;
-    const std::vector<TrackId> links = links_in(state.submaps[base], track, options, state);
-    if (links.size() < kLeastLinks) continue;
-    const SubmapIndex made = make_submap(state);
-    for (const TrackId id : links) join(id, made, state);
-    join(track, made, state);
-    connect(made, base, state);
-    state.carried.current = made;
-    return true;
+    Links one;
+    take_links(base, track, options, state, one);
+    if (one.compared && one.tracks.size() >= kLeastLinks) {
+      begin(track, one, state);
+      return true;
+    }
+    take_links(base, track, options, state, several);
   }
-  return false;
+  if (!several.compared || several.tracks.size() < kLeastLinks) return false;
+  begin(track, several, state);
+  return true;
 }
 
 /// A new submap of what is seen now, placed by where the motion model has the robot: one shared plane has to do (Rules 8, 29).
@@ -90,7 +130,9 @@ bool begin_after_motion(TrackId track, State& state) {
   state.submaps[made].by_motion = true;
   state.unanchored.push_back(made);
   for (const TrackId id : state.seen) {
-    if (id != track && state.map.find(id) != nullptr) join(id, made, state);
+    if (id == track || state.map.find(id) == nullptr) continue;
+    join(id, made, state);
+    state.submaps[made].confirm(id);
   }
   join(track, made, state);
   if (state.carried.current != kNoSubmap) connect(made, state.carried.current, state);

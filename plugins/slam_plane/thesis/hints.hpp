@@ -23,7 +23,8 @@ class Hints {
   void add(const Hint& hint) {
     std::erase_if(hints_, [&](const Hint& other) { return other.iteration > hint.iteration; });
     hints_.push_back(hint);
-    ++added_;
+    if (strikes_.size() <= hint.track) strikes_.resize(hint.track + 1, 0);
+    ++strikes_[hint.track];
   }
 
   /// Whether a track may join a submap that there is.
@@ -36,21 +37,21 @@ class Hints {
   /// Whether a track may cause a new submap; after three hints it is left out of the map.
   bool may_begin(TrackId track) const { return count(track) < 3; }
 
+  /// Whether a track has had all the hints that one may have.
+  bool exhausted(TrackId track) const { return count(track) >= 3; }
+
   /// Forgets hints that no roll back can reach any more.
   void forget_before(Iteration k) {
     std::erase_if(hints_, [&](const Hint& hint) { return hint.iteration < k; });
   }
 
   std::size_t size() const { return hints_.size(); }
-  std::size_t added() const { return added_; }
 
  private:
-  std::ptrdiff_t count(TrackId track) const {
-    return std::count_if(hints_.begin(), hints_.end(), [&](const Hint& hint) { return hint.track == track; });
-  }
+  int count(TrackId track) const { return track < strikes_.size() ? strikes_[track] : 0; }
 
   std::vector<Hint> hints_;
-  std::size_t added_ = 0;
+  std::vector<int> strikes_;  // hints that a track ever got; so no track causes more than three roll backs
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -8,6 +8,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr std::size_t kLeastShared = 2;  // Rule 8
 constexpr double kMoved_m = 1e-4;  // a submap that moves less takes no others along
 
 std::optional<Pose2> by_anchors(const Submap& submap) {
@@ -24,42 +25,33 @@ std::optional<Pose2> by_anchors(const Submap& submap) {
 
 }  // namespace
 
-Reference moved(const Pose2& T, const Reference& reference) {
-  Reference result = reference;
-  result.place.middle = T * reference.place.middle;
-  result.place.direction = T.rotate(reference.place.direction);
-  return result;
-}
-
-std::optional<Pose2> MapBuilder::link(const Submap& from, const Submap& to, int min_planes) {
+std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps, std::size_t min_planes) {
+  const Submap& submap = submaps[index];
   std::vector<PlanePair> pairs;
-  int shared = 0;
-  for (const Member& member : from.members()) {
-    if (!member.reference.valid()) continue;
-    const Member* other = to.find(member.track);
-    if (other == nullptr || !other->reference.valid()) continue;
-    append_pairs(member.reference, other->reference, pairs);
-    ++shared;
+  std::vector<TrackId> shared;
+  for (const SubmapIndex linked : submap.links) {
+    const Submap& base = submaps[linked];
+    if (linked >= index || !base.placed) continue;
+    for (const Member& member : submap.members()) {
+      const Member* other = base.find(member.track);
+      if (other == nullptr || !member.reference.valid() || !other->reference.valid()) continue;
+      append_pairs(member.reference, moved(base.T_map_submap, other->reference), pairs);
+      if (std::find(shared.begin(), shared.end(), member.track) == shared.end()) shared.push_back(member.track);
+    }
   }
-  if (shared < min_planes) return std::nullopt;
-  const std::optional<Alignment> alignment = align(pairs, Pose2{});
+  if (shared.size() < min_planes) return std::nullopt;
+  const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
   if (!alignment || !alignment->determined) return std::nullopt;
   return alignment->T_to_from;
 }
 
-bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps, const TrackBook& tracks) const {
+bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps) const {
   Submap& submap = submaps[index];
   const Pose2 before = submap.T_map_submap;
   const bool was = submap.placed;
   std::optional<Pose2> T;
   if (!submap.anchors.empty()) T = by_anchors(submap);
-  for (std::size_t i = 0; i < submap.links.size() && !T; ++i) {
-    const Submap& base = submaps[submap.links[i]];
-    if (submap.links[i] > index || !base.placed) continue;
-    const std::optional<Pose2> T_base = link(submap, base, 2);
-    if (T_base) T = base.T_map_submap * *T_base;
-  }
-  static_cast<void>(tracks);
+  if (!T) T = link(index, submaps, kLeastShared);
   if (!T) return false;
   submap.T_map_submap = *T;
   submap.placed = true;
@@ -94,7 +86,7 @@ void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>
   std::sort(order.begin(), order.end());
   std::vector<TrackId> touched;
   for (const SubmapIndex index : order) {
-    place(index, submaps, tracks);
+    place(index, submaps);
     if (!submaps[index].placed) continue;
     for (const Member& member : submaps[index].members()) touched.push_back(member.track);
   }

@@ -38,19 +38,16 @@ class MapBuilder {
     valid_ = 0;
   }
 
-  /// How submap `from` lies in the frame of submap `to`, by the planes that both have; nothing if they have too few (Rule 8).
-  static std::optional<Pose2> link(const Submap& from, const Submap& to, int min_planes);
+  /// Where a submap lies in the map, by the planes that it shares with older ones that it is linked to; nothing if they are too few (Rule 8).
+  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps, std::size_t min_planes);
 
  private:
-  bool place(SubmapIndex index, std::vector<Submap>& submaps, const TrackBook& tracks) const;
+  bool place(SubmapIndex index, std::vector<Submap>& submaps) const;
   void combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks);
 
   Options options_;
   std::vector<MappedPlane> planes_;  // by track
   std::size_t valid_ = 0;
 };
-
-/// A reference moved into another frame.
-Reference moved(const Pose2& T, const Reference& reference);
 
 }  // namespace hallway::slam_plane::thesis

@@ -7,6 +7,13 @@
 #include "slam_plane/thesis/resize.hpp"
 
 namespace hallway::slam_plane::thesis {
+Reference moved(const Pose2& T, const Reference& reference) {
+  Reference result = reference;
+  result.place.middle = T * reference.place.middle;
+  result.place.direction = T.rotate(reference.place.direction);
+  return result;
+}
+
 void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]) {
   ends[0] = ends[1] = false;
   if (!comparison.has_keys()) return;

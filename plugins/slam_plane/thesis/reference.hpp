@@ -17,6 +17,9 @@ struct Reference {
   bool full() const { return known[kEndA] && known[kEndB]; }
 };
 
+/// A reference moved into another frame.
+Reference moved(const Pose2& T, const Reference& reference);
+
 /// Which ends of plane a (0) or b (1) were static in a comparison: those with a standard deviation close to the least one.
 void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]);
 

@@ -40,12 +40,31 @@ bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options&
   if (newest <= computed_to_) return false;
   computed_to_ = newest;
   if (ordered_ < 0 || now - ordered_ >= options.reorder_every) reorder(pairs, tracks, now);
+  const std::vector<Member> before = members_;
   for (Member& member : members_) {
     member.reference = {};
     for (int end = 0; end < 2; ++end) member.still[end] = member.still_parent[end] = false;
   }
   for (const PairEdge& edge : order_) place_child(edge, pairs, tracks, now);
+  keep_frame(before);
   return true;
+}
+
+/// What is placed from is another plane now and then, or grows: the frame stays where it was.
+void Submap::keep_frame(const std::vector<Member>& before) {
+  std::vector<PlanePair> common;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].reference.valid() && before[i].reference.valid())
+      append_pairs(members_[i].reference, before[i].reference, common);
+  }
+  const std::optional<Alignment> T_before_now = align(common, Pose2{});
+  if (!T_before_now || !T_before_now->determined) {
+    placed = false;
+    return;
+  }
+  for (Member& member : members_) {
+    if (member.reference.valid()) member.reference = moved(T_before_now->T_to_from, member.reference);
+  }
 }
 
 void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {

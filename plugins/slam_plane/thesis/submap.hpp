@@ -67,6 +67,7 @@ class Submap {
   bool by_motion = false;          ///< made from a motion model: placed by where the robot was
 
  private:
+  void keep_frame(const std::vector<Member>& before);
   void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
   void place_child(const PairEdge& edge, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
   void place_by(const PairHistory& history, const Track& parent_track, const Track& child_track, Member& parent,
