@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kFirstReadings = 3;         // of the planes of the very first submap
 constexpr int kForgetAfter = 50;          // iterations for which an unassigned track is kept out of view
+constexpr int kTryAgainAfter = 20;        // iterations in which a submap has not placed a track that joined it
 constexpr int kLeastLinks = 2;            // Rule 8
 constexpr std::size_t kLookThrough = 64;  // submaps that are looked through for a link
 
@@ -22,14 +23,15 @@ bool has(const std::vector<TrackId>& tracks, TrackId track) {
   return std::find(tracks.begin(), tracks.end(), track) != tracks.end();
 }
 
-/// Whether a comparison with a member of the list tells where the track is.
-bool comparable(TrackId track, TrackId member, State& state) {
-  return member != track && state.pairs.update(state.tracks[track], state.tracks[member]).shared() > 0;
+/// Whether a comparison with another track tells where a track is. One that was rolled back for a short comparison has to wait for a longer one (Rule 32).
+bool comparable(TrackId track, TrackId member, const Options& options, State& state) {
+  const int least = std::max(1, options.min_interval * state.hints.strikes(track));
+  return member != track && state.pairs.update(state.tracks[track], state.tracks[member]).shared() >= least;
 }
 
-bool comparable(TrackId track, const Submap& submap, State& state) {
+bool comparable(TrackId track, const Submap& submap, const Options& options, State& state) {
   return std::any_of(submap.members().begin(), submap.members().end(),
-                     [&](const Member& member) { return comparable(track, member.track, state); });
+                     [&](const Member& member) { return comparable(track, member.track, options, state); });
 }
 
 /// Joins a submap in which all members were visible together with it (Rule 7).
@@ -37,7 +39,7 @@ bool try_join(TrackId track, SubmapIndex submap, const Options& options, State& 
   if (!state.hints.may_join(track, submap) || state.submaps[submap].contains(track)) return false;
   const int least = std::min<int>(options.min_readings, static_cast<int>(state.tracks[track].size()));
   if (!fits(state.submaps[submap].common(state.tracks), state.tracks[track], least)) return false;
-  if (state.submaps.size() > 1 && !comparable(track, state.submaps[submap], state)) return false;
+  if (state.submaps.size() > 1 && !comparable(track, state.submaps[submap], options, state)) return false;
   join(track, submap, state);
   return true;
 }
@@ -82,7 +84,7 @@ void take_links(SubmapIndex base, TrackId newcomer, const Options& options, Stat
     std::vector<const Track*> list;
     for (const Member& member : state.submaps[base].members()) {
       if (member.track == newcomer || !member.reference.valid() || has(links.tracks, member.track)) continue;
-      if (comparable(newcomer, member.track, state) == compared) list.push_back(&state.tracks[member.track]);
+      if (comparable(newcomer, member.track, options, state) == compared) list.push_back(&state.tracks[member.track]);
     }
     const int wanted = options.link_planes - static_cast<int>(links.tracks.size());
     for (const int i : linking_members(list, state.tracks[newcomer], wanted)) {
@@ -157,19 +159,19 @@ bool assign(TrackId track, const Options& options, State& state) {
       if (try_join(track, submap, options, state)) return true;
     }
   }
-  return state.hints.may_begin(track) &&
-         (begin_linked(track, options, state) || begin_after_motion(track, state));
+  return begin_linked(track, options, state) || begin_after_motion(track, state);
 }
 
 void assign_unassigned(const Options& options, State& state) {
   std::vector<Unassigned> kept;
   const int least = state.submaps.size() <= 1 ? kFirstReadings : options.min_readings;
-  for (const Unassigned& entry : state.carried.unassigned) {
+  for (Unassigned entry : state.carried.unassigned) {
     const Track& track = state.tracks[entry.track];
-    if (track.empty()) continue;
+    if (track.empty() || state.map.find(entry.track) != nullptr) continue;
+    const bool waited = entry.joined < 0 || entry.joined + kTryAgainAfter <= state.now;
     const bool ready = track.newest().iteration == state.now && static_cast<int>(track.size()) >= least &&
-                       !entry.part_of.has_value();
-    if (ready && assign(entry.track, options, state)) continue;
+                       !entry.part_of.has_value() && waited;
+    if (ready && assign(entry.track, options, state)) entry.joined = state.now;
     if (track.newest().iteration + kForgetAfter >= state.now) kept.push_back(entry);
   }
   state.carried.unassigned.swap(kept);

@@ -34,8 +34,8 @@ class Hints {
            });
   }
 
-  /// Whether a track may cause a new submap; after three hints it is left out of the map.
-  bool may_begin(TrackId track) const { return count(track) < 3; }
+  /// How often a track was rolled back because it was compared over too little.
+  int strikes(TrackId track) const { return count(track); }
 
   /// Whether a track has had all the hints that one may have.
   bool exhausted(TrackId track) const { return count(track) >= 3; }

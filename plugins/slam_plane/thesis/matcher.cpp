@@ -88,7 +88,7 @@ void add_planes(std::span<const Piece> pieces, const Options& options, State& st
   state.seen.clear();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const TrackId id = matched[i] != nullptr ? matched[i]->id() : state.tracks.create(state.now).id();
-    if (matched[i] == nullptr) state.carried.unassigned.push_back({id, std::nullopt});
+    if (matched[i] == nullptr) state.carried.unassigned.push_back({id, -1, std::nullopt});
     state.tracks[id].push(sightings[i]);
     state.matches.push_back({piece_of[i], id});
     state.seen.push_back(id);
@@ -124,7 +124,7 @@ void match_with_map(const Options& options, State& state) {
     if (track.empty()) continue;
     bool handed = false;
     entry.part_of.reset();
-    if (track.newest().iteration == state.now - 1) {
+    if (entry.joined < 0 && track.newest().iteration == state.now - 1) {
       for (const TrackId id : map_matches(T_map_robot * track.newest().segment, options, state)) {
         if (id == entry.track) continue;
         if (!state.tracks[id].empty() && state.tracks[id].newest().iteration == state.now - 1) {

@@ -13,9 +13,10 @@ namespace hallway::slam_plane::thesis {
 
 inline constexpr SubmapIndex kNoSubmap = ~SubmapIndex{0};
 
-/// A track that is in no submap yet (thesis 4.4.3.19).
+/// A track that is not in the map yet (thesis 4.4.3.19).
 struct Unassigned {
   TrackId track = 0;
+  Iteration joined = -1;           ///< when it joined its last submap, which could not place it so far; -1: none
   std::optional<TrackId> part_of;  ///< it is another part of the wall of this track, which is seen too
 };
 
