@@ -42,11 +42,11 @@ void anchor_first(const Options& options, State& state) {
   }
 }
 
-std::uint64_t anchor_after_motion(const Pose2& T_map_robot, const Options& options, State& state) {
-  static_cast<void>(options);
+std::uint64_t anchor_by_pose(const Alignment& location, State& state) {
   std::uint64_t fixed = 0;
   for (const SubmapIndex index : state.unanchored) {
     Submap& submap = state.submaps[index];
+    if (submap.placed || (!submap.by_motion && !location.by_points)) continue;
     std::vector<PlanePair> pairs;
     for (const Member& member : submap.members()) {
       if (!member.reference.valid() ||
@@ -56,14 +56,13 @@ std::uint64_t anchor_after_motion(const Pose2& T_map_robot, const Options& optio
     }
     const std::optional<Alignment> T_robot_submap = align(pairs, Pose2{});
     if (!T_robot_submap || !T_robot_submap->by_points) continue;
-    const Pose2 T = T_map_robot * T_robot_submap->T_to_from;
+    const Pose2 T = location.T_to_from * T_robot_submap->T_to_from;
     for (const Member& member : submap.members()) {
       if (member.reference.valid()) submap.anchors.push_back({member.track, moved(T, member.reference)});
     }
     submap.anchored = state.now;
     ++fixed;
   }
-  std::erase_if(state.unanchored, [&](SubmapIndex index) { return !state.submaps[index].anchors.empty(); });
   return fixed;
 }
 

@@ -8,14 +8,14 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kFirstReadings = 3;         // of the planes of the very first submap
-constexpr int kForgetAfter = 50;          // iterations for which an unassigned track is kept out of view
-constexpr int kTryAgainAfter = 20;        // iterations in which a submap has not placed a track that joined it
-constexpr int kLeastLinks = 2;            // Rule 8
+constexpr int kFirstReadings = 3;   // of the planes of the very first submap
+constexpr int kForgetAfter = 50;    // iterations for which an unassigned track is kept out of view
+constexpr int kTryAgainAfter = 20;  // iterations in which a submap has not placed a track that joined it
+constexpr int kLeastLinks = 2;      // Rule 8
 constexpr std::size_t kLookThrough = 64;  // submaps that are looked through for a link
 
-void join(TrackId track, SubmapIndex submap, State& state) {
-  state.submaps[submap].add(track, state.now);
+void join(TrackId track, SubmapIndex submap, bool link, State& state) {
+  state.submaps[submap].add(track, state.now, link);
   state.tracks.submaps(track).push_back(submap);
 }
 
@@ -40,7 +40,7 @@ bool try_join(TrackId track, SubmapIndex submap, const Options& options, State& 
   const int least = std::min<int>(options.min_readings, static_cast<int>(state.tracks[track].size()));
   if (!fits(state.submaps[submap].common(state.tracks), state.tracks[track], least)) return false;
   if (state.submaps.size() > 1 && !comparable(track, state.submaps[submap], options, state)) return false;
-  join(track, submap, state);
+  join(track, submap, false, state);
   return true;
 }
 
@@ -84,7 +84,8 @@ void take_links(SubmapIndex base, TrackId newcomer, const Options& options, Stat
     std::vector<const Track*> list;
     for (const Member& member : state.submaps[base].members()) {
       if (member.track == newcomer || !member.reference.valid() || has(links.tracks, member.track)) continue;
-      if (comparable(newcomer, member.track, options, state) == compared) list.push_back(&state.tracks[member.track]);
+      if (comparable(newcomer, member.track, options, state) == compared)
+        list.push_back(&state.tracks[member.track]);
     }
     const int wanted = options.link_planes - static_cast<int>(links.tracks.size());
     for (const int i : linking_members(list, state.tracks[newcomer], wanted)) {
@@ -98,11 +99,8 @@ void take_links(SubmapIndex base, TrackId newcomer, const Options& options, Stat
 
 void begin(TrackId track, const Links& links, State& state) {
   const SubmapIndex made = make_submap(state);
-  for (const TrackId id : links.tracks) {
-    join(id, made, state);
-    state.submaps[made].confirm(id);
-  }
-  join(track, made, state);
+  for (const TrackId id : links.tracks) join(id, made, true, state);
+  join(track, made, false, state);
   for (const SubmapIndex base : links.submaps) connect(made, base, state);
   state.carried.current = made;
 }
@@ -130,13 +128,11 @@ bool begin_after_motion(TrackId track, State& state) {
   if (!state.carried.after_motion) return false;
   const SubmapIndex made = make_submap(state);
   state.submaps[made].by_motion = true;
-  state.unanchored.push_back(made);
   for (const TrackId id : state.seen) {
     if (id == track || state.map.find(id) == nullptr) continue;
-    join(id, made, state);
-    state.submaps[made].confirm(id);
+    join(id, made, true, state);
   }
-  join(track, made, state);
+  join(track, made, false, state);
   if (state.carried.current != kNoSubmap) connect(made, state.carried.current, state);
   state.carried.current = made;
   return true;
@@ -145,7 +141,7 @@ bool begin_after_motion(TrackId track, State& state) {
 bool begin_first(TrackId track, State& state) {
   if (!state.submaps.empty()) return false;
   const SubmapIndex made = make_submap(state);
-  join(track, made, state);
+  join(track, made, false, state);
   state.carried.current = made;
   return true;
 }

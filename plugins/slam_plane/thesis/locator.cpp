@@ -12,7 +12,6 @@ void Locator::note(TrackId track, const bool (&ends)[2], Iteration now) {
 
 void Locator::note(const Submap& submap, Iteration now) {
   for (const Member& member : submap.members()) {
-    if (member.still_parent[0] || member.still_parent[1]) note(member.parent, member.still_parent, now);
     if (member.still[0] || member.still[1]) note(member.track, member.still, now);
   }
 }

@@ -9,7 +9,7 @@ namespace hallway::slam_plane::thesis {
 namespace {
 
 constexpr std::size_t kLeastShared = 2;  // Rule 8
-constexpr double kMoved_m = 1e-4;  // a submap that moves less takes no others along
+constexpr double kMoved_m = 1e-4;        // a submap that moves less takes no others along
 
 std::optional<Pose2> by_anchors(const Submap& submap) {
   std::vector<PlanePair> pairs;
@@ -25,7 +25,8 @@ std::optional<Pose2> by_anchors(const Submap& submap) {
 
 }  // namespace
 
-std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps, std::size_t min_planes) {
+std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps,
+                                      std::size_t min_planes) {
   const Submap& submap = submaps[index];
   std::vector<PlanePair> pairs;
   std::vector<TrackId> shared;
@@ -36,7 +37,8 @@ std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Subma
       const Member* other = base.find(member.track);
       if (other == nullptr || !member.reference.valid() || !other->reference.valid()) continue;
       append_pairs(member.reference, moved(base.T_map_submap, other->reference), pairs);
-      if (std::find(shared.begin(), shared.end(), member.track) == shared.end()) shared.push_back(member.track);
+      if (std::find(shared.begin(), shared.end(), member.track) == shared.end())
+        shared.push_back(member.track);
     }
   }
   if (shared.size() < min_planes) return std::nullopt;

@@ -44,7 +44,7 @@ void forget_submaps(Iteration k, State& state) {
   for (Submap& submap : state.submaps) {
     submap.truncate(k);
     std::erase_if(submap.links, gone);
-    if (submap.by_motion && submap.anchored > k) submap.anchors.clear();
+    if (submap.anchored > k) submap.anchors.clear();
   }
   for (TrackId id = 0; id < state.tracks.size(); ++id) {
     std::erase_if(state.tracks.submaps(id),
@@ -65,9 +65,6 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   state.recent = record.recent;
   state.met_again.clear();
   state.unanchored.clear();
-  for (SubmapIndex i = 0; i < state.submaps.size(); ++i) {
-    if (state.submaps[i].by_motion && state.submaps[i].anchors.empty()) state.unanchored.push_back(i);
-  }
   state.locator.clear();
   state.map.clear();
   std::vector<SubmapIndex> all(state.submaps.size());

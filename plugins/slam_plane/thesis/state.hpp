@@ -16,7 +16,7 @@ inline constexpr SubmapIndex kNoSubmap = ~SubmapIndex{0};
 /// A track that is not in the map yet (thesis 4.4.3.19).
 struct Unassigned {
   TrackId track = 0;
-  Iteration joined = -1;           ///< when it joined its last submap, which could not place it so far; -1: none
+  Iteration joined = -1;  ///< when it joined its last submap, which could not place it so far; -1: none
   std::optional<TrackId> part_of;  ///< it is another part of the wall of this track, which is seen too
 };
 
@@ -58,7 +58,7 @@ struct State {
   std::vector<Match> matches;           ///< of this iteration
   std::vector<TrackId> seen;            ///< tracks of this iteration, ascending
   std::vector<TrackId> recent;          ///< tracks of the last few iterations, ascending
-  std::vector<SubmapIndex> unanchored;  ///< begun by a motion model and not placed yet
+  std::vector<SubmapIndex> unanchored;  ///< in view, and only a pose can place them
   std::vector<TrackId> met_again;       ///< tracks that were found in the map in this iteration (Rule 11)
   std::vector<std::pair<SubmapIndex, int>>
       chart;  ///< how many seen tracks each submap has, ascending (Rule 22)

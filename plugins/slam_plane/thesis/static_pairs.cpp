@@ -8,14 +8,14 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr double kFloor_m = 1e-4;       // deviations and differences below it are none
-constexpr int kExactReadings = 3;       // enough where there is no deviation at all
-constexpr int kReadings = 8;            // enough otherwise
-constexpr double kMeans = 9.0;          // squared standard deviations by which the means of two halves may differ
-constexpr double kVariances = 10.0;     // ratio of the variances of two halves
-constexpr double kSample = 16.0;        // squared standard deviations by which one sighting may differ
-constexpr int kEvaluateEvery = 4;       // new sightings
-constexpr int kLongestSearch = 400;     // iterations
+constexpr double kFloor_m = 1e-4;  // deviations and differences below it are none
+constexpr int kExactReadings = 3;  // enough where there is no deviation at all
+constexpr int kReadings = 8;       // enough otherwise
+constexpr double kMeans = 9.0;     // squared standard deviations by which the means of two halves may differ
+constexpr double kVariances = 10.0;  // ratio of the variances of two halves
+constexpr double kSample = 16.0;     // squared standard deviations by which one sighting may differ
+constexpr int kEvaluateEvery = 4;    // new sightings
+constexpr int kLongestSearch = 400;  // iterations
 constexpr double kNoSize[2] = {0.0, 0.0};
 
 double square(double x) {
@@ -206,7 +206,8 @@ void StaticPairs::truncate(Iteration k) {
 
 void StaticPairs::forget(TrackId id) {
   comparer_.forget(id);
-  std::erase_if(pairs_, [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
+  std::erase_if(pairs_,
+                [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
 }
 
 }  // namespace hallway::slam_plane::thesis

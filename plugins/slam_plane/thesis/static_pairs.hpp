@@ -13,11 +13,13 @@ namespace hallway::slam_plane::thesis {
 
 /// The intervals in which an end of each of two planes stood still, as far as they matter.
 struct PairHistory {
-  Iteration updated = -1;         ///< newest shared sighting that was looked at
-  Iteration since = -1;           ///< the interval that lasts until then began here; -1: no end of one stands still to an end of the other
-  Comparison current;             ///< on [since, updated]; its mean may be a few sightings older
-  bool still[2][2] = {};          ///< [plane][end]: stood still since then, and still does
-  std::vector<Comparison> saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
+  Iteration updated = -1;  ///< newest shared sighting that was looked at
+  Iteration since =
+      -1;  ///< the interval that lasts until then began here; -1: no end of one stands still to an end of the other
+  Comparison current;     ///< on [since, updated]; its mean may be a few sightings older
+  bool still[2][2] = {};  ///< [plane][end]: stood still since then, and still does
+  std::vector<Comparison>
+      saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
 
   /// Iterations that the best comparison was made over.
   int shared() const { return saved.empty() ? 0 : saved.front().shared; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/thesis/submap.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -14,6 +14,75 @@ std::vector<const Track*> tracks_of(const std::vector<Member>& members, const Tr
   return list;
 }
 
+/// A comparison that may place one member relative to another.
+struct Offer {
+  PlaceStep step;
+  Comparison comparison;  // parent to child
+};
+
+int ends_of(const Comparison& comparison) {
+  return (comparison.key[0] == KeyPoint::right ? 2 : 0) + (comparison.key[1] == KeyPoint::right ? 1 : 0);
+}
+
+/// All of them, those over the most iterations first (Rule 30).
+std::vector<Offer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
+                             const TrackBook& tracks) {
+  std::vector<Offer> offers;
+  for (std::size_t a = 0; a < members.size(); ++a) {
+    for (std::size_t b = a + 1; b < members.size(); ++b) {
+      const Track& in_a = tracks[members[a].track];
+      const Track& in_b = tracks[members[b].track];
+      for (const Comparison& saved : pairs.update(in_a, in_b).saved) {
+        const Comparison there = StaticPairs::oriented(saved, in_a, in_b);
+        const Comparison back = inverse(there);
+        offers.push_back({{a, b, ends_of(there)}, there});
+        offers.push_back({{b, a, ends_of(back)}, back});
+      }
+    }
+  }
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const Offer& a, const Offer& b) { return a.comparison.shared > b.comparison.shared; });
+  return offers;
+}
+
+/// Places the child of a comparison, or adds to what is known of it. @returns whether it told anything new.
+bool apply(Reference& parent, const Comparison& comparison, const CompareOptions& options, Reference& child) {
+  Reference seen = chained(parent, comparison, options);
+  if (!seen.valid()) return false;
+  if (!child.valid()) {
+    child = seen;
+    return true;
+  }
+  const bool tells = (seen.known[0] && !child.known[0]) || (seen.known[1] && !child.known[1]);
+  if (tells) grow(child, seen);
+  return tells;
+}
+
+/// Prim's algorithm over comparisons, of which each needs an end that is known already: from the root outwards, the one over the most iterations first.
+std::vector<PlaceStep> spanning_steps(std::size_t root, const std::vector<Offer>& offers,
+                                      const CompareOptions& options, std::vector<Reference>& references) {
+  std::vector<PlaceStep> steps;
+  bool more = true;
+  while (more) {
+    more = false;
+    for (const Offer& offer : offers) {
+      Reference& parent = references[offer.step.parent];
+      if (steps.empty() && offer.step.parent == root) parent = reference_of(offer.comparison, 0, options);
+      if (!parent.valid() || references[offer.step.child].full()) continue;
+      if (!apply(parent, offer.comparison, options, references[offer.step.child])) continue;
+      steps.push_back(offer.step);
+      more = true;
+      break;
+    }
+  }
+  return steps;
+}
+
+std::size_t placed_count(const std::vector<Reference>& references) {
+  return static_cast<std::size_t>(std::count_if(
+      references.begin(), references.end(), [](const Reference& reference) { return reference.valid(); }));
+}
+
 }  // namespace
 
 const Member* Submap::find(TrackId track) const {
@@ -22,8 +91,9 @@ const Member* Submap::find(TrackId track) const {
   return at == members_.end() ? nullptr : &*at;
 }
 
-void Submap::add(TrackId track, Iteration now) {
+void Submap::add(TrackId track, Iteration now, bool link) {
   Member member;
+  member.link = member.confirmed = link;
   member.track = track;
   member.joined = now;
   members_.push_back(member);
@@ -43,9 +113,10 @@ bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options&
   const std::vector<Member> before = members_;
   for (Member& member : members_) {
     member.reference = {};
-    for (int end = 0; end < 2; ++end) member.still[end] = member.still_parent[end] = false;
+    member.comparison = {};
+    for (int end = 0; end < 2; ++end) member.still[end] = false;
   }
-  for (const PairEdge& edge : order_) place_child(edge, pairs, tracks, now);
+  for (const PlaceStep& step : order_) take_step(step, pairs, tracks, now);
   keep_frame(before);
   return true;
 }
@@ -68,62 +139,68 @@ void Submap::keep_frame(const std::vector<Member>& before) {
 }
 
 void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
-  const auto n = static_cast<int>(members_.size());
-  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(n, n);
-  for (int a = 0; a < n; ++a) {
-    for (int b = a + 1; b < n; ++b) {
-      const Track& in_a = tracks[members_[static_cast<std::size_t>(a)].track];
-      const Track& in_b = tracks[members_[static_cast<std::size_t>(b)].track];
-      weights(a, b) = weights(b, a) = pairs.update(in_a, in_b).shared();
-    }
+  const std::vector<Offer> offers = offers_of(members_, pairs, tracks);
+  std::vector<double> worth(members_.size(), 0.0);
+  for (const Offer& offer : offers) worth[offer.step.parent] += offer.comparison.shared;
+  std::vector<std::size_t> roots(members_.size());
+  std::iota(roots.begin(), roots.end(), std::size_t{0});
+  std::stable_sort(roots.begin(), roots.end(),
+                   [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
+  int best = -1;
+  order_.clear();
+  for (const std::size_t root : roots) {
+    if (worth[root] <= 0.0) break;
+    std::vector<Reference> placed_now(members_.size());
+    std::vector<PlaceStep> order = spanning_steps(root, offers, pairs.comparer().options(), placed_now);
+    const int score = score_of(placed_now);
+    if (score <= best) continue;
+    best = score;
+    order_.swap(order);
+    if (placed_count(placed_now) == members_.size()) break;
   }
-  int root = 0;
-  for (int a = 1; a < n; ++a) {
-    if (weights.row(a).sum() > weights.row(root).sum()) root = a;
-  }
-  const auto from_root = [root](int i) { return i == 0 ? root : i == root ? 0 : i; };
-  const auto weight = [&](int a, int b) { return weights(from_root(a), from_root(b)); };
-  order_ = maximum_spanning_tree(n, weight, weight);
-  for (PairEdge& edge : order_) edge = {from_root(edge.parent), from_root(edge.child)};
   ordered_ = now;
 }
 
-void Submap::place_child(const PairEdge& edge, StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
-  Member& child = members_[static_cast<std::size_t>(edge.child)];
-  Member& parent = members_[static_cast<std::size_t>(edge.parent)];
+/// Members placed; the first two of those that link to older submaps count most.
+int Submap::score_of(const std::vector<Reference>& references) const {
+  int placed_members = 0, links_placed = 0;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (!references[i].valid()) continue;
+    ++placed_members;
+    links_placed += members_[i].link ? 1 : 0;
+  }
+  return placed_members + static_cast<int>(members_.size()) * std::min(links_placed, 2);
+}
+
+void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
+  Member& child = members_[step.child];
+  Member& parent = members_[step.parent];
   const Track& child_track = tracks[child.track];
   const Track& parent_track = tracks[parent.track];
   const PairHistory& history = pairs.update(parent_track, child_track);
   const CompareOptions& options = pairs.comparer().options();
-  child.parent = parent.track;
-  place_by(history, parent_track, child_track, parent, child, edge.parent == order_.front().parent, options);
-  if (history.since < 0 || history.updated != now) return;
-  const bool swapped = child.track < parent.track;
-  for (int end = 0; end < 2; ++end) {
-    child.still_parent[end] = history.still[swapped ? 1 : 0][end];
-    child.still[end] = history.still[swapped ? 0 : 1][end];
-  }
-}
-
-void Submap::place_by(const PairHistory& history, const Track& parent_track, const Track& child_track,
-                      Member& parent, Member& child, bool is_root,
-                      const CompareOptions& options) {
-  child.comparison = {};
   for (const Comparison& saved : history.saved) {
     const Comparison comparison = StaticPairs::oriented(saved, parent_track, child_track);
-    if (!child.comparison.valid) child.comparison = comparison;
-    if (is_root && !parent.reference.valid()) {
+    if (ends_of(comparison) != step.ends) continue;
+    if (!parent.reference.valid()) {
+      if (&step != &order_.front()) return;
       parent.reference = reference_of(comparison, 0, options);
       parent.comparison = comparison;
     }
-    if (!parent.reference.valid()) return;
-    const Reference seen = chained(parent.reference, comparison, options);
-    if (!seen.valid()) continue;
-    if (child.reference.valid()) {
-      grow(child.reference, seen);
-    } else {
-      child.reference = seen;
+    if (apply(parent.reference, comparison, options, child.reference) && !child.comparison.valid) {
+      child.comparison = comparison;
+      child.parent = parent.track;
     }
+  }
+  note_still(history, parent, child, now);
+}
+
+void Submap::note_still(const PairHistory& history, Member& parent, Member& child, Iteration now) {
+  if (history.since < 0 || history.updated != now) return;
+  const bool swapped = child.track < parent.track;
+  for (int end = 0; end < 2; ++end) {
+    parent.still[end] = parent.still[end] || history.still[swapped ? 1 : 0][end];
+    child.still[end] = child.still[end] || history.still[swapped ? 0 : 1][end];
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "slam_plane/thesis/membership.hpp"
 #include "slam_plane/thesis/options.hpp"
-#include "slam_plane/thesis/pair_order.hpp"
 #include "slam_plane/thesis/reference.hpp"
 #include "slam_plane/thesis/static_pairs.hpp"
 #include "slam_plane/thesis/track_book.hpp"
@@ -22,14 +21,21 @@ struct Member {
   Reference reference;     ///< in the submap's frame
   Comparison comparison;   ///< with `parent`, that placed it; of the first member that of its first child
   TrackId parent = 0;
-  bool still[2] = {false, false};         ///< its ends that stand still now
-  bool still_parent[2] = {false, false};  ///< and its parent's
+  bool still[2] = {false, false};  ///< its ends that stand still now
+  bool link = false;               ///< it is in an older submap too, and was taken from there
 };
 
 /// A plane whose place in the map's frame is given: what aligns a submap that no other one places (Rules 4, 27).
 struct Anchor {
   TrackId track = 0;
   Reference reference;  ///< map's frame
+};
+
+/// One comparison of a submap's order: it places the child, or tells one more end of it.
+struct PlaceStep {
+  std::size_t parent = 0;  ///< indices of members
+  std::size_t child = 0;
+  int ends = 0;  ///< which ends are compared: 2 * parent's + child's, left 0, right 1
 };
 
 /// Planes that were visible together, placed relative to each other by comparisons of pairs (thesis 4.3.2, 4.4.3.2).
@@ -42,7 +48,8 @@ class Submap {
   const std::vector<Member>& members() const { return members_; }
   const Member* find(TrackId track) const;
   bool contains(TrackId track) const { return find(track) != nullptr; }
-  void add(TrackId track, Iteration now);
+  /// @param link  it is taken over from an older submap
+  void add(TrackId track, Iteration now, bool link);
 
   /// When all members were visible together (Rule 7).
   Intervals common(const TrackBook& tracks) const;
@@ -69,14 +76,14 @@ class Submap {
  private:
   void keep_frame(const std::vector<Member>& before);
   void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
-  void place_child(const PairEdge& edge, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
-  void place_by(const PairHistory& history, const Track& parent_track, const Track& child_track, Member& parent,
-                Member& child, bool is_root, const CompareOptions& options);
+  int score_of(const std::vector<Reference>& references) const;
+  void take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
+  static void note_still(const PairHistory& history, Member& parent, Member& child, Iteration now);
 
   std::uint64_t id_;
   Iteration created_;
   std::vector<Member> members_;
-  std::vector<PairEdge> order_;
+  std::vector<PlaceStep> order_;
   Iteration ordered_ = -1;      // when the order was chosen; -1: never
   Iteration computed_to_ = -1;  // newest sighting that was taken in
 };

@@ -14,6 +14,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr int kPlaceByPoseAfter =
+    30;  // iterations after which a submap without a link is placed by the robot's pose
 constexpr int kRollBacksPerFrame = 4;  // more in one frame are not made: the member stays
 
 }  // namespace
@@ -53,9 +55,13 @@ class ThesisMapper::Engine {
   /// Submaps of which at least two planes are in view (thesis 4.5 ComputeXPoints).
   void compute_submaps() {
     changed_.clear();
+    state_.unanchored.clear();
     for (const SubmapIndex index : submaps_in_view()) {
       Submap& submap = state_.submaps[index];
       if (!submap.compute(state_.pairs, state_.tracks, options_, state_.now)) continue;
+      const bool late = submap.created() + kPlaceByPoseAfter <= state_.now;
+      if (!submap.placed && submap.anchors.empty() && (submap.by_motion || late))
+        state_.unanchored.push_back(index);
       changed_.push_back(index);
       state_.locator.note(submap, state_.now);
       judge(index);
@@ -112,8 +118,7 @@ class ThesisMapper::Engine {
     }
     state_.carried.located = location_.has_value();
     if (motion.active()) state_.carried.after_motion = true;
-    if (location_)
-      counters_.submaps_after_motion += anchor_after_motion(location_->T_to_from, options_, state_);
+    if (location_) counters_.submaps_after_motion += anchor_by_pose(*location_, state_);
   }
 
   /// Goes back to before the hinted event and does everything again (Rules 33, 34).
