@@ -31,7 +31,7 @@ void anchor(TrackId track, const bool (&ends)[2], Submap& submap, const State& s
 void anchor_first(const Options& options, State& state) {
   Submap& first = state.submaps.front();
   const CompareOptions compare = options.compare();
-  for (std::size_t i = 1; i < first.members().size(); ++i) {
+  for (std::size_t i = 0; i < first.members().size(); ++i) {
     const Member& member = first.members()[i];
     if (!member.comparison.has_keys() || !member.comparison.interval.contains(state.start)) continue;
     bool ends[2];

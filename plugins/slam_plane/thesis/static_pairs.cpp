@@ -159,6 +159,8 @@ void StaticPairs::search(const Track& a, const Track& b, PairHistory& pair) {
     }
   }
   if (!best) return;
+  for (const Track* track : {&a, &b})  // both were seen all the time
+    pair.since = std::max(pair.since, (*track)[track->lower_bound(pair.since)].iteration);
   const OffsetMoments moments = offset_moments(best->sums, best->combination, kNoSize);
   for (Iteration k = pair.since - 1; k >= pair.updated - kLongestSearch; --k) {
     const Sighting* in_a = a.find(k);

@@ -185,7 +185,8 @@ void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBoo
     if (!parent.reference.valid()) {
       if (&step != &order_.front()) return;
       parent.reference = reference_of(comparison, 0, options);
-      parent.comparison = comparison;
+      parent.comparison = inverse(comparison);
+      parent.parent = child.track;
     }
     if (apply(parent.reference, comparison, options, child.reference) && !child.comparison.valid) {
       child.comparison = comparison;

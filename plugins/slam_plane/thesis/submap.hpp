@@ -19,7 +19,7 @@ struct Member {
   Iteration joined = 0;
   bool confirmed = false;  ///< compared over enough iterations (Rule 32)
   Reference reference;     ///< in the submap's frame
-  Comparison comparison;   ///< with `parent`, that placed it; of the first member that of its first child
+  Comparison comparison;   ///< with `parent`, that placed it; of the plane placed first, with the second one
   TrackId parent = 0;
   bool still[2] = {false, false};  ///< its ends that stand still now
   bool link = false;               ///< it is in an older submap too, and was taken from there
