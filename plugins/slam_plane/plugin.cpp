@@ -7,13 +7,17 @@
 #include "adapter/option_rows.hpp"
 #include "slam_plane/core/mapper.hpp"
 #include "slam_plane/plane_adapter.hpp"
+#include "slam_plane/thesis/thesis_mapper.hpp"
 
 namespace hallway::slam_plane {
 namespace {
 
 static_assert(kNoWall == HW_NO_LANDMARK);
 
-/// The mapper behind the plugin ABI. Walls have ids where landmarks have them.
+enum class Mode : int { relative = 0, thesis = 1 };
+constexpr const char* kModeNames[] = {"relative", "thesis"};
+
+/// The mapper behind the plugin ABI, and in its place, with mode=thesis, the thesis's own algorithm. Walls have ids where landmarks have them.
 class SlamPlane final : public sdk::Plugin {
  public:
   static const hw_plugin_info_t* info();
@@ -22,22 +26,36 @@ class SlamPlane final : public sdk::Plugin {
     add_options(parameters(), options_, slam_plane::parameters());
     parameters().add("range_bounds_sides", &range_bounds_sides_, 0, 1, "1",
                      "1: the sensor's range bounds distances; 0: it bounds depths, straight ahead.");
+    parameters().add_choice(
+        "mode", &mode_, kModeNames,
+        "relative: submaps of lines and corners, placed together; thesis: comparisons of pairs, chained.");
+    add_options(parameters(), thesis_options_, thesis::parameters());
   }
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
     adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
-    mapper_.emplace(options_);
+    if (mode_ == static_cast<int>(Mode::thesis)) {
+      thesis_.emplace(thesis_options_);
+    } else {
+      mapper_.emplace(options_);
+    }
   }
 
-  void deactivate() override { mapper_.reset(); }
+  void deactivate() override {
+    mapper_.reset();
+    thesis_.reset();
+  }
 
   void reset() override {
     if (mapper_) mapper_->reset();
+    if (thesis_) thesis_->reset();
   }
 
   void process(const hw_frame_t& frame) override {
-    const Answer& answer = mapper_->process(adapter_.gather(frame), adapter_.view());
+    const std::vector<Piece>& pieces = adapter_.gather(frame);
+    const Answer& answer =
+        thesis_ ? thesis_->process(pieces, adapter_.view()) : mapper_->process(pieces, adapter_.view());
     if (answer.has_pose) {
       const Eigen::Matrix<double, 6, 6> covariance =
           adapter_.body_covariance(answer.T_map_robot, answer.covariance);
@@ -46,11 +64,15 @@ class SlamPlane final : public sdk::Plugin {
       host().put_lost();
     }
     adapter_.put_associations(host(), answer.associations);
-    put_counters(answer);
+    if (thesis_) {
+      put_thesis_counters(answer);
+    } else {
+      put_counters(answer);
+    }
   }
 
   void report(bool refine) override {
-    const Map map = refine ? mapper_->refined_map() : mapper_->map();
+    const Map map = thesis_ ? thesis_->map() : refine ? mapper_->refined_map() : mapper_->map();
     std::vector<hw_submap_t> submaps;
     std::vector<std::uint64_t> members;
     for (const Submap& submap : map.submaps) {
@@ -86,10 +108,32 @@ class SlamPlane final : public sdk::Plugin {
     host().put_counters(list);
   }
 
+  void put_thesis_counters(const Answer& answer) const {
+    const Counters& counters = answer.counters;
+    const thesis::ThesisCounters own = thesis_->counters();
+    const hw_counter_t list[] = {
+        {"lost", static_cast<double>(counters.lost)},
+        {"walls", static_cast<double>(counters.walls)},
+        {"submaps", static_cast<double>(counters.submaps)},
+        {"degenerate", static_cast<double>(counters.degenerate)},
+        {"comparisons", static_cast<double>(own.comparisons)},
+        {"cache_hits", static_cast<double>(own.cache_hits)},
+        {"roll_backs", static_cast<double>(own.roll_backs)},
+        {"replayed", static_cast<double>(own.replayed)},
+        {"submaps_after_motion", static_cast<double>(own.submaps_after_motion)},
+        {"undetermined_x", answer.undetermined.x()},
+        {"undetermined_y", answer.undetermined.y()},
+    };
+    host().put_counters(list);
+  }
+
   Options options_;
   int range_bounds_sides_ = 0;
+  thesis::Options thesis_options_;
+  int mode_ = static_cast<int>(Mode::relative);
   PlaneAdapter adapter_;
-  std::optional<Mapper> mapper_;  // while active
+  std::optional<Mapper> mapper_;  // one of the two while active
+  std::optional<thesis::ThesisMapper> thesis_;
 };
 
 const hw_plugin_info_t* SlamPlane::info() {

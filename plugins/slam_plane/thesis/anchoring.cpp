@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/anchoring.hpp"
+
+#include <algorithm>
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+Reference reference_of_first(const Sighting& first) {
+  Reference result;
+  result.place.middle = first.segment.middle();
+  result.place.direction = first.direction;
+  result.place.size = first.length;
+  result.place.valid = true;
+  return result;
+}
+
+void anchor(TrackId track, const bool (&ends)[2], Submap& submap, const State& state) {
+  if (state.tracks[track].first().iteration != state.start) return;
+  auto at = std::find_if(submap.anchors.begin(), submap.anchors.end(),
+                         [&](const Anchor& other) { return other.track == track; });
+  if (at == submap.anchors.end()) {
+    submap.anchors.push_back({track, reference_of_first(state.tracks[track].first())});
+    at = std::prev(submap.anchors.end());
+  }
+  for (int end = 0; end < 2; ++end) at->reference.known[end] = at->reference.known[end] || ends[end];
+}
+
+}  // namespace
+
+void anchor_first(const Options& options, State& state) {
+  Submap& first = state.submaps.front();
+  const CompareOptions compare = options.compare();
+  for (std::size_t i = 0; i < first.members().size(); ++i) {
+    const Member& member = first.members()[i];
+    if (!member.comparison.has_keys() || !member.comparison.interval.contains(state.start)) continue;
+    bool ends[2];
+    static_ends(member.comparison, 0, compare, ends);
+    anchor(member.parent, ends, first, state);
+    static_ends(member.comparison, 1, compare, ends);
+    anchor(member.track, ends, first, state);
+  }
+}
+
+std::uint64_t anchor_by_pose(const Alignment& location, State& state) {
+  std::uint64_t fixed = 0;
+  for (const SubmapIndex index : state.unanchored) {
+    Submap& submap = state.submaps[index];
+    if (submap.placed || (!submap.by_motion && !location.by_points)) continue;
+    std::vector<PlanePair> pairs;
+    for (const Member& member : submap.members()) {
+      if (!member.reference.valid() ||
+          !std::binary_search(state.seen.begin(), state.seen.end(), member.track))
+        continue;
+      append_pairs(member.reference, state.locator.seen(state.tracks[member.track], state.now), pairs);
+    }
+    const std::optional<Alignment> T_robot_submap = align(pairs, Pose2{});
+    if (!T_robot_submap || !T_robot_submap->by_points) continue;
+    const Pose2 T = location.T_to_from * T_robot_submap->T_to_from;
+    for (const Member& member : submap.members()) {
+      if (member.reference.valid()) submap.anchors.push_back({member.track, moved(T, member.reference)});
+    }
+    submap.anchored = state.now;
+    ++fixed;
+  }
+  return fixed;
+}
+
+}  // namespace hallway::slam_plane::thesis

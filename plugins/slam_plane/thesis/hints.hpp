@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "slam_plane/thesis/track_book.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// "Do not let this track join that submap": what a roll back takes along into the past (Rules 32, 34).
+struct Hint {
+  Iteration iteration = 0;  ///< at which it had joined
+  TrackId track = 0;
+  SubmapIndex submap = 0;
+};
+
+/// The hints that hold, in the order of their iterations (thesis 4.4.3.16).
+class Hints {
+ public:
+  /// Adds one. Those of later iterations are dropped: what they speak of may not happen any more.
+  void add(const Hint& hint) {
+    std::erase_if(hints_, [&](const Hint& other) { return other.iteration > hint.iteration; });
+    hints_.push_back(hint);
+    if (strikes_.size() <= hint.track) strikes_.resize(hint.track + 1, 0);
+    ++strikes_[hint.track];
+  }
+
+  /// Whether a track may join a submap that there is.
+  bool may_join(TrackId track, SubmapIndex submap) const {
+    return count(track) < 2 && std::none_of(hints_.begin(), hints_.end(), [&](const Hint& hint) {
+             return hint.track == track && hint.submap == submap;
+           });
+  }
+
+  /// How often a track was rolled back because it was compared over too little.
+  int strikes(TrackId track) const { return count(track); }
+
+  /// Whether a track has had all the hints that one may have.
+  bool exhausted(TrackId track) const { return count(track) >= 3; }
+
+  /// Forgets hints that no roll back can reach any more.
+  void forget_before(Iteration k) {
+    std::erase_if(hints_, [&](const Hint& hint) { return hint.iteration < k; });
+  }
+
+  std::size_t size() const { return hints_.size(); }
+
+ private:
+  int count(TrackId track) const { return track < strikes_.size() ? strikes_[track] : 0; }
+
+  std::vector<Hint> hints_;
+  std::vector<int> strikes_;  // hints that a track ever got; so no track causes more than three roll backs
+};
+
+}  // namespace hallway::slam_plane::thesis

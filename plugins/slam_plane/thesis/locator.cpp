@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/locator.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+void Locator::note(TrackId track, const bool (&ends)[2], Iteration now) {
+  if (static_.size() <= track) static_.resize(track + 1);
+  StaticEnds& noted = static_[track];
+  if (noted.at != now) noted = {now, {false, false}};
+  for (int end = 0; end < 2; ++end) noted.end[end] = noted.end[end] || ends[end];
+}
+
+void Locator::note(const Submap& submap, Iteration now) {
+  for (const Member& member : submap.members()) {
+    if (member.still[0] || member.still[1]) note(member.track, member.still, now);
+  }
+}
+
+Reference Locator::seen(const Track& track, Iteration now) const {
+  const Sighting& sighting = track.newest();
+  Reference result;
+  result.place.middle = sighting.segment.middle();
+  result.place.direction = sighting.direction;
+  result.place.size = sighting.length;
+  result.place.valid = true;
+  if (track.id() < static_.size() && static_[track.id()].at == now) {
+    for (int end = 0; end < 2; ++end) result.known[end] = static_[track.id()].end[end];
+  }
+  return result;
+}
+
+void Locator::recalculate(TrackId id, std::span<const TrackId> tracks_now, const TrackBook& tracks,
+                          StaticPairs& pairs, Iteration now) {
+  for (const TrackId other : tracks_now) {
+    if (other == id) continue;
+    const PairHistory& history = pairs.update(tracks[id], tracks[other]);
+    if (history.since < 0 || history.updated != now) continue;
+    note(id, history.still[other < id ? 1 : 0], now);
+    return;
+  }
+}
+
+std::optional<Alignment> Locator::locate(std::span<const TrackId> tracks_now, const TrackBook& tracks,
+                                         const MapBuilder& map, StaticPairs& pairs, Iteration now,
+                                         const Pose2& guess) {
+  std::vector<PlanePair> evidence;
+  for (const TrackId id : tracks_now) {
+    const MappedPlane* plane = map.find(id);
+    if (plane == nullptr) continue;
+    if (id >= static_.size() || static_[id].at != now) recalculate(id, tracks_now, tracks, pairs, now);
+    append_pairs(seen(tracks[id], now), plane->reference, evidence);
+  }
+  return align(evidence, guess);
+}
+
+}  // namespace hallway::slam_plane::thesis

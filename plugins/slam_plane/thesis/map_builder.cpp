@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/map_builder.hpp"
+
+#include <algorithm>
+
+#include "slam_plane/thesis/resize.hpp"
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr std::size_t kLeastShared = 2;  // Rule 8
+constexpr double kMoved_m = 1e-4;        // a submap that moves less takes no others along
+
+std::optional<Pose2> by_anchors(const Submap& submap) {
+  std::vector<PlanePair> pairs;
+  for (const Anchor& anchor : submap.anchors) {
+    const Member* member = submap.find(anchor.track);
+    if (member != nullptr && member->reference.valid())
+      append_pairs(member->reference, anchor.reference, pairs);
+  }
+  const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
+  if (!alignment || !alignment->determined) return std::nullopt;
+  return alignment->T_to_from;
+}
+
+}  // namespace
+
+std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps,
+                                      std::size_t min_planes) {
+  const Submap& submap = submaps[index];
+  std::vector<PlanePair> pairs;
+  std::vector<TrackId> shared;
+  for (const SubmapIndex linked : submap.links) {
+    const Submap& base = submaps[linked];
+    if (linked >= index || !base.placed) continue;
+    for (const Member& member : submap.members()) {
+      const Member* other = base.find(member.track);
+      if (other == nullptr || !member.reference.valid() || !other->reference.valid()) continue;
+      append_pairs(member.reference, moved(base.T_map_submap, other->reference), pairs);
+      if (std::find(shared.begin(), shared.end(), member.track) == shared.end())
+        shared.push_back(member.track);
+    }
+  }
+  if (shared.size() < min_planes) return std::nullopt;
+  const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
+  if (!alignment || !alignment->determined) return std::nullopt;
+  return alignment->T_to_from;
+}
+
+bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps) const {
+  Submap& submap = submaps[index];
+  const Pose2 before = submap.T_map_submap;
+  const bool was = submap.placed;
+  std::optional<Pose2> T;
+  if (!submap.anchors.empty()) T = by_anchors(submap);
+  if (!T) T = link(index, submaps, kLeastShared);
+  if (!T) return false;
+  submap.T_map_submap = *T;
+  submap.placed = true;
+  return !was || (before.t - T->t).norm() > kMoved_m || (before.r - T->r).norm() > kMoved_m;
+}
+
+void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks) {
+  std::vector<Reference> seen;
+  for (const SubmapIndex index : tracks.submaps(track)) {
+    const Submap& submap = submaps[index];
+    if (!submap.placed) continue;
+    const Member* member = submap.find(track);
+    if (member != nullptr && member->reference.valid())
+      seen.push_back(moved(submap.T_map_submap, member->reference));
+  }
+  if (seen.empty()) return;
+  std::stable_sort(seen.begin(), seen.end(), [](const Reference& a, const Reference& b) {
+    const int ends_a = int{a.known[0]} + int{a.known[1]};
+    const int ends_b = int{b.known[0]} + int{b.known[1]};
+    return ends_a != ends_b ? ends_a > ends_b : a.shared > b.shared;
+  });
+  Reference plane = seen.front();
+  for (const Reference& other : seen) grow(plane, other);
+  if (planes_.size() <= track) planes_.resize(tracks.size());
+  if (!planes_[track].valid()) ++valid_;
+  planes_[track].reference = plane;
+}
+
+void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps,
+                       const TrackBook& tracks) {
+  std::vector<SubmapIndex> order(changed.begin(), changed.end());
+  std::sort(order.begin(), order.end());
+  std::vector<TrackId> touched;
+  for (const SubmapIndex index : order) {
+    place(index, submaps);
+    if (!submaps[index].placed) continue;
+    for (const Member& member : submaps[index].members()) touched.push_back(member.track);
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const TrackId track : touched) combine(track, submaps, tracks);
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam_plane/thesis/submap.hpp"
+#include "slam_plane/thesis/track_book.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// A plane of the map.
+struct MappedPlane {
+  Reference reference;  ///< map's frame
+  bool valid() const { return reference.valid(); }
+};
+
+/// Makes the map from submaps, one linked to another (thesis 4.5 BuildMap; Rules 4, 6, 8, 17).
+class MapBuilder {
+ public:
+  explicit MapBuilder(const Options& options) : options_(options) {}
+
+  /// Places the submaps of a list, those they are linked to before them, and their planes. O(their members).
+  void build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps, const TrackBook& tracks);
+
+  /// The plane of a track, or null while the map does not have it.
+  const MappedPlane* find(TrackId track) const {
+    return track < planes_.size() && planes_[track].valid() ? &planes_[track] : nullptr;
+  }
+  std::size_t size() const { return planes_.size(); }
+  /// Planes that the map has.
+  std::size_t valid_planes() const { return valid_; }
+
+  /// Rolls back: forgets everything; build() all submaps then.
+  void clear() {
+    planes_.clear();
+    valid_ = 0;
+  }
+
+  /// Where a submap lies in the map, by the planes that it shares with older ones that it is linked to; nothing if they are too few (Rule 8).
+  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps,
+                                   std::size_t min_planes);
+
+ private:
+  bool place(SubmapIndex index, std::vector<Submap>& submaps) const;
+  void combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks);
+
+  Options options_;
+  std::vector<MappedPlane> planes_;  // by track
+  std::size_t valid_ = 0;
+};
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "slam_plane/thesis/alignment.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// Follows the robot while what it sees leaves the place along a wall open (thesis 4.3.6). The distance from the wall and the heading are measured; the robot is taken to
+/// move in the direction in which it looks (Rule 24), so the change of the distance tells how far.
+class MotionModel {
+ public:
+  MotionModel(int begin_after, double parallel_deg);
+
+  /// Where the robot may be expected: moved once more as it was last.
+  Pose2 predicted() const;
+  bool has_pose() const { return has_pose_; }
+  const Pose2& pose() const { return pose_; }
+
+  /// Takes a frame that told its position (Rule 26: that ends the model).
+  void known(const Pose2& T_map_robot);
+
+  /// Takes a frame that left the place open along `alignment.open`, and @returns it with that place filled in (Rules 24, 25, 27).
+  Pose2 restricted(const Alignment& alignment);
+
+  /// Takes a frame that told nothing.
+  void nothing() { ++unknown_; }
+
+  /// So many frames in a row did not tell a position that the model is on (Rule 26).
+  bool active() const { return has_pose_ && unknown_ > begin_after_; }
+
+ private:
+  void moved_to(const Pose2& T_map_robot);
+
+  int begin_after_;
+  double least_sine_;
+  bool has_pose_ = false;
+  bool has_step_ = false;
+  int unknown_ = 0;
+  Pose2 pose_;
+  Pose2 step_;          // the last movement, in the robot's frame before it
+  double speed_ = 0.0;  // length of the last movement that was measured [m]
+};
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/options.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"thesis_match_angle_deg", "deg", 0.1, 60.0,
+     "mode=thesis: largest angle between a piece and the plane that it is taken for.",
+     &Options::match_angle_deg, nullptr},
+    {"thesis_match_distance_m", "m", 1e-3, 10.0,
+     "mode=thesis: largest difference of the distances of a piece and of a plane seen just before.",
+     &Options::match_distance_m, nullptr},
+    {"thesis_recent_iterations", "iterations", 1, 1000,
+     "mode=thesis: a plane unseen for longer is looked for in the map alone.", nullptr,
+     &Options::recent_iterations},
+    {"thesis_map_distance_m", "m", 1e-3, 10.0,
+     "mode=thesis: largest distance between a piece and a plane of the map.", &Options::map_distance_m,
+     nullptr},
+    {"thesis_storage", "sightings", 50, 16384, "mode=thesis: how many sightings of a plane are kept.",
+     nullptr, &Options::storage},
+    {"thesis_trend_hysteresis_m", "m", 1e-4, 1.0,
+     "mode=thesis: change of a plane's length that tells growing from shrinking.",
+     &Options::trend_hysteresis_m, nullptr},
+    {"thesis_max_deviation_m", "m", 1e-4, 10.0,
+     "mode=thesis: least standard deviation of a comparison above which no end is static.",
+     &Options::max_deviation_m, nullptr},
+    {"thesis_close_ratio", "1", 1.0, 100.0,
+     "mode=thesis: standard deviations up to this ratio are taken for equal.", &Options::close_ratio,
+     nullptr},
+    {"thesis_min_readings", "sightings", 2, 1000, "mode=thesis: of a plane before it joins a submap.",
+     nullptr, &Options::min_readings},
+    {"thesis_link_planes", "planes", 2, 20,
+     "mode=thesis: how many members a new submap takes over from an older one.", nullptr,
+     &Options::link_planes},
+    {"thesis_min_interval", "iterations", 2, 1000,
+     "mode=thesis: over how many a member of a submap has to be compared.", nullptr, &Options::min_interval},
+    {"thesis_judge_after", "iterations", 2, 1000,
+     "mode=thesis: when that is asked, after the member has joined.", nullptr, &Options::judge_after},
+    {"thesis_max_references", "submaps", 1, 1000,
+     "mode=thesis: a plane of so many submaps causes no further one when it is met again.", nullptr,
+     &Options::max_references},
+    {"thesis_reorder_every", "iterations", 1, 1000,
+     "mode=thesis: how often the order of a submap's comparisons is chosen anew.", nullptr,
+     &Options::reorder_every},
+    {"thesis_motion_after", "iterations", 1, 1000,
+     "mode=thesis: iterations without a position before the motion model begins.", nullptr,
+     &Options::motion_after},
+    {"thesis_motion_parallel_deg", "deg", 0.1, 89.0,
+     "mode=thesis: a wall at a smaller angle to the movement does not measure it.",
+     &Options::motion_parallel_deg, nullptr},
+    {"thesis_roll_back_limit", "iterations", 0, 500,
+     "mode=thesis: how far a roll back goes back at most; 0: never.", nullptr, &Options::roll_back_limit},
+};
+
+}  // namespace
+
+MatchOptions Options::match() const {
+  MatchOptions options;
+  options.angle_deg = match_angle_deg;
+  options.distance_m = match_distance_m;
+  options.recent_iterations = recent_iterations;
+  return options;
+}
+
+MatchOptions Options::map_match() const {
+  MatchOptions options = match();
+  options.distance_m = map_distance_m;
+  return options;
+}
+
+TrackOptions Options::track() const {
+  TrackOptions options;
+  options.capacity = storage;
+  options.trend_hysteresis_m = trend_hysteresis_m;
+  return options;
+}
+
+CompareOptions Options::compare() const {
+  CompareOptions options;
+  options.max_deviation_m = max_deviation_m;
+  options.close_ratio = close_ratio;
+  return options;
+}
+
+IntervalOptions Options::interval() const {
+  IntervalOptions options;
+  options.min_interval = min_interval;
+  options.judge_after = judge_after;
+  return options;
+}
+
+std::span<const Parameter> parameters() {
+  return kParameters;
+}
+
+void Options::validate() const {
+  for (const Parameter& parameter : kParameters) {
+    const double value = parameter.real != nullptr ? this->*parameter.real : this->*parameter.whole;
+    if (value >= parameter.min && value <= parameter.max) continue;
+    std::ostringstream text;
+    text << parameter.name << " is " << value << ' ' << parameter.unit << "; it must be between "
+         << parameter.min << " and " << parameter.max;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+}  // namespace hallway::slam_plane::thesis

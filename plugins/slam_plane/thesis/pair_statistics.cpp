@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/pair_statistics.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "slam_plane/thesis/shared_sightings.hpp"
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr int kStride = 8;              // shared sightings from one checkpoint to the next
+constexpr std::size_t kSummaries = 32;  // that are remembered
+constexpr Iteration kBeforeAll = std::numeric_limits<Iteration>::min();
+
+}  // namespace
+
+PairStatistics::PairStatistics(std::size_t capacity)
+    : checkpoints_(capacity / kStride + 2), updated_to_(kBeforeAll) {}
+
+void PairStatistics::update(const Track& a, const Track& b) {
+  if (a.empty() || b.empty()) return;
+  const Iteration now = std::min(a.newest().iteration, b.newest().iteration);
+  if (now > updated_to_) {
+    for_each_shared(a, b, {updated_to_ + 1, now}, [&](const Sighting& in_a, const Sighting& in_b) {
+      total_ += sums_of(in_a, in_b);
+      if (++since_checkpoint_ < kStride) return;
+      checkpoints_.push_back({in_a.iteration, total_});
+      since_checkpoint_ = 0;
+    });
+    updated_to_ = now;
+  }
+  const Iteration oldest = std::max(a.oldest().iteration, b.oldest().iteration);
+  while (!checkpoints_.empty() && checkpoints_.front().iteration < oldest) checkpoints_.pop_front();
+  const auto kept = std::find_if(summaries_.begin(), summaries_.end(),
+                                 [&](const IntervalSummary& s) { return s.interval.first >= oldest; });
+  summaries_.erase(summaries_.begin(), kept);
+}
+
+void PairStatistics::truncate(Iteration k) {
+  if (updated_to_ <= k) return;
+  while (!checkpoints_.empty() && checkpoints_.back().iteration > k) checkpoints_.pop_back();
+  total_ = checkpoints_.empty() ? PairSums{} : checkpoints_.back().sums;
+  updated_to_ = checkpoints_.empty() ? kBeforeAll : checkpoints_.back().iteration;
+  since_checkpoint_ = 0;
+  std::erase_if(summaries_, [k](const IntervalSummary& summary) { return summary.interval.last > k; });
+}
+
+std::size_t PairStatistics::first_checkpoint(Iteration k) const {
+  std::size_t low = 0, high = checkpoints_.size();
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (checkpoints_[middle].iteration < k) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+PairSums PairStatistics::sums(const Track& a, const Track& b, const Interval& interval) const {
+  PairSums sums;
+  const auto add = [&](const Sighting& in_a, const Sighting& in_b) { sums += sums_of(in_a, in_b); };
+  const std::size_t from = first_checkpoint(interval.first);
+  const std::size_t to = first_checkpoint(interval.last + 1);  // behind the last one inside
+  if (from == to) {
+    for_each_shared(a, b, interval, add);
+    return sums;
+  }
+  const Checkpoint& first = checkpoints_[from];
+  const Checkpoint& last = checkpoints_[to - 1];
+  for_each_shared(a, b, {interval.first, first.iteration}, add);
+  for_each_shared(a, b, {last.iteration + 1, interval.last}, add);
+  sums += last.sums;
+  sums -= first.sums;
+  return sums;
+}
+
+const IntervalSummary& PairStatistics::summary(const Track& a, const Track& b, const Interval& interval,
+                                               const CompareOptions& options) {
+  auto at =
+      std::lower_bound(summaries_.begin(), summaries_.end(), interval.first,
+                       [](const IntervalSummary& s, Iteration first) { return s.interval.first < first; });
+  if (at != summaries_.end() && at->interval == interval) return *at;
+  IntervalSummary fresh{
+      interval, sums(a, b, interval), {size_in(a, interval, options), size_in(b, interval, options)}};
+  exclude_outliers(a, b, fresh);
+  if (at != summaries_.end() && at->interval.first == interval.first) {
+    *at = fresh;
+    return *at;
+  }
+  at = summaries_.insert(at, fresh);
+  if (summaries_.size() <= kSummaries) return *at;
+  const auto oldest = at == summaries_.begin() ? at + 1 : summaries_.begin();
+  const auto index = at - summaries_.begin() - (oldest < at ? 1 : 0);
+  summaries_.erase(oldest);
+  return summaries_[static_cast<std::size_t>(index)];
+}
+
+void PairStatistics::exclude_outliers(const Track& a, const Track& b, IntervalSummary& summary) {
+  for (int t = 0; t < 2; ++t) {
+    for (int i = 0; i < summary.size[t].outliers; ++i) {
+      const Iteration k = summary.size[t].outlier[static_cast<std::size_t>(i)];
+      if (t == 1 && summary.size[0].excludes(k)) continue;  // taken away already
+      const Sighting* in_a = a.find(k);
+      const Sighting* in_b = b.find(k);
+      if (in_a != nullptr && in_b != nullptr) summary.sums -= sums_of(*in_a, *in_b);
+    }
+  }
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam_plane/thesis/resize.hpp"
+
+namespace hallway::slam_plane::thesis {
+Reference moved(const Pose2& T, const Reference& reference) {
+  Reference result = reference;
+  result.place.middle = T * reference.place.middle;
+  result.place.direction = T.rotate(reference.place.direction);
+  return result;
+}
+
+void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]) {
+  ends[0] = ends[1] = false;
+  if (!comparison.has_keys()) return;
+  const double bound =
+      std::max(options.close_ratio * comparison.deviation, comparison.deviation + options.close_floor_m);
+  for (std::size_t a = 0; a < 2; ++a) {
+    for (std::size_t b = 0; b < 2; ++b) {
+      if (comparison.deviations[2 * a + b] <= bound) ends[which == 0 ? a : b] = true;
+    }
+  }
+}
+
+Reference reference_of(const Comparison& comparison, int which, const CompareOptions& options) {
+  Reference result;
+  result.place = comparison.placement(which);
+  result.shared = comparison.shared;
+  static_ends(comparison, which, options, result.known);
+  return result;
+}
+
+Reference chained(Reference& base, const Comparison& comparison, const CompareOptions& options) {
+  Reference seen = reference_of(comparison, 0, options);
+  const bool common = (base.known[0] && seen.known[0]) || (base.known[1] && seen.known[1]);
+  if (!common && !base.full() && !seen.full()) return {};
+  Reference result = reference_of(comparison, 1, options);
+  result.place = chained(base.place, comparison, options.size_tolerance_m);
+  result.shared = std::min(base.shared, comparison.shared);
+  for (int end = 0; end < 2; ++end) base.known[end] = base.known[end] || seen.known[end];
+  return result;
+}
+
+void append_pairs(const Reference& from, const Reference& to, std::vector<PlanePair>& pairs) {
+  const Segment a = from.place.segment();
+  const Segment b = to.place.segment();
+  PlanePair pair;
+  pair.direction[0] = from.place.direction;
+  pair.direction[1] = to.place.direction;
+  bool any = false;
+  for (int end = 0; end < 2; ++end) {
+    if (!from.known[end] || !to.known[end]) continue;
+    pair.point[0] = a.end[end];
+    pair.point[1] = b.end[end];
+    pair.same_point = any = true;
+    pairs.push_back(pair);
+  }
+  if (any) return;
+  pair.same_point = false;
+  pair.point[0] = a.middle();
+  pair.point[1] = b.middle();
+  pairs.push_back(pair);
+}
+
+void grow(Reference& plane, const Reference& other) {
+  const Vec2 direction = plane.place.direction;
+  Segment segment = plane.place.segment();
+  const Segment seen = other.place.segment();
+  for (int end = 0; end < 2; ++end) {
+    const int far = 1 - end;
+    if (plane.known[end]) continue;
+    const double sign = end == kEndA ? -1.0 : 1.0;
+    if (other.known[end]) {
+      segment.end[end] += direction * direction.dot(seen.end[end] - segment.end[end]);
+      plane.known[end] = true;
+    } else if (plane.known[far] && other.known[far] && other.place.size > segment.length()) {
+      segment.end[end] = segment.end[far] + sign * direction * other.place.size;
+    }
+  }
+  plane.place.middle = segment.middle();
+  plane.place.size = direction.dot(segment.end[kEndB] - segment.end[kEndA]);
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/submap.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+std::vector<const Track*> tracks_of(const std::vector<Member>& members, const TrackBook& tracks) {
+  std::vector<const Track*> list;
+  list.reserve(members.size());
+  for (const Member& member : members) list.push_back(&tracks[member.track]);
+  return list;
+}
+
+/// A comparison that may place one member relative to another.
+struct Offer {
+  PlaceStep step;
+  Comparison comparison;  // parent to child
+};
+
+int ends_of(const Comparison& comparison) {
+  return (comparison.key[0] == KeyPoint::right ? 2 : 0) + (comparison.key[1] == KeyPoint::right ? 1 : 0);
+}
+
+/// All of them, those over the most iterations first (Rule 30).
+std::vector<Offer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
+                             const TrackBook& tracks) {
+  std::vector<Offer> offers;
+  for (std::size_t a = 0; a < members.size(); ++a) {
+    for (std::size_t b = a + 1; b < members.size(); ++b) {
+      const Track& in_a = tracks[members[a].track];
+      const Track& in_b = tracks[members[b].track];
+      for (const Comparison& saved : pairs.update(in_a, in_b).saved) {
+        const Comparison there = StaticPairs::oriented(saved, in_a, in_b);
+        const Comparison back = inverse(there);
+        offers.push_back({{a, b, ends_of(there)}, there});
+        offers.push_back({{b, a, ends_of(back)}, back});
+      }
+    }
+  }
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const Offer& a, const Offer& b) { return a.comparison.shared > b.comparison.shared; });
+  return offers;
+}
+
+/// Places the child of a comparison, or adds to what is known of it. @returns whether it told anything new.
+bool apply(Reference& parent, const Comparison& comparison, const CompareOptions& options, Reference& child) {
+  Reference seen = chained(parent, comparison, options);
+  if (!seen.valid()) return false;
+  if (!child.valid()) {
+    child = seen;
+    return true;
+  }
+  const bool tells = (seen.known[0] && !child.known[0]) || (seen.known[1] && !child.known[1]);
+  if (tells) grow(child, seen);
+  return tells;
+}
+
+/// Prim's algorithm over comparisons, of which each needs an end that is known already: from the root outwards, the one over the most iterations first.
+std::vector<PlaceStep> spanning_steps(std::size_t root, const std::vector<Offer>& offers,
+                                      const CompareOptions& options, std::vector<Reference>& references) {
+  std::vector<PlaceStep> steps;
+  bool more = true;
+  while (more) {
+    more = false;
+    for (const Offer& offer : offers) {
+      Reference& parent = references[offer.step.parent];
+      if (steps.empty() && offer.step.parent == root) parent = reference_of(offer.comparison, 0, options);
+      if (!parent.valid() || references[offer.step.child].full()) continue;
+      if (!apply(parent, offer.comparison, options, references[offer.step.child])) continue;
+      steps.push_back(offer.step);
+      more = true;
+      break;
+    }
+  }
+  return steps;
+}
+
+std::size_t placed_count(const std::vector<Reference>& references) {
+  return static_cast<std::size_t>(std::count_if(
+      references.begin(), references.end(), [](const Reference& reference) { return reference.valid(); }));
+}
+
+}  // namespace
+
+const Member* Submap::find(TrackId track) const {
+  const auto at = std::find_if(members_.begin(), members_.end(),
+                               [&](const Member& member) { return member.track == track; });
+  return at == members_.end() ? nullptr : &*at;
+}
+
+void Submap::add(TrackId track, Iteration now, bool link) {
+  Member member;
+  member.link = member.confirmed = link;
+  member.track = track;
+  member.joined = now;
+  members_.push_back(member);
+  ordered_ = computed_to_ = -1;
+}
+
+Intervals Submap::common(const TrackBook& tracks) const {
+  return common_intervals(tracks_of(members_, tracks));
+}
+
+bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options& options, Iteration now) {
+  Iteration newest = -1;
+  for (const Member& member : members_) newest = std::max(newest, tracks[member.track].newest().iteration);
+  if (newest <= computed_to_) return false;
+  computed_to_ = newest;
+  if (ordered_ < 0 || now - ordered_ >= options.reorder_every) reorder(pairs, tracks, now);
+  const std::vector<Member> before = members_;
+  for (Member& member : members_) {
+    member.reference = {};
+    member.comparison = {};
+    for (int end = 0; end < 2; ++end) member.still[end] = false;
+  }
+  for (const PlaceStep& step : order_) take_step(step, pairs, tracks, now);
+  keep_frame(before);
+  return true;
+}
+
+/// What is placed from is another plane now and then, or grows: the frame stays where it was.
+void Submap::keep_frame(const std::vector<Member>& before) {
+  std::vector<PlanePair> common;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].reference.valid() && before[i].reference.valid())
+      append_pairs(members_[i].reference, before[i].reference, common);
+  }
+  const std::optional<Alignment> T_before_now = align(common, Pose2{});
+  if (!T_before_now || !T_before_now->determined) {
+    placed = false;
+    return;
+  }
+  for (Member& member : members_) {
+    if (member.reference.valid()) member.reference = moved(T_before_now->T_to_from, member.reference);
+  }
+}
+
+void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
+  const std::vector<Offer> offers = offers_of(members_, pairs, tracks);
+  std::vector<double> worth(members_.size(), 0.0);
+  for (const Offer& offer : offers) worth[offer.step.parent] += offer.comparison.shared;
+  std::vector<std::size_t> roots(members_.size());
+  std::iota(roots.begin(), roots.end(), std::size_t{0});
+  std::stable_sort(roots.begin(), roots.end(),
+                   [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
+  int best = -1;
+  order_.clear();
+  for (const std::size_t root : roots) {
+    if (worth[root] <= 0.0) break;
+    std::vector<Reference> placed_now(members_.size());
+    std::vector<PlaceStep> order = spanning_steps(root, offers, pairs.comparer().options(), placed_now);
+    const int score = score_of(placed_now);
+    if (score <= best) continue;
+    best = score;
+    order_.swap(order);
+    if (placed_count(placed_now) == members_.size()) break;
+  }
+  ordered_ = now;
+}
+
+/// Members placed; the first two of those that link to older submaps count most.
+int Submap::score_of(const std::vector<Reference>& references) const {
+  int placed_members = 0, links_placed = 0;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (!references[i].valid()) continue;
+    ++placed_members;
+    links_placed += members_[i].link ? 1 : 0;
+  }
+  return placed_members + static_cast<int>(members_.size()) * std::min(links_placed, 2);
+}
+
+void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
+  Member& child = members_[step.child];
+  Member& parent = members_[step.parent];
+  const Track& child_track = tracks[child.track];
+  const Track& parent_track = tracks[parent.track];
+  const PairHistory& history = pairs.update(parent_track, child_track);
+  const CompareOptions& options = pairs.comparer().options();
+  for (const Comparison& saved : history.saved) {
+    const Comparison comparison = StaticPairs::oriented(saved, parent_track, child_track);
+    if (ends_of(comparison) != step.ends) continue;
+    if (!parent.reference.valid()) {
+      if (&step != &order_.front()) return;
+      parent.reference = reference_of(comparison, 0, options);
+      parent.comparison = inverse(comparison);
+      parent.parent = child.track;
+    }
+    if (apply(parent.reference, comparison, options, child.reference) && !child.comparison.valid) {
+      child.comparison = comparison;
+      child.parent = parent.track;
+    }
+  }
+  note_still(history, parent, child, now);
+}
+
+void Submap::note_still(const PairHistory& history, Member& parent, Member& child, Iteration now) {
+  if (history.since < 0 || history.updated != now) return;
+  const bool swapped = child.track < parent.track;
+  for (int end = 0; end < 2; ++end) {
+    parent.still[end] = parent.still[end] || history.still[swapped ? 1 : 0][end];
+    child.still[end] = child.still[end] || history.still[swapped ? 0 : 1][end];
+  }
+}
+
+std::optional<TrackId> Submap::too_short(const Options& options, Iteration now) {
+  for (Member& member : members_) {
+    if (member.confirmed) continue;
+    const Membership judged = judge_member(member.comparison, member.joined, now, options.interval());
+    if (judged == Membership::confirmed) member.confirmed = true;
+    if (judged == Membership::too_short) return member.track;
+  }
+  return std::nullopt;
+}
+
+void Submap::confirm(TrackId track) {
+  for (Member& member : members_) member.confirmed = member.confirmed || member.track == track;
+}
+
+void Submap::truncate(Iteration k) {
+  std::erase_if(members_, [&](const Member& member) { return member.joined > k; });
+  ordered_ = computed_to_ = -1;
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/thesis_mapper.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "slam_plane/thesis/anchoring.hpp"
+#include "slam_plane/thesis/grouping.hpp"
+#include "slam_plane/thesis/map_report.hpp"
+#include "slam_plane/thesis/matcher.hpp"
+#include "slam_plane/thesis/roll_back.hpp"
+#include "slam_plane/thesis/state.hpp"
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr int kPlaceByPoseAfter =
+    30;  // iterations after which a submap without a link is placed by the robot's pose
+constexpr int kRollBacksPerFrame = 4;  // more in one frame are not made: the member stays
+
+}  // namespace
+
+/// The state and the steps of an iteration.
+class ThesisMapper::Engine {
+ public:
+  explicit Engine(const Options& options)
+      : options_(options), state_(options), history_(std::max(options.roll_back_limit, 1)) {}
+
+  const Options& options() const { return options_; }
+  const State& state() const { return state_; }
+  const Answer& answer() const { return answer_; }
+  const ThesisCounters& counters() const { return counters_; }
+
+  void process(std::span<const Piece> pieces) {
+    history_.add(state_.now + 1, pieces);
+    iterate(pieces);
+    for (int i = 0; i < kRollBacksPerFrame && roll_back_; ++i) roll_back();
+    roll_back_.reset();
+    report(pieces.size());
+  }
+
+ private:
+  /// One iteration (thesis 4.5).
+  void iterate(std::span<const Piece> pieces) {
+    ++state_.now;
+    match_with_map(options_, state_);
+    add_planes(pieces, options_, state_);
+    manage_submaps(options_, state_);
+    compute_submaps();
+    build_map();
+    locate();
+    history_.close(state_);
+  }
+
+  /// Submaps of which at least two planes are in view (thesis 4.5 ComputeXPoints).
+  void compute_submaps() {
+    changed_.clear();
+    state_.unanchored.clear();
+    for (const SubmapIndex index : submaps_in_view()) {
+      Submap& submap = state_.submaps[index];
+      if (!submap.compute(state_.pairs, state_.tracks, options_, state_.now)) continue;
+      const bool late = submap.created() + kPlaceByPoseAfter <= state_.now;
+      if (!submap.placed && submap.anchors.empty() && (submap.by_motion || late))
+        state_.unanchored.push_back(index);
+      changed_.push_back(index);
+      state_.locator.note(submap, state_.now);
+      judge(index);
+    }
+  }
+
+  std::vector<SubmapIndex> submaps_in_view() const {
+    std::vector<SubmapIndex> result;
+    for (const auto& [submap, count] : state_.chart) {
+      if (count >= 2) result.push_back(submap);
+    }
+    const SubmapIndex last = state_.submaps.size();
+    for (SubmapIndex index = last; index > 0 && state_.submaps[index - 1].created() == state_.now; --index)
+      result.push_back(index - 1);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  /// Asks for a roll back if a member was compared over too little (Rules 31, 32, 34).
+  void judge(SubmapIndex index) {
+    const std::optional<TrackId> track = state_.submaps[index].too_short(options_, state_.now);
+    if (!track || roll_back_) return;
+    const Iteration joined = state_.submaps[index].find(*track)->joined;
+    if (options_.roll_back_limit == 0 || state_.hints.exhausted(*track) || !history_.reaches(joined - 1)) {
+      state_.submaps[index].confirm(*track);
+      return;
+    }
+    roll_back_ = Hint{joined, *track, index};
+  }
+
+  void build_map() {
+    if (!state_.submaps.empty()) anchor_first(options_, state_);
+    state_.map.build(changed_, state_.submaps, state_.tracks);
+  }
+
+  /// The pose, from what is seen now and the map alone (Rules 5, 16, 19), or from the motion model (Rules 23-27).
+  void locate() {
+    MotionModel& motion = state_.carried.motion;
+    location_.reset();
+    if (state_.start == state_.now) {
+      location_ = Alignment{Pose2{}, true, Vec2::Zero(), true};
+    } else if (motion.has_pose()) {
+      location_ = state_.locator.locate(state_.seen, state_.tracks, state_.map, state_.pairs, state_.now,
+                                        motion.predicted());
+    }
+    if (!location_) {
+      motion.nothing();
+    } else if (location_->determined) {
+      motion.known(location_->T_to_from);
+    } else {
+      location_->T_to_from = motion.restricted(*location_);
+      ++degenerate_;
+    }
+    state_.carried.located = location_.has_value();
+    if (motion.active()) state_.carried.after_motion = true;
+    if (location_) counters_.submaps_after_motion += anchor_by_pose(*location_, state_);
+  }
+
+  /// Goes back to before the hinted event and does everything again (Rules 33, 34).
+  void roll_back() {
+    const Hint hint = *roll_back_;
+    roll_back_.reset();
+    const Iteration k = hint.iteration - 1;
+    if (!history_.reaches(k)) return;
+    state_.hints.add(hint);
+    std::vector<Record> again = history_.take_after(k);
+    roll_back_to(history_.at(k), options_, state_);
+    for (const Record& record : again) {
+      history_.add(record.iteration, record.pieces);
+      iterate(record.pieces);
+    }
+    ++counters_.roll_backs;
+    counters_.replayed += again.size();
+  }
+
+  void report(std::size_t pieces) {
+    answer_.has_pose = location_.has_value();
+    answer_.lost = location_ ? Lost::no : state_.seen.empty() ? Lost::nothing_seen : Lost::nothing_known;
+    answer_.undetermined = Vec2::Zero();
+    if (location_) {
+      answer_.T_map_robot = location_->T_to_from;
+      answer_.undetermined = location_->determined ? Vec2(Vec2::Zero()) : location_->open;
+      answer_.covariance = covariance_of(*location_);
+    }
+    answer_.associations.assign(pieces, kNoWall);
+    for (const Match& match : state_.matches)
+      answer_.associations[match.piece] = wall_of(match.track, state_);
+    Counters& counters = answer_.counters;
+    ++counters.iterations;
+    if (!location_) ++counters.lost;
+    counters.walls = count_walls(state_);
+    counters.submaps = state_.submaps.size();
+    counters.degenerate = degenerate_;
+    counters_.comparisons = state_.pairs.comparer().counters().comparisons;
+    counters_.cache_hits = state_.pairs.comparer().counters().hits;
+  }
+
+  Options options_;
+  State state_;
+  History history_;
+  std::vector<SubmapIndex> changed_;
+  std::optional<Alignment> location_;
+  std::optional<Hint> roll_back_;
+  std::uint64_t degenerate_ = 0;
+  ThesisCounters counters_;
+  Answer answer_;
+};
+
+ThesisMapper::ThesisMapper(const Options& options) {
+  options.validate();
+  engine_ = std::make_unique<Engine>(options);
+}
+ThesisMapper::~ThesisMapper() = default;
+ThesisMapper::ThesisMapper(ThesisMapper&&) noexcept = default;
+ThesisMapper& ThesisMapper::operator=(ThesisMapper&&) noexcept = default;
+
+const Answer& ThesisMapper::process(std::span<const Piece> pieces, const View&) {
+  engine_->process(pieces);
+  return engine_->answer();
+}
+
+Map ThesisMapper::map() const {
+  return report_map(engine_->state());
+}
+
+void ThesisMapper::reset() {
+  engine_ = std::make_unique<Engine>(Options(engine_->options()));
+}
+
+const Options& ThesisMapper::options() const {
+  return engine_->options();
+}
+
+ThesisCounters ThesisMapper::counters() const {
+  return engine_->counters();
+}
+
+}  // namespace hallway::slam_plane::thesis
