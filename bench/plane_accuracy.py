@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""plane_accuracy.py HALLWAY PLANE_ML OUT [--seeds N] [--modes relative,thesis] [SCENARIO...]: the table of docs/accuracy.md for maps of planes.
+
+Runs each scenario of planes with N seeds (20), with noise and without, with occlusion and without, in each mode that slam_plane has, and
+prints a table in Markdown: errors pooled over the seeds, beside those of plane_ml (least squares over all poses and walls of the same run, given
+which wall each piece is of and which ends are corners; noise-free runs have none). Corners are certain corners of the map at the end, after the rigid
+motion that fits them best; positions are those that were answered while the run went on, on the map as it was then. A run is whole where every wall that
+is asked for is mapped and none twice. OUT keeps the figures of each run, by which a run that was made is not made again."""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SCENARIOS = ("four_planes", "hallway", "hallway_return", "key_points", "loop_corridor", "motion_model", "bad_pairs", "roll_back",
+             "pseudo_merge", "many_planes")
+NOISE = {"noise_m": 0.02, "noise_angle_deg": 0.3, "noise_end_m": 0.005}
+
+
+def output_of(command):
+    return json.loads(subprocess.run([str(part) for part in command], check=True, capture_output=True).stdout)
+
+
+def modes_of(hallway):
+    """The modes that the plugin has; None for one that it does not let choose."""
+    for parameter in output_of([hallway, "plugin", "info", "slam_plane", "--json"])["parameters"]:
+        if parameter["name"] == "mode":
+            return ["relative", "thesis"]
+    return [None]
+
+
+def figures_of(arguments, scenario, mode, noise, occlusion, seed):
+    """What is kept of one run."""
+    name = f"{scenario}-{mode or 'relative'}-{'noise' if noise else 'clean'}-{'occluded' if occlusion else 'open'}-{seed}"
+    kept = arguments.out / f"{name}.json"
+    if kept.exists():
+        return json.loads(kept.read_text())
+    settings = {f"sensor.eyes.{key}": value if noise else 0 for key, value in NOISE.items()}
+    settings["sensor.eyes.occlusion"] = str(occlusion).lower()
+    if mode:
+        settings["slam_plane.mode"] = mode
+    folder = arguments.out / "run"
+    command = [arguments.hallway, "run", ROOT / "maps" / f"{scenario}.toml", "--seed", seed, "--out", folder, "--force", "--json", "--quiet"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    figures = output_of(command)["metrics"]
+    figures = {key: figures[key] for key in ("iterations", "lost_iterations", "planes", "iteration_cpu_ms")}
+    if noise:
+        figures["ml"] = output_of([arguments.plane_ml, folder])
+    kept.write_text(json.dumps(figures))
+    return figures
+
+
+def pooled(pairs):
+    """Root mean square of (count, rms) pairs."""
+    total = sum(count for count, _ in pairs)
+    return math.sqrt(sum(count * rms * rms for count, rms in pairs) / total) if total else None
+
+
+def pair_of(errors):
+    return (errors["count"], errors["rms"]) if errors else (0, 0.0)
+
+
+def is_whole(planes):
+    final = planes["final"] or planes["online"]
+    return final["walls_missing"] == 0 and final["duplicated"] == 0
+
+
+def metres(value):
+    return "–" if value is None else f"{value:.4f}"
+
+
+def ratio(value, best):
+    return "–" if value is None or not best else f"{value / best:.2f}"
+
+
+def row(scenario, mode, noise, occlusion, runs):
+    corners = pooled([pair_of((run["planes"]["final"] or run["planes"]["online"])["corner_m"]) for run in runs])
+    positions = pooled([pair_of(run["planes"]["position_m"]) for run in runs])
+    ml_corners = pooled([(run["ml"]["corners"], run["ml"]["corner_rmse_m"]) for run in runs]) if noise else None
+    ml_positions = pooled([(run["ml"]["positions"], run["ml"]["position_rmse_m"]) for run in runs]) if noise else None
+    cells = [scenario, mode or "relative", "yes" if noise else "no", "yes" if occlusion else "no", f"{sum(is_whole(run['planes']) for run in runs)} of {len(runs)}",
+             f"{sum(run['lost_iterations'] for run in runs)}", f"{sum(run['planes']['association_errors'] for run in runs)}",
+             metres(corners), metres(ml_corners), ratio(corners, ml_corners), metres(positions), metres(ml_positions),
+             f"{1000 * sum(run['iteration_cpu_ms']['mean'] for run in runs) / len(runs):.0f}",
+             f"{max(run['iteration_cpu_ms']['max'] for run in runs):.2f}"]
+    return "| " + " | ".join(cells) + " |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("hallway", type=pathlib.Path)
+    parser.add_argument("plane_ml", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("scenarios", nargs="*", default=SCENARIOS)
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--modes", help="of those that the plugin has [all]")
+    arguments = parser.parse_intermixed_args()
+    arguments.hallway, arguments.plane_ml = arguments.hallway.resolve(), arguments.plane_ml.resolve()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    modes = [mode for mode in modes_of(arguments.hallway) if not arguments.modes or mode in arguments.modes.split(",")]
+    print("| scenario | mode | noise | occlusion | whole | lost | wrong associations | corners m | ML m | corners / ML | position online m | ML m | mean µs | worst ms |")
+    print("|" + "---|" * 14)
+    for scenario in arguments.scenarios:
+        for noise in (False, True):
+            for occlusion in (False, True):
+                for mode in modes:
+                    seeds = range(1, (arguments.seeds if noise else 1) + 1)
+                    runs = [figures_of(arguments, scenario, mode, noise, occlusion, seed) for seed in seeds]
+                    print(row(scenario, mode, noise, occlusion, runs), flush=True)
+
+
+if __name__ == "__main__":
+    main()
