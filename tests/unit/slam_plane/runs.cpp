@@ -99,13 +99,14 @@ Mapping run(const Scene& scene, const std::vector<TrueFrame>& frames, const Sens
   for (const TrueFrame& frame : frames) solution.poses.push_back(T_first * frame.T_world_robot);
   fit_poses(frames, sensor, solution);
   result.score = score(scene, solution);
+  const Pose2 T_truth_map = alignment(scene, solution);
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const ScoredWall& wall = solution.walls[w];
     if (!wall.known) continue;
     for (int k = 0; k < 2; ++k) {
-      const Vec2 truth = T_first * (k == 0 ? scene.walls[w].a : scene.walls[w].b);
-      if (wall.corner[k] && (wall.point + wall.end[k] * wall.direction - truth).norm() > kFalseCorner_m)
-        ++result.false_corners;
+      const Vec2 truth = k == 0 ? scene.walls[w].a : scene.walls[w].b;
+      const Vec2 found = T_truth_map * (wall.point + wall.end[k] * wall.direction);
+      if (wall.corner[k] && (found - truth).norm() > kFalseCorner_m) ++result.false_corners;
     }
   }
   if (with_batch) result.batch = score(scene, solve_batch(scene, frames, sensor));

@@ -220,8 +220,11 @@ double Score::position_rmse() const {
   return std::sqrt(position2 / std::max(1, frames));
 }
 
-Score score(const Scene& scene, const Solution& solution) {
-  std::vector<std::pair<Vec2, Vec2>> pairs;  // found, true
+namespace {
+
+/// Corners that the solution knows: found, true.
+std::vector<std::pair<Vec2, Vec2>> corner_pairs(const Scene& scene, const Solution& solution) {
+  std::vector<std::pair<Vec2, Vec2>> pairs;
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const ScoredWall& wall = solution.walls[w];
     for (int k = 0; k < 2; ++k) {
@@ -230,6 +233,13 @@ Score score(const Scene& scene, const Solution& solution) {
                            k == 0 ? scene.walls[w].a : scene.walls[w].b);
     }
   }
+  return pairs;
+}
+
+}  // namespace
+
+Pose2 alignment(const Scene& scene, const Solution& solution) {
+  const auto pairs = corner_pairs(scene, solution);
   Vec2 found = Vec2::Zero(), truth = Vec2::Zero();
   for (const auto& [p, q] : pairs) {
     found += p / static_cast<double>(pairs.size());
@@ -243,6 +253,12 @@ Score score(const Scene& scene, const Solution& solution) {
   Pose2 T;
   T.r = Vec2(c, s).normalized();
   T.t = truth - T.rotate(found);
+  return T;
+}
+
+Score score(const Scene& scene, const Solution& solution) {
+  const auto pairs = corner_pairs(scene, solution);
+  const Pose2 T = alignment(scene, solution);
   Score result;
   for (const auto& [p, q] : pairs) {
     const double error2 = (T * p - q).squaredNorm();

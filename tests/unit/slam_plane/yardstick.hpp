@@ -44,6 +44,9 @@ struct Score {
   double position_rmse() const;
 };
 
+/// The rigid motion from the solution's frame to the scene's that fits its corners best to the truth.
+Pose2 alignment(const Scene& scene, const Solution& solution);
+
 Score score(const Scene& scene, const Solution& solution);
 
 }  // namespace hallway::slam_plane::test
