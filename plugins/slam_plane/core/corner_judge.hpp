@@ -15,7 +15,8 @@ class CornerJudge {
  public:
   explicit CornerJudge(const Options& options);
 
-  /// Sets Sighting::corner and hidden of all. O(n^2) in the pieces of a frame, a few nanoseconds a pair.
+  /// Sets Sighting::corner and hidden of all. O(n log n) in the pieces of a frame, unless many are so
+  /// near that their ends may be at any bearing.
   void judge(const View& view, std::vector<Sighting>& frame) const;
 
  private:
@@ -28,11 +29,15 @@ class CornerJudge {
   EndView view_end(const Sighting& sighting, int end) const;
   bool at_border(const View& view, const Sighting& sighting, int end, const EndView& seen) const;
   bool behind_end(const EndView& seen, const EndView& other) const;
+  bool is_hidden(std::size_t end) const;
 
   Noise noise_;
   double sigmas_;
   double margin_;
-  mutable std::vector<EndView> ends_;
+  mutable std::vector<EndView> ends_;  // two for each piece
+  mutable double widest_ = 0.0;        // standard deviation of a bearing [rad]
+  mutable std::vector<std::size_t> by_bearing_;
+  mutable std::vector<std::size_t> place_;  // of an end in by_bearing_
 };
 
 }  // namespace hallway::slam_plane

@@ -14,6 +14,7 @@ constexpr double kHuber_m = 0.1;        // an end that is farther off counts les
 constexpr double kHold = 1.0;           // information that holds a submap where it is (Levenberg) [1/m^2]
 constexpr double kHoldLines = 100.0;    // likewise, of one whose frames left a direction open
 constexpr double kHoldHeading = 100.0;  // [1/rad^2]
+constexpr double kWorkOfLink = 0.1;     // in an iteration
 constexpr double kMostTurn_rad = 0.5;   // more is no small step
 constexpr double kMostMove_m = 5.0;     // likewise
 
@@ -82,6 +83,7 @@ void MapStep::begin(const WallMap& map, Surroundings part) {
   links_.clear();
   columns_.clear();
   next_wall_ = 0;
+  debt_ = 0.0;
   iterations_ = 0;
   stage_ = Stage::gather;
 }
@@ -208,7 +210,8 @@ void MapStep::iterate() {
 }
 
 bool MapStep::advance(const WallMap& map, double work) {
-  while (work > 0.0) {
+  work -= std::exchange(debt_, 0.0);
+  while (work > 0.0 && stage_ != Stage::done) {
     if (stage_ == Stage::gather) {
       if (next_wall_ == part_.walls.size()) {
         finish_gathering();
@@ -219,13 +222,15 @@ bool MapStep::advance(const WallMap& map, double work) {
       work -= 4.0 * static_cast<double>(1 + map.walls[wall].memberships.size());
       gather(map, wall);
     } else if (stage_ == Stage::solve) {
-      work -= static_cast<double>(links_.size() + 2 * p_.size());
+      work -= kWorkOfLink * static_cast<double>(links_.size() + 2 * p_.size());
       iterate();
     } else {
-      return stage_ == Stage::done;
+      return false;
     }
   }
-  return stage_ == Stage::done;
+  if (stage_ == Stage::done) return true;
+  debt_ = std::max(0.0, -work);
+  return false;
 }
 
 bool MapStep::apply(WallMap& map) {

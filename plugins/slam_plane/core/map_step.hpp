@@ -22,7 +22,8 @@ class MapStep {
   bool under_way() const { return stage_ != Stage::idle; }
   void abandon() { stage_ = Stage::idle; }
 
-  /// Goes on for about `work` (memberships of walls in submaps, looked at once, each about 30 ns); true when done. The map may have
+  /// Goes on for about `work` (memberships of walls in submaps, looked at once, each about 30 ns), more only by what cannot
+  /// be divided, which later calls make up for; true when done. The map may have
   /// grown since begin(), but no wall may have been merged.
   bool advance(const WallMap& map, double work);
 
@@ -80,6 +81,7 @@ class MapStep {
   double first_rz_ = 0.0;
   int iterations_ = 0;
   double largest_move_ = 0.0;
+  double debt_ = 0.0;  // work of the last slice beyond what it was given
 };
 
 }  // namespace hallway::slam_plane
