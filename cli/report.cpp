@@ -72,8 +72,9 @@ void add_planes(Table& table, const eval::PlaneMetrics& planes) {
   const eval::PlaneMapMetrics& map = planes.refined;
   table.row("planes given", fmt::format("{}, {} taken for none, {} for a wrong one", planes.observations,
                                         planes.associations_none, planes.association_errors));
-  table.row("walls mapped", fmt::format("{} of {}; {} planes, {} duplicated, {} of no wall", map.walls_mapped,
-                                        planes.walls_true, map.mapped, map.duplicated, map.unmatched));
+  table.row("walls mapped",
+            fmt::format("{} of {}; {} planes, {} duplicated, {} parts, {} of no wall", map.walls_mapped,
+                        planes.walls_true, map.mapped, map.duplicated, map.parts, map.unmatched));
   if (map.corner_m)
     table.row("certain corners", fmt::format("{}; {}", map.corner_m->count, errors_text(map.corner_m, "m")));
   table.row("walls, offset", errors_text(map.offset_m, "m"));

@@ -54,6 +54,7 @@ std::string table_of(const SessionResult& result, const std::string& name, const
       fmt::format("{} given, {} answered; {} lost, {} dropped, {} refused, {} unrecorded", count("given"),
                   count("answered"), count("lost"), count("dropped"), count("refused"), count("unrecorded")));
   add_row(text, "landmarks mapped", fmt::format("{} in {} submaps", result.landmarks, result.submaps));
+  if (result.planes > 0) add_row(text, "planes mapped", fmt::to_string(result.planes));
   if (const Json& latency = timing.at("latency_ms"); !latency.is_null()) {
     add_row(text, "latency",
             fmt::format("{:.4f} ms median, {:.4f} p99, {:.4f} worst", latency.at("median").get<double>(),
@@ -82,6 +83,7 @@ Json document_of(const SessionResult& result, const std::string& name, const fs:
                 {"plugins", result.plugins},
                 {"folder", printable(folder.string(), 4096)},
                 {"landmarks", result.landmarks},
+                {"mapped_planes", result.planes},
                 {"submaps", result.submaps}};
   for (const char* key : {"warnings", "driver", "verdict", "failures", "restarts", "robot"}) {
     document[key] = result.manifest.at(key);

@@ -109,6 +109,7 @@ class Session {
     loop.close();
     result_.failures = loop.failures();
     result_.landmarks = map.landmarks.size();
+    result_.planes = map.planes.size();
     result_.submaps = map.submaps.size();
     record::write_map(output_.working_path(), map);
     result_.manifest["iterations"] = loop.counts().iterations;

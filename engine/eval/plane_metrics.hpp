@@ -19,13 +19,14 @@ struct PlaneMapMetrics {
   std::uint64_t mapped = 0;                 ///< planes with the status mapped
   std::uint64_t walls_mapped = 0;           ///< true walls in view that own one
   std::uint64_t walls_missing = 0;          ///< those that own none
-  std::uint64_t duplicated = 0;             ///< mapped planes beyond the first of each true wall
+  std::uint64_t duplicated = 0;             ///< mapped planes where another one of the same wall is
+  std::uint64_t parts = 0;                  ///< mapped planes beside others of the same wall
   std::uint64_t unmatched = 0;              ///< mapped planes that belong to no true wall
   bool aligned = false;                     ///< by certain corners; else by the first pose
   std::optional<ErrorSummary> angle_deg{};  ///< between the planes of a pair
   std::optional<ErrorSummary> offset_m{};   ///< of the middle of the mapped one from the true one
   std::optional<ErrorSummary> corner_m{};   ///< of certain ends from the true ones
-  std::optional<double> extent_iou_mean{};  ///< of the extents along the wall
+  std::optional<double> extent_iou_mean{};  ///< of the extents along the walls
   std::optional<double> extent_iou_least{};
 };
 

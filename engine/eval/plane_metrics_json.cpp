@@ -20,6 +20,7 @@ PlaneJson map_json(const PlaneMapMetrics& map) {
           {"walls_mapped", map.walls_mapped},
           {"walls_missing", map.walls_missing},
           {"duplicated", map.duplicated},
+          {"parts", map.parts},
           {"unmatched", map.unmatched},
           {"aligned_by", map.aligned ? "corners" : "first_pose"},
           {"angle_deg", errors_json(map.angle_deg)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -89,10 +90,52 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-double iou(double from_a, double to_a, double from_b, double to_b) {
-  const double both = std::max(std::min(to_a, to_b) - std::max(from_a, from_b), 0.0);
-  const double either = (to_a - from_a) + (to_b - from_b) - both;
+/// A range along a wall.
+struct Range {
+  double from = 0.0;
+  double to = 0.0;
+
+  double length() const { return to - from; }
+  double common(const Range& other) const {
+    return std::max(std::min(to, other.to) - std::max(from, other.from), 0.0);
+  }
+};
+
+/// Ranges that overlap as one, ascending.
+std::vector<Range> joined(std::vector<Range> ranges) {
+  std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.from < b.from; });
+  std::vector<Range> joined;
+  for (const Range& range : ranges) {
+    if (!joined.empty() && range.from <= joined.back().to) {
+      joined.back().to = std::max(joined.back().to, range.to);
+    } else {
+      joined.push_back(range);
+    }
+  }
+  return joined;
+}
+
+/// What ranges have in common with another one, as a share of what either covers.
+double iou(const std::vector<Range>& ranges, const Range& other) {
+  double both = 0.0, either = other.length();
+  for (const Range& range : joined(ranges)) {
+    both += range.common(other);
+    either += range.length() - range.common(other);
+  }
   return either > 0.0 ? both / either : 0.0;
+}
+
+/// How many of the ranges lie where one before them does.
+std::uint64_t doubled(const std::vector<Range>& ranges, double share) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    bool again = false;
+    for (std::size_t k = 0; k < i; ++k)
+      again =
+          again || ranges[i].common(ranges[k]) >= share * std::min(ranges[i].length(), ranges[k].length());
+    count += again ? 1u : 0u;
+  }
+  return count;
 }
 
 double heading_of(const Quat& q) {
@@ -200,12 +243,39 @@ void PlaneScore::count(std::span<const MappedPlane> map, PlaneMapMetrics& metric
     if (owner == ownership.owner.end()) {
       ++metrics.unmatched;
     } else if (!owners.insert(owner->second).second) {
-      ++metrics.duplicated;
+      ++metrics.parts;
     }
   }
   for (const auto& [wall, face] : faces_) {
     if (is_asked_for(face)) ++(owners.contains(wall) ? metrics.walls_mapped : metrics.walls_missing);
   }
+}
+
+void PlaneScore::score_extents(const std::vector<Pair>& pairs, const Pose& T_world_map,
+                               PlaneMapMetrics& metrics) {
+  std::map<const Face*, std::vector<Range>> extents;
+  std::vector<const Face*> faces;  // in the order of the pairs: that of pointers is none
+  for (const auto& [plane, face] : pairs) {
+    Range extent{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    for (const log::MappedCorner& corner : plane->outline) {
+      const double s = face->along.dot(T_world_map * vector_of(corner.position_m) - face->corners[0]);
+      extent = {std::min(extent.from, s), std::max(extent.to, s)};
+    }
+    std::vector<Range>& of_face = extents[face];
+    if (of_face.empty()) faces.push_back(face);
+    of_face.push_back(extent);
+  }
+  double sum = 0.0;
+  for (const Face* face : faces) {
+    const std::uint64_t again = doubled(extents.at(face), kDoubled);
+    metrics.duplicated += again;
+    metrics.parts -= again;
+    const bool seen = face->to_m > face->from_m;
+    const double share = seen ? iou(extents.at(face), {face->from_m, face->to_m}) : 0.0;
+    sum += share;
+    metrics.extent_iou_least = std::min(metrics.extent_iou_least.value_or(1.0), share);
+  }
+  if (!faces.empty()) metrics.extent_iou_mean = sum / static_cast<double>(faces.size());
 }
 
 PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
@@ -215,7 +285,6 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
   const std::optional<Pose> T_world_map = alignment(pairs, metrics.aligned);
   if (!T_world_map) return metrics;
   Errors angles, offsets, corners;
-  double iou_sum = 0.0;
   for (const auto& [plane, face] : pairs) {
     angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
     offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
@@ -223,20 +292,11 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
       const Vec3 middle = *T_world_map * end.middle;
       corners.add((middle - end.truth.nearest(middle)).norm());
     }
-    double from = face->length_m * 1e9, to = -from;
-    for (const log::MappedCorner& corner : plane->outline) {
-      const double s = face->along.dot(*T_world_map * vector_of(corner.position_m) - face->corners[0]);
-      from = std::min(from, s);
-      to = std::max(to, s);
-    }
-    const double share = face->to_m > face->from_m ? iou(from, to, face->from_m, face->to_m) : 0.0;
-    iou_sum += share;
-    metrics.extent_iou_least = std::min(metrics.extent_iou_least.value_or(1.0), share);
   }
   metrics.angle_deg = angles.summary();
   metrics.offset_m = offsets.summary();
   metrics.corner_m = corners.summary();
-  if (!pairs.empty()) metrics.extent_iou_mean = iou_sum / static_cast<double>(pairs.size());
+  score_extents(pairs, *T_world_map, metrics);
   return metrics;
 }
 

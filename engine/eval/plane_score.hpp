@@ -35,6 +35,8 @@ class PlaneScore {
   /// Frames that a wall must have been seen in, with at least kLeastLength_m of it in each, to be asked for.
   static constexpr std::uint32_t kLeastFrames = 20;
   static constexpr double kLeastLength_m = 0.3;
+  /// Share of the shorter of two planes of one wall from which on they are one twice; below, they are parts of it.
+  static constexpr double kDoubled = 0.5;
 
   /// @param walls  each id once, corners as TrueWall says
   explicit PlaneScore(std::span<const log::TrueWall> walls);
@@ -83,6 +85,8 @@ class PlaneScore {
   std::optional<Pose> alignment(const std::vector<Pair>& pairs, bool& by_corners) const;
   PlaneMapMetrics score(std::span<const log::MappedPlane> map) const;
   void count(std::span<const log::MappedPlane> map, PlaneMapMetrics& metrics) const;
+  static void score_extents(const std::vector<Pair>& pairs, const Pose& T_world_map,
+                            PlaneMapMetrics& metrics);
 
   std::map<log::LandmarkId, Face> faces_;
   AssociationScore associations_;

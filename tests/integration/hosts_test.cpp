@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 /// What plugins answer, as tables; those that a pipeline does not fill are in no folder.
-constexpr const char* kTables[] = {"trajectory.tum", "landmarks.csv", "landmarks.ply",
-                                   "submaps.csv",    "commands.csv",  "planes.csv"};
+constexpr const char* kTables[] = {"trajectory.tum",   "landmarks.csv", "landmarks.ply", "submaps.csv",
+                                   "submap_poses.csv", "commands.csv",  "planes.csv",    "mapped_planes.csv"};
 
 std::string content(const fs::path& file) {
   return fs::exists(file) ? read_file(file) : "(not there)";

@@ -37,7 +37,8 @@ Metrics full() {
   planes.associations_none = 5;
   planes.association_errors = 6;
   planes.walls_true = 12;
-  planes.online = {.mapped = 14, .walls_mapped = 11, .walls_missing = 1, .duplicated = 2, .unmatched = 3};
+  planes.online = {
+      .mapped = 14, .walls_mapped = 11, .walls_missing = 1, .duplicated = 2, .parts = 4, .unmatched = 3};
   planes.refined = {.mapped = 13,
                     .walls_mapped = 12,
                     .aligned = true,
@@ -66,10 +67,10 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
       R"("rotation_rmse_deg":{"first_pose":2.5,"aligned":3.5},)"
       R"("nees":{"landmarks":1.0000000000000002,"landmark_pairs":1,"poses":null,"pose_pairs":0},)"
       R"("planes":{"observations":90,"associations_none":5,"association_errors":6,"walls_true":12,)"
-      R"("online":{"mapped":14,"walls_mapped":11,"walls_missing":1,"duplicated":2,"unmatched":3,)"
+      R"("online":{"mapped":14,"walls_mapped":11,"walls_missing":1,"duplicated":2,"parts":4,"unmatched":3,)"
       R"("aligned_by":"first_pose","angle_deg":null,"offset_m":null,"corner_m":null,)"
       R"("extent_iou":{"mean":null,"least":null}},)"
-      R"("final":{"mapped":13,"walls_mapped":12,"walls_missing":0,"duplicated":0,"unmatched":0,)"
+      R"("final":{"mapped":13,"walls_mapped":12,"walls_missing":0,"duplicated":0,"parts":0,"unmatched":0,)"
       R"("aligned_by":"corners","angle_deg":{"count":13,"mean":0.5,"rms":0.75,"max":2.0},)"
       R"("offset_m":{"count":13,"mean":0.25,"rms":0.5,"max":1.0},)"
       R"("corner_m":{"count":20,"mean":0.125,"rms":0.25,"max":0.5},"extent_iou":{"mean":0.75,"least":0.5}},)"

@@ -160,6 +160,21 @@ TEST(PlaneScore, AMissingWallIsCountedAndSoIsADoubledOne) {
   EXPECT_EQ(online.walls_missing, 0u);
 }
 
+TEST(PlaneScore, AWallInTwoPartsIsNotDoubled) {
+  std::vector<log::MappedPlane> map = exact_map();
+  map[0] = mapped(10, {Vec3(6, 0, 0), Vec3(3.2, 0, 0), Vec3(3.2, 0, 2), Vec3(6, 0, 2)});
+  map[0].outline[1].edge_certain = false;
+  map.push_back(mapped(14, {Vec3(2.6, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(2.6, 0, 2)}));
+  map[4].outline[3].edge_certain = false;
+  PlaneScore score = whole_run();
+  score.add(std::array{GivenPlane{0, 14}}, std::nullopt, {});
+  const PlaneMapMetrics online = score.metrics(map, {}).online;
+  EXPECT_EQ(online.duplicated, 0u);
+  EXPECT_EQ(online.parts, 1u);
+  EXPECT_EQ(online.walls_mapped, 4u);
+  EXPECT_NEAR(*online.extent_iou_least, 5.4 / 6.0, 1e-9);
+}
+
 TEST(PlaneScore, TemporaryPlanesAreNotInTheMap) {
   std::vector<log::MappedPlane> map = exact_map();
   map[0].status = log::LandmarkStatus::kTemporary;
