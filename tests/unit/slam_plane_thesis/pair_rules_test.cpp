@@ -39,11 +39,12 @@ TEST(Rule01, SightingsAreMatchedToTheLatestOnesOfTracksWithoutAPose) {
 }
 
 TEST(Rule02, PlanesAreComparedWithinIterationsAndSoInAnyOrderOfPairs) {
+  const Segment behind{{Vec2(-1, 3), Vec2(5, 3)}}, farther{{Vec2(8, 2.5), Vec2(10, 2.5)}};
   Track a(0, TrackOptions{}), b(1, TrackOptions{}), c(2, TrackOptions{});
   for (Iteration k = 0; k < 60; ++k) {
     a.push(seen(kAlong, straight(k), k));
-    if (k % 5 != 2) b.push(seen(kAhead, straight(k), k));
-    if (k % 7 != 3) c.push(seen(kSlanted, straight(k), k));
+    if (k % 5 != 2) b.push(seen(behind, straight(k), k));
+    if (k % 7 != 3) c.push(seen(farther, straight(k), k));
   }
   PairComparer comparer{CompareOptions{}};
   const std::vector<const Track*> members{&a, &b, &c};
@@ -51,8 +52,8 @@ TEST(Rule02, PlanesAreComparedWithinIterationsAndSoInAnyOrderOfPairs) {
   const auto another = place_members(comparer, members, std::vector<PairEdge>{{0, 2}, {2, 1}});
   for (const auto& placements : {one, another}) {
     ASSERT_TRUE(placements[1].valid && placements[2].valid);
-    EXPECT_LT(error_of(placements[1], kAlong, kAhead), kExact);
-    EXPECT_LT(error_of(placements[2], kAlong, kSlanted), kExact);
+    EXPECT_LT(error_of(placements[1], kAlong, behind), kExact);
+    EXPECT_LT(error_of(placements[2], kAlong, farther), kExact);
   }
 }
 
