@@ -165,6 +165,34 @@ TEST(PairOrder, PairsThatAreNotParallelArePreferred) {
   EXPECT_EQ(order_comparisons(comparer, members), (std::vector<PairEdge>{{0, 1}, {1, 2}}));
 }
 
+TEST(PairOrder, AnyTreeGivesTheSameMapWhereAllIsVisibleAtATime) {
+  // Noise across the walls; directions and lengths are exact, so nothing but the order of pairs could make a difference.
+  const Random random(2, stream_id("pair_order_test.any_tree"));
+  const Segment walls[] = {kAlong, kAhead, kSlanted, kFacing};
+  std::vector<Track> tracks;
+  for (TrackId id = 0; id < 4; ++id) {
+    tracks.emplace_back(id, TrackOptions{});
+    for (Iteration k = 0; k < 80; ++k) {
+      const Vec2 off = 0.02 * random.normal(static_cast<std::uint32_t>(k), id) * walls[id].normal();
+      const Segment moved{{walls[id].end[0] + off, walls[id].end[1] + off}};
+      tracks.back().push(seen(moved, curved(k), k));
+    }
+  }
+  std::vector<const Track*> members;
+  for (const Track& track : tracks) members.push_back(&track);
+  PairComparer comparer{CompareOptions{}};
+  const auto star = place_members(comparer, members, std::vector<PairEdge>{{0, 1}, {0, 2}, {0, 3}});
+  for (const auto& edges :
+       {std::vector<PairEdge>{{0, 1}, {1, 2}, {2, 3}}, std::vector<PairEdge>{{0, 3}, {3, 2}, {2, 1}},
+        order_comparisons(comparer, members)}) {
+    const auto placements = place_members(comparer, members, edges);
+    for (std::size_t i = 1; i < 4; ++i) {
+      EXPECT_LT((placements[i].middle - star[i].middle).norm(), 1e-9);
+      EXPECT_LT((placements[i].direction - star[i].direction).norm(), 1e-9);
+    }
+  }
+}
+
 TEST(PairOrder, PairsWithoutKeyPointsConnectWhatNothingElseDoes) {
   const Segment behind{{Vec2(-1, 3), Vec2(7, 3)}};
   const auto grow = [](Iteration k) { return Hidden{0.0, 3.0 - 0.05 * static_cast<double>(k)}; };
