@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -73,13 +72,6 @@ Comparison inverse(const Comparison& comparison) {
   return result;
 }
 
-bool better(const Comparison& a, const Comparison& b, const CompareOptions& options) {
-  if (a.valid != b.valid) return a.valid;
-  const double larger = (a.size[0] + a.size[1]) - (b.size[0] + b.size[1]);
-  if (std::abs(larger) > options.similar_size_m) return larger > 0.0;
-  return a.shared > b.shared;
-}
-
 Intervals comparable_intervals(const Track& a, const Track& b) {
   Intervals result;
   const auto& pa = a.phases();
@@ -93,6 +85,8 @@ Intervals comparable_intervals(const Track& a, const Track& b) {
       ++j;
     }
   }
+  if (result.size() > kMaxIntervals)
+    result.erase(result.begin(), result.end() - static_cast<std::ptrdiff_t>(kMaxIntervals));
   return result;
 }
 
