@@ -22,6 +22,8 @@ echo
 echo
 "$build/bin/bench_slam_point_speed"
 echo
+"$build/bin/bench_slam_plane_pairs"
+echo
 "$build/bin/bench_bsp"
 echo
 "$build/bin/bench_edit"

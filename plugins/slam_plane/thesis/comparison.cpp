@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -71,13 +70,6 @@ Comparison inverse(const Comparison& comparison) {
   std::swap(result.key[0], result.key[1]);
   std::swap(result.deviations[1], result.deviations[2]);
   return result;
-}
-
-bool better(const Comparison& a, const Comparison& b, const CompareOptions& options) {
-  if (a.valid != b.valid) return a.valid;
-  const double larger = (a.size[0] + a.size[1]) - (b.size[0] + b.size[1]);
-  if (std::abs(larger) > options.similar_size_m) return larger > 0.0;
-  return a.shared > b.shared;
 }
 
 Intervals comparable_intervals(const Track& a, const Track& b) {

@@ -66,10 +66,6 @@ struct Comparison {
 /// The same the other way round: a relative to b, in b's frame.
 Comparison inverse(const Comparison& comparison);
 
-/// Whether what one comparison was made from is better than another: larger planes, or alike and over more iterations (Rules 18, 36). One that is not valid is worse than any
-/// that is. Not a strict order where sizes are alike in a chain.
-bool better(const Comparison& a, const Comparison& b, const CompareOptions& options);
-
 /// Intervals in which both planes were seen and neither turned from growing to shrinking or back (Rule 18), in the order of time. O(phases).
 Intervals comparable_intervals(const Track& a, const Track& b);
 

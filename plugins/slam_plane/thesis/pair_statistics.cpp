@@ -79,23 +79,21 @@ PairSums PairStatistics::sums(const Track& a, const Track& b, const Interval& in
 
 const IntervalSummary& PairStatistics::summary(const Track& a, const Track& b, const Interval& interval,
                                                const CompareOptions& options) {
-  auto at =
+  const auto at =
       std::lower_bound(summaries_.begin(), summaries_.end(), interval.first,
                        [](const IntervalSummary& s, Iteration first) { return s.interval.first < first; });
-  if (at != summaries_.end() && at->interval == interval) return *at;
-  IntervalSummary fresh{
-      interval, sums(a, b, interval), {size_in(a, interval, options), size_in(b, interval, options)}};
-  exclude_outliers(a, b, fresh);
-  if (at != summaries_.end() && at->interval.first == interval.first) {
-    *at = fresh;
-    return *at;
+  const bool known = at != summaries_.end() && at->interval.first == interval.first;
+  if (known && at->interval.last == interval.last) return *at;
+  newest_ = {interval, sums(a, b, interval), {size_in(a, interval, options), size_in(b, interval, options)}};
+  exclude_outliers(a, b, newest_);
+  if (interval.last > updated_to_) return newest_;  // more may come, so it is not remembered
+  if (known) {
+    *at = newest_;
+  } else {
+    summaries_.insert(at, newest_);
+    if (summaries_.size() > kSummaries) summaries_.erase(summaries_.begin());
   }
-  at = summaries_.insert(at, fresh);
-  if (summaries_.size() <= kSummaries) return *at;
-  const auto oldest = at == summaries_.begin() ? at + 1 : summaries_.begin();
-  const auto index = at - summaries_.begin() - (oldest < at ? 1 : 0);
-  summaries_.erase(oldest);
-  return summaries_[static_cast<std::size_t>(index)];
+  return newest_;
 }
 
 void PairStatistics::exclude_outliers(const Track& a, const Track& b, IntervalSummary& summary) {

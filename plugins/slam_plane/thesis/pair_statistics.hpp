@@ -43,6 +43,7 @@ class PairStatistics {
   PairSums total_;        // of all shared sightings up to updated_to_
   Iteration updated_to_;  // all that was shared up to it is in
   int since_checkpoint_ = 0;
+  IntervalSummary newest_;                  // made last
   std::vector<IntervalSummary> summaries_;  // by the interval's first iteration, one for each
 };
 

@@ -15,9 +15,10 @@ struct MatchOptions {
 
 /// What a track keeps, and when it splits its time.
 struct TrackOptions {
-  int capacity = 1200;               ///< sightings kept, at most 16384
-  int gap_iterations = 2;            ///< unseen for at most so long, an interval goes on
-  int trend_window = 5;              ///< sightings in the moving average of the length; the longest and the shortest one do not count
+  int capacity = 1200;     ///< sightings kept, at most 16384
+  int gap_iterations = 2;  ///< unseen for at most so long, an interval goes on
+  int trend_window =
+      5;  ///< sightings in the moving average of the length; the longest and the shortest one do not count
   double trend_hysteresis_m = 0.05;  ///< change of that average that is believed
   bool operator==(const TrackOptions&) const = default;
 };
