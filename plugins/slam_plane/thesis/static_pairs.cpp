@@ -12,12 +12,12 @@ constexpr double kFloor_m = 1e-4;  // deviations and differences below it are no
 constexpr int kExactReadings = 3;  // enough where there is no deviation at all
 constexpr int kReadings = 8;       // enough otherwise
 constexpr double kMeans = 9.0;     // squared standard deviations by which the means of two halves may differ
-constexpr double kVariances = 10.0;  // ratio of the variances of two halves
-constexpr double kWander = 2.0;         // largest ratio of the variance to that of steps
-constexpr std::size_t kWatched = 32;    // newest sightings that are asked for that
-constexpr double kSample = 16.0;     // squared standard deviations by which one sighting may differ
-constexpr int kEvaluateEvery = 4;    // new sightings
-constexpr int kLongestSearch = 400;  // iterations
+constexpr double kVariances = 10.0;   // ratio of the variances of two halves
+constexpr double kWander = 2.0;       // largest ratio of the variance to that of steps
+constexpr std::size_t kWatched = 32;  // newest sightings that are asked for that
+constexpr double kSample = 16.0;      // squared standard deviations by which one sighting may differ
+constexpr int kEvaluateEvery = 4;     // new sightings
+constexpr int kLongestSearch = 400;   // iterations
 constexpr double kNoSize[2] = {0.0, 0.0};
 
 double square(double x) {
