@@ -85,6 +85,8 @@ Intervals comparable_intervals(const Track& a, const Track& b) {
       ++j;
     }
   }
+  if (result.size() > kMaxIntervals)
+    result.erase(result.begin(), result.end() - static_cast<std::ptrdiff_t>(kMaxIntervals));
   return result;
 }
 

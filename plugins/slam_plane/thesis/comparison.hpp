@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -66,7 +67,10 @@ struct Comparison {
 /// The same the other way round: a relative to b, in b's frame.
 Comparison inverse(const Comparison& comparison);
 
-/// Intervals in which both planes were seen and neither turned from growing to shrinking or back (Rule 18), in the order of time. O(phases).
+/// How many intervals of a pair are considered, the newest ones: so the cost of a comparison has a bound.
+inline constexpr std::size_t kMaxIntervals = 32;
+
+/// Intervals in which both planes were seen and neither turned from growing to shrinking or back (Rule 18), in the order of time, the newest kMaxIntervals of them. O(phases).
 Intervals comparable_intervals(const Track& a, const Track& b);
 
 /// Of several intervals the one to compare on: where both planes are largest; of those that are alike in that, the one with the most iterations (Rule 18), the latest one

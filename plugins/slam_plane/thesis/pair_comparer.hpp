@@ -22,7 +22,7 @@ struct CompareCounters {
 
 /// Compares tracks and keeps what it summed up, so that a new observation of a pair costs the same however many there were (thesis 5.3 item 1). The result has the same bits as that of
 /// compare_uncached: all sums are exact. The pairs compared longest ago are forgotten when there are too many. Memory: 32 bytes a shared
-/// sighting and 352 a remembered interval, at most 51 KB for a pair with 1200; at most `max_pairs` of them.
+/// sighting and 352 a remembered interval, at most 56 KB for a pair with 1200; at most `max_pairs` of them.
 class PairComparer {
  public:
   explicit PairComparer(const CompareOptions& options, std::size_t max_pairs = 1024);

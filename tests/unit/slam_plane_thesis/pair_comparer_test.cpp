@@ -147,6 +147,17 @@ TEST(PairComparer, FindsNothingInTooFewSharedSightings) {
   EXPECT_EQ(comparer.compare(a, later).shared, 0);
 }
 
+TEST(PairComparer, LooksAtABoundedNumberOfIntervalsHoweverOftenPlanesTurn) {
+  const auto swing = [](Iteration k) { return Hidden{1.0 + std::sin(0.3 * static_cast<double>(k)), 0.0}; };
+  const Track a = track_of(0, kAlong, {0, 1100}, straight),
+              b = track_of(1, kAhead, {0, 1100}, straight, swing);
+  EXPECT_GT(b.phases().size(), 90u);
+  ASSERT_EQ(comparable_intervals(a, b).size(), kMaxIntervals);
+  EXPECT_EQ(comparable_intervals(a, b).back().last, 1100);
+  PairComparer comparer{CompareOptions{}};
+  for (int i = 0; i < 2; ++i) expect_same(comparer.compare(a, b), compare_uncached(a, b, CompareOptions{}));
+}
+
 TEST(PairComparer, TakesNoEndForStaticIfBothMove) {
   // A view of constant width that slides along a wall.
   const auto slide = [](Iteration k) {
