@@ -6,7 +6,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kLeastShared = 8;  // iterations that a plane was compared over before the pose fixes it
+constexpr int kLeastCompared = 8;  // iterations that a plane was compared over before the pose fixes it
 
 Reference reference_of_first(const Sighting& first) {
   Reference result;
