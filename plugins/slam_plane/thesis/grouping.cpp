@@ -8,6 +8,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr int kBeginning = 10;           // iterations in which planes join the very first submap at once
 constexpr int kFirstReadings = 3;   // of the planes of the very first submap
 constexpr int kForgetAfter = 50;    // iterations for which an unassigned track is kept out of view
 constexpr int kTryAgainAfter = 20;  // iterations in which a submap has not placed a track that joined it
@@ -34,12 +35,16 @@ bool comparable(TrackId track, const Submap& submap, const Options& options, Sta
                      [&](const Member& member) { return comparable(track, member.track, options, state); });
 }
 
+bool beginning(const State& state) {
+  return state.now < state.start + kBeginning;
+}
+
 /// Joins a submap in which all members were visible together with it (Rule 7).
 bool try_join(TrackId track, SubmapIndex submap, const Options& options, State& state) {
   if (!state.hints.may_join(track, submap) || state.submaps[submap].contains(track)) return false;
   const int least = std::min<int>(options.min_readings, static_cast<int>(state.tracks[track].size()));
   if (!fits(state.submaps[submap].common(state.tracks), state.tracks[track], least)) return false;
-  if (state.submaps.size() > 1 && !comparable(track, state.submaps[submap], options, state)) return false;
+  if (!beginning(state) && !comparable(track, state.submaps[submap], options, state)) return false;
   join(track, submap, false, state);
   return true;
 }
@@ -160,7 +165,7 @@ bool assign(TrackId track, const Options& options, State& state) {
 
 void assign_unassigned(const Options& options, State& state) {
   std::vector<Unassigned> kept;
-  const int least = state.submaps.size() <= 1 ? kFirstReadings : options.min_readings;
+  const int least = beginning(state) ? kFirstReadings : options.min_readings;
   for (Unassigned entry : state.carried.unassigned) {
     const Track& track = state.tracks[entry.track];
     if (track.empty() || state.map.find(entry.track) != nullptr) continue;

@@ -8,8 +8,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr std::size_t kLeastShared = 2;  // Rule 8
-constexpr double kMoved_m = 1e-4;        // a submap that moves less takes no others along
+constexpr std::size_t kLeastLinkPlanes = 2;  // Rule 8
+constexpr double kMoved_m = 1e-4;            // a submap that moves less takes no others along
 
 std::optional<Pose2> by_anchors(const Submap& submap) {
   std::vector<PlanePair> pairs;
@@ -53,7 +53,7 @@ bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps) const {
   const bool was = submap.placed;
   std::optional<Pose2> T;
   if (!submap.anchors.empty()) T = by_anchors(submap);
-  if (!T) T = link(index, submaps, kLeastShared);
+  if (!T) T = link(index, submaps, kLeastLinkPlanes);
   if (!T) return false;
   submap.T_map_submap = *T;
   submap.placed = true;

@@ -22,9 +22,17 @@ void MotionModel::moved_to(const Pose2& T_map_robot) {
   has_pose_ = true;
 }
 
+bool MotionModel::coast() {
+  ++unknown_;
+  if (!has_step_ || coasted_ >= kCoast) return false;
+  ++coasted_;
+  moved_to(predicted());
+  return true;
+}
+
 void MotionModel::known(const Pose2& T_map_robot) {
   const bool follows = has_pose_ && unknown_ == 0;
-  unknown_ = 0;
+  unknown_ = coasted_ = 0;
   if (!follows) has_pose_ = false;  // where it was is no longer what it was measured from
   moved_to(T_map_robot);
   if (follows) speed_ = step_.t.x();
@@ -32,6 +40,7 @@ void MotionModel::known(const Pose2& T_map_robot) {
 
 Pose2 MotionModel::restricted(const Alignment& alignment) {
   ++unknown_;
+  coasted_ = 0;
   Pose2 result = alignment.T_to_from;
   const Vec2 along = alignment.open;
   const Vec2 across = left_of(along);

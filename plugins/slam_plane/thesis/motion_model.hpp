@@ -22,8 +22,9 @@ class MotionModel {
   /// Takes a frame that left the place open along `alignment.open`, and @returns it with that place filled in (Rules 24, 25, 27).
   Pose2 restricted(const Alignment& alignment);
 
-  /// Takes a frame that told nothing.
-  void nothing() { ++unknown_; }
+  /// Takes a frame that told nothing: the robot goes on as it did, for `kCoast` frames. @returns whether that may still be believed.
+  bool coast();
+  static constexpr int kCoast = 30;
 
   /// So many frames in a row did not tell a position that the model is on (Rule 26).
   bool active() const { return has_pose_ && unknown_ > begin_after_; }
@@ -36,6 +37,7 @@ class MotionModel {
   bool has_pose_ = false;
   bool has_step_ = false;
   int unknown_ = 0;
+  int coasted_ = 0;
   Pose2 pose_;
   Pose2 step_;          // the last movement, in the robot's frame before it
   double speed_ = 0.0;  // length of the last movement that was measured [m]

@@ -12,10 +12,12 @@ constexpr double kFloor_m = 1e-4;  // deviations and differences below it are no
 constexpr int kExactReadings = 3;  // enough where there is no deviation at all
 constexpr int kReadings = 8;       // enough otherwise
 constexpr double kMeans = 9.0;     // squared standard deviations by which the means of two halves may differ
-constexpr double kVariances = 10.0;  // ratio of the variances of two halves
-constexpr double kSample = 16.0;     // squared standard deviations by which one sighting may differ
-constexpr int kEvaluateEvery = 4;    // new sightings
-constexpr int kLongestSearch = 400;  // iterations
+constexpr double kVariances = 10.0;   // ratio of the variances of two halves
+constexpr double kWander = 2.0;       // largest ratio of the variance to that of steps
+constexpr std::size_t kWatched = 32;  // newest sightings that are asked for that
+constexpr double kSample = 16.0;      // squared standard deviations by which one sighting may differ
+constexpr int kEvaluateEvery = 4;     // new sightings
+constexpr int kLongestSearch = 400;   // iterations
 constexpr double kNoSize[2] = {0.0, 0.0};
 
 double square(double x) {
@@ -71,6 +73,24 @@ Iteration middle_of(const Track& a, const Track& b, const Interval& interval) {
   return count < 2 ? interval.first : (*rare)[from + count / 2 - 1].iteration;
 }
 
+/// Whether the offset of two ends wanders rather than jumps: its variance is larger than steps from one sighting to the next explain (von Neumann's ratio).
+bool wanders(const Track& a, const Track& b, const Interval& interval, int combination) {
+  std::vector<Vec2> offsets;
+  for (Iteration k = interval.last; k >= interval.first && offsets.size() < kWatched; --k) {
+    const Sighting* in_a = a.find(k);
+    const Sighting* in_b = b.find(k);
+    if (in_a != nullptr && in_b != nullptr) offsets.push_back(offset_of(*in_a, *in_b, combination));
+  }
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& offset : offsets) mean += offset / static_cast<double>(offsets.size());
+  double variance = 0.0, steps = 0.0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    variance += (offsets[i] - mean).squaredNorm();
+    if (i > 0) steps += 0.5 * (offsets[i] - offsets[i - 1]).squaredNorm();
+  }
+  return variance > kWander * steps + square(kFloor_m);
+}
+
 /// What a run saved that turned out to drift does not count.
 void drop_run(Iteration since, PairHistory& pair) {
   std::erase_if(pair.saved, [&](const Comparison& saved) { return saved.interval.first == since; });
@@ -91,7 +111,8 @@ std::optional<StaticPairs::Block> StaticPairs::still(const Track& a, const Track
     block.combination = c;
   }
   if (whole.deviation > options_.max_deviation_m) return std::nullopt;
-  if (whole.deviation <= kFloor_m) return block;
+  block.exact = whole.deviation <= kFloor_m;
+  if (block.exact) return block;
   if (n < kReadings) return std::nullopt;
   const PairSums first = comparer_.sums_in(a, b, {interval.first, middle_of(a, b, interval)});
   PairSums second = block.sums;
@@ -103,6 +124,7 @@ std::optional<StaticPairs::Block> StaticPairs::still(const Track& a, const Track
   const double of_mean = 0.5 * (v1 + v2) * 4.0 / static_cast<double>(n);
   if ((m1.mean - m2.mean).squaredNorm() > kMeans * of_mean + floor) return std::nullopt;
   if (std::max(v1, v2) > kVariances * std::min(v1, v2) + floor) return std::nullopt;
+  if (wanders(a, b, interval, block.combination)) return std::nullopt;
   return block;
 }
 
@@ -151,6 +173,7 @@ void StaticPairs::search(const Track& a, const Track& b, PairHistory& pair) {
     const Interval interval{pair.updated - length + 1, pair.updated};
     const std::optional<Block> block = still(a, b, interval);
     if (block && best && block->sums.count == best->sums.count) break;  // there is nothing older
+    if (block && best && best->exact && !block->exact) break;
     if (block) {
       best = block;
       pair.since = interval.first;

@@ -56,6 +56,7 @@ class StaticPairs {
   struct Block {
     PairSums sums;
     int combination = 0;
+    bool exact = false;  // without any deviation
   };
 
   std::optional<Block> still(const Track& a, const Track& b, const Interval& interval);

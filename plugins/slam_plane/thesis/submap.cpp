@@ -15,7 +15,7 @@ std::vector<const Track*> tracks_of(const std::vector<Member>& members, const Tr
 }
 
 /// A comparison that may place one member relative to another.
-struct Offer {
+struct StepOffer {
   PlaceStep step;
   Comparison comparison;  // parent to child
 };
@@ -25,9 +25,9 @@ int ends_of(const Comparison& comparison) {
 }
 
 /// All of them, those over the most iterations first (Rule 30).
-std::vector<Offer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
-                             const TrackBook& tracks) {
-  std::vector<Offer> offers;
+std::vector<StepOffer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
+                                 const TrackBook& tracks) {
+  std::vector<StepOffer> offers;
   for (std::size_t a = 0; a < members.size(); ++a) {
     for (std::size_t b = a + 1; b < members.size(); ++b) {
       const Track& in_a = tracks[members[a].track];
@@ -40,8 +40,9 @@ std::vector<Offer> offers_of(const std::vector<Member>& members, StaticPairs& pa
       }
     }
   }
-  std::stable_sort(offers.begin(), offers.end(),
-                   [](const Offer& a, const Offer& b) { return a.comparison.shared > b.comparison.shared; });
+  std::stable_sort(offers.begin(), offers.end(), [](const StepOffer& a, const StepOffer& b) {
+    return a.comparison.shared > b.comparison.shared;
+  });
   return offers;
 }
 
@@ -59,13 +60,13 @@ bool apply(Reference& parent, const Comparison& comparison, const CompareOptions
 }
 
 /// Prim's algorithm over comparisons, of which each needs an end that is known already: from the root outwards, the one over the most iterations first.
-std::vector<PlaceStep> spanning_steps(std::size_t root, const std::vector<Offer>& offers,
+std::vector<PlaceStep> spanning_steps(std::size_t root, const std::vector<StepOffer>& offers,
                                       const CompareOptions& options, std::vector<Reference>& references) {
   std::vector<PlaceStep> steps;
   bool more = true;
   while (more) {
     more = false;
-    for (const Offer& offer : offers) {
+    for (const StepOffer& offer : offers) {
       Reference& parent = references[offer.step.parent];
       if (steps.empty() && offer.step.parent == root) parent = reference_of(offer.comparison, 0, options);
       if (!parent.valid() || references[offer.step.child].full()) continue;
@@ -139,9 +140,9 @@ void Submap::keep_frame(const std::vector<Member>& before) {
 }
 
 void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
-  const std::vector<Offer> offers = offers_of(members_, pairs, tracks);
+  const std::vector<StepOffer> offers = offers_of(members_, pairs, tracks);
   std::vector<double> worth(members_.size(), 0.0);
-  for (const Offer& offer : offers) worth[offer.step.parent] += offer.comparison.shared;
+  for (const StepOffer& offer : offers) worth[offer.step.parent] += offer.comparison.shared;
   std::vector<std::size_t> roots(members_.size());
   std::iota(roots.begin(), roots.end(), std::size_t{0});
   std::stable_sort(roots.begin(), roots.end(),

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kPlaceByPoseAfter =
     30;  // iterations after which a submap without a link is placed by the robot's pose
+constexpr std::size_t kTurns = 4;      // iterations in which each submap in view is computed once
 constexpr int kRollBacksPerFrame = 4;  // more in one frame are not made: the member stays
 
 }  // namespace
@@ -57,6 +58,7 @@ class ThesisMapper::Engine {
     changed_.clear();
     state_.unanchored.clear();
     for (const SubmapIndex index : submaps_in_view()) {
+      if (!due(index)) continue;
       Submap& submap = state_.submaps[index];
       if (!submap.compute(state_.pairs, state_.tracks, options_, state_.now)) continue;
       const bool late = submap.created() + kPlaceByPoseAfter <= state_.now;
@@ -66,6 +68,16 @@ class ThesisMapper::Engine {
       state_.locator.note(submap, state_.now);
       judge(index);
     }
+  }
+
+  /// The current submap and its neighbours are computed in each iteration, others in view in turn.
+  bool due(SubmapIndex index) const {
+    const SubmapIndex current = state_.carried.current;
+    if (current == kNoSubmap || index == current || state_.submaps[index].created() == state_.now)
+      return true;
+    const std::vector<SubmapIndex>& links = state_.submaps[current].links;
+    return (index + static_cast<std::size_t>(state_.now)) % kTurns == 0 ||
+           std::find(links.begin(), links.end(), index) != links.end();
   }
 
   std::vector<SubmapIndex> submaps_in_view() const {
@@ -109,7 +121,7 @@ class ThesisMapper::Engine {
                                         motion.predicted());
     }
     if (!location_) {
-      motion.nothing();
+      if (motion.coast()) location_ = Alignment{motion.pose(), false, motion.pose().r, false};
     } else if (location_->determined) {
       motion.known(location_->T_to_from);
     } else {

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "slam_plane/thesis/alignment.hpp"
+#include "slam_plane/thesis/grouping.hpp"
+#include "slam_plane/thesis/map_builder.hpp"
+#include "slam_plane/thesis/motion_model.hpp"
+#include "slam_plane/thesis/roll_back.hpp"
+#include "slam_plane/thesis/thesis_mapper.hpp"
+#include "unit/slam_plane/scenes.hpp"
+#include "unit/slam_plane_thesis/walls.hpp"
+
+namespace hallway::slam_plane::thesis::test {
+namespace {
+
+using slam_plane::test::corridor_return;
+using slam_plane::test::four_walls;
+using slam_plane::test::observe;
+using slam_plane::test::Scene;
+using slam_plane::test::Sensor;
+using slam_plane::test::TrueFrame;
+
+/// What a mapper made of a scene without noise.
+struct Outcome {
+  double position = 0.0;  ///< largest error of a pose that was determined [m]
+  double corner = 0.0;    ///< largest distance of a certain corner from the nearest true one [m]
+  int lost = 0;           ///< frames without a pose
+  std::size_t submaps = 0;
+  std::set<WallId> ids;  ///< walls that pieces were taken for
+  std::set<int> seen;    ///< true walls that were seen
+};
+
+double corner_error(const Map& map, const Scene& scene, const Pose2& T_map_world) {
+  double worst = 0.0;
+  for (const Wall& wall : map.walls) {
+    for (int end = 0; end < 2; ++end) {
+      if (!wall.certain[end]) continue;
+      double nearest = 1e9;
+      for (const auto& truth : scene.walls) {
+        for (const Vec2& corner : {truth.a, truth.b})
+          nearest = std::min(nearest, (T_map_world * corner - (end == 0 ? wall.a : wall.b)).norm());
+      }
+      worst = std::max(worst, nearest);
+    }
+  }
+  return worst;
+}
+
+Outcome run(const Scene& scene, double fov_rad) {
+  Sensor sensor;
+  sensor.noise_m = sensor.noise_angle_rad = sensor.noise_end_m = 0.0;
+  sensor.view.horizontal_fov_rad = fov_rad;
+  const std::vector<TrueFrame> frames = observe(scene, sensor, 1);
+  const Pose2 T_map_world = frames.front().T_world_robot.inverse();
+  ThesisMapper mapper{Options{}};
+  Outcome result;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Answer& answer = mapper.process(frames[i].pieces, sensor.view);
+    for (const WallId id : answer.associations) {
+      if (id != kNoWall) result.ids.insert(id);
+    }
+    result.seen.insert(frames[i].wall.begin(), frames[i].wall.end());
+    if (!answer.has_pose) ++result.lost;
+    if (!answer.has_pose || answer.undetermined.norm() > 0.0) continue;
+    const Pose2 truth = T_map_world * frames[i].T_world_robot;
+    result.position = std::max(result.position, (answer.T_map_robot.t - truth.t).norm());
+  }
+  const Map map = mapper.map();
+  result.submaps = map.submaps.size();
+  result.corner = corner_error(map, scene, T_map_world);
+  return result;
+}
+
+PlanePair pair_at(const Pose2& T, const Vec2& point, const Vec2& direction, bool same_point) {
+  PlanePair pair;
+  pair.point[0] = point;
+  pair.point[1] = T * point;
+  pair.direction[0] = direction;
+  pair.direction[1] = T.rotate(direction);
+  pair.same_point = same_point;
+  return pair;
+}
+
+Reference reference_at(const Vec2& left, const Vec2& right) {
+  Reference reference;
+  reference.place.middle = 0.5 * (left + right);
+  reference.place.direction = (right - left).normalized();
+  reference.place.size = (right - left).norm();
+  reference.place.valid = true;
+  reference.known[0] = reference.known[1] = true;
+  return reference;
+}
+
+TEST(ThesisMapper, NothingSeenIsLost) {
+  ThesisMapper mapper{Options{}};
+  EXPECT_FALSE(mapper.process({}, View{}).has_pose);
+  EXPECT_TRUE(mapper.map().walls.empty());
+}
+
+TEST(ThesisMapper, OptionsOutOfRangeAreRefused) {
+  Options options;
+  options.link_planes = 1;
+  EXPECT_THROW(ThesisMapper{options}, std::invalid_argument);
+}
+
+TEST(ThesisMapper, SameFramesGiveTheSameBits) {
+  Sensor sensor;
+  sensor.view.horizontal_fov_rad = 7.0;
+  ThesisMapper a{Options{}}, b{Options{}};
+  for (const TrueFrame& frame : observe(four_walls(60), sensor, 3)) {
+    const Answer& x = a.process(frame.pieces, sensor.view);
+    const Answer& y = b.process(frame.pieces, sensor.view);
+    EXPECT_EQ(x.T_map_robot.t, y.T_map_robot.t);
+    EXPECT_EQ(x.associations, y.associations);
+  }
+}
+
+TEST(Rule04, TheMapIsAlignedToThePlanesOfTheFirstIteration) {
+  const Outcome result = run(four_walls(60), 7.0);
+  EXPECT_LT(result.corner, 1e-3);
+  EXPECT_LT(result.position, 1e-3);
+}
+
+TEST(Rule05, ThePoseIsWhereTheLastSightingsLieOnTheMap) {
+  const Pose2 truth = Pose2::at(Vec2(3, -2), 0.7);
+  const std::vector<PlanePair> pairs{pair_at(truth, Vec2(4, 1), Vec2(0, -1), true),
+                                     pair_at(truth, Vec2(2, -3), Vec2(1, 0), true)};
+  const auto alignment = align(pairs, Pose2{});
+  ASSERT_TRUE(alignment && alignment->by_points);
+  EXPECT_LT((alignment->T_to_from.t - truth.t).norm(), 1e-12);
+  EXPECT_LT((alignment->T_to_from.r - truth.r).norm(), 1e-12);
+}
+
+TEST(Rule06, SubmapsAreCombinedToOneMap) {
+  const Outcome result = run(corridor_return(), 1.5707963);
+  EXPECT_GT(result.submaps, 3u);
+  EXPECT_LT(result.corner, 1e-3);
+}
+
+TEST(Rule11, OnTheWayBackPlanesAreFoundAgainInTheMap) {
+  const Outcome result = run(corridor_return(), 1.5707963);
+  EXPECT_LE(static_cast<double>(result.ids.size()), 1.25 * static_cast<double>(result.seen.size()));
+}
+
+TEST(Rule22, TheSubmapWithTheMostPlanesInViewIsTheCurrentOne) {
+  const Options options;
+  State state(options);
+  state.now = 5;
+  for (std::uint64_t i = 0; i < 3; ++i) state.submaps.emplace_back(i, 0);
+  state.carried.current = 0;
+  state.chart = {{0, 2}, {1, 2}, {2, 1}};
+  manage_submaps(options, state);
+  EXPECT_EQ(state.carried.current, 0u);  // a tie: the last one stays
+  state.chart = {{0, 2}, {1, 3}, {2, 1}};
+  manage_submaps(options, state);
+  EXPECT_EQ(state.carried.current, 1u);
+}
+
+TEST(Rule24, TheRobotMovesInTheDirectionInWhichItLooks) {
+  // A wall at 45 degrees to the movement measures how far it went, and so where it is along the wall.
+  MotionModel motion(3, 25.0);
+  motion.known(Pose2{});
+  Alignment seen;
+  seen.open = Vec2(1, -1).normalized();
+  seen.T_to_from.t = 0.05 * Vec2(1, 1).normalized();  // the place across the wall; along it nothing
+  const Pose2 pose = motion.restricted(seen);
+  EXPECT_NEAR(pose.t.x(), 0.05 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(pose.t.y(), 0.0, 1e-12);
+}
+
+TEST(Rule25, AWallAlongTheMovementDoesNotMeasureIt) {
+  MotionModel motion(3, 25.0);
+  motion.known(Pose2{});
+  motion.known(Pose2::at(Vec2(0.04, 0.0), 0.0));
+  Alignment seen;
+  seen.open = Vec2(1.0, 0.05).normalized();
+  const Vec2 across = left_of(seen.open);
+  seen.T_to_from.t = Vec2(0.04, 0.0) + 0.02 * across;  // noise: taken for movement it would be 0.4 m
+  const Pose2 pose = motion.restricted(seen);
+  EXPECT_LT((pose.t - Vec2(0.08, 0.0)).norm(), 0.03);
+}
+
+TEST(Rule26, TheMotionModelIsOnAfterSomeFramesWithoutAPositionAndOffWithOne) {
+  MotionModel motion(3, 25.0);
+  motion.known(Pose2{});
+  Alignment seen;
+  seen.open = Vec2(0, 1);
+  for (int i = 0; i < 3; ++i) motion.restricted(seen);
+  EXPECT_FALSE(motion.active());
+  motion.restricted(seen);
+  EXPECT_TRUE(motion.active());
+  motion.known(Pose2{});
+  EXPECT_FALSE(motion.active());
+}
+
+TEST(Rule27, TheMotionModelStartsAtTheLastKnownPosition) {
+  MotionModel motion(0, 25.0);
+  motion.known(Pose2::at(Vec2(5, 7), 0.0));
+  Alignment seen;
+  seen.open = Vec2(0, 1);
+  seen.T_to_from.t = Vec2(5.04, -100.0);
+  const Pose2 pose = motion.restricted(seen);
+  EXPECT_LT((pose.t - Vec2(5.04, 7.0)).norm(), 1e-12);
+}
+
+TEST(Rule33, ARollBackLeavesNothingOfWhatCameLater) {
+  const Options options;
+  State state(options);
+  History history(100);
+  for (Iteration k = 0; k < 20; ++k) {
+    history.add(k, {});
+    state.now = k;
+    if (k == 0 || k == 15) state.tracks.create(k);
+    if (k == 12) state.submaps.emplace_back(0, k);
+    for (TrackId id = 0; id < state.tracks.size(); ++id)
+      state.tracks[id].push(seen(id == 0 ? kAlong : kAhead, straight(k), k));
+    history.close(state);
+  }
+  ASSERT_TRUE(history.reaches(10));
+  EXPECT_EQ(history.take_after(10).size(), 9u);
+  roll_back_to(history.at(10), options, state);
+  EXPECT_EQ(state.now, 10);
+  ASSERT_EQ(state.tracks.size(), 1u);
+  EXPECT_EQ(state.tracks[0].newest().iteration, 10);
+  EXPECT_TRUE(state.submaps.empty());
+}
+
+TEST(Rule34, AHintKeepsATrackFromASubmap) {
+  Hints hints;
+  hints.add({100, 7, 2});
+  EXPECT_FALSE(hints.may_join(7, 2));
+  EXPECT_TRUE(hints.may_join(7, 1));
+  EXPECT_TRUE(hints.may_join(8, 2));
+  hints.add({50, 8, 2});  // what a later hint speaks of may not happen any more
+  EXPECT_EQ(hints.size(), 1u);
+  EXPECT_TRUE(hints.may_join(7, 2));
+}
+
+TEST(Rule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
+  TrackOptions small;
+  small.capacity = 50;
+  Track a(0, small), b(1, small);
+  StaticPairs pairs{CompareOptions{}};
+  for (Iteration k = 0; k < 140; ++k) {
+    const double hidden = k < 40 ? 0.0 : 0.03 * static_cast<double>(k - 39);
+    a.push(seen(kAlong, straight(k), k, hidden, hidden));
+    b.push(seen(kAhead, straight(k), k, hidden, hidden));
+    pairs.update(a, b);
+  }
+  const PairHistory& history = pairs.update(a, b);
+  ASSERT_FALSE(history.saved.empty());
+  EXPECT_GE(history.shared(), 35);
+  EXPECT_LT(error_of(history.saved.front(), kAlong, kAhead), 1e-3);
+}
+
+TEST(StaticPairs, EndsThatMoveAreNotStill) {
+  Track a(0, TrackOptions{}), b(1, TrackOptions{});
+  StaticPairs pairs{CompareOptions{}};
+  for (Iteration k = 0; k < 100; ++k) {
+    const double hidden = 1.0 + 0.5 * std::sin(0.1 * static_cast<double>(k));
+    a.push(seen(kAlong, curved(k), k, hidden, hidden));
+    b.push(seen(kAhead, curved(k), k, 0.0, 0.0));
+    EXPECT_EQ(pairs.update(a, b).since, -1) << k;
+  }
+}
+
+TEST(StaticPairs, ParallelPlanesAreNotCompared) {
+  Track a(0, TrackOptions{}), b(1, TrackOptions{});
+  StaticPairs pairs{CompareOptions{}};
+  for (Iteration k = 0; k < 30; ++k) {
+    a.push(seen(kAlong, curved(k), k));
+    b.push(seen(kFacing, curved(k), k));
+    EXPECT_EQ(pairs.update(a, b).shared(), 0);
+  }
+}
+
+TEST(Reference, EndsThatNothingHasInCommonPlaceNothing) {
+  Reference base = reference_at(Vec2(0, 0), Vec2(4, 0));
+  base.known[kEndB] = false;
+  base.place.key = KeyPoint::left;
+  Comparison comparison;
+  comparison.valid = true;
+  comparison.shared = 20;
+  comparison.size[0] = 4.0;
+  comparison.size[1] = 2.0;
+  comparison.key[0] = KeyPoint::right;
+  comparison.key[1] = KeyPoint::left;
+  comparison.deviations = {1.0, 1.0, 0.0, 1.0};
+  EXPECT_FALSE(chained(base, comparison, CompareOptions{}).valid());
+  base.known[kEndB] = true;
+  EXPECT_TRUE(chained(base, comparison, CompareOptions{}).valid());
+}
+
+}  // namespace
+}  // namespace hallway::slam_plane::thesis::test
