@@ -43,7 +43,7 @@ typedef struct hw_mapped_planes_t {
   uint32_t size;           ///< sizeof(hw_mapped_planes_t) of the writer
   uint32_t stride;         ///< bytes from one plane to the next, a multiple of 8
   uint64_t count;          ///< number of planes
-  const void* planes;      ///< hw_mapped_plane_t by `stride`; ids are distinct within a call, also from landmarks'
+  const void* planes;      ///< hw_mapped_plane_t by `stride`; ids distinct in a call, also from landmarks'
   uint32_t corner_stride;  ///< bytes from one corner to the next, a multiple of 8
   uint32_t reserved;       ///< 0
   uint64_t n_corners;      ///< number of entries in `corners`
