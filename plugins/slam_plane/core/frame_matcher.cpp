@@ -88,6 +88,12 @@ void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>&
 void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, std::uint64_t iteration,
                                 const Pose2& T, std::vector<Sighting>& frame) {
   scores_.assign(frame.size(), 0.0);
+  strayed_.clear();
+  for (const Index w : recent) {
+    const WallRecord& wall = map.walls[w];
+    if (wall.trail_is_off && !wall.is_dynamic && wall.trail_seen + kTrailFrames >= iteration)
+      strayed_.push_back(w);
+  }
   for (std::size_t i = 0; i < frame.size(); ++i) {
     Sighting& sighting = frame[i];
     const Vec2 a = T * sighting.end[kEndA];
@@ -96,13 +102,14 @@ void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& re
     for (const Index w : recent) {
       const WallRecord& wall = map.walls[w];
       const double fit = score(wall.estimate, a, b, direction, near_bound_);
-      if (fit > scores_[i]) {
-        scores_[i] = fit;
-        sighting.wall = w;
-        sighting.stray = wall.is_dynamic;
-      }
-      if (fit > 0.0 || wall.is_dynamic || !wall.trail_is_off || wall.trail_seen + kTrailFrames < iteration)
-        continue;
+      if (fit <= scores_[i]) continue;
+      scores_[i] = fit;
+      sighting.wall = w;
+      sighting.stray = wall.is_dynamic;
+    }
+    for (const Index w : strayed_) {
+      const WallRecord& wall = map.walls[w];
+      if (score(wall.estimate, a, b, direction, near_bound_) > 0.0) continue;
       const double stray_fit = score(wall.trail, a, b, direction, kTrailShare * near_bound_);
       if (stray_fit <= scores_[i]) continue;
       scores_[i] = stray_fit;

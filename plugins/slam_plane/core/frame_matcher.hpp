@@ -41,6 +41,7 @@ class FrameMatcher {
   double sine_;
   std::vector<double> turns_;
   std::vector<double> scores_;  // of the frame's matches
+  std::vector<Index> strayed_;  // walls that were not seen where they are
 };
 
 }  // namespace hallway::slam_plane
