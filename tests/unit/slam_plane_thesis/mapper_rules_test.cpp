@@ -124,6 +124,7 @@ TEST(Rule04, TheMapIsAlignedToThePlanesOfTheFirstIteration) {
   const Outcome result = run(four_walls(60), 7.0);
   EXPECT_LT(result.corner, 1e-3);
   EXPECT_LT(result.position, 1e-3);
+  EXPECT_LE(result.lost, 20);
 }
 
 TEST(Rule05, ThePoseIsWhereTheLastSightingsLieOnTheMap) {
