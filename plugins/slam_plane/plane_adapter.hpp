@@ -129,7 +129,15 @@ class PlaneAdapter {
   static constexpr double kLeastLength = 1e-6;  // of a wall that has a direction [m]
 
   static std::uint32_t status_of(WallStatus status) {
-    return status == WallStatus::mapped ? HW_LANDMARK_MAPPED : HW_LANDMARK_TEMPORARY;
+    switch (status) {
+      case WallStatus::mapped:
+        return HW_LANDMARK_MAPPED;
+      case WallStatus::dynamic:
+        return HW_LANDMARK_DYNAMIC;
+      case WallStatus::temporary:
+        break;
+    }
+    return HW_LANDMARK_TEMPORARY;
   }
 
   struct Sample {
