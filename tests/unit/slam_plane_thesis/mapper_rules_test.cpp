@@ -120,7 +120,7 @@ TEST(ThesisMapper, SameFramesGiveTheSameBits) {
   }
 }
 
-TEST(Rule04, TheMapIsAlignedToThePlanesOfTheFirstIteration) {
+TEST(MapperRule04, TheMapIsAlignedToThePlanesOfTheFirstIteration) {
   const Outcome result = run(four_walls(60), 7.0);
   EXPECT_LT(result.corner, 1e-3);
   EXPECT_LT(result.position, 1e-3);
@@ -137,13 +137,13 @@ TEST(Rule05, ThePoseIsWhereTheLastSightingsLieOnTheMap) {
   EXPECT_LT((alignment->T_to_from.r - truth.r).norm(), 1e-12);
 }
 
-TEST(Rule06, SubmapsAreCombinedToOneMap) {
+TEST(MapperRule06, SubmapsAreCombinedToOneMap) {
   const Outcome result = run(corridor_return(), 1.5707963);
   EXPECT_GT(result.submaps, 3u);
   EXPECT_LT(result.corner, 1e-3);
 }
 
-TEST(Rule11, OnTheWayBackPlanesAreFoundAgainInTheMap) {
+TEST(MapperRule11, OnTheWayBackPlanesAreFoundAgainInTheMap) {
   const Outcome result = run(corridor_return(), 1.5707963);
   EXPECT_LE(static_cast<double>(result.ids.size()), 1.25 * static_cast<double>(result.seen.size()));
 }
