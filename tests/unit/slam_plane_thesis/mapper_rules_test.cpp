@@ -231,7 +231,7 @@ TEST(Rule33, ARollBackLeavesNothingOfWhatCameLater) {
   EXPECT_TRUE(state.submaps.empty());
 }
 
-TEST(Rule34, AHintKeepsATrackFromASubmap) {
+TEST(MapperRule34, AHintKeepsATrackFromASubmap) {
   Hints hints;
   hints.add({100, 7, 2});
   EXPECT_FALSE(hints.may_join(7, 2));
@@ -242,7 +242,7 @@ TEST(Rule34, AHintKeepsATrackFromASubmap) {
   EXPECT_TRUE(hints.may_join(7, 2));
 }
 
-TEST(Rule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
+TEST(MapperRule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
   TrackOptions small;
   small.capacity = 50;
   Track a(0, small), b(1, small);
