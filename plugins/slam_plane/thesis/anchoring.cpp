@@ -6,8 +6,6 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kLeastCompared = 8;  // iterations that a plane was compared over before the pose fixes it
-
 Reference reference_of_first(const Sighting& first) {
   Reference result;
   result.place.middle = first.segment.middle();

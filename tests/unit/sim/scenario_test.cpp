@@ -153,7 +153,7 @@ TEST(LoadScenario, ReadsAPicture) {
 TEST(LoadScenario, APictureShowsEverythingUnlessToldOtherwise) {
   const PictureSpec picture = load(test::scenario_text("[[picture]]\nfile = 'a.png'\n")).pictures.at(0);
   EXPECT_EQ(picture.view, PictureView::kTop);
-  EXPECT_EQ(picture.show.size(), 7u);
+  EXPECT_EQ(picture.show.size(), 8u);
   EXPECT_TRUE(picture.shows(PictureLayer::kFrustum));
 }
 
