@@ -248,7 +248,7 @@ TEST(MapperRule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
   Track a(0, small), b(1, small);
   StaticPairs pairs{CompareOptions{}};
   for (Iteration k = 0; k < 140; ++k) {
-    const double hidden = k < 40 ? 0.0 : 0.03 * static_cast<double>(k - 39);
+    const double hidden = k < 40 ? 0.0 : 0.015 * static_cast<double>(k - 39);
     a.push(seen(kAlong, straight(k), k, hidden, hidden));
     b.push(seen(kAhead, straight(k), k, hidden, hidden));
     pairs.update(a, b);

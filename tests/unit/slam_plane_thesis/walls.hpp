@@ -32,7 +32,7 @@ inline Sighting seen(const Segment& wall, const Pose2& T_world_robot, Iteration 
                      double right = 0.0) {
   const Vec2 d = wall.direction();
   const Segment part = T_world_robot.inverse() * Segment{{wall.end[0] + left * d, wall.end[1] - right * d}};
-  return *make_sighting({part.end[0], part.end[1], 0.0, 2.5}, k);
+  return make_sighting({part.end[0], part.end[1], 0.0, 2.5}, k).value();
 }
 
 /// What of a wall is hidden at an iteration, beside its left and beside its right end [m].
