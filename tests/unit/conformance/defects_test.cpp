@@ -182,7 +182,8 @@ const std::vector<Defect> kDefects{
     {"writes_to_input", {"input-not-written"}},
 };
 
-/// Every fifth test, others for each defect; all of them in long mode.
+/// Every fifth test, others for each defect; all of them in long mode. Under a sanitizer memory cannot be counted, and one that gets no descriptor ends the
+/// process when memory is looked at.
 std::vector<std::string> sample_of_tests(const Defect& defect) {
   constexpr std::size_t kShare = 5;
   const auto number = static_cast<std::size_t>(
@@ -191,6 +192,7 @@ std::vector<std::string> sample_of_tests(const Defect& defect) {
   std::vector<std::string> names(defect.fails.begin(), defect.fails.end());
   for (std::size_t i = 0; i < all_tests().size(); ++i) {
     const std::string name = all_tests()[i].name;
+    if (name == "use-memory" && reserves_addresses()) continue;
     const bool chosen = hallway::test::long_mode() || i % kShare == number % kShare;
     if (chosen && !defect.fails.contains(name)) names.push_back(name);
   }
