@@ -62,7 +62,22 @@ void FrameLocator::find_strays(const WallMap& map, Frame& frame) {
     sighting.stray = recent && (offset > kStrayBound_m || turn > kStrayTurn_rad) && distance2 > kStray2;
     any = any || sighting.stray;
   }
+  any = trust_most(map, frame) || any;
   if (any) frame.in_map = fit_map(map, frame, kNone, frame.T_map_robot);
+}
+
+/// What most pieces agree on stands: where half of them or more stray, it is the pose that was wrong. Returns whether that is so.
+bool FrameLocator::trust_most(const WallMap& map, Frame& frame) const {
+  std::size_t standing = 0, straying = 0;
+  for (const Sighting& sighting : frame.sightings) {
+    if (sighting.wall == kNone || map.walls[sighting.wall].is_dynamic) continue;
+    ++(sighting.stray ? straying : standing);
+  }
+  if (straying == 0 || straying < standing) return false;
+  for (Sighting& sighting : frame.sightings) {
+    if (sighting.wall != kNone && !map.walls[sighting.wall].is_dynamic) sighting.stray = false;
+  }
+  return true;
 }
 
 void FrameLocator::locate_in_submap(const WallMap& map, Frame& frame) {

@@ -50,6 +50,7 @@ class FrameLocator {
   double fastest() const { return fastest_; }
 
  private:
+  bool trust_most(const WallMap& map, Frame& frame) const;
   void locate_from(const Pose2& T_map_robot, const WallMap& map, std::uint32_t since, Frame& frame);
 
   FrameMatcher matcher_;
