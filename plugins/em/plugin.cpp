@@ -119,8 +119,8 @@ class PlanePlugin final : public sdk::Plugin {
     for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
       const hw_sample_t& sample = *frame.samples[k];
       if (sample.kind != HW_SAMPLE_POINTS) continue;
-      gather_points(*static_cast<const hw_points_t*>(sample.payload));
-      const Extraction found = algorithm_->extract(points_, sample.sensor_id);
+      const std::span<const Vec3> points = points_of(*static_cast<const hw_points_t*>(sample.payload));
+      const Extraction found = algorithm_->extract(points, sample.sensor_id);
       put(k, found);
       planes += found.planes.size();
       for (const std::uint32_t label : found.labels) unlabelled += label == kNoPlane ? 1u : 0u;
@@ -131,13 +131,16 @@ class PlanePlugin final : public sdk::Plugin {
   }
 
  private:
-  void gather_points(const hw_points_t& given) {
-    points_.clear();
-    points_.reserve(given.count);
+  /// The points of a reading: where it has them, if nothing lies between them, else copied.
+  std::span<const Vec3> points_of(const hw_points_t& given) {
+    static_assert(sizeof(Vec3) == sizeof(hw_point3_t) && alignof(Vec3) == alignof(hw_point3_t));
+    if (given.stride == sizeof(Vec3)) return {static_cast<const Vec3*>(given.points), given.count};
+    points_.resize(given.count);
     for (std::uint64_t i = 0; i < given.count; ++i) {
       const hw_point3_t& p = *hw_point_at(&given, i);
-      points_.emplace_back(p.x, p.y, p.z);
+      points_[i] = Vec3(p.x, p.y, p.z);
     }
+    return points_;
   }
 
   void put(std::uint32_t sample, const Extraction& found) {
@@ -170,7 +173,7 @@ class PlanePlugin final : public sdk::Plugin {
 
   typename Algorithm::Options options_;
   std::optional<Algorithm> algorithm_;
-  std::vector<Vec3> points_;  ///< of one sample
+  std::vector<Vec3> points_;  ///< of one sample, where they had to be copied
   std::vector<hw_plane_t> planes_;
   std::vector<hw_point3_t> hull_;
   std::vector<std::uint32_t> members_;

@@ -21,11 +21,13 @@ constexpr double kWarmRadius =
 constexpr std::size_t kSettled = 500;  // one changed label in so many is no change
 
 /// Every so many-th point: even in space too, since the points are in Morton order.
-Points sample_of(const Points& points, std::size_t wanted) {
+Points sample_of(const Points& points, std::size_t wanted, Workers& workers) {
   if (points.count <= wanted + wanted / 2) return points;
   Points sample;
   sample.resize(wanted);
-  for (std::size_t k = 0; k < wanted; ++k) sample.set(k, points.at(k * points.count / wanted));
+  workers.run_parts(wanted, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) sample.set(k, points.at(k * points.count / wanted));
+  });
   return sample;
 }
 
@@ -140,7 +142,8 @@ Extraction PlaneExtractor::extract(std::span<const Vec3> cloud, PlaneMemory& mem
 
 Extraction PlaneExtractor::extract_from(std::span<const Vec3> cloud, const PlaneMemory& memory) const {
   const CanonicalCloud canonical = canonical_order(cloud, *workers_);
-  const Points sample = sample_of(canonical.points, static_cast<std::size_t>(options_.sample_points));
+  const Points sample =
+      sample_of(canonical.points, static_cast<std::size_t>(options_.sample_points), *workers_);
   const BoxTree sample_tree(sample, *workers_);
   const PointField sample_field{sample, sample_tree};
 
