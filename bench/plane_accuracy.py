@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""plane_accuracy.py HALLWAY PLANE_ML OUT [--seeds N] [--modes relative,thesis] [SCENARIO...]: the table of docs/accuracy.md for maps of planes.
+"""plane_accuracy.py HALLWAY PLANE_ML OUT [--seeds N] [--modes relative,thesis] [--drift N] [SCENARIO...]: the tables of docs/accuracy.md for maps of planes.
 
 Runs each scenario of planes with N seeds (20), with noise and without, with occlusion and without, in each mode that slam_plane has, and
 prints a table in Markdown: errors pooled over the seeds, beside those of plane_ml (least squares over all poses and walls of the same run, given
@@ -10,6 +10,7 @@ while the run went on, in the frames that plane_ml scores (of runs without noise
 of every twelfth part of the first runs (--so-far). A run is whole where every wall that
 is asked for is mapped and none twice. OUT keeps the figures of each run, by which a run that was made is not made again."""
 import argparse
+import csv
 import json
 import math
 import pathlib
@@ -104,6 +105,35 @@ def row(scenario, mode, noise, occlusion, runs):
     return "| " + " | ".join(cells) + " |"
 
 
+def change_of(errors, blocks=20):
+    """By how much errors change from the first iteration to the last, and half of the 95 % interval about that: the least-squares line through the means of
+    blocks, which are long enough to be independent."""
+    size = len(errors) // blocks
+    means = [sum(errors[k * size:(k + 1) * size]) / size for k in range(blocks)]
+    middle, mean = (blocks - 1) / 2, sum(means) / blocks
+    spread = sum((k - middle) ** 2 for k in range(blocks))
+    slope = sum((k - middle) * (value - mean) for k, value in enumerate(means)) / spread
+    rest = sum((value - mean - slope * (k - middle)) ** 2 for k, value in enumerate(means)) / (blocks - 2)
+    return blocks * slope, blocks * 2.101 * math.sqrt(rest / spread)  # Student's t for 18 degrees of freedom
+
+
+def drift(arguments, mode):
+    """A row on how the position's error changes over a long run of four_planes with noise."""
+    folder = arguments.out / "run"
+    command = [arguments.hallway, "run", ROOT / "maps" / "four_planes.toml", "--steps", arguments.drift, "--out", folder, "--force", "--json", "--quiet", "--in-process"]
+    for key, value in NOISE.items():
+        command += ["--set", f"sensor.eyes.{key}={value}"]
+    if mode:
+        command += ["--set", f"slam_plane.mode={mode}"]
+    output_of(command)
+    with open(folder / "pose_errors.csv", encoding="utf-8") as file:
+        errors = [float(row["position_m"]) for row in csv.DictReader(file)]
+    change, half = change_of(errors)
+    within = abs(change) + half <= 0.002
+    return (f"| {mode or 'relative'} | {arguments.drift} | {1000 * sum(errors) / len(errors):.2f} | {1000 * change:.2f} "
+            f"| {1000 * (change - half):.2f} to {1000 * (change + half):.2f} | {'yes' if within else 'no'} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("hallway", type=pathlib.Path)
@@ -111,12 +141,18 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("scenarios", nargs="*", default=SCENARIOS)
     parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--drift", type=int, metavar="N", help="instead: how the error changes over N iterations of four_planes, in each mode")
     parser.add_argument("--so-far", type=int, default=5, help="seeds of which plane_ml solves for what was known at the time [5]")
     parser.add_argument("--modes", help="of those that the plugin has [all]")
     arguments = parser.parse_intermixed_args()
     arguments.hallway, arguments.plane_ml = arguments.hallway.resolve(), arguments.plane_ml.resolve()
     arguments.out.mkdir(parents=True, exist_ok=True)
     modes = [mode for mode in modes_of(arguments.hallway) if not arguments.modes or mode in arguments.modes.split(",")]
+    if arguments.drift:
+        print("| mode | iterations | mean position error mm | change mm | 95 % interval | within 2 mm |\n" + "|" + "---|" * 6)
+        for mode in modes:
+            print(drift(arguments, mode), flush=True)
+        return
     print("| scenario | mode | noise | occlusion | whole | lost | wrong associations | corners m | ML m | corners / ML | positions re-fitted m | ML m "
           "| re-fitted / ML | online m | ML so far m | online / ML so far | mean µs | worst ms |")
     print("|" + "---|" * 18)

@@ -15,11 +15,15 @@ using Vec6 =
     Eigen::Matrix<double, 6, 1>;  // a small motion: step [m], then turn about the body's origin [rad]
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kSteps = 5;   // of Gauss and Newton
-constexpr int kRounds = 2;  // of weighing
+constexpr int kSteps = 5;            // of Gauss and Newton, at most
+constexpr double kLeastStep = 1e-7;  // [m, rad]
+constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;
-constexpr double kLeastSigma = 1e-6;
-constexpr double kUpright = 1e-3;       // largest z of the normal of an upright plane
+constexpr double kLeastSigma = 1e-4;
+constexpr double kUpright = 1e-3;  // largest z of the normal of an upright plane
+constexpr double kHold = 1e-6;     // of what nothing determines [1/m^2]
+constexpr double kLeastLeft =
+    0.1;  // share of a residual's variance that the fit must leave, for it to tell its size
 constexpr double kMadToSigma = 1.4826;  // of normal noise
 
 /// What is compared, in the order of their standard deviations.
@@ -123,6 +127,7 @@ Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
     T.q = (Quat(Eigen::AngleAxisd(turn.norm(), turn.norm() > 0.0 ? Vec3(turn.normalized()) : Vec3::UnitZ())) *
            T.q)
               .normalized();
+    if (x.norm() < kLeastStep) break;
   }
   return T;
 }
@@ -142,6 +147,29 @@ bool is_determined(const std::vector<Match>& matches, const Pose& T, const Sigma
       level ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position.topLeftCorner<2, 2>()).eigenvalues()(0)
             : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(position).eigenvalues()(0);
   return worst * RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m >= 1.0;
+}
+
+/// Calls `take(kind, size)` with what is left of each residual that counts at a fitted pose, as large as it would be had it not taken part in the fit.
+template <typename Take>
+void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas, Take take) {
+  Vec6 gradient;
+  Mat6 h = information(matches, T, sigmas, gradient);
+  h.diagonal().array() += kHold;
+  const Eigen::LDLT<Mat6> solver(h);
+  for (const Match& match : matches) {
+    double turn2 = 0.0, turn_left = 1.0;
+    compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
+      const double left = 1.0 - row.dot(solver.solve(row)) / (sigmas[kind] * sigmas[kind]);
+      if (kind == kTurn) {  // its two parts together: of an upright plane the one is nothing
+        turn2 += residual * residual;
+        turn_left = std::min(turn_left, left);
+      } else if (counts(kind, residual, sigmas) && left > kLeastLeft) {
+        take(kind, std::abs(residual) / std::sqrt(left));
+      }
+    });
+    if (counts(kTurn, std::sqrt(turn2), sigmas) && turn_left > kLeastLeft)
+      take(kTurn, std::sqrt(turn2 / turn_left));
+  }
 }
 
 /// The standard deviation of what is normal but for some that is not.
@@ -190,14 +218,9 @@ std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::M
     std::array<std::vector<double>, kKinds> sizes;
     for (std::size_t f = 0; f < all.size(); ++f) {
       all[f].T_map_body = fitted(matches[f], all[f].T_map_body, sigmas);
-      for (const Match& match : matches[f]) {
-        const Vec3 normal = all[f].T_map_body.q * match.normal;
-        const double turn = normal.cross(match.target->normal).norm();
-        if (counts(kTurn, turn, sigmas)) sizes[kTurn].push_back(turn);
-        compare(match, all[f].T_map_body, [&](Kind kind, double residual, const Vec6&) {
-          if (kind != kTurn && counts(kind, residual, sigmas)) sizes[kind].push_back(std::abs(residual));
-        });
-      }
+      if (round == kRounds) continue;
+      visit_errors(matches[f], all[f].T_map_body, sigmas,
+                   [&](Kind kind, double size) { sizes[kind].push_back(size); });
     }
     if (round == kRounds) break;
     for (std::size_t kind = 0; kind < kKinds; ++kind) sigmas[kind] = scatter(sizes[kind], kFirst[kind]);

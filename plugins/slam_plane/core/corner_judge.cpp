@@ -12,9 +12,28 @@ namespace {
 
 constexpr double kNearerSigmas = 2.0;  // that something is nearer by, if it hides
 constexpr double kLeastRange_m = 0.05;
-constexpr double kAgreeSigmas = 4.0;     // of an end that is where the map has a corner
+constexpr double kAgreeSigmas = 3.0;     // of an end that is where the map has a corner
 constexpr double kRecallSigmas = 2.5;    // by which a corner that the map tells is in view and not hidden
 constexpr double kLeastNearer_m = 0.03;  // what hides is nearer by, where the map tells both
+constexpr double kSightStep_m = 1.5;     // less than twice the reach of the map's index
+
+/// Whether the map has a wall other than `own`, or nearly has one, across the way from one place to another.
+bool crosses_a_wall(const WallMap& map, Index own, const Vec2& from, const Vec2& to) {
+  bool crosses = false;
+  const int steps = 1 + static_cast<int>((to - from).norm() / kSightStep_m);
+  for (int i = 0; i <= steps && !crosses; ++i) {
+    map.visit_near(from + (to - from) * (static_cast<double>(i) / steps), [&](Index w) {
+      if (w == own || crosses) return;
+      const WallEstimate& wall = map.walls[w].estimate;
+      const double here = wall.basis.across(from), there = wall.basis.across(to);
+      if (here * there >= 0.0 || std::abs(there) < kLeastNearer_m)
+        return;  // one that meets there does not hide
+      const double place = wall.basis.along(from + here / (here - there) * (to - from));
+      crosses = place > wall.reach[kEndA] - kLeastNearer_m && place < wall.reach[kEndB] + kLeastNearer_m;
+    });
+  }
+  return crosses;
+}
 
 }  // namespace
 
@@ -187,6 +206,9 @@ bool CornerJudge::recall(const View& view, const WallMap& map, const Located& at
     Sighting& sighting = frame[i / 2];
     const std::size_t end = i % 2;
     if (!told_[i] || sighting.corner[end] || !is_in_view(view, i, at) || !is_in_front(i, at)) continue;
+    const WallEstimate& wall = map.walls[sighting.wall].estimate;
+    // What hides may be seen too little of to be told, as at the border of the view.
+    if (crosses_a_wall(map, sighting.wall, at.T_map_robot.t, wall.basis.point(wall.end[end]))) continue;
     sighting.corner[end] = any = true;
     sighting.hidden[end] = false;
   }

@@ -26,7 +26,7 @@ class CornerJudge {
     Mat3 covariance;  ///< of x, y [m] and heading [rad]
   };
   /// Looks again at the frame that was judged last, once its walls and its pose are known: an end that was taken for a cut is a corner after all if the
-  /// map has one where it is seen, and that one lies in view with nothing nearer before it. Places in the map are known better than those of a
+  /// map has one where it is seen, and that one lies in view with nothing before it, seen or in the map. Places in the map are known better than those of a
   /// single sighting, and being wrong costs no more than what a sighting may be off. Returns whether there are any. Cost as judge().
   bool recall(const View& view, const WallMap& map, const Located& at, std::vector<Sighting>& frame) const;
 
