@@ -21,6 +21,7 @@ constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;
 constexpr double kLeastSigma = 1e-4;
 constexpr double kUpright = 1e-3;  // largest z of the normal of an upright plane
+constexpr double kNothing = 1e-9;  // [rad]
 constexpr double kHold = 1e-6;     // of what nothing determines [1/m^2]
 constexpr double kLeastLeft =
     0.1;  // share of a residual's variance that the fit must leave, for it to tell its size
@@ -157,18 +158,12 @@ void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas
   h.diagonal().array() += kHold;
   const Eigen::LDLT<Mat6> solver(h);
   for (const Match& match : matches) {
-    double turn2 = 0.0, turn_left = 1.0;
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
+      // Of planes that are all upright a turn out of the vertical is nothing, and tells nothing of the noise.
+      if (!counts(kind, residual, sigmas) || (kind == kTurn && std::abs(residual) < kNothing)) return;
       const double left = 1.0 - row.dot(solver.solve(row)) / (sigmas[kind] * sigmas[kind]);
-      if (kind == kTurn) {  // its two parts together: of an upright plane the one is nothing
-        turn2 += residual * residual;
-        turn_left = std::min(turn_left, left);
-      } else if (counts(kind, residual, sigmas) && left > kLeastLeft) {
-        take(kind, std::abs(residual) / std::sqrt(left));
-      }
+      if (left > kLeastLeft) take(kind, std::abs(residual) / std::sqrt(left));
     });
-    if (counts(kTurn, std::sqrt(turn2), sigmas) && turn_left > kLeastLeft)
-      take(kTurn, std::sqrt(turn2 / turn_left));
   }
 }
 

@@ -34,7 +34,7 @@ TEST(CornerJudge, EndAtTheSideOfTheViewIsACut) {
 }
 
 TEST(CornerJudge, EndAtTheFarBoundIsACut) {
-  const auto frame = judged({sighting({11.98, 1}, {6, 1.0})});
+  const auto frame = judged({sighting({11.99, 1}, {6, 1.0})});
   EXPECT_FALSE(frame[0].corner[kEndA]);
   EXPECT_TRUE(frame[0].corner[kEndB]);
 }
@@ -111,11 +111,11 @@ TEST(CornerJudge, ACornerThatTheMapHasInViewIsOneThoughItsSightingMightBeACut) {
 TEST(CornerJudge, ACornerThatTheMapHasBesideAnEdgeIsOneAndBehindItNone) {
   const std::pair<Vec2, Vec2> pillar{{3, 1}, {3, 0}};
   const auto far = [](double y) { return std::pair<Vec2, Vec2>{{6, y}, {9, -1}}; };
-  const auto beside = recalled({pillar, far(-0.05)});
+  const auto beside = recalled({pillar, far(-0.08)});
   EXPECT_TRUE(beside[1].corner[kEndA]);
   EXPECT_FALSE(beside[1].hidden[kEndA]);
   EXPECT_FALSE(
-      judged({sighting(pillar.first, pillar.second), sighting({6, -0.05}, {9, -1})})[1].corner[kEndA]);
+      judged({sighting(pillar.first, pillar.second), sighting({6, -0.08}, {9, -1})})[1].corner[kEndA]);
   const auto behind = recalled({pillar, far(0.02)});
   EXPECT_FALSE(behind[1].corner[kEndA]);
   EXPECT_TRUE(behind[1].hidden[kEndA]);
