@@ -66,6 +66,7 @@ struct Match {
   Vec3 normal, middle;
   std::span<const Vec3> bounds;
   const Target* target = nullptr;
+  bool level = false;  ///< the map is of upright planes alone: the body moves and turns in the level
 };
 
 Vec6 row_of(const Vec3& step, const Vec3& turn) {
@@ -76,7 +77,11 @@ Vec6 row_of(const Vec3& step, const Vec3& turn) {
 
 /// Calls `take(kind, residual, row)` with all that is compared at a pose.
 template <typename Take>
-void compare(const Match& match, const Pose& T, Take take) {
+void compare(const Match& match, const Pose& T, Take take_any) {
+  const auto take = [&](Kind kind, double residual, Vec6 row) {
+    if (match.level) row.segment<3>(2).setZero();  // height, and turns out of the vertical
+    if (!row.isZero()) take_any(kind, residual, row);
+  };
   const Target& target = *match.target;
   const Vec3 normal = T.q * match.normal, middle = T.q * match.middle;
   for (const Vec3& tangent : target.tangent)
@@ -137,13 +142,11 @@ Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
 bool is_determined(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas) {
   Vec6 gradient;
   const Mat6 h = information(matches, T, sigmas, gradient);
-  const Eigen::LLT<Eigen::Matrix3d> turns(h.bottomRightCorner<3, 3>());
-  if (turns.info() != Eigen::Success) return false;
+  Eigen::Matrix3d turns = h.bottomRightCorner<3, 3>();
+  turns.diagonal().array() += kHold;
   const Eigen::Matrix3d position =
-      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * turns.solve(h.bottomLeftCorner<3, 3>());
-  const bool level = std::all_of(matches.begin(), matches.end(), [](const Match& match) {
-    return std::abs(match.target->normal.z()) < kUpright;
-  });
+      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * turns.ldlt().solve(h.bottomLeftCorner<3, 3>());
+  const bool level = matches.empty() || matches.front().level;
   const double worst =
       level ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position.topLeftCorner<2, 2>()).eigenvalues()(0)
             : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(position).eigenvalues()(0);
@@ -159,8 +162,7 @@ void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas
   const Eigen::LDLT<Mat6> solver(h);
   for (const Match& match : matches) {
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
-      // Of planes that are all upright a turn out of the vertical is nothing, and tells nothing of the noise.
-      if (!counts(kind, residual, sigmas) || (kind == kTurn && std::abs(residual) < kNothing)) return;
+      if (!counts(kind, residual, sigmas)) return;
       const double left = 1.0 - row.dot(solver.solve(row)) / (sigmas[kind] * sigmas[kind]);
       if (left > kLeastLeft) take(kind, std::abs(residual) / std::sqrt(left));
     });
@@ -194,8 +196,11 @@ void RefittedPlanes::add(std::uint32_t iteration, const Pose& T_map_body, std::s
 
 std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::MappedPlane> map) const {
   std::unordered_map<log::LandmarkId, Target> targets;
+  bool level = true;
   for (const log::MappedPlane& plane : map) {
-    if (plane.status == log::LandmarkStatus::kMapped) targets.emplace(plane.id, target_of(plane));
+    if (plane.status != log::LandmarkStatus::kMapped) continue;
+    targets.emplace(plane.id, target_of(plane));
+    level = level && std::abs(plane.normal[2]) < kUpright;
   }
   std::vector<std::vector<Match>> matches(frames_.size());
   std::vector<Placed> all;
@@ -204,7 +209,7 @@ std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::M
       const auto found = targets.find(sights_[s].plane);
       if (found == targets.end()) continue;
       const std::span<const Vec3> bounds = std::span(bounds_).subspan(b, sights_[s].end - b);
-      matches[f].push_back({sights_[s].normal, sights_[s].middle, bounds, &found->second});
+      matches[f].push_back({sights_[s].normal, sights_[s].middle, bounds, &found->second, level});
     }
     all.push_back({frames_[f].iteration, frames_[f].T_map_body});
   }
