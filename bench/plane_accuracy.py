@@ -99,7 +99,7 @@ def row(scenario, mode, noise, occlusion, runs):
     cells = [scenario, mode or "relative", "yes" if noise else "no", "yes" if occlusion else "no", f"{sum(is_whole(run['planes']) for run in runs)} of {len(runs)}",
              f"{sum(run['lost_iterations'] for run in runs)}", f"{sum(run['planes']['association_errors'] for run in runs)}",
              metres(corners), metres(ml_corners), ratio(corners, ml_corners), metres(refitted), metres(ml_positions), ratio(refitted, ml_positions),
-             metres(online), metres(so_far), ratio(online, so_far),
+             metres(online), ratio(online, ml_positions), metres(so_far),
              f"{1000 * sum(run['iteration_cpu_ms']['mean'] for run in runs) / len(runs):.0f}",
              f"{max(run['iteration_cpu_ms']['max'] for run in runs):.2f}"]
     return "| " + " | ".join(cells) + " |"
@@ -154,7 +154,7 @@ def main():
             print(drift(arguments, mode), flush=True)
         return
     print("| scenario | mode | noise | occlusion | whole | lost | wrong associations | corners m | ML m | corners / ML | positions re-fitted m | ML m "
-          "| re-fitted / ML | online m | ML so far m | online / ML so far | mean µs | worst ms |")
+          "| re-fitted / ML | online m | online / ML | ML so far m | mean µs | worst ms |")
     print("|" + "---|" * 18)
     for scenario in arguments.scenarios:
         for noise in (False, True):
