@@ -15,7 +15,9 @@ constexpr double kLeastRange_m = 0.05;
 constexpr double kAgreeSigmas = 3.0;     // of an end that is where the map has a corner
 constexpr double kRecallSigmas = 2.5;    // by which a corner that the map tells is in view and not hidden
 constexpr double kLeastNearer_m = 0.03;  // what hides is nearer by, where the map tells both
-constexpr double kSightStep_m = 1.5;     // less than twice the reach of the map's index
+constexpr double kMostEnd_m =
+    0.03;  // standard deviation of ends above which a cut beside a corner is not told from it
+constexpr double kSightStep_m = 1.5;  // less than twice the reach of the map's index
 
 /// Whether the map has a wall other than `own`, or nearly has one, across the way from one place to another.
 bool crosses_a_wall(const WallMap& map, Index own, const Vec2& from, const Vec2& to) {
@@ -45,8 +47,10 @@ CornerJudge::CornerJudge(const Options& options)
 CornerJudge::EndView CornerJudge::view_end(const Sighting& sighting, int end) const {
   const Vec2& p = sighting.end[end];
   const Vec2& d = sighting.direction;
-  const double across = std::hypot(noise_.normal, 0.5 * sighting.length * noise_.angle);
-  const double along = std::hypot(noise_.end, noise_.along);
+  double across = std::hypot(noise_.normal, 0.5 * sighting.length * noise_.angle);
+  double along = std::hypot(noise_.end, noise_.along);
+  if (along > kMostEnd_m)
+    across = along = std::hypot(across, along);  // wherever the last points happen to lie
   const double range = std::max(p.norm(), kLeastRange_m);
   const double cosine = d.dot(p) / range,
                sine = cross(d, p) / range;  // of the wall against the line of sight
@@ -191,6 +195,7 @@ bool CornerJudge::is_in_front(std::size_t end, const Located& at) const {
 
 bool CornerJudge::recall(const View& view, const WallMap& map, const Located& at,
                          std::vector<Sighting>& frame) const {
+  if (std::hypot(noise_.end, noise_.along) > kMostEnd_m) return false;
   told_.assign(ends_.size(), false);
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const Sighting& sighting = frame[i / 2];

@@ -27,7 +27,8 @@ class CornerJudge {
   };
   /// Looks again at the frame that was judged last, once its walls and its pose are known: an end that was taken for a cut is a corner after all if the
   /// map has one where it is seen, and that one lies in view with nothing before it, seen or in the map. Places in the map are known better than those of a
-  /// single sighting, and being wrong costs no more than what a sighting may be off. Returns whether there are any. Cost as judge().
+  /// single sighting, and being wrong costs no more than what a sighting may be off;
+  /// where that is much (ends known worse than 3 cm), none is. Returns whether there are any. Cost as judge(), and for each such end that of a look along the way to it.
   bool recall(const View& view, const WallMap& map, const Located& at, std::vector<Sighting>& frame) const;
 
  private:
