@@ -21,7 +21,6 @@ constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;
 constexpr double kLeastSigma = 1e-4;
 constexpr double kUpright = 1e-3;  // largest z of the normal of an upright plane
-constexpr double kNothing = 1e-9;  // [rad]
 constexpr double kHold = 1e-6;     // of what nothing determines [1/m^2]
 constexpr double kLeastLeft =
     0.1;  // share of a residual's variance that the fit must leave, for it to tell its size
