@@ -2,22 +2,27 @@
 // What the plane mapper takes as more walls are in view, as its map grows and as its life grows. Times are of the thread's CPU, iteration by iteration the
 // least of several identical runs.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <numbers>
-#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/random.hpp"
+#include "growth.hpp"
 #include "slam_plane/core/mapper.hpp"
 
 namespace {
 
 using namespace hallway::slam_plane;
+using hallway::bench::cpu_us;
+using hallway::bench::GrowthTable;
+using hallway::bench::mean_of;
+using hallway::bench::resident_mb;
 
 constexpr int kRuns = 5;
 constexpr double kStep_m = 0.1;
@@ -25,20 +30,6 @@ constexpr double kRange_m = 12.0;     // depth
 constexpr double kPiece_m = 0.6;      // half of the longest wall
 constexpr double kLeastSeen_m = 0.1;  // shorter parts are not told
 constexpr double kBand_m = 13.0;      // on each side of the road, in which walls stand
-
-double cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-double resident_mb() {
-  std::ifstream status("/proc/self/statm");
-  double total = 0.0;
-  double resident = 0.0;
-  status >> total >> resident;
-  return resident * 4096.0 / 1e6;
-}
 
 struct Segment {
   Vec2 a, b;
@@ -168,38 +159,26 @@ Drive drive(double visible, double stretch_m, std::size_t steps) {
   return result;
 }
 
-double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
-  return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(from),
-                         values.begin() + static_cast<std::ptrdiff_t>(to), 0.0) /
-         static_cast<double>(to - from);
+/// The iterations of a drive from one on.
+std::span<const double> from(const std::vector<double>& values, std::size_t first) {
+  return std::span(values).subspan(first);
 }
 
-void print_header(const char* what) {
-  std::printf("\n%s, us of CPU an iteration\n%9s %9s %9s %8s %8s %8s %8s %8s %6s\n", what, "asked", "walls",
-              "submaps", "in view", "mean", "p99", "worst", "ratio", "lost");
+void print_row(GrowthTable& table, double asked, const Drive& drive, std::size_t first) {
+  const Counters& counters = drive.counters;
+  table.row(std::array{asked, static_cast<double>(counters.walls), static_cast<double>(counters.submaps)},
+            {from(drive.us, first), from(drive.visible, first), static_cast<double>(counters.lost)});
 }
 
-/// Of the iterations from `from` on. `first`: the mean that the ratio is to; set by the first row.
-void print_row(double asked, const Drive& drive, std::size_t from, double& first) {
-  const std::size_t n = drive.us.size();
-  std::vector<double> sorted(drive.us.begin() + static_cast<std::ptrdiff_t>(from), drive.us.end());
-  std::sort(sorted.begin(), sorted.end());
-  const double us = mean(drive.us, from, n);
-  if (first == 0.0) first = us;
-  std::printf("%9.0f %9.0f %9.0f %8.1f %8.1f %8.1f %8.1f %8.2f %6.0f\n", asked,
-              static_cast<double>(drive.counters.walls), static_cast<double>(drive.counters.submaps),
-              mean(drive.visible, from, n), us, sorted[sorted.size() * 99 / 100], sorted.back(), us / first,
-              static_cast<double>(drive.counters.lost));
-}
+const GrowthTable::Names kSizes{"asked", "walls", "submaps"};
 
 void by_walls_in_view() {
-  print_header("walls in view, on a road that never returns");
-  double first = 0.0;
+  GrowthTable table("walls in view, on a road that never returns", kSizes);
   std::vector<std::pair<double, double>> cost;  // in view, mean
   for (const double visible : {5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
     const Drive d = drive(visible, 0.0, 1500);
-    print_row(visible, d, 500, first);
-    cost.emplace_back(mean(d.visible, 500, 1500), mean(d.us, 500, 1500));
+    print_row(table, visible, d, 500);
+    cost.emplace_back(mean_of(from(d.visible, 500)), mean_of(from(d.us, 500)));
   }
   const auto [n0, t0] = cost.front();
   const auto [n1, t1] = cost.back();
@@ -215,51 +194,51 @@ double walls_per_m() {
 }
 
 void by_map_size(double most) {
-  print_header("map size, a stretch for the third time");
-  double first = 0.0;
+  GrowthTable table("map size, a stretch for the third time", kSizes);
   for (const double walls : {50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0}) {
     if (walls > most) break;
     const double stretch = std::max(1.0, walls / walls_per_m() - kRange_m);
     const auto steps = static_cast<std::size_t>(stretch / kStep_m);
-    print_row(walls, drive(10.0, stretch, 3 * steps), 2 * steps, first);
+    print_row(table, walls, drive(10.0, stretch, 3 * steps), 2 * steps);
   }
 }
 
 void new_ground(double most) {
-  print_header("new ground, tenths of a run");
+  GrowthTable table("new ground, a run and its tenths", kSizes);
   const auto steps = static_cast<std::size_t>(most / walls_per_m() / kStep_m);
   const Drive d = drive(10.0, 0.0, steps);
-  double first = 0.0;
-  print_row(most, d, 0, first);
-  for (std::size_t tenth = 0; tenth < 10; ++tenth)
-    std::printf(" %7.1f", mean(d.us, tenth * steps / 10, (tenth + 1) * steps / 10));
-  std::printf("\nlast tenth / second tenth: %.3f\n",
-              mean(d.us, 9 * steps / 10, steps) / mean(d.us, steps / 10, 2 * steps / 10));
+  print_row(table, most, d, 0);
+  std::vector<double> tenths;
+  for (std::size_t k = 0; k < 10; ++k) {
+    tenths.push_back(mean_of(std::span(d.us).subspan(k * steps / 10, (k + 1) * steps / 10 - k * steps / 10)));
+    std::printf(" %7.1f", tenths.back());
+  }
+  std::printf("\nlast tenth / second tenth: %.3f\n", tenths[9] / tenths[1]);
 }
 
 void known_ground(std::uint64_t iterations) {
-  std::printf("\nknown ground, round a circle of about 60 m\n%10s %8s %9s %8s %8s %8s\n", "iterations",
-              "walls", "submaps", "mean", "worst", "MB");
+  constexpr std::uint64_t kMostInRow = 100000;
+  std::vector<double> us(kMostInRow, 0.0), visible(kMostInRow, 0.0);
   Road road(10.0, 60.0);
   Mapper mapper{Options()};
   const double before_mb = resident_mb();
-  double sum = 0.0, worst = 0.0;
-  std::uint64_t next = 1000, since = 0;
+  GrowthTable table("known ground, round a circle of about 60 m", {"iterations", "walls", "submaps"}, {"MB"});
+  std::uint64_t next = 1000;
+  std::size_t since = 0;
   for (std::uint64_t i = 1; i <= iterations; ++i) {
     const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
     const double start = cpu_us();
     const Counters& counters = mapper.process(pieces, View{}).counters;
-    const double us = cpu_us() - start;
-    sum += us;
-    worst = std::max(worst, us);
-    ++since;
+    us[since] = cpu_us() - start;
+    visible[since++] = static_cast<double>(pieces.size());
     if (i != next && i != iterations) continue;
-    std::printf("%10.0f %8.0f %9.0f %8.1f %8.1f %8.1f\n", static_cast<double>(i),
-                static_cast<double>(counters.walls), static_cast<double>(counters.submaps),
-                sum / static_cast<double>(since), worst, resident_mb() - before_mb);
-    sum = worst = 0.0;
+    table.row(
+        std::array{static_cast<double>(i), static_cast<double>(counters.walls),
+                   static_cast<double>(counters.submaps)},
+        {std::span(us).first(since), std::span(visible).first(since), static_cast<double>(counters.lost)},
+        std::array{resident_mb() - before_mb});
     since = 0;
-    next = next < 10000 ? 10000 : next < 100000 ? 100000 : next + 100000;
+    next = next < 10000 ? 10000 : next < kMostInRow ? kMostInRow : next + kMostInRow;
   }
 }
 

@@ -1,45 +1,30 @@
 // SPDX-License-Identifier: MIT
 // What the point mapper takes as its life and its map grow: time and memory on a circle driven round and round, which it knows after the first lap;
 // then on a road that never returns, until the map has as many landmarks as asked for. Times are of the thread's CPU, as ratios to the first row.
-#include <sys/resource.h>
-
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "../tests/unit/slam_point/scenes.hpp"
+#include "growth.hpp"
 #include "slam_point/core/mapper.hpp"
 
 namespace {
 
 using namespace hallway::slam_point;
+using hallway::bench::cpu_us;
+using hallway::bench::GrowthTable;
+using hallway::bench::resident_mb;
 
 constexpr double kStep_m = 0.3;    // of an iteration
 constexpr double kPer100m = 25.0;  // landmarks along the path
 constexpr double kReach_m =
     130.0;  // farthest from the sensor, along the path, that a landmark in view stands
 constexpr std::size_t kWindow = 3000;  // iterations that a row's figures are of
-
-double cpu_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-double resident_mb() {
-  std::ifstream status("/proc/self/statm");
-  double total = 0.0;
-  double resident = 0.0;
-  status >> total >> resident;
-  return resident * 4096.0 / 1e6;
-}
 
 /// A wavy road in blocks of landmarks made when they are needed, so that any length takes no memory; or a circle of it.
 class Road {
@@ -96,17 +81,15 @@ class Road {
   std::vector<Vec3> points_;
 };
 
-/// Drives, and prints a row after each of `rows`: whenever `size`, of the mapper's counters, reaches it.
+/// Drives, and prints a row after each of `rows`, of its last iterations: whenever `size`, of the mapper's counters, reaches it.
 template <typename Size>
-void drive(double lap_m, const std::vector<double>& rows, Size&& size) {
-  std::printf("%10s %10s %9s %8s %8s %8s %8s %6s %9s %9s\n", "iterations", "landmarks", "in view", "mean",
-              "p99", "worst", "ratio", "lost", "MB", "B/landm.");
+void drive(const char* what, double lap_m, const std::vector<double>& rows, Size&& size) {
   const double before_mb = resident_mb();
+  GrowthTable table(what, {"iterations", "landmarks"}, {"MB", "B/landm."});
   Road road(lap_m);
   Mapper mapper{Options()};
   std::vector<double> times(kWindow, 0.0);
   std::vector<double> visible(kWindow, 0.0);
-  double first_mean = 0.0;
   std::uint64_t step = 0;
   for (const double row : rows) {
     Counters counters;
@@ -118,20 +101,10 @@ void drive(double lap_m, const std::vector<double>& rows, Size&& size) {
       visible[step % kWindow] = static_cast<double>(points.size());
       ++step;
     } while (size(counters) < row || step < kWindow);
-    std::vector<double> sorted = times;
-    std::sort(sorted.begin(), sorted.end());
-    double mean = 0.0;
-    double in_view = 0.0;
-    for (std::size_t i = 0; i < kWindow; ++i) {
-      mean += times[i] / static_cast<double>(kWindow);
-      in_view += visible[i] / static_cast<double>(kWindow);
-    }
-    if (first_mean == 0.0) first_mean = mean;
     const double mb = resident_mb() - before_mb;
-    std::printf("%10.0f %10.0f %9.1f %8.1f %8.1f %8.1f %8.2f %6.0f %9.1f %9.0f\n", static_cast<double>(step),
-                static_cast<double>(counters.landmarks), in_view, mean, sorted[kWindow * 99 / 100],
-                sorted.back(), mean / first_mean, static_cast<double>(counters.lost), mb,
-                1e6 * mb / static_cast<double>(counters.landmarks));
+    const auto landmarks = static_cast<double>(counters.landmarks);
+    table.row(std::array{static_cast<double>(step), landmarks},
+              {times, visible, static_cast<double>(counters.lost)}, std::array{mb, 1e6 * mb / landmarks});
   }
 }
 
@@ -147,10 +120,10 @@ int main(int argc, char** argv) {
     for (double row = 1e3; row < 1.0001 * most; row *= 10.0) rows.push_back(row);
     return rows;
   };
-  std::printf("round a circle of 1200 m, us of CPU an iteration over the last %zu iterations\n", kWindow);
   std::vector<double> rows = up_to(most_iterations);
   rows.erase(rows.begin());
-  drive(1200.0, rows, [](const Counters& c) { return static_cast<double>(c.iterations); });
-  std::printf("\nnew ground\n");
-  drive(0.0, up_to(most_landmarks), [](const Counters& c) { return static_cast<double>(c.landmarks); });
+  drive("round a circle of 1200 m, last 3000 iterations of a row", 1200.0, rows,
+        [](const Counters& c) { return static_cast<double>(c.iterations); });
+  drive("new ground, last 3000 iterations of a row", 0.0, up_to(most_landmarks),
+        [](const Counters& c) { return static_cast<double>(c.landmarks); });
 }

@@ -33,11 +33,7 @@ std::string metres(const std::optional<double>& value) {
 }
 
 void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
-  // Plugins that give a path alone, or walls, have nothing to be missed.
-  if (metrics.planes && metrics.landmarks_mapped == 0) {
-    table.row("submaps", fmt::format("{}", submaps));
-    return;
-  }
+  // Plugins that give a path alone have nothing to be missed.
   if (!metrics.landmarks_true || metrics.landmarks_mapped == 0) {
     table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
     return;
@@ -68,22 +64,25 @@ std::string errors_text(const std::optional<eval::ErrorSummary>& errors, const c
                      unit);
 }
 
-void add_planes(Table& table, const eval::PlaneMetrics& planes) {
+void add_planes(Table& table, const eval::PlaneMetrics& planes, std::uint64_t submaps) {
   const eval::PlaneMapMetrics& map = planes.refined;
-  table.row("planes given", fmt::format("{}, {} taken for none, {} for a wrong one", planes.observations,
-                                        planes.associations_none, planes.association_errors));
-  table.row("walls mapped",
-            fmt::format("{} of {}; {} planes, {} duplicated, {} parts, {} of no wall", map.walls_mapped,
-                        planes.walls_true, map.mapped, map.duplicated, map.parts, map.unmatched));
-  if (map.corner_m)
-    table.row("certain corners", fmt::format("{}; {}", map.corner_m->count, errors_text(map.corner_m, "m")));
-  table.row("walls, offset", errors_text(map.offset_m, "m"));
-  table.row("walls, angle", errors_text(map.angle_deg, "deg"));
+  table.row("planes seen", fmt::format("{}, {} given to no wall, {} to a wrong one", planes.observations,
+                                       planes.associations_none, planes.association_errors));
+  table.row(
+      "walls mapped",
+      fmt::format("{} of {} in {} submaps; {} duplicated, {} in parts, {} that are none", map.walls_mapped,
+                  planes.walls_true, submaps, map.duplicated, map.parts, map.unmatched));
+  if (map.corner_m) table.row("certain corners", fmt::format("{}", map.corner_m->count));
+  table.row("corner error", errors_text(map.corner_m, "m"));
+  table.row("wall error, across it", errors_text(map.offset_m, "m"));
+  table.row("wall error, direction", errors_text(map.angle_deg, "deg"));
   if (map.extent_iou_mean)
-    table.row("walls, extent IoU", fmt::format("{:.4f} mean, {:.4f} least", *map.extent_iou_mean,
-                                               map.extent_iou_least.value_or(0)));
-  table.row("pose on the map, position", errors_text(planes.position_m, "m"));
-  table.row("pose on the map, heading", errors_text(planes.heading_deg, "deg"));
+    table.row("wall extent, IoU", fmt::format("{:.4f} mean, {:.4f} least", *map.extent_iou_mean,
+                                              map.extent_iou_least.value_or(0)));
+  table.row("position error, online", errors_text(planes.position_m, "m"));
+  table.row("position error, re-fitted", errors_text(planes.position_refitted_m, "m"));
+  table.row("heading error, online", errors_text(planes.heading_deg, "deg"));
+  table.row("heading error, re-fitted", errors_text(planes.heading_refitted_deg, "deg"));
 }
 
 void add_errors(Table& table, const Metrics& metrics) {
@@ -124,10 +123,12 @@ std::string table_of(const Outcome& outcome) {
   const Metrics& metrics = result.metrics;
   Table table;
   table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
-  add_associations(table, metrics);
-  add_landmarks(table, metrics, result.submaps);
-  if (metrics.planes) add_planes(table, *metrics.planes);
-  add_errors(table, metrics);
+  if (metrics.planes) add_planes(table, *metrics.planes, result.submaps);
+  if (!metrics.planes || metrics.landmarks_mapped > 0) {
+    add_associations(table, metrics);
+    add_landmarks(table, metrics, result.submaps);
+    add_errors(table, metrics);
+  }
   add_times(table, "iteration, wall clock", metrics.iteration_ms);
   add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
   table.row("written to", printable(outcome.folder.string(), 4096));

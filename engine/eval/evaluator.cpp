@@ -107,8 +107,8 @@ Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
 void Evaluator::add_planes(const Iteration& iteration) {
   planes_->add(iteration.given_planes, iteration.T_world_body, iteration.wall_places);
   if (iteration.T_world_body && iteration.T_map_body && iteration.orientation_known)
-    planes_->add_pose(static_cast<std::uint32_t>(iterations_), *iteration.T_world_body,
-                      *iteration.T_map_body);
+    planes_->add_pose(static_cast<std::uint32_t>(iterations_), *iteration.T_world_body, *iteration.T_map_body,
+                      iteration.given_planes);
 }
 
 void Evaluator::add(const Iteration& iteration) {

@@ -41,6 +41,9 @@ struct PlaneMetrics {
   /// Of the poses as answered, where the online map's alignment puts them.
   std::optional<ErrorSummary> position_m{};
   std::optional<ErrorSummary> heading_deg{};
+  /// Of the poses as re-fitted to the map as re-solved at the end, those that its planes determine, where that map's alignment puts them.
+  std::optional<ErrorSummary> position_refitted_m{};
+  std::optional<ErrorSummary> heading_refitted_deg{};
 };
 
 }  // namespace hallway::eval

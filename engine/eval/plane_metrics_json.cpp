@@ -41,7 +41,9 @@ nlohmann::ordered_json to_json(const std::optional<PlaneMetrics>& planes) {
           {"online", map_json(planes->online)},
           {"final", map_json(planes->refined)},
           {"position_m", errors_json(planes->position_m)},
-          {"heading_deg", errors_json(planes->heading_deg)}};
+          {"heading_deg", errors_json(planes->heading_deg)},
+          {"position_refitted_m", errors_json(planes->position_refitted_m)},
+          {"heading_refitted_deg", errors_json(planes->heading_refitted_deg)}};
 }
 
 }  // namespace hallway::eval

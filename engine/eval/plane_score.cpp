@@ -143,6 +143,11 @@ double heading_of(const Quat& q) {
   return std::atan2(forward.y(), forward.x());
 }
 
+log::PoseErrorRow error_of(std::uint32_t iteration, const Pose& estimate, const Pose& truth) {
+  const double turn = heading_of(estimate.q) - heading_of(truth.q);
+  return {iteration, (estimate.t - truth.t).norm(), kDegrees * std::remainder(turn, 2.0 * std::numbers::pi)};
+}
+
 }  // namespace
 
 PlaneScore::PlaneScore(std::span<const log::TrueWall> walls) {
@@ -186,8 +191,10 @@ void PlaneScore::add(std::span<const GivenPlane> given, const std::optional<Pose
   }
 }
 
-void PlaneScore::add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body) {
+void PlaneScore::add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body,
+                          std::span<const GivenPlane> given) {
   poses_.push_back({iteration, T_world_body, T_map_body});
+  refitted_.add(iteration, T_map_body, given);
 }
 
 std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const MappedPlane> map) const {
@@ -304,11 +311,19 @@ std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const MappedPla
   std::vector<log::PoseErrorRow> errors;
   const std::optional<Pose> T_world_map = alignment(map);
   if (!T_world_map) return errors;
-  for (const TwoPoses& poses : poses_) {
-    const Pose placed = *T_world_map * poses.T_map_body;
-    const double turn = heading_of(placed.q) - heading_of(poses.T_world_body.q);
-    errors.push_back({poses.iteration, (placed.t - poses.T_world_body.t).norm(),
-                      kDegrees * std::remainder(turn, 2.0 * std::numbers::pi)});
+  for (const TwoPoses& poses : poses_)
+    errors.push_back(error_of(poses.iteration, *T_world_map * poses.T_map_body, poses.T_world_body));
+  return errors;
+}
+
+std::vector<log::PoseErrorRow> PlaneScore::refitted_errors(std::span<const MappedPlane> map) const {
+  std::vector<log::PoseErrorRow> errors;
+  const std::optional<Pose> T_world_map = alignment(map);
+  if (!T_world_map) return errors;
+  auto poses = poses_.begin();  // in the order in which they were added, as those that are placed
+  for (const RefittedPlanes::Placed& placed : refitted_.place(map)) {
+    while (poses->iteration != placed.iteration) ++poses;
+    errors.push_back(error_of(placed.iteration, *T_world_map * placed.T_map_body, poses->T_world_body));
   }
   return errors;
 }
@@ -322,13 +337,19 @@ PlaneMetrics PlaneScore::metrics(std::span<const MappedPlane> online,
   for (const auto& [wall, face] : faces_) metrics.walls_true += is_asked_for(face) ? 1u : 0u;
   metrics.online = score(online);
   metrics.refined = score(refined);
-  Errors positions, headings;
-  for (const log::PoseErrorRow& error : pose_errors(online)) {
-    positions.add(error.position_m);
-    headings.add(error.heading_deg);
-  }
-  metrics.position_m = positions.summary();
-  metrics.heading_deg = headings.summary();
+  const auto summarize = [](const std::vector<log::PoseErrorRow>& errors,
+                            std::optional<ErrorSummary>& position_m,
+                            std::optional<ErrorSummary>& heading_deg) {
+    Errors positions, headings;
+    for (const log::PoseErrorRow& error : errors) {
+      positions.add(error.position_m);
+      headings.add(error.heading_deg);
+    }
+    position_m = positions.summary();
+    heading_deg = headings.summary();
+  };
+  summarize(pose_errors(online), metrics.position_m, metrics.heading_deg);
+  summarize(refitted_errors(refined), metrics.position_refitted_m, metrics.heading_refitted_deg);
   return metrics;
 }
 

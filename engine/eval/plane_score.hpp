@@ -9,18 +9,13 @@
 
 #include "eval/association_score.hpp"
 #include "eval/plane_metrics.hpp"
+#include "eval/refitted_planes.hpp"
 #include "geom/pose.hpp"
 #include "log/mapped_planes.hpp"
 #include "log/pose_errors.hpp"
 #include "log/true_walls.hpp"
 
 namespace hallway::eval {
-
-/// A plane that a mapper was given.
-struct GivenPlane {
-  log::LandmarkId wall = log::kNoLandmark;       ///< the true wall that it is of
-  log::LandmarkId taken_for = log::kNoLandmark;  ///< the plane of the map that it was taken for
-};
 
 /// A place on a true wall that a sensor saw, body frame, with its noise.
 struct WallPlace {
@@ -29,7 +24,7 @@ struct WallPlace {
 };
 
 /// Scores maps of planes against the true walls; docs/metrics.md defines the numbers. Memory grows with the iterations, the walls and the different
-/// pairs (mapped plane, wall).
+/// pairs (mapped plane, wall), and, up to a bound, with the planes given (see RefittedPlanes).
 class PlaneScore {
  public:
   /// Frames that a wall must have been seen in, with at least kLeastLength_m of it in each, to be asked for.
@@ -44,8 +39,9 @@ class PlaneScore {
   /// Adds what a frame's mapper was given, and what was seen of walls where the true pose is known. O(1) each.
   void add(std::span<const GivenPlane> given, const std::optional<Pose>& T_world_body,
            std::span<const WallPlace> places);
-  /// Adds an iteration that has both poses.
-  void add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body);
+  /// Adds an iteration that has both poses, and what its mapper was given.
+  void add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body,
+                std::span<const GivenPlane> given = {});
 
   /// @param online, refined  the maps after the last iteration and as re-solved, each id once
   PlaneMetrics metrics(std::span<const log::MappedPlane> online,
@@ -56,6 +52,8 @@ class PlaneScore {
 
   /// The errors of the poses, where the alignment of a map puts them; empty where it has none.
   std::vector<log::PoseErrorRow> pose_errors(std::span<const log::MappedPlane> map) const;
+  /// The same of the poses as re-fitted to the map, those that its planes determine.
+  std::vector<log::PoseErrorRow> refitted_errors(std::span<const log::MappedPlane> map) const;
 
   /// How a map lies in the world: by the best fit of its certain ends to the true ones, if three of them not near one line are known, else by the
   /// first pose. Where all its normals are level the fit leaves heights alone.
@@ -91,6 +89,7 @@ class PlaneScore {
   std::map<log::LandmarkId, Face> faces_;
   AssociationScore associations_;
   std::vector<TwoPoses> poses_;
+  RefittedPlanes refitted_;
 };
 
 }  // namespace hallway::eval

@@ -59,7 +59,16 @@ void WallSight::read_planes(const FrameAnswer& answer) {
   if (answer.outputs != nullptr) taken_for = answer.outputs->associations(0);
   for (std::size_t i = 0; i < answer.frame.planes.size(); ++i) {
     const log::ObservedPlane& seen = answer.frame.planes[i];
-    given_.push_back({seen.wall, taken_for ? (*taken_for)[i] : log::kNoLandmark});
+    eval::GivenPlane& given = given_.emplace_back();
+    given.wall = seen.wall;
+    if (taken_for) given.taken_for = (*taken_for)[i];
+    given.normal = T_body_sensor_.q * place_of(seen.plane.normal);
+    given.middle = T_body_sensor_ * place_of(seen.plane.centroid_m);
+    for (const auto& point : seen.hull_m) given.bounds.push_back(T_body_sensor_ * place_of(point));
+    if (seen.hull_m.empty()) {
+      for (const auto& corner : seen.plane.corners_m)
+        given.bounds.push_back(T_body_sensor_ * place_of(corner));
+    }
     for (const std::size_t corner : {0u, 1u})
       places_.push_back({seen.wall, T_body_sensor_ * place_of(seen.plane.corners_m[corner])});
   }
@@ -82,6 +91,22 @@ void WallSight::read_points(const FrameAnswer& answer) {
   }
 }
 
+/// A plane that was found, in the body's frame.
+eval::GivenPlane WallSight::placed(const hw_planes_t& planes, const hw_plane_t& plane) const {
+  eval::GivenPlane given;
+  given.normal = T_body_sensor_.q * Vec3(plane.normal);
+  given.middle = T_body_sensor_ * Vec3(plane.centroid);
+  const host::Strided<hw_point3_t> points(planes.hull_points, planes.n_hull_points, planes.hull_stride);
+  for (std::uint64_t i = 0; i < plane.n_hull; ++i) {
+    const hw_point3_t point = points[plane.first_hull + i];
+    given.bounds.push_back(T_body_sensor_ * Vec3(point.x, point.y, point.z));
+  }
+  if (plane.n_hull == 0) {
+    for (const auto& corner : plane.corners) given.bounds.push_back(T_body_sensor_ * Vec3(corner));
+  }
+  return given;
+}
+
 /// The planes that were found in the sensor's reading, which is sample 0.
 void WallSight::add_found(const FrameAnswer& answer, std::uint32_t sample) {
   const hw_planes_t& planes = *planes_in(*answer.with_planes->samples[sample]);
@@ -95,8 +120,9 @@ void WallSight::add_found(const FrameAnswer& answer, std::uint32_t sample) {
     }
     const auto most = std::max_element(votes.begin(), votes.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    given_.push_back({most == votes.end() ? log::kNoLandmark : most->first,
-                      taken_for ? (*taken_for)[i] : log::kNoLandmark});
+    eval::GivenPlane& given = given_.emplace_back(placed(planes, plane));
+    if (most != votes.end()) given.wall = most->first;
+    if (taken_for) given.taken_for = (*taken_for)[i];
   }
 }
 

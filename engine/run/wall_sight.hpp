@@ -27,6 +27,7 @@ class WallSight {
   void read_planes(const FrameAnswer& answer);
   void read_points(const FrameAnswer& answer);
   void add_found(const FrameAnswer& answer, std::uint32_t sample);
+  eval::GivenPlane placed(const hw_planes_t& planes, const hw_plane_t& plane) const;
   log::LandmarkId wall_of(const log::Observation& seen) const;
 
   Pose T_body_sensor_;

@@ -2,9 +2,13 @@
 // Maps of walls from end to end: recorded, scored and drawn, the same however they are run, and from points as well as from planes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file.hpp"
@@ -82,6 +86,59 @@ TEST_F(WallMaps, AreScored) {
   EXPECT_LT(found.at("final").at("offset_m").at("mean").get<double>(), 0.01);
   EXPECT_GT(found.at("final").at("extent_iou").at("mean").get<double>(), 0.95);
   EXPECT_EQ(found.at("position_m").at("count"), 250);
+}
+
+/// By how much values change from the first to the last, and half of the 95 % interval about that: the least-squares line through the means of 20 blocks,
+/// long enough to be independent of each other.
+std::pair<double, double> change_of(const std::vector<double>& values) {
+  constexpr std::size_t kBlocks = 20;
+  constexpr double kStudent = 2.101;  // of 18 degrees of freedom
+  const std::size_t size = values.size() / kBlocks;
+  std::vector<double> means;
+  for (std::size_t k = 0; k < kBlocks; ++k) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(k * size);
+    means.push_back(std::accumulate(first, first + static_cast<std::ptrdiff_t>(size), 0.0) /
+                    static_cast<double>(size));
+  }
+  const double mean = std::accumulate(means.begin(), means.end(), 0.0) / kBlocks;
+  const double middle = 0.5 * (kBlocks - 1);
+  double spread = 0.0, slope = 0.0, rest = 0.0;
+  for (std::size_t k = 0; k < kBlocks; ++k) {
+    const double at = static_cast<double>(k) - middle;
+    spread += at * at;
+    slope += at * (means[k] - mean);
+  }
+  slope /= spread;
+  for (std::size_t k = 0; k < kBlocks; ++k)
+    rest += std::pow(means[k] - mean - slope * (static_cast<double>(k) - middle), 2) / (kBlocks - 2);
+  return {kBlocks * slope, kBlocks * kStudent * std::sqrt(rest / spread)};
+}
+
+TEST_F(WallMaps, DoNotDrift) {
+  for (const char* mode : {"relative", "thesis"}) {
+    Strings more = kNoise;
+    more.insert(more.end(), {"--steps", std::to_string(sized(3000, 20000)), "--in-process", "--force",
+                             "--set", std::string("slam_plane.mode=") + mode});
+    run("four_planes", out("run"), more);
+    std::istringstream rows(read_file(out("run") / "pose_errors.csv"));
+    std::string row;
+    std::getline(rows, row);
+    std::vector<double> errors;
+    while (std::getline(rows, row)) errors.push_back(std::stod(row.substr(row.find(',') + 1)));
+    ASSERT_GE(errors.size(), 2000u);
+    const auto [change, half] = change_of(errors);
+    EXPECT_LE(std::abs(change) + half, long_mode() ? 0.002 : 0.02) << mode;
+  }
+}
+
+TEST_F(WallMaps, ArePlacedAnewAtTheEnd) {
+  run("hallway_return", out("run"),
+      {"--set", "sensor.eyes.noise_m=0.02", "--set", "sensor.eyes.noise_end_m=0.005", "--set",
+       "sensor.eyes.noise_angle_deg=0.3", "--in-process"});
+  const Json found = planes(out("run"));
+  EXPECT_GE(found.at("position_refitted_m").at("count").get<double>(),
+            0.9 * found.at("position_m").at("count").get<double>());
+  EXPECT_LT(found.at("position_refitted_m").at("rms"), found.at("position_m").at("rms"));
 }
 
 TEST_F(WallMaps, ComeFromPointsToo) {

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The best that a recorded run of a sensor of planes allows: all poses, lines and corners by least squares at once (Ceres), given which wall each piece is
-// of and which of its ends are corners. With the sensor's Gaussian noise this is the maximum of the likelihood.
+// of and which of its ends are corners. With the sensor's Gaussian noise this is the maximum of the likelihood. Beside its own errors it tells those of the run's
+// poses over the same frames.
 #include <ceres/ceres.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
+#include <string>
 
+#include "base/file.hpp"
+#include "base/text.hpp"
 #include "geom/rigid_fit.hpp"
 #include "plane_run.hpp"
 
@@ -19,6 +26,7 @@ namespace {
 constexpr double kNoNoise = 1e-6;        // standard deviation of noise-free data
 constexpr int kLeastCorner = 5;          // sightings of a corner that counts
 constexpr double kUndetermined_m = 0.1;  // standard deviation of a position from which on it is not scored
+constexpr std::size_t kBeginning = 50;   // frames that tell where a map begins
 constexpr double kHold_m = 10.0;         // of a pose in what nothing determines, about where it began
 
 /// A wall as it is solved for: turn [rad] and offset [m] of its line, and the places of its ends along it [m], against the true wall. `known`:
@@ -174,9 +182,29 @@ double rmse(const std::vector<Vec3>& truth, const std::vector<Vec3>& found, cons
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, truth.size())));
 }
 
-/// Errors after the rigid motion that brings the corners nearest to the true ones.
+/// Of the poses that the run answered in the frames that are scored (`determined`), as its pose_errors.csv has them: frames, and the root mean square
+/// error of the position.
+nlohmann::ordered_json score_answers(const std::filesystem::path& file, const std::vector<bool>& determined) {
+  std::istringstream rows(read_file(file));
+  std::string row;
+  std::getline(rows, row);  // the header
+  std::size_t count = 0;
+  double sum = 0.0;
+  while (std::getline(rows, row)) {
+    const std::vector<std::string_view> cells = split(row, ',');
+    const std::size_t i = std::stoul(std::string(cells.at(0)));
+    if (i >= determined.size() || !determined[i]) continue;
+    const double error = std::stod(std::string(cells.at(1)));
+    ++count;
+    sum += error * error;
+  }
+  return {{"positions", count},
+          {"position_rmse_m", std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))}};
+}
+
+/// Errors after the rigid motion that brings the corners nearest to the true ones. Sets which frames' positions are scored.
 nlohmann::ordered_json score(const PlaneRun& run, const std::vector<Pose3>& poses,
-                             const std::vector<WallEstimate>& walls) {
+                             const std::vector<WallEstimate>& walls, std::vector<bool>& determined) {
   std::vector<Vec3> truth, found;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const WallEstimate& wall = walls[w];
@@ -194,8 +222,10 @@ nlohmann::ordered_json score(const PlaneRun& run, const std::vector<Pose3>& pose
   }
   const Pose T = rigid_fit(found, truth).value_or(Pose());
   std::vector<Vec3> true_positions, positions;
+  determined.assign(poses.size(), false);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (run.frames[i].empty() || !is_determined(run, i, poses[i])) continue;
+    determined[i] = true;
     true_positions.emplace_back(run.poses[i][0], run.poses[i][1], 0.0);
     positions.emplace_back(poses[i][0], poses[i][1], 0.0);
   }
@@ -205,8 +235,46 @@ nlohmann::ordered_json score(const PlaneRun& run, const std::vector<Pose3>& pose
           {"position_rmse_m", rmse(true_positions, positions, T)}};
 }
 
-int run(const char* folder) {
+/// The motion that brings the first poses on average where they truly were: that of a map which begins there.
+Pose3 beginning(const PlaneRun& run, const std::vector<Pose3>& poses) {
+  const std::size_t n = std::min(kBeginning, poses.size());
+  double turn = 0.0;
+  for (std::size_t i = 0; i < n; ++i) turn += wrapped(run.poses[i][2] - poses[i][2]) / static_cast<double>(n);
+  Pose3 motion{0.0, 0.0, turn};
+  Point2 step{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point2 at = placed(motion, {poses[i][0], poses[i][1]});
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      step[axis] += (run.poses[i][axis] - at[axis]) / static_cast<double>(n);
+  }
+  return {step[0], step[1], turn};
+}
+
+/// The best that was known at the time: of every `every`th frame the error of its position as solved from what was seen until then, in the frame of the
+/// run's beginning.
+nlohmann::ordered_json score_so_far(const PlaneRun& run, std::size_t every) {
+  std::size_t count = 0;
+  double sum = 0.0;
+  for (std::size_t last = every; last < run.frames.size(); last += every) {
+    PlaneRun part = run;
+    part.frames.resize(last + 1);
+    part.poses.resize(last + 1);
+    std::vector<WallEstimate> walls = start_of(part);
+    std::vector<Pose3> poses = part.poses;
+    if (part.frames[last].empty() || !is_determined(part, last, poses[last])) continue;
+    solve(part, poses, walls);
+    const Point2 at = placed(beginning(part, poses), {poses[last][0], poses[last][1]});
+    ++count;
+    sum += std::pow(at[0] - run.poses[last][0], 2) + std::pow(at[1] - run.poses[last][1], 2);
+  }
+  return {{"positions", count},
+          {"position_rmse_m", std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))}};
+}
+
+/// `every`: see score_so_far(); 0: it is not asked for.
+int run(const char* folder, std::size_t every) {
   PlaneRun run = read_plane_run(folder);
+  const PlaneRun as_seen = run;
   std::vector<WallEstimate> walls = start_of(run);
   std::vector<Pose3> poses = run.poses;
   const ceres::Solver::Summary summary = solve(run, poses, walls);
@@ -214,7 +282,11 @@ int run(const char* folder) {
                               {"iterations", run.frames.size()},
                               {"solver_steps", summary.iterations.size()},
                               {"converged", summary.termination_type == ceres::CONVERGENCE}};
-  json.update(score(run, poses, walls));
+  std::vector<bool> determined;
+  json.update(score(run, poses, walls, determined));
+  const std::filesystem::path answers = std::filesystem::path(folder) / "pose_errors.csv";
+  if (std::filesystem::exists(answers)) json["answered"] = score_answers(answers, determined);
+  if (every > 0) json["so_far"] = score_so_far(as_seen, every);
   std::puts(json.dump(2).c_str());
   return summary.IsSolutionUsable() ? 0 : 1;
 }
@@ -222,14 +294,16 @@ int run(const char* folder) {
 }  // namespace
 }  // namespace hallway::peers
 
-/// A run folder with observed_planes.csv, true_walls.csv and truth_poses.csv. Prints JSON.
+/// A run folder with observed_planes.csv, true_walls.csv and truth_poses.csv, and perhaps every how many frames what was known at the time is solved
+/// for. Prints JSON.
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: plane_ml FOLDER, of a run of a sensor of planes\n");
+  const long every = argc == 3 ? std::strtol(argv[2], nullptr, 10) : 0;
+  if (argc < 2 || argc > 3 || (argc == 3 && every <= 0)) {
+    std::fprintf(stderr, "usage: plane_ml FOLDER [EVERY], of a run of a sensor of planes\n");
     return 2;
   }
   try {
-    return hallway::peers::run(argv[1]);
+    return hallway::peers::run(argv[1], static_cast<std::size_t>(every));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "plane_ml: %s\n", error.what());
     return 3;

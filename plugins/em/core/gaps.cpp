@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -16,9 +17,16 @@ namespace {
 using Square = std::pair<std::int64_t, std::int64_t>;
 using SquareMembers = std::map<Square, std::vector<PointIndex>>;
 
+constexpr double kMostSquares =
+    1e9;  // along a plane; finer ones would tell points apart that rounding does not
+
 /// The members by the squares that they lie in.
 SquareMembers squares_of(std::span<const Vec3> cloud, const Plane& plane, double side) {
   const FlatFrame frame = flat_frame(plane.normal, plane.centroid);
+  double farthest = 0.0;
+  for (const PointIndex member : plane.members)
+    farthest = std::max(farthest, frame.flat(cloud[member]).cwiseAbs().maxCoeff());
+  side = std::max({side, farthest / kMostSquares, std::numeric_limits<double>::min()});
   SquareMembers squares;
   for (const PointIndex member : plane.members) {
     const Vec2 place = frame.flat(cloud[member]) / side;

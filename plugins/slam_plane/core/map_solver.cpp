@@ -2,13 +2,15 @@
 #include "slam_plane/core/map_solver.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace hallway::slam_plane {
 namespace {
 
-constexpr int kClosesToStep = 5;   // least number of submaps closed between two steps
-constexpr std::size_t kNear = 16;  // submaps of a step about the active one
+constexpr std::size_t kBeside = 4;  // submaps of a step that places the active one
+constexpr std::size_t kNear = 16;   // of one about the submap that was closed
+constexpr int kLeastPeriod = 5;     // submaps closed between two steps over all
 constexpr double kTolerance = 1e-4;
 constexpr double kWorkPerFrame = 400.0;  // on a part of the map
 constexpr double kWholeWork = 150.0;     // on all of it: it takes as many frames as it takes
@@ -30,18 +32,22 @@ void MapSolver::note_loop(WallMap& map) {
 }
 
 void MapSolver::plan(const WallMap& map) {
+  const std::uint32_t frames = map.submaps[map.active()].frames;
+  if (frames > 1 && std::has_single_bit(frames)) is_active_due_ = true;
   if (step_.under_way() || next_stale_ < stale_.size()) return;
   step_.set_tolerance(kTolerance);
-  const int period = std::max<int>(kClosesToStep, static_cast<int>(map.submaps.size() / 10));
-  if (is_urgent_ || (on_old_ground_ && closes_since_whole_ >= period)) {
-    closes_ = 0;
-    is_whole_ = true;
+  const int period = std::max(kLeastPeriod, static_cast<int>(map.submaps.size() / 10));
+  is_whole_ = is_urgent_ || (on_old_ground_ && closes_since_whole_ >= period);
+  if (is_whole_) {
     step_.begin(map);
-  } else if (closes_ >= kClosesToStep) {
-    closes_ = 0;
-    is_whole_ = false;
+  } else if (has_closed_) {
     step_.begin(map, surroundings(map, kNear));
+  } else if (is_active_due_) {
+    step_.begin(map, surroundings(map, kBeside));
+  } else {
+    return;
   }
+  has_closed_ = is_active_due_ = false;
 }
 
 bool MapSolver::advance(WallMap& map) {

@@ -44,7 +44,8 @@ class Mapper::State {
 
  private:
   void start_map();
-  void place();
+  void place(const View& view);
+  void recall_corners(const View& view);
   void follow_strays();
   void watch_gaps();
   void add_walls();
@@ -90,7 +91,7 @@ const Answer& Mapper::State::process(std::span<const Piece> pieces, const View& 
   judge_.judge(view, frame_.sightings);
   answer_.associations.assign(pieces.size(), kNoWall);
   if (started_) {
-    place();
+    place(view);
   } else if (!frame_.sightings.empty()) {
     start_map();
   }
@@ -110,7 +111,7 @@ void Mapper::State::start_map() {
 }
 
 /// One iteration.
-void Mapper::State::place() {
+void Mapper::State::place(const View& view) {
   const Pose2 before = frame_.T_submap_robot;
   locator_.locate(map_, gaps_.epochs_known(), frame_);
   if (frame_.sightings.empty()) return lose(Lost::nothing_seen);
@@ -118,6 +119,7 @@ void Mapper::State::place() {
   frames_lost_ = 0;
   has_pose_ = true;
   lost_ = Lost::no;
+  recall_corners(view);
   follow_strays();
   if (frame_.sightings.empty()) return lose(Lost::nothing_known);
   locator_.locate_in_submap(map_, frame_);
@@ -129,6 +131,14 @@ void Mapper::State::place() {
   note_seen();
   search_gap();
   look_for_twins();
+}
+
+/// Ends that were taken for cuts may be where the map has corners.
+void Mapper::State::recall_corners(const View& view) {
+  if (!frame_.in_map.determined() || (!gaps_.empty() && gaps_.last().is_wide())) return;
+  const CornerJudge::Located at{frame_.T_map_robot, frame_.in_map.matrix.inverse()};
+  if (judge_.recall(view, map_, at, frame_.sightings))
+    frame_.in_map = locator_.fit_map(map_, frame_, kNone, frame_.T_map_robot);
 }
 
 /// Pieces that do not lie where their walls do are no evidence: their walls may move, or they are of none.
@@ -180,7 +190,6 @@ void Mapper::State::change_submap(bool lines_only) {
     frame_.T_submap_robot = Pose2{};
     first_of_submap_ = true;
   }
-  solver_.plan(map_);
 }
 
 /// Goes on with an old submap, if that determines the pose.
@@ -208,6 +217,7 @@ void Mapper::State::integrate() {
     revoke_corners(sighting.wall);
     map_.update(sighting.wall);
   }
+  solver_.plan(map_);
 }
 
 void Mapper::State::revoke_corners(Index wall) {
@@ -245,7 +255,6 @@ void Mapper::State::bridge(const GapShift& shift) {
   solver_.note_loop(map_);
   for (const Twins& pair : shift.twins) merge(pair.kept, pair.gone);
   ++answer_.counters.gaps_closed;
-  solver_.plan(map_);
 }
 
 void Mapper::State::merge_twin(Index wall) {

@@ -85,6 +85,23 @@ TEST(Gaps, SmallPartsAreOfNoPlane) {
   EXPECT_EQ(found.labels[stray], kNoPlane);
 }
 
+TEST(Gaps, NarrowerThanAnyNumberOfSquaresSeparateAllThatIsApart) {
+  std::vector<Vec3> cloud;
+  add_wall(-2.0, 0.0, cloud);
+  for (const double gap : {1e-3, 1e-12, 1e-300, 5e-324}) {
+    Extraction found = one_plane(cloud);
+    split_at_gaps(cloud, gap, 1, found);
+    EXPECT_EQ(found.planes.size(), cloud.size()) << gap;
+    Extraction none = one_plane(cloud);
+    split_at_gaps(cloud, gap, 2, none);
+    EXPECT_TRUE(none.planes.empty()) << gap;
+  }
+  const std::vector<Vec3> same(20, Vec3(3.0, 0.0, 0.0));
+  Extraction found = one_plane(same);
+  split_at_gaps(same, 5e-324, 1, found);
+  EXPECT_EQ(found.planes.size(), 1u);
+}
+
 TEST(Gaps, AreLookedForWhereTheyAreAskedFor) {
   std::vector<Vec3> cloud;
   add_wall(-4.0, -1.0, cloud);

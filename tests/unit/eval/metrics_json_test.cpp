@@ -48,6 +48,7 @@ Metrics full() {
                     .extent_iou_mean = 0.75,
                     .extent_iou_least = 0.5};
   planes.position_m = ErrorSummary{80, 1, 2, 3};
+  planes.position_refitted_m = ErrorSummary{79, 0.5, 1, 1.5};
   metrics.iteration_ms = TimeSummary{1, 2, 3, 4};
   metrics.iteration_cpu_ms = TimeSummary{5, 6, 7, 8};
   return metrics;
@@ -74,7 +75,8 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
       R"("aligned_by":"corners","angle_deg":{"count":13,"mean":0.5,"rms":0.75,"max":2.0},)"
       R"("offset_m":{"count":13,"mean":0.25,"rms":0.5,"max":1.0},)"
       R"("corner_m":{"count":20,"mean":0.125,"rms":0.25,"max":0.5},"extent_iou":{"mean":0.75,"least":0.5}},)"
-      R"("position_m":{"count":80,"mean":1.0,"rms":2.0,"max":3.0},"heading_deg":null},)"
+      R"("position_m":{"count":80,"mean":1.0,"rms":2.0,"max":3.0},"heading_deg":null,)"
+      R"("position_refitted_m":{"count":79,"mean":0.5,"rms":1.0,"max":1.5},"heading_refitted_deg":null},)"
       R"("iteration_ms":{"mean":1.0,"p50":2.0,"p99":3.0,"max":4.0},)"
       R"("iteration_cpu_ms":{"mean":5.0,"p50":6.0,"p99":7.0,"max":8.0}})");
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geom/pose.hpp"
+#include "log/mapped_planes.hpp"
+
+namespace hallway::eval {
+
+/// A plane that a mapper was given.
+struct GivenPlane {
+  log::LandmarkId wall = log::kNoLandmark;       ///< the true wall that it is of
+  log::LandmarkId taken_for = log::kNoLandmark;  ///< the plane of the map that it was taken for
+  Vec3 normal = Vec3::Zero();                    ///< unit, body frame; zero: its place is not known
+  Vec3 middle = Vec3::Zero();                    ///< of what was seen of it, body frame [m]
+  std::vector<Vec3> bounds{};                    ///< the points that bound it, body frame [m]
+};
+
+/// The path as the map of planes at the end shows it: each frame placed anew where the planes that it was given, as they were associated while the run went on, lie
+/// best on those of that map. Keeps the planes until then, at most kMaxPoints of their points.
+class RefittedPlanes {
+ public:
+  /// Above so many points nothing is kept and nothing is placed.
+  static constexpr std::size_t kMaxPoints = std::size_t{1} << 22;
+  /// Standard deviation of a position, in its worst direction, from which on a frame is left out [m].
+  static constexpr double kUndetermined_m = 0.1;
+
+  /// Adds a frame that was answered with a pose.
+  void add(std::uint32_t iteration, const Pose& T_map_body, std::span<const GivenPlane> given);
+
+  struct Placed {
+    std::uint32_t iteration = 0;
+    Pose T_map_body;
+  };
+  /// The frames whose planes determine where they are, in their order. Least squares over the turn of each plane against the one of the map, the distance of
+  /// its middle from that, and how far it reaches at those edges that are certain there, if it ends at them. Each kind is weighted by the scatter that all frames
+  /// show of it (median absolute deviation); what is farther off than four times that does not count. Directions that the planes leave open, as heights where all are upright,
+  /// stay as they were answered. Empty beyond kMaxPoints. O(points).
+  std::vector<Placed> place(std::span<const log::MappedPlane> map) const;
+
+ private:
+  struct Sight {
+    log::LandmarkId plane = 0;
+    Vec3 normal, middle;
+    std::size_t end = 0;  // of its bounds
+  };
+  struct Frame {
+    std::uint32_t iteration = 0;
+    Pose T_map_body;
+    std::size_t end = 0;  // of its sights
+  };
+  std::vector<Vec3> bounds_;
+  std::vector<Sight> sights_;
+  std::vector<Frame> frames_;
+  bool complete_ = true;
+};
+
+}  // namespace hallway::eval

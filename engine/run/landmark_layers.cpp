@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "run/landmark_layers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "geom/box.hpp"
+#include "render/colour.hpp"
+
+namespace hallway::run {
+namespace {
+
+/// From the true to the mapped place of every matched landmark.
+std::vector<std::array<Vec3, 2>> error_lines(const Record& record, const LandmarkPlaces& mapped) {
+  LandmarkPlaces truth;
+  for (const log::Landmark& landmark : record.true_landmarks)
+    truth[landmark.id] = Vec3(landmark.position_m.data());
+  std::vector<std::array<Vec3, 2>> lines;
+  for (const log::IdPair& match : record.matches) {
+    const auto estimate = mapped.find(match.first);
+    const auto true_place = truth.find(match.second);
+    if (estimate != mapped.end() && true_place != truth.end())
+      lines.push_back({true_place->second, estimate->second});
+  }
+  return lines;
+}
+
+/// Makes the lines longer by a power of ten if they would be too short to be seen in a picture of this extent.
+/// @return the power of ten
+double lengthen(std::vector<std::array<Vec3, 2>>& lines, double extent_m) {
+  double sum = 0.0;
+  for (const auto& line : lines) sum += (line[1] - line[0]).squaredNorm();
+  const double rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(lines.size(), 1)));
+  constexpr double kVisibleShare = 0.006;  // of the extent: some 7 px in a picture of 1200
+  double scale = 1.0;
+  while (rms > 0.0 && rms * scale * 3.0 < kVisibleShare * extent_m && scale < 1e6) scale *= 10.0;
+  for (auto& line : lines) line[1] = line[0] + scale * (line[1] - line[0]);
+  return scale;
+}
+
+void add_submaps(render::Picture& picture, const Record& record, const LandmarkPlaces& mapped) {
+  std::map<std::uint64_t, std::vector<Vec3>> members;
+  for (const log::IdPair& member : record.submaps) {
+    const auto place = mapped.find(member.second);
+    if (place != mapped.end()) members[member.first].push_back(place->second);
+  }
+  for (const auto& [submap, places] : members) {
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& place : places) centre += place / static_cast<double>(places.size());
+    render::Segments links{
+        .pairs = {}, .colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22, .label = {}};
+    for (const Vec3& place : places) links.pairs.push_back({centre, place});
+    picture.segments.push_back(std::move(links));
+  }
+}
+
+}  // namespace
+
+LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map) {
+  LandmarkPlaces places;
+  for (const log::MapLandmark& landmark : record.landmarks) {
+    if (landmark.status == log::LandmarkStatus::kMapped) {
+      places[landmark.id] = T_world_map * Vec3(landmark.position_m.data());
+    }
+  }
+  return places;
+}
+
+void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+                   const Pose& T_world_map) {
+  if (record.landmarks.empty() && !record.planes.empty()) return;  // what was mapped are walls
+  const LandmarkPlaces mapped = mapped_places(record, T_world_map);
+  Box extent;
+  render::Markers estimates{.positions = {},
+                            .shape = render::MarkerShape::kDot,
+                            .colour = render::palette::kEstimate,
+                            .size_px = 4.0,
+                            .label = "mapped landmarks"};
+  for (const log::MapLandmark& landmark :
+       record.landmarks) {  // in the file's order, so that the picture is the same
+    const auto place = mapped.find(landmark.id);
+    if (place == mapped.end()) continue;
+    estimates.positions.push_back(place->second);
+    extent.extend(place->second);
+  }
+  std::unordered_set<log::LandmarkId> mapped_truths;
+  for (const log::IdPair& match : record.matches) mapped_truths.insert(match.second);
+  render::Markers truth{.positions = {},
+                        .shape = render::MarkerShape::kRing,
+                        .colour = render::palette::kTruth,
+                        .size_px = 7.0,
+                        .label = "true landmarks"};
+  render::Markers others{.positions = {},
+                         .shape = render::MarkerShape::kDot,
+                         .colour = render::palette::kMutedInk,
+                         .size_px = 1.8,
+                         .label = "not mapped"};
+  for (const log::Landmark& landmark : record.true_landmarks) {
+    auto& markers = mapped_truths.contains(landmark.id) ? truth : others;
+    markers.positions.push_back(Vec3(landmark.position_m.data()));
+    extent.extend(markers.positions.back());
+  }
+  if (spec.shows(sim::PictureLayer::kSubmaps)) add_submaps(picture, record, mapped);
+  if (spec.shows(sim::PictureLayer::kErrors) && !extent.isEmpty()) {
+    render::Segments errors{.pairs = error_lines(record, mapped),
+                            .colour = render::palette::kError,
+                            .width_px = 1.4,
+                            .opacity = 0.9,
+                            .label = {}};
+    const double scale = lengthen(errors.pairs, extent.diagonal().norm());
+    errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";
+    if (!errors.pairs.empty()) picture.segments.push_back(std::move(errors));
+  }
+  if (spec.shows(sim::PictureLayer::kTruth)) {
+    for (render::Markers* markers : {&others, &truth}) {
+      if (!markers->positions.empty()) picture.markers.push_back(std::move(*markers));
+    }
+  }
+  if (spec.shows(sim::PictureLayer::kLandmarks) && !estimates.positions.empty())
+    picture.markers.push_back(std::move(estimates));
+}
+
+void add_true_landmarks(render::Picture& picture, const Record& record) {
+  render::Markers truth{.positions = {},
+                        .shape = render::MarkerShape::kRing,
+                        .colour = render::palette::kTruth,
+                        .size_px = 7.0,
+                        .label = "true landmarks"};
+  for (const log::Landmark& landmark : record.true_landmarks)
+    truth.positions.push_back(Vec3(landmark.position_m.data()));
+  if (!truth.positions.empty()) picture.markers.push_back(std::move(truth));
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <unordered_map>
+
+#include "geom/pose.hpp"
+#include "log/landmarks.hpp"
+#include "render/picture.hpp"
+#include "run/record.hpp"
+#include "sim/scenario.hpp"
+
+namespace hallway::run {
+
+/// Places of landmarks by their ids [m].
+using LandmarkPlaces = std::unordered_map<log::LandmarkId, Vec3>;
+
+/// The mapped landmarks where a fit puts them.
+LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map);
+
+/// Adds what a run's record says of landmarks, as far as the picture shows it: submaps, true and mapped landmarks, and lines from the ones to the
+/// others, drawn longer by a power of ten, which their label states, where they are too short to be seen. Nothing where what was mapped are walls.
+void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+                   const Pose& T_world_map);
+
+/// Adds the true landmarks as rings.
+void add_true_landmarks(render::Picture& picture, const Record& record);
+
+}  // namespace hallway::run
