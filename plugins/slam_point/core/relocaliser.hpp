@@ -32,7 +32,7 @@ struct Placement {
 /// - no other place has more than three fifths of the points that agree with the best and is more than chance (1e-3, likewise): a
 ///   place that repeats is no answer.
 ///
-/// Many points are looked up in shares, spread alike over them: the next share only when those before gave no answer, and no more than half of them in a
+/// Many points are looked up in shares, spread alike over them: the next share only when those before gave no answer, and no more than three of eight in a
 /// call; the next call begins where this one ended.
 ///
 /// Cost: O(points) for a bounded number of hypotheses, whatever the size of the map.

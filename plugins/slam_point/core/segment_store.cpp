@@ -15,6 +15,9 @@ constexpr double kLeastNoiseFreedom = 100.0;  // below, the noise is not estimat
 constexpr double kOverlap = 0.9;              // of what a frame sees with its segment's first frame, at least
 constexpr std::size_t kMostSegments = 64;     // of one submap; from then on frames go where they fit best
 
+constexpr double kMostSide_rad = 0.1;  // that the view of a segment's points may turn by
+constexpr double kLeastRange_m = 1e-3;
+
 }  // namespace
 
 void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool planar, double min_spread_m2,
@@ -29,6 +32,7 @@ void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool pla
     }
     seen_[sighting.landmark] = frames_;
   }
+  if (directional_) take_view(T_submap_sensor, sightings);
   const Index chosen = choose(submap, sightings);
   if (chosen == kNone) {
     open(start(submap, sightings));
@@ -42,9 +46,30 @@ void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool pla
   ++segments_[open_].frames;
 }
 
+void SegmentStore::take_view(const Pose& T_submap_sensor, const std::vector<Sighting>& sightings) {
+  Vec3 sum = Vec3::Zero();
+  double nearness = 0.0;
+  for (const Sighting& sighting : sightings) {
+    const double range = std::max(sighting.point.norm(), kLeastRange_m);
+    sum += sighting.point / range;
+    nearness += 1.0 / range;
+  }
+  origin_ = T_submap_sensor.t;
+  sight_ = T_submap_sensor.q * sum.normalized();
+  range_ = nearness > 0.0 ? static_cast<double>(sightings.size()) / nearness : 0.0;
+}
+
+/// Whether the frame being added sees points from about the side that the segment's first frame saw them from: what noise leaves open
+/// there it leaves open here.
+bool SegmentStore::is_from_here(const Segment& segment) const {
+  if (!directional_) return true;
+  const Vec3 way = origin_ - segment.origin;
+  return (way - way.dot(sight_) * sight_).norm() <= kMostSide_rad * range_;
+}
+
 /// The segment that a frame belongs to; kNone for a new one.
 Index SegmentStore::choose(Index submap, const std::vector<Sighting>& sightings) {
-  if (open_ != kNone && segments_[open_].submap == submap &&
+  if (open_ != kNone && segments_[open_].submap == submap && is_from_here(segments_[open_]) &&
       overlap(segments_[open_], sightings.size()) >= kOverlap) {
     return open_;
   }
@@ -52,7 +77,8 @@ Index SegmentStore::choose(Index submap, const std::vector<Sighting>& sightings)
   Index best = kNone;
   double best_overlap = -1.0;
   for (const Index segment : of_submap_[submap]) {
-    const double shared = overlap(segments_[segment], sightings.size());
+    const bool alike = is_from_here(segments_[segment]);
+    const double shared = alike ? overlap(segments_[segment], sightings.size()) : 0.0;
     if (shared <= best_overlap) continue;
     best = segment;
     best_overlap = shared;
@@ -75,6 +101,7 @@ Index SegmentStore::start(Index submap, const std::vector<Sighting>& sightings) 
   segment.first_frame_size = static_cast<std::uint32_t>(sightings.size());
   for (const Sighting& sighting : sightings)
     segment.members.push_back({sighting.landmark, 0, 0.0, true, Vec3::Zero()});
+  segment.origin = origin_;
   if (directional_) segment.informations.assign(sightings.size(), Mat3::Zero());
   segments_.push_back(std::move(segment));
   of_submap_[submap].push_back(index);

@@ -19,12 +19,14 @@ struct SegmentMember {
 };
 
 /// Some frames of one submap that saw nearly the same landmarks, as one: they were aligned to each other alone. Since what
-/// they saw differs little, hardly anything of their evidence is lost in that, and errors of their poses stay inside.
+/// they saw differs little (where noise has directions, and is from about one side), hardly anything of their evidence is lost in that, and errors of their poses stay inside.
 struct Segment {
   Index submap = kNone;
   std::uint32_t frames = 0;
   std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
   std::vector<SegmentMember> members;
+  Vec3 origin =
+      Vec3::Zero();  ///< where its first frame's sensor was, submap frame [m]; where noise has directions
   std::vector<Mat3>
       informations{};  ///< of each member's mean, submap frame; where noise has directions, else empty
 };
@@ -67,6 +69,8 @@ class SegmentStore {
   void clear();
 
  private:
+  void take_view(const Pose& T_submap_sensor, const std::vector<Sighting>& sightings);
+  bool is_from_here(const Segment& segment) const;
   Index choose(Index submap, const std::vector<Sighting>& sightings);
   double overlap(const Segment& segment, std::size_t seen) const;
   Index start(Index submap, const std::vector<Sighting>& sightings);
@@ -79,6 +83,10 @@ class SegmentStore {
   void average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings);
 
   bool directional_;
+  // Of the frame that is being added, where noise has directions; submap frame:
+  Vec3 origin_ = Vec3::Zero();  // where its sensor is,
+  Vec3 sight_ = Vec3::Zero();   // its mean direction of view, and
+  double range_ = 0.0;          // how far points are, the near ones above all
   std::vector<DirectionalPair> pairs_;
   std::vector<Segment> segments_;
   std::vector<std::vector<Index>> of_submap_;  // submap -> its segments

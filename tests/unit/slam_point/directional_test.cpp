@@ -306,7 +306,8 @@ TEST(DirectionalNoise, MakesTheMapThatMaximumLikelihoodMakes) {
 
 TEST(DirectionalNoise, MakesTheMostOfDifferentSides) {
   const Ratios ratios = ratios_of(around);
-  EXPECT_LT(ratios.directional, 1.2);
+  EXPECT_LT(ratios.directional, 1.1);
+  EXPECT_NEAR(ratios.nees, 1.0, 0.3);
   EXPECT_GT(ratios.plain, 2.0) << "directions make no difference here";
 }
 
