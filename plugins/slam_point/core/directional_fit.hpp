@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/LU>
 #include <vector>
 
 #include "slam_point/core/robust_fit.hpp"
