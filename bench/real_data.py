@@ -16,15 +16,17 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-STEREO = {"noise_m": 0.02, "noise_per_m2": 0.001}
+BY_RANGE = {"noise_m": 0.02, "noise_per_m2": 0.001}
+STEREO = {**BY_RANGE, "noise_across_per_m": 0.00055}
 KITTI_WAYS = (
     ("tracks", {**STEREO, "association": "sensor"}),
+    ("tracks, weights by range alone", {**BY_RANGE, "association": "sensor"}),
     ("tracks, equal weights", {"noise_m": 0.1, "association": "sensor"}),
-    ("place", {**STEREO, "noise_per_m2": 0.0015, "match_bound_m": 1, "map_bound_m": 1, "overlap": 0.15, "window": 1,
-               "global_period": 0, "find_moving": 0}),
+    ("place", {**STEREO, "match_bound_m": 1, "map_bound_m": 1}),
 )
 DEMO_WAYS = (
     ("ids as tracks", ["--ids-as-tracks"], {"noise_m": 0.011, "association": "sensor"}),
+    ("ids as tracks, bearings", ["--ids-as-tracks"], {"noise_m": 0.011, "noise_across_per_m": 0.0025, "association": "sensor"}),
     ("place", [], {"noise_m": 0.011, "match_bound_m": 0.5, "map_bound_m": 0.5}),
 )
 TRIALS = 200

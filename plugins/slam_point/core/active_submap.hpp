@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "slam_point/core/directional_fit.hpp"
 #include "slam_point/core/point_index.hpp"
 #include "slam_point/core/submap_graph.hpp"
 
@@ -23,11 +24,12 @@ class ActiveSubmap {
 
   /// Adds a new member for `landmark`, seen at `point` by the frame begun last. `first` says that this frame starts the submap.
   void join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first, std::uint64_t activation,
-            double weight = 1.0);
+            const RayWeight& weight = {});
 
-  /// Averages an observation of the frame begun last into a member. `weight`: see Observation::weight.
+  /// Averages an observation of the frame begun last into a member. `weight`: see Observation::weights(); across the ray only
+  /// where the graph's noise has directions.
   void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
-               double weight = 1.0);
+               const RayWeight& weight = {});
 
   /// Takes a member out of the kept frames, so that none is aligned to it again. O(kept sightings).
   void withdraw(Index member);
@@ -54,7 +56,7 @@ class ActiveSubmap {
   struct Sighting {
     Index member = kNone;
     Vec3 point = Vec3::Zero();  // sensor frame
-    double weight = 1.0;
+    RayWeight weight{};
   };
   struct Prior {
     Vec3 mean = Vec3::Zero();
@@ -62,13 +64,21 @@ class ActiveSubmap {
     double quality = 1.0;
   };
 
+  std::size_t end_of(std::size_t frame) const {
+    return frame + 1 < frames_.size() ? frames_[frame + 1].first_sighting : sightings_.size();
+  }
+  void align(const SubmapGraph& graph, std::size_t frame, bool planar, double min_spread_m2);
+  void align_directional(const SubmapGraph& graph, std::size_t frame, bool planar, double min_spread_m2);
+
   void average(SubmapGraph& graph) const;
 
   PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
   PointMotion to_submap_{Pose{}};  // of the frame begun last
   std::vector<Sighting> sightings_;
-  std::vector<Prior> prior_;  // by member: what was known at open()
+  std::vector<Prior> prior_;              // by member: what was known at open()
+  std::vector<Mat3> prior_informations_;  // likewise, where noise has directions
+  std::vector<DirectionalPair> pairs_;
 };
 
 }  // namespace hallway::slam_point

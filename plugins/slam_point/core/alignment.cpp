@@ -9,7 +9,8 @@ namespace hallway::slam_point {
 namespace {
 
 constexpr int kMaxNewtonSteps = 30;
-constexpr double kSettled_rad = 1e-8;  // Newton doubles the digits: the step after this one is below rounding
+constexpr double kSettled_rad = 1e-7;  // Newton doubles the digits: the step after this one is below rounding
+constexpr double kSmall_rad = 0.05;    // whose half has sine and cosine by five terms, exact to rounding
 
 /// Whether the smallest eigenvalue of a symmetric positive definite matrix reaches `least`.
 bool is_spread(const Mat3& curvature, double least) {
@@ -25,6 +26,12 @@ bool is_spread(const Mat3& curvature, double least) {
 }  // namespace
 
 Eigen::Quaterniond rotation_exp(const Vec3& v) {
+  const double square = 0.25 * v.squaredNorm();
+  if (square < 0.25 * kSmall_rad * kSmall_rad) {
+    const double cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
+    const double scale = 0.5 * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
+    return Eigen::Quaterniond(cosine, scale * v.x(), scale * v.y(), scale * v.z());
+  }
   const double angle = v.norm();
   const double half = 0.5 * angle;
   const double scale = angle > 1e-8 ? std::sin(half) / angle : 0.5;

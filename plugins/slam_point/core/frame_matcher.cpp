@@ -25,6 +25,7 @@ constexpr std::size_t kLeastFollowed = 4;  // so many can contradict each other
 
 FrameMatcher::FrameMatcher(const Options& options)
     : options_(options),
+      directional_(options.is_directional()),
       agreement_(kAgreementNoises * options.noise_m),
       reach_(std::max({options.match_bound(), options.map_bound(), agreement_})) {}
 
@@ -115,18 +116,23 @@ void FrameMatcher::match_members(const SubmapGraph& graph, const ActiveSubmap& a
   take_nearest_first(frame);
 }
 
+bool FrameMatcher::fit_pairs(bool planar, Pose& T) {
+  return directional_ ? directional_fit(directional_pairs_, rules(planar), T)
+                      : robust_fit(pairs_, rules(planar), T);
+}
+
 bool FrameMatcher::fit_active(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
                               Pose& T) {
   // As fit_submap() does, without a search for the member.
   const std::vector<Member>& members = graph.submaps[graph.active()].members;
-  pairs_.clear();
+  begin_pairs();
   for (const Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[observation.member];
-    pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
-                      observation.weight});
+    add_pair(member.mean, member.weight(), member_information(graph, graph.active(), observation.member),
+             observation);
   }
-  return robust_fit(pairs_, rules(planar), T);
+  return fit_pairs(planar, T);
 }
 
 int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std::vector<Observation>& frame) {
@@ -136,8 +142,15 @@ int FrameMatcher::drop_disagreeing(const SubmapGraph& graph, const Pose& T, std:
   for (Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const Member& member = members[observation.member];
-    const double r2 = (motion * observation.point - member.mean).squaredNorm();
-    if (r2 * pair_weight(member.weight(), observation.weight) <= agreement_ * agreement_) continue;
+    const Vec3 residual = motion * observation.point - member.mean;
+    const Mat3* known = member_information(graph, graph.active(), observation.member);
+    const double r2 =
+        known == nullptr
+            ? residual.squaredNorm() * pair_weight(member.weight(), observation.weight)
+            : residual.dot(pair_information(*known, ray_information(motion.turned(observation.point),
+                                                                    observation.weights())) *
+                           residual);
+    if (r2 <= agreement_ * agreement_) continue;
     taken_[observation.landmark] = 0;
     observation.landmark = kNone;
     ++dropped;
@@ -301,36 +314,37 @@ void FrameMatcher::match_map(const SubmapGraph& graph, const Pose& T_map_sensor,
 
 bool FrameMatcher::fit_map(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
                            Pose& T_map_sensor) {
-  pairs_.clear();
+  begin_pairs();
   for (const Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     const LandmarkRecord& landmark = graph.landmarks[observation.landmark];
     if (landmark.count == 0) continue;
-    pairs_.push_back({landmark.position, observation.point, pair_weight(landmark.weight, observation.weight),
-                      observation.weight});
+    add_pair(landmark.position, landmark.weight, information(graph, observation.landmark), observation);
   }
-  return robust_fit(pairs_, rules(planar), T_map_sensor);
+  return fit_pairs(planar, T_map_sensor);
 }
 
 bool FrameMatcher::fit_submap(const SubmapGraph& graph, Index submap, const std::vector<Observation>& frame,
                               bool planar, Pose& T_submap_sensor) {
-  pairs_.clear();
+  begin_pairs();
   for (const Observation& observation : frame) {
     if (observation.landmark == kNone) continue;
     for (const Membership& at : graph.landmarks[observation.landmark].memberships) {
       if (at.submap != submap) continue;
       const Member& member = graph.submaps[submap].members[at.member];
-      pairs_.push_back({member.mean, observation.point, pair_weight(member.weight(), observation.weight),
-                        observation.weight});
+      add_pair(member.mean, member.weight(), member_information(graph, submap, at.member), observation);
     }
   }
-  return robust_fit(pairs_, rules(planar), T_submap_sensor);
+  return fit_pairs(planar, T_submap_sensor);
 }
 
 bool FrameMatcher::agrees(const SubmapGraph& graph, const PointMotion& to_map,
                           const Observation& observation) const {
   const Vec3 residual = to_map * observation.point - graph.landmarks[observation.landmark].position;
-  return observation.weight * residual.squaredNorm() <= agreement_ * agreement_;
+  const Mat3* known = information(graph, observation.landmark);
+  if (known == nullptr) return observation.weight * residual.squaredNorm() <= agreement_ * agreement_;
+  const Mat3 seen = ray_information(to_map.turned(observation.point), observation.weights());
+  return residual.dot(pair_information(*known, seen) * residual) <= agreement_ * agreement_;
 }
 
 int FrameMatcher::count_agreeing(const SubmapGraph& graph, const std::vector<Observation>& frame,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam_point/core/active_submap.hpp"
+#include "slam_point/core/directional_fit.hpp"
 #include "slam_point/core/options.hpp"
 #include "slam_point/core/robust_fit.hpp"
 #include "slam_point/core/submap_graph.hpp"
@@ -22,9 +23,11 @@ struct Observation {
       kNone;  ///< where `landmark` is none: one that moves, or has left its place, and that it follows
   double weight =
       1.0;  ///< (noise_m / noise at its range)^2: what it counts for beside a point without range noise
+  double across = 1.0;       ///< the same of the noise across its ray, where noise has directions
   TrackId track = kNoTrack;  ///< under which the sensor follows it; kNoTrack: its place tells what it is
   Index expected = kNone;    ///< the landmark of its track; kNone for a new track
 
+  RayWeight weights() const { return {weight, across}; }
   bool is_followed() const { return track != kNoTrack; }
 };
 
@@ -101,6 +104,27 @@ class FrameMatcher {
     Index member = kNone;  // of the active submap, where candidates are its members
   };
 
+  void begin_pairs() {
+    pairs_.clear();
+    directional_pairs_.clear();
+  }
+  /// `known`: the information of the reference, in its frame; null where noise has no directions.
+  void add_pair(const Vec3& reference, double reference_weight, const Mat3* known,
+                const Observation& observation) {
+    const double weight = pair_weight(reference_weight, observation.weight);
+    if (known == nullptr) {
+      pairs_.push_back({reference, observation.point, weight, observation.weight});
+    } else {
+      directional_pairs_.push_back({reference, *known, observation.point, observation.weights(), weight});
+    }
+  }
+  bool fit_pairs(bool planar, Pose& T);
+  const Mat3* information(const SubmapGraph& graph, Index landmark) const {
+    return directional_ ? &graph.informations[landmark].whole : nullptr;
+  }
+  const Mat3* member_information(const SubmapGraph& graph, Index submap, Index member) const {
+    return directional_ ? &graph.submaps[submap].informations[member] : nullptr;
+  }
   bool agrees(const SubmapGraph& graph, const PointMotion& to_map, const Observation& observation) const;
   void begin(const SubmapGraph& graph);
   void take(const Candidate& candidate, std::vector<Observation>& frame);
@@ -120,6 +144,7 @@ class FrameMatcher {
                  double followed_bound, std::vector<Observation>& frame);
 
   Options options_;
+  bool directional_;  // noise has directions
   double agreement_;
   double reach_;  // of the grids that are asked
   std::vector<Candidate> candidates_;
@@ -129,6 +154,7 @@ class FrameMatcher {
   std::vector<Index> taken_list_;
   std::vector<Index> strays_;
   std::vector<Pair> pairs_;
+  std::vector<DirectionalPair> directional_pairs_;  // the same, where noise has directions
   std::vector<double> ranges_;
   std::vector<Observation> trial_;
 };

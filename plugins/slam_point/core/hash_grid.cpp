@@ -8,16 +8,17 @@ namespace {
 
 constexpr std::size_t kFirstTableSize = 1024;
 constexpr double kCubeReaches = 4.0;
-constexpr double kVisitedReaches =
-    1.125;  // so that neither rounding nor a place that is not told of at once hides a point
+constexpr double kUntoldReaches = 0.0625;  // that a point may move before it is taken down
+constexpr double kVisitedReaches = 1.125;  // so that neither that nor rounding hides a point
 constexpr std::size_t kBucketsPerPoint =
     4;  // at least: most of what a box touches is empty, and should be seen to be
 
 }  // namespace
 
 HashGrid::HashGrid(double reach_m)
-    : reach_(reach_m),
+    : half_box_((1.0 + kUntoldReaches) * reach_m),
       reach2_(kVisitedReaches * kVisitedReaches * reach_m * reach_m),
+      untold2_(kUntoldReaches * kUntoldReaches * reach_m * reach_m),
       inverse_size_(1.0 / (kCubeReaches * reach_m)) {}
 
 void HashGrid::add(const Vec3& p) {
@@ -30,7 +31,7 @@ void HashGrid::add(const Vec3& p) {
   }
 }
 
-void HashGrid::move(std::uint32_t i, const Vec3& p) {
+void HashGrid::relocate(std::uint32_t i, const Vec3& p) {
   entries_[i].place = p;
   const Cell cell = cell_of(p);
   if (cell == entries_[i].cell) return;

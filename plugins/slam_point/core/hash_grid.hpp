@@ -22,19 +22,21 @@ class HashGrid {
   /// Adds the point with the next number. Coordinates are finite.
   void add(const Vec3& p);
 
-  /// Tells that point `i` is now at `p`.
-  void move(std::uint32_t i, const Vec3& p);
+  /// Tells that point `i` is now at `p`. Small moves are not taken down: visit_near() looks so much farther.
+  void move(std::uint32_t i, const Vec3& p) {
+    if ((p - entries_[i].place).squaredNorm() > untold2_) relocate(i, p);
+  }
 
   /// Takes point `i` out for good; its number is not used again.
   void remove(std::uint32_t i) { unlink(i); }
 
   /// Calls visit(i) once for each point within reach_m of p and some that are a little farther. The order depends on the history of the grid, so what the
-  /// caller makes of it must not. Looks into the cubes, at most eight and mostly one to four, that a box of reach_m each way touches.
+  /// caller makes of it must not. Looks into the cubes, at most eight and mostly one to four, that a box of little more than reach_m each way touches.
   template <typename Visit>
   void visit_near(const Vec3& p, Visit&& visit) const {
     if (heads_.empty()) return;
-    const Cell low = cell_of(p - Vec3::Constant(reach_));
-    const Cell high = cell_of(p + Vec3::Constant(reach_));
+    const Cell low = cell_of(p - Vec3::Constant(half_box_));
+    const Cell high = cell_of(p + Vec3::Constant(half_box_));
     for (std::int32_t x = low[0]; x <= high[0]; ++x) {
       for (std::int32_t y = low[1]; y <= high[1]; ++y) {
         for (std::int32_t z = low[2]; z <= high[2]; ++z) visit_cell({x, y, z}, p, visit);
@@ -81,12 +83,15 @@ class HashGrid {
         part(0, 0x9e3779b97f4a7c15u) + part(1, 0xbf58476d1ce4e5b9u) + part(2, 0x94d049bb133111ebu);
     return static_cast<std::size_t>(h >> 32) & (heads_.size() - 1);
   }
+  void relocate(std::uint32_t i, const Vec3& p);
   void link(std::uint32_t i);
   void unlink(std::uint32_t i);
   void grow();
 
-  double reach_;
-  double reach2_;  // squared, of a little more than the reach
+  double
+      half_box_;  // half a side of the box that is looked into: the reach and what a point may have moved untold
+  double reach2_;   // squared, of a little more than that
+  double untold2_;  // squared: how far a point may move untold
   double
       inverse_size_;  // of a cube: four times the reach, so that a box mostly touches one or two along each axis
   std::vector<std::uint32_t> heads_;

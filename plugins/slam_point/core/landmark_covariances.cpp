@@ -2,6 +2,7 @@
 #include "slam_point/core/landmark_covariances.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <limits>
 #include <numeric>
 
@@ -40,6 +41,7 @@ class LandmarkCovariances {
   bool fit_gauge();
   bool counts(Index landmark) const { return in_gauge_[landmark] && evidence(landmark) > 0.0; }
   double evidence(Index landmark) const;
+  Mat3 noise(Index landmark) const;
   std::vector<Lever> levers(Index landmark) const;
   Mat36 gauge_motion(Index landmark) const { return motion_of(positions_[landmark] - centre_); }
   Mat3 held_covariance(Index landmark) const;
@@ -64,14 +66,30 @@ double LandmarkCovariances::evidence(Index landmark) const {
   return weight;
 }
 
+/// Covariance of a landmark in the submaps that hold it, for observations of variance 1.
+Mat3 LandmarkCovariances::noise(Index landmark) const {
+  if (!graph_.is_directional()) return Mat3::Identity() / evidence(landmark);
+  Mat3 whole = Mat3::Zero();
+  for (const Membership& at : graph_.landmarks[landmark].memberships)
+    whole += graph_.evidence(at, graph_.poses[at.submap]).information;
+  return whole.inverse();
+}
+
 std::vector<Lever> LandmarkCovariances::levers(Index landmark) const {
   std::vector<Lever> result;
+  const Mat3 noise = graph_.is_directional() ? this->noise(landmark) : Mat3(Mat3::Zero());
   const double whole = evidence(landmark);
   for (const Membership& at : graph_.landmarks[landmark].memberships) {
     const Member& member = graph_.submaps[at.submap].members[at.member];
     if (slot_[at.submap] == kNone || member.count == 0) continue;
     const Vec3 y = graph_.poses[at.submap].q * member.mean;
-    result.push_back({slot_[at.submap], (member.weight() / whole) * motion_of(y)});
+    Mat36 motion = motion_of(y);
+    if (graph_.is_directional()) {
+      motion = noise * graph_.evidence(at, graph_.poses[at.submap]).information * motion;
+    } else {
+      motion *= member.weight() / whole;
+    }
+    result.push_back({slot_[at.submap], motion});
   }
   return result;
 }
@@ -115,7 +133,7 @@ bool LandmarkCovariances::fit_gauge() {
     if (!counts(l)) continue;
     const Mat36 motion = gauge_motion(l);
     normal += motion.transpose() * motion;
-    spread_ += motion.transpose() * motion / evidence(l);
+    spread_ += motion.transpose() * noise(l) * motion;
     for (const Lever& lever : levers(l)) load[lever.slot] += lever.motion.transpose() * motion;
   }
   const Eigen::LDLT<Mat6> inverse(normal);
@@ -134,7 +152,7 @@ bool LandmarkCovariances::fit_gauge() {
 
 /// The covariance with submap 0 held.
 Mat3 LandmarkCovariances::held_covariance(Index landmark) const {
-  Mat3 sum = Mat3::Identity() / evidence(landmark);
+  Mat3 sum = noise(landmark);
   const std::vector<Lever> levers = this->levers(landmark);
   for (std::size_t a = 0; a < levers.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
@@ -150,7 +168,7 @@ Mat3 LandmarkCovariances::held_covariance(Index landmark) const {
 Mat3 LandmarkCovariances::covariance(Index landmark) const {
   const Mat36 motion = gauge_motion(landmark);
   Mat36 joint = Mat36::Zero();  // covariance of this landmark with G^T times all that count
-  if (counts(landmark)) joint = motion / evidence(landmark);
+  if (counts(landmark)) joint = noise(landmark) * motion;
   for (const Lever& lever : levers(landmark)) {
     for (Eigen::Index column = 0; column < 6; ++column)
       joint.col(column) += lever.motion * response_[static_cast<std::size_t>(column)][lever.slot];

@@ -30,19 +30,21 @@ bool first_of_submap(const SegmentStore& store, Index segment) {
 /// A graph whose submaps are the segments; what the map no longer holds is left out.
 SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& store,
                               const std::vector<Pose>& poses) {
-  SubmapGraph fine(1.0);
+  SubmapGraph fine(1.0, IndexKind::grid, graph.directional_inlier_m());
   for (const LandmarkRecord& landmark : graph.landmarks) fine.add_landmark(landmark.position, 0);
   for (const Segment& segment : store.segments()) {
     const Index at = fine.add_submap(poses[segment.submap]);
     // One segment of the submap that each part's frame is; and what was given up has nowhere to go.
     const SubmapRecord& submap = graph.submaps[segment.submap];
     fine.submaps[at].held = submap.held && (submap.part == kNone || first_of_submap(store, at));
-    for (const SegmentMember& member : segment.members) {
+    for (std::size_t m = 0; m < segment.members.size(); ++m) {
+      const SegmentMember& member = segment.members[m];
       const Index landmark = survivor(graph, member.landmark);
       if (graph.landmarks[landmark].memberships.empty() || member.count == 0) continue;
       const Index place = fine.join(at, landmark, member.mean, false);
       fine.submaps[at].members[place].count = member.count;
       fine.submaps[at].members[place].quality = member.weight / static_cast<double>(member.count);
+      if (graph.is_directional()) fine.submaps[at].informations[place] = segment.informations[m];
     }
   }
   return fine;

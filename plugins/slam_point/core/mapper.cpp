@@ -63,16 +63,17 @@ class Mapper::State {
         matcher_(options),
         graph_(std::max(
                    {options.match_bound(), options.map_bound(), options.separation(), matcher_.agreement()}),
-               static_cast<IndexKind>(options.index)),
+               static_cast<IndexKind>(options.index), options.is_directional() ? matcher_.agreement() : 0.0),
         active_(std::max(options.match_bound(), matcher_.agreement()), static_cast<IndexKind>(options.index)),
         motion_filter_(options),
+        segments_(options.is_directional()),
         parts_(matcher_.agreement()),
         constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
         relocaliser_(options, matcher_.rules(true), matcher_.rules(false), options.map_bound()),
         meeting_(kMeetingNoises * options.noise_m),
         schedule_(options),
         prediction_(options.smoothing, options.match_bound()),
-        ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0) {}
+        ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0 || options.is_directional()) {}
 
   const Answer& process(std::span<const Vec3> points, std::span<const TrackId> tracks);
   Map map() const;
@@ -84,7 +85,7 @@ class Mapper::State {
   void place(std::span<const Vec3> points, std::span<const TrackId> tracks);
   void take_points(std::span<const Vec3> points, std::span<const TrackId> tracks);
   void take_tracks(std::span<const TrackId> tracks);
-  double weight_of(const Vec3& point) const;
+  void weigh(Observation& observation) const;
   bool can_start() const;
   void start_map();
   void predict();
@@ -169,7 +170,7 @@ class Mapper::State {
   std::uint64_t activation_ = 0;
   std::vector<Pose> search_bases_;
   LandmarkId first_id_ = 0;  // id of landmark 0
-  bool ranges_count_;        // noise grows with the range
+  bool ranges_count_;        // noise differs by range or direction
   Answer answer_;
   StageClock clock_;
 };
@@ -238,7 +239,7 @@ void Mapper::State::take_points(std::span<const Vec3> points, std::span<const Tr
     if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
     if (points[i].z() != 0.0) planar_ = false;
     frame_.push_back({points[i], i});
-    if (ranges_count_) frame_.back().weight = weight_of(points[i]);
+    if (ranges_count_) weigh(frame_.back());
   }
   take_tracks(tracks);
   answer_.associations.assign(points.size(), kNoLandmark);
@@ -246,9 +247,12 @@ void Mapper::State::take_points(std::span<const Vec3> points, std::span<const Tr
   ++answer_.counters.iterations;
 }
 
-double Mapper::State::weight_of(const Vec3& point) const {
-  const double share = options_.noise_m / options_.noise_at(point.norm());
-  return share * share;
+void Mapper::State::weigh(Observation& observation) const {
+  const double range = observation.point.norm();
+  const double along = options_.noise_m / options_.noise_at(range);
+  const double across = options_.noise_m / options_.noise_across_at(range);
+  observation.weight = along * along;
+  observation.across = across * across;
 }
 
 void Mapper::State::take_tracks(std::span<const TrackId> tracks) {
@@ -642,7 +646,7 @@ void Mapper::State::integrate() {
   sightings_.clear();
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
-    sightings_.push_back({observation.landmark, observation.point, observation.weight});
+    sightings_.push_back({observation.landmark, observation.point, observation.weight, observation.across});
     const LandmarkRecord& landmark = graph_.landmarks[observation.landmark];
     if (landmark.last_activation + static_cast<std::uint64_t>(options_.window) < activation_)
       schedule_.saw_old_ground();
@@ -650,9 +654,9 @@ void Mapper::State::integrate() {
     ++last_seen_;
     if (member == kNone) {
       active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_,
-                   observation.weight);
+                   observation.weights());
     } else {
-      active_.observe(graph_, member, observation.point, activation_, observation.weight);
+      active_.observe(graph_, member, observation.point, activation_, observation.weights());
     }
   }
   first_of_submap_ = false;
@@ -668,6 +672,12 @@ std::optional<Mat6> Mapper::State::pose_covariance() const {
   for (const Observation& observation : frame_) {
     if (observation.landmark == kNone) continue;
     // This frame's own observation is in the landmark already.
+    if (options_.is_directional()) {
+      const Vec3 lever = to_map.turned(observation.point);
+      const Mat3 own = ray_information(lever, observation.weights());
+      information.add(lever, pair_information(graph_.informations[observation.landmark].whole - own, own));
+      continue;
+    }
     const double others = graph_.landmarks[observation.landmark].weight - observation.weight;
     if (others > 0.0)
       information.add(to_map.turned(observation.point), pair_weight(others, observation.weight));

@@ -22,6 +22,13 @@ constexpr Parameter kParameters[] = {
     {"noise_per_m2", "1/m", 0.0, 1.0,
      "Noise that grows with the square of the range, as of stereo; added in quadrature.",
      &Options::noise_per_m2, nullptr},
+    {"noise_across_m", "m", 0.0, 10.0,
+     "Noise across the ray to a point, where it differs from that along it; the noises above are then along "
+     "the ray. 0 with noise_across_per_m 0: the same in all directions.",
+     &Options::noise_across_m, nullptr},
+    {"noise_across_per_m", "1", 0.0, 1.0,
+     "What the noise across the ray grows by with the range, as of bearings [rad]; added in quadrature.",
+     &Options::noise_across_per_m, nullptr},
     {"match_bound_m", "m", 0.0, 100.0,
      "Farthest a point may lie from where the motion prediction puts it; 0 means 12 noise_m.",
      &Options::match_bound_m, nullptr},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -18,6 +19,9 @@ struct Options {
   double noise_m = 0.05;      ///< standard deviation of one coordinate of an observation [m]
   double noise_per_m = 0.0;   ///< what is added to the noise per metre of range [1]; see noise_at()
   double noise_per_m2 = 0.0;  ///< what is added to the noise per square metre of range [1/m]; see noise_at()
+  double noise_across_m = 0.0;  ///< standard deviation across the ray [m]; see noise_across_at()
+  double noise_across_per_m =
+      0.0;  ///< what is added to it per metre of range [1]: of bearings; see noise_across_at()
   double match_bound_m =
       0.0;  ///< farthest a point may lie from where the prediction puts it [m]; 0: 12 noise_m
   double map_bound_m =
@@ -46,6 +50,16 @@ struct Options {
   /// the range, and grow with its square (stereo, whose disparity is equally exact everywhere).
   double noise_at(double range_m) const {
     return std::hypot(noise_m, noise_per_m * range_m, noise_per_m2 * range_m * range_m);
+  }
+
+  /// Whether the noise along the ray from the sensor to a point and that across it are told apart.
+  bool is_directional() const { return noise_across_m > 0.0 || noise_across_per_m > 0.0; }
+  /// Standard deviation of an observation at a range, in each direction across its ray [m]: two independent parts. noise_at() is then along
+  /// the ray. Where both parameters are 0, the noise is the same in all directions.
+  double noise_across_at(double range_m) const {
+    if (!is_directional()) return noise_at(range_m);
+    constexpr double kLeastShare = 0.01;  // of noise_m: nothing is exact
+    return std::max(std::hypot(noise_across_m, noise_across_per_m * range_m), kLeastShare * noise_m);
   }
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.

@@ -11,6 +11,7 @@ std::optional<Mat6> PoseInformation::covariance(bool planar) const {
   cross << 0.0, -sum_.z(), sum_.y(), sum_.z(), 0.0, -sum_.x(), -sum_.y(), sum_.x(), 0.0;
   Mat6 information;
   information << weight_ * Mat3::Identity(), -cross, cross, outer_.trace() * Mat3::Identity() - outer_;
+  if (is_directional_) information += directional_;
   if (planar) {
     // z, roll and pitch are decoupled from the rest there, and known.
     information.block<3, 6>(2, 0).setZero();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "slam_point/core/directional_fit.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -20,6 +21,12 @@ class PoseInformation {
     add_outer(weighted, lever, outer_);
   }
 
+  /// The same for a pair whose noise has directions: its information, in the map's frame.
+  void add(const Vec3& lever, const Mat3& information) {
+    is_directional_ = true;
+    directional_ += motion_information(lever, information, lever);
+  }
+
   /// Covariance of the pose's error: position (x, y, z), then rotation vector (true = exp(error) * estimate), in the map's
   /// frame. In `planar` data only x, y and the turn about z vary. Empty where the points leave a direction open.
   std::optional<Mat6> covariance(bool planar) const;
@@ -28,6 +35,8 @@ class PoseInformation {
   double weight_ = 0.0;
   Vec3 sum_ = Vec3::Zero();
   Mat3 outer_ = Mat3::Zero();
+  bool is_directional_ = false;      // something was told by matrices
+  Mat6 directional_ = Mat6::Zero();  // by them
 };
 
 }  // namespace hallway::slam_point

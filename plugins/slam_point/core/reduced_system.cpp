@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/reduced_system.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+
+#include "slam_point/core/directional_fit.hpp"
 
 namespace hallway::slam_point {
 namespace {
 
 constexpr double kDamping = 1e-10;    // of the diagonal: keeps a direction nothing determines from moving
 constexpr double kPairProducts = 24;  // multiplications for one landmark that two submaps share
+constexpr double kDirectionalPairProducts = 160;  // likewise, where noise has directions
+constexpr int kCentrePasses = 3;                  // the first counts all evidence in full
 
-Mat3 skew(const Vec3& v) {
-  Mat3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
+/// What evidence counts for beside such as agrees with its landmark, `squared` away from it in units of its noise.
+double share_of(double squared, double inlier2) {
+  return squared <= inlier2 ? 1.0 : inlier2 / squared;
 }
 
 }  // namespace
@@ -39,10 +44,12 @@ ReducedSystem::Block ReducedSystem::expand(const PairSums& sums) {
 void ReducedSystem::take(const SubmapGraph& graph, const std::vector<Index>& free,
                          const std::vector<Pose>& poses, bool planar) {
   planar_ = planar;
+  directional_ = graph.is_directional();
   choose(graph, free);
   take_evidence(graph, poses);
   take_landmarks(graph, poses);
-  row_.resize(free_.size());
+  row_.resize(directional_ ? 0 : free_.size());
+  row_blocks_.resize(directional_ ? free_.size() : 0);
   in_row_.assign(free_.size(), 0);
 }
 
@@ -63,12 +70,17 @@ void ReducedSystem::choose(const SubmapGraph& graph, const std::vector<Index>& f
 
 void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Pose>& poses) {
   evidence_.clear();
+  informations_.clear();
   evidence_start_.clear();
   positions_.clear();
   for (const Index submap : free_) {
     evidence_start_.push_back(static_cast<Index>(evidence_.size()));
     positions_.push_back(poses[submap].t);
     const Mat3 rotation = poses[submap].q.toRotationMatrix();
+    if (directional_) {
+      for (const Mat3& information : graph.submaps[submap].informations)
+        informations_.emplace_back(rotation * information * rotation.transpose());
+    }
     for (const Member& member : graph.submaps[submap].members) {
       if (member.count == 0) {  // keeps its place, and says nothing
         evidence_.push_back({Vec3::Zero(), 0.0, kNone});
@@ -85,18 +97,29 @@ void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Po
   evidence_start_.push_back(static_cast<Index>(evidence_.size()));
 }
 
+/// Takes from evidence that strays from its landmark what it would count too much.
+void ReducedSystem::lighten(const Place& place, double inlier2) {
+  const Evidence& known = evidence_[place.evidence];
+  Mat3& information = informations_[place.evidence];
+  const Vec3 residual = known.y + positions_[place.slot] - means_[known.landmark].centre;
+  information *= share_of(residual.dot(information * residual), inlier2);
+}
+
 void ReducedSystem::take_landmarks(const SubmapGraph& graph, const std::vector<Pose>& poses) {
   means_.clear();
   places_.clear();
   places_start_.clear();
   cost_ = 0.0;
+  const double inlier2 = graph.directional_inlier_m() * graph.directional_inlier_m();
   for (const Index landmark : touched_) {
     means_.push_back(mean_of(graph, poses, landmark));
     cost_ += means_.back().cost;
     places_start_.push_back(static_cast<Index>(places_.size()));
     for (const Membership& at : graph.landmarks[landmark].memberships) {
       const Index slot = slot_[at.submap];
-      if (slot != kNone) places_.push_back({slot, evidence_start_[slot] + at.member});
+      if (slot == kNone) continue;
+      places_.push_back({slot, evidence_start_[slot] + at.member});
+      if (directional_) lighten(places_.back(), inlier2);
     }
   }
   places_start_.push_back(static_cast<Index>(places_.size()));
@@ -104,6 +127,7 @@ void ReducedSystem::take_landmarks(const SubmapGraph& graph, const std::vector<P
 
 ReducedSystem::Mean ReducedSystem::mean_of(const SubmapGraph& graph, const std::vector<Pose>& poses,
                                            Index landmark) {
+  if (graph.is_directional()) return directional_mean_of(graph, poses, landmark);
   // Sums are taken about the first place: the others lie so near that no digits cancel.
   const std::vector<Membership>& memberships = graph.landmarks[landmark].memberships;
   const Membership& front = memberships.front();
@@ -124,8 +148,76 @@ ReducedSystem::Mean ReducedSystem::mean_of(const SubmapGraph& graph, const std::
   return mean;
 }
 
+ReducedSystem::Mean ReducedSystem::directional_mean_of(const SubmapGraph& graph,
+                                                       const std::vector<Pose>& poses, Index landmark) {
+  const std::vector<Membership>& memberships = graph.landmarks[landmark].memberships;
+  const Membership& front = memberships.front();
+  const Vec3 origin = poses[front.submap] * graph.submaps[front.submap].members[front.member].mean;
+  const double inlier2 = graph.directional_inlier_m() * graph.directional_inlier_m();
+  Mean mean;
+  Vec3 off = Vec3::Zero();
+  for (int pass = 0; pass < kCentrePasses; ++pass) {
+    mean.cost = mean.count = 0.0;
+    Vec3 sum = Vec3::Zero();
+    Mat3 whole = Mat3::Zero();
+    for (const Membership& at : memberships) {
+      const SubmapGraph::Evidence here = graph.evidence(at, poses[at.submap]);
+      const Vec3 place = here.place - origin;
+      const double squared = pass == 0 ? 0.0 : (place - off).dot(here.information * (place - off));
+      const Mat3 information = share_of(squared, inlier2) * here.information;
+      whole += information;
+      sum += information * place;
+      mean.count += graph.submaps[at.submap].members[at.member].weight();
+      mean.cost += squared <= inlier2 ? squared : inlier2 * (1.0 + std::log(squared / inlier2));
+    }
+    mean.noise = whole.inverse();
+    off = mean.noise * sum;
+  }
+  mean.centre = origin + off;
+  return mean;
+}
+
 double ReducedSystem::cost_of(const SubmapGraph& graph, const std::vector<Pose>& poses, Index landmark) {
   return mean_of(graph, poses, landmark).cost;
+}
+
+/// Takes note that the row under way has a block in the column of `slot`.
+void ReducedSystem::open_row(Index slot) {
+  if (in_row_[slot] != 0) return;
+  in_row_[slot] = 1;
+  row_slots_.push_back(slot);
+  if (directional_) {
+    row_blocks_[slot].setZero();
+  } else {
+    row_[slot] = PairSums();
+  }
+}
+
+ReducedSystem::Vec6 ReducedSystem::sum_row_directional(Index row, double& work) {
+  row_slots_.clear();
+  open_row(row);
+  Vec6 gradient = Vec6::Zero();
+  std::size_t pairs = 0;
+  for (Index e = evidence_start_[row]; e < evidence_start_[row + 1]; ++e) {
+    const Evidence& known = evidence_[e];
+    if (known.count == 0.0) continue;
+    const Mean& mean = means_[known.landmark];
+    const Vec3 residual = informations_[e] * (known.y + positions_[row] - mean.centre);
+    gradient.head<3>() += residual;
+    gradient.tail<3>() += known.y.cross(residual);
+    row_blocks_[row] += motion_information(known.y, informations_[e], known.y);
+    const Mat3 share = -informations_[e] * mean.noise;
+    for (Index p = places_start_[known.landmark]; p < places_start_[known.landmark + 1]; ++p) {
+      const Place& other = places_[p];
+      if (other.slot > row) continue;
+      open_row(other.slot);
+      row_blocks_[other.slot] +=
+          motion_information(known.y, share * informations_[other.evidence], evidence_[other.evidence].y);
+      ++pairs;
+    }
+  }
+  work += kDirectionalPairProducts * static_cast<double>(pairs);
+  return gradient;
 }
 
 ReducedSystem::Vec6 ReducedSystem::sum_row(Index row, double& work) {
@@ -145,29 +237,21 @@ ReducedSystem::Vec6 ReducedSystem::sum_row(Index row, double& work) {
     for (Index p = places_start_[known.landmark]; p < places_start_[known.landmark + 1]; ++p) {
       const Place& other = places_[p];
       if (other.slot > row) continue;
-      if (in_row_[other.slot] == 0) {
-        in_row_[other.slot] = 1;
-        row_slots_.push_back(other.slot);
-        row_[other.slot] = PairSums();
-      }
+      open_row(other.slot);
       row_[other.slot].add(-share * evidence_[other.evidence].count, known.y, evidence_[other.evidence].y);
       ++pairs;
     }
   }
-  if (in_row_[row] == 0) {
-    in_row_[row] = 1;
-    row_slots_.push_back(row);
-    row_[row] = PairSums();
-  }
+  open_row(row);
   work += kPairProducts * static_cast<double>(pairs);
   return gradient;
 }
 
 ReducedSystem::Block ReducedSystem::take_block(Index row, Index column) {
   in_row_[column] = 0;
-  Block block = expand(row_[column]);
+  Block block = directional_ ? row_blocks_[column] : expand(row_[column]);
   if (row == column) {
-    block += expand(own_);
+    if (!directional_) block += expand(own_);
     block.diagonal() *= 1.0 + kDamping;
     block.diagonal().array() += kDamping;
     // Out-of-plane directions are decoupled in planar data; this keeps them determined, and their step exactly 0.

@@ -9,7 +9,8 @@
 namespace hallway::slam_point {
 
 /// The normal equations of placing submaps by least squares, with the landmarks eliminated: minimise the sum over
-/// submaps s and members i of weight * |T_map_s mean_si - L_i|^2 over the poses of the free submaps and all landmarks,
+/// submaps s and members i of weight * |T_map_s mean_si - L_i|^2 (where noise has directions, of distances weighted by matrices, beyond
+/// SubmapGraph::directional_inlier_m() of a function that grows less) over the poses of the free submaps and all landmarks,
 /// the other submaps held. Each landmark is the weighted mean of its places, so six unknowns a submap are left:
 /// translation and rotation, on the left of T_map_s.
 ///
@@ -36,7 +37,7 @@ class ReducedSystem {
   /// diagonal is among them. Returns the gradient's part, and adds what it multiplied to `work`.
   template <typename Emit>
   Vec6 make_row(Index row, double& work, Emit&& emit) {
-    const Vec6 gradient = sum_row(row, work);
+    const Vec6 gradient = directional_ ? sum_row_directional(row, work) : sum_row(row, work);
     for (const Index column : row_slots_) emit(column, take_block(row, column));
     return gradient;
   }
@@ -70,31 +71,39 @@ class ReducedSystem {
     Vec3 centre = Vec3::Zero();
     double count = 0.0;
     double cost = 0.0;
+    Mat3 noise = Mat3::Zero();  // inverse of what all its places count for, where noise has directions
   };
 
   void choose(const SubmapGraph& graph, const std::vector<Index>& free);
   void take_evidence(const SubmapGraph& graph, const std::vector<Pose>& poses);
   void take_landmarks(const SubmapGraph& graph, const std::vector<Pose>& poses);
+  void lighten(const Place& place, double inlier2);
+  void open_row(Index slot);
   Vec6 sum_row(Index row, double& work);
+  Vec6 sum_row_directional(Index row, double& work);
   Block take_block(Index row, Index column);
   static Mean mean_of(const SubmapGraph& graph, const std::vector<Pose>& poses, Index landmark);
+  static Mean directional_mean_of(const SubmapGraph& graph, const std::vector<Pose>& poses, Index landmark);
   static Block expand(const PairSums& sums);
 
   bool planar_ = false;
+  bool directional_ = false;
   double cost_ = 0.0;
   std::vector<Index> free_;
   std::vector<Vec3> positions_;        // slot -> translation of its pose
   std::vector<Index> slot_;            // submap -> place in free_, or kNone
   std::vector<Index> evidence_start_;  // slot -> where its evidence begins
   std::vector<Evidence> evidence_;
+  std::vector<Mat3> informations_;  // of each evidence, map frame; where noise has directions
   std::vector<Index> touched_;
   std::vector<Index> place_;          // landmark -> place in touched_, valid for those in touched_
   std::vector<std::uint8_t> marked_;  // landmark -> in touched_
   std::vector<Mean> means_;           // by place in touched_
   std::vector<Index> places_start_;   // place in touched_ -> where its places begin
   std::vector<Place> places_;
-  PairSums own_;               // of the row under way: what its submap knows by itself
-  std::vector<PairSums> row_;  // slot -> sums with the row's submap
+  PairSums own_;                   // of the row under way: what its submap knows by itself
+  std::vector<PairSums> row_;      // slot -> sums with the row's submap
+  std::vector<Block> row_blocks_;  // likewise, where noise has directions
   std::vector<Index> row_slots_;
   std::vector<std::uint8_t> in_row_;
 };

@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::size_t kMostPoints = 64;
 constexpr std::size_t kMostCentres = 32;
+constexpr std::size_t kFewPoints = 24;  // that are looked up at once
+constexpr std::size_t kShares = 8;      // that more are looked up in
+constexpr std::size_t kMostShares = 3;  // of them in one call
 constexpr std::size_t kQueryNeighbours = 5;
 constexpr std::size_t kMostAlike = 2000;  // looked up in one call
 constexpr int kMostHypotheses = 300;      // tried in one call
@@ -72,25 +75,42 @@ bool Relocaliser::locate(const SubmapGraph& graph, const ConstellationIndex& ind
   choose_points(points);
   widths_.assign(points_.size(), 1.0);
   if (points_.size() <= static_cast<std::size_t>(kTrianglePoints)) return false;
-  make_queries();
-  look_up(graph, index, except);
   taken_.resize(graph.landmarks.size(), 0);
   best_ = Hypothesis();
   rival_ = Hypothesis();
   tried_ = 0;
-  int refined = 0;
-  for (const Query& query : queries_) {
-    for (std::uint32_t i = 0; i < query.count && tried_ < kMostHypotheses && refined < kMostRefined; ++i) {
-      const Triangle& mapped = alike_[query.first + i];
-      if (is_known(query.triangle, mapped)) continue;
-      ++tried_;
-      trial_.part = graph.landmarks[mapped.vertices[0]].part;
-      if (!pose_of(graph, query.triangle, mapped, trial_.T)) continue;
-      if (!is_promising(graph, query.triangle, trial_.T, trial_.part)) continue;
-      ++refined;
-      if (refine(graph, trial_)) keep(trial_);
-    }
+  refined_ = 0;
+  shares_ = points_.size() < kFewPoints ? 1 : kShares;
+  for (std::size_t looks = 0; looks < std::min(kMostShares, shares_); ++looks) {
+    search(graph, index, except, next_share_++ % shares_);
+    if (is_answer(graph, placement)) return true;
   }
+  return false;
+}
+
+/// Tries what a share of the points' triangles are like.
+void Relocaliser::search(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
+                         std::size_t share) {
+  make_queries(share);
+  look_up(graph, index, except);
+  for (const Query& query : queries_) {
+    for (std::uint32_t i = 0; i < query.count && tried_ < kMostHypotheses && refined_ < kMostRefined; ++i)
+      try_triangle(graph, query.triangle, alike_[query.first + i]);
+  }
+}
+
+void Relocaliser::try_triangle(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped) {
+  if (is_known(seen, mapped)) return;
+  ++tried_;
+  trial_.part = graph.landmarks[mapped.vertices[0]].part;
+  if (!pose_of(graph, seen, mapped, trial_.T)) return;
+  if (!is_promising(graph, seen, trial_.T, trial_.part)) return;
+  ++refined_;
+  if (refine(graph, trial_)) keep(trial_);
+}
+
+/// Whether the best place so far is sure, and no other one is like it.
+bool Relocaliser::is_answer(const SubmapGraph& graph, Placement& placement) {
   const double least = kLeastShareOfPoints * static_cast<double>(points_.size());
   if (best_.agreeing < least || best_.agreeing <= kTrianglePoints) return false;
   placement = {best_.T, best_.part, best_.agreeing, expected_by_chance(graph, best_)};
@@ -115,10 +135,11 @@ void Relocaliser::choose_points(const std::vector<Vec3>& points) {
   for (const std::uint32_t i : order_) points_.push_back(points[i]);
 }
 
-void Relocaliser::make_queries() {
+void Relocaliser::make_queries(std::size_t share) {
   queries_.clear();
   const std::size_t step = 1 + (points_.size() - 1) / kMostCentres;
-  for (Index centre = 0; centre < points_.size(); centre += static_cast<Index>(step)) {
+  for (auto centre = static_cast<Index>(share * step); centre < points_.size();
+       centre += static_cast<Index>(shares_ * step)) {
     NearestNeighbours near;
     for (Index p = 0; p < points_.size(); ++p) {
       if (p != centre) near.add(p, (points_[p] - points_[centre]).squaredNorm(), kQueryNeighbours);

@@ -32,6 +32,9 @@ struct Placement {
 /// - no other place has more than three fifths of the points that agree with the best and is more than chance (1e-3, likewise): a
 ///   place that repeats is no answer.
 ///
+/// Many points are looked up in shares, spread alike over them: the next share only when those before gave no answer, and no more than three of eight in a
+/// call; the next call begins where this one ended.
+///
 /// Cost: O(points) for a bounded number of hypotheses, whatever the size of the map.
 class Relocaliser {
  public:
@@ -70,12 +73,14 @@ class Relocaliser {
   };
 
   void choose_points(const std::vector<Vec3>& points);
-  void make_queries();
+  void search(const SubmapGraph& graph, const ConstellationIndex& index, Index except, std::size_t share);
+  bool is_answer(const SubmapGraph& graph, Placement& placement);
+  void make_queries(std::size_t share);
   void add_queries(Index centre, const NearestNeighbours& near);
   void look_up(const SubmapGraph& graph, const ConstellationIndex& index, Index except);
   void look_up_ordered(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
                        const Triangle& triangle);
-  void try_query(const SubmapGraph& graph, const Query& query);
+  void try_triangle(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped);
   bool is_known(const Triangle& seen, const Triangle& mapped) const;
   bool pose_of(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped, Pose& T) const;
   bool is_promising(const SubmapGraph& graph, const Triangle& seen, const Pose& T, Index part);
@@ -115,6 +120,9 @@ class Relocaliser {
   Hypothesis best_;
   Hypothesis rival_;
   int tried_ = 0;
+  int refined_ = 0;
+  std::size_t shares_ = 1;      // that the points are looked up in
+  std::size_t next_share_ = 0;  // where the next search begins
 };
 
 }  // namespace hallway::slam_point

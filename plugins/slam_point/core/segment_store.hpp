@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam_point/core/directional_fit.hpp"
 #include "slam_point/core/submap_graph.hpp"
 
 namespace hallway::slam_point {
@@ -18,12 +19,16 @@ struct SegmentMember {
 };
 
 /// Some frames of one submap that saw nearly the same landmarks, as one: they were aligned to each other alone. Since what
-/// they saw differs little, hardly anything of their evidence is lost in that, and errors of their poses stay inside.
+/// they saw differs little (where noise has directions, and is from about one side), hardly anything of their evidence is lost in that, and errors of their poses stay inside.
 struct Segment {
   Index submap = kNone;
   std::uint32_t frames = 0;
   std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
   std::vector<SegmentMember> members;
+  Vec3 origin =
+      Vec3::Zero();  ///< where its first frame's sensor was, submap frame [m]; where noise has directions
+  std::vector<Mat3>
+      informations{};  ///< of each member's mean, submap frame; where noise has directions, else empty
 };
 
 /// The evidence of all frames, condensed into segments: what the map is made from when it is asked for. Segments of a submap
@@ -35,7 +40,13 @@ class SegmentStore {
     Index landmark = kNone;
     Vec3 point = Vec3::Zero();  ///< sensor frame [m]
     double weight = 1.0;        ///< above 0, as Observation::weight
+    double across = 1.0;        ///< likewise, across the ray; only where noise has directions
+
+    RayWeight weights() const { return {weight, across}; }
   };
+
+  /// `directional`: noise has directions.
+  explicit SegmentStore(bool directional = false) : directional_(directional) {}
 
   /// Adds a frame that `submap` took in. `T_submap_sensor` is where it stood there; within its segment it is aligned anew, to
   /// the segment's means, unless they leave its rotation open (`min_spread_m2`: see Alignment::solve). Landmarks of a frame
@@ -58,14 +69,25 @@ class SegmentStore {
   void clear();
 
  private:
+  void take_view(const Pose& T_submap_sensor, const std::vector<Sighting>& sightings);
+  bool is_from_here(const Segment& segment) const;
   Index choose(Index submap, const std::vector<Sighting>& sightings);
   double overlap(const Segment& segment, std::size_t seen) const;
   Index start(Index submap, const std::vector<Sighting>& sightings);
   void open(Index segment);
+  Pose align_directional(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
+                         const std::vector<Sighting>& sightings);
+  void average_directional(const Vec3& p, const Vec3& ray, const Sighting& sighting);
   Pose align(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
              const std::vector<Sighting>& sightings) const;
   void average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings);
 
+  bool directional_;
+  // Of the frame that is being added, where noise has directions; submap frame:
+  Vec3 origin_ = Vec3::Zero();  // where its sensor is,
+  Vec3 sight_ = Vec3::Zero();   // its mean direction of view, and
+  double range_ = 0.0;          // how far points are, the near ones above all
+  std::vector<DirectionalPair> pairs_;
   std::vector<Segment> segments_;
   std::vector<std::vector<Index>> of_submap_;  // submap -> its segments
   Index open_ = kNone;

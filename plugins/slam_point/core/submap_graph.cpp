@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/submap_graph.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace hallway::slam_point {
+
+void Member::average(const Vec3& p, double observation_weight, const Mat3& information, Mat3& known) {
+  ++count;
+  quality += (observation_weight - quality) / static_cast<double>(count);
+  known += information;
+  mean = count == 1 ? p : Vec3(mean + known.inverse() * (information * (p - mean)));
+}
 
 Index SubmapGraph::add_submap(const Pose& T_map_submap) {
   submaps.emplace_back();
@@ -19,6 +27,7 @@ Index SubmapGraph::add_landmark(const Vec3& position, std::uint64_t activation) 
   record.last_activation = activation;
   record.part = part_;
   landmarks.push_back(std::move(record));
+  if (is_directional()) informations.emplace_back();
   grid_.add(position);
   return static_cast<Index>(landmarks.size() - 1);
 }
@@ -27,6 +36,7 @@ Index SubmapGraph::join(Index submap, Index landmark, const Vec3& mean, bool in_
   SubmapRecord& record = submaps[submap];
   const auto member = static_cast<Index>(record.members.size());
   record.members.push_back({landmark, 0, in_first_frame, mean});
+  if (is_directional()) record.informations.emplace_back(Mat3::Zero());
   if (in_first_frame) ++record.first_frame_size;
   landmarks[landmark].memberships.push_back({submap, member});
   if (submap == active_) landmarks[landmark].active_member = member;
@@ -45,10 +55,16 @@ void SubmapGraph::activate(Index submap) {
 }
 
 void SubmapGraph::deactivate() {
-  for (const Member& member : submaps[active_].members) {
+  const Index closed = active_;
+  active_ = kNone;
+  for (const Member& member : submaps[closed].members) {
     LandmarkRecord& landmark = landmarks[member.landmark];
     landmark.active_member = kNone;
     if (member.count == 0) continue;  // emptied by a merge
+    if (is_directional()) {
+      resum_directional(member.landmark);
+      continue;
+    }
     landmark.settled_sum += member.weight() * (from_active_ * member.mean);
     landmark.settled_count += member.count;
     landmark.settled_weight += member.weight();
@@ -57,7 +73,6 @@ void SubmapGraph::deactivate() {
     landmark.position = landmark.settled_sum / landmark.weight;
     grid_.move(member.landmark, landmark.position);
   }
-  active_ = kNone;
 }
 
 void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
@@ -77,7 +92,58 @@ void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation,
   grid_.move(m.landmark, landmark.position);
 }
 
+void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight,
+                          const Mat3& information) {
+  SubmapRecord& submap = submaps[active_];
+  Member& m = submap.members[member];
+  LandmarkRecord& landmark = landmarks[m.landmark];
+  LandmarkInformation& known = informations[m.landmark];
+  m.average(p, weight, information, submap.informations[member]);
+  const Evidence here = evidence({active_, member}, poses[active_]);
+  known.whole = known.settled + here.information;
+  landmark.count = landmark.settled_count + m.count;
+  landmark.weight = landmark.settled_weight + m.weight();
+  landmark.position = known.whole.inverse() * (landmark.settled_sum + here.information * here.place);
+  landmark.last_activation = activation;
+  grid_.move(m.landmark, landmark.position);
+}
+
+SubmapGraph::Evidence SubmapGraph::evidence(const Membership& at, const Pose& T_map_submap) const {
+  const SubmapRecord& submap = submaps[at.submap];
+  const Mat3 turn = T_map_submap.q.toRotationMatrix();
+  return {turn * submap.members[at.member].mean + T_map_submap.t,
+          turn * submap.informations[at.member] * turn.transpose()};
+}
+
+void SubmapGraph::resum_directional(Index index) {
+  LandmarkRecord& landmark = landmarks[index];
+  LandmarkInformation& known = informations[index];
+  known = LandmarkInformation();
+  landmark.settled_sum.setZero();
+  landmark.settled_count = landmark.count = 0;
+  landmark.settled_weight = landmark.weight = 0.0;
+  Vec3 sum = Vec3::Zero();
+  for (const Membership& at : landmark.memberships) {
+    const Member& member = submaps[at.submap].members[at.member];
+    const Evidence here = evidence(at, poses[at.submap]);
+    const Vec3 weighted = here.information * here.place;
+    known.whole += here.information;
+    sum += weighted;
+    landmark.count += member.count;
+    landmark.weight += member.weight();
+    if (at.submap == active_) continue;
+    known.settled += here.information;
+    landmark.settled_sum += weighted;
+    landmark.settled_count += member.count;
+    landmark.settled_weight += member.weight();
+  }
+  if (landmark.count == 0) return;
+  landmark.position = known.whole.inverse() * sum;
+  grid_.move(index, landmark.position);
+}
+
 void SubmapGraph::resum(Index index) {
+  if (is_directional()) return resum_directional(index);
   LandmarkRecord& landmark = landmarks[index];
   landmark.settled_sum.setZero();
   landmark.settled_count = 0;
@@ -106,6 +172,16 @@ void SubmapGraph::resum(Index index) {
 }
 
 Vec3 SubmapGraph::mean_position(Index landmark) const {
+  if (is_directional()) {
+    Vec3 weighted = Vec3::Zero();
+    Mat3 whole = Mat3::Zero();
+    for (const Membership& at : landmarks[landmark].memberships) {
+      const Evidence here = evidence(at, poses[at.submap]);
+      weighted += here.information * here.place;
+      whole += here.information;
+    }
+    return whole.inverse() * weighted;
+  }
   Vec3 sum = Vec3::Zero();
   double weight = 0.0;
   for (const Membership& at : landmarks[landmark].memberships) {
@@ -133,7 +209,14 @@ void SubmapGraph::merge(Index into, Index from) {
     Member& whole = members[same->member];
     const double weight = whole.weight() + member.weight();
     whole.count += member.count;
-    if (whole.count > 0) {
+    if (whole.count > 0 && is_directional()) {
+      std::vector<Mat3>& known = submaps[at.submap].informations;
+      const Mat3 both = known[same->member] + known[at.member];
+      whole.mean += both.inverse() * (known[at.member] * (member.mean - whole.mean));
+      whole.quality = weight / static_cast<double>(whole.count);
+      known[same->member] = both;
+      known[at.member].setZero();
+    } else if (whole.count > 0) {
       whole.mean += (member.mean - whole.mean) * (member.weight() / weight);
       whole.quality = weight / static_cast<double>(whole.count);
     }
@@ -151,6 +234,7 @@ void SubmapGraph::merge(Index into, Index from) {
   given.settled_count = 0;
   given.settled_weight = 0.0;
   given.merged_into = into;
+  if (is_directional()) informations[from] = LandmarkInformation();
   grid_.remove(from);
   resum(into);
 }
@@ -170,10 +254,12 @@ void SubmapGraph::drop(Index submap) {
     landmark.weight = 0.0;
     landmark.settled_weight = 0.0;
     landmark.part = kNone;
+    if (is_directional()) informations[member.landmark] = LandmarkInformation();
     ++dropped_;
     grid_.remove(member.landmark);
   }
   record.members = {};
+  record.informations = {};
   record.first_frame_size = 0;
   record.part = kNone;
   record.held = true;
@@ -186,6 +272,7 @@ void SubmapGraph::withdraw(Index index) {
     if (member.in_first_frame) --submaps[at.submap].first_frame_size;
     member.in_first_frame = false;
     member.count = 0;
+    if (is_directional()) submaps[at.submap].informations[at.member].setZero();
   }
   landmark.memberships.clear();
   landmark.count = 0;
@@ -195,6 +282,7 @@ void SubmapGraph::withdraw(Index index) {
   landmark.settled_sum.setZero();
   landmark.active_member = kNone;
   landmark.moving = true;
+  if (is_directional()) informations[index] = LandmarkInformation();
   grid_.remove(index);
 }
 
@@ -202,6 +290,7 @@ void SubmapGraph::clear() {
   landmarks.clear();
   submaps.clear();
   poses.clear();
+  informations.clear();
   grid_.clear();
   active_ = kNone;
   part_ = 0;

@@ -23,6 +23,9 @@ struct Member {
 
   /// What its mean counts for: the sum of its observations' weights.
   double weight() const { return static_cast<double>(count) * quality; }
+  /// Averages an observation of a weight above 0 into the mean. `information` and what the mean counts for, `known`: where noise has
+  /// directions, in the submap frame.
+  void average(const Vec3& p, double observation_weight, const Mat3& information, Mat3& known);
   /// Averages an observation of a weight above 0 into the mean.
   void average(const Vec3& p, double observation_weight) {
     ++count;
@@ -43,6 +46,14 @@ struct SubmapRecord {
   std::uint32_t first_frame_size = 0;  ///< members with in_first_frame
   Index part = 0;                      ///< of the map; kNone when it was given up
   bool held = false;                   ///< its pose is the frame of its part: it stays where it is
+  std::vector<Mat3>
+      informations{};  ///< of each member's mean, submap frame; where noise has directions, else empty
+};
+
+/// What a landmark's place counts for where noise has directions, in units of 1 / noise_m^2, map frame.
+struct LandmarkInformation {
+  Mat3 whole = Mat3::Zero();    ///< of all submaps
+  Mat3 settled = Mat3::Zero();  ///< of all but the active one
 };
 
 /// One landmark: the mean of its places in all submaps, by their weights.
@@ -67,8 +78,15 @@ struct LandmarkRecord {
 /// current one: what is added belongs to it, and what is near a place is looked for in it.
 class SubmapGraph {
  public:
-  /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m].
-  explicit SubmapGraph(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
+  /// `reach_m`: the largest distance that visit_landmarks_near() is asked for [m]. `directional_inlier_m`
+  /// above 0: noise has directions, so that means are weighted by matrices; and where submaps are placed together, evidence that lies
+  /// farther than this from its landmark, in units of its own noise times noise_m, counts for less [m].
+  explicit SubmapGraph(double reach_m, IndexKind index = IndexKind::grid, double directional_inlier_m = 0.0)
+      : grid_(index, reach_m), directional_inlier_(directional_inlier_m) {}
+
+  /// Whether noise has directions.
+  bool is_directional() const { return directional_inlier_ > 0.0; }
+  double directional_inlier_m() const { return directional_inlier_; }
 
   /// A submap of the current part. The first of all is held.
   Index add_submap(const Pose& T_map_submap);
@@ -89,12 +107,21 @@ class SubmapGraph {
   /// Averages `p` (submap frame, metres) into a member of the active submap, and moves its landmark accordingly. O(1).
   /// `weight`: see Observation::weight.
   void observe(Index member, const Vec3& p, std::uint64_t activation, double weight = 1.0);
+  /// The same where noise has directions: `information` of p, submap frame.
+  void observe(Index member, const Vec3& p, std::uint64_t activation, double weight, const Mat3& information);
 
   /// Sums a landmark up again from all its submaps, after their poses or means have changed. O(its submaps).
   void resum(Index landmark);
 
   /// Where the evidence puts a landmark that has some, summed up anew [m, map frame]. O(its submaps).
   Vec3 mean_position(Index landmark) const;
+
+  /// One submap's evidence of a landmark, in the map frame, where noise has directions.
+  struct Evidence {
+    Vec3 place = Vec3::Zero();
+    Mat3 information = Mat3::Zero();
+  };
+  Evidence evidence(const Membership& at, const Pose& T_map_submap) const;
 
   /// Gives all evidence of `from` to `into`, which is then one landmark; `from` keeps none and is found no more.
   /// Not while the active submap holds both.
@@ -132,9 +159,14 @@ class SubmapGraph {
   std::vector<LandmarkRecord> landmarks;
   std::vector<SubmapRecord> submaps;
   std::vector<Pose> poses;  ///< T_map_submap of each submap
+  std::vector<LandmarkInformation>
+      informations;  ///< of each landmark; where noise has directions, else empty
 
  private:
+  void resum_directional(Index landmark);
+
   PointIndex grid_;
+  double directional_inlier_;
   Index active_ = kNone;
   Index part_ = 0;
   std::size_t dropped_ = 0;
