@@ -60,6 +60,8 @@ void WallSight::read_planes(const FrameAnswer& answer) {
   for (std::size_t i = 0; i < answer.frame.planes.size(); ++i) {
     const log::ObservedPlane& seen = answer.frame.planes[i];
     given_.push_back({seen.wall, taken_for ? (*taken_for)[i] : log::kNoLandmark});
+    for (const auto& point : seen.hull_m) places_.push_back({seen.wall, T_body_sensor_ * place_of(point)});
+    if (!seen.hull_m.empty()) continue;
     for (const std::size_t corner : {0u, 1u})
       places_.push_back({seen.wall, T_body_sensor_ * place_of(seen.plane.corners_m[corner])});
   }

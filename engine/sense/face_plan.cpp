@@ -11,10 +11,10 @@
 namespace hallway::sense {
 namespace {
 
-constexpr double kSamePlane = 1e-10;   ///< 1 - cos of the largest angle between polygons of one face
+constexpr double kCoplanar = 1e-10;   ///< 1 - cos of the largest angle between polygons of one face
 constexpr double kSameArea = 1e-9;     ///< relative; a hull is no larger than its parts
-constexpr double kFlatCorner_m = 1e-6;  ///< a corner that stands out less is none
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr double kFlatOfFace_m = 1e-6;  ///< a corner that stands out less is none
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
 /// Polygons of one plane that touch, each laid flat.
 struct Group {
@@ -34,7 +34,7 @@ class Groups {
  public:
   Groups(const csg::Surface& surface, const std::function<bool(std::size_t)>& wanted) : surface_(surface) {
     const std::size_t n = surface.polygons.size();
-    first_.assign(n, kNone);
+    first_.assign(n, kNowhere);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> at_edge;
     for (std::size_t i = 0; i < n; ++i) {
       const std::vector<std::uint32_t>& vertices = surface.polygons[i].vertices;
@@ -55,7 +55,7 @@ class Groups {
   std::vector<Group> all() {
     std::map<std::size_t, Group> groups;
     for (std::size_t i = 0; i < first_.size(); ++i) {
-      if (first_[i] == kNone) continue;
+      if (first_[i] == kNowhere) continue;
       const std::size_t root = root_of(i);
       Group& group = groups[root];
       group.plane = surface_.polygons[root].plane;
@@ -68,7 +68,7 @@ class Groups {
 
  private:
   bool same_plane(std::size_t a, std::size_t b) const {
-    return surface_.polygons[a].plane.normal.dot(surface_.polygons[b].plane.normal) > 1.0 - kSamePlane;
+    return surface_.polygons[a].plane.normal.dot(surface_.polygons[b].plane.normal) > 1.0 - kCoplanar;
   }
   std::size_t root_of(std::size_t i) {
     while (first_[i] != i) i = first_[i] = first_[first_[i]];
@@ -92,7 +92,7 @@ Convex joined(const std::vector<const Convex*>& parts) {
     sum += area_of(*part);
     points.insert(points.end(), part->begin(), part->end());
   }
-  Convex hull = hull_of(std::move(points), kFlatCorner_m);
+  Convex hull = hull_of(std::move(points), kFlatOfFace_m);
   return area_of(hull) <= sum * (1.0 + kSameArea) ? hull : Convex{};
 }
 
@@ -139,7 +139,7 @@ FacePlan make_face_plan(const csg::Surface& surface, const std::function<bool(st
     } else {
       faces = std::move(group.parts);
       join_pairs(faces);
-      for (Convex& face : faces) face = hull_of(std::move(face), kFlatCorner_m);
+      for (Convex& face : faces) face = hull_of(std::move(face), kFlatOfFace_m);
     }
     for (const Convex& face : faces) {
       if (face.size() < 3) continue;

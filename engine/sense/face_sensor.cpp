@@ -16,7 +16,7 @@ namespace hallway::sense {
 namespace {
 
 constexpr std::uint64_t kOfFace = 4096;  ///< random numbers of a face in a step: three, and two an edge
-constexpr double kFlatCorner_m = 1e-9;
+constexpr double kFlatOfNoise_m = 1e-9;
 
 FaceViewSpec view_of(const PlaneSensorSpec& spec) {
   const SpecCheck check(spec.name);
@@ -130,7 +130,7 @@ std::optional<PlaneObservation> FaceSensor::make_seen(const FacePiece& piece, st
     const Vec2 normal(to.y() - from.y(), from.x() - to.x());
     moved = cut(moved, normal, normal.dot(from));
   }
-  moved = hull_of(std::move(moved), kFlatCorner_m);
+  moved = hull_of(std::move(moved), kFlatOfNoise_m);
   if (moved.size() < 3 || area_of(moved) <= 0.0) return std::nullopt;
 
   const Vec3 tilt = deviate(1, spec_.noise_angle) * axes.u + deviate(2, spec_.noise_angle) * axes.v;

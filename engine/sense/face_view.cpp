@@ -8,10 +8,10 @@
 namespace hallway::sense {
 namespace {
 
-constexpr double kLeastDistance_m = 1e-6;  ///< from a face's plane, to see it at all
+constexpr double kLeastAway_m = 1e-6;  ///< from a face's plane, to see it at all
 constexpr double kOnFace_m = 1e-6;         ///< what does not stand out of a face farther hides nothing of it
-constexpr double kFlatCorner_m = 1e-6;     ///< a corner that stands out less is none
-constexpr double kNothing_m2 = 1e-9;
+constexpr double kFlatOfPiece_m = 1e-6;     ///< a corner that stands out less is none
+constexpr double kNoArea_m2 = 1e-9;
 
 /// What of a polygon lies on the side that the plane's normal points to.
 void keep_before(std::vector<Vec3>& vertices, const Plane& plane) {
@@ -45,7 +45,7 @@ FaceView::FaceView(const FaceViewSpec& spec, const FacePlan& plan) : spec_(spec)
     borders_.push_back({Vec3(std::sin(h), side * std::cos(h), 0.0), 0.0});
     borders_.push_back({Vec3(std::sin(v), 0.0, side * std::cos(v)), 0.0});
   }
-  borders_.push_back({Vec3::UnitX(), std::max(spec.min_range_m, kLeastDistance_m)});
+  borders_.push_back({Vec3::UnitX(), std::max(spec.min_range_m, kLeastAway_m)});
   borders_.push_back({-Vec3::UnitX(), -spec.max_range_m});
 }
 
@@ -70,14 +70,14 @@ void FaceView::find(const Pose& T_world_sensor, std::vector<FacePiece>& pieces) 
   if (spec_.occlusion) {
     for (const Polygon& obstacle : plan_.obstacles) {
       Polygon seen = in_view(obstacle, T_sensor_world);
-      if (!seen.vertices.empty() && std::abs(seen.plane.offset) > kLeastDistance_m)
+      if (!seen.vertices.empty() && std::abs(seen.plane.offset) > kLeastAway_m)
         obstacles.push_back(std::move(seen));
     }
   }
   pieces.clear();
   for (std::size_t i = 0; i < plan_.faces.size(); ++i) {
     const Polygon seen = in_view(plan_.faces[i], T_sensor_world);
-    if (!seen.vertices.empty() && seen.plane.offset < -kLeastDistance_m)
+    if (!seen.vertices.empty() && seen.plane.offset < -kLeastAway_m)
       find_on(seen, static_cast<std::uint32_t>(i), obstacles, pieces);
   }
 }
@@ -94,9 +94,9 @@ void FaceView::find_on(const Polygon& whole, std::uint32_t face, const std::vect
   }
   std::vector<Vec2> points;
   for (const Convex& part : visible) {
-    if (area_of(part) > kNothing_m2) points.insert(points.end(), part.begin(), part.end());
+    if (area_of(part) > kNoArea_m2) points.insert(points.end(), part.begin(), part.end());
   }
-  const Convex hull = hull_of(std::move(points), kFlatCorner_m);
+  const Convex hull = hull_of(std::move(points), kFlatOfPiece_m);
   if (hull.size() < 3 || width_of(hull) < spec_.min_length_m) return;
   FacePiece& piece = pieces.emplace_back();
   piece.face = face;

@@ -4,32 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace hallway::slam_plane::spatial {
 namespace {
 
 constexpr double kNearerSigmas = 2.0;  // that something is nearer by, if it hides
-constexpr double kLeastLength_m = 0.1;
+constexpr double kLeastLength_m = 0.15;  // of an edge that is clear
 constexpr double kSameDirection = 0.99;  // cosine between normals of faces that may lie in one plane
-
-/// Part of a segment, by shares of its length.
-struct Part {
-  double from = 0.0;
-  double to = 1.0;
-  bool empty() const { return from >= to; }
-  /// Keeps where a + share * (b - a) is not negative.
-  void keep(double a, double b) {
-    if (a >= 0.0 && b >= 0.0) return;
-    if (a < 0.0 && b < 0.0) {
-      to = from;
-    } else if (a < 0.0) {
-      from = std::max(from, a / (a - b));
-    } else {
-      to = std::min(to, a / (a - b));
-    }
-  }
-};
 
 /// Whether both values are below a bound.
 bool both_below(double a, double b, double bound_a, double bound_b) {
@@ -37,6 +18,17 @@ bool both_below(double a, double b, double bound_a, double bound_b) {
 }
 
 }  // namespace
+
+void EdgeJudge::Part::keep(double a, double b) {
+  if (a >= 0.0 && b >= 0.0) return;
+  if (a < 0.0 && b < 0.0) {
+    to = from;
+  } else if (a < 0.0) {
+    from = std::max(from, a / (a - b));
+  } else {
+    to = std::min(to, a / (a - b));
+  }
+}
 
 EdgeJudge::EdgeJudge(const Options& options)
     : noise_(options.noise()),
@@ -73,8 +65,8 @@ bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigm
          both_below(depth(a), depth(b), reach + view.min_range_m, reach + view.min_range_m);
 }
 
-/// Whether any of an edge lies behind a face: behind its plane, and within its outline as seen from the robot, widened by what noise may do.
-bool EdgeJudge::is_hidden(const SightedEdge& edge, double sigma, const Sighting& nearer) const {
+/// What of an edge may lie behind a face: behind its plane, and within its outline as seen from the robot, widened by what noise may do.
+EdgeJudge::Part EdgeJudge::hidden_part(const SightedEdge& edge, double sigma, const Sighting& nearer) const {
   const Vec3 &a = edge.end[0], &b = edge.end[1];
   Part part;
   const double offset = nearer.offset();
@@ -85,7 +77,7 @@ bool EdgeJudge::is_hidden(const SightedEdge& edge, double sigma, const Sighting&
   const double own = EdgeJudge::sigma(nearer);
   const double range = std::max(a.norm(), b.norm());
   for (const SightedEdge& side : nearer.edges) {
-    if (part.empty()) return false;
+    if (part.empty()) break;
     // The plane through the robot's eye and the side; inward.
     const Vec3 normal = side.end[0].cross(side.end[1]);
     if (normal.norm() < 1e-12) continue;
@@ -94,36 +86,47 @@ bool EdgeJudge::is_hidden(const SightedEdge& edge, double sigma, const Sighting&
     const double reach = sigmas_ * std::hypot(sigma, own * range / nearest);
     part.keep(inward.dot(a) + reach, inward.dot(b) + reach);
   }
-  return !part.empty();
+  return part;
 }
 
-/// Whether another face of the same plane begins where an edge is.
-bool EdgeJudge::goes_on(const Sighting& own, const SightedEdge& edge, const Sighting& other) const {
-  if (own.normal.dot(other.normal) < kSameDirection) return false;
+/// Where another face of the same plane begins where an edge is.
+EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge, const Sighting& other) const {
+  constexpr Part kNothing{1.0, 0.0};
+  if (own.normal.dot(other.normal) < kSameDirection) return kNothing;
   const Vec3 middle = 0.5 * (edge.end[0] + edge.end[1]);
   const double doubt = sigmas_ * std::hypot(sigma_across(own, middle), sigma_across(other, middle));
-  if (std::abs(other.normal.dot(middle) - other.offset()) > doubt) return false;
+  if (std::abs(other.normal.dot(middle) - other.offset()) > doubt) return kNothing;
   const double reach = sigmas_ * std::hypot(noise_.end, noise_.along) * 2.0 + 0.01;
-  // What of the edge, moved outwards by that, lies in the other face.
+  // What of the edge, moved outwards by that, lies in the other face or beside it.
   Part part;
   const Vec3 a = edge.end[0] + reach * edge.outward, b = edge.end[1] + reach * edge.outward;
-  for (const SightedEdge& side : other.edges) {
-    part.keep(side.outward.dot(side.end[0] - a), side.outward.dot(side.end[0] - b));
-    if (part.empty()) return false;
+  for (const SightedEdge& side : other.edges)
+    part.keep(reach + side.outward.dot(side.end[0] - a), reach + side.outward.dot(side.end[0] - b));
+  return part;
+}
+
+bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own, const SightedEdge& edge) const {
+  const double length = (edge.end[1] - edge.end[0]).norm(), doubt = sigma(own);
+  std::vector<Part> taken;
+  for (const Sighting& other : frame) {
+    if (&other == &own) continue;
+    for (const Part& part : {hidden_part(edge, doubt, other), continued_part(own, edge, other)}) {
+      if (!part.empty()) taken.push_back(part);
+    }
   }
-  return true;
+  std::sort(taken.begin(), taken.end(), [](const Part& a, const Part& b) { return a.from < b.from; });
+  double clear_from = 0.0;
+  for (const Part& part : taken) {
+    if ((part.from - clear_from) * length >= kLeastLength_m) return true;
+    clear_from = std::max(clear_from, part.to);
+  }
+  return (1.0 - clear_from) * length >= kLeastLength_m;
 }
 
 void EdgeJudge::judge(const View& view, std::vector<Sighting>& frame) const {
   for (Sighting& own : frame) {
     const double doubt = sigma(own);
-    for (SightedEdge& edge : own.edges) {
-      edge.is_true = (edge.end[1] - edge.end[0]).norm() >= kLeastLength_m && !at_border(view, edge, doubt);
-      for (std::size_t i = 0; i < frame.size() && edge.is_true; ++i) {
-        const Sighting& other = frame[i];
-        if (&other != &own) edge.is_true = !is_hidden(edge, doubt, other) && !goes_on(own, edge, other);
-      }
-    }
+    for (SightedEdge& edge : own.edges) edge.is_true = !at_border(view, edge, doubt) && is_clear(frame, own, edge);
   }
 }
 

@@ -69,35 +69,35 @@ Member& FaceMap::join(Index face, const Vec3& normal) {
 
 void FaceMap::observe(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration) {
   Member& member = join(sighting.face, T_submap_robot.q * sighting.normal);
-  const Mat4 g = plane_transform(T_submap_robot.inverse());
+  const Mat4 g = plane_transform(T_submap_robot);
   member.evidence += g.transpose() * plane_evidence(sighting, noise_) * g;
   ++member.observations;
   ++faces[sighting.face].observations;
-  update(sighting.face);
   observe_edges(T_submap_robot, sighting, iteration, member);
   std::vector<Vec3> points = member.outline;
   for (const Vec3& p : sighting.outline) points.push_back(T_submap_robot * p);
   member.outline = hull_on_plane(points, fit_plane(member.evidence, member.normal), kMostCorners);
   const Pose3 T_map_robot = submaps[active_].T_map_submap * T_submap_robot;
+  update(sighting.face);
   points.clear();
   for (const Vec3& p : sighting.outline) points.push_back(T_map_robot * p);
   extend_outline(faces[sighting.face], points);
   note_beyond(T_map_robot, sighting);
-  update(sighting.face);
 }
 
 void FaceMap::observe_edges(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration,
                             Member& member) {
   FaceRecord& face = faces[sighting.face];
   const Pose3 T_map_robot = submaps[active_].T_map_submap * T_submap_robot;
-  const Mat4 g = plane_transform(T_submap_robot.inverse());
+  const Mat4 g = plane_transform(T_submap_robot);
   for (const SightedEdge& edge : sighting.edges) {
     if (!edge.is_true) continue;
     Index found = PoseFit::find_edge(edge, lines(sighting.face, true), T_map_robot, kSameEdge_m);
     if (found == kNone) {
       found = face.edges.size();
       face.edges.emplace_back().id = next_edge_++;
-      face.edges.back().line.plane.head<3>() = T_map_robot.q * edge.outward;
+      const Vec3 outward = T_map_robot.q * edge.outward;
+      face.edges.back().line.plane << outward, outward.dot(T_map_robot * edge.end[0]);
     }
     EdgeRecord& record = face.edges[found];
     ++record.sightings;
@@ -106,7 +106,6 @@ void FaceMap::observe_edges(const Pose3& T_submap_robot, const Sighting& sightin
                             [&](const EdgeSum& s) { return s.id == record.id; });
     if (sum == member.edges.end()) sum = member.edges.insert(sum, {record.id, Mat4::Zero()});
     sum->evidence += g.transpose() * edge_evidence(edge, noise_) * g;
-    update(sighting.face);
   }
 }
 

@@ -9,6 +9,7 @@ namespace hallway::slam_plane::spatial {
 namespace {
 
 constexpr double kLeastShare = 0.5;   // of the smaller outline
+constexpr double kTwinShare = 0.15;   // what lies in one plane and overlaps is one; less may be noise
 constexpr double kRivalShare = 0.2;   // two parts of one face share less than that of the smaller one
 constexpr double kLeastArea_m2 = 1e-4;
 constexpr double kTwins_m = 0.06;  // farthest that two faces lie from each other's planes that are one
@@ -97,7 +98,7 @@ bool FaceMatcher::are_twins(const FaceRecord& a, const FaceRecord& b) const {
   if (std::abs(a.plane.distance(middle_of(b.outline))) > kTwins_m) return false;
   if (std::abs(b.plane.distance(middle_of(a.outline))) > kTwins_m) return false;
   const PlaneAxes axes(a.plane.normal());
-  return shared(laid_flat(a.outline, Pose3{}, axes), laid_flat(b.outline, Pose3{}, axes)) >= kLeastShare;
+  return shared(laid_flat(a.outline, Pose3{}, axes), laid_flat(b.outline, Pose3{}, axes)) >= kTwinShare;
 }
 
 }  // namespace hallway::slam_plane::spatial

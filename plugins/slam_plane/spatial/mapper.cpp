@@ -21,7 +21,7 @@ constexpr std::uint64_t kRecent = 15;       // frames for which a face counts as
 constexpr std::uint64_t kOldGround = 100;   // frames after which a face that comes back is old ground
 constexpr double kStraySigmas = 6.0;        // and kStray_m: beside the face that it should be
 constexpr double kStray_m = 0.05;
-constexpr double kDoubt_m = 0.01;           // by how much a predicted place may be wrong: a frame,
+constexpr double kDoubt_m = 0.002;          // by how much a predicted place may be wrong: a frame,
 constexpr double kDoubtShare = 0.05;        // and of the way
 constexpr int kCloseSteps = 2;              // over all submaps, when one closes
 constexpr int kRefineSteps = 20;
@@ -48,7 +48,10 @@ class Mapper::State {
       locate();
       if (lost_ == Lost::no) {
         add_faces();
-        if (choose_submap()) integrate();
+        if (choose_submap()) {
+          integrate();
+          merge_twins();
+        }
         note_motion();
       } else {
         drift();
@@ -258,7 +261,6 @@ void Mapper::State::close() {
   old_ground_ = false;
   const Pose3 T_active = map_.submaps[map_.active()].T_map_submap;
   answer_.counters.global_steps += static_cast<std::uint64_t>(solve(map_, free, kCloseSteps));
-  merge_twins();
   const Pose3 moved = map_.submaps[map_.active()].T_map_submap * T_active.inverse();
   T_map_robot_ = moved * T_map_robot_;
   if (T_map_before_) T_map_before_ = moved * *T_map_before_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane_spatial/scene.hpp"
+#include "unit/slam_plane_spatial/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +47,9 @@ void add_box(sense::FacePlan& plan, const hallway::Pose& T, const Vec3& low, con
   }
 }
 
+/// A box that touches nothing: what stands on a floor would take away of it.
 void add_solid(sense::FacePlan& plan, const Vec3& low, const Vec3& high) {
-  add_box(plan, hallway::Pose{}, low, high, false, 1u << 4);  // its bottom is on the floor
+  add_box(plan, hallway::Pose{}, low, high, false);
 }
 
 }  // namespace
@@ -56,10 +57,10 @@ void add_solid(sense::FacePlan& plan, const Vec3& low, const Vec3& high) {
 Scene furnished_room(int frames) {
   Scene scene{.name = "furnished_room", .plan = {}, .path = {}};
   add_box(scene.plan, hallway::Pose{}, {0.0, 0.0, 0.0}, {10.0, 8.0, 3.2}, true);
-  add_solid(scene.plan, {0.0, 0.0, 0.0}, {1.5, 1.0, 1.0});
-  add_solid(scene.plan, {7.5, 0.5, 0.0}, {8.5, 1.5, 2.2});
-  add_solid(scene.plan, {8.0, 6.0, 0.0}, {9.5, 7.0, 0.7});
-  add_solid(scene.plan, {1.0, 6.0, 0.0}, {2.0, 7.5, 1.5});
+  add_solid(scene.plan, {0.4, 0.5, 0.6}, {1.9, 1.5, 1.5});
+  add_solid(scene.plan, {7.5, 0.6, 0.5}, {8.5, 1.5, 2.2});
+  add_solid(scene.plan, {8.0, 6.0, 0.5}, {9.4, 7.0, 1.0});
+  add_solid(scene.plan, {1.0, 6.0, 1.0}, {2.0, 7.4, 2.1});
   const hallway::Pose tilted{from_yaw_pitch_roll(0.4, 0.5, 0.3), Vec3(4.8, 4.0, 1.2)};
   add_box(scene.plan, tilted, {-0.5, -0.6, -0.2}, {0.5, 0.6, 0.2}, false);
   for (int i = 0; i < frames; ++i) {
@@ -81,9 +82,9 @@ Scene two_rooms() {
   for (const auto& [y0, y1, z0] : {std::array{-1.0, 1.8, 0.0}, std::array{3.0, 6.0, 0.0}, std::array{1.8, 3.0, 2.1}})
     add_face(plan, {{6.3, y0, z0}, {6.3, y1, z0}, {6.3, y1, 3.6}, {6.3, y0, 3.6}});
   add_box(plan, hallway::Pose{}, {6.0, 1.8, 0.0}, {6.3, 3.0, 2.1}, true, 3u);
-  add_solid(plan, {1.0, 3.5, 0.0}, {2.0, 4.5, 1.2});
-  add_solid(plan, {9.0, 3.5, 0.0}, {10.0, 5.0, 1.8});
-  add_solid(plan, {8.5, -0.5, 0.0}, {9.2, 0.3, 0.8});
+  add_solid(plan, {1.0, 3.4, 0.6}, {2.0, 4.4, 1.4});
+  add_solid(plan, {9.0, 3.5, 0.6}, {10.0, 5.0, 1.8});
+  add_solid(plan, {8.5, -0.5, 0.5}, {9.2, 0.3, 1.0});
   const auto fly = [&](const Vec3& from, const Vec3& to, double yaw0, double yaw1, int frames) {
     for (int i = 0; i < frames; ++i) {
       const double s = static_cast<double>(i) / frames;
