@@ -33,9 +33,10 @@ class SlamPlane final : public sdk::Plugin {
     parameters().add_choice(
         "mode", &mode_, kModeNames,
         "relative: submaps of lines and corners, placed together; thesis: comparisons of pairs, chained.");
-    parameters().add_choice("dof", &dof_, kDofNames,
-                            "3: upright walls, a robot that stays level; 6: any faces, a robot that moves and "
-                            "turns as it likes.");
+    parameters().add_choice(
+        "dof", &dof_, kDofNames,
+        "3: upright walls, a robot that stays level; 6: any faces, a robot that moves and "
+        "turns as it likes.");
     add_options(parameters(), thesis_options_, thesis::parameters());
   }
 

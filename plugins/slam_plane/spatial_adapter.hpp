@@ -49,7 +49,8 @@ class SpatialAdapter {
                                               ", which is not the one that they are taken from");
       const auto& planes = *static_cast<const hw_planes_t*>(sample.payload);
       samples_.push_back({k, faces_.size()});
-      for (std::uint64_t i = 0; i < planes.count; ++i) faces_.push_back(face_of(planes, *hw_plane_at(&planes, i)));
+      for (std::uint64_t i = 0; i < planes.count; ++i)
+        faces_.push_back(face_of(planes, *hw_plane_at(&planes, i)));
     }
     return faces_;
   }
@@ -63,9 +64,9 @@ class SpatialAdapter {
     }
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const auto end = i + 1 < samples_.size() ? samples_[i + 1].first : answer.associations.size();
-      host.put_associations(samples_[i].sample,
-                            std::vector<std::uint64_t>(answer.associations.begin() + offset(samples_[i].first),
-                                                       answer.associations.begin() + offset(end)));
+      host.put_associations(samples_[i].sample, std::vector<std::uint64_t>(
+                                                    answer.associations.begin() + offset(samples_[i].first),
+                                                    answer.associations.begin() + offset(end)));
     }
     const spatial::Counters& counters = answer.counters;
     const Vec3 open = T_body_sensor_.q * answer.undetermined;
@@ -92,7 +93,8 @@ class SpatialAdapter {
     std::vector<hw_submap_t> submaps;
     std::vector<std::uint64_t> members;
     for (const spatial::MappedSubmap& submap : map.submaps) {
-      submaps.push_back({submap.id, to_c(body_pose(submap.T_map_submap)), members.size(), submap.members.size()});
+      submaps.push_back(
+          {submap.id, to_c(body_pose(submap.T_map_submap)), members.size(), submap.members.size()});
       members.insert(members.end(), submap.members.begin(), submap.members.end());
     }
     put_faces(host, map.faces);
@@ -123,7 +125,8 @@ class SpatialAdapter {
     face.centre = Vec3(plane.centroid);
     for (std::uint64_t i = 0; i < plane.n_hull; ++i) {
       hw_point3_t point;
-      std::memcpy(&point, static_cast<const char*>(planes.hull_points) + (plane.first_hull + i) * planes.hull_stride,
+      std::memcpy(&point,
+                  static_cast<const char*>(planes.hull_points) + (plane.first_hull + i) * planes.hull_stride,
                   sizeof point);
       face.outline.emplace_back(point.x, point.y, point.z);
     }

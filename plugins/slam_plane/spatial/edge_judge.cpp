@@ -8,7 +8,7 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kNearerSigmas = 2.0;  // that something is nearer by, if it hides
+constexpr double kNearerSigmas = 2.0;    // that something is nearer by, if it hides
 constexpr double kLeastLength_m = 0.15;  // of an edge that is clear
 constexpr double kSameDirection = 0.99;  // cosine between normals of faces that may lie in one plane
 
@@ -59,7 +59,8 @@ bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigm
     }
   }
   const auto depth = [&](const Vec3& p) { return view.range_bounds_sides ? p.norm() : p.x(); };
-  if (view.max_range_m > 0.0 && both_below(-depth(a), -depth(b), reach - view.max_range_m, reach - view.max_range_m))
+  if (view.max_range_m > 0.0 &&
+      both_below(-depth(a), -depth(b), reach - view.max_range_m, reach - view.max_range_m))
     return true;
   return view.min_range_m > 0.0 &&
          both_below(depth(a), depth(b), reach + view.min_range_m, reach + view.min_range_m);
@@ -90,7 +91,8 @@ EdgeJudge::Part EdgeJudge::hidden_part(const SightedEdge& edge, double sigma, co
 }
 
 /// Where another face of the same plane begins where an edge is.
-EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge, const Sighting& other) const {
+EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge,
+                                          const Sighting& other) const {
   constexpr Part kNothing{1.0, 0.0};
   if (own.normal.dot(other.normal) < kSameDirection) return kNothing;
   const Vec3 middle = 0.5 * (edge.end[0] + edge.end[1]);
@@ -105,7 +107,8 @@ EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge
   return part;
 }
 
-bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own, const SightedEdge& edge) const {
+bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own,
+                         const SightedEdge& edge) const {
   const double length = (edge.end[1] - edge.end[0]).norm(), doubt = sigma(own);
   std::vector<Part> taken;
   for (const Sighting& other : frame) {
@@ -126,7 +129,8 @@ bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own
 void EdgeJudge::judge(const View& view, std::vector<Sighting>& frame) const {
   for (Sighting& own : frame) {
     const double doubt = sigma(own);
-    for (SightedEdge& edge : own.edges) edge.is_true = !at_border(view, edge, doubt) && is_clear(frame, own, edge);
+    for (SightedEdge& edge : own.edges)
+      edge.is_true = !at_border(view, edge, doubt) && is_clear(frame, own, edge);
   }
 }
 

@@ -10,10 +10,10 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kSameEdge_m = 0.1;       // farthest that a seen edge lies from the one that it is
-constexpr double kBeyond_m = 0.05;        // more face than that beyond an edge, and 4 sigma, disproves it
+constexpr double kSameEdge_m = 0.1;  // farthest that a seen edge lies from the one that it is
+constexpr double kBeyond_m = 0.05;   // more face than that beyond an edge, and 4 sigma, disproves it
 constexpr double kBeyondSigmas = 4.0;
-constexpr std::uint32_t kDisproved = 3;   // sightings that do so
+constexpr std::uint32_t kDisproved = 3;    // sightings that do so
 constexpr std::uint64_t kForgotten = 100;  // frames after which an edge that is not certain is forgotten
 constexpr std::size_t kMostCorners = 24;   // of an outline
 
@@ -138,7 +138,8 @@ int FaceMap::revoke_edges(Index face, std::uint64_t iteration) {
 void FaceMap::forget_edge(Index face, EdgeId id) {
   std::erase_if(faces[face].edges, [&](const EdgeRecord& edge) { return edge.id == id; });
   for (const MemberAt& at : faces[face].members) {
-    std::erase_if(submaps[at.submap].members[at.member].edges, [&](const EdgeSum& sum) { return sum.id == id; });
+    std::erase_if(submaps[at.submap].members[at.member].edges,
+                  [&](const EdgeSum& sum) { return sum.id == id; });
   }
 }
 
@@ -189,7 +190,8 @@ void FaceMap::rebuild(Index index) {
 
 std::vector<const Feature*> FaceMap::lines(Index face, bool all) const {
   std::vector<const Feature*> lines;
-  for (const EdgeRecord& edge : faces[face].edges) lines.push_back(all || is_certain(edge) ? &edge.line : nullptr);
+  for (const EdgeRecord& edge : faces[face].edges)
+    lines.push_back(all || is_certain(edge) ? &edge.line : nullptr);
   return lines;
 }
 
@@ -248,7 +250,8 @@ void FaceMap::merge(Index kept_index, Index gone_index) {
     }
     from.face = kNone;
   }
-  std::replace(submaps[active_].first_seen.begin(), submaps[active_].first_seen.end(), gone_index, kept_index);
+  std::replace(submaps[active_].first_seen.begin(), submaps[active_].first_seen.end(), gone_index,
+               kept_index);
   kept.observations += gone.observations;
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);
   gone = FaceRecord{};

@@ -25,7 +25,7 @@ struct Member {
   Mat4 evidence = Mat4::Zero();
   std::uint32_t observations = 0;
   std::vector<EdgeSum> edges;
-  std::vector<Vec3> outline;  ///< convex hull of what was seen
+  std::vector<Vec3> outline;   ///< convex hull of what was seen
   Vec3 normal = Vec3::Zero();  ///< about
 };
 
@@ -102,7 +102,8 @@ class FaceMap {
 
  private:
   Member& join(Index face, const Vec3& normal);
-  void observe_edges(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration, Member& member);
+  void observe_edges(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration,
+                     Member& member);
   void note_beyond(const Pose3& T_map_robot, const Sighting& sighting);
   void forget_edge(Index face, EdgeId id);
   void rename_edge(Index face, EdgeId from, EdgeId to);

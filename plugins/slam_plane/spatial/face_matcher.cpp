@@ -8,9 +8,9 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kLeastShare = 0.5;   // of the smaller outline
-constexpr double kTwinShare = 0.15;   // what lies in one plane and overlaps is one; less may be noise
-constexpr double kRivalShare = 0.2;   // two parts of one face share less than that of the smaller one
+constexpr double kLeastShare = 0.5;  // of the smaller outline
+constexpr double kTwinShare = 0.15;  // what lies in one plane and overlaps is one; less may be noise
+constexpr double kRivalShare = 0.2;  // two parts of one face share less than that of the smaller one
 constexpr double kLeastArea_m2 = 1e-4;
 constexpr double kTwins_m = 0.06;  // farthest that two faces lie from each other's planes that are one
 
@@ -39,7 +39,8 @@ FaceMatcher::FaceMatcher(const Options& options)
       map_bound_(options.map_bound_m),
       cosine_(std::cos(options.match_angle_deg * std::numbers::pi / 180.0)) {}
 
-double FaceMatcher::score(const FaceRecord& face, const Sighting& sighting, const Pose3& T, double bound) const {
+double FaceMatcher::score(const FaceRecord& face, const Sighting& sighting, const Pose3& T,
+                          double bound) const {
   const double agreement = face.plane.normal().dot(T.q * sighting.normal);
   if (agreement < cosine_) return 0.0;
   const double offset = std::abs(face.plane.distance(T * sighting.centre));
@@ -55,7 +56,8 @@ void FaceMatcher::match(const FaceMap& map, std::uint64_t since, double bound, c
   for (Index i = 0; i < frame.size(); ++i) {
     Sighting& sighting = frame[i];
     if (sighting.face != kNone) {
-      scores_[i] = score(map.faces[sighting.face], sighting, T, bound) + 1.0;  // stays before those that come now
+      scores_[i] =
+          score(map.faces[sighting.face], sighting, T, bound) + 1.0;  // stays before those that come now
       continue;
     }
     for (Index f = 0; f < map.faces.size(); ++f) {

@@ -17,7 +17,8 @@ class FaceMatcher {
   explicit FaceMatcher(const Options& options);
 
   /// Gives faces seen since `since` to the sightings that have none. O(sightings * faces).
-  void match_recent(const FaceMap& map, std::uint64_t since, const Pose3& T_map_robot, std::vector<Sighting>& frame);
+  void match_recent(const FaceMap& map, std::uint64_t since, const Pose3& T_map_robot,
+                    std::vector<Sighting>& frame);
   /// Gives any faces to the sightings that have none.
   void match_map(const FaceMap& map, const Pose3& T_map_robot, std::vector<Sighting>& frame);
 
@@ -26,7 +27,8 @@ class FaceMatcher {
 
  private:
   double score(const FaceRecord& face, const Sighting& sighting, const Pose3& T, double bound) const;
-  void match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T, std::vector<Sighting>& frame);
+  void match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
+             std::vector<Sighting>& frame);
   void resolve_rivals(const FaceMap& map, const Pose3& T, std::vector<Sighting>& frame);
 
   double near_bound_;

@@ -9,9 +9,9 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kSnap_m = 0.05;      // what was seen up to so near to a certain edge goes up to it
+constexpr double kSnap_m = 0.05;  // what was seen up to so near to a certain edge goes up to it
 constexpr double kOnLine_m = 1e-7;
-constexpr double kCrossing = 0.2;     // sine of the angle between lines that have a crossing
+constexpr double kCrossing = 0.2;  // sine of the angle between lines that have a crossing
 
 /// A certain edge, laid flat: normal . x <= offset.
 struct Line {

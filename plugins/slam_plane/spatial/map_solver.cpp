@@ -9,9 +9,9 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kEdgeHuber_m = 0.1;   // edges that are farther off count less
-constexpr double kSettled = 1e-9;      // relative decrease of the sum below which no further step is taken
-constexpr double kDamping = 1e-9;      // of the diagonal
+constexpr double kEdgeHuber_m = 0.1;  // edges that are farther off count less
+constexpr double kSettled = 1e-9;     // relative decrease of the sum below which no further step is taken
+constexpr double kDamping = 1e-9;     // of the diagonal
 
 using Mat46 = Eigen::Matrix<double, 4, 6>;
 using Mat63 = Eigen::Matrix<double, 6, 3>;
@@ -65,7 +65,8 @@ class Problem {
       const Mat63 share = a * inverse;
       g_.segment<6>(static_cast<Eigen::Index>(6 * i)) -= share * own_g;
       for (const auto& [k, b] : coupled)
-        h_.block<6, 6>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(6 * k)) -= share * b.transpose();
+        h_.block<6, 6>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(6 * k)) -=
+            share * b.transpose();
     }
   }
 

@@ -17,22 +17,27 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr std::uint64_t kRecent = 15;       // frames for which a face counts as seen just before
-constexpr std::uint64_t kOldGround = 100;   // frames after which a face that comes back is old ground
-constexpr double kStraySigmas = 6.0;        // and kStray_m: beside the face that it should be
+constexpr std::uint64_t kRecent = 15;      // frames for which a face counts as seen just before
+constexpr std::uint64_t kOldGround = 100;  // frames after which a face that comes back is old ground
+constexpr double kStraySigmas = 6.0;       // and kStray_m: beside the face that it should be
 constexpr double kStray_m = 0.05;
-constexpr double kDoubt_m = 0.002;          // by how much a predicted place may be wrong: a frame,
-constexpr double kDoubtShare = 0.05;        // and of the way
-constexpr int kCloseSteps = 2;              // over all submaps, when one closes
+constexpr double kDoubt_m = 0.002;    // by how much a predicted place may be wrong: a frame,
+constexpr double kDoubtShare = 0.05;  // and of the way
+constexpr int kCloseSteps = 2;        // over all submaps, when one closes
 constexpr int kRefineSteps = 20;
-constexpr std::size_t kWindow = 12;         // submaps that are placed anew when one closes on new ground
+constexpr std::size_t kWindow = 12;  // submaps that are placed anew when one closes on new ground
 
 }  // namespace
 
 class Mapper::State {
  public:
   explicit State(const Options& options)
-      : options_(options), map_(options), judge_(options), matcher_(options), fit_(options), submap_fit_(options) {
+      : options_(options),
+        map_(options),
+        judge_(options),
+        matcher_(options),
+        fit_(options),
+        submap_fit_(options) {
     options_.validate();
   }
 
@@ -105,8 +110,8 @@ class Mapper::State {
   Pose3 T_map_robot_;
   Pose3 T_submap_robot_;
   std::optional<Pose3> T_map_before_;  // of the last frame, if it had a pose
-  Vec6 motion_ = Vec6::Zero();  // predicted, from frame to frame, in the robot's frame
-  bool moving_ = false;         // it is known
+  Vec6 motion_ = Vec6::Zero();         // predicted, from frame to frame, in the robot's frame
+  bool moving_ = false;                // it is known
   PoseInformation known_;
   Lost lost_ = Lost::no;
   double doubt_m_ = 0.0;  // of the predicted place, while the pose is lost
@@ -196,7 +201,8 @@ void Mapper::State::locate() {
     known_ = fit_to_map(T);
   }
   T_map_robot_ = T;
-  const bool none = std::none_of(frame_.begin(), frame_.end(), [](const Sighting& s) { return s.face != kNone; });
+  const bool none =
+      std::none_of(frame_.begin(), frame_.end(), [](const Sighting& s) { return s.face != kNone; });
   if (none) {
     lost_ = Lost::nothing_known;
   } else if (!known_.determined() || doubt_m_ > options_.map_bound_m) {
@@ -271,7 +277,8 @@ void Mapper::State::merge_twins() {
     if (sighting.face == kNone) continue;
     for (Index other = 0; other < map_.faces.size(); ++other) {
       const Index own = sighting.face;
-      if (other == own || !map_.faces[other].alive() || !matcher_.are_twins(map_.faces[own], map_.faces[other]))
+      if (other == own || !map_.faces[other].alive() ||
+          !matcher_.are_twins(map_.faces[own], map_.faces[other]))
         continue;
       const Index kept = std::min(own, other), gone = std::max(own, other);
       map_.merge(kept, gone);
@@ -289,7 +296,8 @@ void Mapper::State::integrate() {
   for (const Sighting& sighting : frame_) {
     if (sighting.face == kNone) continue;
     map_.observe(T_submap_robot_, sighting, iteration_);
-    answer_.counters.edges_revoked += static_cast<std::uint64_t>(map_.revoke_edges(sighting.face, iteration_));
+    answer_.counters.edges_revoked +=
+        static_cast<std::uint64_t>(map_.revoke_edges(sighting.face, iteration_));
     FaceRecord& face = map_.faces[sighting.face];
     if (face.observations > 1 && face.last_seen + kOldGround < iteration_) old_ground_ = true;
     face.last_seen = iteration_;

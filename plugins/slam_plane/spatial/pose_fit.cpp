@@ -11,7 +11,7 @@
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr int kSteps = 4;               // the last one with edges gated
+constexpr int kSteps = 4;  // the last one with edges gated
 constexpr double kEdgeBounds_m[kSteps] = {0.3, 0.2, 0.15, 0.15};
 constexpr double kEdgeGateSigmas = 4.0;
 constexpr double kWorstTurn_rad = 0.05;  // standard deviation of a rotation above which it is open
@@ -76,7 +76,8 @@ void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound, bool gat
     const Feature& feature = *pair.edges[found];
     for (const Vec3& end : edge.end) {
       const Vec3 arm = T.q * end;
-      const double variance = noise_.end * noise_.end + noise_.along * noise_.along + feature.variance_at(arm + T.t);
+      const double variance =
+          noise_.end * noise_.end + noise_.along * noise_.along + feature.variance_at(arm + T.t);
       const double residual = feature.distance(arm + T.t);
       const double ratio2 = residual * residual / (kEdgeGateSigmas * kEdgeGateSigmas * variance);
       if (gated && ratio2 > 1.0) continue;
@@ -89,7 +90,8 @@ void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound, bool gat
 void PoseFit::judge(PoseInformation& information) const {
   Vec6 scale;
   scale << Vec3::Constant(undetermined_m_), Vec3::Constant(kWorstTurn_rad);
-  const Eigen::SelfAdjointEigenSolver<Mat6> solver(scale.asDiagonal() * information.matrix * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Mat6> solver(scale.asDiagonal() * information.matrix *
+                                                   scale.asDiagonal());
   information.open = static_cast<int>((solver.eigenvalues().array() < 1.0).count());
   information.directions = solver.eigenvectors();
 }

@@ -11,9 +11,11 @@ namespace hallway::slam_plane::spatial {
 
 /// What is known of a pose.
 struct PoseInformation {
-  Mat6 matrix = Mat6::Zero();  ///< inverse covariance of position [m] and rotation vector [rad], both in the map's frame
-  int open = 6;                ///< directions whose standard deviation is too large
-  Mat6 directions = Mat6::Identity();  ///< by columns, the open ones first; of length 1 in units of what is too large
+  Mat6 matrix = Mat6::
+      Zero();    ///< inverse covariance of position [m] and rotation vector [rad], both in the map's frame
+  int open = 6;  ///< directions whose standard deviation is too large
+  Mat6 directions =
+      Mat6::Identity();  ///< by columns, the open ones first; of length 1 in units of what is too large
   bool determined() const { return open == 0; }
 };
 

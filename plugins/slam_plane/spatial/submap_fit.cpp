@@ -68,7 +68,8 @@ Index SubmapFit::find_old(const FaceMap& map, const std::vector<Index>& in_view,
   return best;
 }
 
-std::vector<Index> SubmapFit::nearest(const FaceMap& map, const std::vector<Index>& in_view, std::size_t most) {
+std::vector<Index> SubmapFit::nearest(const FaceMap& map, const std::vector<Index>& in_view,
+                                      std::size_t most) {
   std::vector<std::pair<std::size_t, Index>> shared;
   for (Index i = 1; i < map.submaps.size(); ++i) {
     std::size_t count = 0;
@@ -76,7 +77,8 @@ std::vector<Index> SubmapFit::nearest(const FaceMap& map, const std::vector<Inde
       count += std::binary_search(in_view.begin(), in_view.end(), member.face) ? 1u : 0u;
     if (count > 0) shared.emplace_back(count, i);
   }
-  std::sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a > b; });  // of many the newest
+  std::sort(shared.begin(), shared.end(),
+            [](const auto& a, const auto& b) { return a > b; });  // of many the newest
   if (shared.size() > most) shared.resize(most);
   std::vector<Index> nearest;
   for (const auto& [count, submap] : shared) nearest.push_back(submap);

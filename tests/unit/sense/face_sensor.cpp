@@ -40,7 +40,7 @@ std::vector<FacePiece> seen(const FacePlan& plan, const FaceViewSpec& spec = {},
   return pieces;
 }
 
-double area_of(const Polygon& polygon) {
+double size_of(const Polygon& polygon) {
   Vec3 twice = Vec3::Zero();
   for (std::size_t i = 2; i < polygon.vertices.size(); ++i) {
     twice += (polygon.vertices[i - 1] - polygon.vertices[0]).cross(polygon.vertices[i] - polygon.vertices[0]);
@@ -64,12 +64,13 @@ TEST(Convex, WidthAreaAndDifference) {
 TEST(FaceView, AFaceWithinTheViewIsSeenWhole) {
   const auto pieces = seen(plan_of({board(4, -1, 1, -0.5, 0.5)}));
   ASSERT_EQ(pieces.size(), 1u);
-  EXPECT_NEAR(area_of(pieces[0].seen), 2.0, 1e-12);
+  EXPECT_NEAR(size_of(pieces[0].seen), 2.0, 1e-12);
   EXPECT_LT(pieces[0].seen.plane.offset, 0.0);
 }
 
 TEST(FaceView, AFaceIsCutByThePyramidAndTheDepths) {
-  EXPECT_NEAR(area_of(seen(plan_of({board(4, -9, 9, -9, 9)}))[0].seen), 8.0 * 8.0 * std::tan(std::numbers::pi / 6.0), 1e-9);
+  EXPECT_NEAR(size_of(seen(plan_of({board(4, -9, 9, -9, 9)}))[0].seen),
+              8.0 * 8.0 * std::tan(std::numbers::pi / 6.0), 1e-9);
   EXPECT_TRUE(seen(plan_of({board(13, -1, 1, -1, 1)})).empty());
   EXPECT_TRUE(seen(plan_of({board(-4, -1, 1, -1, 1)})).empty());
   const Polygon floor = face({{0, -1, -1}, {20, -1, -1}, {20, 1, -1}, {0, 1, -1}});
@@ -88,17 +89,17 @@ TEST(FaceView, WhatIsNearerHides) {
   const Polygon far = board(4, -1, 1, -0.5, 0.5), near = board(2, -2, 0, -1, 1);
   const auto pieces = seen(plan_of({far, near}));
   ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_NEAR(area_of(pieces[0].seen), 1.0, 1e-9) << "the right half is hidden";
-  EXPECT_NEAR(area_of(pieces[1].seen), 2.0 * 4.0 / 2.0, 1e-9);
+  EXPECT_NEAR(size_of(pieces[0].seen), 1.0, 1e-9) << "the right half is hidden";
+  EXPECT_NEAR(size_of(pieces[1].seen), 2.0 * 4.0 / 2.0, 1e-9);
   FaceViewSpec through;
   through.occlusion = false;
-  EXPECT_NEAR(area_of(seen(plan_of({far, near}), through)[0].seen), 2.0, 1e-9);
+  EXPECT_NEAR(size_of(seen(plan_of({far, near}), through)[0].seen), 2.0, 1e-9);
 }
 
 TEST(FaceView, OfWhatIsSeenInTwoPartsTheHullIsGiven) {
   const auto pieces = seen(plan_of({board(4, -1, 1, -0.5, 0.5), board(2, -0.1, 0.1, -1, 1)}));
   ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_NEAR(area_of(pieces[0].seen), 2.0, 1e-9);
+  EXPECT_NEAR(size_of(pieces[0].seen), 2.0, 1e-9);
 }
 
 /// Faces of boxes that lie about, seen from any pose, against points of them and rays.

@@ -12,9 +12,10 @@ namespace {
 
 /// An upright rectangle at a depth, which faces the robot.
 Face board(double depth, double y_right, double y_left, double z_low, double z_high) {
-  return {-Vec3::UnitX(),
-          Vec3(depth, 0.5 * (y_left + y_right), 0.5 * (z_low + z_high)),
-          {{depth, y_left, z_low}, {depth, y_right, z_low}, {depth, y_right, z_high}, {depth, y_left, z_high}}};
+  return {
+      -Vec3::UnitX(),
+      Vec3(depth, 0.5 * (y_left + y_right), 0.5 * (z_low + z_high)),
+      {{depth, y_left, z_low}, {depth, y_right, z_low}, {depth, y_right, z_high}, {depth, y_left, z_high}}};
 }
 
 /// Which edges of the first face are true: those at the bottom, right, top, left.

@@ -44,7 +44,8 @@ TEST(SpatialMapper, WhatDoesNotDetermineThePoseIsLostAndSaysWhatIsOpen) {
   add(Vec3::UnitZ(), {{-50, -1, 0}, {50, -1, 0}, {50, 1, 0}, {-50, 1, 0}});
   add(-Vec3::UnitY(), {{-50, 1, 0}, {50, 1, 0}, {50, 1, 3}, {-50, 1, 3}});
   add(Vec3::UnitY(), {{50, -1, 0}, {-50, -1, 0}, {-50, -1, 3}, {50, -1, 3}});
-  for (int i = 0; i < 5; ++i) corridor.path.push_back({hallway::from_yaw_pitch_roll(0.1, 0.1, 0.1), Vec3(0.1 * i, 0, 1.4)});
+  for (int i = 0; i < 5; ++i)
+    corridor.path.push_back({hallway::from_yaw_pitch_roll(0.1, 0.1, 0.1), Vec3(0.1 * i, 0, 1.4)});
   Mapper mapper{Options{}};
   for (const TrueFrame& frame : see(corridor, NoiseOf{}, 1)) {
     ASSERT_EQ(frame.faces.size(), 3u);
@@ -65,7 +66,9 @@ TEST(SpatialMapper, ARobotThatSeesNothingIsLostAndGoesOn) {
     const bool blind = i >= 20 && i < 22;
     const Answer& answer = mapper.process(blind ? std::vector<Face>{} : frames[i].faces, kView);
     EXPECT_EQ(answer.has_pose, !blind) << i;
-    if (blind) EXPECT_EQ(answer.lost, Lost::nothing_known);
+    if (blind) {
+      EXPECT_EQ(answer.lost, Lost::nothing_known);
+    }
   }
   EXPECT_EQ(mapper.process({}, kView).counters.merged, 0u);
 }

@@ -18,7 +18,8 @@ Sighting seen(const Feature& plane, const Vec3& centre, const Pose3& T_map_robot
   Face face;
   face.normal = T.q * plane.normal();
   face.centre = T * Vec3(centre - plane.distance(centre) * plane.normal());
-  const Vec3 u = face.normal.cross(std::abs(face.normal.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY()).normalized();
+  const Vec3 u =
+      face.normal.cross(std::abs(face.normal.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY()).normalized();
   const Vec3 v = face.normal.cross(u);
   for (const auto& [s, t] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
     face.outline.push_back(face.centre + 0.5 * s * u + 0.5 * t * v);
@@ -72,8 +73,7 @@ TEST_F(SpatialPoseFit, OnePlaneLeavesThreeDirectionsOpen) {
 
 TEST_F(SpatialPoseFit, AnEdgeClosesTheWayAlongACorridor) {
   sightings_ = {seen(floor_, Vec3(2, 1, 0), truth_), seen(left_, Vec3(2, 3, 1), truth_)};
-  for (SightedEdge& edge : sightings_[1].edges)
-    edge.is_true = (truth_.q * edge.outward).x() > 0.9;
+  for (SightedEdge& edge : sightings_[1].edges) edge.is_true = (truth_.q * edge.outward).x() > 0.9;
   Vec3 at = Vec3::Zero();
   for (const SightedEdge& edge : sightings_[1].edges) {
     if (edge.is_true) at = truth_ * edge.end[0];

@@ -66,7 +66,8 @@ Scene furnished_room(int frames) {
   for (int i = 0; i < frames; ++i) {
     const double s = 0.02 * i;  // radians round the circle
     const Vec3 at(5.0 + 2.6 * std::cos(s), 4.0 + 2.2 * std::sin(s), 1.5 + 0.4 * std::sin(2.0 * s));
-    scene.path.push_back({from_yaw_pitch_roll(s + 2.2, 0.25 * std::sin(3.0 * s), 0.35 * std::sin(1.7 * s)), at});
+    scene.path.push_back(
+        {from_yaw_pitch_roll(s + 2.2, 0.25 * std::sin(3.0 * s), 0.35 * std::sin(1.7 * s)), at});
   }
   return scene;
 }
@@ -77,9 +78,11 @@ Scene two_rooms() {
   add_box(plan, hallway::Pose{}, {0.0, 0.0, 0.0}, {6.0, 5.0, 2.6}, true, 1u << 1);
   add_box(plan, hallway::Pose{}, {6.3, -1.0, 0.0}, {13.0, 6.0, 3.6}, true, 1u << 0);
   // The door's wall on both sides, in three parts, and the door's inside.
-  for (const auto& [y0, y1, z0] : {std::array{0.0, 1.8, 0.0}, std::array{3.0, 5.0, 0.0}, std::array{1.8, 3.0, 2.1}})
+  for (const auto& [y0, y1, z0] :
+       {std::array{0.0, 1.8, 0.0}, std::array{3.0, 5.0, 0.0}, std::array{1.8, 3.0, 2.1}})
     add_face(plan, {{6.0, y1, z0}, {6.0, y0, z0}, {6.0, y0, 2.6}, {6.0, y1, 2.6}});
-  for (const auto& [y0, y1, z0] : {std::array{-1.0, 1.8, 0.0}, std::array{3.0, 6.0, 0.0}, std::array{1.8, 3.0, 2.1}})
+  for (const auto& [y0, y1, z0] :
+       {std::array{-1.0, 1.8, 0.0}, std::array{3.0, 6.0, 0.0}, std::array{1.8, 3.0, 2.1}})
     add_face(plan, {{6.3, y0, z0}, {6.3, y1, z0}, {6.3, y1, 3.6}, {6.3, y0, 3.6}});
   add_box(plan, hallway::Pose{}, {6.0, 1.8, 0.0}, {6.3, 3.0, 2.1}, true, 3u);
   add_solid(plan, {1.0, 3.4, 0.6}, {2.0, 4.4, 1.4});
@@ -90,8 +93,9 @@ Scene two_rooms() {
       const double s = static_cast<double>(i) / frames;
       const double ease = s * s * (3.0 - 2.0 * s);
       const double k = 0.05 * static_cast<double>(scene.path.size());
-      scene.path.push_back({from_yaw_pitch_roll(yaw0 + ease * (yaw1 - yaw0), 0.15 * std::sin(k), 0.2 * std::sin(0.7 * k)),
-                            from + ease * (to - from)});
+      scene.path.push_back(
+          {from_yaw_pitch_roll(yaw0 + ease * (yaw1 - yaw0), 0.15 * std::sin(k), 0.2 * std::sin(0.7 * k)),
+           from + ease * (to - from)});
     }
   };
   const Vec3 a(1.5, 1.5, 1.2), b(4.8, 2.4, 1.1), c(8.0, 2.3, 1.4), d(11.0, 2.0, 2.4);
@@ -164,7 +168,8 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
     const hallway::Pose T = T_world_map * pose_of(answers[i].T_map_robot);
     const double error = (T.t - frames[i].T_world_robot.t).norm();
     outcome.worst_position_m = std::max(outcome.worst_position_m, error);
-    outcome.worst_turn_rad = std::max(outcome.worst_turn_rad, hallway::angle_between(T.q, frames[i].T_world_robot.q));
+    outcome.worst_turn_rad =
+        std::max(outcome.worst_turn_rad, hallway::angle_between(T.q, frames[i].T_world_robot.q));
     squares += error * error;
     ++poses;
   }
@@ -172,8 +177,8 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
 
   std::map<WallId, std::uint32_t> owner;
   for (const auto& [id, of] : votes) {
-    const auto most =
-        std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most = std::max_element(of.begin(), of.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
     owner[id] = most->first;
     for (const auto& [truth, count] : of) outcome.wrong += truth == most->first ? 0 : count;
   }

@@ -48,12 +48,13 @@ struct Outcome {
   double worst_position_m = 0.0, position_rmse_m = 0.0;
   double worst_turn_rad = 0.0;
   int lost = 0;
-  int missing = 0;      ///< faces seen 20 times that are not mapped
-  int duplicated = 0;   ///< mapped faces of a face that has another one
-  int wrong = 0;        ///< associations with a mapped face that is mostly of another one
-  double worst_plane_m = 0.0, plane_rmse_m = 0.0;  ///< of true corners that were seen, across the mapped planes
+  int missing = 0;     ///< faces seen 20 times that are not mapped
+  int duplicated = 0;  ///< mapped faces of a face that has another one
+  int wrong = 0;       ///< associations with a mapped face that is mostly of another one
+  double worst_plane_m = 0.0,
+         plane_rmse_m = 0.0;  ///< of true corners that were seen, across the mapped planes
   int certain_edges = 0;
-  int false_edges = 0;  ///< certain edges farther than 10 cm from every true one
+  int false_edges = 0;                           ///< certain edges farther than 10 cm from every true one
   double worst_edge_m = 0.0, edge_rmse_m = 0.0;  ///< of the others
   Counters counters;
 };

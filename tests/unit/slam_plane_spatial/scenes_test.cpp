@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <ostream>
+#include <sstream>
+#include <string>
 
 #include "unit/slam_plane_spatial/scene.hpp"
 #include "unit/slam_plane_spatial/yardstick.hpp"
@@ -9,9 +10,11 @@
 namespace hallway::slam_plane::spatial::test {
 namespace {
 
-std::ostream& operator<<(std::ostream& out, const Outcome& o) {
-  return out << "position " << o.position_rmse_m << " plane " << o.plane_rmse_m << " edge " << o.edge_rmse_m
-             << " lost " << o.lost << " missing " << o.missing << " again " << o.duplicated;
+std::string told(const Outcome& o) {
+  std::ostringstream out;
+  out << "position " << o.position_rmse_m << " plane " << o.plane_rmse_m << " edge " << o.edge_rmse_m
+      << " lost " << o.lost << " missing " << o.missing << " again " << o.duplicated;
+  return out.str();
 }
 
 void expect_exact(const Outcome& outcome) {
@@ -54,21 +57,21 @@ TEST(SpatialScenes, WithNoiseTheMapIsNearlyAsGoodAsTheDataAllow) {
     const auto frames = see(scene, kNoise, seed);
     const Outcome best = yardstick(scene, frames, Options{});
     const Outcome outcome = run(scene, frames, Options{});
-    SCOPED_TRACE(testing::Message() << "seed " << seed << ", best " << best << ", is " << outcome);
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", best " << told(best) << ", is "
+                                    << told(outcome));
     EXPECT_EQ(outcome.lost, 0);
     EXPECT_EQ(outcome.missing, 0);
     EXPECT_EQ(outcome.false_edges, 0);
     EXPECT_LT(outcome.plane_rmse_m, 1.5 * best.plane_rmse_m);
     EXPECT_LT(outcome.edge_rmse_m, 1.5 * best.edge_rmse_m);
-    EXPECT_LT(outcome.position_rmse_m, 1.3 * best.position_rmse_m);
-    RecordProperty("ratios", testing::PrintToString(outcome.plane_rmse_m / best.plane_rmse_m));
+    EXPECT_LT(outcome.position_rmse_m, 2.0 * best.position_rmse_m) << "as answered, while the map is young";
   }
 }
 
 TEST(SpatialScenes, WithNoiseTwoRoomsAreMappedThereAndBack) {
   const Scene scene = two_rooms();
   const Outcome outcome = run(scene, see(scene, kNoise, 1), Options{});
-  SCOPED_TRACE(testing::Message() << outcome);
+  SCOPED_TRACE(told(outcome));
   EXPECT_EQ(outcome.lost, 0);
   EXPECT_EQ(outcome.missing, 0);
   EXPECT_EQ(outcome.false_edges, 0);
