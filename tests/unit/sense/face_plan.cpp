@@ -7,7 +7,7 @@ namespace hallway::sense {
 namespace {
 
 /// A surface of upright rectangles in the plane x = 0, given by y and z; they share vertices where they touch.
-class Wall {
+class WallDrawing {
  public:
   void add(double y0, double y1, double z0, double z1, const std::vector<Vec2>& between = {}) {
     csg::SurfacePolygon polygon;
@@ -38,7 +38,7 @@ class Wall {
 };
 
 TEST(FacePlan, PartsOfAConvexFaceAreOneHoweverItIsCut) {
-  Wall wall;
+  WallDrawing wall;
   wall.add(0, 2, 0, 1, {{1, 1}});
   wall.add(0, 1, 1, 2);
   wall.add(1, 2, 1, 2);
@@ -49,7 +49,7 @@ TEST(FacePlan, PartsOfAConvexFaceAreOneHoweverItIsCut) {
 }
 
 TEST(FacePlan, AWallWithADoorIsThreeFaces) {
-  Wall wall;
+  WallDrawing wall;
   wall.add(0, 2, 0, 3, {{2, 2}});
   wall.add(2, 3, 2, 3);
   wall.add(3, 5, 0, 3, {{3, 2}});
@@ -59,7 +59,7 @@ TEST(FacePlan, AWallWithADoorIsThreeFaces) {
 }
 
 TEST(FacePlan, WhatIsNotWantedHidesButIsNoFace) {
-  Wall wall;
+  WallDrawing wall;
   wall.add(0, 1, 0, 1);
   wall.add(4, 5, 0, 1);
   const FacePlan plan = make_face_plan(wall.surface, [](std::size_t i) { return i == 1; });

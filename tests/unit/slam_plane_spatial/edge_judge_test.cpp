@@ -46,7 +46,7 @@ TEST(SpatialEdgeJudge, AnEdgeThatLeavesTheViewIsTrue) {
 }
 
 TEST(SpatialEdgeJudge, WhatANearerFaceMayHideIsACut) {
-  const Face near = board(2.0, -2.0, -0.5, -0.6, 0.6);
+  const Face near = board(2.0, -1.5, -0.5, -0.6, 0.6);
   EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), near}), (Edges{true, false, true, true}))
       << "the right edge stands at the bearing of the nearer one's left edge";
   EXPECT_EQ(judged({near, board(4.0, -1.0, 1.0, -0.8, 0.8)}), (Edges{true, true, true, true}))
@@ -54,8 +54,11 @@ TEST(SpatialEdgeJudge, WhatANearerFaceMayHideIsACut) {
 }
 
 TEST(SpatialEdgeJudge, AnEdgeWhereTheSamePlaneGoesOnIsNone) {
-  EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), board(4.0, -2.0, -1.0, -0.8, 0.5)}),
+  EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), board(4.0, -2.0, -1.0, -0.8, 0.8)}),
             (Edges{true, false, true, true}));
+  EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), board(4.0, -2.0, -1.0, -0.8, 0.0)}),
+            (Edges{true, true, true, true}))
+      << "it goes on beyond a part of the edge alone";
 }
 
 TEST(SpatialEdgeJudge, NoCutIsTakenForAnEdgeInScenes) {

@@ -36,7 +36,7 @@ TEST(SpatialMapper, WhatDoesNotDetermineThePoseIsLostAndSaysWhatIsOpen) {
   // Floor and two walls of a corridor without ends: cut at the sides and at the range of the view.
   Scene corridor{.name = "corridor", .plan = {}, .path = {}};
   const auto add = [&](const Vec3& normal, std::vector<Vec3> corners) {
-    corridor.plan.faces.push_back({std::move(corners), {normal, normal.dot(corners.front())}});
+    corridor.plan.faces.push_back({std::move(corners), {normal, 0.0}});
     hallway::Polygon& face = corridor.plan.faces.back();
     face.plane.offset = normal.dot(face.vertices.front());
     corridor.plan.obstacles.push_back(face);
@@ -70,7 +70,6 @@ TEST(SpatialMapper, ARobotThatSeesNothingIsLostAndGoesOn) {
       EXPECT_EQ(answer.lost, Lost::nothing_known);
     }
   }
-  EXPECT_EQ(mapper.process({}, kView).counters.merged, 0u);
 }
 
 }  // namespace

@@ -73,16 +73,16 @@ TEST_F(SpatialPoseFit, OnePlaneLeavesThreeDirectionsOpen) {
 
 TEST_F(SpatialPoseFit, AnEdgeClosesTheWayAlongACorridor) {
   sightings_ = {seen(floor_, Vec3(2, 1, 0), truth_), seen(left_, Vec3(2, 3, 1), truth_)};
-  for (SightedEdge& edge : sightings_[1].edges) edge.is_true = (truth_.q * edge.outward).x() > 0.9;
-  Vec3 at = Vec3::Zero();
-  for (const SightedEdge& edge : sightings_[1].edges) {
-    if (edge.is_true) at = truth_ * edge.end[0];
+  SightedEdge* post = &sightings_[1].edges.front();  // the one that looks most along the corridor
+  for (SightedEdge& edge : sightings_[1].edges) {
+    if ((truth_.q * edge.outward).x() > (truth_.q * post->outward).x()) post = &edge;
   }
-  const Feature post = plane_of(Vec3::UnitX(), at);
+  post->is_true = true;
+  const Feature known = plane_of(truth_.q * post->outward, truth_ * post->end[0]);
   PoseFit fit{Options{}};
   Pose3 T = start_;
   fit.add(sightings_[0], floor_, {});
-  fit.add(sightings_[1], left_, {&post});
+  fit.add(sightings_[1], left_, {&known});
   EXPECT_TRUE(fit.solve(T).determined());
   EXPECT_NEAR((T.t - truth_.t).norm(), 0.0, 1e-6);
 }
