@@ -150,10 +150,14 @@ void Mapper::State::predict() {
   T_map_robot_ = map_.submaps[map_.active()].T_map_submap * T_submap_robot_;
 }
 
+/// Where the prediction is a little wrong, a narrow face may be taken for its neighbour: what is matched by it only corrects it.
 void Mapper::State::associate() {
   Pose3 T = T_map_robot_;
-  matcher_.match_recent(map_, iteration_ > kRecent ? iteration_ - kRecent : 0, T, frame_);
+  const std::uint64_t since = iteration_ > kRecent ? iteration_ - kRecent : 0;
+  matcher_.match_recent(map_, since, T, frame_);
   fit_to_map(T);
+  for (Sighting& sighting : frame_) sighting.face = kNone;
+  matcher_.match_recent(map_, since, T, frame_);
   matcher_.match_map(map_, T, frame_);
 }
 
