@@ -336,8 +336,8 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
   for (const auto& [plane, face] : pairs) {
     angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
     offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
-    for (const End& end : level ? certain_ends(*plane, face->corners)
-                                : certain_edges(*plane, face->corners, *T_world_map)) {
+    for (const End& end :
+         level ? certain_ends(*plane, face->corners) : certain_edges(*plane, face->corners, *T_world_map)) {
       const Vec3 middle = *T_world_map * end.middle;
       corners.add((middle - end.truth.nearest(middle)).norm());
     }

@@ -93,7 +93,8 @@ std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
   std::size_t lowest = 0;  // edge, with which walls begin
   for (std::size_t i = 1; i < own.size(); ++i) lowest = height(i) < height(lowest) ? i : lowest;
   std::rotate(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lowest), own.end());
-  if (own.size() <= 4) return {numbers_of(own[0]), numbers_of(own[1]), numbers_of(own[2]), numbers_of(own.back())};
+  if (own.size() <= 4)
+    return {numbers_of(own[0]), numbers_of(own[1]), numbers_of(own[2]), numbers_of(own.back())};
   const sense::FaceAxes axes(face.plane);
   Vec2 low = axes.flat(own[0]), high = low;
   for (const Vec3& p : own) {

@@ -11,8 +11,8 @@
 namespace hallway::sense {
 namespace {
 
-constexpr double kCoplanar = 1e-10;   ///< 1 - cos of the largest angle between polygons of one face
-constexpr double kSameArea = 1e-9;     ///< relative; a hull is no larger than its parts
+constexpr double kCoplanar = 1e-10;     ///< 1 - cos of the largest angle between polygons of one face
+constexpr double kSameArea = 1e-9;      ///< relative; a hull is no larger than its parts
 constexpr double kFlatOfFace_m = 1e-6;  ///< a corner that stands out less is none
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 

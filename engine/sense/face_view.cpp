@@ -8,9 +8,9 @@
 namespace hallway::sense {
 namespace {
 
-constexpr double kLeastAway_m = 1e-6;  ///< from a face's plane, to see it at all
-constexpr double kOnFace_m = 1e-6;         ///< what does not stand out of a face farther hides nothing of it
-constexpr double kFlatOfPiece_m = 1e-6;     ///< a corner that stands out less is none
+constexpr double kLeastAway_m = 1e-6;    ///< from a face's plane, to see it at all
+constexpr double kOnFace_m = 1e-6;       ///< what does not stand out of a face farther hides nothing of it
+constexpr double kFlatOfPiece_m = 1e-6;  ///< a corner that stands out less is none
 constexpr double kNoArea_m2 = 1e-9;
 
 /// What of a polygon lies on the side that the plane's normal points to.

@@ -39,7 +39,7 @@ struct PlaneSensorSpec {
 /// One seen plane: an upright rectangle, or a polygon. Sensor frame, metres, with noise.
 struct PlaneObservation {
   std::uint32_t wall =
-      0;          ///< index in WallPlan::walls (FacePlan::faces) of what it truly is: for scoring, never for a plugin
+      0;  ///< index in WallPlan::walls (FacePlan::faces) of what it truly is: for scoring, never for a plugin
   Plane plane{};  ///< the normal is towards the sensor: offset <= 0
   Vec3 centroid = Vec3::Zero();
   /// Counter-clockwise seen from where the normal points: left and right at the bottom, right and left at the top. Of a polygon

@@ -139,8 +139,8 @@ void Simulator::make_sensors() {
     const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec);
     if (planes != nullptr && planes->shape == sense::PlaneShape::faces) {
       const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
-      faces = std::make_unique<const sense::FacePlan>(
-          sense::make_face_plan(world_.partition.surface, wanted));
+      faces =
+          std::make_unique<const sense::FacePlan>(sense::make_face_plan(world_.partition.surface, wanted));
       sensors_.emplace_back(std::in_place_type<sense::FaceSensor>, *planes, *faces, scenario_.seed);
     } else if (planes != nullptr) {
       const double height_m = (path_.at(0.0) * planes->T_body_sensor).t.z();

@@ -84,33 +84,6 @@ TEST_F(WallMaps, AreScored) {
   EXPECT_EQ(found.at("position_m").at("count"), 250);
 }
 
-TEST_F(WallMaps, OfFacesAreMadeInSixDegreesOfFreedom) {
-  Strings more = kNoise;
-  more.insert(more.end(), {"--steps", "150"});
-  run("spatial_rooms", out("run"), more);
-  const Json found = planes(out("run"));
-  EXPECT_GT(found.at("walls_true").get<int>(), 8);
-  EXPECT_EQ(found.at("final").at("walls_mapped"), found.at("walls_true"));
-  EXPECT_EQ(found.at("final").at("aligned_by"), "corners");
-  EXPECT_LT(found.at("final").at("offset_m").at("mean").get<double>(), 0.01);
-  EXPECT_LT(found.at("final").at("corner_m").at("mean").get<double>(), 0.02);
-  EXPECT_EQ(found.at("position_m").at("count"), 150);
-  EXPECT_LT(found.at("position_m").at("rms").get<double>(), 0.03);
-  for (const fs::path& log : {out("run"), out("run") / "run.mcap"}) {
-    const fs::path again = out("again-" + log.filename().string());
-    const Ended ended = hallway({"replay", log, "--out", again, "--quiet"});
-    ASSERT_EQ(ended.status, 0) << ended.err;
-    expect_same(out("run"), again);
-  }
-}
-
-TEST_F(WallMaps, InSixDegreesOfFreedomAreNotTheThesisMode) {
-  const Ended refused = hallway({"run", source_folder() / "maps/spatial_rooms.toml", "--out", out("run"),
-                                 "--quiet", "--steps", "5", "--set", "slam_plane.mode=thesis"});
-  EXPECT_NE(refused.status, 0);
-  EXPECT_NE(refused.err.find("dof=6 goes with mode=relative alone"), std::string::npos) << refused.err;
-}
-
 TEST_F(WallMaps, ComeFromPointsToo) {
   run("em_corridor", out("run"), {"--steps", "160"});
   EXPECT_TRUE(fs::exists(out("run") / "true_walls.csv"));
