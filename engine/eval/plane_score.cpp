@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "eval/plane_alignment.hpp"
 #include "eval/point_error.hpp"
 #include "geom/rigid_fit.hpp"
 
@@ -77,6 +78,33 @@ std::vector<End> certain_ends(const MappedPlane& plane, const std::vector<Vec3>&
     ends.push_back({middle, {a, (b - a).normalized()}, 0.5 * (a + b)});
   }
   return ends;
+}
+
+/// The certain edges of a plane that lies as it likes, each with the edge of its face that is nearest.
+std::vector<End> certain_edges(const MappedPlane& plane, const std::vector<Vec3>& corners,
+                               const Pose& T_world_map) {
+  std::vector<End> edges;
+  const std::size_t n = plane.outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!plane.outline[i].edge_certain) continue;
+    const Vec3 middle =
+        0.5 * (vector_of(plane.outline[i].position_m) + vector_of(plane.outline[(i + 1) % n].position_m));
+    const Vec3 placed = T_world_map * middle;
+    End edge{middle, {}, Vec3::Zero()};
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 &a = corners[k], &b = corners[(k + 1) % corners.size()];
+      if (!((b - a).norm() > 0.0)) continue;  // of a triangle
+      const Line line{a, (b - a).normalized()};
+      const double distance = (placed - line.nearest(placed)).norm();
+      if (distance >= least) continue;
+      least = distance;
+      edge.truth = line;
+      edge.true_middle = line.nearest(placed);
+    }
+    edges.push_back(edge);
+  }
+  return edges;
 }
 
 Vec3 middle_of(const MappedPlane& plane) {
@@ -209,25 +237,44 @@ std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const MappedPlane> 
   return pairs;
 }
 
+bool PlaneScore::are_level(const std::vector<Pair>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(), [](const Pair& pair) {
+    return std::abs(pair.plane->normal[2]) < kLevel && std::abs(pair.face->normal.z()) < kLevel;
+  });
+}
+
+/// By the planes, from where the first pose puts the map.
+std::optional<Pose> PlaneScore::spatial_alignment(const std::vector<Pair>& pairs, bool& by_planes) const {
+  by_planes = false;
+  if (poses_.empty()) return std::nullopt;
+  std::vector<PointOnPlane> points;
+  for (const Pair& pair : pairs) {
+    const Plane plane{pair.face->normal, pair.face->normal.dot(pair.face->corners[0])};
+    for (const log::MappedCorner& corner : pair.plane->outline)
+      points.push_back({vector_of(corner.position_m), plane});
+  }
+  const Pose first = poses_.front().T_world_body * poses_.front().T_map_body.inverse();
+  const std::optional<Pose> aligned = align_to_planes(points, first);
+  by_planes = aligned.has_value();
+  return aligned ? aligned : first;
+}
+
 std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& by_corners) const {
-  bool level = true;
+  if (!are_level(pairs)) return spatial_alignment(pairs, by_corners);
   std::vector<Vec3> from, to;
   for (const Pair& pair : pairs) {
-    level = level && std::abs(pair.plane->normal[2]) < kLevel && std::abs(pair.face->normal.z()) < kLevel;
     for (const End& end : certain_ends(*pair.plane, pair.face->corners)) {
       from.push_back(end.middle);
       to.push_back(end.true_middle);
     }
   }
-  if (level) {
-    for (std::vector<Vec3>* points : {&from, &to}) {
-      for (Vec3& point : *points) point.z() = 0.0;
-    }
+  for (std::vector<Vec3>* points : {&from, &to}) {
+    for (Vec3& point : *points) point.z() = 0.0;
   }
   by_corners = determine_a_pose(from) && determine_a_pose(to);
   if (by_corners) {
     Pose T_world_map = *rigid_fit(from, to);
-    if (level && !poses_.empty())
+    if (!poses_.empty())
       T_world_map.t.z() = poses_.front().T_world_body.t.z() - poses_.front().T_map_body.t.z();
     return T_world_map;
   }
@@ -291,11 +338,13 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
   const std::vector<Pair> pairs = pairs_of(map);
   const std::optional<Pose> T_world_map = alignment(pairs, metrics.aligned);
   if (!T_world_map) return metrics;
+  const bool level = are_level(pairs);
   Errors angles, offsets, corners;
   for (const auto& [plane, face] : pairs) {
     angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
     offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
-    for (const End& end : certain_ends(*plane, face->corners)) {
+    for (const End& end :
+         level ? certain_ends(*plane, face->corners) : certain_edges(*plane, face->corners, *T_world_map)) {
       const Vec3 middle = *T_world_map * end.middle;
       corners.add((middle - end.truth.nearest(middle)).norm());
     }

@@ -56,7 +56,7 @@ class PlaneScore {
   std::vector<log::PoseErrorRow> refitted_errors(std::span<const log::MappedPlane> map) const;
 
   /// How a map lies in the world: by the best fit of its certain ends to the true ones, if three of them not near one line are known, else by the
-  /// first pose. Where all its normals are level the fit leaves heights alone.
+  /// first pose; heights are left alone. Where a normal is not level: by the planes, from where the first pose puts the map, if they determine it.
   std::optional<Pose> alignment(std::span<const log::MappedPlane> map) const;
 
  private:
@@ -79,6 +79,9 @@ class PlaneScore {
   };
 
   bool is_asked_for(const Face& face) const { return face.frames >= kLeastFrames; }
+  /// Whether all planes are upright, as a map in 2 1/2-D has them.
+  static bool are_level(const std::vector<Pair>& pairs);
+  std::optional<Pose> spatial_alignment(const std::vector<Pair>& pairs, bool& by_planes) const;
   std::vector<Pair> pairs_of(std::span<const log::MappedPlane> map) const;
   std::optional<Pose> alignment(const std::vector<Pair>& pairs, bool& by_corners) const;
   PlaneMapMetrics score(std::span<const log::MappedPlane> map) const;

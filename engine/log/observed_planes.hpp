@@ -42,7 +42,7 @@ struct ReadPlaneLog {
 /// Whether a table is one of planes, by its header.
 bool is_of_planes(std::string_view text);
 
-/// Reads observed planes from CSV: a header with `iteration` and the columns of the geometry of planes.csv, and perhaps `wall_id`, in
+/// Reads observed planes from CSV: a header with `iteration` and the columns of the geometry of planes.csv, and perhaps `wall_id` and `hull`, in
 /// any order, then rows of non-decreasing iterations (docs/formats.md). A plane's id is its place in its frame, and it is of no points.
 ///
 /// A bad row ends the reading: the rows before it are kept and the damage is told. Throws Error{kBadInput} with the line if the header

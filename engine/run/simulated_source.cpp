@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -53,7 +54,12 @@ void SimulatedSource::take(const sense::PlaneSensorSpec& spec) {
   sensor_.max_range_m = spec.view.max_range_m;
   sensor_.noise_m[0] = sensor_.noise_m[1] = spec.noise_m;  // along the normals, which are level
   sensor_.noise_m[2] = 0.0;
-  set_walls(*simulator_.walls(0));
+  if (spec.shape == sense::PlaneShape::faces) {
+    sensor_.noise_m[2] = spec.noise_m;
+    set_faces(*simulator_.faces(0));
+  } else {
+    set_walls(*simulator_.walls(0));
+  }
 }
 
 void SimulatedSource::add_walls() {
@@ -80,6 +86,26 @@ std::array<double, 3> numbers_of(const Vec3& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
+/// Four corners for a face: its own, the last one twice where it has three, or those of a rectangle around it.
+std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
+  std::vector<Vec3> own = face.vertices;
+  const auto height = [&](std::size_t i) { return own[i].z() + own[(i + 1) % own.size()].z(); };
+  std::size_t lowest = 0;  // edge, with which walls begin
+  for (std::size_t i = 1; i < own.size(); ++i) lowest = height(i) < height(lowest) ? i : lowest;
+  std::rotate(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lowest), own.end());
+  if (own.size() <= 4)
+    return {numbers_of(own[0]), numbers_of(own[1]), numbers_of(own[2]), numbers_of(own.back())};
+  const sense::FaceAxes axes(face.plane);
+  Vec2 low = axes.flat(own[0]), high = low;
+  for (const Vec3& p : own) {
+    low = low.cwiseMin(axes.flat(p));
+    high = high.cwiseMax(axes.flat(p));
+  }
+  const auto corner = [&](double x, double y) { return numbers_of(axes.lift({x, y})); };
+  return {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()),
+          corner(low.x(), high.y())};
+}
+
 log::ObservedPlane plane_of(const sense::PlaneObservation& seen, std::uint64_t id) {
   log::ObservedPlane observed;
   observed.wall = seen.wall;
@@ -89,11 +115,18 @@ log::ObservedPlane plane_of(const sense::PlaneObservation& seen, std::uint64_t i
   observed.plane.centroid_m = numbers_of(seen.centroid);
   for (std::size_t i = 0; i < seen.corners.size(); ++i)
     observed.plane.corners_m[i] = numbers_of(seen.corners[i]);
+  for (const Vec3& p : seen.hull) observed.hull_m.push_back(numbers_of(p));
   observed.plane.exclusive_share = 1.0;
   return observed;
 }
 
 }  // namespace
+
+void SimulatedSource::set_faces(const sense::FacePlan& plan) {
+  walls_.emplace();
+  for (const Polygon& face : plan.faces)
+    walls_->push_back({.id = walls_->size(), .corners_m = corners_of(face)});
+}
 
 void SimulatedSource::read(std::uint32_t iteration, SourceFrame& frame) {
   const sim::Frame step = simulator_.step(iteration);

@@ -26,6 +26,7 @@ class SimulatedSource : public Source {
   void take(const sense::PointSensorSpec& spec);
   void take(const sense::PlaneSensorSpec& spec);
   void set_walls(const sense::WallPlan& plan);
+  void set_faces(const sense::FacePlan& plan);
 
   const sim::Simulator& simulator_;
   host::SensorInfo sensor_;

@@ -69,6 +69,8 @@ void WallSight::read_planes(const FrameAnswer& answer) {
       for (const auto& corner : seen.plane.corners_m)
         given.bounds.push_back(T_body_sensor_ * place_of(corner));
     }
+    for (const auto& point : seen.hull_m) places_.push_back({seen.wall, T_body_sensor_ * place_of(point)});
+    if (!seen.hull_m.empty()) continue;
     for (const std::size_t corner : {0u, 1u})
       places_.push_back({seen.wall, T_body_sensor_ * place_of(seen.plane.corners_m[corner])});
   }

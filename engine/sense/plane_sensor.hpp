@@ -15,12 +15,19 @@
 
 namespace hallway::sense {
 
+/// Which planes a sensor of planes sees.
+enum class PlaneShape {
+  walls,  ///< walls, at one height: PlaneSensor
+  faces,  ///< all faces, from any pose: FaceSensor
+};
+
 /// What a sensor of planes is. Its frame is that of a robot's body: x forward (the line of sight), y left, z up.
 struct PlaneSensorSpec {
   std::string name;  ///< keys the sensor's random numbers; unique on a robot
   Pose T_body_sensor;
+  PlaneShape shape = PlaneShape::walls;
   double vertical_fov =
-      3.14159265358979323846 / 3.0;  ///< full angle, radians; a fact for plugins, cuts nothing
+      3.14159265358979323846 / 3.0;  ///< full angle, radians; of walls a fact for plugins that cuts nothing
   WallViewSpec view{};
   /// Standard deviations, for each plane and frame: of its distance, along its normal; of its direction, radians, turned about the
   /// vertical through the middle of what is seen of it; and of each end, along it.
@@ -29,14 +36,16 @@ struct PlaneSensorSpec {
   double noise_end_m = 0.0;
 };
 
-/// One seen plane: an upright rectangle. Sensor frame, metres, with noise.
+/// One seen plane: an upright rectangle, or a polygon. Sensor frame, metres, with noise.
 struct PlaneObservation {
   std::uint32_t wall =
-      0;          ///< index in WallPlan::walls of the wall that it truly is: for scoring, never for a plugin
+      0;  ///< index in WallPlan::walls (FacePlan::faces) of what it truly is: for scoring, never for a plugin
   Plane plane{};  ///< the normal is towards the sensor: offset <= 0
   Vec3 centroid = Vec3::Zero();
-  /// Counter-clockwise seen from where the normal points: left and right at the bottom, right and left at the top.
+  /// Counter-clockwise seen from where the normal points: left and right at the bottom, right and left at the top. Of a polygon
+  /// a rectangle around it.
   std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  std::vector<Vec3> hull{};  ///< the polygon: convex, on the plane, in that order; empty of a rectangle
 };
 
 /// Sees the walls of a plan as planes with corners, as the simulations of thesis 4.3 do: what is within the view and not hidden by

@@ -43,7 +43,7 @@ std::vector<std::string> settable_keys(TomlTable& scenario) {
   keys.push_back("plugin");
   for (const std::string& key : kRobotKeys) keys.push_back("robot." + key);
   for (const std::string& name : sensor_names(scenario)) {
-    for (const std::vector<std::string>& known : {kPointSensorKeys, kPlaneSensorKeys}) {
+    for (const std::vector<std::string>& known : {kPointSensorKeys, kPlaneSensorKeys, kFaceSensorKeys}) {
       for (const std::string& key : known) keys.push_back("sensor." + name + "." + key);
     }
   }
@@ -69,7 +69,8 @@ void set_robot(TomlTable& scenario, const std::string& key, TomlNode value) {
 /// True if the scenario has a sensor of that name, and there are sensors with such a key.
 bool set_sensor(TomlTable& scenario, std::string_view name, std::string_view key, TomlNode value) {
   if (!holds(sensor_names(scenario), name)) return false;
-  if (!holds(kPointSensorKeys, key) && !holds(kPlaneSensorKeys, key)) return false;
+  if (!holds(kPointSensorKeys, key) && !holds(kPlaneSensorKeys, key) && !holds(kFaceSensorKeys, key))
+    return false;
   assign(*table_in(*table_in(scenario, "sensor"), name), key, std::move(value));
   return true;
 }

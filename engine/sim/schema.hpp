@@ -20,6 +20,21 @@ inline const std::vector<std::string> kPlaneSensorKeys{
     "kind",          "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
     "bounded_sides", "occlusion",          "min_length_m",     "noise_m",     "noise_angle_deg",
     "noise_end_m",   "position_m",         "yaw_deg"};
+/// Of scenarios alone.
+inline const std::vector<std::string> kFaceSensorKeys{"kind",
+                                                      "horizontal_fov_deg",
+                                                      "vertical_fov_deg",
+                                                      "min_range_m",
+                                                      "max_range_m",
+                                                      "occlusion",
+                                                      "min_length_m",
+                                                      "noise_m",
+                                                      "noise_angle_deg",
+                                                      "noise_end_m",
+                                                      "position_m",
+                                                      "yaw_deg",
+                                                      "pitch_deg",
+                                                      "roll_deg"};
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",
                                                  "speed",    "moving_share", "motion",   "groups"};
 inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",

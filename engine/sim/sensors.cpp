@@ -60,8 +60,9 @@ TomlTable table_of(const map::Entity& entity) {
   return table;
 }
 
-const std::vector<std::string> kKinds{"points", "planes"};
+const std::vector<std::string> kKinds{"points", "planes", "faces"};
 constexpr std::size_t kPlanes = 1;
+constexpr std::size_t kFaces = 2;
 
 /// The keys of sensors of a table's kind; all there are where that is none, so that it is the kind that is refused.
 std::vector<std::string> known_keys(const TomlTable& table) {
@@ -69,6 +70,7 @@ std::vector<std::string> known_keys(const TomlTable& table) {
   const auto* name = kind != nullptr ? std::get_if<std::string>(&kind->value) : nullptr;
   if (name == nullptr || *name == kKinds[0]) return kPointSensorKeys;
   if (*name == kKinds[kPlanes]) return kPlaneSensorKeys;
+  if (*name == kKinds[kFaces]) return kFaceSensorKeys;
   std::vector<std::string> all = kPointSensorKeys;
   all.insert(all.end(), kPlaneSensorKeys.begin(), kPlaneSensorKeys.end());
   return all;
@@ -99,7 +101,8 @@ sense::PointSensorSpec read_points(const std::string& name, TableReader& sensor)
   return spec;
 }
 
-sense::PlaneSensorSpec read_planes(const std::string& name, TableReader& sensor) {
+/// What sensors of walls and of faces share.
+sense::PlaneSensorSpec read_view(const std::string& name, TableReader& sensor) {
   sense::PlaneSensorSpec spec;
   spec.name = name;
   spec.view.horizontal_fov = angle(sensor, "horizontal_fov_deg");
@@ -107,14 +110,34 @@ sense::PlaneSensorSpec read_planes(const std::string& name, TableReader& sensor)
   spec.view.min_range_m = number(sensor, "min_range_m");
   spec.view.max_range_m = number(sensor, "max_range_m");
   check_ranges(sensor, spec.view.min_range_m, spec.view.max_range_m);
-  spec.view.bounded_sides = flag(sensor, "bounded_sides");
   spec.view.occlusion = flag(sensor, "occlusion");
   spec.view.min_length_m = number(sensor, "min_length_m");
   spec.noise_m = number(sensor, "noise_m");
   spec.noise_angle = angle(sensor, "noise_angle_deg");
   spec.noise_end_m = number(sensor, "noise_end_m");
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
+  return spec;
+}
+
+sense::PlaneSensorSpec read_planes(const std::string& name, TableReader& sensor) {
+  sense::PlaneSensorSpec spec = read_view(name, sensor);
+  spec.view.bounded_sides = flag(sensor, "bounded_sides");
   spec.T_body_sensor.q = from_yaw_pitch_roll(angle(sensor, "yaw_deg"), 0.0, 0.0);
+  return spec;
+}
+
+sense::PlaneSensorSpec read_faces(const std::string& name, TableReader& sensor) {
+  sense::PlaneSensorSpec spec = read_view(name, sensor);
+  spec.shape = sense::PlaneShape::faces;
+  for (const char* key : {"horizontal_fov_deg", "vertical_fov_deg"}) {
+    if (number(sensor, key) >= 180.0)
+      throw sensor.error(key, std::string(key) + " = " + format_double(number(sensor, key)) +
+                                  ": a sensor of faces sees less than 180 degrees");
+  }
+  const double yaw = angle(sensor, "yaw_deg");
+  const double pitch = angle(sensor, "pitch_deg");
+  const double roll = angle(sensor, "roll_deg");
+  spec.T_body_sensor.q = from_yaw_pitch_roll(yaw, pitch, roll);
   return spec;
 }
 
@@ -124,8 +147,14 @@ SensorSpec read_sensor(const std::string& name, const SensorTable& where,
                        const std::optional<std::size_t>& kind) {
   TableReader sensor(where.file, "sensor." + name, where.table, where.line, known_keys(where.table),
                      where.settings);
-  if (sensor.choice("kind", kKinds, kind) == kPlanes) return read_planes(name, sensor);
-  return read_points(name, sensor);
+  switch (sensor.choice("kind", kKinds, kind)) {
+    case kPlanes:
+      return read_planes(name, sensor);
+    case kFaces:
+      return read_faces(name, sensor);
+    default:
+      return read_points(name, sensor);
+  }
 }
 
 void take_map_sensors(Scenario& scenario, const map::Document& document) {

@@ -135,7 +135,14 @@ void Simulator::make_sensors() {
   sensors_.reserve(scenario_.sensors.size());
   for (const SensorSpec& spec : scenario_.sensors) {
     std::unique_ptr<const sense::WallPlan>& plan = plans_.emplace_back();
-    if (const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec)) {
+    std::unique_ptr<const sense::FacePlan>& faces = face_plans_.emplace_back();
+    const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec);
+    if (planes != nullptr && planes->shape == sense::PlaneShape::faces) {
+      const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
+      faces =
+          std::make_unique<const sense::FacePlan>(sense::make_face_plan(world_.partition.surface, wanted));
+      sensors_.emplace_back(std::in_place_type<sense::FaceSensor>, *planes, *faces, scenario_.seed);
+    } else if (planes != nullptr) {
       const double height_m = (path_.at(0.0) * planes->T_body_sensor).t.z();
       plan = std::make_unique<const sense::WallPlan>(walls_at(height_m));
       sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, *planes, *plan, scenario_.seed);
@@ -151,7 +158,7 @@ sense::WallPlan Simulator::walls_at(double height_m) const {
   return sense::make_wall_plan(world_.partition.surface, wanted, height_m, triangles_of(models_));
 }
 
-/// Sensors of planes demand a level way; before the run, for it is long.
+/// Sensors of walls demand a level way; before the run, for it is long.
 void Simulator::check_poses() const {
   for (const Sensor& sensor : sensors_) {
     const auto* planes = std::get_if<sense::PlaneSensor>(&sensor);
@@ -199,6 +206,8 @@ Frame Simulator::step(std::uint32_t index) const {
     reading.sensor = i;
     if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[i])) {
       planes->observe(frame.T_world_body, index, reading.planes);
+    } else if (const auto* faces = std::get_if<sense::FaceSensor>(&sensors_[i])) {
+      faces->observe(frame.T_world_body, index, reading.planes);
     } else {
       std::get<sense::PointSensor>(sensors_[i])
           .observe(frame.T_world_body, index, moved, threads_, reading.observations);

@@ -11,6 +11,8 @@
 #include "geom/pose.hpp"
 #include "map/document.hpp"
 #include "map/path.hpp"
+#include "sense/face_plan.hpp"
+#include "sense/face_sensor.hpp"
 #include "sense/landmark_index.hpp"
 #include "sense/moving_landmarks.hpp"
 #include "sense/plane_sensor.hpp"
@@ -84,13 +86,15 @@ class Simulator {
   /// The walls that a sensor of planes sees; the index is the wall's number. Null for a sensor of another kind.
   /// @param sensor  index in Scenario::sensors
   const sense::WallPlan* walls(std::size_t sensor) const { return plans_[sensor].get(); }
+  /// The faces that a sensor of faces sees; the index is the face's number. Null for a sensor of another kind.
+  const sense::FacePlan* faces(std::size_t sensor) const { return face_plans_[sensor].get(); }
   /// The walls at a height, metres, as a sensor of planes there sees them. O(n log n) in the surface.
   sense::WallPlan walls_at(double height_m) const;
   /// Metres of path from frame to frame.
   double step_length_m() const { return step_length_m_; }
 
  private:
-  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor>;
+  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor>;
 
   void make_sensors();
   void stop_at_obstacle();
@@ -107,7 +111,8 @@ class Simulator {
   trace::Scene scene_;
   Landmarks landmarks_;
   sense::LandmarkIndex landmark_index_;
-  std::vector<std::unique_ptr<const sense::WallPlan>> plans_;  ///< by sensor
+  std::vector<std::unique_ptr<const sense::WallPlan>> plans_;       ///< by sensor
+  std::vector<std::unique_ptr<const sense::FacePlan>> face_plans_;  ///< by sensor
   std::vector<Sensor> sensors_;
   std::vector<Error> problems_;
 };

@@ -7,6 +7,7 @@
 #include "adapter/option_rows.hpp"
 #include "slam_plane/core/mapper.hpp"
 #include "slam_plane/plane_adapter.hpp"
+#include "slam_plane/spatial_adapter.hpp"
 #include "slam_plane/thesis/thesis_mapper.hpp"
 
 namespace hallway::slam_plane {
@@ -16,6 +17,9 @@ static_assert(kNoWall == HW_NO_LANDMARK);
 
 enum class Mode : int { relative = 0, thesis = 1 };
 constexpr const char* kModeNames[] = {"relative", "thesis"};
+/// Degrees of freedom of the robot's motion.
+enum class Dof : int { three = 0, six = 1 };
+constexpr const char* kDofNames[] = {"3", "6"};
 
 /// The mapper behind the plugin ABI, and in its place, with mode=thesis, the thesis's own algorithm. Walls have ids where landmarks have them.
 class SlamPlane final : public sdk::Plugin {
@@ -29,10 +33,22 @@ class SlamPlane final : public sdk::Plugin {
     parameters().add_choice(
         "mode", &mode_, kModeNames,
         "relative: submaps of lines and corners, placed together; thesis: comparisons of pairs, chained.");
+    parameters().add_choice(
+        "dof", &dof_, kDofNames,
+        "3: upright walls, a robot that stays level; 6: any faces, a robot that moves and "
+        "turns as it likes.");
     add_options(parameters(), thesis_options_, thesis::parameters());
   }
 
   void activate(const hw_activation_t& activation) override {
+    if (dof_ == static_cast<int>(Dof::six)) {
+      if (mode_ == static_cast<int>(Mode::thesis))
+        throw sdk::Failure(HW_ERROR_ARGUMENT, "dof=6 goes with mode=relative alone: mode=thesis is 2 1/2-D");
+      spatial_adapter_.activate(activation);
+      spatial_adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
+      spatial_.emplace(options_);
+      return;
+    }
     adapter_.activate(activation);
     adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
     if (mode_ == static_cast<int>(Mode::thesis)) {
@@ -45,14 +61,21 @@ class SlamPlane final : public sdk::Plugin {
   void deactivate() override {
     mapper_.reset();
     thesis_.reset();
+    spatial_.reset();
   }
 
   void reset() override {
     if (mapper_) mapper_->reset();
     if (thesis_) thesis_->reset();
+    if (spatial_) spatial_->reset();
   }
 
   void process(const hw_frame_t& frame) override {
+    if (spatial_) {
+      spatial_adapter_.put_answer(host(),
+                                  spatial_->process(spatial_adapter_.gather(frame), spatial_adapter_.view()));
+      return;
+    }
     const std::vector<Piece>& pieces = adapter_.gather(frame);
     const Answer& answer =
         thesis_ ? thesis_->process(pieces, adapter_.view()) : mapper_->process(pieces, adapter_.view());
@@ -72,6 +95,10 @@ class SlamPlane final : public sdk::Plugin {
   }
 
   void report(bool refine) override {
+    if (spatial_) {
+      spatial_adapter_.put_map(host(), refine ? spatial_->refined_map() : spatial_->map());
+      return;
+    }
     const Map map = thesis_ ? thesis_->map() : refine ? mapper_->refined_map() : mapper_->map();
     std::vector<hw_submap_t> submaps;
     std::vector<std::uint64_t> members;
@@ -131,9 +158,12 @@ class SlamPlane final : public sdk::Plugin {
   int range_bounds_sides_ = 0;
   thesis::Options thesis_options_;
   int mode_ = static_cast<int>(Mode::relative);
+  int dof_ = static_cast<int>(Dof::three);
   PlaneAdapter adapter_;
-  std::optional<Mapper> mapper_;  // one of the two while active
+  SpatialAdapter spatial_adapter_;
+  std::optional<Mapper> mapper_;  // one of the three while active
   std::optional<thesis::ThesisMapper> thesis_;
+  std::optional<spatial::Mapper> spatial_;
 };
 
 const hw_plugin_info_t* SlamPlane::info() {

@@ -56,6 +56,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"plugins/slam_point/core", {"slam_point"}},
     {"plugins/slam_plane/core", {"slam_plane"}},
     {"plugins/slam_plane/thesis", {"slam_plane"}},
+    {"plugins/slam_plane/spatial", {"slam_plane"}},
     {"plugins/icp/core", {"icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
     {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",       "world",

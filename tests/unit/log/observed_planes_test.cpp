@@ -48,6 +48,26 @@ ReadPlaneLog parse(const std::string& text) {
   return parse_observed_planes(text, "planes.csv");
 }
 
+TEST(ObservedPlanes, HullsComeBackAsTheyWere) {
+  ObservedPlaneLog log(true);
+  std::vector<ObservedPlane> two{random_plane(3, 1), random_plane(4, 2)};
+  two[0].hull_m = {{0.1, 0.2, 1e-7}, {1.0 / 3.0, -2.0, 5.0}, {7.0, 8.0, 9.5}};
+  log.add_frame(0, two);
+  const ReadPlaneLog read = parse(print_observed_planes(log));
+  EXPECT_FALSE(read.damage);
+  ASSERT_EQ(read.log.frame(0).size(), 2u);
+  EXPECT_EQ(read.log.frame(0)[0].hull_m, two[0].hull_m);
+  EXPECT_TRUE(read.log.frame(0)[1].hull_m.empty());
+}
+
+TEST(ObservedPlanes, AHullOfFewerThanThreePointsIsRefused) {
+  ObservedPlaneLog log(true);
+  std::vector<ObservedPlane> bad{random_plane(3, 1)};
+  bad[0].hull_m = {{0.1, 0.2, 0.3}, {1.0, -2.0, 5.0}};
+  log.add_frame(0, bad);
+  EXPECT_TRUE(error_of([&] { parse(print_observed_planes(log)); }));
+}
+
 TEST(ObservedPlanes, ReadBackToTheSameBits) {
   ObservedPlaneLog log(true);
   const std::vector<ObservedPlane> two{random_plane(7, 1), random_plane(kNoLandmark, 2)};

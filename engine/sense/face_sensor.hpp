@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/random.hpp"
+#include "sense/face_plan.hpp"
+#include "sense/face_view.hpp"
+#include "sense/plane_sensor.hpp"
+
+namespace hallway::sense {
+
+/// Sees whole faces of the world, walls, floors, ceilings and slopes, as planes with polygonal outlines, from any pose: what is within the
+/// view and not hidden by something nearer, from the empty side.
+///
+/// Noise is drawn for each face and frame: the face is moved along its normal and tilted about two axes through the middle of what is
+/// seen of it, each end of each edge of its outline is moved across the edge in the face; what these edges bound is given. What is seen never depends on noise, but a face that its noise
+/// would leave without an outline, or carry to the other side of the sensor, is not given. Order is random, as PlaneSensor's.
+class FaceSensor {
+ public:
+  /// Keeps a reference to `plan`, which must outlive the sensor. Throws Error{kBadInput} as PlaneSensor does, and for an angle of view of 180 degrees
+  /// or more, or ranges that are distances (`bounded_sides`).
+  FaceSensor(PlaneSensorSpec spec, const FacePlan& plan, std::uint64_t seed);
+
+  /// Replaces `out` by what is seen in a step; PlaneObservation::wall is an index in FacePlan::faces.
+  ///
+  /// @param T_world_body  the robot's true pose; throws as check_pose() does
+  void observe(const Pose& T_world_body, std::uint32_t step, std::vector<PlaneObservation>& out) const;
+
+  /// Throws Error{kBadInput} if the sensor would be farther from the origin than trace::Scene::kMaxRayCoordinate.
+  void check_pose(const Pose& T_world_body, std::uint32_t step) const;
+
+  const PlaneSensorSpec& spec() const { return spec_; }
+
+ private:
+  std::optional<PlaneObservation> make_seen(const FacePiece& piece, std::uint32_t step) const;
+
+  PlaneSensorSpec spec_;
+  FaceView view_;
+  Random noise_;
+  Random order_;
+};
+
+}  // namespace hallway::sense

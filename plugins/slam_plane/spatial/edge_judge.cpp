@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/spatial/edge_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hallway::slam_plane::spatial {
+namespace {
+
+constexpr double kNearerSigmas = 2.0;    // that something is nearer by, if it hides
+constexpr double kLeastLength_m = 0.15;  // of an edge that is clear
+constexpr double kSameDirection = 0.99;  // cosine between normals of faces that may lie in one plane
+
+/// Whether both values are below a bound.
+bool both_below(double a, double b, double bound_a, double bound_b) {
+  return a < bound_a && b < bound_b;
+}
+
+}  // namespace
+
+void EdgeJudge::Part::keep(double a, double b) {
+  if (a >= 0.0 && b >= 0.0) return;
+  if (a < 0.0 && b < 0.0) {
+    to = from;
+  } else if (a < 0.0) {
+    from = std::max(from, a / (a - b));
+  } else {
+    to = std::min(to, a / (a - b));
+  }
+}
+
+EdgeJudge::EdgeJudge(const Options& options)
+    : noise_(options.noise()),
+      sigmas_(options.corner_sigmas),
+      margin_(options.border_margin_deg * std::numbers::pi / 180.0) {}
+
+/// Of where an edge is seen, in any direction.
+double EdgeJudge::sigma(const Sighting& sighting) const {
+  return std::hypot(std::hypot(noise_.normal, sighting.reach_m * noise_.angle), noise_.end, noise_.along);
+}
+
+/// Of a face's plane at a point of it.
+double EdgeJudge::sigma_across(const Sighting& sighting, const Vec3& p) const {
+  return std::hypot(noise_.normal, (p - sighting.centre).norm() * noise_.angle);
+}
+
+bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigma) const {
+  const double reach = sigmas_ * sigma;
+  const Vec3 &a = edge.end[0], &b = edge.end[1];
+  const double near_a = reach + margin_ * a.norm(), near_b = reach + margin_ * b.norm();
+  for (const int axis : {1, 2}) {
+    const double fov = axis == 1 ? view.horizontal_fov_rad : view.vertical_fov_rad;
+    if (fov >= std::numbers::pi) continue;
+    const double s = std::sin(0.5 * fov), c = std::cos(0.5 * fov);
+    for (const double side : {-1.0, 1.0}) {
+      if (both_below(s * a.x() + side * c * a[axis], s * b.x() + side * c * b[axis], near_a, near_b))
+        return true;
+    }
+  }
+  const auto depth = [&](const Vec3& p) { return view.range_bounds_sides ? p.norm() : p.x(); };
+  if (view.max_range_m > 0.0 &&
+      both_below(-depth(a), -depth(b), reach - view.max_range_m, reach - view.max_range_m))
+    return true;
+  return view.min_range_m > 0.0 &&
+         both_below(depth(a), depth(b), reach + view.min_range_m, reach + view.min_range_m);
+}
+
+/// What of an edge may lie behind a face: behind its plane, and within its outline as seen from the robot, widened by what noise may do.
+EdgeJudge::Part EdgeJudge::hidden_part(const SightedEdge& edge, double sigma, const Sighting& nearer) const {
+  const Vec3 &a = edge.end[0], &b = edge.end[1];
+  Part part;
+  const double offset = nearer.offset();
+  const auto behind = [&](const Vec3& p) {
+    return offset - nearer.normal.dot(p) - kNearerSigmas * std::hypot(sigma, sigma_across(nearer, p));
+  };
+  part.keep(behind(a), behind(b));
+  const double own = EdgeJudge::sigma(nearer);
+  const double range = std::max(a.norm(), b.norm());
+  for (const SightedEdge& side : nearer.edges) {
+    if (part.empty()) break;
+    // The plane through the robot's eye and the side; inward.
+    const Vec3 normal = side.end[0].cross(side.end[1]);
+    if (normal.norm() < 1e-12) continue;
+    const Vec3 inward = normal.normalized() * (normal.dot(nearer.centre) < 0.0 ? -1.0 : 1.0);
+    const double nearest = std::max(std::min(side.end[0].norm(), side.end[1].norm()), 0.05);
+    const double reach = sigmas_ * std::hypot(sigma, own * range / nearest);
+    part.keep(inward.dot(a) + reach, inward.dot(b) + reach);
+  }
+  return part;
+}
+
+/// Where another face of the same plane begins where an edge is.
+EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge,
+                                          const Sighting& other) const {
+  constexpr Part kNothing{1.0, 0.0};
+  if (own.normal.dot(other.normal) < kSameDirection) return kNothing;
+  const Vec3 middle = 0.5 * (edge.end[0] + edge.end[1]);
+  const double doubt = sigmas_ * std::hypot(sigma_across(own, middle), sigma_across(other, middle));
+  if (std::abs(other.normal.dot(middle) - other.offset()) > doubt) return kNothing;
+  const double reach = sigmas_ * std::hypot(noise_.end, noise_.along) * 2.0 + 0.01;
+  // What of the edge, moved outwards by that, lies in the other face or beside it.
+  Part part;
+  const Vec3 a = edge.end[0] + reach * edge.outward, b = edge.end[1] + reach * edge.outward;
+  for (const SightedEdge& side : other.edges)
+    part.keep(reach + side.outward.dot(side.end[0] - a), reach + side.outward.dot(side.end[0] - b));
+  return part;
+}
+
+bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own,
+                         const SightedEdge& edge) const {
+  const double length = (edge.end[1] - edge.end[0]).norm(), doubt = sigma(own);
+  std::vector<Part> taken;
+  for (const Sighting& other : frame) {
+    if (&other == &own) continue;
+    for (const Part& part : {hidden_part(edge, doubt, other), continued_part(own, edge, other)}) {
+      if (!part.empty()) taken.push_back(part);
+    }
+  }
+  std::sort(taken.begin(), taken.end(), [](const Part& a, const Part& b) { return a.from < b.from; });
+  double clear_from = 0.0;
+  for (const Part& part : taken) {
+    if ((part.from - clear_from) * length >= kLeastLength_m) return true;
+    clear_from = std::max(clear_from, part.to);
+  }
+  return (1.0 - clear_from) * length >= kLeastLength_m;
+}
+
+void EdgeJudge::judge(const View& view, std::vector<Sighting>& frame) const {
+  for (Sighting& own : frame) {
+    const double doubt = sigma(own);
+    for (SightedEdge& edge : own.edges)
+      edge.is_true = !at_border(view, edge, doubt) && is_clear(frame, own, edge);
+  }
+}
+
+}  // namespace hallway::slam_plane::spatial

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/sighting.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// Says which edges of what a frame saw are edges of the faces themselves, by geometry alone. An edge may be a cut, and is then no
+/// evidence, if it lies along a border of the view (both of its ends are near to the same one), or if nothing of it is clear of
+///  - nearer faces: behind one, or so near to its outline in the picture that noise may have put it there,
+///  - other faces of the same plane, which go on beyond it.
+/// What of a straight edge is clear tells what all of it is: the border of a shadow is one along its whole length. Where a convex face is
+/// given by the convex hull of what is visible of it, edges of the hull that bridge what is hidden lie behind what hides it, so that these are found too.
+class EdgeJudge {
+ public:
+  explicit EdgeJudge(const Options& options);
+
+  /// Sets SightedEdge::is_true of all edges of a frame. O(edges * edges).
+  void judge(const View& view, std::vector<Sighting>& frame) const;
+
+ private:
+  double sigma(const Sighting& sighting) const;
+  double sigma_across(const Sighting& sighting, const Vec3& p) const;
+  bool at_border(const View& view, const SightedEdge& edge, double sigma) const;
+  /// A part of an edge, by shares of its length.
+  struct Part {
+    double from = 0.0;
+    double to = 1.0;
+    bool empty() const { return from >= to; }
+    /// Keeps where a + share * (b - a) is not negative.
+    void keep(double a, double b);
+  };
+
+  Part hidden_part(const SightedEdge& edge, double sigma, const Sighting& nearer) const;
+  Part continued_part(const Sighting& own, const SightedEdge& edge, const Sighting& other) const;
+  bool is_clear(const std::vector<Sighting>& frame, const Sighting& own, const SightedEdge& edge) const;
+
+  Noise noise_;
+  double sigmas_;
+  double margin_;  // at the sides of the view [rad]
+};
+
+}  // namespace hallway::slam_plane::spatial

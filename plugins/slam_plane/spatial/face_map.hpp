@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/evidence.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// Names an edge for the life of a map.
+using EdgeId = std::uint64_t;
+
+/// What one submap saw of one edge; its frame.
+struct EdgeSum {
+  EdgeId id = 0;
+  Mat4 evidence = Mat4::Zero();
+};
+
+/// What one submap saw of one face, all frames together; its frame.
+struct Member {
+  Index face = kNone;  ///< kNone: merged into another one
+  Mat4 evidence = Mat4::Zero();
+  std::uint32_t observations = 0;
+  std::vector<EdgeSum> edges;
+  std::vector<Vec3> outline;   ///< convex hull of what was seen
+  Vec3 normal = Vec3::Zero();  ///< about
+};
+
+/// A frame of reference in which frames were laid upon each other.
+struct SubmapRecord {
+  Pose3 T_map_submap;
+  std::vector<Member> members;
+  std::vector<Index> first_seen;  ///< faces of its first frame, ascending
+  int frames = 0;
+};
+
+/// Where a face ends, or may.
+struct EdgeRecord {
+  EdgeId id = 0;
+  Feature line;  ///< map frame
+  std::uint32_t sightings = 0;
+  std::uint32_t beyond = 0;  ///< sightings of more face beyond it
+  std::uint64_t last_seen = 0;
+};
+
+struct MemberAt {
+  Index submap = kNone;
+  Index member = kNone;
+};
+
+/// A face as all submaps together have it; map frame.
+struct FaceRecord {
+  Feature plane;
+  std::vector<Vec3> outline;  ///< convex hull of what was seen
+  std::vector<EdgeRecord> edges;
+  std::vector<MemberAt> members;
+  std::uint32_t observations = 0;
+  std::uint64_t last_seen = 0;
+  Index merged_into = kNone;
+
+  bool alive() const { return merged_into == kNone; }
+};
+
+/// Faces and submaps, and the sums that tie them.
+class FaceMap {
+ public:
+  explicit FaceMap(const Options& options);
+
+  /// A face that no submap has seen yet.
+  Index add_face();
+  Index add_submap(const Pose3& T_map_submap);
+  void activate(Index submap);
+  Index active() const { return active_; }
+
+  /// Adds a sighting to the active submap, and the edges of it that are true.
+  void observe(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration);
+
+  /// Estimates a face anew from all sums. O(submaps that saw it).
+  void update(Index face);
+  /// The same, and the outline too.
+  void rebuild(Index face);
+
+  /// Forgets edges that sightings have disproved, and those that were never seen again; returns how many certain ones.
+  int revoke_edges(Index face, std::uint64_t iteration);
+
+  /// Makes one face of two: sums add up.
+  void merge(Index kept, Index gone);
+  Index resolve(Index face) const;
+
+  bool is_certain(const EdgeRecord& edge) const { return edge.sightings >= corner_sightings_; }
+  /// The lines of a face's edges, in their order; null for those that are not certain, unless all are wanted.
+  std::vector<const Feature*> lines(Index face, bool all) const;
+
+  /// The member of the active submap that a face is, or null.
+  const Member* in_active(Index face) const;
+
+  std::vector<FaceRecord> faces;
+  std::vector<SubmapRecord> submaps;
+
+ private:
+  Member& join(Index face, const Vec3& normal);
+  void observe_edges(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration,
+                     Member& member);
+  void note_beyond(const Pose3& T_map_robot, const Sighting& sighting);
+  void forget_edge(Index face, EdgeId id);
+  void rename_edge(Index face, EdgeId from, EdgeId to);
+  void extend_outline(FaceRecord& face, std::span<const Vec3> points);
+
+  Noise noise_;
+  std::uint32_t corner_sightings_;
+  Index active_ = kNone;
+  EdgeId next_edge_ = 0;
+  std::vector<Index> active_member_;  // by face
+};
+
+/// Convex hull of points near a plane, seen from where the normal points.
+/// @param most  corners that are kept
+std::vector<Vec3> hull_on_plane(std::span<const Vec3> points, const Feature& plane, std::size_t most);
+
+}  // namespace hallway::slam_plane::spatial

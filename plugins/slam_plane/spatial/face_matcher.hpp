@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/face_map.hpp"
+#include "slam_plane/spatial/polygon.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// Says which face of the map each sighting is, by where it lies: normals agree, the sighting's centre lies near the face's plane, and
+/// what was seen of either, laid into that plane, overlaps by at least half of the smaller one.
+class FaceMatcher {
+ public:
+  explicit FaceMatcher(const Options& options);
+
+  /// Gives faces seen since `since` to the sightings that have none. O(sightings * faces).
+  void match_recent(const FaceMap& map, std::uint64_t since, const Pose3& T_map_robot,
+                    std::vector<Sighting>& frame);
+  /// Gives any faces to the sightings that have none.
+  void match_map(const FaceMap& map, const Pose3& T_map_robot, std::vector<Sighting>& frame);
+
+  /// Whether two faces are one that was found twice: on one plane, overlapping, and not seen by one frame.
+  bool are_twins(const FaceRecord& a, const FaceRecord& b) const;
+
+ private:
+  double score(const FaceRecord& face, const Sighting& sighting, const Pose3& T, double bound) const;
+  void match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
+             std::vector<Sighting>& frame);
+  void resolve_rivals(const FaceMap& map, const Pose3& T, std::vector<Sighting>& frame);
+
+  double near_bound_;
+  double map_bound_;
+  double cosine_;
+  std::vector<double> scores_;
+};
+
+}  // namespace hallway::slam_plane::spatial

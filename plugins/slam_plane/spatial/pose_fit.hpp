@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/evidence.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// What is known of a pose.
+struct PoseInformation {
+  Mat6 matrix = Mat6::
+      Zero();    ///< inverse covariance of position [m] and rotation vector [rad], both in the map's frame
+  int open = 6;  ///< directions whose standard deviation is too large
+  Mat6 directions =
+      Mat6::Identity();  ///< by columns, the open ones first; of length 1 in units of what is too large
+  bool determined() const { return open == 0; }
+};
+
+/// Fits a frame's pose to planes and edges that are known in some frame of reference, by Gauss-Newton steps over rigid motions.
+/// Three rows a plane (its distance at the sighting's centre, two angles) and two an edge (the distances of both ends of what was seen of it); each row's
+/// variance is the sighting's plus the feature's. Directions that all this leaves open stay as predicted.
+class PoseFit {
+ public:
+  explicit PoseFit(const Options& options);
+
+  void clear() { pairs_.clear(); }
+  /// Adds a sighting of a known face. Both must outlive the fit.
+  /// @param edges  of the face, of which the seen ones are paired by where they lie; null ones are passed over
+  void add(const Sighting& sighting, const Feature& plane, std::vector<const Feature*> edges);
+  std::size_t pairs() const { return pairs_.size(); }
+
+  /// Moves the pose to where it fits best. O(steps * rows).
+  PoseInformation solve(Pose3& T) const;
+
+  /// What a frame tells of its own pose in a world that is known exactly.
+  PoseInformation own_information(const std::vector<Sighting>& frame) const;
+
+  /// Squared distance of a sighting's plane from a known one at a pose, in standard deviations; three degrees of freedom.
+  double distance2(const Sighting& sighting, const Feature& plane, const Pose3& T) const;
+
+  /// Which of a face's edges an edge of a sighting is, or kNone: the nearest one within `bound` that runs the same way.
+  static Index find_edge(const SightedEdge& edge, const std::vector<const Feature*>& edges, const Pose3& T,
+                         double bound);
+
+ private:
+  struct Pair {
+    const Sighting* sighting;
+    const Feature* plane;
+    std::vector<const Feature*> edges;
+    std::array<Vec3, 2> axes;  // of the sighting's plane
+  };
+  struct Normal {
+    Mat6 h = Mat6::Zero();
+    Vec6 g = Vec6::Zero();
+    void add(const Vec6& gradient, double residual, double variance);
+  };
+
+  void add_plane(const Pair& pair, const Pose3& T, Normal& normal) const;
+  void add_edges(const Pair& pair, const Pose3& T, double bound, bool gated, Normal& normal) const;
+  void judge(PoseInformation& information) const;
+
+  Noise noise_;
+  double undetermined_m_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace hallway::slam_plane::spatial
