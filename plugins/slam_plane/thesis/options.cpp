@@ -29,7 +29,7 @@ constexpr Parameter kParameters[] = {
      "mode=thesis: least standard deviation of a comparison above which no end is static.",
      &Options::max_deviation_m, nullptr},
     {"thesis_close_ratio", "1", 1.0, 100.0,
-     "mode=thesis: standard deviations up to this ratio are taken for equal.", &Options::close_ratio,
+     "mode=thesis: standard deviations, and times, up to this ratio are taken for equal.", &Options::close_ratio,
      nullptr},
     {"thesis_min_readings", "sightings", 2, 1000, "mode=thesis: of a plane before it joins a submap.",
      nullptr, &Options::min_readings},

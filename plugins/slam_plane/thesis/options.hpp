@@ -18,7 +18,7 @@ struct Options {
   double trend_hysteresis_m = 0.05;  ///< change of a plane's length that is believed (Rule 18)
   double max_deviation_m =
       0.15;  ///< least standard deviation of a comparison above which no end is static (Rule 13)
-  double close_ratio = 1.2;  ///< standard deviations are close to each other up to this ratio (Rule 15)
+  double close_ratio = 1.4;  ///< standard deviations, and times, are alike up to this ratio (Rule 15)
   int min_readings = 10;     ///< of a plane before it joins a submap
   int link_planes = 4;       ///< members that a new submap takes over from an older one, at least 2 (Rule 8)
   int min_interval = 10;     ///< over which a member has to be compared (Rule 31)

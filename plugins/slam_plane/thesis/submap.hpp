@@ -7,6 +7,7 @@
 
 #include "slam_plane/thesis/membership.hpp"
 #include "slam_plane/thesis/options.hpp"
+#include "slam_plane/thesis/pair_order.hpp"
 #include "slam_plane/thesis/reference.hpp"
 #include "slam_plane/thesis/static_pairs.hpp"
 #include "slam_plane/thesis/track_book.hpp"
@@ -29,13 +30,6 @@ struct Member {
 struct Anchor {
   TrackId track = 0;
   Reference reference;  ///< map's frame
-};
-
-/// One comparison of a submap's order: it places the child, or tells one more end of it.
-struct PlaceStep {
-  std::size_t parent = 0;  ///< indices of members
-  std::size_t child = 0;
-  int ends = 0;  ///< which ends are compared: 2 * parent's + child's, left 0, right 1
 };
 
 /// Planes that were visible together, placed relative to each other by comparisons of pairs (thesis 4.3.2, 4.4.3.2).

@@ -106,7 +106,7 @@ class ThesisMapper::Engine {
   }
 
   void build_map() {
-    if (!state_.submaps.empty()) anchor_first(options_, state_);
+    if (!state_.submaps.empty()) anchor_first(state_);
     state_.map.build(changed_, state_.submaps, state_.tracks);
   }
 
