@@ -10,7 +10,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr double kSpread = 4.0;         // median distances from the middle beyond which a point contradicts the others
+constexpr double kSpread =
+    4.0;  // median distances from the middle beyond which a point contradicts the others
 constexpr double kLeastSpread_m = 1e-3;
 constexpr double kLeastCrossing = 0.02;  // sum of squared sines per line, below which lines count as parallel
 
@@ -55,7 +56,8 @@ Vec2 mean_of_most(const std::vector<Vec2>& told) {
   }
   const Vec2 centre(median(x), median(y));
   for (const Vec2& t : told) off.push_back((t - centre).norm());
-  const double bound = told.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
+  const double bound =
+      told.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
   Vec2 sum = Vec2::Zero();
   int count = 0;
   for (std::size_t i = 0; i < told.size(); ++i) {

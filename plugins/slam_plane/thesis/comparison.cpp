@@ -40,8 +40,8 @@ Segment Placement::segment() const {
 }
 
 Placement Comparison::placement(int which) const {
-  if (which == 0) return {Vec2::Zero(), Vec2(1.0, 0.0), size[0], key[0], interval, valid};
-  return {offset, direction, size[1], key[1], interval, valid};
+  if (which == 0) return {Vec2::Zero(), Vec2(1.0, 0.0), size[0], valid};
+  return {offset, direction, size[1], valid};
 }
 
 Comparison inverse(const Comparison& comparison) {
@@ -74,7 +74,8 @@ Comparison evaluate(const IntervalSummary& summary, int combination, const Compa
 
 Comparison compare_uncached_in(const Track& a, const Track& b, const Interval& interval, int combination,
                                const CompareOptions& options) {
-  if (b.id() < a.id()) return inverse(compare_uncached_in(b, a, interval, turned_round(combination), options));
+  if (b.id() < a.id())
+    return inverse(compare_uncached_in(b, a, interval, turned_round(combination), options));
   return evaluate(summarize(a, b, interval, options), combination, options);
 }
 

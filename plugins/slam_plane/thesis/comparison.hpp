@@ -27,10 +27,7 @@ struct Placement {
   Vec2 middle = Vec2::Zero();       ///< estimated, at `size` [m]
   Vec2 direction = Vec2(1.0, 0.0);  ///< unit, from the left end to the right one
   double size = 0.0;                ///< [m]
-  KeyPoint key =
-      KeyPoint::none;  ///< of its ends the one that is known to be right if it is not at its full size
-  Interval interval;   ///< on which size and key were found (Rule 19)
-  bool valid = false;  ///< the rest is defined
+  bool valid = false;               ///< the rest is defined
 
   Segment segment() const;
 };

@@ -8,7 +8,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kBeginning = 10;           // iterations in which planes join the very first submap at once
+constexpr int kBeginning = 10;      // iterations in which planes join the very first submap at once
 constexpr int kFirstReadings = 3;   // of the planes of the very first submap
 constexpr int kForgetAfter = 50;    // iterations for which an unassigned track is kept out of view
 constexpr int kTryAgainAfter = 20;  // iterations in which a submap has not placed a track that joined it

@@ -63,7 +63,8 @@ bool stands_still(const std::vector<Line>& lines, double max_deviation_m) {
 
 }  // namespace
 
-Comparison compare_line(const Track& a, const Track& b, int end_of_a, Iteration now, const CompareOptions& options) {
+Comparison compare_line(const Track& a, const Track& b, int end_of_a, Iteration now,
+                        const CompareOptions& options) {
   Comparison result;
   result.interval = {now - kWindow + 1, now};
   std::vector<Line> lines;
@@ -78,8 +79,7 @@ Comparison compare_line(const Track& a, const Track& b, int end_of_a, Iteration 
     middle += line.middle / static_cast<double>(lines.size());
   }
   result.direction = direction.normalized();
-  result.parallel =
-      std::abs(result.direction.y()) <= std::sin(options.parallel_deg * 0.017453292519943295);
+  result.parallel = std::abs(result.direction.y()) <= std::sin(options.parallel_deg * 0.017453292519943295);
   result.size[0] = size_in(a, result.interval, options).size;
   result.size[1] = size_in(b, result.interval, options).size;
   const double half = end_of_a == kEndA ? 0.5 : -0.5;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "slam_plane/thesis/resize.hpp"
-
 namespace hallway::slam_plane::thesis {
 namespace {
 

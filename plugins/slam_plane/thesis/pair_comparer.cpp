@@ -28,7 +28,8 @@ PairStatistics& PairComparer::statistics(const Track& a, const Track& b) {
   return statistics;
 }
 
-Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interval& interval, int combination) {
+Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interval& interval,
+                                    int combination) {
   if (b.id() < a.id()) return inverse(compare_in(b, a, interval, turned_round(combination)));
   return evaluate(statistics(a, b).summary(a, b, interval, options_), combination, options_);
 }

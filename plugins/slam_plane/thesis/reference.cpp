@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam_plane/thesis/resize.hpp"
-
 namespace hallway::slam_plane::thesis {
+
 Reference moved(const Pose2& T, const Reference& reference) {
   Reference result = reference;
   result.place.middle = T * reference.place.middle;
@@ -27,10 +26,12 @@ Reference chained(const Reference& base, const Comparison& comparison) {
   if (!base.valid() || !comparison.places()) return {};
   const int end = comparison.key[0] == KeyPoint::right ? kEndB : kEndA;
   if (!base.known[end]) return {};
-  Placement parent = base.place;
-  parent.key = comparison.key[0];
+  const Vec2 in_base = base.place.segment().end[end];
+  const Vec2 in_parent = comparison.placement(0).segment().end[end];
+  const Pose2 T_base_turned{Vec2::Zero(), base.place.direction};
   Reference result = reference_of(comparison, 1);
-  result.place = chained(parent, comparison, 0.0);
+  result.place.middle = in_base + T_base_turned.rotate(comparison.offset - in_parent);
+  result.place.direction = T_base_turned.rotate(comparison.direction).normalized();
   result.shared = std::min(base.shared, comparison.shared);
   return result;
 }

@@ -6,11 +6,11 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr double kSigmas2 = 9.0;      // squared standard deviations by which one sighting may differ
-constexpr int kMisses = 2;            // sightings in a row that do not agree end a run
-constexpr Iteration kLag = 8;         // newest iterations of a run that ended that may have been moving already
-constexpr Iteration kTestEvery = 4;   // iterations
-constexpr Iteration kLongest = 400;   // iterations that are looked at when a run is sought
+constexpr double kSigmas2 = 9.0;  // squared standard deviations by which one sighting may differ
+constexpr int kMisses = 2;        // sightings in a row that do not agree end a run
+constexpr Iteration kLag = 8;     // newest iterations of a run that ended that may have been moving already
+constexpr Iteration kTestEvery = 4;  // iterations
+constexpr Iteration kLongest = 400;  // iterations that are looked at when a run is sought
 
 /// Whether a sighting agrees with what was found before.
 bool agrees(const Vec2& offset, const OffsetMoments& moments) {
@@ -48,23 +48,27 @@ int better(const EndRun& first, const EndRun& second, Iteration now, double rati
   const auto length = [&](const EndRun& run) { return static_cast<double>(now - run.since + 1); };
   if (length(first) > ratio * length(second)) return 1;
   if (length(second) > ratio * length(first)) return -1;
-  if (ratio * first.moments.deviation < second.moments.deviation) return 1;
-  if (ratio * second.moments.deviation < first.moments.deviation) return -1;
+  if (ratio * first.moments.deviation + kNoDeviation_m < second.moments.deviation) return 1;
+  if (ratio * second.moments.deviation + kNoDeviation_m < first.moments.deviation) return -1;
   return 0;
 }
 
-/// Of a plane whose length changes one end moves. If both seem to stand still the one is left out whose offset was still for the shorter time or deviates more, or both (Rules 13, 15).
-void leave_one_end(const Track& track, int which, double ratio, PairHistory& pair) {
-  for (int c = 0; c < 4; ++c) {
-    const int end = which == 0 ? c / 2 : c % 2;
-    const int other = which == 0 ? c ^ 2 : c ^ 1;
-    EndRun& left = pair.runs[static_cast<std::size_t>(c)];
-    EndRun& right = pair.runs[static_cast<std::size_t>(other)];
-    if (end != kEndA || left.since < 0 || right.since < 0) continue;
-    if (!length_changes(track, {std::max(left.since, right.since), pair.updated})) continue;
-    const int sign = better(left, right, pair.updated, ratio);
-    if (sign <= 0) left.undefined = true;
-    if (sign >= 0) right.undefined = true;
+/// Of two runs that tell both ends of a plane to stand still the one is left out that is worse, or both, if the plane's length changes: then one end moves (Rules 13, 15).
+void leave_one_end(const Track& track, double ratio, Iteration now, EndRun& left, EndRun& right) {
+  if (left.since < 0 || right.since < 0) return;
+  if (!length_changes(track, {std::max(left.since, right.since), now})) return;
+  const int sign = better(left, right, now, ratio);
+  if (sign <= 0) left.undefined = true;
+  if (sign >= 0) right.undefined = true;
+}
+
+void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pair) {
+  for (EndRun& run : pair.runs) run.undefined = false;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t d = 0; d < c; ++d) {
+      if (c / 2 != d / 2) leave_one_end(a, ratio, pair.updated, pair.runs[d], pair.runs[c]);
+      if (c % 2 != d % 2) leave_one_end(b, ratio, pair.updated, pair.runs[d], pair.runs[c]);
+    }
   }
 }
 
@@ -85,7 +89,8 @@ void StaticPairs::save(const Track& a, const Track& b, int combination, PairHist
 }
 
 /// What was saved of a run is made anew without what came after an iteration.
-void StaticPairs::shorten(const Track& a, const Track& b, int combination, Iteration last, PairHistory& pair) {
+void StaticPairs::shorten(const Track& a, const Track& b, int combination, Iteration last,
+                          PairHistory& pair) {
   const Iteration since = pair.runs[static_cast<std::size_t>(combination)].since;
   for (auto saved = pair.saved.begin(); saved != pair.saved.end(); ++saved) {
     if (!made_from(*saved, combination) || saved->interval.first != since || saved->interval.last <= last)
@@ -157,7 +162,8 @@ void StaticPairs::search_exact(const Track& a, const Track& b, Iteration start, 
     for (Iteration k = pair.updated - 1; k >= std::max(start, pair.updated - kLongest); --k) {
       const Sighting* before_a = a.find(k);
       const Sighting* before_b = b.find(k);
-      if (before_a == nullptr || before_b == nullptr || !agrees(end_offset(*before_a, *before_b, c), here)) break;
+      if (before_a == nullptr || before_b == nullptr || !agrees(end_offset(*before_a, *before_b, c), here))
+        break;
       since = k;
     }
     if (since > newest.first) continue;
@@ -222,9 +228,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   follow(a, b, due, pair);
   search_exact(a, b, start, pair);
   if (due) search(a, b, start, pair);
-  for (EndRun& run : pair.runs) run.undefined = false;
-  leave_one_end(a, 0, options_.close_ratio, pair);
-  leave_one_end(b, 1, options_.close_ratio, pair);
+  leave_one_end(a, b, options_.close_ratio, pair);
   for (int c = 0; c < 4; ++c) {
     const EndRun& run = pair.runs[static_cast<std::size_t>(c)];
     if (run.still() && (due || run.moments.deviation <= kNoDeviation_m)) save(a, b, c, pair);

@@ -15,19 +15,21 @@ namespace hallway::slam_plane::thesis {
 
 /// An interval that lasts until now, in which an end of each of two planes stands still.
 struct EndRun {
-  Iteration since = -1;    ///< it began here; -1: the two ends are not known to stand still
-  OffsetMoments moments;   ///< of the offset between the ends, when that was looked at last
-  int misses = 0;          ///< newest sightings in a row that do not agree with them
-  bool undefined = false;  ///< the other end of one of the planes seems to stand still too, but its length changes (Rule 15)
+  Iteration since = -1;   ///< it began here; -1: the two ends are not known to stand still
+  OffsetMoments moments;  ///< of the offset between the ends, when that was looked at last
+  int misses = 0;         ///< newest sightings in a row that do not agree with them
+  bool undefined =
+      false;  ///< the other end of one of the planes seems to stand still too, but its length changes (Rule 15)
 
   bool still() const { return since >= 0 && misses == 0 && !undefined; }
 };
 
 /// What is known of two planes: the first one has the smaller id.
 struct PairHistory {
-  Iteration updated = -1;          ///< newest shared sighting that was looked at
-  std::array<EndRun, 4> runs;      ///< by 2 * end of the first plane + end of the second one
-  std::vector<Comparison> saved;   ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
+  Iteration updated = -1;      ///< newest shared sighting that was looked at
+  std::array<EndRun, 4> runs;  ///< by 2 * end of the first plane + end of the second one
+  std::vector<Comparison>
+      saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
 
   /// Whether an end of the first plane (0) or of the second one (1) stands still, as far as the pair tells.
   bool still(int which, int end) const;

@@ -8,17 +8,19 @@ namespace hallway::slam_plane::thesis {
 namespace {
 
 constexpr double kNoSize[2] = {0.0, 0.0};
-constexpr double kBetween = 6.0;     // largest ratio of the variance between the parts to that within them
-constexpr double kTailSigmas2 = 9.0;  // squared standard deviations by which the mean of the newest ones may differ
-constexpr Iteration kTail = 12;      // newest iterations that are looked at by themselves
-constexpr double kWayDeviations = 6.0;   // least way of the robot, in standard deviations of the offset
-constexpr double kWayOverNoise = 70.0;  // and in those of its mean: an end that moves by a tenth of the way moves by 2 sqrt(12) of them
-constexpr double kExactWay_m = 5e-3;     // where there is no deviation
-constexpr std::size_t kWatched = 32;     // newest sightings that are looked at one by one
-constexpr double kWander = 2.0;          // largest ratio of their variance to that of their steps
-constexpr double kOneSigmas2 = 12.0;     // squared standard deviations by which one sighting may differ
-constexpr std::size_t kOutermost = 3;    // newest and oldest ones that are asked for it
-constexpr int kWindow = 8;              // sightings in a mean of lengths
+constexpr double kBetween = 6.0;  // largest ratio of the variance between the parts to that within them
+constexpr double kTailSigmas2 =
+    9.0;  // squared standard deviations by which the mean of the newest ones may differ
+constexpr Iteration kTail = 12;         // newest iterations that are looked at by themselves
+constexpr double kWayDeviations = 6.0;  // least way of the robot, in standard deviations of the offset
+constexpr double kWayOverNoise =
+    70.0;  // and in those of its mean: an end that moves by a tenth of the way moves by 2 sqrt(12) of them
+constexpr double kExactWay_m = 5e-3;   // where there is no deviation
+constexpr std::size_t kWatched = 32;   // newest sightings that are looked at one by one
+constexpr double kWander = 2.0;        // largest ratio of their variance to that of their steps
+constexpr double kOneSigmas2 = 12.0;   // squared standard deviations by which one sighting may differ
+constexpr std::size_t kOutermost = 3;  // newest and oldest ones that are asked for it
+constexpr int kWindow = 8;             // sightings in a mean of lengths
 constexpr double kLengthSigmas = 4.0;
 constexpr double kNoChange_m = 1e-3;
 
@@ -60,7 +62,8 @@ StillnessTest::StillnessTest(const Track& a, const Track& b, const Interval& int
   PairSums rest = whole_;
   for (std::size_t i = 0; i + 1 < kParts; ++i) {
     const auto at = static_cast<Iteration>(i);
-    parts_[i] = comparer.sums_in(a, b, {interval.first + at * size / 4, interval.first + (at + 1) * size / 4 - 1});
+    parts_[i] =
+        comparer.sums_in(a, b, {interval.first + at * size / 4, interval.first + (at + 1) * size / 4 - 1});
     rest -= parts_[i];
   }
   parts_[kParts - 1] = rest;
@@ -86,14 +89,16 @@ bool StillnessTest::drifts(int combination, const OffsetMoments& whole) const {
   if (between / (parts - 1) > kBetween * variance + square(kNoDeviation_m)) return true;
   if (tail_.count < 2) return false;
   const Vec2 off = offset_moments(tail_, combination, kNoSize).mean - whole.mean;
-  return off.squaredNorm() * static_cast<double>(tail_.count) > kTailSigmas2 * variance + square(kNoDeviation_m);
+  return off.squaredNorm() * static_cast<double>(tail_.count) >
+         kTailSigmas2 * variance + square(kNoDeviation_m);
 }
 
 /// The longest way between places of the robot that the interval shows, if the end of a stands still.
 double StillnessTest::travel(int combination) const {
   std::array<Vec2, kParts> places;
   double farthest = 0.0;
-  for (std::size_t i = 0; i < kParts; ++i) {  // in the middle of each part: the very first and last sightings may be of something else
+  for (std::size_t i = 0; i < kParts;
+       ++i) {  // in the middle of each part: the very first and last sightings may be of something else
     const Iteration at = interval_.first + (2 * static_cast<Iteration>(i) + 1) * interval_.size() / 8;
     const Sighting& sighting = a_[std::min(a_.lower_bound(at), a_.size() - 1)];
     places[i] = place_from(sighting, combination / 2);
@@ -151,10 +156,10 @@ bool length_changes(const Track& track, const Interval& interval) {
   const std::size_t count = track.lower_bound(interval.last + 1) - begin;
   const std::size_t window = std::min<std::size_t>(kWindow, count / 3);
   if (window == 0) return false;
-  const Lengths parts[3] = {lengths_of(track, begin, window), lengths_of(track, begin + (count - window) / 2, window),
+  const Lengths parts[3] = {lengths_of(track, begin, window),
+                            lengths_of(track, begin + (count - window) / 2, window),
                             lengths_of(track, begin + count - window, window)};
-  const auto [least, most] =
-      std::minmax({parts[0].mean, parts[1].mean, parts[2].mean});
+  const auto [least, most] = std::minmax({parts[0].mean, parts[1].mean, parts[2].mean});
   const double steps = static_cast<double>(3 * (window - 1));
   const double variance =
       steps > 0.0 ? 0.5 * (parts[0].steps + parts[1].steps + parts[2].steps) / steps : 0.0;  // of one length

@@ -86,16 +86,6 @@ PlanePair pair_at(const Pose2& T, const Vec2& point, const Vec2& direction, bool
   return pair;
 }
 
-Reference reference_at(const Vec2& left, const Vec2& right) {
-  Reference reference;
-  reference.place.middle = 0.5 * (left + right);
-  reference.place.direction = (right - left).normalized();
-  reference.place.size = (right - left).norm();
-  reference.place.valid = true;
-  reference.known[0] = reference.known[1] = true;
-  return reference;
-}
-
 TEST(ThesisMapper, NothingSeenIsLost) {
   ThesisMapper mapper{Options{}};
   EXPECT_FALSE(mapper.process({}, View{}).has_pose);
@@ -257,44 +247,6 @@ TEST(MapperRule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
   ASSERT_FALSE(history.saved.empty());
   EXPECT_GE(history.shared(), 35);
   EXPECT_LT(error_of(history.saved.front(), kAlong, kAhead), 1e-3);
-}
-
-TEST(StaticPairs, EndsThatMoveAreNotStill) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
-  StaticPairs pairs{CompareOptions{}};
-  for (Iteration k = 0; k < 100; ++k) {
-    const double hidden = 1.0 + 0.5 * std::sin(0.1 * static_cast<double>(k));
-    a.push(seen(kAlong, curved(k), k, hidden, hidden));
-    b.push(seen(kAhead, curved(k), k, 0.0, 0.0));
-    EXPECT_EQ(pairs.update(a, b).since, -1) << k;
-  }
-}
-
-TEST(StaticPairs, ParallelPlanesAreNotCompared) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
-  StaticPairs pairs{CompareOptions{}};
-  for (Iteration k = 0; k < 30; ++k) {
-    a.push(seen(kAlong, curved(k), k));
-    b.push(seen(kFacing, curved(k), k));
-    EXPECT_EQ(pairs.update(a, b).shared(), 0);
-  }
-}
-
-TEST(Reference, EndsThatNothingHasInCommonPlaceNothing) {
-  Reference base = reference_at(Vec2(0, 0), Vec2(4, 0));
-  base.known[kEndB] = false;
-  base.place.key = KeyPoint::left;
-  Comparison comparison;
-  comparison.valid = true;
-  comparison.shared = 20;
-  comparison.size[0] = 4.0;
-  comparison.size[1] = 2.0;
-  comparison.key[0] = KeyPoint::right;
-  comparison.key[1] = KeyPoint::left;
-  comparison.deviations = {1.0, 1.0, 0.0, 1.0};
-  EXPECT_FALSE(chained(base, comparison, CompareOptions{}).valid());
-  base.known[kEndB] = true;
-  EXPECT_TRUE(chained(base, comparison, CompareOptions{}).valid());
 }
 
 }  // namespace
