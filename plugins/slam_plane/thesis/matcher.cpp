@@ -61,7 +61,6 @@ void hand_over(TrackId from, TrackId to, State& state) {
   const Track& young = state.tracks[from];
   const Iteration last = track.empty() ? -1 : track.newest().iteration;
   for (std::size_t i = young.lower_bound(last + 1); i < young.size(); ++i) track.push(young[i]);
-  state.pairs.forget(to);
   state.pairs.forget(from);
   state.tracks[from].truncate(-1);
   std::replace(state.recent.begin(), state.recent.end(), from, to);
