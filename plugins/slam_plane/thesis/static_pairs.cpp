@@ -2,6 +2,10 @@
 #include "slam_plane/thesis/static_pairs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slam_plane/thesis/end_conflict.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -25,17 +29,6 @@ void sort_saved(PairHistory& pair) {
 
 bool made_from(const Comparison& comparison, int combination) {
   return comparison.key[0] == key_of(combination, 0) && comparison.key[1] == key_of(combination, 1);
-}
-
-/// Of comparisons of the same ends the longer one is kept (Rule 36), and of one run the newer one.
-void keep_better(const Comparison& made, PairHistory& pair) {
-  const auto same = std::find_if(pair.saved.begin(), pair.saved.end(),
-                                 [&](const Comparison& other) { return other.same_ends(made); });
-  if (same == pair.saved.end()) {
-    pair.saved.push_back(made);
-  } else if (same->interval.first == made.interval.first || made.shared >= same->shared) {
-    *same = made;
-  }
 }
 
 /// When both planes began to do what they do now (Rule 18).
@@ -62,8 +55,18 @@ void leave_one_end(const Track& track, double ratio, Iteration now, EndRun& left
   if (sign >= 0) right.undefined = true;
 }
 
-void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pair) {
-  for (EndRun& run : pair.runs) run.undefined = false;
+/// Ends of parallel planes that move alike stand still to each other, and nothing tells them from ends that do: so where both planes change their length the pair has no key points (Rule 15).
+bool may_move_alike(const Track& a, const Track& b, const EndRun& run, Iteration now, double sine) {
+  if (std::abs(cross(a.find(now)->direction, b.find(now)->direction)) > sine) return false;
+  const Interval interval{run.since, now};
+  return length_changes(a, interval) && length_changes(b, interval);
+}
+
+void leave_one_end(const Track& a, const Track& b, const CompareOptions& options, PairHistory& pair) {
+  const double ratio = options.close_ratio;
+  const double sine = std::sin(options.parallel_deg * std::numbers::pi / 180.0);
+  for (EndRun& run : pair.runs)
+    run.undefined = run.since >= 0 && may_move_alike(a, b, run, pair.updated, sine);
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t d = 0; d < c; ++d) {
       if (c / 2 != d / 2) leave_one_end(a, ratio, pair.updated, pair.runs[d], pair.runs[c]);
@@ -73,6 +76,36 @@ void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pa
 }
 
 }  // namespace
+
+/// Of comparisons of the same ends the longer one is kept (Rule 36), and of one run the newer one. If they contradict each other it is the one in which the plane reaches farther, and what else is
+/// known of the other one's end is not of its corner.
+void StaticPairs::keep_better(const Track& a, const Track& b, const Comparison& made, PairHistory& pair) {
+  const auto same = std::find_if(pair.saved.begin(), pair.saved.end(),
+                                 [&](const Comparison& other) { return other.same_ends(made); });
+  if (same == pair.saved.end()) {
+    pair.saved.push_back(made);
+    return;
+  }
+  const bool same_run = same->interval.first == made.interval.first;
+  const EndConflict conflict = made.has_keys() && !same_run ? conflict_between(*same, made) : EndConflict{};
+  if (conflict.any && conflict.newer_right) {
+    const TrackId track = conflict.which == 0 ? a.id() : b.id();
+    corner_since_[{track, made.key[conflict.which]}] = made.interval.first;
+  }
+  if (conflict.any ? conflict.newer_right : same_run || made.shared >= same->shared) *same = made;
+}
+
+/// Forgets what was found of ends that turned out not to be corners.
+void StaticPairs::drop_disproved(const Track& a, const Track& b, PairHistory& pair) {
+  if (corner_since_.empty()) return;
+  std::erase_if(pair.saved, [&](const Comparison& saved) {
+    for (const int which : {0, 1}) {
+      const auto since = corner_since_.find({which == 0 ? a.id() : b.id(), saved.key[which]});
+      if (since != corner_since_.end() && saved.interval.last < since->second) return true;
+    }
+    return false;
+  });
+}
 
 bool PairHistory::still(int which, int end) const {
   for (int c = 0; c < 4; ++c) {
@@ -85,7 +118,7 @@ void StaticPairs::save(const Track& a, const Track& b, int combination, PairHist
   const EndRun& run = pair.runs[static_cast<std::size_t>(combination)];
   const Comparison made = comparer_.compare_in(a, b, {run.since, pair.updated}, combination);
   if (!made.valid) return;
-  keep_better(made, pair);
+  keep_better(a, b, made, pair);
 }
 
 /// What was saved of a run is made anew without what came after an iteration.
@@ -206,7 +239,7 @@ void StaticPairs::find_lines(const Track& a, const Track& b, PairHistory& pair) 
     const Track& to = which == 0 ? a : b;
     for (const int end : {kEndA, kEndB}) {
       const Comparison line = compare_line(from, to, end, pair.updated, options_);
-      if (line.valid) keep_better(which == 0 ? inverse(line) : line, pair);
+      if (line.valid) keep_better(a, b, which == 0 ? inverse(line) : line, pair);
     }
   }
 }
@@ -215,6 +248,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   if (b.id() < a.id()) return update(b, a);
   PairHistory& pair = pairs_[{a.id(), b.id()}];
   if (a.empty() || b.empty()) return pair;
+  drop_disproved(a, b, pair);
   const Iteration last = std::min(a.newest().iteration, b.newest().iteration);
   if (last <= pair.updated || a.find(last) == nullptr || b.find(last) == nullptr) return pair;
   const bool due = last / kTestEvery != pair.updated / kTestEvery;
@@ -228,7 +262,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   follow(a, b, due, pair);
   search_exact(a, b, start, pair);
   if (due) search(a, b, start, pair);
-  leave_one_end(a, b, options_.close_ratio, pair);
+  leave_one_end(a, b, options_, pair);
   for (int c = 0; c < 4; ++c) {
     const EndRun& run = pair.runs[static_cast<std::size_t>(c)];
     if (run.still() && (due || run.moments.deviation <= kNoDeviation_m)) save(a, b, c, pair);
@@ -245,6 +279,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
 
 void StaticPairs::truncate(Iteration k) {
   comparer_.truncate(k);
+  std::erase_if(corner_since_, [&](const auto& entry) { return entry.second > k; });
   for (auto& [key, pair] : pairs_) {
     if (pair.updated <= k) continue;
     std::erase_if(pair.saved, [&](const Comparison& saved) { return saved.interval.last > k; });
@@ -255,6 +290,7 @@ void StaticPairs::truncate(Iteration k) {
 
 void StaticPairs::forget(TrackId id) {
   comparer_.forget(id);
+  for (const KeyPoint key : {KeyPoint::left, KeyPoint::right}) corner_since_.erase({id, key});
   std::erase_if(pairs_,
                 [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
 }

@@ -70,11 +70,14 @@ class StaticPairs {
   void find_lines(const Track& a, const Track& b, PairHistory& pair);
   void end_run(const Track& a, const Track& b, int combination, PairHistory& pair);
   void shorten(const Track& a, const Track& b, int combination, Iteration last, PairHistory& pair);
+  void keep_better(const Track& a, const Track& b, const Comparison& made, PairHistory& pair);
+  void drop_disproved(const Track& a, const Track& b, PairHistory& pair);
   void save(const Track& a, const Track& b, int combination, PairHistory& pair);
 
   CompareOptions options_;
   PairComparer comparer_;
   std::map<Key, PairHistory> pairs_;
+  std::map<std::pair<TrackId, KeyPoint>, Iteration> corner_since_;  // ends that were taken for another place before
 };
 
 }  // namespace hallway::slam_plane::thesis

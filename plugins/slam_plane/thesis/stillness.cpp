@@ -15,7 +15,7 @@ constexpr Iteration kTail = 12;         // newest iterations that are looked at 
 constexpr double kWayDeviations = 6.0;  // least way of the robot, in standard deviations of the offset
 constexpr double kWayOverNoise =
     70.0;  // and in those of its mean: an end that moves by a tenth of the way moves by 2 sqrt(12) of them
-constexpr double kExactWay_m = 5e-3;   // where there is no deviation
+constexpr double kExactWay_m = 0.05;   // where there is no deviation
 constexpr std::size_t kWatched = 32;   // newest sightings that are looked at one by one
 constexpr double kWander = 2.0;        // largest ratio of their variance to that of their steps
 constexpr double kOneSigmas2 = 12.0;   // squared standard deviations by which one sighting may differ
