@@ -78,6 +78,8 @@ void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, cons
   if (planes_.size() <= track) planes_.resize(tracks.size());
   if (!planes_[track].valid()) ++valid_;
   planes_[track].reference = plane;
+  const Segment segment = plane.place.segment();
+  index_.put(static_cast<Index>(track), segment.end[kEndA], segment.end[kEndB]);
 }
 
 void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps,

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam_plane/core/wall_index.hpp"
 #include "slam_plane/thesis/submap.hpp"
 #include "slam_plane/thesis/track_book.hpp"
 
@@ -29,12 +30,18 @@ class MapBuilder {
     return track < planes_.size() && planes_[track].valid() ? &planes_[track] : nullptr;
   }
   std::size_t size() const { return planes_.size(); }
+  /// Calls visit(track) for each plane of the map within a metre of a place, and some farther ones.
+  template <typename Visit>
+  void visit_near(const Vec2& place, const Visit& visit) const {
+    index_.visit_near(place, visit);
+  }
   /// Planes that the map has.
   std::size_t valid_planes() const { return valid_; }
 
   /// Rolls back: forgets everything; build() all submaps then.
   void clear() {
     planes_.clear();
+    index_.clear();
     valid_ = 0;
   }
 
@@ -48,6 +55,7 @@ class MapBuilder {
 
   Options options_;
   std::vector<MappedPlane> planes_;  // by track
+  WallIndex index_;                  // of them
   std::size_t valid_ = 0;
 };
 

@@ -99,14 +99,12 @@ void add_planes(std::span<const Piece> pieces, const Options& options, State& st
 
 std::vector<TrackId> map_matches(const Segment& segment, const Options& options, const State& state) {
   std::vector<std::pair<double, TrackId>> found;
-  for (TrackId id = 0; id < state.map.size(); ++id) {
-    const MappedPlane* plane = state.map.find(id);
-    if (plane == nullptr) continue;
-    const MatchOptions bounds = options.map_match();
-    const std::optional<double> score =
-        match_score(placed_terms(segment, plane->reference.place.segment(), bounds), bounds);
+  const MatchOptions bounds = options.map_match();
+  state.map.visit_near(segment.middle(), [&](TrackId id) {
+    const Segment wall = state.map.find(id)->reference.place.segment();
+    const std::optional<double> score = match_score(placed_terms(segment, wall, bounds), bounds);
     if (score) found.emplace_back(-*score, id);
-  }
+  });
   std::sort(found.begin(), found.end());
   std::vector<TrackId> result;
   for (const auto& [score, id] : found) result.push_back(id);

@@ -246,7 +246,12 @@ void StaticPairs::find_lines(const Track& a, const Track& b, PairHistory& pair) 
 
 const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   if (b.id() < a.id()) return update(b, a);
-  PairHistory& pair = pairs_[{a.id(), b.id()}];
+  const auto [at, made] = pairs_.try_emplace({a.id(), b.id()});
+  PairHistory& pair = at->second;
+  if (made) {
+    partners_[a.id()].push_back(b.id());
+    partners_[b.id()].push_back(a.id());
+  }
   if (a.empty() || b.empty()) return pair;
   drop_disproved(a, b, pair);
   const Iteration last = std::min(a.newest().iteration, b.newest().iteration);
@@ -291,8 +296,13 @@ void StaticPairs::truncate(Iteration k) {
 void StaticPairs::forget(TrackId id) {
   comparer_.forget(id);
   for (const KeyPoint key : {KeyPoint::left, KeyPoint::right}) corner_since_.erase({id, key});
-  std::erase_if(pairs_,
-                [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
+  const auto partners = partners_.find(id);
+  if (partners == partners_.end()) return;
+  for (const TrackId other : partners->second) {
+    pairs_.erase({std::min(id, other), std::max(id, other)});
+    std::erase(partners_[other], id);
+  }
+  partners_.erase(id);
 }
 
 }  // namespace hallway::slam_plane::thesis

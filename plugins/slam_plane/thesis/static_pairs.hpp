@@ -57,7 +57,7 @@ class StaticPairs {
   /// Rolls back to iteration k: what was found later is found again. O(pairs).
   void truncate(Iteration k);
 
-  /// Forgets all pairs with a track.
+  /// Forgets all pairs with a track. O(pairs of it * log(all)).
   void forget(TrackId id);
 
  private:
@@ -77,7 +77,9 @@ class StaticPairs {
   CompareOptions options_;
   PairComparer comparer_;
   std::map<Key, PairHistory> pairs_;
-  std::map<std::pair<TrackId, KeyPoint>, Iteration> corner_since_;  // ends that were taken for another place before
+  std::map<TrackId, std::vector<TrackId>> partners_;  // with whom a track was compared
+  std::map<std::pair<TrackId, KeyPoint>, Iteration>
+      corner_since_;  // ends that were taken for another place before
 };
 
 }  // namespace hallway::slam_plane::thesis

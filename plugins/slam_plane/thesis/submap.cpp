@@ -175,8 +175,8 @@ void Submap::confirm(TrackId track) {
 }
 
 void Submap::truncate(Iteration k) {
-  std::erase_if(members_, [&](const Member& member) { return member.joined > k; });
-  ordered_ = computed_to_ = -1;
+  const bool changed = std::erase_if(members_, [&](const Member& member) { return member.joined > k; }) > 0;
+  if (changed || computed_to_ > k || ordered_ > k) ordered_ = computed_to_ = -1;
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -17,7 +17,7 @@ namespace {
 constexpr int kPlaceByPoseAfter =
     30;  // iterations after which a submap without a link is placed by the robot's pose
 constexpr std::size_t kTurns = 4;      // iterations in which each submap in view is computed once
-constexpr int kRollBacksPerFrame = 4;  // more in one frame are not made: the member stays
+constexpr int kRollBacksPerFrame = 1;  // what asks for another one asks again in the next frame
 
 }  // namespace
 
@@ -51,6 +51,7 @@ class ThesisMapper::Engine {
     build_map();
     locate();
     history_.close(state_);
+    state_.hints.forget_before(state_.now - options_.roll_back_limit);
   }
 
   /// Submaps of which at least two planes are in view (thesis 4.5 ComputeXPoints).
