@@ -55,18 +55,7 @@ void leave_one_end(const Track& track, double ratio, Iteration now, EndRun& left
   if (sign >= 0) right.undefined = true;
 }
 
-/// Ends of parallel planes that move alike stand still to each other, and nothing tells them from ends that do: so where both planes change their length the pair has no key points (Rule 15).
-bool may_move_alike(const Track& a, const Track& b, const EndRun& run, Iteration now, double sine) {
-  if (std::abs(cross(a.find(now)->direction, b.find(now)->direction)) > sine) return false;
-  const Interval interval{run.since, now};
-  return length_changes(a, interval) && length_changes(b, interval);
-}
-
-void leave_one_end(const Track& a, const Track& b, const CompareOptions& options, PairHistory& pair) {
-  const double ratio = options.close_ratio;
-  const double sine = std::sin(options.parallel_deg * std::numbers::pi / 180.0);
-  for (EndRun& run : pair.runs)
-    run.undefined = run.since >= 0 && may_move_alike(a, b, run, pair.updated, sine);
+void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pair) {
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t d = 0; d < c; ++d) {
       if (c / 2 != d / 2) leave_one_end(a, ratio, pair.updated, pair.runs[d], pair.runs[c]);
@@ -105,6 +94,40 @@ void StaticPairs::drop_disproved(const Track& a, const Track& b, PairHistory& pa
     }
     return false;
   });
+}
+
+/// Ends of parallel planes that move alike stand still to each other, and the pair does not tell them from ends that do (Rule 15). So it has no key points where both planes change their length,
+/// until that went on for long; nor where a plane's length changes while another pair, of planes that are not parallel, tells that its other end stands still.
+bool StaticPairs::may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
+                                 Iteration now) const {
+  const Interval interval{run.since, now};
+  const bool changes[2] = {length_changes(a, interval), length_changes(b, interval)};
+  if (changes[0] && changes[1] && interval.size() < kReadings) return true;
+  for (const int which : {0, 1}) {
+    const KeyPoint other = key_of(combination, which) == KeyPoint::left ? KeyPoint::right : KeyPoint::left;
+    const auto firm = firm_.find({which == 0 ? a.id() : b.id(), other});
+    if (changes[which] && firm != firm_.end() && firm->second + kTestEvery >= now) return true;
+  }
+  return false;
+}
+
+/// Which of the ends that stand still to each other are no key points.
+void StaticPairs::judge_runs(const Track& a, const Track& b, PairHistory& pair) {
+  const double sine = std::sin(options_.parallel_deg * std::numbers::pi / 180.0);
+  const bool parallel =
+      std::abs(cross(a.find(pair.updated)->direction, b.find(pair.updated)->direction)) <= sine;
+  for (int c = 0; c < 4; ++c) {
+    EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    run.undefined = parallel && run.since >= 0 && may_move_alike(a, b, c, run, pair.updated);
+  }
+  leave_one_end(a, b, options_.close_ratio, pair);
+  if (parallel) return;
+  for (const int which : {0, 1}) {
+    for (const int end : {kEndA, kEndB}) {
+      const KeyPoint key = end == kEndA ? KeyPoint::left : KeyPoint::right;
+      if (pair.still(which, end)) firm_[{which == 0 ? a.id() : b.id(), key}] = pair.updated;
+    }
+  }
 }
 
 bool PairHistory::still(int which, int end) const {
@@ -267,7 +290,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   follow(a, b, due, pair);
   search_exact(a, b, start, pair);
   if (due) search(a, b, start, pair);
-  leave_one_end(a, b, options_, pair);
+  judge_runs(a, b, pair);
   for (int c = 0; c < 4; ++c) {
     const EndRun& run = pair.runs[static_cast<std::size_t>(c)];
     if (run.still() && (due || run.moments.deviation <= kNoDeviation_m)) save(a, b, c, pair);
@@ -285,6 +308,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
 void StaticPairs::truncate(Iteration k) {
   comparer_.truncate(k);
   std::erase_if(corner_since_, [&](const auto& entry) { return entry.second > k; });
+  std::erase_if(firm_, [&](const auto& entry) { return entry.second > k; });
   for (auto& [key, pair] : pairs_) {
     if (pair.updated <= k) continue;
     std::erase_if(pair.saved, [&](const Comparison& saved) { return saved.interval.last > k; });
@@ -295,7 +319,10 @@ void StaticPairs::truncate(Iteration k) {
 
 void StaticPairs::forget(TrackId id) {
   comparer_.forget(id);
-  for (const KeyPoint key : {KeyPoint::left, KeyPoint::right}) corner_since_.erase({id, key});
+  for (const KeyPoint key : {KeyPoint::left, KeyPoint::right}) {
+    corner_since_.erase({id, key});
+    firm_.erase({id, key});
+  }
   const auto partners = partners_.find(id);
   if (partners == partners_.end()) return;
   for (const TrackId other : partners->second) {

@@ -67,6 +67,9 @@ class StaticPairs {
   void follow(const Track& a, const Track& b, bool due, PairHistory& pair);
   void search(const Track& a, const Track& b, Iteration start, PairHistory& pair);
   void search_exact(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  bool may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
+                      Iteration now) const;
+  void judge_runs(const Track& a, const Track& b, PairHistory& pair);
   void find_lines(const Track& a, const Track& b, PairHistory& pair);
   void end_run(const Track& a, const Track& b, int combination, PairHistory& pair);
   void shorten(const Track& a, const Track& b, int combination, Iteration last, PairHistory& pair);
@@ -77,6 +80,8 @@ class StaticPairs {
   CompareOptions options_;
   PairComparer comparer_;
   std::map<Key, PairHistory> pairs_;
+  std::map<std::pair<TrackId, KeyPoint>, Iteration>
+      firm_;  // ends that stood still to a plane that is not parallel, when last
   std::map<TrackId, std::vector<TrackId>> partners_;  // with whom a track was compared
   std::map<std::pair<TrackId, KeyPoint>, Iteration>
       corner_since_;  // ends that were taken for another place before
