@@ -13,7 +13,14 @@ namespace hallway::slam_plane::thesis {
 
 /// A plane of the map.
 struct MappedPlane {
-  Reference reference;  ///< map's frame
+  /// How far it was seen to reach while a motion model was on.
+  struct Reach {
+    Vec2 place = Vec2::Zero();  ///< map's frame [m]
+    Iteration at = 0;
+  };
+
+  Reference reference;            ///< map's frame
+  std::optional<Reach> reach[2];  ///< beyond the ends that submaps tell
   bool valid() const { return reference.valid(); }
 };
 
@@ -38,12 +45,11 @@ class MapBuilder {
   /// Planes that the map has.
   std::size_t valid_planes() const { return valid_; }
 
-  /// Rolls back: forgets everything; build() all submaps then.
-  void clear() {
-    planes_.clear();
-    index_.clear();
-    valid_ = 0;
-  }
+  /// Grows a plane of the map, where its ends are not known, to what is seen of it while only a motion model tells where (Rule 23).
+  void expand(TrackId track, const Segment& seen, Iteration now);
+
+  /// Rolls back to iteration k: forgets everything but what was expanded until then; build() all submaps then.
+  void clear(Iteration k);
 
   /// Where a submap lies in the map, by the planes that it shares with older ones that it is linked to; nothing if they are too few (Rule 8).
   static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps,
@@ -51,6 +57,7 @@ class MapBuilder {
 
  private:
   bool place(SubmapIndex index, std::vector<Submap>& submaps) const;
+  void grow_to_reach(TrackId track);
   void combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks);
 
   Options options_;

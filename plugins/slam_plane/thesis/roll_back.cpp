@@ -66,7 +66,7 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   state.met_again.clear();
   state.unanchored.clear();
   state.locator.clear();
-  state.map.clear();
+  state.map.clear(k);
   std::vector<SubmapIndex> all(state.submaps.size());
   std::iota(all.begin(), all.end(), SubmapIndex{0});
   for (Submap& submap : state.submaps) submap.compute(state.pairs, state.tracks, options, k);

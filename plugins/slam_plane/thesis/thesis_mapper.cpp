@@ -127,11 +127,18 @@ class ThesisMapper::Engine {
       motion.known(location_->T_to_from);
     } else {
       location_->T_to_from = motion.restricted(*location_);
+      expand_planes(location_->T_to_from);
       ++degenerate_;
     }
     state_.carried.located = location_.has_value();
     if (motion.active()) state_.carried.after_motion = true;
     if (location_) counters_.submaps_after_motion += anchor_by_pose(*location_, state_);
+  }
+
+  /// While nothing but its line tells where a plane is, all that is learned of it is how far it reaches (Rule 23).
+  void expand_planes(const Pose2& T_map_robot) {
+    for (const TrackId id : state_.seen)
+      state_.map.expand(id, T_map_robot * state_.tracks[id].newest().segment, state_.now);
   }
 
   /// Goes back to before the hinted event and does everything again (Rules 33, 34).
