@@ -29,7 +29,7 @@ struct Options {
   int motion_after = 3;    ///< iterations without a position, before the motion model begins (Rule 26)
   double motion_parallel_deg =
       25.0;                   ///< a wall at a smaller angle to the movement does not measure it (Rule 25)
-  int roll_back_limit = 500;  ///< iterations that a roll back goes back at most (Rule 33)
+  int roll_back_limit = 50;  ///< iterations that a roll back goes back at most (Rule 33)
 
   MatchOptions match() const;
   MatchOptions map_match() const;
