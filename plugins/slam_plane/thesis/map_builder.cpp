@@ -23,8 +23,7 @@ std::optional<Pose2> by_anchors(const Submap& submap) {
 
 }  // namespace
 
-std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps,
-                                      std::size_t min_planes) {
+std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps) {
   const Submap& submap = submaps[index];
   std::vector<PlanePair> pairs;
   std::vector<TrackId> shared;
@@ -39,7 +38,7 @@ std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Subma
         shared.push_back(member.track);
     }
   }
-  if (shared.size() < min_planes) return std::nullopt;
+  if (shared.size() < kLeastLinkPlanes) return std::nullopt;
   const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
   if (!alignment || !alignment->determined) return std::nullopt;
   return alignment->T_to_from;
@@ -51,7 +50,7 @@ bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps) const {
   const bool was = submap.placed;
   std::optional<Pose2> T;
   if (!submap.anchors.empty()) T = by_anchors(submap);
-  if (!T) T = link(index, submaps, kLeastLinkPlanes);
+  if (!T) T = link(index, submaps);
   if (!T) return false;
   submap.T_map_submap = *T;
   submap.placed = true;

@@ -52,8 +52,7 @@ class MapBuilder {
   void clear(Iteration k);
 
   /// Where a submap lies in the map, by the planes that it shares with older ones that it is linked to; nothing if they are too few (Rule 8).
-  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps,
-                                   std::size_t min_planes);
+  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps);
 
  private:
   bool place(SubmapIndex index, std::vector<Submap>& submaps) const;

@@ -27,22 +27,6 @@ std::vector<TrackList> stages(const State& state) {
   return lists;
 }
 
-void chart(State& state) {
-  std::vector<SubmapIndex> all;
-  for (const TrackId id : state.seen) {
-    const auto& of = state.tracks.submaps(id);
-    all.insert(all.end(), of.begin(), of.end());
-    const auto& charted = state.tracks.charted(id);
-    all.insert(all.end(), charted.begin(), charted.end());
-  }
-  std::sort(all.begin(), all.end());
-  state.chart.clear();
-  for (const SubmapIndex submap : all) {
-    if (state.chart.empty() || state.chart.back().first != submap) state.chart.emplace_back(submap, 0);
-    ++state.chart.back().second;
-  }
-}
-
 /// Tracks seen in the last few iterations.
 void keep_recent(const Options& options, State& state) {
   std::erase_if(state.recent, [&](TrackId id) {
@@ -94,7 +78,23 @@ void add_planes(std::span<const Piece> pieces, const Options& options, State& st
   }
   std::sort(state.seen.begin(), state.seen.end());
   keep_recent(options, state);
-  chart(state);
+  chart_submaps(state);
+}
+
+void chart_submaps(State& state) {
+  std::vector<SubmapIndex> all;
+  for (const TrackId id : state.seen) {
+    const auto& of = state.tracks.submaps(id);
+    all.insert(all.end(), of.begin(), of.end());
+    const auto& charted = state.tracks.charted(id);
+    all.insert(all.end(), charted.begin(), charted.end());
+  }
+  std::sort(all.begin(), all.end());
+  state.chart.clear();
+  for (const SubmapIndex submap : all) {
+    if (state.chart.empty() || state.chart.back().first != submap) state.chart.emplace_back(submap, 0);
+    ++state.chart.back().second;
+  }
 }
 
 std::vector<TrackId> map_matches(const Segment& segment, const Options& options, const State& state) {

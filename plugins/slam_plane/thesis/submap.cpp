@@ -39,6 +39,11 @@ std::size_t placed_count(const std::vector<Reference>& references) {
       references.begin(), references.end(), [](const Reference& reference) { return reference.valid(); }));
 }
 
+std::size_t placed_count(const std::vector<Member>& members) {
+  return static_cast<std::size_t>(std::count_if(
+      members.begin(), members.end(), [](const Member& member) { return member.reference.valid(); }));
+}
+
 }  // namespace
 
 const Member* Submap::find(TrackId track) const {
@@ -73,8 +78,35 @@ bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options&
     for (int end = 0; end < 2; ++end) member.still[end] = false;
   }
   for (const PlaceStep& step : order_) take_step(step, pairs, tracks, now);
+  take_best(tracks);
   keep_frame(before);
+  keep_best(now);
   return true;
+}
+
+/// If nothing can be computed any more, since the sightings are gone, it is as it was at its best (Rule 35).
+void Submap::take_best(const TrackBook& tracks) {
+  if (placed_count(members_) > 0) return;
+  const bool found_wrong = std::any_of(best_.begin(), best_.end(), [&](const Member& saved) {
+    const Iteration last = saved.comparison.interval.last;
+    return saved.comparison.valid && tracks[saved.track].find(last) != nullptr &&
+           tracks[saved.parent].find(last) != nullptr;
+  });
+  if (found_wrong) return;
+  for (Member& member : members_) {
+    for (const Member& saved : best_) {
+      if (saved.track != member.track) continue;
+      member.reference = saved.reference;
+      member.comparison = saved.comparison;
+      member.parent = saved.parent;
+    }
+  }
+}
+
+void Submap::keep_best(Iteration now) {
+  if (placed_count(members_) < placed_count(best_)) return;
+  best_ = members_;
+  best_at_ = now;
 }
 
 /// What is placed from is another plane now and then, or grows: the frame stays where it was.
@@ -176,6 +208,7 @@ void Submap::confirm(TrackId track) {
 
 void Submap::truncate(Iteration k) {
   const bool changed = std::erase_if(members_, [&](const Member& member) { return member.joined > k; }) > 0;
+  if (best_at_ > k) best_.clear();
   if (changed || computed_to_ > k || ordered_ > k) ordered_ = computed_to_ = -1;
 }
 

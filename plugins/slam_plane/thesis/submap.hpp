@@ -69,6 +69,8 @@ class Submap {
 
  private:
   void keep_frame(const std::vector<Member>& before);
+  void take_best(const TrackBook& tracks);
+  void keep_best(Iteration now);
   void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
   int score_of(const std::vector<Reference>& references) const;
   void take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
@@ -77,6 +79,8 @@ class Submap {
   std::uint64_t id_;
   Iteration created_;
   std::vector<Member> members_;
+  std::vector<Member> best_;  // the members when most of them were placed, the latest time (Rule 35)
+  Iteration best_at_ = -1;
   std::vector<PlaceStep> order_;
   Iteration ordered_ = -1;      // when the order was chosen; -1: never
   Iteration computed_to_ = -1;  // newest sighting that was taken in

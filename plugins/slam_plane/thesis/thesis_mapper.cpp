@@ -145,11 +145,8 @@ class ThesisMapper::Engine {
   void roll_back() {
     const Hint hint = *roll_back_;
     roll_back_.reset();
-    const Iteration k = hint.iteration - 1;
-    if (!history_.reaches(k)) return;
-    state_.hints.add(hint);
-    std::vector<Record> again = history_.take_after(k);
-    roll_back_to(history_.at(k), options_, state_);
+    if (!history_.reaches(hint.iteration - 1)) return;
+    const std::vector<Record> again = go_back(hint, options_, history_, state_);
     for (const Record& record : again) {
       history_.add(record.iteration, record.pieces);
       iterate(record.pieces);

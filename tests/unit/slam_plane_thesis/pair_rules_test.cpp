@@ -15,8 +15,6 @@
 namespace hallway::slam_plane::thesis::test {
 namespace {
 
-constexpr double kExact = 1e-9;
-
 double ramp(Iteration k, Iteration from, Iteration to, double first, double last) {
   const double share = static_cast<double>(k - from) / static_cast<double>(to - from);
   return first + std::clamp(share, 0.0, 1.0) * (last - first);
@@ -216,15 +214,15 @@ TEST(Rule16, WhatIsSeenOfAPlaneIsComparedWithTheMapAtItsKeyPoint) {
   TwoMapped world;
   Locator locator{world.options};
   const Pose2 truth = Pose2::at(Vec2(1.0, 0.3), 0.2);
-  world.tracks[0].push(seen(kAlong, truth, 41, 3.0, 0.0));  // a part, of which the right end is the wall's
-  locator.note(0, {false, true}, 41);
+  world.tracks[0].push(seen(kAlong, truth, 41, 0.0, 3.0));  // a part, of which the left end is the wall's
+  locator.note(0, {true, false}, 41);
   const std::vector<TrackId> now{0};
-  const auto location = locator.locate(now, world.tracks, world.map, world.pairs, 41, Pose2{});
+  const auto location = locator.locate(now, world.tracks, world.map, world.pairs, 41, truth);
   ASSERT_TRUE(location && location->by_points);
   EXPECT_LT((location->T_to_from.t - truth.t).norm(), kExact);
 }
 
-TEST(Rule17, OfTwoViewsOfAPlaneWhatBothKnowIsComparedWhateverTheirSizes) {
+TEST(Reference, OfTwoViewsOfAPlaneWhatBothKnowIsComparedWhateverTheirSizes) {
   const Reference whole{{Vec2(0, 0), Vec2(1, 0), 6.0, true}, {true, true}, 10};
   const Reference part{{Vec2(11, 3), Vec2(0, 1), 2.0, true}, {false, true}, 10};
   std::vector<PlanePair> pairs;
@@ -261,7 +259,7 @@ TEST(Rule18, TimeIsSplitWhereAPlaneTurnsFromGrowingToShrinking) {
   EXPECT_GT(right, 0);
 }
 
-TEST(Rule19, AKeyPointThatNoSubmapTellsIsFoundInTheIntervalOfNow) {
+TEST(Locator, AKeyPointThatNoSubmapTellsIsFoundInTheIntervalOfNow) {
   TwoMapped world;
   Locator locator{world.options};  // to which nothing is noted
   for (const TrackId id : {TrackId{0}, TrackId{1}})
@@ -334,7 +332,7 @@ TEST(Rule31, AMemberIsConfirmedWhenItWasComparedForLongEnough) {
             Membership::undecided);
 }
 
-TEST(Rule32, AMemberThatWasNotComparedForLongEnoughIsFoundOutInTime) {
+TEST(Membership, AMemberThatWasNotComparedForLongEnoughIsFoundOutInTime) {
   const Comparison none;
   EXPECT_EQ(judge_member(none, 100, 129, IntervalOptions{}), Membership::undecided);
   EXPECT_EQ(judge_member(none, 100, 130, IntervalOptions{}), Membership::too_short);
