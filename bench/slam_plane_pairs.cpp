@@ -17,6 +17,7 @@ using namespace hallway::slam_plane::thesis;
 
 constexpr int kRuns = 5;
 constexpr Iteration kMeasured = 100;  // iterations
+constexpr int kEnds = 1;              // the left end of the one and the right end of the other
 
 double cpu_us() {
   timespec now{};
@@ -57,7 +58,9 @@ Timing run(Iteration stored, bool kept) {
     a.push(seen[0][i]);
     b.push(seen[1][i]);
     if (!kept && i + kMeasured < seen[0].size()) continue;
-    const Comparison comparison = kept ? comparer.compare(a, b) : compare_uncached(a, b, compare);
+    const Interval all{a.oldest().iteration, a.newest().iteration};
+    const Comparison comparison =
+        kept ? comparer.compare_in(a, b, all, kEnds) : compare_uncached_in(a, b, all, kEnds, compare);
     if (i + kMeasured >= seen[0].size()) timing.checksum += comparison.offset.sum();
   }
   timing.us = (cpu_us() - begin) / static_cast<double>(kMeasured);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/core/options.hpp"
 
-#include <sstream>
-#include <stdexcept>
+#include "slam_plane/option_check.hpp"
 
 namespace hallway::slam_plane {
 namespace {
@@ -51,14 +50,7 @@ std::span<const Parameter> parameters() {
 }
 
 void Options::validate() const {
-  for (const Parameter& parameter : kParameters) {
-    const double value = parameter.real != nullptr ? this->*parameter.real : this->*parameter.whole;
-    if (value >= parameter.min && value <= parameter.max) continue;
-    std::ostringstream text;
-    text << parameter.name << " is " << value << ' ' << parameter.unit << "; it must be between "
-         << parameter.min << " and " << parameter.max;
-    throw std::invalid_argument(text.str());
-  }
+  check_options(*this, kParameters);
 }
 
 }  // namespace hallway::slam_plane

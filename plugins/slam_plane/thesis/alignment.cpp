@@ -2,11 +2,17 @@
 #include "slam_plane/thesis/alignment.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr double kSpread =
+    4.0;  // median distances from the middle beyond which a point contradicts the others
+constexpr double kLeastSpread_m = 1e-3;
 constexpr double kLeastCrossing = 0.02;  // sum of squared sines per line, below which lines count as parallel
 
 Vec2 mean_rotation(std::span<const PlanePair> pairs) {
@@ -35,21 +41,45 @@ void place_by_lines(std::span<const PlanePair> pairs, const Pose2& guess, Alignm
   if (!result.determined) result.open = eigen.eigenvectors().col(0);
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The mean of what points tell, less those that contradict the majority: an end that was taken for another one.
+Vec2 mean_of_most(const std::vector<Vec2>& told) {
+  std::vector<double> x, y, off;
+  for (const Vec2& t : told) {
+    x.push_back(t.x());
+    y.push_back(t.y());
+  }
+  const Vec2 centre(median(x), median(y));
+  for (const Vec2& t : told) off.push_back((t - centre).norm());
+  const double bound =
+      told.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
+  Vec2 sum = Vec2::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (off[i] > bound) continue;
+    sum += told[i];
+    ++count;
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 std::optional<Alignment> align(std::span<const PlanePair> pairs, const Pose2& guess) {
   if (pairs.empty()) return std::nullopt;
   Alignment result;
   result.T_to_from.r = mean_rotation(pairs);
-  Vec2 sum = Vec2::Zero();
-  int points = 0;
+  std::vector<Vec2> told;
   for (const PlanePair& pair : pairs) {
-    if (!pair.same_point) continue;
-    sum += pair.point[1] - result.T_to_from.rotate(pair.point[0]);
-    ++points;
+    if (pair.same_point) told.push_back(pair.point[1] - result.T_to_from.rotate(pair.point[0]));
   }
-  if (points > 0) {
-    result.T_to_from.t = sum / points;
+  if (!told.empty()) {
+    result.T_to_from.t = mean_of_most(told);
     result.determined = result.by_points = true;
   } else {
     place_by_lines(pairs, guess, result);

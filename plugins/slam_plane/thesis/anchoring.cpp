@@ -15,7 +15,7 @@ Reference reference_of_first(const Sighting& first) {
   return result;
 }
 
-void anchor(TrackId track, const bool (&ends)[2], Submap& submap, const State& state) {
+void anchor(TrackId track, KeyPoint key, Submap& submap, const State& state) {
   if (state.tracks[track].first().iteration != state.start) return;
   auto at = std::find_if(submap.anchors.begin(), submap.anchors.end(),
                          [&](const Anchor& other) { return other.track == track; });
@@ -23,22 +23,18 @@ void anchor(TrackId track, const bool (&ends)[2], Submap& submap, const State& s
     submap.anchors.push_back({track, reference_of_first(state.tracks[track].first())});
     at = std::prev(submap.anchors.end());
   }
-  for (int end = 0; end < 2; ++end) at->reference.known[end] = at->reference.known[end] || ends[end];
+  if (key != KeyPoint::none) at->reference.known[key == KeyPoint::right ? kEndB : kEndA] = true;
 }
 
 }  // namespace
 
-void anchor_first(const Options& options, State& state) {
+void anchor_first(State& state) {
   Submap& first = state.submaps.front();
-  const CompareOptions compare = options.compare();
   for (std::size_t i = 0; i < first.members().size(); ++i) {
     const Member& member = first.members()[i];
-    if (!member.comparison.has_keys() || !member.comparison.interval.contains(state.start)) continue;
-    bool ends[2];
-    static_ends(member.comparison, 0, compare, ends);
-    anchor(member.parent, ends, first, state);
-    static_ends(member.comparison, 1, compare, ends);
-    anchor(member.track, ends, first, state);
+    if (!member.comparison.valid || !member.comparison.interval.contains(state.start)) continue;
+    anchor(member.parent, member.comparison.key[0], first, state);
+    anchor(member.track, member.comparison.key[1], first, state);
   }
 }
 

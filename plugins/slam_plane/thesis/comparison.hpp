@@ -27,10 +27,7 @@ struct Placement {
   Vec2 middle = Vec2::Zero();       ///< estimated, at `size` [m]
   Vec2 direction = Vec2(1.0, 0.0);  ///< unit, from the left end to the right one
   double size = 0.0;                ///< [m]
-  KeyPoint key =
-      KeyPoint::none;  ///< of its ends the one that is known to be right if it is not at its full size
-  Interval interval;   ///< on which size and key were found (Rule 19)
-  bool valid = false;  ///< the rest is defined
+  bool valid = false;               ///< the rest is defined
 
   Segment segment() const;
 };
@@ -53,40 +50,39 @@ struct Comparison {
   Vec2 direction = Vec2(1.0, 0.0);  ///< of b, unit
   double size[2] = {
       0.0, 0.0};  ///< of a and b at which the middles were estimated: the largest in the interval [m]
-  KeyPoint key[2] = {KeyPoint::none, KeyPoint::none};  ///< of a and b; both or none are determined
+  KeyPoint key[2] = {KeyPoint::none, KeyPoint::none};  ///< of a and b: the ends that it was made from
   bool parallel = false;                               ///< within CompareOptions::parallel_deg
-  double deviation = 0.0;                              ///< of the offset, the least of `deviations` [m]
-  std::array<double, 4>
-      deviations{};  ///< standard deviations by (end of a, end of b): index 2 * end of a + end of b [m]
+  double deviation = 0.0;                              ///< standard deviation of the offset [m]
 
-  bool has_keys() const { return valid && key[0] != KeyPoint::none; }
+  /// It tells where b lies, given where that end of a is. If b has no key point it is b's line alone that is told.
+  bool places() const { return valid && key[0] != KeyPoint::none; }
+  bool has_keys() const { return places() && key[1] != KeyPoint::none; }
+  /// Whether both were made from the same ends of the planes.
+  bool same_ends(const Comparison& other) const { return key[0] == other.key[0] && key[1] == other.key[1]; }
   /// Plane a (0) or b (1) in a's frame.
   Placement placement(int which) const;
 };
 
+/// The key points of a combination of ends: 2 * end of a + end of b.
+constexpr KeyPoint key_of(int combination, int which) {
+  const int end = which == 0 ? combination / 2 : combination % 2;
+  return end == 0 ? KeyPoint::left : KeyPoint::right;
+}
+
+/// The same combination from the other plane's view: of b and a.
+constexpr int turned_round(int combination) {
+  return 2 * (combination % 2) + combination / 2;
+}
+
 /// The same the other way round: a relative to b, in b's frame.
 Comparison inverse(const Comparison& comparison);
 
-/// How many intervals of a pair are considered, the newest ones: so the cost of a comparison has a bound.
-inline constexpr std::size_t kMaxIntervals = 32;
+/// The comparison of a summary from the ends that `combination` names, 2 * end of a + end of b: rotation first, then the offset of the middles that these ends estimate (Rules 3, 13, 14). O(1).
+Comparison evaluate(const IntervalSummary& summary, int combination, const CompareOptions& options);
 
-/// Intervals in which both planes were seen and neither turned from growing to shrinking or back (Rule 18), in the order of time, the newest kMaxIntervals of them. O(phases).
-Intervals comparable_intervals(const Track& a, const Track& b);
-
-/// Of several intervals the one to compare on: where both planes are largest; of those that are alike in that, the one with the most iterations (Rule 18), the latest one
-/// of several. Null if there is none.
-const IntervalSummary* best_summary(std::span<const IntervalSummary> summaries,
-                                    const CompareOptions& options);
-
-/// The comparison that a summary gives: rotation, then offset and key points from the combination of ends with the least deviation (Rules 3, 13, 14, 15). O(1).
-Comparison evaluate(const IntervalSummary& summary, const CompareOptions& options);
-
-/// Compares two tracks on the best interval, from the sightings themselves. The oracle of PairComparer::compare, which gives the same bits. The plane with the
-/// smaller id is the one along x while summing; the result is turned round if that is b. O(n log n) in what is kept.
-Comparison compare_uncached(const Track& a, const Track& b, const CompareOptions& options);
-
-/// The same on a given interval, whatever happened in it (Rule 19).
-Comparison compare_uncached_in(const Track& a, const Track& b, const Interval& interval,
+/// Compares two tracks on an interval, whatever happened in it (Rule 19), from the sightings themselves. The oracle of PairComparer::compare_in, which gives the same bits. The plane with the
+/// smaller id is the one along x while summing; the result is turned round if that is b. O(n).
+Comparison compare_uncached_in(const Track& a, const Track& b, const Interval& interval, int combination,
                                const CompareOptions& options);
 
 }  // namespace hallway::slam_plane::thesis

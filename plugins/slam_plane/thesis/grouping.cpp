@@ -8,7 +8,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kBeginning = 10;           // iterations in which planes join the very first submap at once
+constexpr int kBeginning = 10;      // iterations in which planes join the very first submap at once
 constexpr int kFirstReadings = 3;   // of the planes of the very first submap
 constexpr int kForgetAfter = 50;    // iterations for which an unassigned track is kept out of view
 constexpr int kTryAgainAfter = 20;  // iterations in which a submap has not placed a track that joined it
@@ -173,7 +173,12 @@ void assign_unassigned(const Options& options, State& state) {
     const bool ready = track.newest().iteration == state.now && static_cast<int>(track.size()) >= least &&
                        !entry.part_of.has_value() && waited;
     if (ready && assign(entry.track, options, state)) entry.joined = state.now;
-    if (track.newest().iteration + kForgetAfter >= state.now) kept.push_back(entry);
+    if (track.newest().iteration + kForgetAfter >= state.now) {
+      kept.push_back(entry);
+    } else if (state.tracks.submaps(entry.track).empty()) {
+      state.pairs.forget(entry.track);
+      state.tracks[entry.track].forget();
+    }
   }
   state.carried.unassigned.swap(kept);
 }

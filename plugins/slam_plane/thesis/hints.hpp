@@ -40,7 +40,7 @@ class Hints {
   /// Whether a track has had all the hints that one may have.
   bool exhausted(TrackId track) const { return count(track) >= 3; }
 
-  /// Forgets hints that no roll back can reach any more.
+  /// Forgets hints of iterations that no roll back reaches any more: what they forbade was long ago and may be tried again.
   void forget_before(Iteration k) {
     std::erase_if(hints_, [&](const Hint& hint) { return hint.iteration < k; });
   }

@@ -34,8 +34,11 @@ void Locator::recalculate(TrackId id, std::span<const TrackId> tracks_now, const
   for (const TrackId other : tracks_now) {
     if (other == id) continue;
     const PairHistory& history = pairs.update(tracks[id], tracks[other]);
-    if (history.since < 0 || history.updated != now) continue;
-    note(id, history.still[other < id ? 1 : 0], now);
+    const int which = other < id ? 1 : 0;
+    if (history.updated != now) continue;
+    const bool still[2] = {history.still(which, kEndA), history.still(which, kEndB)};
+    if (!still[0] && !still[1]) continue;
+    note(id, still, now);
     return;
   }
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "slam_plane/thesis/resize.hpp"
-
 namespace hallway::slam_plane::thesis {
 namespace {
 
@@ -25,8 +23,7 @@ std::optional<Pose2> by_anchors(const Submap& submap) {
 
 }  // namespace
 
-std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps,
-                                      std::size_t min_planes) {
+std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Submap>& submaps) {
   const Submap& submap = submaps[index];
   std::vector<PlanePair> pairs;
   std::vector<TrackId> shared;
@@ -41,7 +38,7 @@ std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Subma
         shared.push_back(member.track);
     }
   }
-  if (shared.size() < min_planes) return std::nullopt;
+  if (shared.size() < kLeastLinkPlanes) return std::nullopt;
   const std::optional<Alignment> alignment = align(pairs, submap.T_map_submap);
   if (!alignment || !alignment->determined) return std::nullopt;
   return alignment->T_to_from;
@@ -53,7 +50,7 @@ bool MapBuilder::place(SubmapIndex index, std::vector<Submap>& submaps) const {
   const bool was = submap.placed;
   std::optional<Pose2> T;
   if (!submap.anchors.empty()) T = by_anchors(submap);
-  if (!T) T = link(index, submaps, kLeastLinkPlanes);
+  if (!T) T = link(index, submaps);
   if (!T) return false;
   submap.T_map_submap = *T;
   submap.placed = true;
@@ -80,6 +77,44 @@ void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, cons
   if (planes_.size() <= track) planes_.resize(tracks.size());
   if (!planes_[track].valid()) ++valid_;
   planes_[track].reference = plane;
+  grow_to_reach(track);
+}
+
+void MapBuilder::grow_to_reach(TrackId track) {
+  MappedPlane& plane = planes_[track];
+  const Vec2 direction = plane.reference.place.direction;
+  Segment segment = plane.reference.place.segment();
+  for (int end = 0; end < 2; ++end) {
+    if (!plane.reach[end] || plane.reference.known[end]) continue;
+    const double farther = direction.dot(plane.reach[end]->place - segment.end[end]);
+    if (end == kEndA ? farther < 0.0 : farther > 0.0) segment.end[end] += direction * farther;
+  }
+  plane.reference.place.middle = segment.middle();
+  plane.reference.place.size = direction.dot(segment.end[kEndB] - segment.end[kEndA]);
+  index_.put(static_cast<Index>(track), segment.end[kEndA], segment.end[kEndB]);
+}
+
+void MapBuilder::expand(TrackId track, const Segment& seen, Iteration now) {
+  if (find(track) == nullptr) return;
+  MappedPlane& plane = planes_[track];
+  const Segment segment = plane.reference.place.segment();
+  for (int end = 0; end < 2; ++end) {
+    const double farther = plane.reference.place.direction.dot(seen.end[end] - segment.end[end]);
+    if (end == kEndA ? farther < 0.0 : farther > 0.0)
+      plane.reach[end] = MappedPlane::Reach{seen.end[end], now};
+  }
+  grow_to_reach(track);
+}
+
+void MapBuilder::clear(Iteration k) {
+  for (MappedPlane& plane : planes_) {
+    plane.reference = {};
+    for (auto& reach : plane.reach) {
+      if (reach && reach->at > k) reach.reset();
+    }
+  }
+  index_.clear();
+  valid_ = 0;
 }
 
 void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps,

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slam_plane/core/wall_index.hpp"
 #include "slam_plane/thesis/submap.hpp"
 #include "slam_plane/thesis/track_book.hpp"
 
@@ -12,7 +13,14 @@ namespace hallway::slam_plane::thesis {
 
 /// A plane of the map.
 struct MappedPlane {
-  Reference reference;  ///< map's frame
+  /// How far it was seen to reach while a motion model was on.
+  struct Reach {
+    Vec2 place = Vec2::Zero();  ///< map's frame [m]
+    Iteration at = 0;
+  };
+
+  Reference reference;            ///< map's frame
+  std::optional<Reach> reach[2];  ///< beyond the ends that submaps tell
   bool valid() const { return reference.valid(); }
 };
 
@@ -29,25 +37,31 @@ class MapBuilder {
     return track < planes_.size() && planes_[track].valid() ? &planes_[track] : nullptr;
   }
   std::size_t size() const { return planes_.size(); }
+  /// Calls visit(track) for each plane of the map within a metre of a place, and some farther ones.
+  template <typename Visit>
+  void visit_near(const Vec2& place, const Visit& visit) const {
+    index_.visit_near(place, visit);
+  }
   /// Planes that the map has.
   std::size_t valid_planes() const { return valid_; }
 
-  /// Rolls back: forgets everything; build() all submaps then.
-  void clear() {
-    planes_.clear();
-    valid_ = 0;
-  }
+  /// Grows a plane of the map, where its ends are not known, to what is seen of it while only a motion model tells where (Rule 23).
+  void expand(TrackId track, const Segment& seen, Iteration now);
+
+  /// Rolls back to iteration k: forgets everything but what was expanded until then; build() all submaps then.
+  void clear(Iteration k);
 
   /// Where a submap lies in the map, by the planes that it shares with older ones that it is linked to; nothing if they are too few (Rule 8).
-  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps,
-                                   std::size_t min_planes);
+  static std::optional<Pose2> link(SubmapIndex index, const std::vector<Submap>& submaps);
 
  private:
   bool place(SubmapIndex index, std::vector<Submap>& submaps) const;
+  void grow_to_reach(TrackId track);
   void combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks);
 
   Options options_;
   std::vector<MappedPlane> planes_;  // by track
+  WallIndex index_;                  // of them
   std::size_t valid_ = 0;
 };
 

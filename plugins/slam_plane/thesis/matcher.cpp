@@ -27,22 +27,6 @@ std::vector<TrackList> stages(const State& state) {
   return lists;
 }
 
-void chart(State& state) {
-  std::vector<SubmapIndex> all;
-  for (const TrackId id : state.seen) {
-    const auto& of = state.tracks.submaps(id);
-    all.insert(all.end(), of.begin(), of.end());
-    const auto& charted = state.tracks.charted(id);
-    all.insert(all.end(), charted.begin(), charted.end());
-  }
-  std::sort(all.begin(), all.end());
-  state.chart.clear();
-  for (const SubmapIndex submap : all) {
-    if (state.chart.empty() || state.chart.back().first != submap) state.chart.emplace_back(submap, 0);
-    ++state.chart.back().second;
-  }
-}
-
 /// Tracks seen in the last few iterations.
 void keep_recent(const Options& options, State& state) {
   std::erase_if(state.recent, [&](TrackId id) {
@@ -61,7 +45,6 @@ void hand_over(TrackId from, TrackId to, State& state) {
   const Track& young = state.tracks[from];
   const Iteration last = track.empty() ? -1 : track.newest().iteration;
   for (std::size_t i = young.lower_bound(last + 1); i < young.size(); ++i) track.push(young[i]);
-  state.pairs.forget(to);
   state.pairs.forget(from);
   state.tracks[from].truncate(-1);
   std::replace(state.recent.begin(), state.recent.end(), from, to);
@@ -95,19 +78,33 @@ void add_planes(std::span<const Piece> pieces, const Options& options, State& st
   }
   std::sort(state.seen.begin(), state.seen.end());
   keep_recent(options, state);
-  chart(state);
+  chart_submaps(state);
+}
+
+void chart_submaps(State& state) {
+  std::vector<SubmapIndex> all;
+  for (const TrackId id : state.seen) {
+    const auto& of = state.tracks.submaps(id);
+    all.insert(all.end(), of.begin(), of.end());
+    const auto& charted = state.tracks.charted(id);
+    all.insert(all.end(), charted.begin(), charted.end());
+  }
+  std::sort(all.begin(), all.end());
+  state.chart.clear();
+  for (const SubmapIndex submap : all) {
+    if (state.chart.empty() || state.chart.back().first != submap) state.chart.emplace_back(submap, 0);
+    ++state.chart.back().second;
+  }
 }
 
 std::vector<TrackId> map_matches(const Segment& segment, const Options& options, const State& state) {
   std::vector<std::pair<double, TrackId>> found;
-  for (TrackId id = 0; id < state.map.size(); ++id) {
-    const MappedPlane* plane = state.map.find(id);
-    if (plane == nullptr) continue;
-    const MatchOptions bounds = options.map_match();
-    const std::optional<double> score =
-        match_score(placed_terms(segment, plane->reference.place.segment(), bounds), bounds);
+  const MatchOptions bounds = options.map_match();
+  state.map.visit_near(segment.middle(), [&](TrackId id) {
+    const Segment wall = state.map.find(id)->reference.place.segment();
+    const std::optional<double> score = match_score(placed_terms(segment, wall, bounds), bounds);
     if (score) found.emplace_back(-*score, id);
-  }
+  });
   std::sort(found.begin(), found.end());
   std::vector<TrackId> result;
   for (const auto& [score, id] : found) result.push_back(id);

@@ -13,6 +13,9 @@ namespace hallway::slam_plane::thesis {
 /// seen just before (Rule 1). What is left begins new tracks. Fills matches, seen and chart.
 void add_planes(std::span<const Piece> pieces, const Options& options, State& state);
 
+/// Counts for each submap the tracks in view that are members of it, or were mapped twice and only count (Rules 22, 37). O(submaps of what is seen).
+void chart_submaps(State& state);
+
 /// Looks for the unassigned tracks of the last iteration in the map, where that iteration's pose puts them (Rule 11). Those found go on as the mapped track.
 void match_with_map(const Options& options, State& state);
 

@@ -10,6 +10,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr double kStage = 10.0;  // of a score; what a track of a later stage has to be better by
+
 /// Extent of something along a line.
 struct Extent {
   double low, high;
@@ -28,25 +30,28 @@ Extent own_extent(const Sighting& sighting) {
 struct Candidate {
   double score;
   std::size_t sighting;
-  std::size_t track;
+  std::size_t order;  // of the track
+  const Track* track;
 };
 
-/// All acceptable pairs of the sightings that are not taken with the tracks that are not, the best first.
-std::vector<Candidate> candidates(std::span<const Sighting> seen, const std::vector<const Track*>& matched,
-                                  const std::vector<const Track*>& tracks,
-                                  const std::unordered_set<const Track*>& taken,
+/// All acceptable pairs of sightings and tracks, the best first.
+std::vector<Candidate> candidates(std::span<const Sighting> seen, MatchStages stages,
                                   const MatchOptions& options) {
   std::vector<Candidate> result;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (matched[i] != nullptr) continue;
-    for (std::size_t t = 0; t < tracks.size(); ++t) {
-      if (tracks[t]->empty() || taken.count(tracks[t]) != 0) continue;
-      const auto score = match_score(tracked_terms(seen[i], tracks[t]->newest(), options), options);
-      if (score) result.push_back({*score, i, t});
+  std::unordered_set<const Track*> given;  // never walked through
+  std::size_t order = 0;
+  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+    for (const Track* track : stages[stage]) {
+      if (track->empty() || !given.insert(track).second) continue;
+      ++order;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const auto score = match_score(tracked_terms(seen[i], track->newest(), options), options);
+        if (score) result.push_back({*score - kStage * static_cast<double>(stage), i, order, track});
+      }
     }
   }
   std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
-    return std::make_tuple(-a.score, a.sighting, a.track) < std::make_tuple(-b.score, b.sighting, b.track);
+    return std::make_tuple(-a.score, a.sighting, a.order) < std::make_tuple(-b.score, b.sighting, b.order);
   });
   return result;
 }
@@ -88,13 +93,10 @@ MatchTerms placed_terms(const Segment& seen, const Segment& wall, const MatchOpt
 std::vector<const Track*> match_tracks(std::span<const Sighting> seen, MatchStages stages,
                                        const MatchOptions& options) {
   std::vector<const Track*> matched(seen.size(), nullptr);
-  std::unordered_set<const Track*> taken;  // never walked through
-  for (const std::vector<const Track*>& tracks : stages) {
-    for (const Candidate& candidate : candidates(seen, matched, tracks, taken, options)) {
-      const Track* track = tracks[candidate.track];
-      if (matched[candidate.sighting] != nullptr || !taken.insert(track).second) continue;
-      matched[candidate.sighting] = track;
-    }
+  std::unordered_set<const Track*> taken;
+  for (const Candidate& candidate : candidates(seen, stages, options)) {
+    if (matched[candidate.sighting] == nullptr && taken.insert(candidate.track).second)
+      matched[candidate.sighting] = candidate.track;
   }
   return matched;
 }

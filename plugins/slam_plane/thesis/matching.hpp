@@ -33,8 +33,8 @@ MatchTerms placed_terms(const Segment& seen, const Segment& wall, const MatchOpt
 /// One list of tracks for each of the stages in which matches are sought: the current submap's tracks first, then its neighbours', and so on (Rule 22).
 using MatchStages = std::span<const std::vector<const Track*>>;
 
-/// Takes each sighting of one iteration for a recently seen track, or for none: the best pairs first, each track once. A later stage gets only what
-/// the earlier ones left; a track given in several stages counts in its first one. Ties go to the earlier sighting, then to the earlier track.
+/// Takes each sighting of one iteration for a recently seen track, or for none: the best pairs first, each track once. A track of a later stage has to be better by a tenth of the
+/// greatest score for each stage; one given in several stages counts in its first one. Ties go to the earlier sighting, then to the earlier track.
 ///
 /// @returns for each sighting the track, or null. O(sightings x tracks seen recently).
 std::vector<const Track*> match_tracks(std::span<const Sighting> seen, MatchStages stages,

@@ -17,10 +17,6 @@ bool fits(const Intervals& common, const Track& candidate, int min_interval) {
   return longest(intersection(common, candidate.visible())).size() >= std::max(min_interval, 1);
 }
 
-Iteration shrinkage(const Intervals& common, const Track& candidate) {
-  return longest(common).size() - longest(intersection(common, candidate.visible())).size();
-}
-
 std::vector<int> linking_members(std::span<const Track* const> members, const Track& newcomer, int count) {
   struct Link {
     Iteration since;   // the member is visible

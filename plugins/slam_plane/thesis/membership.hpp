@@ -15,9 +15,6 @@ Intervals common_intervals(std::span<const Track* const> members);
 /// Whether a track can join: it was visible together with all members for some time, at least `min_interval` iterations (Rule 7).
 bool fits(const Intervals& common, const Track& candidate, int min_interval);
 
-/// By how many iterations the longest common interval of a submap shrinks if a track joins (Rule 31).
-Iteration shrinkage(const Intervals& common, const Track& candidate);
-
 /// Which members link a submap to a new one that `newcomer` causes: up to `count` indices of members that were visible at a time with it, those first that came
 /// into view last (Rule 9); of two that came together the one seen with it for longer. Fewer if there are fewer (Rule 8 wants two).
 std::vector<int> linking_members(std::span<const Track* const> members, const Track& newcomer, int count);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/thesis/options.hpp"
 
-#include <sstream>
-#include <stdexcept>
+#include "slam_plane/option_check.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -29,8 +28,8 @@ constexpr Parameter kParameters[] = {
      "mode=thesis: least standard deviation of a comparison above which no end is static.",
      &Options::max_deviation_m, nullptr},
     {"thesis_close_ratio", "1", 1.0, 100.0,
-     "mode=thesis: standard deviations up to this ratio are taken for equal.", &Options::close_ratio,
-     nullptr},
+     "mode=thesis: standard deviations, and times, up to this ratio are taken for equal.",
+     &Options::close_ratio, nullptr},
     {"thesis_min_readings", "sightings", 2, 1000, "mode=thesis: of a plane before it joins a submap.",
      nullptr, &Options::min_readings},
     {"thesis_link_planes", "planes", 2, 20,
@@ -98,14 +97,7 @@ std::span<const Parameter> parameters() {
 }
 
 void Options::validate() const {
-  for (const Parameter& parameter : kParameters) {
-    const double value = parameter.real != nullptr ? this->*parameter.real : this->*parameter.whole;
-    if (value >= parameter.min && value <= parameter.max) continue;
-    std::ostringstream text;
-    text << parameter.name << " is " << value << ' ' << parameter.unit << "; it must be between "
-         << parameter.min << " and " << parameter.max;
-    throw std::invalid_argument(text.str());
-  }
+  check_options(*this, kParameters);
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -18,7 +18,7 @@ struct Options {
   double trend_hysteresis_m = 0.05;  ///< change of a plane's length that is believed (Rule 18)
   double max_deviation_m =
       0.15;  ///< least standard deviation of a comparison above which no end is static (Rule 13)
-  double close_ratio = 1.2;  ///< standard deviations are close to each other up to this ratio (Rule 15)
+  double close_ratio = 1.4;  ///< standard deviations, and times, are alike up to this ratio (Rule 15)
   int min_readings = 10;     ///< of a plane before it joins a submap
   int link_planes = 4;       ///< members that a new submap takes over from an older one, at least 2 (Rule 8)
   int min_interval = 10;     ///< over which a member has to be compared (Rule 31)
@@ -29,7 +29,7 @@ struct Options {
   int motion_after = 3;    ///< iterations without a position, before the motion model begins (Rule 26)
   double motion_parallel_deg =
       25.0;                   ///< a wall at a smaller angle to the movement does not measure it (Rule 25)
-  int roll_back_limit = 500;  ///< iterations that a roll back goes back at most (Rule 33)
+  int roll_back_limit = 50;  ///< iterations that a roll back goes back at most (Rule 33)
 
   MatchOptions match() const;
   MatchOptions map_match() const;

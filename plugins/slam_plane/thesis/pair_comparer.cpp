@@ -2,7 +2,6 @@
 #include "slam_plane/thesis/pair_comparer.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 namespace hallway::slam_plane::thesis {
 
@@ -29,19 +28,10 @@ PairStatistics& PairComparer::statistics(const Track& a, const Track& b) {
   return statistics;
 }
 
-Comparison PairComparer::compare(const Track& a, const Track& b) {
-  if (b.id() < a.id()) return inverse(compare(b, a));
-  PairStatistics& pair = statistics(a, b);
-  candidates_.clear();
-  for (const Interval& interval : comparable_intervals(a, b))
-    candidates_.push_back(pair.summary(a, b, interval, options_));
-  const IntervalSummary* best = best_summary(candidates_, options_);
-  return best == nullptr ? Comparison{} : evaluate(*best, options_);
-}
-
-Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interval& interval) {
-  if (b.id() < a.id()) return inverse(compare_in(b, a, interval));
-  return evaluate(statistics(a, b).summary(a, b, interval, options_), options_);
+Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interval& interval,
+                                    int combination) {
+  if (b.id() < a.id()) return inverse(compare_in(b, a, interval, turned_round(combination)));
+  return evaluate(statistics(a, b).summary(a, b, interval, options_), combination, options_);
 }
 
 PairSums PairComparer::sums_in(const Track& a, const Track& b, const Interval& interval) {
@@ -61,21 +51,6 @@ void PairComparer::forget(TrackId id) {
       ++entry;
     }
   }
-}
-
-KeyPoint recalculated_key(PairComparer& comparer, const Track& track, const Interval& interval,
-                          std::span<const Track* const> others) {
-  KeyPoint key = KeyPoint::none;
-  std::tuple<bool, int> best{false, 0};  // not parallel, shared
-  for (const Track* other : others) {
-    if (other->id() == track.id()) continue;
-    const Comparison comparison = comparer.compare_in(track, *other, interval);
-    const std::tuple<bool, int> worth{!comparison.parallel, comparison.shared};
-    if (!comparison.has_keys() || worth <= best) continue;
-    best = worth;
-    key = comparison.key[0];
-  }
-  return key;
 }
 
 }  // namespace hallway::slam_plane::thesis

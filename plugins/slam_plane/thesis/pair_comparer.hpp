@@ -21,7 +21,7 @@ struct CompareCounters {
 };
 
 /// Compares tracks and keeps what it summed up, so that a new observation of a pair costs the same however many there were (thesis 5.3 item 1). The result has the same bits as that of
-/// compare_uncached: all sums are exact. The pairs compared longest ago are forgotten when there are too many. Memory: 32 bytes a shared
+/// compare_uncached_in: all sums are exact. The pairs compared longest ago are forgotten when there are too many. Memory: 32 bytes a shared
 /// sighting and 352 a remembered interval, at most 56 KB for a pair with 1200; at most `max_pairs` of them.
 class PairComparer {
  public:
@@ -29,11 +29,9 @@ class PairComparer {
 
   const CompareOptions& options() const { return options_; }
 
-  /// b relative to a on their best interval (Rule 18). Sightings of one iteration all have to be pushed before. O(1) a new sighting, O(log n + intervals) a call.
-  Comparison compare(const Track& a, const Track& b);
-
-  /// The same on a given interval (Rule 19).
-  Comparison compare_in(const Track& a, const Track& b, const Interval& interval);
+  /// b relative to a on an interval (Rule 19), from the ends that `combination` names: 2 * end of a + end of b. Sightings of one iteration all have to be pushed before. O(1) a new sighting,
+  /// O(log n) a call.
+  Comparison compare_in(const Track& a, const Track& b, const Interval& interval, int combination);
 
   /// What the shared sightings of an interval add up to, whatever their sizes; a's name before b's. O(log n).
   PairSums sums_in(const Track& a, const Track& b, const Interval& interval);
@@ -60,13 +58,7 @@ class PairComparer {
   std::size_t max_pairs_;
   std::list<Entry> entries_;  // the one used last first
   std::map<Key, std::list<Entry>::iterator> by_key_;
-  std::vector<IntervalSummary> candidates_;  // of the comparison in hand
   CompareCounters counters_;
 };
-
-/// The end of `track` that is static in an interval, found from comparisons with others on that very interval (Rules 15, 19): from the one with
-/// the most shared iterations, not parallel if possible. `none` if none tells.
-KeyPoint recalculated_key(PairComparer& comparer, const Track& track, const Interval& interval,
-                          std::span<const Track* const> others);
 
 }  // namespace hallway::slam_plane::thesis

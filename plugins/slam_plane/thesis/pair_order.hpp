@@ -1,42 +1,43 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "slam_plane/thesis/comparison.hpp"
-#include "slam_plane/thesis/pair_comparer.hpp"
+#include "slam_plane/thesis/reference.hpp"
 
 namespace hallway::slam_plane::thesis {
 
-/// One comparison of a submap: member `child` is placed relative to member `parent`. Indices into the submap's members.
-struct PairEdge {
-  int parent = 0;
-  int child = 0;
-  bool operator==(const PairEdge&) const = default;
+/// One comparison of a submap's order: it places member `child` relative to member `parent`, or tells one more end of it. Indices into the submap's members.
+struct PlaceStep {
+  std::size_t parent = 0;
+  std::size_t child = 0;
+  KeyPoint key[2] = {KeyPoint::none, KeyPoint::none};  ///< the ends that are compared: parent's, child's
 };
 
-/// Weight of a pair: the iterations it was compared over; for parallel planes 0.95 of that, so that others are preferred; without key points next to nothing, so that it is
-/// used only where nothing else connects a member (Rules 15, 30); 0 if it is not valid.
-double pair_weight(const Comparison& comparison);
+/// A comparison that can be a step.
+struct PlaceOffer {
+  PlaceStep step;
+  Comparison comparison;  ///< child relative to parent
+};
 
-/// The order of comparisons of a submap with n members: a spanning tree with the greatest sum of weights (Rule 30), rooted in member 0, each parent before its children. A pair's weight is asked
-/// for only when it can matter: `bound(a, b)` must be at least weight(a, b). Members that nothing connects to member 0 are left out. Ties go to the smaller indices.
-/// Exact (Kruskal). O(n^2 log n) bounds, few weights.
-std::vector<PairEdge> maximum_spanning_tree(int n, const std::function<double(int, int)>& bound,
-                                            const std::function<double(int, int)>& weight);
+/// What a comparison is worth: the iterations it was made over; of parallel planes 0.95 of that, so that others are preferred (Rules 15, 30). One that tells a line alone is worth next to nothing, so
+/// that it is used only where nothing else places a member.
+double worth(const Comparison& comparison);
 
-/// The same where the weight of a pair is the overlap of two intervals, one for each member: sorted by when they start, each is paired with the one before it that lasts longest (thesis 5.3 item 3).
-/// Exact; O(n log n). It is the first order of a submap's comparisons, before anything is compared.
-std::vector<PairEdge> interval_spanning_tree(std::span<const Interval> visible);
+/// Sorts offers, those worth most first; equal ones stay in their order.
+void sort_offers(std::vector<PlaceOffer>& offers);
 
-/// Rule 30 for the members of a submap: maximum_spanning_tree with pair_weight. The comparisons that were made are kept by the comparer.
-std::vector<PairEdge> order_comparisons(PairComparer& comparer, std::span<const Track* const> members);
+/// Places the child of a comparison in the parent's frame, or adds to what is known of it (Rule 28). @returns whether it told anything new.
+bool take_offer(Reference& parent, const Comparison& comparison, Reference& child);
 
-/// Compares along the edges and chains the results (Rules 2, 28): each member in the frame of member 0, not valid where it could not be placed.
-std::vector<Placement> place_members(PairComparer& comparer, std::span<const Track* const> members,
-                                     std::span<const PairEdge> edges);
+/// Which comparisons place the members of a submap (Rule 30): from the root outwards, always the one worth most of those that place another member or tell another end, given ends that
+/// are known already (Prim's algorithm). Where each comparison knows the ends that it needs it is a maximum spanning tree, and steps that tell further ends.
+///
+/// @param offers      sorted
+/// @param references  of all members, not valid; filled. O(steps * offers).
+std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
+                                      std::span<Reference> references);
 
 }  // namespace hallway::slam_plane::thesis

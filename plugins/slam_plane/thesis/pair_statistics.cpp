@@ -9,8 +9,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kStride = 8;                              // shared sightings from one checkpoint to the next
-constexpr std::size_t kSummaries = kMaxIntervals + 16;  // that are remembered
+constexpr int kStride = 8;              // shared sightings from one checkpoint to the next
+constexpr std::size_t kSummaries = 16;  // that are remembered
 constexpr Iteration kBeforeAll = std::numeric_limits<Iteration>::min();
 
 }  // namespace

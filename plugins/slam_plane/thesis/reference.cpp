@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam_plane/thesis/resize.hpp"
-
 namespace hallway::slam_plane::thesis {
+
 Reference moved(const Pose2& T, const Reference& reference) {
   Reference result = reference;
   result.place.middle = T * reference.place.middle;
@@ -14,34 +13,26 @@ Reference moved(const Pose2& T, const Reference& reference) {
   return result;
 }
 
-void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]) {
-  ends[0] = ends[1] = false;
-  if (!comparison.has_keys()) return;
-  const double bound =
-      std::max(options.close_ratio * comparison.deviation, comparison.deviation + options.close_floor_m);
-  for (std::size_t a = 0; a < 2; ++a) {
-    for (std::size_t b = 0; b < 2; ++b) {
-      if (comparison.deviations[2 * a + b] <= bound) ends[which == 0 ? a : b] = true;
-    }
-  }
-}
-
-Reference reference_of(const Comparison& comparison, int which, const CompareOptions& options) {
+Reference reference_of(const Comparison& comparison, int which) {
   Reference result;
   result.place = comparison.placement(which);
   result.shared = comparison.shared;
-  static_ends(comparison, which, options, result.known);
+  if (comparison.key[which] != KeyPoint::none)
+    result.known[comparison.key[which] == KeyPoint::right ? kEndB : kEndA] = true;
   return result;
 }
 
-Reference chained(Reference& base, const Comparison& comparison, const CompareOptions& options) {
-  Reference seen = reference_of(comparison, 0, options);
-  const bool common = (base.known[0] && seen.known[0]) || (base.known[1] && seen.known[1]);
-  if (!common && !base.full() && !seen.full()) return {};
-  Reference result = reference_of(comparison, 1, options);
-  result.place = chained(base.place, comparison, options.size_tolerance_m);
+Reference chained(const Reference& base, const Comparison& comparison) {
+  if (!base.valid() || !comparison.places()) return {};
+  const int end = comparison.key[0] == KeyPoint::right ? kEndB : kEndA;
+  if (!base.known[end]) return {};
+  const Vec2 in_base = base.place.segment().end[end];
+  const Vec2 in_parent = comparison.placement(0).segment().end[end];
+  const Pose2 T_base_turned{Vec2::Zero(), base.place.direction};
+  Reference result = reference_of(comparison, 1);
+  result.place.middle = in_base + T_base_turned.rotate(comparison.offset - in_parent);
+  result.place.direction = T_base_turned.rotate(comparison.direction).normalized();
   result.shared = std::min(base.shared, comparison.shared);
-  for (int end = 0; end < 2; ++end) base.known[end] = base.known[end] || seen.known[end];
   return result;
 }
 

@@ -20,14 +20,12 @@ struct Reference {
 /// A reference moved into another frame.
 Reference moved(const Pose2& T, const Reference& reference);
 
-/// Which ends of plane a (0) or b (1) were static in a comparison: those with a standard deviation close to the least one.
-void static_ends(const Comparison& comparison, int which, const CompareOptions& options, bool (&ends)[2]);
+/// Plane a (0) or b (1) of a comparison in the frame of a. The end that it was made from is known, if there is one.
+Reference reference_of(const Comparison& comparison, int which);
 
-/// Plane a (0) or b (1) of a comparison in the frame of a.
-Reference reference_of(const Comparison& comparison, int which, const CompareOptions& options);
-
-/// Places plane b of a comparison in the frame of `base`, which holds plane a. Not valid if the two tell of no common end of a.
-Reference chained(Reference& base, const Comparison& comparison, const CompareOptions& options);
+/// Places plane b of a comparison in the frame of `base`, which holds plane a: from the end of a that it was made from, so that it does not matter at what sizes a was seen (Rule 28). Not valid
+/// if base does not know that end.
+Reference chained(const Reference& base, const Comparison& comparison);
 
 /// Grows a plane by what another reference of it in the same frame tells: ends that it knows, else a larger size.
 void grow(Reference& plane, const Reference& other);

@@ -66,11 +66,18 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   state.met_again.clear();
   state.unanchored.clear();
   state.locator.clear();
-  state.map.clear();
+  state.map.clear(k);
   std::vector<SubmapIndex> all(state.submaps.size());
   std::iota(all.begin(), all.end(), SubmapIndex{0});
   for (Submap& submap : state.submaps) submap.compute(state.pairs, state.tracks, options, k);
   state.map.build(all, state.submaps, state.tracks);
+}
+
+std::vector<Record> go_back(const Hint& hint, const Options& options, History& history, State& state) {
+  state.hints.add(hint);
+  std::vector<Record> again = history.take_after(hint.iteration - 1);
+  roll_back_to(history.at(hint.iteration - 1), options, state);
+  return again;
 }
 
 }  // namespace hallway::slam_plane::thesis

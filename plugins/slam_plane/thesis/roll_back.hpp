@@ -42,4 +42,7 @@ class History {
 /// Puts the state back to what it was after an iteration: tracks, submaps and comparisons forget what came later (Rule 33). O(map).
 void roll_back_to(const Record& record, const Options& options, State& state);
 
+/// Goes back to before what a hint speaks of, which `history` has to reach, and takes the hint along (Rule 34). @returns the iterations since then, which are to be done again.
+std::vector<Record> go_back(const Hint& hint, const Options& options, History& history, State& state);
+
 }  // namespace hallway::slam_plane::thesis

@@ -1,42 +1,52 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "slam_plane/thesis/line_comparison.hpp"
 #include "slam_plane/thesis/options.hpp"
 #include "slam_plane/thesis/pair_comparer.hpp"
+#include "slam_plane/thesis/stillness.hpp"
 
 namespace hallway::slam_plane::thesis {
 
-/// The intervals in which an end of each of two planes stood still, as far as they matter.
+/// An interval that lasts until now, in which an end of each of two planes stands still.
+struct EndRun {
+  Iteration since = -1;   ///< it began here; -1: the two ends are not known to stand still
+  OffsetMoments moments;  ///< of the offset between the ends, when that was looked at last
+  int misses = 0;         ///< newest sightings in a row that do not agree with them
+  bool undefined =
+      false;  ///< the other end of one of the planes seems to stand still too, but its length changes (Rule 15)
+
+  bool still() const { return since >= 0 && misses == 0 && !undefined; }
+};
+
+/// What is known of two planes: the first one has the smaller id.
 struct PairHistory {
-  Iteration updated = -1;  ///< newest shared sighting that was looked at
-  Iteration since =
-      -1;  ///< the interval that lasts until then began here; -1: no end of one stands still to an end of the other
-  Comparison current;     ///< on [since, updated]; its mean may be a few sightings older
-  bool still[2][2] = {};  ///< [plane][end]: stood still since then, and still does
+  Iteration updated = -1;      ///< newest shared sighting that was looked at
+  std::array<EndRun, 4> runs;  ///< by 2 * end of the first plane + end of the second one
   std::vector<Comparison>
       saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
 
+  /// Whether an end of the first plane (0) or of the second one (1) stands still, as far as the pair tells.
+  bool still(int which, int end) const;
   /// Iterations that the best comparison was made over.
   int shared() const { return saved.empty() ? 0 : saved.front().shared; }
 };
 
-/// Splits the time of pairs of planes (Rule 18): finds where the offset between two of their ends keeps its mean and its deviation, which is where both ends are static
-/// (Rule 13). An interval is tested by its two halves; so a deviation is judged by that of the pair itself, and no noise has to be known.
-///
-/// Parallel planes are never compared this way: ends that move together stand still to each other (Rule 15).
+/// Finds out, for each pair of planes and each two ends of theirs, when both stand still, and compares the planes over those intervals (Rules 13, 36). An interval goes on
+/// until an end moves or one of the planes turns from growing to shrinking or back (Rule 18).
 class StaticPairs {
  public:
   explicit StaticPairs(const CompareOptions& options) : options_(options), comparer_(options) {}
 
-  /// Takes in what was pushed to both tracks. O(log n) a new sighting, O(n) where an end began to move.
+  /// Takes in what was pushed to both tracks. O(log n) a new sighting; every fourth one O(log² n).
   const PairHistory& update(const Track& a, const Track& b);
 
-  /// `child` relative to `parent`, as the best of what a history has; of histories without any, not valid.
+  /// `child` relative to `parent`, from one of the comparisons of their history.
   static Comparison oriented(const Comparison& comparison, const Track& parent, const Track& child) {
     return child.id() < parent.id() ? inverse(comparison) : comparison;
   }
@@ -47,27 +57,34 @@ class StaticPairs {
   /// Rolls back to iteration k: what was found later is found again. O(pairs).
   void truncate(Iteration k);
 
-  /// Forgets all pairs with a track.
+  /// Forgets all pairs with a track. O(pairs of it * log(all)).
   void forget(TrackId id);
 
  private:
   using Key = std::pair<TrackId, TrackId>;
 
-  struct Block {
-    PairSums sums;
-    int combination = 0;
-    bool exact = false;  // without any deviation
-  };
-
-  std::optional<Block> still(const Track& a, const Track& b, const Interval& interval);
-  bool goes_on(const Track& a, const Track& b, PairHistory& pair);
-  void extend(const Track& a, const Track& b, PairHistory& pair);
-  void search(const Track& a, const Track& b, PairHistory& pair);
-  void evaluate(const Track& a, const Track& b, PairHistory& pair);
+  void split_where_turned(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  void follow(const Track& a, const Track& b, bool due, PairHistory& pair);
+  void search(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  void search_exact(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  bool may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
+                      Iteration now) const;
+  void judge_runs(const Track& a, const Track& b, PairHistory& pair);
+  void find_lines(const Track& a, const Track& b, PairHistory& pair);
+  void end_run(const Track& a, const Track& b, int combination, PairHistory& pair);
+  void shorten(const Track& a, const Track& b, int combination, Iteration last, PairHistory& pair);
+  void keep_better(const Track& a, const Track& b, const Comparison& made, PairHistory& pair);
+  void drop_disproved(const Track& a, const Track& b, PairHistory& pair);
+  void save(const Track& a, const Track& b, int combination, PairHistory& pair);
 
   CompareOptions options_;
   PairComparer comparer_;
   std::map<Key, PairHistory> pairs_;
+  std::map<std::pair<TrackId, KeyPoint>, Iteration>
+      firm_;  // ends that stood still to a plane that is not parallel, when last
+  std::map<TrackId, std::vector<TrackId>> partners_;  // with whom a track was compared
+  std::map<std::pair<TrackId, KeyPoint>, Iteration>
+      corner_since_;  // ends that were taken for another place before
 };
 
 }  // namespace hallway::slam_plane::thesis

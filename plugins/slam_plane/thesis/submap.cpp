@@ -14,20 +14,10 @@ std::vector<const Track*> tracks_of(const std::vector<Member>& members, const Tr
   return list;
 }
 
-/// A comparison that may place one member relative to another.
-struct StepOffer {
-  PlaceStep step;
-  Comparison comparison;  // parent to child
-};
-
-int ends_of(const Comparison& comparison) {
-  return (comparison.key[0] == KeyPoint::right ? 2 : 0) + (comparison.key[1] == KeyPoint::right ? 1 : 0);
-}
-
-/// All of them, those over the most iterations first (Rule 30).
-std::vector<StepOffer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
-                                 const TrackBook& tracks) {
-  std::vector<StepOffer> offers;
+/// All comparisons between members, those worth most first (Rule 30).
+std::vector<PlaceOffer> offers_of(const std::vector<Member>& members, StaticPairs& pairs,
+                                  const TrackBook& tracks) {
+  std::vector<PlaceOffer> offers;
   for (std::size_t a = 0; a < members.size(); ++a) {
     for (std::size_t b = a + 1; b < members.size(); ++b) {
       const Track& in_a = tracks[members[a].track];
@@ -35,53 +25,23 @@ std::vector<StepOffer> offers_of(const std::vector<Member>& members, StaticPairs
       for (const Comparison& saved : pairs.update(in_a, in_b).saved) {
         const Comparison there = StaticPairs::oriented(saved, in_a, in_b);
         const Comparison back = inverse(there);
-        offers.push_back({{a, b, ends_of(there)}, there});
-        offers.push_back({{b, a, ends_of(back)}, back});
+        if (there.places()) offers.push_back({{a, b, {there.key[0], there.key[1]}}, there});
+        if (back.places()) offers.push_back({{b, a, {back.key[0], back.key[1]}}, back});
       }
     }
   }
-  std::stable_sort(offers.begin(), offers.end(), [](const StepOffer& a, const StepOffer& b) {
-    return a.comparison.shared > b.comparison.shared;
-  });
+  sort_offers(offers);
   return offers;
-}
-
-/// Places the child of a comparison, or adds to what is known of it. @returns whether it told anything new.
-bool apply(Reference& parent, const Comparison& comparison, const CompareOptions& options, Reference& child) {
-  Reference seen = chained(parent, comparison, options);
-  if (!seen.valid()) return false;
-  if (!child.valid()) {
-    child = seen;
-    return true;
-  }
-  const bool tells = (seen.known[0] && !child.known[0]) || (seen.known[1] && !child.known[1]);
-  if (tells) grow(child, seen);
-  return tells;
-}
-
-/// Prim's algorithm over comparisons, of which each needs an end that is known already: from the root outwards, the one over the most iterations first.
-std::vector<PlaceStep> spanning_steps(std::size_t root, const std::vector<StepOffer>& offers,
-                                      const CompareOptions& options, std::vector<Reference>& references) {
-  std::vector<PlaceStep> steps;
-  bool more = true;
-  while (more) {
-    more = false;
-    for (const StepOffer& offer : offers) {
-      Reference& parent = references[offer.step.parent];
-      if (steps.empty() && offer.step.parent == root) parent = reference_of(offer.comparison, 0, options);
-      if (!parent.valid() || references[offer.step.child].full()) continue;
-      if (!apply(parent, offer.comparison, options, references[offer.step.child])) continue;
-      steps.push_back(offer.step);
-      more = true;
-      break;
-    }
-  }
-  return steps;
 }
 
 std::size_t placed_count(const std::vector<Reference>& references) {
   return static_cast<std::size_t>(std::count_if(
       references.begin(), references.end(), [](const Reference& reference) { return reference.valid(); }));
+}
+
+std::size_t placed_count(const std::vector<Member>& members) {
+  return static_cast<std::size_t>(std::count_if(
+      members.begin(), members.end(), [](const Member& member) { return member.reference.valid(); }));
 }
 
 }  // namespace
@@ -118,8 +78,35 @@ bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options&
     for (int end = 0; end < 2; ++end) member.still[end] = false;
   }
   for (const PlaceStep& step : order_) take_step(step, pairs, tracks, now);
+  take_best(tracks);
   keep_frame(before);
+  keep_best(now);
   return true;
+}
+
+/// If nothing can be computed any more, since the sightings are gone, it is as it was at its best (Rule 35).
+void Submap::take_best(const TrackBook& tracks) {
+  if (placed_count(members_) > 0) return;
+  const bool found_wrong = std::any_of(best_.begin(), best_.end(), [&](const Member& saved) {
+    const Iteration last = saved.comparison.interval.last;
+    return saved.comparison.valid && tracks[saved.track].find(last) != nullptr &&
+           tracks[saved.parent].find(last) != nullptr;
+  });
+  if (found_wrong) return;
+  for (Member& member : members_) {
+    for (const Member& saved : best_) {
+      if (saved.track != member.track) continue;
+      member.reference = saved.reference;
+      member.comparison = saved.comparison;
+      member.parent = saved.parent;
+    }
+  }
+}
+
+void Submap::keep_best(Iteration now) {
+  if (placed_count(members_) < placed_count(best_)) return;
+  best_ = members_;
+  best_at_ = now;
 }
 
 /// What is placed from is another plane now and then, or grows: the frame stays where it was.
@@ -140,19 +127,19 @@ void Submap::keep_frame(const std::vector<Member>& before) {
 }
 
 void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
-  const std::vector<StepOffer> offers = offers_of(members_, pairs, tracks);
-  std::vector<double> worth(members_.size(), 0.0);
-  for (const StepOffer& offer : offers) worth[offer.step.parent] += offer.comparison.shared;
+  const std::vector<PlaceOffer> offers = offers_of(members_, pairs, tracks);
+  std::vector<double> reach(members_.size(), 0.0);
+  for (const PlaceOffer& offer : offers) reach[offer.step.parent] += worth(offer.comparison);
   std::vector<std::size_t> roots(members_.size());
   std::iota(roots.begin(), roots.end(), std::size_t{0});
   std::stable_sort(roots.begin(), roots.end(),
-                   [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
+                   [&](std::size_t a, std::size_t b) { return reach[a] > reach[b]; });
   int best = -1;
   order_.clear();
   for (const std::size_t root : roots) {
-    if (worth[root] <= 0.0) break;
+    if (reach[root] <= 0.0) break;
     std::vector<Reference> placed_now(members_.size());
-    std::vector<PlaceStep> order = spanning_steps(root, offers, pairs.comparer().options(), placed_now);
+    std::vector<PlaceStep> order = spanning_steps(root, offers, placed_now);
     const int score = score_of(placed_now);
     if (score <= best) continue;
     best = score;
@@ -179,17 +166,16 @@ void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBoo
   const Track& child_track = tracks[child.track];
   const Track& parent_track = tracks[parent.track];
   const PairHistory& history = pairs.update(parent_track, child_track);
-  const CompareOptions& options = pairs.comparer().options();
   for (const Comparison& saved : history.saved) {
     const Comparison comparison = StaticPairs::oriented(saved, parent_track, child_track);
-    if (ends_of(comparison) != step.ends) continue;
+    if (comparison.key[0] != step.key[0] || comparison.key[1] != step.key[1]) continue;
     if (!parent.reference.valid()) {
       if (&step != &order_.front()) return;
-      parent.reference = reference_of(comparison, 0, options);
+      parent.reference = reference_of(comparison, 0);
       parent.comparison = inverse(comparison);
       parent.parent = child.track;
     }
-    if (apply(parent.reference, comparison, options, child.reference) && !child.comparison.valid) {
+    if (take_offer(parent.reference, comparison, child.reference) && !child.comparison.valid) {
       child.comparison = comparison;
       child.parent = parent.track;
     }
@@ -198,11 +184,11 @@ void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBoo
 }
 
 void Submap::note_still(const PairHistory& history, Member& parent, Member& child, Iteration now) {
-  if (history.since < 0 || history.updated != now) return;
+  if (history.updated != now) return;
   const bool swapped = child.track < parent.track;
   for (int end = 0; end < 2; ++end) {
-    parent.still[end] = parent.still[end] || history.still[swapped ? 1 : 0][end];
-    child.still[end] = child.still[end] || history.still[swapped ? 0 : 1][end];
+    parent.still[end] = parent.still[end] || history.still(swapped ? 1 : 0, end);
+    child.still[end] = child.still[end] || history.still(swapped ? 0 : 1, end);
   }
 }
 
@@ -221,8 +207,9 @@ void Submap::confirm(TrackId track) {
 }
 
 void Submap::truncate(Iteration k) {
-  std::erase_if(members_, [&](const Member& member) { return member.joined > k; });
-  ordered_ = computed_to_ = -1;
+  const bool changed = std::erase_if(members_, [&](const Member& member) { return member.joined > k; }) > 0;
+  if (best_at_ > k) best_.clear();
+  if (changed || computed_to_ > k || ordered_ > k) ordered_ = computed_to_ = -1;
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -7,6 +7,7 @@
 
 #include "slam_plane/thesis/membership.hpp"
 #include "slam_plane/thesis/options.hpp"
+#include "slam_plane/thesis/pair_order.hpp"
 #include "slam_plane/thesis/reference.hpp"
 #include "slam_plane/thesis/static_pairs.hpp"
 #include "slam_plane/thesis/track_book.hpp"
@@ -29,13 +30,6 @@ struct Member {
 struct Anchor {
   TrackId track = 0;
   Reference reference;  ///< map's frame
-};
-
-/// One comparison of a submap's order: it places the child, or tells one more end of it.
-struct PlaceStep {
-  std::size_t parent = 0;  ///< indices of members
-  std::size_t child = 0;
-  int ends = 0;  ///< which ends are compared: 2 * parent's + child's, left 0, right 1
 };
 
 /// Planes that were visible together, placed relative to each other by comparisons of pairs (thesis 4.3.2, 4.4.3.2).
@@ -75,6 +69,8 @@ class Submap {
 
  private:
   void keep_frame(const std::vector<Member>& before);
+  void take_best(const TrackBook& tracks);
+  void keep_best(Iteration now);
   void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
   int score_of(const std::vector<Reference>& references) const;
   void take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
@@ -83,6 +79,8 @@ class Submap {
   std::uint64_t id_;
   Iteration created_;
   std::vector<Member> members_;
+  std::vector<Member> best_;  // the members when most of them were placed, the latest time (Rule 35)
+  Iteration best_at_ = -1;
   std::vector<PlaceStep> order_;
   Iteration ordered_ = -1;      // when the order was chosen; -1: never
   Iteration computed_to_ = -1;  // newest sighting that was taken in

@@ -17,7 +17,7 @@ namespace {
 constexpr int kPlaceByPoseAfter =
     30;  // iterations after which a submap without a link is placed by the robot's pose
 constexpr std::size_t kTurns = 4;      // iterations in which each submap in view is computed once
-constexpr int kRollBacksPerFrame = 4;  // more in one frame are not made: the member stays
+constexpr int kRollBacksPerFrame = 1;  // what asks for another one asks again in the next frame
 
 }  // namespace
 
@@ -51,6 +51,7 @@ class ThesisMapper::Engine {
     build_map();
     locate();
     history_.close(state_);
+    state_.hints.forget_before(state_.now - options_.roll_back_limit);
   }
 
   /// Submaps of which at least two planes are in view (thesis 4.5 ComputeXPoints).
@@ -106,7 +107,7 @@ class ThesisMapper::Engine {
   }
 
   void build_map() {
-    if (!state_.submaps.empty()) anchor_first(options_, state_);
+    if (!state_.submaps.empty()) anchor_first(state_);
     state_.map.build(changed_, state_.submaps, state_.tracks);
   }
 
@@ -126,6 +127,7 @@ class ThesisMapper::Engine {
       motion.known(location_->T_to_from);
     } else {
       location_->T_to_from = motion.restricted(*location_);
+      expand_planes(location_->T_to_from);
       ++degenerate_;
     }
     state_.carried.located = location_.has_value();
@@ -133,15 +135,18 @@ class ThesisMapper::Engine {
     if (location_) counters_.submaps_after_motion += anchor_by_pose(*location_, state_);
   }
 
+  /// While nothing but its line tells where a plane is, all that is learned of it is how far it reaches (Rule 23).
+  void expand_planes(const Pose2& T_map_robot) {
+    for (const TrackId id : state_.seen)
+      state_.map.expand(id, T_map_robot * state_.tracks[id].newest().segment, state_.now);
+  }
+
   /// Goes back to before the hinted event and does everything again (Rules 33, 34).
   void roll_back() {
     const Hint hint = *roll_back_;
     roll_back_.reset();
-    const Iteration k = hint.iteration - 1;
-    if (!history_.reaches(k)) return;
-    state_.hints.add(hint);
-    std::vector<Record> again = history_.take_after(k);
-    roll_back_to(history_.at(k), options_, state_);
+    if (!history_.reaches(hint.iteration - 1)) return;
+    const std::vector<Record> again = go_back(hint, options_, history_, state_);
     for (const Record& record : again) {
       history_.add(record.iteration, record.pieces);
       iterate(record.pieces);

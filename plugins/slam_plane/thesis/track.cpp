@@ -119,6 +119,12 @@ bool Track::truncate(Iteration k) {
   return true;
 }
 
+void Track::forget() {
+  sightings_ = RingBuffer<Kept>(sightings_.capacity());
+  phases_ = {};
+  blocks_ = {};
+}
+
 void Track::truncate_index() {
   if (empty()) {
     blocks_.clear();

@@ -42,6 +42,9 @@ class Track {
   /// Rolls back: forgets the sightings after iteration k. @returns whether any are left. O(forgotten).
   bool truncate(Iteration k);
 
+  /// Forgets all sightings for good and gives their memory back.
+  void forget();
+
   std::size_t size() const { return sightings_.size(); }
   bool empty() const { return sightings_.empty(); }
   /// Sightings kept at most.

@@ -28,10 +28,8 @@ struct CompareOptions {
   int size_backing = 3;  ///< sightings that have to reach a size (Rule 20), 1 to 4; 1: the filter is off
   double size_tolerance_m = 0.05;  ///< but for this
   int min_shared = 3;              ///< least sightings that a comparison is made from
-  double similar_size_m = 0.1;     ///< sizes that differ by less are alike: the longer interval is better
   double max_deviation_m = 0.5;    ///< least standard deviation above which no end is static; 0: no bound
-  double close_ratio = 1.5;        ///< standard deviations are close to each other up to this ratio (Rule 15)
-  double close_floor_m = 1e-4;     ///< and up to this difference
+  double close_ratio = 1.4;        ///< standard deviations, and times, are alike up to this ratio (Rule 15)
   double parallel_deg = 10.0;      ///< planes are parallel up to this angle
   bool operator==(const CompareOptions&) const = default;
 };

@@ -86,16 +86,6 @@ PlanePair pair_at(const Pose2& T, const Vec2& point, const Vec2& direction, bool
   return pair;
 }
 
-Reference reference_at(const Vec2& left, const Vec2& right) {
-  Reference reference;
-  reference.place.middle = 0.5 * (left + right);
-  reference.place.direction = (right - left).normalized();
-  reference.place.size = (right - left).norm();
-  reference.place.valid = true;
-  reference.known[0] = reference.known[1] = true;
-  return reference;
-}
-
 TEST(ThesisMapper, NothingSeenIsLost) {
   ThesisMapper mapper{Options{}};
   EXPECT_FALSE(mapper.process({}, View{}).has_pose);
@@ -120,14 +110,14 @@ TEST(ThesisMapper, SameFramesGiveTheSameBits) {
   }
 }
 
-TEST(MapperRule04, TheMapIsAlignedToThePlanesOfTheFirstIteration) {
+TEST(ThesisMapper, FourWallsAreMappedWhereTheyWereAtFirst) {
   const Outcome result = run(four_walls(60), 7.0);
   EXPECT_LT(result.corner, 1e-3);
   EXPECT_LT(result.position, 1e-3);
   EXPECT_LE(result.lost, 20);
 }
 
-TEST(Rule05, ThePoseIsWhereTheLastSightingsLieOnTheMap) {
+TEST(Alignment, PointsThatAreTheSameTellTheRotationAndThePlace) {
   const Pose2 truth = Pose2::at(Vec2(3, -2), 0.7);
   const std::vector<PlanePair> pairs{pair_at(truth, Vec2(4, 1), Vec2(0, -1), true),
                                      pair_at(truth, Vec2(2, -3), Vec2(1, 0), true)};
@@ -137,29 +127,38 @@ TEST(Rule05, ThePoseIsWhereTheLastSightingsLieOnTheMap) {
   EXPECT_LT((alignment->T_to_from.r - truth.r).norm(), 1e-12);
 }
 
-TEST(MapperRule06, SubmapsAreCombinedToOneMap) {
+TEST(ThesisMapper, ACorridorIsOneMapOfManySubmaps) {
   const Outcome result = run(corridor_return(), 1.5707963);
   EXPECT_GT(result.submaps, 3u);
   EXPECT_LT(result.corner, 1e-3);
 }
 
-TEST(MapperRule11, OnTheWayBackPlanesAreFoundAgainInTheMap) {
+TEST(ThesisMapper, OnTheWayBackPlanesAreFoundAgain) {
   const Outcome result = run(corridor_return(), 1.5707963);
   EXPECT_LE(static_cast<double>(result.ids.size()), 1.25 * static_cast<double>(result.seen.size()));
 }
 
-TEST(Rule22, TheSubmapWithTheMostPlanesInViewIsTheCurrentOne) {
-  const Options options;
-  State state(options);
-  state.now = 5;
-  for (std::uint64_t i = 0; i < 3; ++i) state.submaps.emplace_back(i, 0);
-  state.carried.current = 0;
-  state.chart = {{0, 2}, {1, 2}, {2, 1}};
-  manage_submaps(options, state);
-  EXPECT_EQ(state.carried.current, 0u);  // a tie: the last one stays
-  state.chart = {{0, 2}, {1, 3}, {2, 1}};
-  manage_submaps(options, state);
-  EXPECT_EQ(state.carried.current, 1u);
+TEST(ThesisMapper, AWallAloneInViewGrowsAsTheRobotTurns) {
+  // Down a corridor, past a pillar, to a wall across its end, of which the left end was seen from afar; there the robot turns, and sees it up to its right end.
+  Scene scene;
+  scene.walls = {{Vec2(-2, 1), Vec2(5, 1)},
+                 {Vec2(5, -1), Vec2(-2, -1)},
+                 {Vec2(4, 0.9), Vec2(4, 0.6)},
+                 {Vec2(8, 2), Vec2(8, -6)}};
+  for (int i = 0; i <= 110; ++i) scene.path.push_back(Pose2::at(Vec2(0.05 * i, 0), 0.0));
+  for (int i = 1; i <= 30; ++i) scene.path.push_back(Pose2::at(Vec2(5.5, 0), -0.035 * i));
+  Sensor sensor;
+  sensor.noise_m = sensor.noise_angle_rad = sensor.noise_end_m = 0.0;
+  sensor.view.horizontal_fov_rad = 1.0;
+  ThesisMapper mapper{Options{}};
+  for (const TrueFrame& frame : observe(scene, sensor, 1)) mapper.process(frame.pieces, sensor.view);
+  const std::vector<Wall> walls = mapper.map().walls;
+  const auto end_wall =
+      std::find_if(walls.begin(), walls.end(), [](const Wall& wall) { return wall.a.x() > 7.9; });
+  ASSERT_NE(end_wall, walls.end());
+  EXPECT_LT((end_wall->a - Vec2(8, 2)).norm(), 1e-6);
+  EXPECT_LT((end_wall->b - Vec2(8, -6)).norm(), 1e-6);
+  EXPECT_FALSE(end_wall->certain[1]);
 }
 
 TEST(Rule24, TheRobotMovesInTheDirectionInWhichItLooks) {
@@ -182,8 +181,7 @@ TEST(Rule25, AWallAlongTheMovementDoesNotMeasureIt) {
   seen.open = Vec2(1.0, 0.05).normalized();
   const Vec2 across = left_of(seen.open);
   seen.T_to_from.t = Vec2(0.04, 0.0) + 0.02 * across;  // noise: taken for movement it would be 0.4 m
-  const Pose2 pose = motion.restricted(seen);
-  EXPECT_LT((pose.t - Vec2(0.08, 0.0)).norm(), 0.03);
+  EXPECT_LT((motion.restricted(seen).t - Vec2(0.04, 0.0)).norm(), 0.1);
 }
 
 TEST(Rule26, TheMotionModelIsOnAfterSomeFramesWithoutAPositionAndOffWithOne) {
@@ -231,7 +229,7 @@ TEST(Rule33, ARollBackLeavesNothingOfWhatCameLater) {
   EXPECT_TRUE(state.submaps.empty());
 }
 
-TEST(MapperRule34, AHintKeepsATrackFromASubmap) {
+TEST(Hints, AHintKeepsATrackFromASubmapAndDropsLaterOnes) {
   Hints hints;
   hints.add({100, 7, 2});
   EXPECT_FALSE(hints.may_join(7, 2));
@@ -240,61 +238,6 @@ TEST(MapperRule34, AHintKeepsATrackFromASubmap) {
   hints.add({50, 8, 2});  // what a later hint speaks of may not happen any more
   EXPECT_EQ(hints.size(), 1u);
   EXPECT_TRUE(hints.may_join(7, 2));
-}
-
-TEST(MapperRule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
-  TrackOptions small;
-  small.capacity = 50;
-  Track a(0, small), b(1, small);
-  StaticPairs pairs{CompareOptions{}};
-  for (Iteration k = 0; k < 140; ++k) {
-    const double hidden = k < 40 ? 0.0 : 0.015 * static_cast<double>(k - 39);
-    a.push(seen(kAlong, straight(k), k, hidden, hidden));
-    b.push(seen(kAhead, straight(k), k, hidden, hidden));
-    pairs.update(a, b);
-  }
-  const PairHistory& history = pairs.update(a, b);
-  ASSERT_FALSE(history.saved.empty());
-  EXPECT_GE(history.shared(), 35);
-  EXPECT_LT(error_of(history.saved.front(), kAlong, kAhead), 1e-3);
-}
-
-TEST(StaticPairs, EndsThatMoveAreNotStill) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
-  StaticPairs pairs{CompareOptions{}};
-  for (Iteration k = 0; k < 100; ++k) {
-    const double hidden = 1.0 + 0.5 * std::sin(0.1 * static_cast<double>(k));
-    a.push(seen(kAlong, curved(k), k, hidden, hidden));
-    b.push(seen(kAhead, curved(k), k, 0.0, 0.0));
-    EXPECT_EQ(pairs.update(a, b).since, -1) << k;
-  }
-}
-
-TEST(StaticPairs, ParallelPlanesAreNotCompared) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
-  StaticPairs pairs{CompareOptions{}};
-  for (Iteration k = 0; k < 30; ++k) {
-    a.push(seen(kAlong, curved(k), k));
-    b.push(seen(kFacing, curved(k), k));
-    EXPECT_EQ(pairs.update(a, b).shared(), 0);
-  }
-}
-
-TEST(Reference, EndsThatNothingHasInCommonPlaceNothing) {
-  Reference base = reference_at(Vec2(0, 0), Vec2(4, 0));
-  base.known[kEndB] = false;
-  base.place.key = KeyPoint::left;
-  Comparison comparison;
-  comparison.valid = true;
-  comparison.shared = 20;
-  comparison.size[0] = 4.0;
-  comparison.size[1] = 2.0;
-  comparison.key[0] = KeyPoint::right;
-  comparison.key[1] = KeyPoint::left;
-  comparison.deviations = {1.0, 1.0, 0.0, 1.0};
-  EXPECT_FALSE(chained(base, comparison, CompareOptions{}).valid());
-  base.known[kEndB] = true;
-  EXPECT_TRUE(chained(base, comparison, CompareOptions{}).valid());
 }
 
 }  // namespace

@@ -60,12 +60,15 @@ TEST(Matching, EachTrackTakesTheSightingThatFitsItBest) {
   EXPECT_EQ(matched[2], nullptr);
 }
 
-TEST(Matching, EarlierStagesComeFirstThoughLaterOnesFitBetter) {
-  const Segment near{{Vec2(12, 3), Vec2(12, -3)}}, far{{Vec2(12.2, 3), Vec2(12.2, -3)}};
-  const Track current = track_at(0, near, 0), neighbour = track_at(1, far, 0);
-  const std::vector<Sighting> now{seen(far, straight(1), 1)};
-  EXPECT_EQ(match_tracks(now, Stages{{&current, &neighbour}}, MatchOptions{})[0], &neighbour);
-  EXPECT_EQ(match_tracks(now, Stages{{&current}, {&neighbour, &current}}, MatchOptions{})[0], &current);
+TEST(Matching, EarlierStagesComeFirstUnlessLaterOnesFitMuchBetter) {
+  const auto wall_at = [](double x) { return Segment{{Vec2(x, 3), Vec2(x, -3)}}; };
+  const Track current = track_at(0, wall_at(12.0), 0), neighbour = track_at(1, wall_at(12.1), 0),
+              other = track_at(2, wall_at(12.2), 0);
+  const std::vector<Sighting> near{seen(wall_at(12.1), straight(0), 1)},
+      far{seen(wall_at(12.2), straight(0), 1)};
+  EXPECT_EQ(match_tracks(near, Stages{{&current, &neighbour}}, MatchOptions{})[0], &neighbour);
+  EXPECT_EQ(match_tracks(near, Stages{{&current}, {&neighbour, &current}}, MatchOptions{})[0], &current);
+  EXPECT_EQ(match_tracks(far, Stages{{&current}, {&other}}, MatchOptions{})[0], &other);
 }
 
 TEST(Matching, TracksNotSeenForLongAreNotMatched) {

@@ -17,7 +17,6 @@ void expect_same(const Comparison& a, const Comparison& b) {
   EXPECT_EQ(a.shared, b.shared);
   EXPECT_EQ(a.offset, b.offset);
   EXPECT_EQ(a.direction, b.direction);
-  EXPECT_EQ(a.deviations, b.deviations);
   EXPECT_EQ(a.deviation, b.deviation);
   EXPECT_EQ(a.parallel, b.parallel);
   for (int i = 0; i < 2; ++i) {
@@ -81,7 +80,7 @@ int histories() {
 
 TEST(PairComparer, GivesWhatTheSightingsThemselvesGiveToTheLastBit) {
   CompareOptions options;
-  int valid = 0, keys = 0;
+  int valid = 0;
   for (int seed = 0; seed < histories(); ++seed) {
     RandomHistory history(static_cast<std::uint64_t>(seed));
     PairComparer comparer(options, seed % 2 == 0 ? 1024 : 3);  // with room for all pairs, or not
@@ -92,27 +91,26 @@ TEST(PairComparer, GivesWhatTheSightingsThemselvesGiveToTheLastBit) {
         for (std::size_t b = 0; b < 4; ++b) {
           if (a == b || history.draw(200 + 4 * a + b) > 0.2) continue;
           const Track &ta = history.tracks()[a], &tb = history.tracks()[b];
-          const Comparison made = comparer.compare(ta, tb);
-          expect_same(made, compare_uncached(ta, tb, options));
-          valid += made.valid ? 1 : 0;
-          keys += made.has_keys() ? 1 : 0;
           const auto first =
               static_cast<Iteration>(history.draw(300 + 4 * a + b) * static_cast<double>(history.now()));
           const Interval forced{first, first + static_cast<Iteration>(history.draw(400 + 4 * a + b) * 100.0)};
-          expect_same(comparer.compare_in(ta, tb, forced), compare_uncached_in(ta, tb, forced, options));
+          const int combination = static_cast<int>(history.draw(500 + 4 * a + b) * 4.0);
+          const Comparison made = comparer.compare_in(ta, tb, forced, combination);
+          expect_same(made, compare_uncached_in(ta, tb, forced, combination, options));
+          valid += made.valid ? 1 : 0;
         }
       }
       ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << ", iteration " << history.now();
     }
   }
   EXPECT_GT(valid, 1000);
-  EXPECT_GT(keys, 500);
 }
 
 TEST(PairComparer, OtherWayRoundIsTheInverse) {
   const Track a = track_of(0, kAlong, {0, 50}, curved), b = track_of(1, kSlanted, {0, 50}, curved);
   PairComparer comparer{CompareOptions{}};
-  const Comparison forth = comparer.compare(a, b), back = comparer.compare(b, a);
+  const Comparison forth = comparer.compare_in(a, b, {0, 50}, 1),
+                   back = comparer.compare_in(b, a, {0, 50}, 2);
   EXPECT_EQ(comparer.pairs(), 1u);
   EXPECT_EQ(forth.size[0], back.size[1]);
   const Pose2 T_a_b{forth.offset, forth.direction}, T_b_a{back.offset, back.direction};
@@ -125,11 +123,11 @@ TEST(PairComparer, KeepsThePairsComparedLast) {
   for (TrackId id = 0; id < 4; ++id)
     tracks.push_back(track_of(id, id % 2 == 0 ? kAlong : kAhead, {0, 20}, straight));
   PairComparer comparer(CompareOptions{}, 2);
-  comparer.compare(tracks[0], tracks[1]);
-  comparer.compare(tracks[0], tracks[3]);
-  comparer.compare(tracks[0], tracks[1]);
-  comparer.compare(tracks[2], tracks[3]);  // takes the place of 0 and 3
-  comparer.compare(tracks[0], tracks[1]);
+  comparer.compare_in(tracks[0], tracks[1], {0, 20}, 0);
+  comparer.compare_in(tracks[0], tracks[3], {0, 20}, 0);
+  comparer.compare_in(tracks[0], tracks[1], {0, 20}, 0);
+  comparer.compare_in(tracks[2], tracks[3], {0, 20}, 0);  // takes the place of 0 and 3
+  comparer.compare_in(tracks[0], tracks[1], {0, 20}, 0);
   EXPECT_EQ(comparer.pairs(), 2u);
   EXPECT_EQ(comparer.counters().discarded, 1u);
   EXPECT_EQ(comparer.counters().hits, 2u);
@@ -141,42 +139,10 @@ TEST(PairComparer, FindsNothingInTooFewSharedSightings) {
   const Track a = track_of(0, kAlong, {0, 10}, straight), b = track_of(1, kAhead, {9, 20}, straight);
   const Track later = track_of(2, kAhead, {30, 40}, straight);
   PairComparer comparer{CompareOptions{}};
-  EXPECT_FALSE(comparer.compare(a, b).valid);
-  EXPECT_EQ(comparer.compare(a, b).shared, 2);
-  EXPECT_FALSE(comparer.compare(a, later).valid);
-  EXPECT_EQ(comparer.compare(a, later).shared, 0);
-}
-
-TEST(PairComparer, LooksAtABoundedNumberOfIntervalsHoweverOftenPlanesTurn) {
-  const auto swing = [](Iteration k) { return Hidden{1.0 + std::sin(0.3 * static_cast<double>(k)), 0.0}; };
-  const Track a = track_of(0, kAlong, {0, 1100}, straight),
-              b = track_of(1, kAhead, {0, 1100}, straight, swing);
-  EXPECT_GT(b.phases().size(), 90u);
-  ASSERT_EQ(comparable_intervals(a, b).size(), kMaxIntervals);
-  EXPECT_EQ(comparable_intervals(a, b).back().last, 1100);
-  PairComparer comparer{CompareOptions{}};
-  for (int i = 0; i < 2; ++i) expect_same(comparer.compare(a, b), compare_uncached(a, b, CompareOptions{}));
-}
-
-TEST(PairComparer, TakesNoEndForStaticIfBothMove) {
-  // A view of constant width that slides along a wall.
-  const auto slide = [](Iteration k) {
-    return Hidden{0.1 * static_cast<double>(k), 5.0 - 0.1 * static_cast<double>(k)};
-  };
-  const Track a = track_of(0, kAhead, {0, 50}, straight), b = track_of(1, kAlong, {0, 50}, straight, slide);
-  PairComparer comparer{CompareOptions{}};
-  EXPECT_FALSE(comparer.compare(a, b).valid);
-}
-
-TEST(PairComparer, GapThatMovesBetweenPlanesOfOneLineTellsNoOffset) {
-  // What hides the line moves to the right: the left part grows and the right one shrinks by as much.
-  const Segment right_part{{Vec2(7, 2), Vec2(15, 2)}};
-  const auto grow = [](Iteration k) { return Hidden{0.0, 4.0 - 0.05 * static_cast<double>(k)}; };
-  const auto shrink = [](Iteration k) { return Hidden{0.05 * static_cast<double>(k), 0.0}; };
-  const Track a = track_of(0, kAlong, {0, 50}, straight, grow),
-              b = track_of(1, right_part, {0, 50}, straight, shrink);
-  PairComparer comparer{CompareOptions{}};
-  EXPECT_FALSE(comparer.compare(a, b).valid);
+  EXPECT_FALSE(comparer.compare_in(a, b, {0, 40}, 0).valid);
+  EXPECT_EQ(comparer.compare_in(a, b, {0, 40}, 0).shared, 2);
+  EXPECT_FALSE(comparer.compare_in(a, later, {0, 40}, 0).valid);
+  EXPECT_EQ(comparer.compare_in(a, later, {0, 40}, 0).shared, 0);
 }
 
 }  // namespace

@@ -5,21 +5,72 @@
 
 #include <algorithm>
 
+#include "slam_plane/thesis/locator.hpp"
 #include "slam_plane/thesis/matching.hpp"
 #include "slam_plane/thesis/membership.hpp"
-#include "slam_plane/thesis/pair_order.hpp"
-#include "slam_plane/thesis/resize.hpp"
+#include "slam_plane/thesis/reference.hpp"
+#include "slam_plane/thesis/submap.hpp"
 #include "unit/slam_plane_thesis/walls.hpp"
 
 namespace hallway::slam_plane::thesis::test {
 namespace {
 
-constexpr double kExact = 1e-9;
-
 double ramp(Iteration k, Iteration from, Iteration to, double first, double last) {
   const double share = static_cast<double>(k - from) / static_cast<double>(to - from);
   return first + std::clamp(share, 0.0, 1.0) * (last - first);
 }
+
+constexpr int kLeftLeft = 0;  // combination of ends
+
+/// What StaticPairs finds out when it is shown both tracks sighting by sighting.
+PairHistory history_of(const Track& a, const Track& b) {
+  Track seen_a(a.id(), TrackOptions{}), seen_b(b.id(), TrackOptions{});
+  StaticPairs pairs{CompareOptions{}};
+  for (Iteration k = 0; k <= std::max(a.newest().iteration, b.newest().iteration); ++k) {
+    if (const Sighting* sighting = a.find(k)) seen_a.push(*sighting);
+    if (const Sighting* sighting = b.find(k)) seen_b.push(*sighting);
+    pairs.update(seen_a, seen_b);
+  }
+  return pairs.update(seen_a, seen_b);
+}
+
+/// Places the planes of the second one and the third one in the frame of the first one, along a chain.
+std::vector<Reference> chain(const Comparison& first, const Comparison& second) {
+  std::vector<Reference> references{reference_of(first, 0)};
+  references.push_back(chained(references[0], first));
+  references.push_back(chained(references[1], second));
+  return references;
+}
+
+/// Two tracks, which lie on kAlong and kAhead, in a submap that is placed where the world is.
+struct TwoMapped {
+  Options options;
+  TrackBook tracks{options.track()};
+  StaticPairs pairs{options.compare()};
+  std::vector<Submap> submaps;
+  MapBuilder map{options};
+
+  TwoMapped() {
+    tracks.create(0);
+    tracks.create(0);
+    for (Iteration k = 0; k <= 40; ++k) {
+      tracks[0].push(seen(kAlong, straight(k), k));
+      tracks[1].push(seen(kAhead, straight(k), k));
+      pairs.update(tracks[0], tracks[1]);
+    }
+    submaps.emplace_back(0, 0);
+    for (const TrackId id : {TrackId{0}, TrackId{1}}) {
+      submaps[0].add(id, 0, false);
+      tracks.submaps(id).push_back(0);
+      const Segment& wall = id == 0 ? kAlong : kAhead;
+      submaps[0].anchors.push_back(
+          {id, {{wall.middle(), wall.direction(), wall.length(), true}, {true, true}, 40}});
+    }
+    submaps[0].compute(pairs, tracks, options, 40);
+    const std::vector<SubmapIndex> all{0};
+    map.build(all, submaps, tracks);
+  }
+};
 
 TEST(Rule01, SightingsAreMatchedToTheLatestOnesOfTracksWithoutAPose) {
   Track track(0, TrackOptions{}), other(1, TrackOptions{});
@@ -47,13 +98,15 @@ TEST(Rule02, PlanesAreComparedWithinIterationsAndSoInAnyOrderOfPairs) {
     if (k % 7 != 3) c.push(seen(farther, straight(k), k));
   }
   PairComparer comparer{CompareOptions{}};
-  const std::vector<const Track*> members{&a, &b, &c};
-  const auto one = place_members(comparer, members, std::vector<PairEdge>{{0, 1}, {1, 2}});
-  const auto another = place_members(comparer, members, std::vector<PairEdge>{{0, 2}, {2, 1}});
-  for (const auto& placements : {one, another}) {
-    ASSERT_TRUE(placements[1].valid && placements[2].valid);
-    EXPECT_LT(error_of(placements[1], kAlong, behind), kExact);
-    EXPECT_LT(error_of(placements[2], kAlong, farther), kExact);
+  const Interval all{0, 59};
+  const Comparison ab = comparer.compare_in(a, b, all, kLeftLeft),
+                   bc = comparer.compare_in(b, c, all, kLeftLeft),
+                   ac = comparer.compare_in(a, c, all, kLeftLeft);
+  const std::vector<Reference> one = chain(ab, bc), another = chain(ac, inverse(bc));
+  for (const auto& [in_b, in_c] : {std::pair{one[1], one[2]}, std::pair{another[2], another[1]}}) {
+    ASSERT_TRUE(in_b.valid() && in_c.valid());
+    EXPECT_LT(error_of(in_b.place, kAlong, behind), kExact);
+    EXPECT_LT(error_of(in_c.place, kAlong, farther), kExact);
   }
 }
 
@@ -62,7 +115,7 @@ TEST(Rule03, RelativePlaceIsTheSameHoweverTheRobotTurns) {
        {std::pair{kAlong, kAhead}, std::pair{kSlanted, kAlong}, std::pair{kAhead, kFacing}}) {
     const Track a = track_of(0, first, {0, 80}, curved), b = track_of(1, second, {0, 80}, curved);
     PairComparer comparer{CompareOptions{}};
-    const Comparison comparison = comparer.compare(a, b);
+    const Comparison comparison = comparer.compare_in(a, b, {0, 80}, kLeftLeft);
     ASSERT_TRUE(comparison.has_keys());
     EXPECT_LT(error_of(comparison, first, second), kExact);
     EXPECT_LT(comparison.deviation, kExact);
@@ -114,9 +167,9 @@ TEST(Rule13, EndsThatStandStillAreFoundByTheLeastDeviation) {
     const bool left_a = combination / 2 == 0, left_b = combination % 2 == 0;
     const Track a = track_of(0, kAlong, {0, 50}, straight, hide(left_a));
     const Track b = track_of(1, kAhead, {0, 50}, straight, hide(left_b));
-    PairComparer comparer{CompareOptions{}};
-    const Comparison comparison = comparer.compare(a, b);
-    ASSERT_TRUE(comparison.has_keys());
+    const PairHistory history = history_of(a, b);
+    ASSERT_EQ(history.saved.size(), 1u);
+    const Comparison& comparison = history.saved.front();
     EXPECT_EQ(comparison.key[0], left_a ? KeyPoint::left : KeyPoint::right);
     EXPECT_EQ(comparison.key[1], left_b ? KeyPoint::left : KeyPoint::right);
     EXPECT_LT(error_of(comparison, kAlong, kAhead), kExact);
@@ -136,7 +189,7 @@ TEST(Rule14, EndsAreNumberedAsTheRobotSeesThem) {
     EXPECT_LT(b.newest().segment.normal().x(), 0.0);  // faces the robot
   }
   PairComparer comparer{CompareOptions{}};
-  const Comparison comparison = comparer.compare(a, b);
+  const Comparison comparison = comparer.compare_in(a, b, {0, 39}, kLeftLeft);
   ASSERT_TRUE(comparison.has_keys());
   EXPECT_LT(error_of(comparison, kAlong, kAhead), kExact);
 }
@@ -147,30 +200,37 @@ TEST(Rule15, ParallelPlanesThatGrowTogetherHaveNoKeyPointsThoughTheOffsetIsRight
   const auto grow = [](Iteration k) { return Hidden{0.0, ramp(k, 0, 50, 4.0, 1.0)}; };
   const Track a = track_of(0, kAlong, {0, 50}, straight, grow),
               b = track_of(1, behind, {0, 50}, straight, grow);
-  PairComparer comparer{CompareOptions{}};
-  const Comparison comparison = comparer.compare(a, b);
-  ASSERT_TRUE(comparison.valid);
-  EXPECT_TRUE(comparison.parallel);
-  EXPECT_FALSE(comparison.has_keys());
-  EXPECT_LT((comparison.offset - Vec2(1, 1)).norm(), kExact);  // of equal parts
+  const PairHistory history = history_of(a, b);
+  for (int end = 0; end < 2; ++end) EXPECT_FALSE(history.still(0, end) || history.still(1, end));
+  ASSERT_FALSE(history.saved.empty());
+  for (const Comparison& comparison : history.saved) {
+    EXPECT_FALSE(comparison.has_keys());
+    EXPECT_TRUE(comparison.parallel);
+    EXPECT_NEAR(std::abs(comparison.offset.y()), 1.0, kExact);
+  }
 }
 
-TEST(Rule16, WhatIsSeenOfAPlaneGrowsToItsFullSizeFromTheKeyPoint) {
-  const auto grown = resized(Segment{{Vec2(1, 2), Vec2(4, 2)}}, KeyPoint::right, 5.0);
-  ASSERT_TRUE(grown.has_value());
-  EXPECT_LT((grown->end[kEndA] - Vec2(-1, 2)).norm(), kExact);
-  EXPECT_LT((grown->end[kEndB] - Vec2(4, 2)).norm(), kExact);
-  EXPECT_FALSE(resized(Segment{{Vec2(1, 2), Vec2(4, 2)}}, KeyPoint::none, 5.0).has_value());
+TEST(Rule16, WhatIsSeenOfAPlaneIsComparedWithTheMapAtItsKeyPoint) {
+  TwoMapped world;
+  Locator locator{world.options};
+  const Pose2 truth = Pose2::at(Vec2(1.0, 0.3), 0.2);
+  world.tracks[0].push(seen(kAlong, truth, 41, 0.0, 3.0));  // a part, of which the left end is the wall's
+  locator.note(0, {true, false}, 41);
+  const std::vector<TrackId> now{0};
+  const auto location = locator.locate(now, world.tracks, world.map, world.pairs, 41, truth);
+  ASSERT_TRUE(location && location->by_points);
+  EXPECT_LT((location->T_to_from.t - truth.t).norm(), kExact);
 }
 
-TEST(Rule17, TheSmallerOneOfTwoViewsOfAPlaneGrowsToTheLargerOne) {
-  Placement whole{Vec2(0, 0), Vec2(1, 0), 6.0, KeyPoint::left, {}, true};
-  Placement part{Vec2(11, 3), Vec2(0, 1), 2.0, KeyPoint::right, {}, true};
-  ASSERT_TRUE(bring_to_one_size(whole, part, 0.0));
-  EXPECT_DOUBLE_EQ(whole.size, 6.0);
-  EXPECT_DOUBLE_EQ(part.size, 6.0);
-  EXPECT_LT((whole.middle - Vec2(0, 0)).norm(), kExact);
-  EXPECT_LT((part.middle - Vec2(11, 1)).norm(), kExact);  // its right end stays
+TEST(Reference, OfTwoViewsOfAPlaneWhatBothKnowIsComparedWhateverTheirSizes) {
+  const Reference whole{{Vec2(0, 0), Vec2(1, 0), 6.0, true}, {true, true}, 10};
+  const Reference part{{Vec2(11, 3), Vec2(0, 1), 2.0, true}, {false, true}, 10};
+  std::vector<PlanePair> pairs;
+  append_pairs(part, whole, pairs);
+  const auto alignment = align(pairs, Pose2{});
+  ASSERT_TRUE(alignment && alignment->by_points);
+  EXPECT_LT((alignment->T_to_from * Vec2(11, 4) - Vec2(3, 0)).norm(), kExact);  // its right end
+  EXPECT_LT((alignment->T_to_from.rotate(Vec2(0, 1)) - Vec2(1, 0)).norm(), kExact);
 }
 
 TEST(Rule18, TimeIsSplitWhereAPlaneTurnsFromGrowingToShrinking) {
@@ -185,34 +245,37 @@ TEST(Rule18, TimeIsSplitWhereAPlaneTurnsFromGrowingToShrinking) {
   EXPECT_EQ(b.phases()[0].trend, Trend::growing);
   EXPECT_EQ(b.phases()[1].interval, (Interval{81, 110}));
   EXPECT_EQ(b.trend(), Trend::shrinking);
-  PairComparer comparer{CompareOptions{}};
-  const Comparison comparison = comparer.compare(a, b);
-  EXPECT_EQ(comparison.interval, (Interval{0, 80}));  // as large as in the other one, and longer
-  EXPECT_EQ(comparison.key[1], KeyPoint::left);
-  EXPECT_LT(error_of(comparison, kAlong, kAhead), kExact);
+  const PairHistory history = history_of(a, b);
+  int right = 0;
+  for (const Comparison& comparison : history.saved) {
+    EXPECT_LT(error_of(comparison, kAlong, kAhead), kExact);
+    if (comparison.key[1] == KeyPoint::left) {
+      EXPECT_EQ(comparison.interval, (Interval{0, 80}));
+    } else {
+      EXPECT_EQ(comparison.interval, (Interval{81, 110}));
+      ++right;
+    }
+  }
+  EXPECT_GT(right, 0);
 }
 
-TEST(Rule19, AKeyPointThatIsNeededInAnotherIntervalIsFoundThere) {
-  // b shrinks at its right end in [0, 30] and is cut at the left one, by more and more, in [60, 160].
-  const auto hide = [](Iteration k) {
-    return k <= 30 ? Hidden{0.0, ramp(k, 0, 30, 3.0, 4.0)} : Hidden{ramp(k, 60, 160, 0.0, 2.0), 0.0};
-  };
-  const Track a = track_of(0, kAlong, {0, 160}, straight);
-  Track b(1, TrackOptions{});
-  for (Iteration k = 0; k <= 160; ++k) {
-    if (k <= 30 || k >= 60) b.push(seen(kAhead, straight(k), k, hide(k).left, hide(k).right));
-  }
-  PairComparer comparer{CompareOptions{}};
-  const std::vector<const Track*> others{&a};
-  ASSERT_EQ(comparer.compare(a, b).interval, (Interval{60, 160}));
-  EXPECT_EQ(recalculated_key(comparer, b, {0, 30}, others), KeyPoint::left);
+TEST(Locator, AKeyPointThatNoSubmapTellsIsFoundInTheIntervalOfNow) {
+  TwoMapped world;
+  Locator locator{world.options};  // to which nothing is noted
+  for (const TrackId id : {TrackId{0}, TrackId{1}})
+    world.tracks[id].push(seen(id == 0 ? kAlong : kAhead, straight(41), 41));
+  const std::vector<TrackId> now{0, 1};
+  const auto location = locator.locate(now, world.tracks, world.map, world.pairs, 41, Pose2{});
+  ASSERT_TRUE(location.has_value());
+  EXPECT_TRUE(location->by_points);
+  EXPECT_LT((location->T_to_from.t - straight(41).t).norm(), kExact);
 }
 
 TEST(Rule20, AnIterationInWhichAPlaneIsTooLargeTakesNoPart) {
   const auto spike = [](Iteration k) { return Hidden{k == 17 ? -0.4 : 0.0, 0.0}; };
   const Track a = track_of(0, kAlong, {0, 40}, straight), b = track_of(1, kAhead, {0, 40}, straight, spike);
   PairComparer comparer{CompareOptions{}};
-  const Comparison comparison = comparer.compare(a, b);
+  const Comparison comparison = comparer.compare_in(a, b, {0, 40}, kLeftLeft);
   EXPECT_NEAR(comparison.size[1], kAhead.length(), kExact);
   EXPECT_EQ(comparison.shared, 40);
   EXPECT_LT(error_of(comparison.placement(1), kAlong, kAhead), kExact);
@@ -230,32 +293,46 @@ TEST(Rule28, SizesAreBroughtToOneWherePairsAreChained) {
   const Track first = track_of(1, kAhead, {0, 50}, straight),
               last = track_of(2, kSlanted, {60, 100}, straight);
   PairComparer comparer{CompareOptions{}};
-  const std::vector<const Track*> members{&first, &shared, &last};
-  const auto placements = place_members(comparer, members, std::vector<PairEdge>{{0, 1}, {1, 2}});
-  ASSERT_TRUE(placements[2].valid);
-  EXPECT_LT(error_of(placements[2], kAhead, kSlanted), kExact);
+  const std::vector<Reference> references = chain(comparer.compare_in(first, shared, {0, 50}, kLeftLeft),
+                                                  comparer.compare_in(shared, last, {60, 100}, kLeftLeft));
+  ASSERT_TRUE(references[2].valid());
+  EXPECT_LT(error_of(references[2].place, kAhead, kSlanted), kExact);
 }
 
 TEST(Rule30, PairsAreChosenThatWereSeenTogetherLongest) {
-  // In the order of arrival 1 and 2 would be compared, over 5 iterations.
-  const Track a = track_of(0, kAlong, {0, 200}, straight), b = track_of(1, kAhead, {0, 100}, straight);
-  const Track c = track_of(2, kSlanted, {96, 200}, straight);
-  PairComparer comparer{CompareOptions{}};
-  const std::vector<const Track*> members{&a, &b, &c};
-  EXPECT_EQ(order_comparisons(comparer, members), (std::vector<PairEdge>{{0, 1}, {0, 2}}));
+  // In the order of arrival the second and the third one would be compared, over 5 iterations.
+  Options options;
+  TrackBook tracks{options.track()};
+  StaticPairs pairs{options.compare()};
+  const Segment* walls[] = {&kAlong, &kAhead, &kSlanted};
+  const Interval visible[] = {{0, 200}, {0, 100}, {96, 200}};
+  for (int i = 0; i < 3; ++i) tracks.create(0);
+  for (Iteration k = 0; k <= 200; ++k) {
+    for (TrackId i = 0; i < 3; ++i) {
+      if (visible[i].contains(k)) tracks[i].push(seen(*walls[i], straight(k), k));
+      for (TrackId j = 0; j < i; ++j) pairs.update(tracks[j], tracks[i]);
+    }
+  }
+  Submap submap(0, 0);
+  for (const TrackId id : {TrackId{1}, TrackId{2}, TrackId{0}}) submap.add(id, 100, false);
+  submap.compute(pairs, tracks, options, 200);
+  ASSERT_TRUE(submap.find(1)->reference.valid() && submap.find(2)->reference.valid());
+  EXPECT_EQ(submap.find(2)->parent, 0u);
+  EXPECT_GE(submap.find(1)->comparison.shared, 100);
+  EXPECT_GE(submap.find(2)->comparison.shared, 100);
 }
 
 TEST(Rule31, AMemberIsConfirmedWhenItWasComparedForLongEnough) {
   const Track a = track_of(0, kAlong, {0, 100}, straight), b = track_of(1, kAhead, {0, 100}, straight);
   const Track brief = track_of(2, kSlanted, {95, 100}, straight);
   PairComparer comparer{CompareOptions{}};
-  EXPECT_EQ(judge_member(comparer.compare(a, b), 0, 20, IntervalOptions{}), Membership::confirmed);
-  EXPECT_EQ(judge_member(comparer.compare(a, brief), 95, 100, IntervalOptions{}), Membership::undecided);
-  EXPECT_EQ(shrinkage({{0, 100}}, brief), 95);
-  EXPECT_EQ(shrinkage({{0, 100}}, b), 0);
+  EXPECT_EQ(judge_member(comparer.compare_in(a, b, {0, 100}, kLeftLeft), 0, 20, IntervalOptions{}),
+            Membership::confirmed);
+  EXPECT_EQ(judge_member(comparer.compare_in(a, brief, {0, 100}, kLeftLeft), 95, 100, IntervalOptions{}),
+            Membership::undecided);
 }
 
-TEST(Rule32, AMemberThatWasNotComparedForLongEnoughIsFoundOutInTime) {
+TEST(Membership, AMemberThatWasNotComparedForLongEnoughIsFoundOutInTime) {
   const Comparison none;
   EXPECT_EQ(judge_member(none, 100, 129, IntervalOptions{}), Membership::undecided);
   EXPECT_EQ(judge_member(none, 100, 130, IntervalOptions{}), Membership::too_short);

@@ -10,6 +10,9 @@
 
 namespace hallway::slam_plane::thesis::test {
 
+/// A length that is none but for rounding [m].
+inline constexpr double kExact = 1e-9;
+
 /// Walls of a small world, m. They are told apart by where they stand: `kAlong` runs along x, left of a robot that drives along x, so that in its frame it needs no turning.
 inline const Segment kAlong{{Vec2(-2, 2), Vec2(6, 2)}};
 inline const Segment kAhead{{Vec2(12, 3), Vec2(12, -3)}};
