@@ -208,9 +208,24 @@ void FaceMap::rename_edge(Index face, EdgeId from, EdgeId to) {
   }
 }
 
+void FaceMap::set_apart(Index a, Index b) {
+  const auto note = [this](Index face, Index other) {
+    std::vector<Index>& beside = faces[face].beside;
+    const auto at = std::lower_bound(beside.begin(), beside.end(), other);
+    if (at == beside.end() || *at != other) beside.insert(at, other);
+  };
+  note(a, b);
+  note(b, a);
+}
+
+bool FaceMap::are_apart(Index a, Index b) const {
+  return std::binary_search(faces[a].beside.begin(), faces[a].beside.end(), b);
+}
+
 void FaceMap::merge(Index kept_index, Index gone_index) {
   FaceRecord& kept = faces[kept_index];
   FaceRecord& gone = faces[gone_index];
+  for (const Index other : gone.beside) set_apart(kept_index, resolve(other));
   for (const EdgeRecord& edge : gone.edges) {
     const auto twin = std::find_if(kept.edges.begin(), kept.edges.end(), [&](const EdgeRecord& own) {
       return own.line.normal().dot(edge.line.normal()) > 0.94 &&

@@ -57,6 +57,7 @@ struct FaceRecord {
   std::vector<Vec3> outline;  ///< convex hull of what was seen
   std::vector<EdgeRecord> edges;
   std::vector<MemberAt> members;
+  std::vector<Index> beside;  ///< faces on its plane that a frame saw apart from it, ascending
   std::uint32_t observations = 0;
   std::uint64_t last_seen = 0;
   Index merged_into = kNone;
@@ -85,6 +86,10 @@ class FaceMap {
 
   /// Forgets edges that sightings have disproved, and those that were never seen again; returns how many certain ones.
   int revoke_edges(Index face, std::uint64_t iteration);
+
+  /// Notes that a frame saw both, on one plane: they are never the same.
+  void set_apart(Index a, Index b);
+  bool are_apart(Index a, Index b) const;
 
   /// Makes one face of two: sums add up.
   void merge(Index kept, Index gone);

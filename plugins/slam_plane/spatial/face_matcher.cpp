@@ -94,13 +94,19 @@ void FaceMatcher::match_map(const FaceMap& map, const Pose3& T_map_robot, std::v
   match(map, 0, map_bound_, T_map_robot, frame);
 }
 
-bool FaceMatcher::are_twins(const FaceRecord& a, const FaceRecord& b) const {
-  if (a.outline.size() < 3 || b.outline.size() < 3 || a.last_seen == b.last_seen) return false;
-  if (a.plane.normal().dot(b.plane.normal()) < cosine_) return false;
-  if (std::abs(a.plane.distance(middle_of(b.outline))) > kTwins_m) return false;
-  if (std::abs(b.plane.distance(middle_of(a.outline))) > kTwins_m) return false;
-  const PlaneAxes axes(a.plane.normal());
-  return shared(laid_flat(a.outline, Pose3{}, axes), laid_flat(b.outline, Pose3{}, axes)) >= kTwinShare;
+bool FaceMatcher::on_one_plane(const FaceRecord& a, const FaceRecord& b) const {
+  return a.plane.normal().dot(b.plane.normal()) >= cosine_ &&
+         std::abs(a.plane.distance(middle_of(b.outline))) <= kTwins_m &&
+         std::abs(b.plane.distance(middle_of(a.outline))) <= kTwins_m;
+}
+
+bool FaceMatcher::are_twins(const FaceMap& map, Index a, Index b) const {
+  const FaceRecord& one = map.faces[a];
+  const FaceRecord& other = map.faces[b];
+  if (one.outline.size() < 3 || other.outline.size() < 3 || map.are_apart(a, b)) return false;
+  if (!on_one_plane(one, other)) return false;
+  const PlaneAxes axes(one.plane.normal());
+  return shared(laid_flat(one.outline, Pose3{}, axes), laid_flat(other.outline, Pose3{}, axes)) >= kTwinShare;
 }
 
 }  // namespace hallway::slam_plane::spatial

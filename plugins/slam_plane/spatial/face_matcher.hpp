@@ -22,8 +22,10 @@ class FaceMatcher {
   /// Gives any faces to the sightings that have none.
   void match_map(const FaceMap& map, const Pose3& T_map_robot, std::vector<Sighting>& frame);
 
+  /// Whether two faces lie on one plane.
+  bool on_one_plane(const FaceRecord& a, const FaceRecord& b) const;
   /// Whether two faces are one that was found twice: on one plane, overlapping, and not seen by one frame.
-  bool are_twins(const FaceRecord& a, const FaceRecord& b) const;
+  bool are_twins(const FaceMap& map, Index a, Index b) const;
 
  private:
   double score(const FaceRecord& face, const Sighting& sighting, const Pose3& T, double bound) const;

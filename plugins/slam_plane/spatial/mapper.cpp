@@ -86,6 +86,7 @@ class Mapper::State {
   bool change_submap();
   void close();
   void integrate();
+  void set_apart();
   void merge_twins();
   void note_motion();
   void drift();
@@ -281,9 +282,7 @@ void Mapper::State::merge_twins() {
     if (sighting.face == kNone) continue;
     for (Index other = 0; other < map_.faces.size(); ++other) {
       const Index own = sighting.face;
-      if (other == own || !map_.faces[other].alive() ||
-          !matcher_.are_twins(map_.faces[own], map_.faces[other]))
-        continue;
+      if (other == own || !map_.faces[other].alive() || !matcher_.are_twins(map_, own, other)) continue;
       const Index kept = std::min(own, other), gone = std::max(own, other);
       map_.merge(kept, gone);
       ++answer_.counters.merged;
@@ -306,7 +305,18 @@ void Mapper::State::integrate() {
     if (face.observations > 1 && face.last_seen + kOldGround < iteration_) old_ground_ = true;
     face.last_seen = iteration_;
   }
+  set_apart();
   ++map_.submaps[map_.active()].frames;
+}
+
+/// What one frame saw as two, on one plane, is two.
+void Mapper::State::set_apart() {
+  const std::vector<Index> seen = faces_in_view();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    for (std::size_t k = i + 1; k < seen.size(); ++k) {
+      if (matcher_.on_one_plane(map_.faces[seen[i]], map_.faces[seen[k]])) map_.set_apart(seen[i], seen[k]);
+    }
+  }
 }
 
 /// Learns from a pose how the robot moves. What is predicted goes on in the frame of the active submap.
