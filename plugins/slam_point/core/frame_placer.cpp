@@ -71,10 +71,10 @@ bool FramePlacer::fit(const std::vector<Observation>& frame) {
   return agreeing_ >= std::min(comparable, kSurePoints) && agreeing_ >= kSureShare * comparable;
 }
 
-FramePlacer::Searched FramePlacer::search(bool by_place, std::vector<Observation>& frame) {
-  if (by_place && recognise(frame)) return Searched::recognised;
+bool FramePlacer::search(bool by_place, std::vector<Observation>& frame) {
+  if (by_place && recognise(frame)) return true;
   search_turn(frame);
-  return Searched::nothing;
+  return false;
 }
 
 /// Looks for the frame by what it sees alone, in all of the map.

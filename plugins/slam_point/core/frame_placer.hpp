@@ -32,11 +32,9 @@ class FramePlacer {
   /// Fits the frame to the map. Whether so much agrees that no better pose need be searched.
   bool fit(const std::vector<Observation>& frame);
 
-  /// What a search came to.
-  enum class Searched { nothing, recognised };
-  /// Looks for the frame by its constellations, unless `by_place` is false, then for a turn about the z axis. `recognised`: it was found
-  /// by its constellations; not where it was followed to, if found_elsewhere() is set.
-  Searched search(bool by_place, std::vector<Observation>& frame);
+  /// Looks for the frame by its constellations, unless `by_place` is false, then for a turn about the z axis. Whether it was found by its
+  /// constellations; not where it was followed to, if found_elsewhere() is set.
+  bool search(bool by_place, std::vector<Observation>& frame);
   /// Where this frame was found by what it sees alone, where tracking cannot go on to; its part is kNone else.
   const Placement& found_elsewhere() const { return found_; }
 

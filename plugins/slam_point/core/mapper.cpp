@@ -166,7 +166,7 @@ void Mapper::State::search() {
   ++answer_.counters.searches;
   // What is being joined lies in two frames.
   const bool by_place = !parts_.is_joining();
-  if (placer_.search(by_place, frame_) == FramePlacer::Searched::recognised) ++answer_.counters.relocalised;
+  if (placer_.search(by_place, frame_)) ++answer_.counters.relocalised;
 }
 
 void Mapper::State::add_landmarks() {
