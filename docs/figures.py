@@ -13,7 +13,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "performance.md"
-SEEDS = {"density": 2, "map-size": 3, "dynamic": 1, "forty-loops": 2}
+SEEDS = {"density": 2, "map-size": 3}
 KEPT = {  # charts that the page shows
     "figure-eight": ["landmark_error"],
     "density": ["density_log"],
