@@ -9,6 +9,7 @@ namespace hallway::slam_plane::spatial {
 namespace {
 
 constexpr double kNearerSigmas = 2.0;    // that something is nearer by, if it hides
+constexpr double kOnPlane_m = 0.01;      // and nearer to a plane than this nothing is behind it
 constexpr double kLeastLength_m = 0.15;  // of an edge that is clear
 constexpr double kSameDirection = 0.99;  // cosine between normals of faces that may lie in one plane
 
@@ -66,38 +67,73 @@ bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigm
          both_below(depth(a), depth(b), reach + view.min_range_m, reach + view.min_range_m);
 }
 
-/// What of an edge may lie behind a face: behind its plane, and within its outline as seen from the robot, widened by what noise may do.
-EdgeJudge::Part EdgeJudge::hidden_part(const SightedEdge& edge, double sigma, const Sighting& nearer) const {
+/// Whether a point of an edge, seen next to a nearer face, is farther away than the side of that face next to which it is seen. What lies
+/// on the side itself touches the face there.
+bool EdgeJudge::beyond_side(const Vec3& p, double doubt, const Sighting& nearer) {
+  const SightedEdge* next = nullptr;
+  double least = 0.0;
+  for (const SightedEdge& side : nearer.edges) {
+    const Vec3 normal = side.end[0].cross(side.end[1]);
+    if (normal.norm() < 1e-12) continue;
+    const double off = std::abs(normal.normalized().dot(p));
+    if (next != nullptr && off >= least) continue;
+    least = off;
+    next = &side;
+  }
+  if (next == nullptr) return false;
+  const Vec3 along = (next->end[1] - next->end[0]).normalized();
+  const Vec3 away = p - next->end[0] - along.dot(p - next->end[0]) * along;
+  return away.norm() > doubt && away.dot(p) > 0.0;
+}
+
+/// What of an edge may be the border of a face's shadow: what lies within its outline as seen from the robot, widened by what noise may do, if any
+/// of that is behind it: behind its plane, or past the side by which it is seen. A shadow begins where what casts it touches the face, and is
+/// a shadow there too, so that one place that is clearly behind tells of all of it.
+EdgeJudge::Part EdgeJudge::hidden_part(const Sighting& own, const SightedEdge& edge, double sigma,
+                                       const Sighting& nearer) const {
+  constexpr Part kNothing{1.0, 0.0};
   const Vec3 &a = edge.end[0], &b = edge.end[1];
   Part part;
-  const double offset = nearer.offset();
-  const auto behind = [&](const Vec3& p) {
-    return offset - nearer.normal.dot(p) - kNearerSigmas * std::hypot(sigma, sigma_across(nearer, p));
-  };
-  part.keep(behind(a), behind(b));
-  const double own = EdgeJudge::sigma(nearer);
+  const double of_nearer = EdgeJudge::sigma(nearer);
   const double range = std::max(a.norm(), b.norm());
   for (const SightedEdge& side : nearer.edges) {
-    if (part.empty()) break;
     // The plane through the robot's eye and the side; inward.
     const Vec3 normal = side.end[0].cross(side.end[1]);
     if (normal.norm() < 1e-12) continue;
     const Vec3 inward = normal.normalized() * (normal.dot(nearer.centre) < 0.0 ? -1.0 : 1.0);
     const double nearest = std::max(std::min(side.end[0].norm(), side.end[1].norm()), 0.05);
-    const double reach = sigmas_ * std::hypot(sigma, own * range / nearest);
+    const double reach = sigmas_ * std::hypot(sigma, of_nearer * range / nearest);
     part.keep(inward.dot(a) + reach, inward.dot(b) + reach);
+    if (part.empty()) return kNothing;
   }
+  const auto behind = [&](const Vec3& p) { return nearer.offset() - nearer.normal.dot(p); };
+  const auto doubt = [&](const Vec3& p) {
+    return kNearerSigmas * std::hypot(sigma, sigma_across(nearer, p));
+  };
+  bool hides = false;
+  for (const double share : {part.from, part.to}) {
+    const Vec3 p = a + share * (b - a);
+    hides = hides || behind(p) > doubt(p) ||
+            (behind(p) > kOnPlane_m && !may_share_plane(own, nearer, p) &&
+             beyond_side(p, sigmas_ * std::hypot(sigma, of_nearer), nearer));
+  }
+  if (!hides) return kNothing;
+  part.keep(behind(a) + doubt(a), behind(b) + doubt(b));
   return part;
+}
+
+/// Whether two faces may lie in one plane, at a point of one of them.
+bool EdgeJudge::may_share_plane(const Sighting& own, const Sighting& other, const Vec3& p) const {
+  const double doubt = sigmas_ * std::hypot(sigma_across(own, p), sigma_across(other, p));
+  return own.normal.dot(other.normal) >= kSameDirection &&
+         std::abs(other.normal.dot(p) - other.offset()) <= doubt;
 }
 
 /// Where another face of the same plane begins where an edge is.
 EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge,
                                           const Sighting& other) const {
   constexpr Part kNothing{1.0, 0.0};
-  if (own.normal.dot(other.normal) < kSameDirection) return kNothing;
-  const Vec3 middle = 0.5 * (edge.end[0] + edge.end[1]);
-  const double doubt = sigmas_ * std::hypot(sigma_across(own, middle), sigma_across(other, middle));
-  if (std::abs(other.normal.dot(middle) - other.offset()) > doubt) return kNothing;
+  if (!may_share_plane(own, other, 0.5 * (edge.end[0] + edge.end[1]))) return kNothing;
   const double reach = sigmas_ * std::hypot(noise_.end, noise_.along) * 2.0 + 0.01;
   // What of the edge, moved outwards by that, lies in the other face or beside it.
   Part part;
@@ -113,7 +149,7 @@ bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own
   std::vector<Part> taken;
   for (const Sighting& other : frame) {
     if (&other == &own) continue;
-    for (const Part& part : {hidden_part(edge, doubt, other), continued_part(own, edge, other)}) {
+    for (const Part& part : {hidden_part(own, edge, doubt, other), continued_part(own, edge, other)}) {
       if (!part.empty()) taken.push_back(part);
     }
   }

@@ -34,7 +34,9 @@ class EdgeJudge {
     void keep(double a, double b);
   };
 
-  Part hidden_part(const SightedEdge& edge, double sigma, const Sighting& nearer) const;
+  static bool beyond_side(const Vec3& p, double doubt, const Sighting& nearer);
+  Part hidden_part(const Sighting& own, const SightedEdge& edge, double sigma, const Sighting& nearer) const;
+  bool may_share_plane(const Sighting& own, const Sighting& other, const Vec3& p) const;
   Part continued_part(const Sighting& own, const SightedEdge& edge, const Sighting& other) const;
   bool is_clear(const std::vector<Sighting>& frame, const Sighting& own, const SightedEdge& edge) const;
 

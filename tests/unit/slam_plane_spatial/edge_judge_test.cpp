@@ -53,6 +53,34 @@ TEST(SpatialEdgeJudge, WhatANearerFaceMayHideIsACut) {
       << "what is nearer is hidden by nothing";
 }
 
+/// The floor beside the shadow of a screen that stands on it and is seen nearly along its plane: edges along the shadow, far off, at the left,
+/// nearest.
+TEST(SpatialEdgeJudge, AShadowOnTheFloorIsACutFromWhereItsCasterStands) {
+  const Face floor{Vec3::UnitZ(),
+                   Vec3(4.5, 1.2, -1.4),
+                   {{3.0, 0.3, -1.4}, {6.0, 0.6, -1.4}, {6.0, 2.0, -1.4}, {3.0, 2.0, -1.4}}};
+  const Face screen{-Vec3::UnitY(),
+                    Vec3(4.0, 0.3, -0.5),
+                    {{3.0, 0.3, -1.4}, {5.0, 0.3, -1.4}, {5.0, 0.3, 0.4}, {3.0, 0.3, 0.4}}};
+  EXPECT_EQ(judged({floor, screen}), (Edges{false, true, true, true}));
+  EXPECT_EQ(judged({floor}), (Edges{true, true, true, true})) << "an edge of the floor, where nothing stands";
+}
+
+/// The ceiling past the near side of a wall whose plane all but holds the robot's eye: edges nearest, at the left, far off, along the shadow.
+TEST(SpatialEdgeJudge, AShadowOnTheCeilingIsACutThoughItHardlyLeavesThePlaneOfItsCaster) {
+  View view;
+  view.vertical_fov_rad = 1.4;
+  const Face ceiling{-Vec3::UnitZ(),
+                     Vec3(4.0, 0.9, 1.0),
+                     {{2.0, 0.03, 1.0}, {2.0, 1.5, 1.0}, {6.0, 2.0, 1.0}, {6.0, 0.09, 1.0}}};
+  const Face wall{-Vec3::UnitY(),
+                  Vec3(2.5, 0.03, 0.0),
+                  {{2.0, 0.03, -1.4}, {3.0, 0.03, -1.4}, {3.0, 0.03, 1.0}, {2.0, 0.03, 1.0}}};
+  EXPECT_EQ(judged({ceiling, wall}, view), (Edges{true, true, true, false}));
+  EXPECT_EQ(judged({ceiling}, view), (Edges{true, true, true, true}))
+      << "an edge of the ceiling, without the wall";
+}
+
 TEST(SpatialEdgeJudge, AnEdgeWhereTheSamePlaneGoesOnIsNone) {
   EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), board(4.0, -2.0, -1.0, -0.8, 0.8)}),
             (Edges{true, false, true, true}));
