@@ -5,17 +5,35 @@
 #include <cmath>
 
 #include "slam_plane/spatial/polygon.hpp"
-#include "slam_plane/spatial/pose_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr double kSameEdge_m = 0.1;  // farthest that a seen edge lies from the one that it is
-constexpr double kBeyond_m = 0.05;   // more face than that beyond an edge, and 4 sigma, disproves it
+// What pose and map may be wrong by where an edge is seen again, and how many sigmas of noise are added.
+constexpr PoseFit::EdgeBounds kSameEdge{.distance_m = 0.1, .angle_rad = 0.02};
+constexpr double kSameEdgeSigmas = 4.0;
+constexpr double kBeyond_m = 0.05;  // more face than that beyond an edge, and 4 sigma, disproves it
 constexpr double kBeyondSigmas = 4.0;
 constexpr std::uint32_t kDisproved = 3;    // sightings that do so
 constexpr std::uint64_t kForgotten = 100;  // frames after which an edge that is not certain is forgotten
 constexpr std::size_t kMostCorners = 24;   // of an outline
+
+/// The middle of what was seen of a face's edge.
+Vec3 middle_of(const FaceRecord& face, const Feature& edge) {
+  return face.plane.offset() * face.plane.normal() + edge.offset() * edge.normal() +
+         edge.tangent(3, 0) * edge.tangent.col(0).head<3>();
+}
+
+/// Whether an edge of a face lies on a line: its middle, and by its direction.
+bool lies_on(const Feature& line, const FaceRecord& face, const Feature& edge) {
+  const Vec3 along = edge.tangent.col(0).head<3>(), middle = middle_of(face, edge);
+  const double variance = line.variance_at(middle) + edge.variance_at(middle);
+  const double turn = line.variance_along(along) + edge.variance_along(along);
+  return line.normal().dot(edge.normal()) > 0.0 &&
+         std::abs(line.distance(middle)) <
+             2.0 * kSameEdge.distance_m + kSameEdgeSigmas * std::sqrt(variance) &&
+         std::abs(line.normal().dot(along)) < 2.0 * kSameEdge.angle_rad + kSameEdgeSigmas * std::sqrt(turn);
+}
 
 }  // namespace
 
@@ -29,7 +47,9 @@ std::vector<Vec3> hull_on_plane(std::span<const Vec3> points, const Feature& pla
 }
 
 FaceMap::FaceMap(const Options& options)
-    : noise_(options.noise()), corner_sightings_(static_cast<std::uint32_t>(options.corner_sightings)) {}
+    : noise_(options.noise()),
+      edges_(options),
+      corner_sightings_(static_cast<std::uint32_t>(options.corner_sightings)) {}
 
 Index FaceMap::add_face() {
   faces.emplace_back();
@@ -90,9 +110,14 @@ void FaceMap::observe_edges(const Pose3& T_submap_robot, const Sighting& sightin
   FaceRecord& face = faces[sighting.face];
   const Pose3 T_map_robot = submaps[active_].T_map_submap * T_submap_robot;
   const Mat4 g = plane_transform(T_submap_robot);
-  for (const SightedEdge& edge : sighting.edges) {
+  std::vector<Index> known = edges_.find_edges(sighting, lines(sighting.face, true), T_map_robot, kSameEdge);
+  for (Index i = 0; i < sighting.edges.size(); ++i) {
+    const SightedEdge& edge = sighting.edges[i];
     if (!edge.is_true) continue;
-    Index found = PoseFit::find_edge(edge, lines(sighting.face, true), T_map_robot, kSameEdge_m);
+    Index& found = known[i];
+    for (Index k = 0; k < i && found == kNone; ++k) {
+      if (sighting.edges[k].is_true && edges_.may_be_one(sighting.edges[k], edge)) found = known[k];
+    }
     if (found == kNone) {
       found = face.edges.size();
       face.edges.emplace_back().id = next_edge_++;
@@ -228,8 +253,7 @@ void FaceMap::merge(Index kept_index, Index gone_index) {
   for (const Index other : gone.beside) set_apart(kept_index, resolve(other));
   for (const EdgeRecord& edge : gone.edges) {
     const auto twin = std::find_if(kept.edges.begin(), kept.edges.end(), [&](const EdgeRecord& own) {
-      return own.line.normal().dot(edge.line.normal()) > 0.94 &&
-             std::abs(own.line.offset() - edge.line.offset()) < 2.0 * kSameEdge_m;
+      return lies_on(own.line, gone, edge.line) && lies_on(edge.line, kept, own.line);
     });
     if (twin == kept.edges.end()) {
       kept.edges.push_back(edge);

@@ -7,6 +7,7 @@
 
 #include "slam_plane/core/options.hpp"
 #include "slam_plane/spatial/evidence.hpp"
+#include "slam_plane/spatial/pose_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
 
@@ -115,6 +116,7 @@ class FaceMap {
   void extend_outline(FaceRecord& face, std::span<const Vec3> points);
 
   Noise noise_;
+  PoseFit edges_;  // tells which edge is which
   std::uint32_t corner_sightings_;
   Index active_ = kNone;
   EdgeId next_edge_ = 0;

@@ -4,6 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "slam_plane/spatial/polygon.hpp"
@@ -16,6 +19,7 @@ constexpr double kEdgeBounds_m[kSteps] = {0.3, 0.2, 0.15, 0.15};
 constexpr double kEdgeGateSigmas = 4.0;
 constexpr double kWorstTurn_rad = 0.05;  // standard deviation of a rotation above which it is open
 constexpr double kSameWay = 0.94;        // cosine between outward normals of edges that may be one
+constexpr double kLeastRun_m = 1e-6;     // shorter than this an edge has no direction
 
 /// The row n . (T p) = offset, of which T is sought.
 Vec6 gradient_of(const Vec3& n, const Vec3& arm) {
@@ -31,27 +35,76 @@ void PoseFit::Normal::add(const Vec6& gradient, double residual, double variance
   g -= gradient * (residual / variance);
 }
 
-PoseFit::PoseFit(const Options& options) : noise_(options.noise()), undetermined_m_(options.undetermined_m) {}
+PoseFit::PoseFit(const Options& options)
+    : noise_(options.noise()),
+      undetermined_m_(options.undetermined_m),
+      match_angle_(options.match_angle_deg * std::numbers::pi / 180.0) {}
 
 void PoseFit::add(const Sighting& sighting, const Feature& plane, std::vector<const Feature*> edges) {
   const PlaneAxes axes(sighting.normal);
   pairs_.push_back({&sighting, &plane, std::move(edges), {axes.u, axes.v}});
 }
 
-Index PoseFit::find_edge(const SightedEdge& edge, const std::vector<const Feature*>& edges, const Pose3& T,
-                         double bound) {
-  const Vec3 outward = T.q * edge.outward;
-  const Vec3 middle = T * Vec3(0.5 * (edge.end[0] + edge.end[1]));
-  Index best = kNone;
-  double least = bound;
-  for (Index i = 0; i < edges.size(); ++i) {
-    if (edges[i] == nullptr || edges[i]->normal().dot(outward) < kSameWay) continue;
-    const double distance = std::abs(edges[i]->distance(middle));
-    if (distance >= least) continue;
-    least = distance;
-    best = i;
+/// How badly an edge fits a known one: 1 where it is as far off as is allowed, at the worse one of its ends or by its direction.
+double PoseFit::misfit(const SightedEdge& edge, const Feature& known, const Pose3& T,
+                       const EdgeBounds& bounds) const {
+  if (known.normal().dot(T.q * edge.outward) < kSameWay) return 2.0;
+  const double own = noise_.end * noise_.end + noise_.along * noise_.along;
+  double worst = 0.0;
+  for (const Vec3& end : edge.end) {
+    const Vec3 at = T * end;
+    const double allowed = bounds.distance_m + kEdgeGateSigmas * std::sqrt(own + known.variance_at(at));
+    worst = std::max(worst, std::abs(known.distance(at)) / allowed);
   }
-  return best;
+  const Vec3 run = edge.end[1] - edge.end[0];
+  const double length = run.norm();
+  if (length < kLeastRun_m) return worst;
+  const Vec3 along = T.q * run / length;
+  const double sigma =
+      std::sqrt(2.0 * noise_.end * noise_.end / (length * length) + known.variance_along(along));
+  const double angle = std::asin(std::min(std::abs(known.normal().dot(along)), 1.0));
+  return std::max(worst, angle / (bounds.angle_rad + kEdgeGateSigmas * sigma));
+}
+
+bool PoseFit::may_be_one(const SightedEdge& a, const SightedEdge& b) const {
+  if (a.outward.dot(b.outward) < kSameWay) return false;
+  const double bound = kEdgeGateSigmas * std::numbers::sqrt2 * noise_.end;
+  const Vec3 ends[] = {a.end[0], a.end[1], b.end[0], b.end[1]};
+  // The longer one tells the line.
+  const bool first = (a.end[1] - a.end[0]).squaredNorm() >= (b.end[1] - b.end[0]).squaredNorm();
+  const SightedEdge& line = first ? a : b;
+  return std::all_of(std::begin(ends), std::end(ends),
+                     [&](const Vec3& end) { return std::abs(line.outward.dot(end - line.end[0])) <= bound; });
+}
+
+std::vector<Index> PoseFit::find_edges(const Sighting& sighting, const std::vector<const Feature*>& edges,
+                                       const Pose3& T, const EdgeBounds& bounds) const {
+  struct Candidate {
+    double misfit;
+    Index seen, known;
+  };
+  std::vector<Candidate> candidates;
+  for (Index i = 0; i < sighting.edges.size(); ++i) {
+    if (!sighting.edges[i].is_true) continue;
+    for (Index k = 0; k < edges.size(); ++k) {
+      if (edges[k] == nullptr) continue;
+      const double found = misfit(sighting.edges[i], *edges[k], T, bounds);
+      if (found < 1.0) candidates.push_back({found, i, k});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.misfit, a.seen, a.known) < std::tie(b.misfit, b.seen, b.known);
+  });
+  std::vector<Index> found(sighting.edges.size(), kNone);
+  for (const Candidate& candidate : candidates) {
+    if (found[candidate.seen] != kNone) continue;
+    bool free = true;
+    for (Index i = 0; i < found.size(); ++i)
+      free = free &&
+             (found[i] != candidate.known || may_be_one(sighting.edges[i], sighting.edges[candidate.seen]));
+    if (free) found[candidate.seen] = candidate.known;
+  }
+  return found;
 }
 
 void PoseFit::add_plane(const Pair& pair, const Pose3& T, Normal& normal) const {
@@ -68,12 +121,12 @@ void PoseFit::add_plane(const Pair& pair, const Pose3& T, Normal& normal) const 
   }
 }
 
-void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound, bool gated, Normal& normal) const {
-  for (const SightedEdge& edge : pair.sighting->edges) {
-    if (!edge.is_true) continue;
-    const Index found = find_edge(edge, pair.edges, T, bound);
-    if (found == kNone) continue;
-    const Feature& feature = *pair.edges[found];
+void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound_m, bool gated, Normal& normal) const {
+  const std::vector<Index> found = find_edges(*pair.sighting, pair.edges, T, {bound_m, match_angle_});
+  for (Index i = 0; i < found.size(); ++i) {
+    if (found[i] == kNone) continue;
+    const SightedEdge& edge = pair.sighting->edges[i];
+    const Feature& feature = *pair.edges[found[i]];
     for (const Vec3& end : edge.end) {
       const Vec3 arm = T.q * end;
       const double variance =

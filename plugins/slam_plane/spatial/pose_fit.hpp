@@ -41,9 +41,21 @@ class PoseFit {
   /// Squared distance of a sighting's plane from a known one at a pose, in standard deviations; three degrees of freedom.
   double distance2(const Sighting& sighting, const Feature& plane, const Pose3& T) const;
 
-  /// Which of a face's edges an edge of a sighting is, or kNone: the nearest one within `bound` that runs the same way.
-  static Index find_edge(const SightedEdge& edge, const std::vector<const Feature*>& edges, const Pose3& T,
-                         double bound);
+  /// What the pose, or the map, may be wrong by besides the noise.
+  struct EdgeBounds {
+    double distance_m;
+    double angle_rad;
+  };
+
+  /// Which of a face's edges the edges of a sighting are: for each of them, in their order, an index, or kNone; always of those that are not
+  /// true. One is taken for a known one if both of its ends lie on that line and it runs along it, as far as noise and `bounds` allow. Of
+  /// two that are not in one line at most one is the same known edge: the one that fits better. Neighbours of an obtuse corner are not mistaken
+  /// for each other.
+  std::vector<Index> find_edges(const Sighting& sighting, const std::vector<const Feature*>& edges,
+                                const Pose3& T, const EdgeBounds& bounds) const;
+
+  /// Whether two edges of one outline may lie in one line, which noise has bent.
+  bool may_be_one(const SightedEdge& a, const SightedEdge& b) const;
 
  private:
   struct Pair {
@@ -59,11 +71,14 @@ class PoseFit {
   };
 
   void add_plane(const Pair& pair, const Pose3& T, Normal& normal) const;
-  void add_edges(const Pair& pair, const Pose3& T, double bound, bool gated, Normal& normal) const;
+  void add_edges(const Pair& pair, const Pose3& T, double bound_m, bool gated, Normal& normal) const;
+  double misfit(const SightedEdge& edge, const Feature& known, const Pose3& T,
+                const EdgeBounds& bounds) const;
   void judge(PoseInformation& information) const;
 
   Noise noise_;
   double undetermined_m_;
+  double match_angle_;  // [rad]
   std::vector<Pair> pairs_;
 };
 

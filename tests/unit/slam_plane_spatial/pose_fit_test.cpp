@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "slam_plane/spatial/face_map.hpp"
+
 namespace hallway::slam_plane::spatial {
 namespace {
 
@@ -85,6 +89,106 @@ TEST_F(SpatialPoseFit, AnEdgeClosesTheWayAlongACorridor) {
   fit.add(sightings_[1], left_, {&known});
   EXPECT_TRUE(fit.solve(T).determined());
   EXPECT_NEAR((T.t - truth_.t).norm(), 0.0, 1e-6);
+}
+
+/// A face with an obtuse corner at the origin: two edges run from there, one of them forwards, the other one upwards by an angle. Both are true.
+Sighting bent(double angle_rad, double forwards_m, double upwards_m) {
+  const Vec3 up(-upwards_m * std::cos(angle_rad), 0.0, upwards_m * std::sin(angle_rad));
+  Face face;
+  face.normal = Vec3::UnitY();
+  face.centre = Vec3(0.0, 0.0, 0.5);
+  face.outline = {{forwards_m, 0.0, 0.0}, {0.0, 0.0, 0.0}, up, {up.x(), 0.0, 2.0}, {forwards_m, 0.0, 2.0}};
+  Sighting sighting = sighting_of(face, 0);
+  sighting.edges[0].is_true = sighting.edges[1].is_true = true;
+  return sighting;
+}
+
+using Found = std::vector<Index>;
+
+TEST(SpatialEdges, TheNeighbourAtAnObtuseCornerIsNotTheEdge) {
+  const PoseFit fit{Options{}};
+  const Sighting seen =
+      bent(0.245, 0.5, 4.6);  // the foot of a ramp: the middle of the level part is 6 cm off its line
+  const Feature level = plane_of(seen.edges[0].outward, Vec3::Zero());
+  const Feature ramp = plane_of(seen.edges[1].outward, Vec3::Zero());
+  const PoseFit::EdgeBounds bounds{0.1, 0.02};
+  EXPECT_EQ(fit.find_edges(seen, {&ramp}, Pose3{}, bounds), (Found{kNone, 0, kNone, kNone, kNone}));
+  EXPECT_EQ(fit.find_edges(seen, {&level}, Pose3{}, bounds), (Found{0, kNone, kNone, kNone, kNone}));
+  EXPECT_EQ(fit.find_edges(seen, {&ramp, &level}, Pose3{}, bounds), (Found{1, 0, kNone, kNone, kNone}));
+}
+
+TEST(SpatialEdges, OfTwoThatFitOneKnownEdgeTheBetterOneIsIt) {
+  const PoseFit fit{Options{}};
+  const Sighting seen =
+      bent(0.07, 1.5, 1.5);  // 4 degrees: by itself each may be the other one, at a pose that is hardly known
+  const Feature level = plane_of(seen.edges[0].outward, Vec3::Zero());
+  const Feature rising = plane_of(seen.edges[1].outward, Vec3::Zero());
+  const PoseFit::EdgeBounds bounds{0.3, 0.1};
+  Sighting alone = seen;
+  alone.edges[0].is_true = false;
+  ASSERT_EQ(fit.find_edges(alone, {&level}, Pose3{}, bounds)[1], Index{0});
+  EXPECT_EQ(fit.find_edges(seen, {&level}, Pose3{}, bounds), (Found{0, kNone, kNone, kNone, kNone}));
+  EXPECT_EQ(fit.find_edges(seen, {&rising}, Pose3{}, bounds), (Found{kNone, 0, kNone, kNone, kNone}));
+}
+
+TEST(SpatialEdges, TwoPartsOfOneStraightEdgeAreBothIt) {
+  const PoseFit fit{Options{}};
+  const Sighting seen = bent(0.0, 1.0, 1.0);
+  const Feature known = plane_of(seen.edges[0].outward, Vec3::Zero());
+  EXPECT_EQ(fit.find_edges(seen, {&known}, Pose3{}, {0.1, 0.02}), (Found{0, 0, kNone, kNone, kNone}));
+}
+
+/// A map of one submap.
+FaceMap begun() {
+  FaceMap map{Options{}};
+  map.activate(map.add_submap(Pose3{}));
+  return map;
+}
+
+TEST(SpatialEdges, AMapKeepsBothEdgesOfAnObtuseCorner) {
+  FaceMap map = begun();
+  Sighting seen = bent(0.245, 0.5, 4.6);
+  seen.face = map.add_face();
+  seen.edges[0].is_true = false;  // the level part comes into view when the ramp is known
+  map.observe(Pose3{}, seen, 1);
+  seen.edges[0].is_true = true;
+  for (std::uint64_t i = 2; i <= 5; ++i) map.observe(Pose3{}, seen, i);
+  ASSERT_EQ(map.faces[0].edges.size(), 2u);
+  EXPECT_EQ(map.faces[0].edges[0].sightings, 5u);
+  EXPECT_EQ(map.faces[0].edges[1].sightings, 4u);
+  for (const Index i : {Index{0}, Index{1}}) {
+    for (const Vec3& end : seen.edges[i].end)
+      EXPECT_NEAR(map.faces[0].edges[1 - i].line.distance(end), 0.0, 1e-9) << i;
+  }
+}
+
+TEST(SpatialEdges, APartOfAStraightEdgeIsNoSecondEdge) {
+  FaceMap map = begun();
+  Sighting seen = bent(0.0, 1.0, 1.0);
+  seen.face = map.add_face();
+  map.observe(Pose3{}, seen, 1);
+  EXPECT_EQ(map.faces[0].edges.size(), 1u);
+}
+
+TEST(SpatialEdges, FacesThatMergeKeepBothEdgesOfAnObtuseCorner) {
+  // The corner at the origin, from which both lines have the same offset, and far from it.
+  for (const Vec3& corner : {Vec3(Vec3::Zero()), Vec3(60.0, 0.0, 5.0)}) {
+    const Pose3 T{Quat::Identity(), corner};
+    for (const bool same : {false, true}) {
+      FaceMap map = begun();
+      Sighting one = bent(0.245, 0.5, 4.6), other = one;
+      one.edges[0].is_true = false;
+      other.edges[same ? 0 : 1].is_true = false;
+      one.face = map.add_face();
+      other.face = map.add_face();
+      map.observe(T, one, 1);
+      map.observe(T, other, 1);
+      map.merge(0, 1);
+      ASSERT_EQ(map.faces[0].edges.size(), same ? 1u : 2u) << corner.transpose();
+      for (const EdgeRecord& edge : map.faces[0].edges) EXPECT_EQ(edge.sightings, same ? 2u : 1u);
+      EXPECT_NEAR(map.faces[0].edges[0].line.distance(T * one.edges[1].end[1]), 0.0, 1e-9);
+    }
+  }
 }
 
 }  // namespace

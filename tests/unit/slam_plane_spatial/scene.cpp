@@ -108,6 +108,29 @@ Scene two_rooms() {
   return scene;
 }
 
+Scene ramp_room(int frames) {
+  Scene scene{.name = "ramp_room", .plan = {}, .path = {}};
+  sense::FacePlan& plan = scene.plan;
+  const std::vector<Vec2> profile{{0.0, 0.0}, {0.5, 0.0}, {8.0, 1.875}, {8.0, 3.8}, {0.0, 3.8}};
+  std::vector<Vec3> right, left;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const Vec2 &a = profile[i], &b = profile[(i + 1) % profile.size()];
+    add_face(plan, {{a.x(), 0.0, a.y()}, {b.x(), 0.0, b.y()}, {b.x(), 6.0, b.y()}, {a.x(), 6.0, a.y()}});
+    right.emplace_back(a.x(), 0.0, a.y());
+    left.emplace_back(a.x(), 6.0, a.y());
+  }
+  std::reverse(right.begin(), right.end());
+  add_face(plan, std::move(left));
+  add_face(plan, std::move(right));
+  for (int i = 0; i < frames; ++i) {
+    const double s = 0.02 * i;
+    const Vec3 at(4.0 + 1.5 * std::cos(s), 3.0 + 1.2 * std::sin(s), 2.3 + 0.3 * std::sin(2.0 * s));
+    scene.path.push_back(
+        {from_yaw_pitch_roll(s + 2.2, 0.2 + 0.2 * std::sin(3.0 * s), 0.3 * std::sin(1.7 * s)), at});
+  }
+  return scene;
+}
+
 hallway::Pose pose_of(const Pose3& T) {
   return {T.q, T.t};
 }

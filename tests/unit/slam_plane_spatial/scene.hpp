@@ -23,6 +23,9 @@ Scene furnished_room(int frames);
 /// Two rooms of different heights, a door, and the way there and back.
 Scene two_rooms();
 
+/// A room whose floor is level for half a metre and then a ramp: its side walls have an obtuse corner next to a short edge.
+Scene ramp_room(int frames);
+
 /// Noise of the simulated sensor.
 struct NoiseOf {
   double plane_m = 0.0;

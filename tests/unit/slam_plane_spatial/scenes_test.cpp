@@ -44,6 +44,13 @@ TEST(SpatialScenes, WithoutNoiseTwoRoomsAreMappedExactly) {
   EXPECT_GT(outcome.certain_edges, 60);
 }
 
+TEST(SpatialScenes, WithoutNoiseEdgesAtObtuseCornersAreMappedExactly) {
+  const Scene scene = ramp_room(320);
+  const Outcome outcome = run(scene, see(scene, NoiseOf{}, 1), Options{});
+  expect_exact(outcome);
+  EXPECT_EQ(outcome.duplicated, 0);
+}
+
 TEST(SpatialScenes, WhereTheMapBeginsDoesNotMatter) {
   const Scene whole = furnished_room(320);
   Scene later = whole;
