@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/plane_alignment.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "geom/symmetric.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -30,9 +30,9 @@ std::optional<Pose> align_to_planes(std::span<const PointOnPlane> points, const 
       h += row * row.transpose();
       g -= row * point.plane.distance(at);
     }
-    const Eigen::SelfAdjointEigenSolver<Mat6> solver(h);
-    if (!(solver.eigenvalues()(0) > kLeastShare * solver.eigenvalues()(5))) return std::nullopt;
-    const Vec6 move = h.ldlt().solve(g);
+    const Vec6 values = spectrum<6>(h).values;
+    if (!(values(0) > kLeastShare * values(5))) return std::nullopt;
+    const Vec6 move = symmetric_inverse<6>(h) * g;
     const Vec3 turn = move.tail<3>();
     Quat q = Quat::Identity();
     if (turn.norm() > 0.0) q = Quat(Eigen::AngleAxisd(turn.norm(), turn.normalized()));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "eval/point_error.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 #include <cstddef>
 
 #include "base/error.hpp"
 #include "geom/rigid_fit.hpp"
+#include "geom/symmetric.hpp"
 
 namespace hallway::eval {
 
@@ -34,8 +33,7 @@ bool determine_a_pose(const std::vector<Vec3>& points) {
   for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
-  const Vec3 squares = eigen.eigenvalues();  // ascending
+  const Vec3 squares = spectrum<3>(spread).values;
   return squares(2) > 0.0 && squares(1) >= kLeastExtent * kLeastExtent * squares(2);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "eval/refitted_planes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>
+
+#include "geom/symmetric.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -121,11 +121,11 @@ Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
   const double least = 1.0 / (RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m);
   for (int i = 0; i < kSteps; ++i) {
     Vec6 gradient;
-    const Eigen::SelfAdjointEigenSolver<Mat6> solver(information(matches, T, sigmas, gradient));
+    const Spectrum<6> free = spectrum<6>(information(matches, T, sigmas, gradient));
     Vec6 x = Vec6::Zero();
     for (int k = 0; k < 6; ++k) {
-      const Vec6 axis = solver.eigenvectors().col(k);
-      if (solver.eigenvalues()(k) >= least) x += axis.dot(gradient) / solver.eigenvalues()(k) * axis;
+      const Vec6 axis = free.vectors.col(k);
+      if (free.values(k) >= least) x += axis.dot(gradient) / free.values(k) * axis;
     }
     const Vec3 turn = x.tail<3>();
     T.t += x.head<3>();
@@ -144,11 +144,10 @@ bool is_determined(const std::vector<Match>& matches, const Pose& T, const Sigma
   Eigen::Matrix3d turns = h.bottomRightCorner<3, 3>();
   turns.diagonal().array() += kHold;
   const Eigen::Matrix3d position =
-      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * turns.ldlt().solve(h.bottomLeftCorner<3, 3>());
+      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * symmetric_inverse<3>(turns) * h.bottomLeftCorner<3, 3>();
   const bool level = matches.empty() || matches.front().level;
   const double worst =
-      level ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position.topLeftCorner<2, 2>()).eigenvalues()(0)
-            : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(position).eigenvalues()(0);
+      level ? spectrum<2>(position.topLeftCorner<2, 2>()).values(0) : spectrum<3>(position).values(0);
   return worst * RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m >= 1.0;
 }
 
@@ -158,11 +157,11 @@ void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas
   Vec6 gradient;
   Mat6 h = information(matches, T, sigmas, gradient);
   h.diagonal().array() += kHold;
-  const Eigen::LDLT<Mat6> solver(h);
+  const Mat6 covariance = symmetric_inverse<6>(h);
   for (const Match& match : matches) {
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
       if (!counts(kind, residual, sigmas)) return;
-      const double left = 1.0 - row.dot(solver.solve(row)) / (sigmas[kind] * sigmas[kind]);
+      const double left = 1.0 - row.dot(covariance * row) / (sigmas[kind] * sigmas[kind]);
       if (left > kLeastLeft) take(kind, std::abs(residual) / std::sqrt(left));
     });
   }

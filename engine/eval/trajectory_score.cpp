@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "eval/trajectory_score.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 
@@ -10,14 +9,6 @@
 
 namespace hallway::eval {
 namespace {
-
-/// The rotation that lies nearest to a 3x3 matrix in the Frobenius norm.
-Quat nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs = Vec3::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;  // no reflection
-  return Quat(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose()).normalized();
-}
 
 double rotation_rmse(const std::vector<Quat>& truth, const std::vector<Quat>& estimate,
                      const Quat& q_world_map) {

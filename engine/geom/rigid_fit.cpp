@@ -28,12 +28,8 @@ std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec
   for (std::size_t i = 0; i < from.size(); ++i) {
     covariance += weight_of(i) * (to[i] - to_mean) * (from[i] - from_mean).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs = Vec3::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;  // no reflection
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   Pose fit;
-  fit.q = Quat(rotation).normalized();
+  fit.q = nearest_rotation(covariance);
   fit.t = to_mean - fit.q * from_mean;
   return fit;
 }
@@ -49,6 +45,14 @@ std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> 
   if (from.size() != weights.size())
     throw Error(ErrorCode::kInternal, "rigid_fit: the weights differ in number from the points");
   return weighted_fit(from, to, [weights](std::size_t i) { return weights[i]; });
+}
+
+Quat nearest_rotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 signs = Vec3::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;  // no reflection
+  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  return Quat(rotation).normalized();
 }
 
 }  // namespace hallway

@@ -19,4 +19,7 @@ std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> 
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,
                               std::span<const double> weights);
 
+/// The rotation that lies nearest to a 3x3 matrix in the Frobenius norm, never a mirror image. Of several the same on every call.
+Quat nearest_rotation(const Eigen::Matrix3d& matrix);
+
 }  // namespace hallway
