@@ -174,6 +174,9 @@ TEST(FramePlacer, TellsWhatAFrameWithoutAPoseDeterminesAllTheSame) {
   const std::vector<Vec3> line = first_of(line_and_others(), 8);
   EXPECT_EQ(Sensor(line_and_others()).lose(first_of(line, 2)), 5);
   EXPECT_EQ(Sensor(line_and_others()).lose(line), 5);
+  // No fit says better where the sensor is: points are looked for as far from the prediction as it may err.
+  EXPECT_EQ(Sensor(line_and_others()).lose(line, ahead(0.55)), 5);
+  EXPECT_EQ(Sensor(line_and_others()).lose(line, ahead(0.65)), 0);
 }
 
 TEST(FramePlacer, WhatFitsAndDoesNotAgreeDeterminesNothing) {
