@@ -15,7 +15,7 @@ class SubmapOverlap {
   /// With the active submap. O(points).
   static double with_active(const SubmapGraph& graph, const std::vector<Observation>& frame);
 
-  /// The submap with the largest overlap above `least`, the oldest of equal ones; kNone where there is none.
+  /// The submap with the largest overlap of at least `least`, the oldest of equal ones; kNone where there is none.
   /// O(places of the landmarks in view).
   Index best(const SubmapGraph& graph, const std::vector<Observation>& frame, double least);
 

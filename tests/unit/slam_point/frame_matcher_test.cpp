@@ -63,6 +63,73 @@ TEST(FrameMatcher, MatchesAsLookingAtAllPairsDoes) {
   for (std::size_t i = 0; i < frame.size(); ++i) EXPECT_EQ(frame[i].landmark, expected[i]) << "point " << i;
 }
 
+TEST(FrameMatcher, TheNearestPairIsTakenFirstByHand) {
+  const Options options;  // map bound 0.8 m
+  SubmapGraph graph(options.map_bound());
+  graph.add_landmark(Vec3(0, 0, 0), 0);
+  graph.add_landmark(Vec3(0.5, 0, 0), 0);
+  FrameMatcher matcher(options);
+  // Both of the first points are nearest to landmark 0; the nearer one gets it, the other landmark 1. The third is too far off.
+  std::vector<Observation> frame{{Vec3(0.2, 0, 0), 0}, {Vec3(0.1, 0, 0), 1}, {Vec3(-0.81, 0, 0), 2}};
+  matcher.mark(graph, frame);
+  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  EXPECT_EQ(frame[0].landmark, 1u);
+  EXPECT_EQ(frame[1].landmark, 0u);
+  EXPECT_EQ(frame[2].landmark, kNone);
+}
+
+TEST(FrameMatcher, NeitherTheOrderOfPointsNorWhatWasMatchedBeforeMatters) {
+  const Options options;
+  scenes::Random random(4);
+  const auto place = [&] { return Vec3(random.uniform(0, 8), random.uniform(0, 8), random.uniform(0, 2)); };
+  SubmapGraph graph(options.map_bound());
+  for (int i = 0; i < 150; ++i) graph.add_landmark(place(), 0);
+  std::vector<Observation> frame;
+  for (std::size_t i = 0; i < 120; ++i) frame.push_back({place(), i});
+  std::vector<Index> expected;
+  FrameMatcher used(options);
+  for (int again = 0; again < 4; ++again) {
+    for (Observation& observation : frame) observation.landmark = kNone;
+    used.mark(graph, frame);
+    used.match_map(graph, Pose{}, 1, 0.1, frame);
+    std::vector<Index> match(frame.size());
+    for (const Observation& observation : frame) match[observation.given] = observation.landmark;
+    if (again == 0) expected = match;
+    EXPECT_EQ(match, expected);
+    std::rotate(frame.begin(), frame.begin() + 37, frame.end());
+    std::reverse(frame.begin(), frame.begin() + 50);
+  }
+}
+
+TEST(FrameMatcher, ALandmarkThatIsTakenIsNotTakenAgain) {
+  const Options options;
+  SubmapGraph graph(options.map_bound());
+  graph.add_landmark(Vec3(0, 0, 0), 0);
+  FrameMatcher matcher(options);
+  std::vector<Observation> frame{{Vec3(0.3, 0, 0), 0, 0}, {Vec3(0.1, 0, 0), 1}};
+  matcher.mark(graph, frame);
+  EXPECT_TRUE(matcher.is_marked(0));
+  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  EXPECT_EQ(frame[0].landmark, 0u);
+  EXPECT_EQ(frame[1].landmark, kNone);
+}
+
+TEST(FrameMatcher, BoundsWidenWithTheNoiseOfAPointAsFarAsTheGridReaches) {
+  const Options options;  // reach 0.8 m
+  SubmapGraph graph(options.map_bound());
+  for (const double y : {0.0, 10.0, 20.0}) graph.add_landmark(Vec3(0, y, 0), 5);
+  FrameMatcher matcher(options);
+  // Of twice the noise: 0.3 m are 0.6 m. Of ten times the noise: 0.8 m and no more.
+  std::vector<Observation> frame{{Vec3(0.55, 0, 0), 0}, {Vec3(0.65, 10, 0), 1}, {Vec3(0.75, 20, 0), 2}};
+  frame[0].weight = frame[1].weight = 0.25;
+  frame[2].weight = 0.01;
+  matcher.mark(graph, frame);
+  matcher.match_map(graph, Pose{}, 3, 0.3, frame);
+  EXPECT_EQ(frame[0].landmark, 0u);
+  EXPECT_EQ(frame[1].landmark, kNone);
+  EXPECT_EQ(frame[2].landmark, 2u);
+}
+
 TEST(FrameMatcher, LocalLandmarksAreMatchedWithinTheLocalBoundOnly) {
   const Options options;
   SubmapGraph graph(options.map_bound());

@@ -2,6 +2,7 @@
 // The parts of the thesis's algorithm: histories, bases, groups, who joins a group.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <vector>
@@ -256,6 +257,102 @@ TEST(ThesisSelection, WithoutConstantsMembersJoinWhileTheTotalGrows) {
   EXPECT_EQ(mapped, (std::set<Index>{1, 2, 3, 4}));
   EXPECT_EQ(std::vector<Index>(selection.points.begin() + 4, selection.points.end()),
             (std::vector<Index>{0, 6}));
+}
+
+/// Slow and obvious: of those left, the one seen most joins, or is passed over, one after the other.
+Selection by_total_of_sets(const std::vector<std::set<std::size_t>>& seen, std::size_t creation,
+                           std::size_t mapped, const std::vector<Index>& order) {
+  std::set<std::size_t> together = seen[creation];
+  Selection selection;
+  std::vector<Index> unmapped{static_cast<Index>(creation)};
+  const auto with = [&](Index point) {
+    std::set<std::size_t> both;
+    for (const std::size_t i : together) {
+      if (seen[point].contains(i)) both.insert(i);
+    }
+    return both;
+  };
+  for (std::size_t o = 0; o < order.size(); ++o) {
+    const std::size_t members = selection.points.size() + unmapped.size();
+    const std::set<std::size_t> both = with(order[o]);
+    if (o >= 3 && both.size() * (members + 1) <= together.size() * members) continue;
+    together = both;
+    (order[o] < mapped ? selection.points : unmapped).push_back(order[o]);
+  }
+  selection.previous = selection.points.size();
+  selection.points.insert(selection.points.end(), unmapped.begin(), unmapped.end());
+  return selection;
+}
+
+TEST(ThesisSelection, WithoutConstantsIsWhatCountingSetsGives) {
+  constexpr std::size_t kMapped = 12;
+  constexpr std::size_t kPoints = 25;  // the last one is what the group is for
+  int groups = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    scenes::Random random(seed);
+    std::vector<std::set<std::size_t>> seen(kPoints);
+    std::vector<PresentPoint> points;
+    for (Index p = 0; p < kPoints; ++p) {
+      Presence presence(100);
+      const double first = random.uniform(0, 70);
+      const double last = random.uniform(first, 130);
+      for (std::size_t i = 0; i < 100; ++i) {
+        const auto at = static_cast<double>(i);
+        if (p + 1 < kPoints && (at < first || at > last || random.uniform(0, 1) < 0.1)) continue;
+        presence.set(i);
+        seen[p].insert(i);
+      }
+      points.push_back({p, presence});
+    }
+    // Mapped ones first, those seen most first; the order of equal ones is that of sort_most_seen_first().
+    std::vector<Index> order;
+    for (const bool mapped : {true, false}) {
+      std::vector<Candidate> candidates;
+      for (Index p = 0; p + 1 < kPoints; ++p) {
+        if ((p < kMapped) == mapped) candidates.push_back({p, seen[p].size()});
+      }
+      sort_most_seen_first(candidates);
+      for (std::size_t c = 1; c < candidates.size(); ++c)
+        EXPECT_GE(candidates[c - 1].count, candidates[c].count);
+      for (const Candidate& candidate : candidates) order.push_back(candidate.point);
+    }
+    Selection selection;
+    if (!select_by_total(points.back(), {points.begin(), points.begin() + kMapped},
+                         {points.begin() + kMapped, points.end() - 1}, false, selection))
+      continue;
+    ++groups;
+    const Selection expected = by_total_of_sets(seen, kPoints - 1, kMapped, order);
+    EXPECT_EQ(selection.points, expected.points) << seed;
+    EXPECT_EQ(selection.previous, expected.previous) << seed;
+  }
+  EXPECT_GT(groups, 50);
+}
+
+TEST(ThesisSelection, IsTheSameInWhateverOrderPointsAreGiven) {
+  scenes::Random random(10);
+  std::vector<Candidate> previous;
+  std::vector<Candidate> next;
+  std::vector<PresentPoint> mapped;
+  std::vector<PresentPoint> unmapped;
+  for (Index p = 0; p < 40; ++p) {
+    const auto count = static_cast<std::size_t>(random.uniform(45, 60));
+    (p % 2 == 0 ? previous : next).push_back({p, count});
+    (p % 2 == 0 ? mapped : unmapped).push_back(present(p, 0, count));
+  }
+  const Constants constants{50, 3, 8, 1};
+  Selection by_constants;
+  Selection by_total;
+  ASSERT_TRUE(select_by_constants(previous, next, constants, false, by_constants));
+  ASSERT_TRUE(select_by_total(present(99, 0, 99), mapped, unmapped, false, by_total));
+  std::reverse(previous.begin(), previous.end());
+  std::rotate(next.begin(), next.begin() + 7, next.end());
+  std::reverse(mapped.begin(), mapped.end());
+  std::rotate(unmapped.begin(), unmapped.begin() + 7, unmapped.end());
+  Selection again;
+  ASSERT_TRUE(select_by_constants(previous, next, constants, false, again));
+  EXPECT_EQ(again.points, by_constants.points);
+  ASSERT_TRUE(select_by_total(present(99, 0, 99), mapped, unmapped, false, again));
+  EXPECT_EQ(again.points, by_total.points);
 }
 
 TEST(ThesisSelection, WithoutConstantsThreeMappedOnesAreNeeded) {
