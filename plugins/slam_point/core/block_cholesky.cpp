@@ -5,6 +5,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace hallway::slam_point {
@@ -12,6 +13,45 @@ namespace {
 
 constexpr double kBlockProduct = 216.0;  // multiplications of a product of two blocks
 constexpr std::uint32_t kNobody = 0xffffffffu;
+
+using TwoRows = Eigen::Vector2d;  // what a register holds
+
+/// c -= a b^T. Three columns at a time: their sums and one column of `a` fill the registers.
+void subtract_product(const BlockCholesky::Block& a, const BlockCholesky::Block& b, BlockCholesky::Block& c) {
+  for (Eigen::Index first = 0; first < 6; first += 3) {
+    std::array<TwoRows, 9> sums;
+    for (std::size_t i = 0; i < 9; ++i) sums[i].setZero();
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      const TwoRows top = a.block<2, 1>(0, k);
+      const TwoRows middle = a.block<2, 1>(2, k);
+      const TwoRows bottom = a.block<2, 1>(4, k);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double factor = b(first + static_cast<Eigen::Index>(j), k);
+        sums[3 * j] += top * factor;
+        sums[3 * j + 1] += middle * factor;
+        sums[3 * j + 2] += bottom * factor;
+      }
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Eigen::Index column = first + static_cast<Eigen::Index>(j);
+      c.block<2, 1>(0, column) -= sums[3 * j];
+      c.block<2, 1>(2, column) -= sums[3 * j + 1];
+      c.block<2, 1>(4, column) -= sums[3 * j + 2];
+    }
+  }
+}
+
+/// x lower^T = given, for a lower triangle whose diagonal's reciprocals are `inverses`. `given` becomes x.
+void solve_behind(const BlockCholesky::Block& lower, const BlockCholesky::Vec6& inverses,
+                  BlockCholesky::Block& given) {
+  for (Eigen::Index column = 0; column < 6; ++column) {
+    for (Eigen::Index row = 0; row < 6; row += 2) {
+      TwoRows x = given.block<2, 1>(row, column);
+      for (Eigen::Index k = 0; k < column; ++k) x -= given.block<2, 1>(row, k) * lower(column, k);
+      given.block<2, 1>(row, column) = x * inverses[column];
+    }
+  }
+}
 
 /// Turns counts, one for each bin with a spare one behind, into where each bin begins.
 void counts_to_starts(std::vector<std::size_t>& counts) {
@@ -141,9 +181,9 @@ void BlockCholesky::open_column() {
 
 void BlockCholesky::subtract(const Source& source, double& work) {
   const std::size_t end = start_[source.column + 1];
-  const Block pivot = blocks_[source.at].transpose();
+  const Block& pivot = blocks_[source.at];
   for (std::size_t at = source.at; at < end; ++at)
-    column_blocks_[rows_[at]].noalias() -= blocks_[at].lazyProduct(pivot);
+    subtract_product(blocks_[at], pivot, column_blocks_[rows_[at]]);
   work -= kBlockProduct * static_cast<double>(end - source.at);
 }
 
@@ -152,9 +192,11 @@ bool BlockCholesky::close_column() {
   if (diagonal.info() != Eigen::Success) return false;
   blocks_[start_[column_]] = diagonal.matrixL();
   column_blocks_[column_].setZero();
+  const Block& lower = blocks_[start_[column_]];
+  const Vec6 inverses = lower.diagonal().cwiseInverse();
   for (std::size_t at = start_[column_] + 1; at < start_[column_ + 1]; ++at) {
     Block& given = column_blocks_[rows_[at]];
-    diagonal.matrixU().solveInPlace<Eigen::OnTheRight>(given);
+    solve_behind(lower, inverses, given);
     blocks_[at] = given;
     given.setZero();
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam_point/core/point_index.hpp"
+#include "slam_point/core/pose_motions.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -163,7 +164,8 @@ class SubmapGraph {
       informations;  ///< of each landmark; where noise has directions, else empty
 
  private:
-  void resum_directional(Index landmark);
+  void sum_up(Index landmark);
+  void sum_up_directional(Index landmark);
 
   PointIndex grid_;
   double directional_inlier_;
@@ -171,6 +173,7 @@ class SubmapGraph {
   Index part_ = 0;
   std::size_t dropped_ = 0;
   PointMotion from_active_{Pose{}};  // into the map
+  PoseMotions motions_;              // of the round of sums under way
 };
 
 }  // namespace hallway::slam_point
