@@ -5,7 +5,6 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 namespace hallway::slam_point {
@@ -15,31 +14,6 @@ constexpr double kBlockProduct = 216.0;  // multiplications of a product of two 
 constexpr std::uint32_t kNobody = 0xffffffffu;
 
 using TwoRows = Eigen::Vector2d;  // what a register holds
-
-/// c -= a b^T. Three columns at a time: their sums and one column of `a` fill the registers.
-void subtract_product(const BlockCholesky::Block& a, const BlockCholesky::Block& b, BlockCholesky::Block& c) {
-  for (Eigen::Index first = 0; first < 6; first += 3) {
-    std::array<TwoRows, 9> sums;
-    for (std::size_t i = 0; i < 9; ++i) sums[i].setZero();
-    for (Eigen::Index k = 0; k < 6; ++k) {
-      const TwoRows top = a.block<2, 1>(0, k);
-      const TwoRows middle = a.block<2, 1>(2, k);
-      const TwoRows bottom = a.block<2, 1>(4, k);
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double factor = b(first + static_cast<Eigen::Index>(j), k);
-        sums[3 * j] += top * factor;
-        sums[3 * j + 1] += middle * factor;
-        sums[3 * j + 2] += bottom * factor;
-      }
-    }
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Eigen::Index column = first + static_cast<Eigen::Index>(j);
-      c.block<2, 1>(0, column) -= sums[3 * j];
-      c.block<2, 1>(2, column) -= sums[3 * j + 1];
-      c.block<2, 1>(4, column) -= sums[3 * j + 2];
-    }
-  }
-}
 
 /// x lower^T = given, for a lower triangle whose diagonal's reciprocals are `inverses`. `given` becomes x.
 void solve_behind(const BlockCholesky::Block& lower, const BlockCholesky::Vec6& inverses,
@@ -181,9 +155,9 @@ void BlockCholesky::open_column() {
 
 void BlockCholesky::subtract(const Source& source, double& work) {
   const std::size_t end = start_[source.column + 1];
-  const Block& pivot = blocks_[source.at];
+  const Block pivot = blocks_[source.at].transpose();
   for (std::size_t at = source.at; at < end; ++at)
-    subtract_product(blocks_[at], pivot, column_blocks_[rows_[at]]);
+    column_blocks_[rows_[at]].noalias() -= blocks_[at].lazyProduct(pivot);
   work -= kBlockProduct * static_cast<double>(end - source.at);
 }
 

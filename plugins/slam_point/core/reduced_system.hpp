@@ -78,7 +78,7 @@ class ReducedSystem {
     Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
 
     /// Adds one member: the weight is in either of the two.
-    void add(const Vec4& row, const Vec4& column) {
+    [[gnu::always_inline]] void add(const Vec4& row, const Vec4& column) {
       for (Eigen::Index c = 0; c < 4; ++c) {
         products.col(c).head<2>() += row.head<2>() * column[c];
         products.col(c).tail<2>() += row.tail<2>() * column[c];

@@ -89,7 +89,7 @@ void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation,
   landmark.count = landmark.settled_count + m.count;
   const Vec3 here = from_active_ * m.mean;
   landmark.weight = landmark.settled_weight + m.weight();
-  landmark.position = (landmark.settled_sum + m.weight() * here) / landmark.weight;
+  landmark.position = (landmark.settled_sum + m.weight() * here) * (1.0 / landmark.weight);
   landmark.last_activation = activation;
   grid_.move(m.landmark, landmark.position);
 }

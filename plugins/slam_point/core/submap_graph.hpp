@@ -28,10 +28,11 @@ struct Member {
   /// directions, in the submap frame.
   void average(const Vec3& p, double observation_weight, const Mat3& information, Mat3& known);
   /// Averages an observation of a weight above 0 into the mean.
-  void average(const Vec3& p, double observation_weight) {
+  [[gnu::always_inline]] void average(const Vec3& p, double observation_weight) {
+    const double whole = weight() + observation_weight;
     ++count;
-    quality += (observation_weight - quality) / static_cast<double>(count);
-    mean += observation_weight * (p - mean) / weight();
+    quality = whole / static_cast<double>(count);
+    mean += (observation_weight / whole) * (p - mean);
   }
 };
 
