@@ -56,7 +56,7 @@ class ActiveSubmap {
   struct Sighting {
     Index member = kNone;
     Vec3 point = Vec3::Zero();  // sensor frame
-    RayWeight weight{};
+    double weight = 1.0;        // along its ray, or in all directions
   };
   struct Prior {
     Vec3 mean = Vec3::Zero();
@@ -64,18 +64,36 @@ class ActiveSubmap {
     double quality = 1.0;
   };
 
+  /// What a sweep needs of a member, by itself so that it lies close together.
+  struct Reference {
+    Vec3 mean = Vec3::Zero();
+    double weight = 0.0;
+  };
+  /// What the sightings of a member come to.
+  struct Sum {
+    Vec3 place = Vec3::Zero();  // weighted
+    double weight = 0.0;
+    std::uint32_t count = 0;
+  };
+
   std::size_t end_of(std::size_t frame) const {
     return frame + 1 < frames_.size() ? frames_[frame + 1].first_sighting : sightings_.size();
   }
-  void align(const SubmapGraph& graph, std::size_t frame, bool planar, double min_spread_m2);
+  RayWeight weight_of(std::size_t sighting) const { return {sightings_[sighting].weight, across_[sighting]}; }
+  void sweep(SubmapGraph& graph, bool planar, double min_spread_m2);
+  void sweep_directional(SubmapGraph& graph, bool planar, double min_spread_m2);
+  void align_and_sum(std::size_t frame, bool planar, double min_spread_m2);
   void align_directional(const SubmapGraph& graph, std::size_t frame, bool planar, double min_spread_m2);
 
-  void average(SubmapGraph& graph) const;
+  void average_directional(SubmapGraph& graph) const;
 
   PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
   PointMotion to_submap_{Pose{}};  // of the frame begun last
   std::vector<Sighting> sightings_;
+  std::vector<double> across_;            // of each sighting, where noise has directions: its weight across the ray
+  std::vector<Reference> references_;     // by member
+  std::vector<Sum> sums_;                 // likewise
   std::vector<Prior> prior_;              // by member: what was known at open()
   std::vector<Mat3> prior_informations_;  // likewise, where noise has directions
   std::vector<DirectionalPair> pairs_;

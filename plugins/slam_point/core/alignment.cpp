@@ -65,16 +65,20 @@ bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
       turn = Vec3(0.0, 0.0, gradient.z() / curvature(2, 2));
     } else {
       // One closed-form inverse: the matrix is 3x3, and its smallest eigenvalue is checked below.
-      const double determinant = curvature.determinant();
+      Mat3 inverse = Mat3::Zero();
+      bool invertible = false;
+      double determinant = 0.0;
+      curvature.computeInverseAndDetWithCheck(inverse, determinant, invertible, 0.0);
       if (!(determinant > 0.0) || !(curvature.trace() > 0.0)) return false;
-      turn = curvature.inverse() * gradient;
+      turn = inverse * gradient;
     }
     const double size = turn.norm();
     if (!std::isfinite(size)) return false;
     if (size > 0.5) turn *= 0.5 / size;
-    q = (rotation_exp(turn) * q).normalized();
+    q = rotation_exp(turn) * q;
     if (size < kSettled_rad) break;
   }
+  q.normalize();
   if (!planar && !is_spread(curvature, min_spread_m2)) return false;
   T_a_b.q = q;
   T_a_b.t = guess_.t + mean_a - q * mean_b;

@@ -21,13 +21,13 @@ class Alignment {
   explicit Alignment(const Pose& guess) : guess_(guess) {}
 
   /// Adds the pair a ~ T_a_b * b with weight w >= 0 [1].
-  void add(const Vec3& a, const Vec3& b, double w) {
+  [[gnu::always_inline]] void add(const Vec3& a, const Vec3& b, double w) {
     change(a, b, w);
     ++pairs_;
   }
 
   /// Changes the weight of a pair that was added by `w`, not below 0.
-  void change(const Vec3& a, const Vec3& b, double w) {
+  [[gnu::always_inline]] void change(const Vec3& a, const Vec3& b, double w) {
     const Vec3 shifted = a - guess_.t;
     weight_ += w;
     const Vec3 wb = w * b;

@@ -13,6 +13,20 @@ namespace {
 constexpr double kBlockProduct = 216.0;  // multiplications of a product of two blocks
 constexpr std::uint32_t kNobody = 0xffffffffu;
 
+using TwoRows = Eigen::Vector2d;  // what a register holds
+
+/// x lower^T = given, for a lower triangle whose diagonal's reciprocals are `inverses`. `given` becomes x.
+void solve_behind(const BlockCholesky::Block& lower, const BlockCholesky::Vec6& inverses,
+                  BlockCholesky::Block& given) {
+  for (Eigen::Index column = 0; column < 6; ++column) {
+    for (Eigen::Index row = 0; row < 6; row += 2) {
+      TwoRows x = given.block<2, 1>(row, column);
+      for (Eigen::Index k = 0; k < column; ++k) x -= given.block<2, 1>(row, k) * lower(column, k);
+      given.block<2, 1>(row, column) = x * inverses[column];
+    }
+  }
+}
+
 /// Turns counts, one for each bin with a spare one behind, into where each bin begins.
 void counts_to_starts(std::vector<std::size_t>& counts) {
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::size_t{0});
@@ -152,9 +166,11 @@ bool BlockCholesky::close_column() {
   if (diagonal.info() != Eigen::Success) return false;
   blocks_[start_[column_]] = diagonal.matrixL();
   column_blocks_[column_].setZero();
+  const Block& lower = blocks_[start_[column_]];
+  const Vec6 inverses = lower.diagonal().cwiseInverse();
   for (std::size_t at = start_[column_] + 1; at < start_[column_ + 1]; ++at) {
     Block& given = column_blocks_[rows_[at]];
-    diagonal.matrixU().solveInPlace<Eigen::OnTheRight>(given);
+    solve_behind(lower, inverses, given);
     blocks_[at] = given;
     given.setZero();
   }

@@ -18,8 +18,10 @@ Triangle make_triangle(const std::array<Index, 3>& vertices, const std::array<Ve
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i) sides[i] = (points[(i + 1) % 3] - points[(i + 2) % 3]).norm();
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sides[a] > sides[b]; });
+  // By falling sides, equal ones in their order.
+  if (sides[order[0]] < sides[order[1]]) std::swap(order[0], order[1]);
+  if (sides[order[1]] < sides[order[2]]) std::swap(order[1], order[2]);
+  if (sides[order[0]] < sides[order[1]]) std::swap(order[0], order[1]);
   Triangle triangle;
   for (std::size_t i = 0; i < 3; ++i) {
     triangle.vertices[i] = vertices[order[i]];

@@ -62,19 +62,22 @@ class HashGrid {
   void visit_cell(const Cell& cell, const Vec3& p, Visit&& visit) const {
     for (std::uint32_t i = heads_[bucket_of(cell)]; i != kEnd; i = entries_[i].next) {
       const Entry& entry = entries_[i];
-      if ((entry.place - p).squaredNorm() <= reach2_ && entry.cell == cell) visit(i);
+      if ((entry.place - p).squaredNorm() <= reach2_ && is_same(entry.cell, cell)) visit(i);
     }
   }
 
+  /// Compared here, where `==` of arrays makes a call.
+  static bool is_same(const Cell& a, const Cell& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+
   /// The cube that holds p; far cubes share the last one instead of overflowing.
-  Cell cell_of(const Vec3& p) const { return {cell_along(p.x()), cell_along(p.y()), cell_along(p.z())}; }
-  std::int32_t cell_along(double coordinate) const {
+  [[gnu::always_inline]] Cell cell_of(const Vec3& p) const { return {cell_along(p.x()), cell_along(p.y()), cell_along(p.z())}; }
+  [[gnu::always_inline]] std::int32_t cell_along(double coordinate) const {
     constexpr double kMaxCell = 1e9;
     const double scaled = std::clamp(coordinate * inverse_size_, -kMaxCell, kMaxCell);
     const auto truncated = static_cast<std::int32_t>(scaled);
     return truncated - (scaled < static_cast<double>(truncated) ? 1 : 0);
   }
-  std::size_t bucket_of(const Cell& cell) const {
+  [[gnu::always_inline]] std::size_t bucket_of(const Cell& cell) const {
     // Sums of products with odd numbers without pattern: neighbouring cubes differ in all upper bits.
     const auto part = [&](std::size_t axis, std::uint64_t factor) {
       return static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell[axis])) * factor;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam_point/core/block_cholesky.hpp"
+#include "slam_point/core/pose_motions.hpp"
 #include "slam_point/core/reduced_system.hpp"
 
 namespace hallway::slam_point {
@@ -19,13 +20,16 @@ struct StepCost {
 /// done in which call depends on the data alone.
 class MapStep {
  public:
+  using Grouping = ReducedSystem::Grouping;
+
   /// Takes down what places `free` (distinct submaps). `newest`, one of them, is the submap that those made later hang on;
-  /// kNone: they stay. O(places of their landmarks).
+  /// kNone: they stay. `grouping`: see ReducedSystem. O(places of their landmarks).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
-             Index newest, bool planar);
+             Index newest, bool planar, const Grouping& grouping = {1, 1, 0});
   /// The same for all submaps of the part of the graph that `newest` is in; kNone: of all parts. To be begun anew when the part
   /// changes in another way than by growing. O(map).
-  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar);
+  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar,
+             const Grouping& grouping = {1, 1, 0});
   /// Between begin() and apply().
   bool under_way() const { return under_way_; }
   /// Computes for about `work` multiplications. Returns whether the step is ready to be applied.
@@ -44,17 +48,27 @@ class MapStep {
   void find_touched(const SubmapGraph& graph);
   double cost(const SubmapGraph& graph, const std::vector<Pose>& poses) const;
   void solve();
-  Pose moved(const Pose& now, Index slot) const;
+  void move(std::vector<Pose>& poses);
+  void move_back(std::vector<Pose>& poses) const;
+  StepCost compare(const SubmapGraph& graph, const std::vector<Pose>& poses);
+  void add_costs(const SubmapGraph& graph, const std::vector<Pose>& poses, Index landmark, StepCost& cost);
+  Pose moved(const Pose& now, Index row) const;
 
   ReducedSystem system_;
   BlockCholesky factor_;
-  std::vector<ReducedSystem::Vec6> move_;  // slot -> the gradient, then how far to go against it
-  std::vector<Pose> start_;                // slot -> its pose when the step began
-  std::vector<Pose> before_;  // of the free submaps and those made since: where they were before apply()
-  std::vector<std::size_t> members_;  // slot -> how many members its submap had then
+  std::vector<ReducedSystem::Vec6> move_;  // row -> the gradient, then how far to go against it
+  /// Where a submap was before apply().
+  struct Before {
+    Index submap = kNone;
+    Pose pose;
+  };
+  std::vector<Before> before_;  // of those that it moves: the free ones, and those made since
+  PoseMotions now_;
+  PoseMotions past_;  // before apply(), of those in before_
+  std::vector<std::size_t> members_;  // of each free submap: how many it had when the step began
   std::vector<Index> touched_;
   std::size_t known_ = 0;  // submaps when the step began
-  Index newest_slot_ = kNone;
+  Index newest_row_ = kNone;
   Index next_row_ = 0;
   bool analysed_ = false;
   bool ready_ = false;

@@ -31,7 +31,7 @@ struct Options {
   double overlap = 0.8;  ///< a submap closes when what is seen overlaps its first frame less [1]
   int max_submap_frames = 200;  ///< a submap is closed, and may be re-opened, after this many frames
   int window = 20;              ///< submaps re-placed together at each close
-  int global_period = 5;  ///< closes between steps over the whole map once a loop has closed; 0: never online
+  int global_period = 3;  ///< closes between steps over the whole map once a loop has closed; 0: never online
   int sweeps = 2;         ///< re-alignments of a submap's own frames at its close
   int min_observations = 5;  ///< observations that make a landmark `mapped`
   int find_moving =

@@ -32,6 +32,9 @@ class PoseInformation {
   std::optional<Mat6> covariance(bool planar) const;
 
  private:
+  std::optional<Mat6> covariance_by_weights(bool planar) const;
+  std::optional<Mat6> covariance_by_matrices(bool planar) const;
+
   double weight_ = 0.0;
   Vec3 sum_ = Vec3::Zero();
   Mat3 outer_ = Mat3::Zero();

@@ -29,9 +29,15 @@ std::optional<Mat6> pose_covariance(const SubmapGraph& graph, const std::vector<
 }
 
 Mat6 told_from(const Pose& anchor, const Mat6& covariance) {
-  Mat6 turn = Mat6::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = anchor.q.toRotationMatrix().transpose();
-  return turn * covariance * turn.transpose();
+  const Mat3 turn = anchor.q.toRotationMatrix();
+  Mat6 told;
+  for (Eigen::Index row = 0; row < 6; row += 3) {
+    for (Eigen::Index column = 0; column < 6; column += 3) {
+      const Mat3 half = turn.transpose() * covariance.block<3, 3>(row, column);
+      told.block<3, 3>(row, column) = half * turn;
+    }
+  }
+  return told;
 }
 
 }  // namespace hallway::slam_point

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "slam_point/core/directional_fit.hpp"
 
@@ -22,107 +23,191 @@ double share_of(double squared, double inlier2) {
 
 }  // namespace
 
-void ReducedSystem::PairSums::add(double weight, const Vec3& row, const Vec3& column) {
-  const Vec3 weighted = weight * row;
-  w += weight;
-  y_row += weighted;
-  y_column += weight * column;
-  add_outer(weighted, column, y_outer);
-}
-
 // With J = [I, -[y]x] for (translation, rotation) of x = exp(rotation) y + t: J_row^T J_column = [I, -[y_column]x;
 // [y_row]x, (y_row . y_column) I - y_column y_row^T].
 ReducedSystem::Block ReducedSystem::expand(const PairSums& sums) {
+  const double weight = sums.products(0, 0);
+  const Vec3 row = sums.products.bottomLeftCorner<3, 1>();
+  const Vec3 column = sums.products.topRightCorner<1, 3>();
+  const Mat3 outer = sums.products.bottomRightCorner<3, 3>();
+  const double trace = outer.trace();
   Block block;
-  block.topLeftCorner<3, 3>() = sums.w * Mat3::Identity();
-  block.topRightCorner<3, 3>() = -skew(sums.y_column);
-  block.bottomLeftCorner<3, 3>() = skew(sums.y_row);
-  block.bottomRightCorner<3, 3>() = sums.y_outer.trace() * Mat3::Identity() - sums.y_outer.transpose();
+  block << weight, 0.0, 0.0, 0.0, column.z(), -column.y(),  //
+      0.0, weight, 0.0, -column.z(), 0.0, column.x(),       //
+      0.0, 0.0, weight, column.y(), -column.x(), 0.0,       //
+      0.0, -row.z(), row.y(), trace - outer(0, 0), -outer(1, 0), -outer(2, 0),  //
+      row.z(), 0.0, -row.x(), -outer(0, 1), trace - outer(1, 1), -outer(2, 1),  //
+      -row.y(), row.x(), 0.0, -outer(0, 2), -outer(1, 2), trace - outer(2, 2);
   return block;
 }
 
 void ReducedSystem::take(const SubmapGraph& graph, const std::vector<Index>& free,
-                         const std::vector<Pose>& poses, bool planar) {
+                         const std::vector<Pose>& poses, bool planar, const Grouping& grouping) {
   planar_ = planar;
   directional_ = graph.is_directional();
   choose(graph, free);
+  make_groups(graph, free, poses, grouping);
   take_evidence(graph, poses);
-  take_landmarks(graph, poses);
-  row_.resize(directional_ ? 0 : free_.size());
-  row_blocks_.resize(directional_ ? free_.size() : 0);
-  in_row_.assign(free_.size(), 0);
+  take_places();
+  take_means(graph, poses);
+  row_.resize(directional_ ? 0 : rows());
+  row_blocks_.resize(directional_ ? rows() : 0);
+  in_row_.assign(rows(), 0);
 }
 
 void ReducedSystem::choose(const SubmapGraph& graph, const std::vector<Index>& free) {
   for (const Index landmark : touched_) marked_[landmark] = 0;
   for (const Index submap : free_) slot_[submap] = kNone;
   slot_.resize(graph.submaps.size(), kNone);
+  alone_.resize(graph.submaps.size(), 0);
   marked_.resize(graph.landmarks.size(), 0);
+  seen_by_.resize(graph.landmarks.size(), 0);
   place_.resize(graph.landmarks.size());
   touched_.clear();
+  newest_.clear();
   free_.clear();
   for (const Index submap : free) {
     if (!graph.submaps[submap].held) free_.push_back(submap);
   }
   std::sort(free_.begin(), free_.end());
-  for (Index slot = 0; slot < free_.size(); ++slot) slot_[free_[slot]] = slot;
+}
+
+/// Gives each free submap its row.
+void ReducedSystem::make_groups(const SubmapGraph& graph, const std::vector<Index>& free,
+                                const std::vector<Pose>& poses, const Grouping& grouping) {
+  origins_.clear();
+  const std::size_t most = directional_ ? 1 : grouping.most;
+  const std::size_t alone = std::min(grouping.alone, free.size());
+  const auto first_alone = free.end() - static_cast<std::ptrdiff_t>(alone);
+  std::for_each(first_alone, free.end(), [&](Index submap) { alone_[submap] = 1; });
+  std::size_t room = 0;  // in the group under way
+  for (std::size_t f = 0; f < free_.size(); ++f) {
+    const Index submap = free_[f];
+    const Index before = f > 0 ? free_[f - 1] : submap;
+    const bool follows = most > 1 && continues(graph, submap, before) && f > 0;
+    if (!follows || room == 0 || alone_[submap] != 0 || alone_[before] != 0) {
+      room = origins_.empty() ? std::min(grouping.first, most) : most;
+      origins_.push_back(poses[submap].t);
+    }
+    --room;
+    slot_[submap] = static_cast<Index>(origins_.size() - 1);
+  }
+  std::for_each(first_alone, free.end(), [&](Index submap) { alone_[submap] = 0; });
+}
+
+/// Whether a submap holds at least half of its landmarks in common with the one that was asked about just before.
+bool ReducedSystem::continues(const SubmapGraph& graph, Index submap, Index before) {
+  std::size_t shared = 0;
+  for (const Member& member : graph.submaps[submap].members) {
+    if (seen_by_[member.landmark] == before + 1) ++shared;
+    seen_by_[member.landmark] = submap + 1;
+  }
+  return 2 * shared >= graph.submaps[submap].members.size();
 }
 
 void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Pose>& poses) {
   evidence_.clear();
   informations_.clear();
   evidence_start_.clear();
-  positions_.clear();
   for (const Index submap : free_) {
-    evidence_start_.push_back(static_cast<Index>(evidence_.size()));
-    positions_.push_back(poses[submap].t);
-    const Mat3 rotation = poses[submap].q.toRotationMatrix();
-    if (directional_) {
-      for (const Mat3& information : graph.submaps[submap].informations)
-        informations_.emplace_back(rotation * information * rotation.transpose());
-    }
-    for (const Member& member : graph.submaps[submap].members) {
-      if (member.count == 0) {  // keeps its place, and says nothing
-        evidence_.push_back({Vec3::Zero(), 0.0, kNone});
-        continue;
-      }
-      if (marked_[member.landmark] == 0) {
-        marked_[member.landmark] = 1;
-        place_[member.landmark] = static_cast<Index>(touched_.size());
-        touched_.push_back(member.landmark);
-      }
-      evidence_.push_back({rotation * member.mean, member.weight(), place_[member.landmark]});
-    }
+    if (slot_[submap] == evidence_start_.size()) evidence_start_.push_back(static_cast<Index>(evidence_.size()));
+    take_submap(graph, poses[submap], submap);
   }
   evidence_start_.push_back(static_cast<Index>(evidence_.size()));
+}
+
+void ReducedSystem::take_submap(const SubmapGraph& graph, const Pose& pose, Index submap) {
+  const SubmapRecord& record = graph.submaps[submap];
+  const PointMotion from_origin(Pose{pose.q, pose.t - origins_[slot_[submap]]});
+  const Mat3 rotation = pose.q.toRotationMatrix();
+  for (std::size_t m = 0; m < record.members.size(); ++m) {
+    const Member& member = record.members[m];
+    if (member.count == 0) continue;  // keeps its place, and says nothing
+    const Vec3 y = from_origin * member.mean;
+    const double weight = member.weight();
+    const auto next = static_cast<Index>(evidence_.size());
+    if (marked_[member.landmark] == 0) {
+      marked_[member.landmark] = 1;
+      place_[member.landmark] = static_cast<Index>(touched_.size());
+      touched_.push_back(member.landmark);
+      newest_.push_back(next);
+    }
+    const Index touched = place_[member.landmark];
+    const Index known = newest_[touched];
+    if (known != next && known >= evidence_start_.back()) {
+      Evidence& whole = evidence_[known];
+      whole.count += weight;
+      whole.y += (weight / whole.count) * (y - whole.y);
+      continue;
+    }
+    newest_[touched] = next;
+    evidence_.push_back({y, weight, touched});
+    if (directional_)
+      informations_.emplace_back(rotation * record.informations[m] * rotation.transpose());
+  }
+}
+
+/// Takes down where each landmark stands, in the order of rows.
+void ReducedSystem::take_places() {
+  places_start_.assign(touched_.size() + 1, 0);
+  for (const Evidence& known : evidence_) ++places_start_[known.landmark + 1];
+  std::partial_sum(places_start_.begin(), places_start_.end(), places_start_.begin());
+  places_.resize(evidence_.size());
+  next_place_.assign(places_start_.begin(), places_start_.end() - 1);
+  for (Index row = 0; row < rows(); ++row) {
+    for (Index e = evidence_start_[row]; e < evidence_start_[row + 1]; ++e) {
+      const Evidence& known = evidence_[e];
+      Place& place = places_[next_place_[known.landmark]++];
+      place.weighted << known.count, known.count * known.y;
+      place.slot = row;
+      place.evidence = e;
+    }
+  }
 }
 
 /// Takes from evidence that strays from its landmark what it would count too much.
 void ReducedSystem::lighten(const Place& place, double inlier2) {
   const Evidence& known = evidence_[place.evidence];
   Mat3& information = informations_[place.evidence];
-  const Vec3 residual = known.y + positions_[place.slot] - means_[known.landmark].centre;
+  const Vec3 residual = known.y + origins_[place.slot] - means_[known.landmark].centre;
   information *= share_of(residual.dot(information * residual), inlier2);
 }
 
-void ReducedSystem::take_landmarks(const SubmapGraph& graph, const std::vector<Pose>& poses) {
+void ReducedSystem::take_means(const SubmapGraph& graph, const std::vector<Pose>& poses) {
   means_.clear();
-  places_.clear();
-  places_start_.clear();
-  cost_ = 0.0;
+  motions_.begin(graph.submaps.size());
   const double inlier2 = graph.directional_inlier_m() * graph.directional_inlier_m();
-  for (const Index landmark : touched_) {
-    means_.push_back(mean_of(graph, poses, landmark));
-    cost_ += means_.back().cost;
-    places_start_.push_back(static_cast<Index>(places_.size()));
-    for (const Membership& at : graph.landmarks[landmark].memberships) {
-      const Index slot = slot_[at.submap];
-      if (slot == kNone) continue;
-      places_.push_back({slot, evidence_start_[slot] + at.member});
-      if (directional_) lighten(places_.back(), inlier2);
+  for (Index touched = 0; touched < touched_.size(); ++touched) {
+    if (!directional_) {
+      means_.push_back(mean_of_places(graph, poses, touched));
+      continue;
     }
+    means_.push_back(directional_mean_of(graph, poses, touched_[touched]));
+    for (Index p = places_start_[touched]; p < places_start_[touched + 1]; ++p) lighten(places_[p], inlier2);
   }
-  places_start_.push_back(static_cast<Index>(places_.size()));
+}
+
+/// Where a landmark is best, from what has been taken down, and of other submaps from the graph.
+ReducedSystem::Mean ReducedSystem::mean_of_places(const SubmapGraph& graph, const std::vector<Pose>& poses,
+                                                  Index touched) {
+  // Sums are taken about the first place: the others lie so near that no digits cancel.
+  const Place& front = places_[places_start_[touched]];
+  const Vec3 origin = origins_[front.slot] + evidence_[front.evidence].y;
+  Vec3 sum = Vec3::Zero();
+  Mean mean;
+  for (Index p = places_start_[touched]; p < places_start_[touched + 1]; ++p) {
+    const Evidence& known = evidence_[places_[p].evidence];
+    sum += known.count * (origins_[places_[p].slot] + known.y - origin);
+    mean.count += known.count;
+  }
+  for (const Membership& at : graph.landmarks[touched_[touched]].memberships) {
+    if (slot_[at.submap] != kNone) continue;
+    const Member& member = graph.submaps[at.submap].members[at.member];
+    sum += member.weight() * (motions_.of(at.submap, poses) * member.mean - origin);
+    mean.count += member.weight();
+  }
+  mean.centre = origin + sum / mean.count;
+  return mean;
 }
 
 ReducedSystem::Mean ReducedSystem::mean_of(const SubmapGraph& graph, const std::vector<Pose>& poses,
@@ -200,16 +285,15 @@ ReducedSystem::Vec6 ReducedSystem::sum_row_directional(Index row, double& work) 
   std::size_t pairs = 0;
   for (Index e = evidence_start_[row]; e < evidence_start_[row + 1]; ++e) {
     const Evidence& known = evidence_[e];
-    if (known.count == 0.0) continue;
     const Mean& mean = means_[known.landmark];
-    const Vec3 residual = informations_[e] * (known.y + positions_[row] - mean.centre);
+    const Vec3 residual = informations_[e] * (known.y + origins_[row] - mean.centre);
     gradient.head<3>() += residual;
     gradient.tail<3>() += known.y.cross(residual);
     row_blocks_[row] += motion_information(known.y, informations_[e], known.y);
     const Mat3 share = -informations_[e] * mean.noise;
     for (Index p = places_start_[known.landmark]; p < places_start_[known.landmark + 1]; ++p) {
       const Place& other = places_[p];
-      if (other.slot > row) continue;
+      if (other.slot > row) break;
       open_row(other.slot);
       row_blocks_[other.slot] +=
           motion_information(known.y, share * informations_[other.evidence], evidence_[other.evidence].y);
@@ -227,18 +311,19 @@ ReducedSystem::Vec6 ReducedSystem::sum_row(Index row, double& work) {
   std::size_t pairs = 0;
   for (Index e = evidence_start_[row]; e < evidence_start_[row + 1]; ++e) {
     const Evidence& known = evidence_[e];
-    if (known.count == 0.0) continue;
     const Mean& mean = means_[known.landmark];
-    const Vec3 residual = known.count * (known.y + positions_[row] - mean.centre);
+    const Vec3 residual = known.count * (known.y + origins_[row] - mean.centre);
     gradient.head<3>() += residual;
     gradient.tail<3>() += known.y.cross(residual);
-    own_.add(known.count, known.y, known.y);
-    const double share = known.count / mean.count;
+    const Vec4 lever(1.0, known.y.x(), known.y.y(), known.y.z());
+    const Vec4 weighted = known.count * lever;
+    own_.add(weighted, lever);
+    const Vec4 share = weighted / -mean.count;
     for (Index p = places_start_[known.landmark]; p < places_start_[known.landmark + 1]; ++p) {
       const Place& other = places_[p];
-      if (other.slot > row) continue;
+      if (other.slot > row) break;
       open_row(other.slot);
-      row_[other.slot].add(-share * evidence_[other.evidence].count, known.y, evidence_[other.evidence].y);
+      row_[other.slot].add(share, other.weighted);
       ++pairs;
     }
   }

@@ -178,12 +178,13 @@ void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::
       continue;
     }
     const Vec3 off = to_submap * sighting.point - member.mean;
-    const double shared = pair_weight(member.weight, sighting.weight);
+    const double before = member.weight;
     ++member.count;
     member.weight += sighting.weight;
-    member.mean += (sighting.weight / member.weight) * off;
+    const double share = sighting.weight / member.weight;
+    member.mean += share * off;
     if (member.count == 1) continue;
-    scatter_m2_ += shared * off.squaredNorm();
+    scatter_m2_ += before * share * off.squaredNorm();
     ++known;
   }
   freedom_ +=

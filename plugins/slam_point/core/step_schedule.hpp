@@ -14,7 +14,8 @@ namespace hallway::slam_point {
 ///
 /// After each close a step over the last submaps (Options::window) is due. A step over the whole map is due after a close that
 /// follows a loop, every Options::global_period closes, ever more seldom while it changes little, and only when the closes since
-/// have earned its work: so the mean cost of a frame does not grow with the map. Never are both applied from one state: what the
+/// have earned its work: so the mean cost of a frame does not grow with the map. Both move neighbouring submaps in groups (ReducedSystem::Grouping), but
+/// for the newest. Never are both applied from one state: what the
 /// one moves, the other would move a second time.
 class StepSchedule {
  public:
@@ -41,6 +42,7 @@ class StepSchedule {
  private:
   /// Steps under way place submaps as they no longer are.
   void drop_steps();
+  MapStep::Grouping groups(std::size_t alone);
   void begin_window_step(const SubmapGraph& graph, bool planar);
   void begin_map_step(const SubmapGraph& graph, bool planar);
   void judge_map_step(const StepCost& cost, double noise2_m2);
@@ -62,6 +64,7 @@ class StepSchedule {
   double earned_work_ = 0.0;        // multiplications that steps over the whole map may take
   int closes_since_settled_ = 0;
   int closes_since_loop_ = 0;     // since old ground was met after new
+  bool shifted_ = false;          // where the groups of the last step begin
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
 };

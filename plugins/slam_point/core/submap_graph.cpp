@@ -47,10 +47,11 @@ void SubmapGraph::activate(Index submap) {
   active_ = submap;
   from_active_ = PointMotion(poses[submap]);
   const std::vector<Member>& members = submaps[submap].members;
+  motions_.begin(submaps.size());
   for (Index m = 0; m < members.size(); ++m) {
     if (members[m].count == 0) continue;  // emptied by a merge
     landmarks[members[m].landmark].active_member = m;
-    resum(members[m].landmark);
+    sum_up(members[m].landmark);
   }
 }
 
@@ -62,7 +63,7 @@ void SubmapGraph::deactivate() {
     landmark.active_member = kNone;
     if (member.count == 0) continue;  // emptied by a merge
     if (is_directional()) {
-      resum_directional(member.landmark);
+      sum_up_directional(member.landmark);
       continue;
     }
     landmark.settled_sum += member.weight() * (from_active_ * member.mean);
@@ -77,7 +78,8 @@ void SubmapGraph::deactivate() {
 
 void SubmapGraph::take_moved(const std::vector<Index>& moved_landmarks) {
   if (active_ != kNone) from_active_ = PointMotion(poses[active_]);
-  for (const Index landmark : moved_landmarks) resum(landmark);
+  motions_.begin(submaps.size());
+  for (const Index landmark : moved_landmarks) sum_up(landmark);
 }
 
 void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation, double weight) {
@@ -87,7 +89,7 @@ void SubmapGraph::observe(Index member, const Vec3& p, std::uint64_t activation,
   landmark.count = landmark.settled_count + m.count;
   const Vec3 here = from_active_ * m.mean;
   landmark.weight = landmark.settled_weight + m.weight();
-  landmark.position = (landmark.settled_sum + m.weight() * here) / landmark.weight;
+  landmark.position = (landmark.settled_sum + m.weight() * here) * (1.0 / landmark.weight);
   landmark.last_activation = activation;
   grid_.move(m.landmark, landmark.position);
 }
@@ -115,7 +117,7 @@ SubmapGraph::Evidence SubmapGraph::evidence(const Membership& at, const Pose& T_
           turn * submap.informations[at.member] * turn.transpose()};
 }
 
-void SubmapGraph::resum_directional(Index index) {
+void SubmapGraph::sum_up_directional(Index index) {
   LandmarkRecord& landmark = landmarks[index];
   LandmarkInformation& known = informations[index];
   known = LandmarkInformation();
@@ -143,7 +145,13 @@ void SubmapGraph::resum_directional(Index index) {
 }
 
 void SubmapGraph::resum(Index index) {
-  if (is_directional()) return resum_directional(index);
+  motions_.begin(submaps.size());
+  sum_up(index);
+}
+
+/// Sums a landmark up in the round that was begun last: poses have not changed since.
+void SubmapGraph::sum_up(Index index) {
+  if (is_directional()) return sum_up_directional(index);
   LandmarkRecord& landmark = landmarks[index];
   landmark.settled_sum.setZero();
   landmark.settled_count = 0;
@@ -153,7 +161,7 @@ void SubmapGraph::resum(Index index) {
   double active_weight = 0.0;
   for (const Membership& at : landmark.memberships) {
     const Member& member = submaps[at.submap].members[at.member];
-    const Vec3 weighted = member.weight() * (poses[at.submap] * member.mean);
+    const Vec3 weighted = member.weight() * (motions_.of(at.submap, poses) * member.mean);
     if (at.submap == active_) {
       active_sum = weighted;
       active_count = member.count;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam_point/core/point_index.hpp"
+#include "slam_point/core/pose_motions.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {
@@ -27,10 +28,11 @@ struct Member {
   /// directions, in the submap frame.
   void average(const Vec3& p, double observation_weight, const Mat3& information, Mat3& known);
   /// Averages an observation of a weight above 0 into the mean.
-  void average(const Vec3& p, double observation_weight) {
+  [[gnu::always_inline]] void average(const Vec3& p, double observation_weight) {
+    const double whole = weight() + observation_weight;
     ++count;
-    quality += (observation_weight - quality) / static_cast<double>(count);
-    mean += observation_weight * (p - mean) / weight();
+    quality = whole / static_cast<double>(count);
+    mean += (observation_weight / whole) * (p - mean);
   }
 };
 
@@ -163,7 +165,8 @@ class SubmapGraph {
       informations;  ///< of each landmark; where noise has directions, else empty
 
  private:
-  void resum_directional(Index landmark);
+  void sum_up(Index landmark);
+  void sum_up_directional(Index landmark);
 
   PointIndex grid_;
   double directional_inlier_;
@@ -171,6 +174,7 @@ class SubmapGraph {
   Index part_ = 0;
   std::size_t dropped_ = 0;
   PointMotion from_active_{Pose{}};  // into the map
+  PoseMotions motions_;              // of the round of sums under way
 };
 
 }  // namespace hallway::slam_point

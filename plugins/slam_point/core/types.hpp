@@ -14,8 +14,8 @@ using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// Adds a * b^T to `sum`. Written by pairs of rows, which a register holds, because it stands in the innermost loops: of the product as a
-/// whole Eigen makes a call and a copy.
-inline void add_outer(const Vec3& a, const Vec3& b, Mat3& sum) {
+/// whole Eigen makes a call and a copy. (always_inline, here and elsewhere: in a long source compilers cease to inline even what is called once a point.)
+[[gnu::always_inline]] inline void add_outer(const Vec3& a, const Vec3& b, Mat3& sum) {
   for (int column = 0; column < 3; ++column) {
     sum.col(column).head<2>() += a.head<2>() * b[column];
     sum(2, column) += a[2] * b[column];
@@ -37,9 +37,9 @@ class PointMotion {
  public:
   explicit PointMotion(const Pose& pose) : rotation_(pose.q.toRotationMatrix()), t_(pose.t) {}
 
-  Vec3 operator*(const Vec3& p) const { return turned(p) + t_; }
+  [[gnu::always_inline]] Vec3 operator*(const Vec3& p) const { return turned(p) + t_; }
   /// The rotation alone.
-  Vec3 turned(const Vec3& p) const {
+  [[gnu::always_inline]] Vec3 turned(const Vec3& p) const {
     Vec3 turned;
     turned.head<2>() = rotation_.col(0).head<2>() * p[0] + rotation_.col(1).head<2>() * p[1] +
                        rotation_.col(2).head<2>() * p[2];

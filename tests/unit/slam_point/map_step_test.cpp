@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "rings.hpp"
@@ -118,6 +119,81 @@ TEST(MapStep, AWindowLowersTheCostAndHoldsTheRest) {
     EXPECT_EQ(poses[s].t, graph.poses[s].t);
     EXPECT_EQ(poses[s].q.coeffs(), graph.poses[s].q.coeffs());
   }
+}
+
+/// The submaps of each row of `system` as one submap, in the frame of the first of them.
+SubmapGraph with_groups_as_submaps(const SubmapGraph& graph, const ReducedSystem& system) {
+  SubmapGraph merged(1.0);
+  for (const LandmarkRecord& landmark : graph.landmarks) merged.add_landmark(landmark.position, 0);
+  std::vector<Index> made_for(system.rows(), kNone);
+  for (Index s = 0; s < graph.submaps.size(); ++s) {
+    const Index row = system.row_of(s);
+    Index into = row == kNone ? kNone : made_for[row];
+    if (into == kNone) into = merged.add_submap(graph.poses[s]);
+    if (row != kNone) made_for[row] = into;
+    const Pose T_into_s = merged.poses[into].inverse() * graph.poses[s];
+    for (const Member& member : graph.submaps[s].members) {
+      std::vector<Member>& members = merged.submaps[into].members;
+      auto known = std::find_if(members.begin(), members.end(),
+                                [&](const Member& m) { return m.landmark == member.landmark; });
+      if (known == members.end())
+        known = members.begin() + merged.join(into, member.landmark, Vec3::Zero(), false);
+      known->count += member.count;
+      known->mean += (static_cast<double>(member.count) / known->count) * (T_into_s * member.mean - known->mean);
+    }
+  }
+  return merged;
+}
+
+TEST(MapStep, GroupsMoveAsSubmapsMadeOfThemDo) {
+  for (const bool planar : {false, true}) {
+    const SubmapGraph graph = noisy_ring(25, planar, 5);
+    const MapStep::Grouping grouping{3, 2, 4};
+    ReducedSystem system;
+    system.take(graph, rings::all_of(graph), graph.poses, planar, grouping);
+    EXPECT_EQ(system.free().size(), 24u);
+    // Two, six times three, and the last four.
+    EXPECT_EQ(system.rows(), 11u);
+    const SubmapGraph merged = with_groups_as_submaps(graph, system);
+    std::vector<Pose> poses = graph.poses;
+    std::vector<Pose> expected = merged.poses;
+    MapStep step;
+    step.begin(graph, poses, rings::all_of(graph), kNone, planar, grouping);
+    ASSERT_TRUE(step.advance(kPlenty));
+    const StepCost cost = step.apply(graph, poses);
+    EXPECT_LT(cost.after, cost.before);
+    EXPECT_NEAR(cost.before, total_cost(graph, graph.poses), 1e-9 * cost.before);
+    EXPECT_NEAR(cost.after, total_cost(graph, poses), 1e-9 * cost.before);
+    step.begin(merged, expected, kNone, planar);
+    ASSERT_TRUE(step.advance(kPlenty));
+    step.apply(merged, expected);
+    for (Index s = 1; s < graph.submaps.size(); ++s) {
+      const Index row = system.row_of(s);
+      const Pose moved = poses[s] * graph.poses[s].inverse();
+      const Pose wanted = expected[row + 1] * merged.poses[row + 1].inverse();
+      EXPECT_LT((moved.t - wanted.t).norm(), 1e-8) << "submap " << s;
+      EXPECT_LT(rotation_log(moved.q * wanted.q.conjugate()).norm(), 1e-10) << "submap " << s;
+    }
+  }
+}
+
+TEST(MapStep, WhatSharesLittleIsNoGroup) {
+  // Neighbours in number lie five places apart.
+  const SubmapGraph ring = noisy_ring(24, false, 6);
+  SubmapGraph graph(1.0);
+  for (const LandmarkRecord& landmark : ring.landmarks) graph.add_landmark(landmark.position, 0);
+  for (Index s = 0; s < 24; ++s) {
+    const Index from = 5 * s % 24;
+    const Index to = graph.add_submap(ring.poses[from]);
+    for (const Member& member : ring.submaps[from].members) graph.join(to, member.landmark, member.mean, false);
+    for (std::size_t m = 0; m < graph.submaps[to].members.size(); ++m)
+      graph.submaps[to].members[m].count = ring.submaps[from].members[m].count;
+  }
+  ReducedSystem system;
+  system.take(graph, rings::all_of(graph), graph.poses, false, {3, 3, 0});
+  EXPECT_EQ(system.rows(), 23u);
+  system.take(ring, rings::all_of(ring), ring.poses, false, {3, 3, 0});
+  EXPECT_EQ(system.rows(), 8u);
 }
 
 TEST(MapStep, TellsWhichLandmarksItHasMoved) {
