@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "geom/symmetric.hpp"
 
@@ -15,7 +18,7 @@ using Vec6 =
     Eigen::Matrix<double, 6, 1>;  // a small motion: step [m], then turn about the body's origin [rad]
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kSteps = 5;            // of Gauss and Newton, at most
+constexpr int kSteps = 5;            // of Gauss and Newton, at most, in each stage of a fit
 constexpr double kLeastStep = 1e-7;  // [m, rad]
 constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;
@@ -25,6 +28,9 @@ constexpr double kHold = 1e-6;     // of what nothing determines [1/m^2]
 constexpr double kLeastLeft =
     0.1;  // share of a residual's variance that the fit must leave, for it to tell its size
 constexpr double kMadToSigma = 1.4826;  // of normal noise
+constexpr double kSameNormal = 0.985;   // cosine between a plane and what has become of it
+constexpr double kSamePlane_m = 0.2;    // likewise, distance
+constexpr std::size_t kLeastVotes = 5;  // sights that tell what has become of a plane
 
 /// What is compared, in the order of their standard deviations.
 enum Kind : std::size_t { kTurn, kOffset, kEnd, kKinds };
@@ -41,6 +47,7 @@ struct Edge {
 struct Target {
   Vec3 normal, tangent[2];
   double offset = 0.0;
+  double from[2], to[2];  // along the tangents
   std::vector<Edge> edges;
 };
 
@@ -51,6 +58,15 @@ Target target_of(const log::MappedPlane& plane) {
   target.tangent[0] = target.normal.unitOrthogonal();
   target.tangent[1] = target.normal.cross(target.tangent[0]);
   const std::size_t n = plane.outline.size();
+  for (int k = 0; k < 2; ++k) {
+    target.from[k] = std::numeric_limits<double>::max();
+    target.to[k] = std::numeric_limits<double>::lowest();
+    for (const log::MappedCorner& corner : plane.outline) {
+      const double place = target.tangent[k].dot(Vec3(corner.position_m.data()));
+      target.from[k] = std::min(target.from[k], place);
+      target.to[k] = std::max(target.to[k], place);
+    }
+  }
   for (std::size_t i = 0; i < n; ++i) {
     if (!plane.outline[i].edge_certain) continue;
     const Vec3 a = Vec3(plane.outline[i].position_m.data()),
@@ -98,17 +114,27 @@ void compare(const Match& match, const Pose& T, Take take_any) {
   }
 }
 
-bool counts(Kind kind, double residual, const Sigmas& sigmas) {
-  return std::abs(residual) <= kGateSigmas * sigmas[kind];
+/// How far a fit has come. What is a plane is told by itself, what is an end by where the planes put the frame: of the ends there some are cuts.
+enum class Stage { planes, doubted, gated };
+
+/// What a residual counts for: less the farther off it is, and in the end not at all beyond the gate.
+double weight_of(Kind kind, double residual, const Sigmas& sigmas, Stage stage) {
+  const double sigma = sigmas[kind];
+  const double ratio = std::abs(residual) / (kGateSigmas * sigma);
+  if (stage == Stage::gated) return ratio <= 1.0 ? 1.0 / (sigma * sigma) : 0.0;
+  if (stage == Stage::planes && kind == kEnd) return 0.0;
+  const double widest = std::hypot(std::max(sigma, kFirst[kind]), kind == kEnd ? sigmas[kOffset] : 0.0);
+  if (std::abs(residual) > kGateSigmas * widest) return 0.0;
+  return 1.0 / (sigma * sigma * (1.0 + ratio * ratio));
 }
 
-Mat6 information(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas, Vec6& gradient) {
+Mat6 information(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas, Stage stage,
+                 Vec6& gradient) {
   Mat6 h = Mat6::Zero();
   gradient.setZero();
   for (const Match& match : matches) {
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
-      if (!counts(kind, residual, sigmas)) return;
-      const double weight = 1.0 / (sigmas[kind] * sigmas[kind]);
+      const double weight = weight_of(kind, residual, sigmas, stage);
       h += weight * row * row.transpose();
       gradient -= weight * residual * row;
     });
@@ -117,11 +143,11 @@ Mat6 information(const std::vector<Match>& matches, const Pose& T, const Sigmas&
 }
 
 /// Moves a pose to where the planes lie best; not in directions that they leave open.
-Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
+void fit(const std::vector<Match>& matches, const Sigmas& sigmas, Stage stage, Pose& T) {
   const double least = 1.0 / (RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m);
   for (int i = 0; i < kSteps; ++i) {
     Vec6 gradient;
-    const Spectrum<6> free = spectrum<6>(information(matches, T, sigmas, gradient));
+    const Spectrum<6> free = spectrum<6>(information(matches, T, sigmas, stage, gradient));
     Vec6 x = Vec6::Zero();
     for (int k = 0; k < 6; ++k) {
       const Vec6 axis = free.vectors.col(k);
@@ -134,37 +160,66 @@ Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
               .normalized();
     if (x.norm() < kLeastStep) break;
   }
+}
+
+Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
+  for (const Stage stage : {Stage::planes, Stage::doubted, Stage::gated}) fit(matches, sigmas, stage, T);
   return T;
 }
 
-/// Whether the planes tell the position, but for the height where all of them are upright.
-bool is_determined(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas) {
-  Vec6 gradient;
-  const Mat6 h = information(matches, T, sigmas, gradient);
+/// Whether this information tells the position, but for the height where the body stays level.
+bool tells_position(const Mat6& h, bool level) {
   Eigen::Matrix3d turns = h.bottomRightCorner<3, 3>();
   turns.diagonal().array() += kHold;
   const Eigen::Matrix3d position =
       h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * symmetric_inverse<3>(turns) * h.bottomLeftCorner<3, 3>();
-  const bool level = matches.empty() || matches.front().level;
   const double worst =
       level ? spectrum<2>(position.topLeftCorner<2, 2>()).values(0) : spectrum<3>(position).values(0);
   return worst * RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m >= 1.0;
+}
+
+/// Whether the planes tell the position. One end alone does not: whether a plane ends there or something cuts it there, nothing else in the frame says.
+bool is_determined(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas) {
+  if (matches.empty()) return false;
+  const bool level = matches.front().level;
+  Vec6 gradient;
+  const Mat6 h = information(matches, T, sigmas, Stage::gated, gradient);
+  bool determined = tells_position(h, level);
+  for (const Match& match : matches) {
+    compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
+      const double weight = weight_of(kind, residual, sigmas, Stage::gated);
+      if (kind != kEnd || weight == 0.0 || !determined) return;
+      determined = tells_position(h - weight * row * row.transpose(), level);
+    });
+  }
+  return determined;
 }
 
 /// Calls `take(kind, size)` with what is left of each residual that counts at a fitted pose, as large as it would be had it not taken part in the fit.
 template <typename Take>
 void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas& sigmas, Take take) {
   Vec6 gradient;
-  Mat6 h = information(matches, T, sigmas, gradient);
+  Mat6 h = information(matches, T, sigmas, Stage::gated, gradient);
   h.diagonal().array() += kHold;
   const Mat6 covariance = symmetric_inverse<6>(h);
   for (const Match& match : matches) {
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
-      if (!counts(kind, residual, sigmas)) return;
+      if (weight_of(kind, residual, sigmas, Stage::gated) == 0.0) return;
       const double left = 1.0 - row.dot(covariance * row) / (sigmas[kind] * sigmas[kind]);
       if (left > kLeastLeft) take(kind, std::abs(residual) / std::sqrt(left));
     });
   }
+}
+
+/// How far a plane that was seen lies from one of the map, if it may be that.
+std::optional<double> distance(const Target& target, const Vec3& normal, const Vec3& middle) {
+  if (target.normal.dot(normal) < kSameNormal) return std::nullopt;
+  for (int k = 0; k < 2; ++k) {
+    const double place = target.tangent[k].dot(middle);
+    if (place < target.from[k] || place > target.to[k]) return std::nullopt;
+  }
+  const double off = std::abs(target.normal.dot(middle) - target.offset);
+  return off < kSamePlane_m ? std::optional(off) : std::nullopt;
 }
 
 /// The standard deviation of what is normal but for some that is not.
@@ -192,19 +247,61 @@ void RefittedPlanes::add(std::uint32_t iteration, const Pose& T_map_body, std::s
   frames_ = {};
 }
 
+std::map<log::LandmarkId, log::LandmarkId> RefittedPlanes::heirs_in(
+    std::span<const log::MappedPlane> map) const {
+  std::map<log::LandmarkId, Target> targets;
+  std::set<log::LandmarkId> there;
+  for (const log::MappedPlane& plane : map) {
+    there.insert(plane.id);
+    if (plane.status == log::LandmarkStatus::kMapped) targets.emplace(plane.id, target_of(plane));
+  }
+  struct Votes {
+    std::size_t sights = 0;
+    std::map<log::LandmarkId, std::size_t> of;
+  };
+  std::map<log::LandmarkId, Votes> gone;
+  for (std::size_t f = 0, s = 0; f < frames_.size(); ++f) {
+    const Pose& T = frames_[f].T_map_body;
+    for (; s < frames_[f].end; ++s) {
+      if (there.contains(sights_[s].plane)) continue;
+      Votes& votes = gone[sights_[s].plane];
+      ++votes.sights;
+      const Vec3 normal = T.q * sights_[s].normal, middle = T * sights_[s].middle;
+      std::optional<double> nearest;
+      log::LandmarkId heir = 0;
+      for (const auto& [id, target] : targets) {
+        const std::optional<double> off = distance(target, normal, middle);
+        if (!off || (nearest && *off >= *nearest)) continue;
+        nearest = off;
+        heir = id;
+      }
+      if (nearest) ++votes.of[heir];
+    }
+  }
+  std::map<log::LandmarkId, log::LandmarkId> heirs;
+  for (const auto& [id, votes] : gone) {
+    for (const auto& [heir, count] : votes.of) {
+      if (count >= kLeastVotes && 2 * count > votes.sights) heirs.emplace(id, heir);
+    }
+  }
+  return heirs;
+}
+
 std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::MappedPlane> map) const {
-  std::unordered_map<log::LandmarkId, Target> targets;
+  std::map<log::LandmarkId, Target> targets;
   bool level = true;
   for (const log::MappedPlane& plane : map) {
     if (plane.status != log::LandmarkStatus::kMapped) continue;
     targets.emplace(plane.id, target_of(plane));
     level = level && std::abs(plane.normal[2]) < kUpright;
   }
+  const std::map<log::LandmarkId, log::LandmarkId> heirs = heirs_in(map);
   std::vector<std::vector<Match>> matches(frames_.size());
   std::vector<Placed> all;
   for (std::size_t f = 0, s = 0, b = 0; f < frames_.size(); ++f) {
     for (; s < frames_[f].end; b = sights_[s++].end) {
-      const auto found = targets.find(sights_[s].plane);
+      const auto heir = heirs.find(sights_[s].plane);
+      const auto found = targets.find(heir == heirs.end() ? sights_[s].plane : heir->second);
       if (found == targets.end()) continue;
       const std::span<const Vec3> bounds = std::span(bounds_).subspan(b, sights_[s].end - b);
       matches[f].push_back({sights_[s].normal, sights_[s].middle, bounds, &found->second, level});
@@ -215,7 +312,7 @@ std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::M
   for (int round = 0; round <= kRounds; ++round) {
     std::array<std::vector<double>, kKinds> sizes;
     for (std::size_t f = 0; f < all.size(); ++f) {
-      all[f].T_map_body = fitted(matches[f], all[f].T_map_body, sigmas);
+      all[f].T_map_body = fitted(matches[f], frames_[f].T_map_body, sigmas);
       if (round == kRounds) continue;
       visit_errors(matches[f], all[f].T_map_body, sigmas,
                    [&](Kind kind, double size) { sizes[kind].push_back(size); });

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,8 +40,10 @@ class RefittedPlanes {
   };
   /// The frames whose planes determine where they are, in their order. Least squares over the turn of each plane against the one of the map, the distance of
   /// its middle from that, and how far it reaches at those edges that are certain there, if it ends at them. Each kind is weighted by the scatter that all frames
-  /// show of it (median absolute deviation); what is farther off than four times that does not count. Directions that the planes leave open, as heights where all are upright,
-  /// stay as they were answered. Empty beyond kMaxPoints. O(points).
+  /// show of it (median absolute deviation); what is farther off than four times that does not count. Whether a plane ends at an edge is asked where the
+  /// frame lies by its planes alone, so that a cut near an edge does not decide where the frame is. A plane that is not in the map any more stands for the one in which most of what was
+  /// taken for it lies. Directions that the planes leave open, as heights where all are upright,
+  /// stay as they were answered. Empty beyond kMaxPoints. O(points), and planes of the map for each plane that is not in it any more.
   std::vector<Placed> place(std::span<const log::MappedPlane> map) const;
 
  private:
@@ -54,6 +57,9 @@ class RefittedPlanes {
     Pose T_map_body;
     std::size_t end = 0;  // of its sights
   };
+  /// What has become of planes that are not in the map any more.
+  std::map<log::LandmarkId, log::LandmarkId> heirs_in(std::span<const log::MappedPlane> map) const;
+
   std::vector<Vec3> bounds_;
   std::vector<Sight> sights_;
   std::vector<Frame> frames_;

@@ -141,6 +141,15 @@ TEST_F(WallMaps, ArePlacedAnewAtTheEnd) {
   EXPECT_LT(found.at("position_refitted_m").at("rms"), found.at("position_m").at("rms"));
 }
 
+TEST_F(WallMaps, GoOnThroughAGapWhereTheRobotLooks) {
+  run("motion_model", out("run"), {"--in-process"});
+  const Json found = planes(out("run"));
+  EXPECT_LT(found.at("position_m").at("rms"), 0.001);
+  EXPECT_LT(found.at("position_refitted_m").at("rms"), 0.001);
+  EXPECT_EQ(found.at("final").at("walls_missing"), 0);
+  EXPECT_EQ(found.at("final").at("duplicated"), 0);
+}
+
 TEST_F(WallMaps, ComeFromPointsToo) {
   run("em_corridor", out("run"), {"--steps", "160"});
   EXPECT_TRUE(fs::exists(out("run") / "true_walls.csv"));

@@ -22,6 +22,16 @@ void FrameLocator::locate(const WallMap& map, std::uint32_t since, Frame& frame)
   locate_from(predicted, map, since, frame);
   // It may have stopped.
   if (known_ == 0) locate_from(predicted * motion_.inverse(), map, since, frame);
+  reckon(map.submaps[map.active()].T_map_submap, frame);
+}
+
+/// A robot that is not told along one direction has gone on along it.
+void FrameLocator::reckon(const Pose2& T_map_submap, Frame& frame) {
+  if (known_ == 0) return reckoning_.reset();
+  reckoning_.predict(T_map_submap, frame.T_map_robot.r, fastest_);
+  const PoseInformation& told = frame.in_map;
+  if (!reckoning_.is_running() || !told.heading || told.open != 1) return;
+  frame.T_map_robot.t += told.direction.dot(reckoning_.place() - frame.T_map_robot.t) * told.direction;
 }
 
 void FrameLocator::locate_from(const Pose2& T_map_robot, const WallMap& map, std::uint32_t since,
@@ -93,6 +103,7 @@ void FrameLocator::locate_in_submap(const WallMap& map, Frame& frame) {
 }
 
 void FrameLocator::note_motion(const Pose2& before, const Frame& frame, const Vec2& untied) {
+  reckoning_.correct(frame.T_map_robot, frame.in_map);
   const Pose2 moved = before.inverse() * frame.T_submap_robot;
   Vec2 step = moved.t;
   if (untied != Vec2::Zero()) {
@@ -110,6 +121,7 @@ void FrameLocator::note_motion(const Pose2& before, const Frame& frame, const Ve
 }
 
 void FrameLocator::note_seen(const WallMap& map, const Frame& frame) {
+  reckoning_.keep(map.submaps[map.active()].T_map_submap, frame.T_map_robot);
   for (const Sighting& sighting : frame.sightings) {
     if (std::find(recent_.begin(), recent_.end(), sighting.wall) == recent_.end())
       recent_.push_back(sighting.wall);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam_plane/core/dead_reckoning.hpp"
 #include "slam_plane/core/frame.hpp"
 #include "slam_plane/core/frame_matcher.hpp"
 #include "slam_plane/core/wall_map.hpp"
@@ -18,7 +19,7 @@ class FrameLocator {
       : matcher_(options), fit_(options), smoothing_(options.smoothing) {}
 
   /// Sets the pose that constant velocity predicts, and the walls and the pose found from there. `since`: no walls of epochs before that
-  /// one are looked for by place. O(pieces * walls seen just before), flat in the size of the map.
+  /// one are looked for by place. Along a direction that the walls leave open the frame is where dead reckoning has it. O(pieces * walls seen just before), flat in the size of the map.
   void locate(const WallMap& map, std::uint32_t since, Frame& frame);
   /// How many pieces locate() found a wall for.
   std::size_t known() const { return known_; }
@@ -51,10 +52,12 @@ class FrameLocator {
 
  private:
   bool trust_most(const WallMap& map, Frame& frame) const;
+  void reckon(const Pose2& T_map_submap, Frame& frame);
   void locate_from(const Pose2& T_map_robot, const WallMap& map, std::uint32_t since, Frame& frame);
 
   FrameMatcher matcher_;
   FrameFit fit_;
+  DeadReckoning reckoning_;
   double smoothing_;
   std::vector<Index> recent_;  // walls seen just before
   Pose2 motion_;

@@ -12,7 +12,9 @@ constexpr std::uint64_t kYoungFrames =
 constexpr std::size_t kMostYoung = 12;       // walls that are looked for
 constexpr std::uint64_t kSearchPeriod = 10;  // frames between looks
 constexpr double kAlongGap = 0.7;            // cosine between a wall and a gap whose corners tell of it
-constexpr int kTies = 3;                     // frames that agree on that
+constexpr double kAcrossGap = 0.7;           // sine between them, if its line does
+constexpr std::uint64_t kWallPeriod = 5;     // frames between looks at one wall alone
+constexpr int kTies = 3;                     // looks in a row that agree
 
 }  // namespace
 
@@ -30,6 +32,7 @@ std::optional<GapShift> GapSearch::find(const WallMap& map, const OpenGaps& gaps
     return std::nullopt;
   }
   if (std::optional<GapShift> shift = tie_by_corner(map, gaps.last(), frame)) return shift;
+  if (std::optional<GapShift> shift = tie_by_wall(map, gaps.last(), frame)) return shift;
   if (frame.iteration % kSearchPeriod != 0) return std::nullopt;
   std::erase_if(young_, [&](Index w) {
     const WallRecord& wall = map.walls[w];
@@ -91,6 +94,33 @@ std::optional<GapShift> GapSearch::tie_by_corner(const WallMap& map, const Gap& 
   if (ties_ < kTies) return std::nullopt;
   ties_ = 0;
   return GapShift{gap, nearest * gap.direction, {}};
+}
+
+/// A young wall across a gap with a corner lies where the map had one such wall before, about where it is expected, and no other one that it could be: once a few
+/// frames agree, the two are one.
+std::optional<GapShift> GapSearch::tie_by_wall(const WallMap& map, const Gap& gap, const Frame& frame) {
+  if (!gap.is_wide() || frame.iteration % kWallPeriod != 0) return std::nullopt;
+  Twins twins;
+  double nearest = expected_;
+  for (const Sighting& sighting : frame.sightings) {
+    const WallRecord& wall = map.walls[sighting.wall];
+    const WallEstimate& estimate = wall.estimate;
+    if (sighting.stray || wall.epoch < gap.epoch || wall.count < least_count_) continue;
+    if (std::abs(cross(estimate.basis.direction, gap.direction)) < kAcrossGap) continue;
+    bool corner = false;
+    for (int k = 0; k < 2; ++k) corner = corner || (estimate.known[k] && sighting.corner[k]);
+    double shift = 0.0;
+    const Index old = corner ? search_.only_twin(map, sighting.wall, gap, shift) : kNone;
+    if (old == kNone || std::abs(shift) >= std::abs(nearest)) continue;
+    nearest = shift;
+    twins = {old, sighting.wall};
+  }
+  const bool again = wall_ties_ > 0 && std::abs(nearest - wall_tie_) < Gap::kBridged_m;
+  wall_ties_ = twins.gone == kNone ? 0 : again ? wall_ties_ + 1 : 1;
+  wall_tie_ = nearest;
+  if (wall_ties_ < kTies) return std::nullopt;
+  wall_ties_ = 0;
+  return GapShift{gap, nearest * gap.direction, {twins}};
 }
 
 }  // namespace hallway::slam_plane

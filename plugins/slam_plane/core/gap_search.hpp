@@ -20,7 +20,9 @@ struct GapShift {
 class GapSearch {
  public:
   explicit GapSearch(const Options& options)
-      : search_(options), least_count_(static_cast<std::uint32_t>(options.min_observations)) {}
+      : search_(options),
+        least_count_(static_cast<std::uint32_t>(options.min_observations)),
+        expected_(options.map_bound_m) {}
 
   /// Takes note of the walls that are seen.
   void note_seen(const OpenGaps& gaps, const Frame& frame);
@@ -31,15 +33,19 @@ class GapSearch {
 
  private:
   std::optional<GapShift> tie_by_corner(const WallMap& map, const Gap& gap, const Frame& frame);
+  std::optional<GapShift> tie_by_wall(const WallMap& map, const Gap& gap, const Frame& frame);
   std::vector<Index> walls_since(const WallMap& map, const Gap& gap) const;
 
   ShiftSearch search_;
   std::uint32_t least_count_;
+  double expected_;           // displacement that a single wall may tell [m]
   std::vector<Index> young_;  // walls seen lately, while there was a gap
   double seen_shift_ = 0.0;   // that the last look found
   bool has_seen_shift_ = false;
   int ties_ = 0;  // frames in a row that tell the same displacement by corners
   double tie_ = 0.0;
+  int wall_ties_ = 0;  // likewise by a wall
+  double wall_tie_ = 0.0;
 };
 
 }  // namespace hallway::slam_plane

@@ -122,6 +122,23 @@ void ShiftSearch::vote(const WallMap& map, Index young, const Gap& gap) {
   for (const Index old : seen_) vote(map, young, old, gap);
 }
 
+Index ShiftSearch::only_twin(const WallMap& map, Index young, const Gap& gap, double& shift) {
+  across_.setZero();
+  votes_.clear();
+  vote(map, young, gap);
+  Index twin = kNone;
+  for (const Vote& v : votes_) {
+    if (twin != kNone && v.old != twin) return kNone;
+    twin = v.old;
+  }
+  for (const Vote& v : votes_) {
+    if (v.kind != Kind::corner) continue;
+    shift = v.shift;
+    return twin;
+  }
+  return kNone;
+}
+
 /// Of votes next to each other in their order: how many lines and corners of young walls.
 int ShiftSearch::support(std::size_t first, std::size_t end) const {
   voters_.clear();

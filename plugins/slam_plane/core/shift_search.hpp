@@ -28,6 +28,10 @@ class ShiftSearch {
   bool find(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
             std::vector<Twins>& twins);
 
+  /// Looks for the one old wall that a young wall across the direction can be: whose line and corner lie where the young one's do, if no other old wall's do at any displacement
+  /// that the gap allows. `shift`: along the gap's direction [m]. kNone if there is none, or more than one. O(range), flat in the size of the map.
+  Index only_twin(const WallMap& map, Index young, const Gap& gap, double& shift);
+
  private:
   enum class Kind { line, corner };
   struct Vote {

@@ -134,6 +134,51 @@ TEST(RefittedPlanes, PlanesThatAreNotInTheMapSayNothing) {
   EXPECT_TRUE(path.place(map_of(4)).empty());
 }
 
+TEST(RefittedPlanes, ACutNearAnEndDoesNotMoveWhatLinesTell) {
+  RefittedPlanes path;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Pose T = turned(0.1 * i, Vec3(2, 2, 0.8));
+    path.add(i, T, std::array{seen(T, 0), seen(T, 1)});
+  }
+  const Pose truth = turned(0.3, Vec3(2, 2, 0.8));
+  path.add(20, truth, std::array{seen(truth, 0, 0.08 / 6.0), seen(truth, 1)});
+  const auto placed = path.place(map_of(2));
+  ASSERT_EQ(placed.size(), 21u);
+  EXPECT_NEAR((placed[20].T_map_body.t - truth.t).norm(), 0.0, 1e-9);
+}
+
+TEST(RefittedPlanes, OneEndAloneDoesNotTellThePlace) {
+  // A cut 5 cm from where the wall ends looks like its end, and nothing else in the frame says that it is none.
+  const Pose truth = turned(0.0, Vec3(2, 2, 0.8));
+  RefittedPlanes path;
+  for (std::uint32_t i = 0; i < 20; ++i) path.add(i, truth, std::array{seen(truth, 0), seen(truth, 1)});
+  GivenPlane one = seen(truth, 0, 0.05 / 6.0);
+  for (const std::size_t i : {0u, 3u}) one.bounds[i] += 0.5 * (one.bounds[1] - one.bounds[0]);
+  path.add(20, truth, std::array{one});
+  path.add(21, truth, std::array{seen(truth, 0)});  // both ends, as far apart as they are in the map
+  const auto placed = path.place(map_of(4));
+  ASSERT_EQ(placed.size(), 21u);
+  EXPECT_EQ(placed.back().iteration, 21u);
+}
+
+TEST(RefittedPlanes, APlaneThatIsGoneStandsForTheOneWhereItWasSeen) {
+  const Pose truth = turned(0.3, Vec3(2, 2, 0.8));
+  const Pose answered = turned(0.3, truth.t + Vec3(0.02, 0.05, 0));
+  const auto placed_of = [&](std::uint32_t frames) {
+    RefittedPlanes path;
+    for (std::uint32_t i = 0; i < frames; ++i) {
+      GivenPlane gone = seen(truth, 2, 0.3);
+      gone.taken_for = 99;
+      path.add(i, answered, std::array{seen(truth, 1, 0.4), gone});
+    }
+    return path.place(map_of(4));
+  };
+  EXPECT_TRUE(placed_of(4).empty());  // too seldom to tell
+  const auto placed = placed_of(10);
+  ASSERT_EQ(placed.size(), 10u);
+  for (const auto& one : placed) EXPECT_NEAR((one.T_map_body.t - truth.t).norm(), 0.0, 1e-6);
+}
+
 TEST(RefittedPlanes, EachKindIsWeighedByItsScatter) {
   // Ends that are good to 5 mm and lines to 5 cm: the error is that of the ends, though nobody says which is the better.
   const Random random(1, stream_id("test.refitted_planes"));

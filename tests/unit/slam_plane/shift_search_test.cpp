@@ -59,6 +59,27 @@ TEST(ShiftSearch, CornersOfWallsAlongTheGapTellItToo) {
   EXPECT_EQ(twins.size(), 4u);
 }
 
+TEST(ShiftSearch, OneWallWithACornerIsTheOnlyOneThatItCanBe) {
+  Displaced d;
+  const Index old = d.add({5, 1}, {5, -1}, 0, true, false);
+  const Index young = d.add({5.1, 1}, {5.1, 0}, 1, true, false);
+  double shift = 0.0;
+  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, young, kGap, shift), old);
+  EXPECT_NEAR(shift, -0.1, 1e-9);
+  d.add({6.5, 1}, {6.5, -1}, 0, true, false);  // it may as well be that one
+  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, young, kGap, shift), kNone);
+}
+
+TEST(ShiftSearch, OneWallWithoutACornerTellsNothing) {
+  Displaced d;
+  d.add({5, 1}, {5, -1}, 0, true, false);
+  const Index open = d.add({5.1, 0.9}, {5.1, 0}, 1, false, false);
+  const Index elsewhere = d.add({5.1, 0.5}, {5.1, -0.9}, 1, true, false);  // its corner is not there
+  double shift = 0.0;
+  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, open, kGap, shift), kNone);
+  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, elsewhere, kGap, shift), kNone);
+}
+
 TEST(ShiftSearch, TooFewWallsTellNothing) {
   Displaced d;
   d.add_both({5, 1}, {5, 0}, 0.8);
