@@ -17,11 +17,13 @@
 
 namespace {
 
-using namespace hallway::slam_plane;
 using namespace hallway::slam_plane::spatial;
 using hallway::bench::cpu_us;
 using hallway::bench::GrowthTable;
 using hallway::bench::mean_of;
+using hallway::slam_plane::Noise;
+using hallway::slam_plane::Options;
+using hallway::slam_plane::Vec3;
 
 constexpr int kRuns = 3;
 constexpr double kStep_m = 0.1;

@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "support/data.hpp"
+#include "support/long_mode.hpp"
 #include "support/process.hpp"
 #include "support/temp_folder.hpp"
 
@@ -33,6 +34,19 @@ class SpatialMaps : public testing::Test {
     return hallway(arguments);
   }
 
+  Json run_with_noise(int seed) const {
+    Strings more = kNoise;
+    more.insert(more.end(), {"--seed", std::to_string(seed), "--force", "--in-process"});
+    const Ended ended = run(out("run"), more);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return metrics(out("run"));
+  }
+
+  /// Whether each face is mapped, and none twice.
+  static bool is_whole(const Json& planes) {
+    return planes.at("final").at("walls_missing") == 0 && planes.at("final").at("duplicated") == 0;
+  }
+
   static Json metrics(const fs::path& run) { return Json::parse(read_file(run / "metrics.json")); }
 
   static void expect_same(const fs::path& a, const fs::path& b) {
@@ -55,20 +69,25 @@ TEST_F(SpatialMaps, WithoutNoiseAreExact) {
   EXPECT_EQ(planes.at("final").at("duplicated"), 0);
   EXPECT_LT(planes.at("position_m").at("max").get<double>(), 1e-6);
   EXPECT_LT(planes.at("final").at("offset_m").at("max").get<double>(), 1e-6);
-  EXPECT_EQ(found.at("association").at("errors"), 0);
+  EXPECT_EQ(planes.at("association_errors"), 0);
 }
 
 TEST_F(SpatialMaps, WithNoiseAreGoodToCentimetres) {
-  Strings more = kNoise;
-  more.emplace_back("--in-process");
-  const Ended ended = run(out("run"), more);
-  ASSERT_EQ(ended.status, 0) << ended.err;
-  const Json found = metrics(out("run"));
+  // Neighbours in one plane, as the parts of a floor about a cabinet are, were taken for each other with seed 2.
+  const Json found = run_with_noise(2);
   EXPECT_EQ(found.at("lost_iterations"), 0);
   const Json& planes = found.at("planes");
-  EXPECT_EQ(planes.at("final").at("walls_mapped"), planes.at("walls_true"));
+  EXPECT_TRUE(is_whole(planes));
+  EXPECT_LE(planes.at("association_errors").get<double>(), 0.001 * planes.at("observations").get<double>());
   EXPECT_LT(planes.at("position_refitted_m").at("rms").get<double>(), 0.01);
   EXPECT_LT(planes.at("final").at("offset_m").at("rms").get<double>(), 0.01);
+}
+
+TEST_F(SpatialMaps, AreWholeForEverySeed) {
+  const int seeds = long_mode() ? 20 : 0;
+  int whole = 0;
+  for (int seed = 1; seed <= seeds; ++seed) whole += is_whole(run_with_noise(seed).at("planes")) ? 1 : 0;
+  EXPECT_GE(whole, 0.95 * seeds);
 }
 
 TEST_F(SpatialMaps, AreTheSameIsolatedInThisProcessAndReplayed) {
