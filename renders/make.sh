@@ -40,6 +40,9 @@ for scenario in four_planes hallway hallway_return key_points loop_corridor moti
   "$hallway" run "$here/../maps/$scenario.toml" "${noise[@]}" --out "$work/$scenario" --quiet
   "$hallway" render "$work/$scenario" --view top --cut 1.5 --size 760x520 --show map,truth,estimate,walls,submaps --out "$here/walls_$scenario.png"
 done
+# Faces as slam_plane maps them in six degrees of freedom, with their certain edges.
+"$hallway" run "$here/../maps/spatial_rooms.toml" "${noise[@]}" --out "$work/spatial_rooms" --quiet
+"$hallway" render "$work/spatial_rooms" --view perspective --size 1120x640 --show map,truth,estimate,walls --out "$here/walls_spatial_rooms.png"
 # Points, the planes that em finds in them, and the map of these planes (thesis chapter 5).
 for scenario in em_corridor em_floor; do
   "$hallway" run "$here/../maps/$scenario.toml" --out "$work/$scenario" --quiet

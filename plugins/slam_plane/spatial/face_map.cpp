@@ -54,6 +54,7 @@ FaceMap::FaceMap(const Options& options)
 Index FaceMap::add_face() {
   faces.emplace_back();
   active_member_.push_back(kNone);
+  ++count_;
   return faces.size() - 1;
 }
 
@@ -63,7 +64,11 @@ Index FaceMap::add_submap(const Pose3& T_map_submap) {
 }
 
 void FaceMap::activate(Index submap) {
-  std::fill(active_member_.begin(), active_member_.end(), kNone);
+  if (active_ != kNone) {
+    for (const Member& member : submaps[active_].members) {
+      if (member.face != kNone) active_member_[member.face] = kNone;
+    }
+  }
   active_ = submap;
   const std::vector<Member>& members = submaps[submap].members;
   for (Index m = 0; m < members.size(); ++m) {
@@ -101,8 +106,9 @@ void FaceMap::observe(const Pose3& T_submap_robot, const Sighting& sighting, std
   update(sighting.face);
   points.clear();
   for (const Vec3& p : sighting.outline) points.push_back(T_map_robot * p);
-  extend_outline(faces[sighting.face], points);
+  extend_outline(sighting.face, points);
   note_beyond(T_map_robot, sighting);
+  count_edges(sighting.face);
 }
 
 void FaceMap::observe_edges(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration,
@@ -157,7 +163,20 @@ int FaceMap::revoke_edges(Index face, std::uint64_t iteration) {
     if (is_certain(edge)) ++revoked;
     forget_edge(face, edge.id);
   }
+  if (revoked > 0) {
+    count_edges(face);
+    rebuild(face);  // it goes on where it was cut
+  }
   return revoked;
+}
+
+/// Brings the counts of certain edges up to date.
+void FaceMap::count_edges(Index index) {
+  FaceRecord& face = faces[index];
+  certain_edges_ -= face.certain_edges;
+  face.certain_edges = static_cast<std::uint32_t>(std::count_if(
+      face.edges.begin(), face.edges.end(), [this](const EdgeRecord& edge) { return is_certain(edge); }));
+  certain_edges_ += face.certain_edges;
 }
 
 void FaceMap::forget_edge(Index face, EdgeId id) {
@@ -193,10 +212,25 @@ void FaceMap::update(Index index) {
   }
 }
 
-void FaceMap::extend_outline(FaceRecord& face, std::span<const Vec3> points) {
+void FaceMap::extend_outline(Index index, std::span<const Vec3> points) {
+  FaceRecord& face = faces[index];
   std::vector<Vec3> all = face.outline;
   all.insert(all.end(), points.begin(), points.end());
   face.outline = hull_on_plane(all, face.plane, kMostCorners);
+  cut_outline(face);
+  index_.put(index, face.outline);
+}
+
+/// The outline ends where the face does: noise does not carry it over the border of a neighbour in the same plane.
+void FaceMap::cut_outline(FaceRecord& face) const {
+  const PlaneAxes axes(face.plane.normal());
+  Polygon cut = flattened(face.outline, axes);
+  for (const EdgeRecord& edge : face.edges) {
+    if (is_certain(edge)) cut = clip(cut, axes.flat(edge.line.normal()), edge.line.offset());
+  }
+  if (cut.size() < 3) return;
+  face.outline.clear();
+  for (const Vec2& p : cut) face.outline.push_back(axes.lift(p, face.plane.offset()));
 }
 
 void FaceMap::rebuild(Index index) {
@@ -210,7 +244,7 @@ void FaceMap::rebuild(Index index) {
     for (const Vec3& p : submaps[at.submap].members[at.member].outline)
       points.push_back(submaps[at.submap].T_map_submap * p);
   }
-  extend_outline(face, points);
+  extend_outline(index, points);
 }
 
 std::vector<const Feature*> FaceMap::lines(Index face, bool all) const {
@@ -293,10 +327,15 @@ void FaceMap::merge(Index kept_index, Index gone_index) {
                kept_index);
   kept.observations += gone.observations;
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);
+  certain_edges_ -= gone.certain_edges;
   gone = FaceRecord{};
   gone.merged_into = kept_index;
+  --count_;
+  index_.remove(gone_index);
+  active_member_[gone_index] = kNone;
   activate(active_);
   rebuild(kept_index);
+  count_edges(kept_index);
 }
 
 }  // namespace hallway::slam_plane::spatial

@@ -7,6 +7,7 @@
 
 #include "slam_plane/core/options.hpp"
 #include "slam_plane/spatial/evidence.hpp"
+#include "slam_plane/spatial/face_index.hpp"
 #include "slam_plane/spatial/pose_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -60,6 +61,7 @@ struct FaceRecord {
   std::vector<MemberAt> members;
   std::vector<Index> beside;  ///< faces on its plane that a frame saw apart from it, ascending
   std::uint32_t observations = 0;
+  std::uint32_t certain_edges = 0;
   std::uint64_t last_seen = 0;
   Index merged_into = kNone;
 
@@ -100,6 +102,13 @@ class FaceMap {
   /// The lines of a face's edges, in their order; null for those that are not certain, unless all are wanted.
   std::vector<const Feature*> lines(Index face, bool all) const;
 
+  /// Faces that are not merged into others, and their certain edges, all together.
+  std::size_t count() const { return count_; }
+  std::size_t certain_edges() const { return certain_edges_; }
+
+  /// Faces whose bounding boxes touch a box of the map's frame, ascending. O(faces about it).
+  void find_near(const Box& box, std::vector<Index>& found) const { index_.find(box, found); }
+
   /// The member of the active submap that a face is, or null.
   const Member* in_active(Index face) const;
 
@@ -113,7 +122,9 @@ class FaceMap {
   void note_beyond(const Pose3& T_map_robot, const Sighting& sighting);
   void forget_edge(Index face, EdgeId id);
   void rename_edge(Index face, EdgeId from, EdgeId to);
-  void extend_outline(FaceRecord& face, std::span<const Vec3> points);
+  void extend_outline(Index face, std::span<const Vec3> points);
+  void cut_outline(FaceRecord& face) const;
+  void count_edges(Index face);
 
   Noise noise_;
   PoseFit edges_;  // tells which edge is which
@@ -121,6 +132,9 @@ class FaceMap {
   Index active_ = kNone;
   EdgeId next_edge_ = 0;
   std::vector<Index> active_member_;  // by face
+  FaceIndex index_;
+  std::size_t count_ = 0;
+  std::size_t certain_edges_ = 0;
 };
 
 /// Convex hull of points near a plane, seen from where the normal points.

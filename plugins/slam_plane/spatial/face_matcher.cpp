@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -11,7 +12,9 @@ namespace {
 constexpr double kLeastShare = 0.5;  // of the smaller outline
 constexpr double kTwinShare = 0.15;  // what lies in one plane and overlaps is one; less may be noise
 constexpr double kRivalShare = 0.2;  // two parts of one face share less than that of the smaller one
+constexpr double kTouch_m = 0.05;    // and are farther apart than noise may bring them
 constexpr double kLeastArea_m2 = 1e-4;
+constexpr double kSlack_m = 1e-6;  // of rounding
 constexpr double kTwins_m = 0.06;  // farthest that two faces lie from each other's planes that are one
 
 /// Area that two outlines share, as a share of the smaller one.
@@ -26,6 +29,10 @@ Polygon laid_flat(const std::vector<Vec3>& points, const Pose3& T, const PlaneAx
   return flat;
 }
 
+double area_of(const Sighting& sighting) {
+  return area(flattened(sighting.outline, PlaneAxes(sighting.normal)));
+}
+
 Vec3 middle_of(const std::vector<Vec3>& points) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
@@ -37,7 +44,21 @@ Vec3 middle_of(const std::vector<Vec3>& points) {
 FaceMatcher::FaceMatcher(const Options& options)
     : near_bound_(options.match_bound_m),
       map_bound_(options.map_bound_m),
-      cosine_(std::cos(options.match_angle_deg * std::numbers::pi / 180.0)) {}
+      cosine_(std::cos(options.match_angle_deg * std::numbers::pi / 180.0)),
+      sine_(std::sin(options.match_angle_deg * std::numbers::pi / 180.0)) {}
+
+/// The box about all points of faces that a sighting may be of. Where outlines overlap in the face's plane, the sighting lies above the face by no more than the bound and
+/// what the largest angle between them makes of its extent.
+Box FaceMatcher::about(const Sighting& sighting, const Pose3& T, double bound) const {
+  double bent = 0.0, reach = 0.0;  // a hull need not lie in its plane
+  for (const Vec3& p : sighting.outline) {
+    bent = std::max(bent, std::abs(sighting.normal.dot(p) - sighting.offset()));
+    reach = std::max(reach, (p - sighting.centre).norm());
+  }
+  Box box = box_of(sighting.outline, T);
+  const Vec3 margin = Vec3::Constant(bound + bent + reach * sine_ + kSlack_m);
+  return {box.min() - margin, box.max() + margin};
+}
 
 double FaceMatcher::score(const FaceRecord& face, const Sighting& sighting, const Pose3& T,
                           double bound) const {
@@ -46,43 +67,49 @@ double FaceMatcher::score(const FaceRecord& face, const Sighting& sighting, cons
   const double offset = std::abs(face.plane.distance(T * sighting.centre));
   if (offset > bound) return 0.0;
   const PlaneAxes axes(face.plane.normal());
-  const double share = shared(laid_flat(face.outline, Pose3{}, axes), laid_flat(sighting.outline, T, axes));
-  return share < kLeastShare ? 0.0 : share * (1.1 - offset / bound);
+  const Polygon known = laid_flat(face.outline, Pose3{}, axes), seen = laid_flat(sighting.outline, T, axes);
+  if (shared(known, seen) < kLeastShare) return 0.0;
+  return overlap_area(known, seen) / area(seen) * (1.1 - offset / bound);
 }
 
+/// Largest first: of two neighbours in one plane the larger one tells which face it is, and a sliver of the other is then not taken for the same.
 void FaceMatcher::match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
                         std::vector<Sighting>& frame) {
-  scores_.assign(frame.size(), 0.0);
+  std::vector<std::pair<double, Index>> order;
   for (Index i = 0; i < frame.size(); ++i) {
-    Sighting& sighting = frame[i];
-    if (sighting.face != kNone) {
-      scores_[i] =
-          score(map.faces[sighting.face], sighting, T, bound) + 1.0;  // stays before those that come now
-      continue;
-    }
-    for (Index f = 0; f < map.faces.size(); ++f) {
+    if (frame[i].face == kNone) order.emplace_back(-area_of(frame[i]), i);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [size, i] : order) {
+    candidates_.clear();
+    map.find_near(about(frame[i], T, bound), near_);
+    for (const Index f : near_) {
       const FaceRecord& face = map.faces[f];
-      if (!face.alive() || face.last_seen < since || face.outline.size() < 3) continue;
-      const double found = score(face, sighting, T, bound);
-      if (found <= scores_[i]) continue;
-      scores_[i] = found;
-      sighting.face = f;
+      if (face.last_seen < since || face.outline.size() < 3) continue;
+      const double found = score(face, frame[i], T, bound);
+      if (found > 0.0) candidates_.emplace_back(-found, f);
+    }
+    std::sort(candidates_.begin(), candidates_.end());
+    for (const auto& [score, f] : candidates_) {
+      if (is_taken(map.faces[f], f, frame, i, T)) continue;
+      frame[i].face = f;
+      break;
     }
   }
-  resolve_rivals(map, T, frame);
 }
 
-/// Of two sightings that would be the same part of one face the better one is it.
-void FaceMatcher::resolve_rivals(const FaceMap& map, const Pose3& T, std::vector<Sighting>& frame) {
-  for (Index i = 0; i < frame.size(); ++i) {
-    for (Index k = i + 1; k < frame.size(); ++k) {
-      if (frame[i].face == kNone || frame[i].face != frame[k].face) continue;
-      const PlaneAxes axes(map.faces[frame[i].face].plane.normal());
-      if (shared(laid_flat(frame[i].outline, T, axes), laid_flat(frame[k].outline, T, axes)) < kRivalShare)
-        continue;
-      (scores_[i] < scores_[k] ? frame[i] : frame[k]).face = kNone;
-    }
+/// Whether another sighting is a face, and lies where this one would be the same part of it, or next to it: what one frame sees as two that touch is two.
+bool FaceMatcher::is_taken(const FaceRecord& face, Index index, const std::vector<Sighting>& frame, Index own,
+                           const Pose3& T) const {
+  const PlaneAxes axes(face.plane.normal());
+  Polygon part;
+  for (Index k = 0; k < frame.size(); ++k) {
+    if (k == own || frame[k].face != index) continue;
+    if (part.empty()) part = laid_flat(frame[own].outline, T, axes);
+    const Polygon other = laid_flat(frame[k].outline, T, axes);
+    if (shared(part, other) >= kRivalShare || distance(part, other) <= kTouch_m) return true;
   }
+  return false;
 }
 
 void FaceMatcher::match_recent(const FaceMap& map, std::uint64_t since, const Pose3& T_map_robot,
@@ -107,6 +134,21 @@ bool FaceMatcher::are_twins(const FaceMap& map, Index a, Index b) const {
   if (!on_one_plane(one, other)) return false;
   const PlaneAxes axes(one.plane.normal());
   return shared(laid_flat(one.outline, Pose3{}, axes), laid_flat(other.outline, Pose3{}, axes)) >= kTwinShare;
+}
+
+std::vector<Index> FaceMatcher::twins_of(const FaceMap& map, Index face) const {
+  const std::vector<Vec3>& outline = map.faces[face].outline;
+  if (outline.size() < 3) return {};
+  const Vec3 middle = middle_of(outline);
+  double reach = 0.0;
+  for (const Vec3& p : outline) reach = std::max(reach, (p - middle).norm());
+  // The middle lies near the other's plane, which is tilted by the largest angle at most.
+  const Vec3 margin = Vec3::Constant((kTwins_m + reach * sine_) / cosine_ + kSlack_m);
+  const Box box = box_of(outline);
+  std::vector<Index> twins;
+  map.find_near({box.min() - margin, box.max() + margin}, twins);
+  std::erase_if(twins, [&](Index other) { return other == face || !are_twins(map, face, other); });
+  return twins;
 }
 
 }  // namespace hallway::slam_plane::spatial

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -72,6 +74,36 @@ double overlap_area(const Polygon& a, const Polygon& b) {
     both = clip(both, outward, outward.dot(from));
   }
   return area(both);
+}
+
+double width(const Polygon& polygon) {
+  const std::size_t n = polygon.size();
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 run = polygon[(i + 1) % n] - polygon[i];
+    if (run.norm() < std::numeric_limits<double>::min()) continue;
+    double most = 0.0;
+    for (const Vec2& p : polygon) most = std::max(most, std::abs(cross(run, p - polygon[i])) / run.norm());
+    least = std::min(least, most);
+  }
+  return n < 3 ? 0.0 : least;
+}
+
+double distance(const Polygon& a, const Polygon& b) {
+  if (overlap_area(a, b) > 0.0) return 0.0;
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [corners, sides] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    const std::size_t n = sides->size();
+    for (const Vec2& p : *corners) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 &from = (*sides)[i], run = (*sides)[(i + 1) % n] - from;
+        const double length2 = std::max(run.squaredNorm(), std::numeric_limits<double>::min());
+        const double share = std::clamp(run.dot(p - from) / length2, 0.0, 1.0);
+        least = std::min(least, (from + share * run - p).norm());
+      }
+    }
+  }
+  return least;
 }
 
 void simplify(Polygon& polygon, std::size_t most) {

@@ -26,6 +26,9 @@ struct PlaneAxes {
 /// Area of a polygon [m^2].
 double area(const Polygon& polygon);
 
+/// The least distance between two parallel lines that a convex polygon lies between [m]. O(n^2).
+double width(const Polygon& polygon);
+
 /// The convex hull of points; less than three where they lie on a line. O(n log n).
 Polygon convex_hull(std::vector<Vec2> points);
 
@@ -34,6 +37,9 @@ Polygon clip(const Polygon& polygon, const Vec2& normal, double offset);
 
 /// Area that two polygons share [m^2]. O(n m).
 double overlap_area(const Polygon& a, const Polygon& b);
+
+/// How far two polygons are from each other at their nearest points; 0 if they overlap [m]. O(n m).
+double distance(const Polygon& a, const Polygon& b);
 
 /// Takes away the corners that matter least until `most` are left.
 void simplify(Polygon& polygon, std::size_t most);

@@ -2,8 +2,17 @@
 #include "slam_plane/spatial/sighting.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
+namespace {
+
+constexpr double kSliverSigmas = 4.0;  // of the distance between two edges
+
+}  // namespace
 
 Sighting sighting_of(const Face& face, std::size_t given) {
   Sighting sighting;
@@ -19,6 +28,11 @@ Sighting sighting_of(const Face& face, std::size_t given) {
     if (outward.norm() > 0.0) sighting.edges.push_back({{a, b}, outward.normalized(), false});
   }
   return sighting;
+}
+
+bool is_sliver(const Sighting& sighting, const Noise& noise) {
+  const double sigma = std::numbers::sqrt2 * std::hypot(noise.end, noise.along);
+  return width(flattened(sighting.outline, PlaneAxes(sighting.normal))) < kSliverSigmas * sigma;
 }
 
 }  // namespace hallway::slam_plane::spatial

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "slam_plane/core/options.hpp"
 #include "slam_plane/spatial/types.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -31,5 +32,8 @@ struct Sighting {
 
 /// The sighting of a face; its edges are not judged yet.
 Sighting sighting_of(const Face& face, std::size_t given);
+
+/// Whether a sighting is narrower than what noise may make of nothing: it may be of any face that ends there.
+bool is_sliver(const Sighting& sighting, const Noise& noise);
 
 }  // namespace hallway::slam_plane::spatial

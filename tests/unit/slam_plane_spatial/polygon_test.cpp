@@ -25,6 +25,17 @@ TEST(SpatialPolygon, OverlapIsWhatBothHave) {
   EXPECT_NEAR(overlap_area(rectangle(0, 0, 4, 4), {{1, 1}, {3, 1}, {2, 3}}), 2.0, 1e-12);
 }
 
+TEST(SpatialPolygon, DistanceIsThatOfTheNearestPoints) {
+  EXPECT_EQ(distance(rectangle(0, 0, 2, 2), rectangle(1, 1, 3, 3)), 0.0);
+  EXPECT_NEAR(distance(rectangle(0, 0, 1, 1), rectangle(1.5, 0.2, 3, 0.8)), 0.5, 1e-12);
+  EXPECT_NEAR(distance(rectangle(0, 0, 1, 1), rectangle(4, 5, 6, 6)), 5.0, 1e-12);
+}
+
+TEST(SpatialPolygon, WidthIsAcrossTheNarrowWay) {
+  EXPECT_NEAR(width(rectangle(0, 0, 3, 0.5)), 0.5, 1e-12);
+  EXPECT_NEAR(width({{0, 0}, {4, 0}, {0, 3}}), 2.4, 1e-12);
+}
+
 TEST(SpatialPolygon, SimplifyingDropsTheFlattestCorners) {
   Polygon polygon{{0, 0}, {1, -0.01}, {2, 0}, {2, 2}, {0, 2}};
   simplify(polygon, 4);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/face_map.hpp"
+#include "slam_plane/spatial/face_matcher.hpp"
+#include "slam_plane/spatial/pose_fit.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// A frame on its way through an iteration.
+struct Frame {
+  std::uint64_t iteration = 0;
+  std::vector<Sighting> sightings;
+  Pose3 T_map_robot;
+  Pose3 T_submap_robot;   ///< in the active submap; between iterations that of the last frame
+  PoseInformation known;  ///< of T_map_robot
+
+  /// Faces that it saw, ascending.
+  std::vector<Index> faces() const;
+};
+
+/// Says of which faces a frame's sightings are, and where it was made from, from where constant velocity gives it to be.
+class FrameLocator {
+ public:
+  explicit FrameLocator(const Options& options);
+
+  /// Sets the faces of sightings, the frame's pose and what is known of it. Answers why there is none, or `no`.
+  Lost locate(const FaceMap& map, Frame& frame);
+
+  /// What a frame tells of its own pose in a world that is known exactly.
+  PoseInformation own_information(const Frame& frame) const { return fit_.own_information(frame.sightings); }
+
+  /// Learns from a frame with a pose how the robot moves. What is predicted goes on in the frame of the active submap.
+  void note_motion(const FaceMap& map, Frame& frame);
+  /// Without a pose the robot goes on as predicted in what is open.
+  void drift(const FaceMap& map, Frame& frame);
+  /// The map about the robot was moved.
+  void carry(const Pose3& T_map_before);
+
+ private:
+  void predict(const FaceMap& map, Frame& frame) const;
+  void associate(const FaceMap& map, Frame& frame);
+  PoseInformation fit(const FaceMap& map, const Frame& frame, Pose3& T);
+  bool drop_strays(const FaceMap& map, const Pose3& T, Frame& frame) const;
+
+  FaceMatcher matcher_;
+  PoseFit fit_;
+  double smoothing_;
+  double worst_doubt_m_;
+  std::optional<Pose3> T_before_;  // of the last frame in the map, if it had a pose
+  Vec6 motion_ = Vec6::Zero();     // predicted, from frame to frame, in the robot's frame
+  bool moving_ = false;            // it is known
+  double doubt_m_ = 0.0;           // of the predicted place, while there is no pose
+};
+
+}  // namespace hallway::slam_plane::spatial
