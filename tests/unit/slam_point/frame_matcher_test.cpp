@@ -117,17 +117,19 @@ TEST(FrameMatcher, ALandmarkThatIsTakenIsNotTakenAgain) {
 TEST(FrameMatcher, BoundsWidenWithTheNoiseOfAPointAsFarAsTheGridReaches) {
   const Options options;  // reach 0.8 m
   SubmapGraph graph(options.map_bound());
-  for (const double y : {0.0, 10.0, 20.0}) graph.add_landmark(Vec3(0, y, 0), 5);
+  for (const double y : {0.0, 10.0, 20.0, 30.0}) graph.add_landmark(Vec3(0, y, 0), 5);
   FrameMatcher matcher(options);
   // Of twice the noise: 0.3 m are 0.6 m. Of ten times the noise: 0.8 m and no more.
-  std::vector<Observation> frame{{Vec3(0.55, 0, 0), 0}, {Vec3(0.65, 10, 0), 1}, {Vec3(0.75, 20, 0), 2}};
+  std::vector<Observation> frame{
+      {Vec3(0.55, 0, 0), 0}, {Vec3(0.65, 10, 0), 1}, {Vec3(0.75, 20, 0), 2}, {Vec3(0.85, 30, 0), 3}};
   frame[0].weight = frame[1].weight = 0.25;
-  frame[2].weight = 0.01;
+  frame[2].weight = frame[3].weight = 0.01;
   matcher.mark(graph, frame);
   matcher.match_map(graph, Pose{}, 3, 0.3, frame);
   EXPECT_EQ(frame[0].landmark, 0u);
   EXPECT_EQ(frame[1].landmark, kNone);
   EXPECT_EQ(frame[2].landmark, 2u);
+  EXPECT_EQ(frame[3].landmark, kNone);
 }
 
 TEST(FrameMatcher, LocalLandmarksAreMatchedWithinTheLocalBoundOnly) {

@@ -44,6 +44,14 @@ TEST(FramePlacer, FramesWithoutAPoseAreBridgedAsLongAsItIsSaid) {
   EXPECT_FALSE(found_at(2, 4, 4.5));
 }
 
+TEST(FramePlacer, WhatItMovedOverALossIsSharedAmongTheFrames) {
+  Sensor sensor(room(20, 1, false));
+  for (const double x : {0.5, 1.0, 1.5, 2.0}) sensor.follow(ahead(x));
+  for (int frame = 0; frame < 3; ++frame) sensor.lose();
+  sensor.follow(ahead(4.0));
+  EXPECT_TRUE(sensor.track(sensor.landmarks(), ahead(4.5)));
+}
+
 TEST(FramePlacer, AFrameIsSureWhenHalfOfThePointsAgreeAndOfFewAllDo) {
   for (const bool planar : {false, true}) {
     const std::vector<Vec3> known = room(20, 2, planar);
@@ -66,6 +74,14 @@ TEST(FramePlacer, ThreePointsInSpaceMakeAPose) {
   EXPECT_TRUE(sensor.place(first_of(known, 3), ahead(0.1)));
   EXPECT_FALSE(sensor.place(first_of(known, 2), ahead(0.1)));
   EXPECT_FALSE(sensor.place(first_of(known, 2) + nowhere(1, false), ahead(0.1)));
+}
+
+TEST(FramePlacer, InSpaceTwoOfThreePointsMakeNone) {
+  // The third one lies half a metre aside, out of the plane of the others and the sensor: no turn makes up for that.
+  const std::vector<Vec3> known{{8, 0, 0}, {8, 4, 0}, {8, -4, 0}, {0, 9, 1}, {0, -9, 2}};
+  Sensor sensor(known);
+  EXPECT_TRUE(sensor.place({{8, 0, 0}, {8, 4, 0}, {0, 9, 1}}, Pose{}));
+  EXPECT_FALSE(sensor.place({{8, 0, 0}, {8, 4, 0}, {0.57, 9, 1}}, Pose{}));
 }
 
 TEST(FramePlacer, TwoPointsInAPlaneMakeAPoseWhereAThirdIsInView) {
@@ -146,6 +162,36 @@ TEST(FramePlacer, AFrameThatShowsWhatIsExpectedDoesNotTellThatTheSensorIsElsewhe
   EXPECT_FALSE(placed_after({{}, line})) << "what was contradicted once";
 }
 
+/// A sensor whose map is of long ago: landmarks may lie elsewhere, as far as the map bound.
+struct OnOldGround : Sensor {
+  explicit OnOldGround(const std::vector<Vec3>& known) : Sensor(known, false, short_memory()) {
+    for (int more = 0; more < 2; ++more) {
+      graph.deactivate();
+      submaps.open_new(Pose{});
+      placer.enter_submap(Pose{});
+    }
+  }
+  static Options short_memory() {
+    Options options;
+    options.window = 1;
+    return options;
+  }
+};
+
+TEST(FramePlacer, AFrameThatFitsAndDoesNotAgreeTellsThatTheSensorIsElsewhere) {
+  const std::vector<Vec3> known = room(20, 11, false);
+  std::vector<Vec3> shaken = known;
+  for (std::size_t i = 0; i < shaken.size(); ++i)
+    shaken[i][static_cast<Eigen::Index>(i % 3)] += i % 2 == 0 ? 0.6 : -0.6;  // six ways
+  OnOldGround undisturbed(known);
+  EXPECT_TRUE(undisturbed.place(first_of(known, 3), Pose{}));
+  OnOldGround sensor(known);
+  EXPECT_FALSE(sensor.place(shaken, Pose{}));
+  EXPECT_EQ(sensor.matched(), 20u);
+  sensor.placer.lose(sensor.frame);
+  EXPECT_FALSE(sensor.place(first_of(known, 3), Pose{}));
+}
+
 TEST(FramePlacer, APoseMakesGoodWhatWasContradictedBefore) {
   const std::vector<Vec3> known = line_and_others();
   Sensor sensor(known);
@@ -199,15 +245,8 @@ TEST(FramePlacer, AFrameWithoutAPoseIsUnmatched) {
 // ---- What the placed frame leaves behind
 
 TEST(FramePlacer, AStrayMatchToOldGroundIsDroppedWhenTheFrameIsAccepted) {
-  Options options;
-  options.window = 1;
   const std::vector<Vec3> known = room(20, 11, false);
-  Sensor sensor(known, false, options);
-  for (int more = 0; more < 2; ++more) {
-    sensor.graph.deactivate();
-    sensor.submaps.open_new(Pose{});
-    sensor.placer.enter_submap(Pose{});
-  }
+  OnOldGround sensor(known);
   std::vector<Vec3> seen = known;
   seen[7].z() += 0.5;  // beyond six noise_m, within the map bound
   ASSERT_TRUE(sensor.place(seen, Pose{}));
@@ -227,6 +266,13 @@ TEST(FramePlacer, LiesInTheSubmapAsItLiesInTheMap) {
   ASSERT_TRUE(sensor.place(sensor.landmarks(), here));
   EXPECT_LT((sensor.placer.T_submap_sensor().t - here.t).norm(), 1e-9);
   sensor.expect_at(sensor.graph.poses[0] * here);
+}
+
+TEST(FramePlacer, WhereTheActiveSubmapKnowsNothingTheMapTellsWhereTheFrameIs) {
+  OnOldGround sensor(room(20, 11, false));
+  ASSERT_TRUE(sensor.place(sensor.landmarks(), ahead(0.3)));
+  sensor.expect_at(ahead(0.3));
+  EXPECT_LT((sensor.placer.T_submap_sensor().t - Vec3(0.3, 0, 0)).norm(), 1e-9);
 }
 
 TEST(FramePlacer, FollowsTheMapWhenThatMoves) {

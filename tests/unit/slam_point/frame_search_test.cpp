@@ -37,13 +37,40 @@ TEST(FramePlacer, TurnsAreSearchedFartherTheLongerTheSensorIsLost) {
   EXPECT_FALSE(finds_turn(0.33, 0.0, 0)) << "not where that is not asked for";
 }
 
-TEST(FramePlacer, AfterAStopTheTurnIsSearchedAboutWhereTheSensorWas) {
-  Sensor sensor(room(20, 1, false));
-  for (const double x : {0.5, 1.3, 2.3, 3.3}) sensor.follow(ahead(x));
-  ASSERT_FALSE(sensor.track(sensor.landmarks(), ahead(3.3, 0.3)));
+TEST(FramePlacer, ATurnIsSearchedWhereTheSensorIsExpectedAndWhereItWas) {
+  for (const double x : {10.5, 13.5}) {
+    Options options;
+    options.smoothing = 1.0;
+    Sensor sensor(room(20, 1, false), false, options);
+    for (const double at : {0.5, 1.5, 3.0, 5.0, 7.5, 10.5}) sensor.follow(ahead(at));
+    ASSERT_FALSE(sensor.track(sensor.landmarks(), ahead(x, 0.3)));
+    sensor.placer.search(kByTurnsAlone, sensor.frame);
+    EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
+    sensor.expect_at(ahead(x, 0.3));
+  }
+}
+
+TEST(FramePlacer, WhatWasSearchedIsNotWhereTheSensorWasExpected) {
+  // Three points are enough for a pose where the sensor is expected after a frame that showed what was expected.
+  std::vector<Vec3> known;
+  for (int i = 0; i < 8; ++i) known.emplace_back(6.0 + 2.0 * i, 0.0, 0.0);
+  const std::vector<Vec3> three{{0, 7, 1}, {-5, -5, 2}, {3, -9, -3}};
+  Sensor sensor(known + three);
+  sensor.lose(known);
+  EXPECT_TRUE(sensor.place(three, Pose{}));
+  sensor.track(three, ahead(0.0, 0.3));
   sensor.placer.search(kByTurnsAlone, sensor.frame);
-  EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
-  sensor.expect_at(ahead(3.3, 0.3));
+  EXPECT_EQ(sensor.matched(), 3u);
+  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
+}
+
+TEST(FramePlacer, AfterItWasCarriedTheSensorIsExpectedToMoveAsBefore) {
+  Sensor sensor(room(30, 8, false));
+  for (const double x : {0.5, 1.0, 1.5, 2.0}) sensor.follow(ahead(x));
+  ASSERT_FALSE(sensor.track(sensor.landmarks(), ahead(-8.0)));
+  ASSERT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
+  sensor.placer.accept(sensor.frame);
+  EXPECT_TRUE(sensor.track(sensor.landmarks(), ahead(-7.5)));
 }
 
 TEST(FramePlacer, AFrameIsFoundByWhatItSeesWhereverTheSensorWasCarried) {
@@ -100,6 +127,16 @@ TEST(FramePlacer, AFrameOfAnotherPartIsToldAndNotPlaced) {
   // The next frame is where the motion led: what was found is forgotten.
   EXPECT_TRUE(sensor.track(sensor.landmarks(), Pose{}));
   EXPECT_EQ(sensor.placer.found_elsewhere().part, kNone);
+}
+
+TEST(FramePlacer, AFrameOfAnotherPartIsNotPlacedThoughSomeOfItAgreesHere) {
+  OtherPart sensor;
+  // 13 of 30 agree where the sensor was: that would be a pose, but not a sure one.
+  ASSERT_FALSE(sensor.track(first_of(sensor.landmarks(), 13) + sensor.other, Pose{}));
+  EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
+  EXPECT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
+  EXPECT_EQ(sensor.placer.found_elsewhere().part, 1u);
+  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
 }
 
 TEST(FramePlacer, GoesOnFromWhereItWasFoundElsewhere) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "scenes.hpp"
 
@@ -76,6 +77,42 @@ TEST(MotionBinning, ByHand) {
   EXPECT_EQ(result.bin_of, (std::vector<std::uint32_t>{0, 1, 0, 0, 4}));
   EXPECT_TRUE(result.stands(0) && result.stands(2) && result.stands(3));
   EXPECT_FALSE(result.stands(1) || result.stands(4));
+}
+
+TEST(MotionBinning, OfEqualBinsTheOneWithTheLowestPointStands) {
+  Labelled points{{1, 0, 0, 1, -1}};
+  BinningRules rules;
+  rules.threshold_m = 0.1;
+  const BinningResult result = binned(points, rules);
+  EXPECT_EQ(result.bin_of, (std::vector<std::uint32_t>{0, 1, 1, 0, 4}));
+  EXPECT_EQ(result.largest, 0u);
+}
+
+TEST(MotionBinning, NoTwoBinsAreComparedTwice) {
+  constexpr double kThreshold_m = 0.1;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Labelled points = shares(60, {0.4, 0.2, 0.1}, seed);
+    BinningRules rules;
+    rules.threshold_m = kThreshold_m;
+    std::vector<std::uint32_t> bin(points.labels.size());
+    std::iota(bin.begin(), bin.end(), 0u);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        apart;  // points of different bins that were compared
+    int again = 0;
+    bin_points(bin.size(), rules, [&](std::uint32_t a, std::uint32_t b) {
+      const std::set<std::uint32_t> now{bin[a], bin[b]};
+      for (const auto& [x, y] : apart) again += now == std::set<std::uint32_t>{bin[x], bin[y]} ? 1 : 0;
+      EXPECT_EQ(now.size(), 2u) << "they are in one bin";
+      const double deviation_m = points.deviation(a, b);
+      if (deviation_m > kThreshold_m) {
+        apart.emplace_back(a, b);
+      } else {
+        std::replace(bin.begin(), bin.end(), *now.rbegin(), *now.begin());
+      }
+      return deviation_m;
+    });
+    EXPECT_EQ(again, 0) << "seed " << seed;
+  }
 }
 
 TEST(MotionBinning, FewOrNoPoints) {

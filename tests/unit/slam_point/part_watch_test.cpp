@@ -172,6 +172,19 @@ TEST(PartWatch, FoundAtTwoPlacesTheyDoNotMeet) {
   EXPECT_TRUE(two.look(30));
 }
 
+TEST(PartWatch, WhetherItIsTheSamePlaceIsJudgedByWhereThePointsAre) {
+  // The room, 40 m from the origin of this part, has turned about its middle: its points move by up to 0.4 m.
+  TwoParts two(20);
+  const Pose in_the_room = kT_other_here.inverse();
+  EXPECT_FALSE(two.look(10, in_the_room));
+  for (Index l = 0; l < 30; ++l) {
+    Vec3& mean = two.graph.submaps[0].members[l].mean;
+    mean = rotation_exp(Vec3(0, 0, 0.03)) * mean;
+    two.graph.resum(l);
+  }
+  EXPECT_TRUE(two.look(20, in_the_room));
+}
+
 TEST(PartWatch, WhatWasForgottenIsToBeFoundTwiceAgain) {
   TwoParts two(20);
   EXPECT_FALSE(two.look(10));

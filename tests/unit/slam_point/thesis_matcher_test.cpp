@@ -196,6 +196,12 @@ TEST(ThesisMatcher, NeitherTheOrderOfPointsNorWhatWasMatchedBeforeMatters) {
     std::reverse(points.begin(), points.end());
     std::reverse(expected.begin(), expected.end());
   }
+  // Later, when half of the landmarks have not been seen again.
+  many.tracks.begin_iteration(7);
+  for (Index l = 0; l < 50; ++l) many.tracks.see(l, place());
+  std::vector<Observation> frame = frame_of(points);
+  used.match_recent(many.tracks, 8, Pose{}, frame);
+  EXPECT_EQ(landmarks_of(frame), many.recent(8, points));
 }
 
 }  // namespace
