@@ -91,7 +91,7 @@ class ActiveSubmap {
   std::vector<Frame> frames_;
   PointMotion to_submap_{Pose{}};  // of the frame begun last
   std::vector<Sighting> sightings_;
-  std::vector<double> across_;            // of each sighting, where noise has directions: its weight across the ray
+  std::vector<double> across_;  // of each sighting, where noise has directions: its weight across the ray
   std::vector<Reference> references_;     // by member
   std::vector<Sum> sums_;                 // likewise
   std::vector<Prior> prior_;              // by member: what was known at open()

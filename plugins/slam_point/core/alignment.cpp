@@ -9,8 +9,9 @@ namespace hallway::slam_point {
 namespace {
 
 constexpr int kMaxNewtonSteps = 30;
-constexpr double kSettled_rad = 1e-7;  // Newton doubles the digits: the step after this one is below rounding
-constexpr double kSmall_rad = 0.05;    // whose half has sine and cosine by five terms, exact to rounding
+// Where the gradient is zero, so are the third derivatives, so that Newton all but trebles the digits: a step of this size leaves some 1e-10 rad.
+constexpr double kSettled_rad = 5e-4;
+constexpr double kSmall_rad = 0.05;  // whose half has sine and cosine by five terms, exact to rounding
 
 /// Whether the smallest eigenvalue of a symmetric positive definite matrix reaches `least`.
 bool is_spread(const Mat3& curvature, double least) {

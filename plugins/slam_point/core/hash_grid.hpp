@@ -70,7 +70,9 @@ class HashGrid {
   static bool is_same(const Cell& a, const Cell& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
   /// The cube that holds p; far cubes share the last one instead of overflowing.
-  [[gnu::always_inline]] Cell cell_of(const Vec3& p) const { return {cell_along(p.x()), cell_along(p.y()), cell_along(p.z())}; }
+  [[gnu::always_inline]] Cell cell_of(const Vec3& p) const {
+    return {cell_along(p.x()), cell_along(p.y()), cell_along(p.z())};
+  }
   [[gnu::always_inline]] std::int32_t cell_along(double coordinate) const {
     constexpr double kMaxCell = 1e9;
     const double scaled = std::clamp(coordinate * inverse_size_, -kMaxCell, kMaxCell);

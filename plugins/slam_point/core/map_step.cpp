@@ -134,8 +134,7 @@ void MapStep::add_costs(const SubmapGraph& graph, const std::vector<Pose>& poses
                         StepCost& cost) {
   const std::vector<Membership>& memberships = graph.landmarks[landmark].memberships;
   const Membership& front = memberships.front();
-  const Vec3 origin =
-      now_.of(front.submap, poses) * graph.submaps[front.submap].members[front.member].mean;
+  const Vec3 origin = now_.of(front.submap, poses) * graph.submaps[front.submap].members[front.member].mean;
   double weight = 0.0;
   double squares_before = 0.0;
   double squares_after = 0.0;

@@ -64,7 +64,7 @@ class MapStep {
   };
   std::vector<Before> before_;  // of those that it moves: the free ones, and those made since
   PoseMotions now_;
-  PoseMotions past_;  // before apply(), of those in before_
+  PoseMotions past_;                  // before apply(), of those in before_
   std::vector<std::size_t> members_;  // of each free submap: how many it had when the step began
   std::vector<Index> touched_;
   std::size_t known_ = 0;  // submaps when the step began

@@ -32,9 +32,9 @@ ReducedSystem::Block ReducedSystem::expand(const PairSums& sums) {
   const Mat3 outer = sums.products.bottomRightCorner<3, 3>();
   const double trace = outer.trace();
   Block block;
-  block << weight, 0.0, 0.0, 0.0, column.z(), -column.y(),  //
-      0.0, weight, 0.0, -column.z(), 0.0, column.x(),       //
-      0.0, 0.0, weight, column.y(), -column.x(), 0.0,       //
+  block << weight, 0.0, 0.0, 0.0, column.z(), -column.y(),                      //
+      0.0, weight, 0.0, -column.z(), 0.0, column.x(),                           //
+      0.0, 0.0, weight, column.y(), -column.x(), 0.0,                           //
       0.0, -row.z(), row.y(), trace - outer(0, 0), -outer(1, 0), -outer(2, 0),  //
       row.z(), 0.0, -row.x(), -outer(0, 1), trace - outer(1, 1), -outer(2, 1),  //
       -row.y(), row.x(), 0.0, -outer(0, 2), -outer(1, 2), trace - outer(2, 2);
@@ -110,7 +110,8 @@ void ReducedSystem::take_evidence(const SubmapGraph& graph, const std::vector<Po
   informations_.clear();
   evidence_start_.clear();
   for (const Index submap : free_) {
-    if (slot_[submap] == evidence_start_.size()) evidence_start_.push_back(static_cast<Index>(evidence_.size()));
+    if (slot_[submap] == evidence_start_.size())
+      evidence_start_.push_back(static_cast<Index>(evidence_.size()));
     take_submap(graph, poses[submap], submap);
   }
   evidence_start_.push_back(static_cast<Index>(evidence_.size()));
@@ -142,8 +143,7 @@ void ReducedSystem::take_submap(const SubmapGraph& graph, const Pose& pose, Inde
     }
     newest_[touched] = next;
     evidence_.push_back({y, weight, touched});
-    if (directional_)
-      informations_.emplace_back(rotation * record.informations[m] * rotation.transpose());
+    if (directional_) informations_.emplace_back(rotation * record.informations[m] * rotation.transpose());
   }
 }
 

@@ -25,7 +25,8 @@ class ReducedSystem {
   /// Which submaps move as one. What is left open is then how their places to each other err, and that is known best where they are
   /// neighbours: a step that takes out what is wrong over long ways loses next to nothing by it, and costs a fraction.
   struct Grouping {
-    std::size_t most = 1;   ///< so many of them at most, which follow each other and share half of their landmarks; 1: each by itself
+    std::size_t most =
+        1;  ///< so many of them at most, which follow each other and share half of their landmarks; 1: each by itself
     std::size_t first = 1;  ///< likewise, of the first group: so that two steps need not have the same groups
     std::size_t alone = 0;  ///< so many at the end of `free` are by themselves
   };
@@ -127,12 +128,12 @@ class ReducedSystem {
   std::vector<std::uint8_t> marked_;  // landmark -> in touched_
   std::vector<Mean> means_;           // by place in touched_
   std::vector<Index> places_start_;   // place in touched_ -> where its places begin
-  std::vector<Place> places_;      // of a landmark, by slot
-  std::vector<Index> next_place_;  // place in touched_ -> where the next of its places goes
-  PoseMotions motions_;        // of submaps that are not free
-  PairSums own_;                   // of the row under way: what its submap knows by itself
-  std::vector<PairSums> row_;      // slot -> sums with the row's submap
-  std::vector<Block> row_blocks_;  // likewise, where noise has directions
+  std::vector<Place> places_;         // of a landmark, by slot
+  std::vector<Index> next_place_;     // place in touched_ -> where the next of its places goes
+  PoseMotions motions_;               // of submaps that are not free
+  PairSums own_;                      // of the row under way: what its submap knows by itself
+  std::vector<PairSums> row_;         // slot -> sums with the row's submap
+  std::vector<Block> row_blocks_;     // likewise, where noise has directions
   std::vector<Index> row_slots_;
   std::vector<std::uint8_t> in_row_;
 };

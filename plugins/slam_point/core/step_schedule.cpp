@@ -8,16 +8,21 @@ namespace {
 
 constexpr double kWorthwhileGain =
     1.0;  // fall of the cost, in variances of an observation, for which a step over the whole map is repeated soon
-constexpr double kWorkPerClose =
-    3e5;  // multiplications for steps over the whole map that a close earns
+constexpr double kWorkPerClose = 3e5;  // multiplications for steps over the whole map that a close earns
 constexpr double kMostClosesSaved = 100.0;
 constexpr double kMostSteps = 4.0;           // over the whole map, that can be saved up
-constexpr double kWindowWorkPerFrame = 1.5e5;  // multiplications on the step over the window: 0.1 ms
+constexpr double kWindowWorkPerFrame = 3e5;  // multiplications on the step over the window: 0.1 ms
 constexpr double kMapWorkPerFrame =
-    2e5;  // likewise over the whole map: more, since late steps make later ones later
+    4e5;  // likewise over the whole map: more, since late steps make later ones later
 constexpr int kMaxSettlePeriod = 1 << 20;
-constexpr std::size_t kGroup = 3;         // neighbouring submaps that a step moves as one
-constexpr std::size_t kAloneInWindow = 4;  // but for the newest, whose place to each other is still to be found
+constexpr std::size_t kGroup = 3;  // neighbouring submaps that a step moves as one
+constexpr std::size_t kAloneInWindow =
+    4;  // but for the newest, whose place to each other is still to be found
+
+/// The groups of a step. Those of step after step begin elsewhere, so that no two submaps stay as they are to each other.
+MapStep::Grouping groups(std::size_t step, std::size_t alone) {
+  return {kGroup, 1 + step % kGroup, alone};
+}
 
 }  // namespace
 
@@ -81,23 +86,18 @@ void StepSchedule::drop_steps() {
   map_step_ready_ = map_step_due_ = false;
 }
 
-/// The groups of the next step: they begin elsewhere than those of the step before, so that no two submaps stay as they are to each other.
-MapStep::Grouping StepSchedule::groups(std::size_t alone) {
-  shifted_ = !shifted_;
-  return {kGroup, shifted_ ? kGroup - 1 : kGroup, alone};
-}
-
 /// Of the submaps closed last and the one that is active.
 void StepSchedule::begin_window_step(const SubmapGraph& graph, bool planar) {
   free_ = window_;
   if (std::find(free_.begin(), free_.end(), graph.active()) == free_.end()) free_.push_back(graph.active());
-  window_step_.begin(graph, graph.poses, free_, graph.active(), planar, groups(kAloneInWindow));
+  window_step_.begin(graph, graph.poses, free_, graph.active(), planar,
+                     groups(window_steps_++, kAloneInWindow));
   window_step_ready_ = false;
   window_step_due_ = false;
 }
 
 void StepSchedule::begin_map_step(const SubmapGraph& graph, bool planar) {
-  map_step_.begin(graph, graph.poses, graph.active(), planar, groups(0));
+  map_step_.begin(graph, graph.poses, graph.active(), planar, groups(map_steps_++, 0));
   map_step_ready_ = false;
   map_step_due_ = false;
   settled_submaps_ = static_cast<double>(graph.submaps.size());

@@ -42,7 +42,6 @@ class StepSchedule {
  private:
   /// Steps under way place submaps as they no longer are.
   void drop_steps();
-  MapStep::Grouping groups(std::size_t alone);
   void begin_window_step(const SubmapGraph& graph, bool planar);
   void begin_map_step(const SubmapGraph& graph, bool planar);
   void judge_map_step(const StepCost& cost, double noise2_m2);
@@ -64,7 +63,8 @@ class StepSchedule {
   double earned_work_ = 0.0;        // multiplications that steps over the whole map may take
   int closes_since_settled_ = 0;
   int closes_since_loop_ = 0;     // since old ground was met after new
-  bool shifted_ = false;          // where the groups of the last step begin
+  std::size_t window_steps_ = 0;  // begun so far
+  std::size_t map_steps_ = 0;     // likewise
   double settled_submaps_ = 0.0;  // how many the last step over the whole map places
   int settle_period_;             // closes between steps over the whole map, as they have proved worth it
 };

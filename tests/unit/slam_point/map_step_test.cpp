@@ -139,7 +139,8 @@ SubmapGraph with_groups_as_submaps(const SubmapGraph& graph, const ReducedSystem
       if (known == members.end())
         known = members.begin() + merged.join(into, member.landmark, Vec3::Zero(), false);
       known->count += member.count;
-      known->mean += (static_cast<double>(member.count) / known->count) * (T_into_s * member.mean - known->mean);
+      known->mean +=
+          (static_cast<double>(member.count) / known->count) * (T_into_s * member.mean - known->mean);
     }
   }
   return merged;
@@ -185,7 +186,8 @@ TEST(MapStep, WhatSharesLittleIsNoGroup) {
   for (Index s = 0; s < 24; ++s) {
     const Index from = 5 * s % 24;
     const Index to = graph.add_submap(ring.poses[from]);
-    for (const Member& member : ring.submaps[from].members) graph.join(to, member.landmark, member.mean, false);
+    for (const Member& member : ring.submaps[from].members)
+      graph.join(to, member.landmark, member.mean, false);
     for (std::size_t m = 0; m < graph.submaps[to].members.size(); ++m)
       graph.submaps[to].members[m].count = ring.submaps[from].members[m].count;
   }
