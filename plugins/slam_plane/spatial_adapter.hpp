@@ -81,6 +81,8 @@ class SpatialAdapter {
         {"merged", static_cast<double>(counters.merged)},
         {"edges", static_cast<double>(counters.edges)},
         {"edges_revoked", static_cast<double>(counters.edges_revoked)},
+        {"dynamic", static_cast<double>(counters.dynamic)},
+        {"found_again", static_cast<double>(counters.found_again)},
         {"undetermined", static_cast<double>(answer.open)},
         {"undetermined_x", open.x()},
         {"undetermined_y", open.y()},
@@ -168,6 +170,17 @@ class SpatialAdapter {
     return lowest;
   }
 
+  static std::uint32_t status_of(WallStatus status) {
+    switch (status) {
+      case WallStatus::mapped:
+        return HW_LANDMARK_MAPPED;
+      case WallStatus::dynamic:
+        return HW_LANDMARK_DYNAMIC;
+      default:
+        return HW_LANDMARK_TEMPORARY;
+    }
+  }
+
   void put_faces(const sdk::Host& host, const std::vector<spatial::MappedFace>& faces) const {
     std::vector<hw_mapped_plane_t> planes;
     std::vector<hw_mapped_corner_t> corners;
@@ -178,7 +191,7 @@ class SpatialAdapter {
                {n.x(), n.y(), n.z()},
                n.dot(T_body_sensor_ * face.outline.front()),
                face.observations,
-               face.status == WallStatus::mapped ? HW_LANDMARK_MAPPED : HW_LANDMARK_TEMPORARY,
+               status_of(face.status),
                corners.size(),
                face.outline.size()};
       const std::size_t count = face.outline.size(), first = lowest_edge(face.outline);

@@ -235,7 +235,7 @@ void FaceMap::cut_outline(FaceRecord& face) const {
 
 void FaceMap::rebuild(Index index) {
   FaceRecord& face = faces[index];
-  if (!face.alive()) return;
+  if (!face.alive() || face.is_dynamic) return;
   // The edges' directions turn with their submaps.
   update(index);
   face.outline.clear();
@@ -333,6 +333,7 @@ void FaceMap::merge(Index kept_index, Index gone_index) {
   --count_;
   index_.remove(gone_index);
   active_member_[gone_index] = kNone;
+  std::erase(strayed_, gone_index);
   activate(active_);
   rebuild(kept_index);
   count_edges(kept_index);

@@ -8,6 +8,7 @@
 #include "slam_plane/core/options.hpp"
 #include "slam_plane/spatial/evidence.hpp"
 #include "slam_plane/spatial/face_index.hpp"
+#include "slam_plane/spatial/face_trail.hpp"
 #include "slam_plane/spatial/pose_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -64,6 +65,9 @@ struct FaceRecord {
   std::uint32_t certain_edges = 0;
   std::uint64_t last_seen = 0;
   Index merged_into = kNone;
+  FaceTrail trail;          ///< where it was seen last
+  bool is_dynamic = false;  ///< it moves: it lies where it was seen last, and is
+                            ///< evidence of nothing
 
   bool alive() const { return merged_into == kNone; }
 };
@@ -81,6 +85,14 @@ class FaceMap {
 
   /// Adds a sighting to the active submap, and the edges of it that are true.
   void observe(const Pose3& T_submap_robot, const Sighting& sighting, std::uint64_t iteration);
+
+  /// Notes where a frame saw a face, whether it is evidence or not. Answers
+  /// whether it turns out to move by that: all that it told is then taken back.
+  /// @param stray  the sighting lies beside the face
+  bool follow(const Pose3& T_map_robot, const Sighting& sighting, bool stray, std::uint64_t iteration);
+  /// Faces that lay beside their places when they were seen last, just before,
+  /// and are not known to move.
+  const std::vector<Index>& strayed() const { return strayed_; }
 
   /// Estimates a face anew from all sums. O(submaps that saw it).
   void update(Index face);
@@ -125,6 +137,7 @@ class FaceMap {
   void extend_outline(Index face, std::span<const Vec3> points);
   void cut_outline(FaceRecord& face) const;
   void count_edges(Index face);
+  void make_dynamic(Index face);
 
   Noise noise_;
   PoseFit edges_;  // tells which edge is which
@@ -133,6 +146,7 @@ class FaceMap {
   EdgeId next_edge_ = 0;
   std::vector<Index> active_member_;  // by face
   FaceIndex index_;
+  std::vector<Index> strayed_;
   std::size_t count_ = 0;
   std::size_t certain_edges_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace hallway::slam_plane::spatial {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kLeastShare = 0.5;  // of the smaller outline
 constexpr double kTwinShare = 0.15;  // what lies in one plane and overlaps is one; less may be noise
 constexpr double kRivalShare = 0.2;  // two parts of one face share less than that of the smaller one
+constexpr double kTrailShare = 0.8;  // of the bound, that a face that moves may have gone since
 constexpr double kTouch_m = 0.05;    // and are farther apart than noise may bring them
 constexpr double kLeastArea_m2 = 1e-4;
 constexpr double kSlack_m = 1e-6;  // of rounding
@@ -62,18 +64,45 @@ Box FaceMatcher::about(const Sighting& sighting, const Pose3& T, double bound) c
 
 double FaceMatcher::score(const FaceRecord& face, const Sighting& sighting, const Pose3& T,
                           double bound) const {
-  const double agreement = face.plane.normal().dot(T.q * sighting.normal);
+  return face.outline.size() < 3 ? 0.0 : score(face.plane, face.outline, sighting, T, bound);
+}
+
+double FaceMatcher::score(const Feature& plane, const std::vector<Vec3>& outline, const Sighting& sighting,
+                          const Pose3& T, double bound) const {
+  const double agreement = plane.normal().dot(T.q * sighting.normal);
   if (agreement < cosine_) return 0.0;
-  const double offset = std::abs(face.plane.distance(T * sighting.centre));
+  const double offset = std::abs(plane.distance(T * sighting.centre));
   if (offset > bound) return 0.0;
-  const PlaneAxes axes(face.plane.normal());
-  const Polygon known = laid_flat(face.outline, Pose3{}, axes), seen = laid_flat(sighting.outline, T, axes);
+  const PlaneAxes axes(plane.normal());
+  const Polygon known = laid_flat(outline, Pose3{}, axes), seen = laid_flat(sighting.outline, T, axes);
   if (shared(known, seen) < kLeastShare) return 0.0;
   return overlap_area(known, seen) / area(seen) * (1.1 - offset / bound);
 }
 
+void FaceMatcher::find_candidates(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
+                                  const Sighting& sighting) {
+  map.find_near(about(sighting, T, bound), near_);
+  for (const Index f : near_) {
+    const FaceRecord& face = map.faces[f];
+    if (face.last_seen < since) continue;
+    const double found = score(face, sighting, T, bound);
+    if (found > 0.0) candidates_.push_back({found, f, face.is_dynamic});
+  }
+}
+
+/// Faces that lay beside their places just before and have gone on from there.
+void FaceMatcher::find_strayed(const FaceMap& map, const Pose3& T, const Sighting& sighting) {
+  for (const Index f : map.strayed()) {
+    const FaceRecord& face = map.faces[f];
+    if (score(face, sighting, T, near_bound_) > 0.0) continue;
+    const double found =
+        score(face.trail.plane(), face.trail.outline(), sighting, T, kTrailShare * near_bound_);
+    if (found > 0.0) candidates_.push_back({found, f, true});
+  }
+}
+
 /// Largest first: of two neighbours in one plane the larger one tells which face it is, and a sliver of the other is then not taken for the same.
-void FaceMatcher::match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
+void FaceMatcher::match(const FaceMap& map, const Search& search, const Pose3& T,
                         std::vector<Sighting>& frame) {
   std::vector<std::pair<double, Index>> order;
   for (Index i = 0; i < frame.size(); ++i) {
@@ -82,17 +111,15 @@ void FaceMatcher::match(const FaceMap& map, std::uint64_t since, double bound, c
   std::sort(order.begin(), order.end());
   for (const auto& [size, i] : order) {
     candidates_.clear();
-    map.find_near(about(frame[i], T, bound), near_);
-    for (const Index f : near_) {
-      const FaceRecord& face = map.faces[f];
-      if (face.last_seen < since || face.outline.size() < 3) continue;
-      const double found = score(face, frame[i], T, bound);
-      if (found > 0.0) candidates_.emplace_back(-found, f);
-    }
-    std::sort(candidates_.begin(), candidates_.end());
-    for (const auto& [score, f] : candidates_) {
-      if (is_taken(map.faces[f], f, frame, i, T)) continue;
-      frame[i].face = f;
+    find_candidates(map, search.since, search.bound_m, T, frame[i]);
+    if (search.follow) find_strayed(map, T, frame[i]);
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tie(b.score, a.face) < std::tie(a.score, b.face);
+    });
+    for (const Candidate& candidate : candidates_) {
+      if (is_taken(map.faces[candidate.face], candidate.face, frame, i, T)) continue;
+      frame[i].face = candidate.face;
+      frame[i].stray = candidate.stray;
       break;
     }
   }
@@ -114,11 +141,11 @@ bool FaceMatcher::is_taken(const FaceRecord& face, Index index, const std::vecto
 
 void FaceMatcher::match_recent(const FaceMap& map, std::uint64_t since, const Pose3& T_map_robot,
                                std::vector<Sighting>& frame) {
-  match(map, since, near_bound_, T_map_robot, frame);
+  match(map, {since, near_bound_, true}, T_map_robot, frame);
 }
 
 void FaceMatcher::match_map(const FaceMap& map, const Pose3& T_map_robot, std::vector<Sighting>& frame) {
-  match(map, 0, map_bound_, T_map_robot, frame);
+  match(map, {0, map_bound_, false}, T_map_robot, frame);
 }
 
 bool FaceMatcher::on_one_plane(const FaceRecord& a, const FaceRecord& b) const {
@@ -130,6 +157,7 @@ bool FaceMatcher::on_one_plane(const FaceRecord& a, const FaceRecord& b) const {
 bool FaceMatcher::are_twins(const FaceMap& map, Index a, Index b) const {
   const FaceRecord& one = map.faces[a];
   const FaceRecord& other = map.faces[b];
+  if (one.is_dynamic || other.is_dynamic) return false;
   if (one.outline.size() < 3 || other.outline.size() < 3 || map.are_apart(a, b)) return false;
   if (!on_one_plane(one, other)) return false;
   const PlaneAxes axes(one.plane.normal());

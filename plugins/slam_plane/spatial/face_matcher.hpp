@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "slam_plane/core/options.hpp"
@@ -13,7 +12,8 @@ namespace hallway::slam_plane::spatial {
 
 /// Says which face of the map each sighting is, by where it lies: normals agree, the sighting's centre lies near the face's plane, and
 /// what was seen of either, laid into that plane, overlaps by at least half of the smaller one. Two sightings of one frame are the same face only as parts
-/// that lie apart.
+/// that lie apart. What is of a face that moves, or of one that just lay beside its
+/// place, strays.
 class FaceMatcher {
  public:
   explicit FaceMatcher(const Options& options);
@@ -37,9 +37,25 @@ class FaceMatcher {
   std::vector<Index> twins_of(const FaceMap& map, Index face) const;
 
  private:
+  /// Of the frame that is matched: what one of its sightings may be.
+  struct Candidate {
+    double score;
+    Index face;
+    bool stray;  ///< by where the face was seen last, or of one that moves
+  };
+
+  double score(const Feature& plane, const std::vector<Vec3>& outline, const Sighting& sighting,
+               const Pose3& T, double bound) const;
+  void find_candidates(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
+                       const Sighting& sighting);
+  void find_strayed(const FaceMap& map, const Pose3& T, const Sighting& sighting);
   Box about(const Sighting& sighting, const Pose3& T, double bound) const;
-  void match(const FaceMap& map, std::uint64_t since, double bound, const Pose3& T,
-             std::vector<Sighting>& frame);
+  struct Search {
+    std::uint64_t since;
+    double bound_m;
+    bool follow;  ///< also where faces were seen last
+  };
+  void match(const FaceMap& map, const Search& search, const Pose3& T, std::vector<Sighting>& frame);
   bool is_taken(const FaceRecord& face, Index index, const std::vector<Sighting>& frame, Index own,
                 const Pose3& T) const;
 
@@ -47,7 +63,7 @@ class FaceMatcher {
   double map_bound_;
   double cosine_;
   double sine_;
-  std::vector<std::pair<double, Index>> candidates_;  // -score, face
+  std::vector<Candidate> candidates_;
   std::vector<Index> near_;
 };
 

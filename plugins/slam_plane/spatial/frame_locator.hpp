@@ -8,6 +8,7 @@
 #include "slam_plane/core/options.hpp"
 #include "slam_plane/spatial/face_map.hpp"
 #include "slam_plane/spatial/face_matcher.hpp"
+#include "slam_plane/spatial/frame_search.hpp"
 #include "slam_plane/spatial/pose_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -17,20 +18,25 @@ struct Frame {
   std::uint64_t iteration = 0;
   std::vector<Sighting> sightings;
   Pose3 T_map_robot;
-  Pose3 T_submap_robot;   ///< in the active submap; between iterations that of the last frame
+  Pose3 T_submap_robot;   ///< in the active submap; between iterations that of
+                          ///< the last frame
   PoseInformation known;  ///< of T_map_robot
 
   /// Faces that it saw, ascending.
   std::vector<Index> faces() const;
 };
 
-/// Says of which faces a frame's sightings are, and where it was made from, from where constant velocity gives it to be.
+/// Says of which faces a frame's sightings are, and where it was made from, from where constant velocity gives it to be. Where that has led nowhere for
+/// some frames, the whole map is searched.
 class FrameLocator {
  public:
   explicit FrameLocator(const Options& options);
 
-  /// Sets the faces of sightings, the frame's pose and what is known of it. Answers why there is none, or `no`.
+  /// Sets the faces of sightings, which of them stray, the frame's pose and what is known of it. Answers why there is none, or `no`.
   Lost locate(const FaceMap& map, Frame& frame);
+
+  /// Whether the last frame was found by a search.
+  bool found_again() const { return found_again_; }
 
   /// What a frame tells of its own pose in a world that is known exactly.
   PoseInformation own_information(const Frame& frame) const { return fit_.own_information(frame.sightings); }
@@ -43,19 +49,25 @@ class FrameLocator {
   void carry(const Pose3& T_map_before);
 
  private:
+  Lost follow(const FaceMap& map, Frame& frame);
+  bool search(const FaceMap& map, Frame& frame);
   void predict(const FaceMap& map, Frame& frame) const;
   void associate(const FaceMap& map, Frame& frame);
   PoseInformation fit(const FaceMap& map, const Frame& frame, Pose3& T);
   bool drop_strays(const FaceMap& map, const Pose3& T, Frame& frame) const;
 
   FaceMatcher matcher_;
+  FrameSearch search_;
   PoseFit fit_;
   double smoothing_;
   double worst_doubt_m_;
-  std::optional<Pose3> T_before_;  // of the last frame in the map, if it had a pose
-  Vec6 motion_ = Vec6::Zero();     // predicted, from frame to frame, in the robot's frame
-  bool moving_ = false;            // it is known
-  double doubt_m_ = 0.0;           // of the predicted place, while there is no pose
+  std::optional<Pose3> T_before_;   // of the last frame in the map, if it had a pose
+  Vec6 motion_ = Vec6::Zero();      // predicted, from frame to frame, in the robot's frame
+  bool moving_ = false;             // it is known
+  int frames_lost_ = 0;             // in a row
+  std::optional<Pose3> suspected_;  // what the last search found
+  bool found_again_ = false;
+  double doubt_m_ = 0.0;  // of the predicted place, while there is no pose
 };
 
 }  // namespace hallway::slam_plane::spatial

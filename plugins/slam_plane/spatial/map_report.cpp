@@ -59,6 +59,7 @@ MappedFace told(const FaceMap& map, Index index, int min_observations) {
   out.observations = face.observations;
   out.status = face.observations >= static_cast<std::uint32_t>(min_observations) ? WallStatus::mapped
                                                                                  : WallStatus::temporary;
+  if (face.is_dynamic) out.status = WallStatus::dynamic;
   const std::size_t n = outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     out.outline.push_back(axes.lift(outline[i], out.offset));

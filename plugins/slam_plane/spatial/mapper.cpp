@@ -43,6 +43,8 @@ class Mapper::State {
     } else {
       lost_ = locator_.locate(map_, frame_);
       if (lost_ == Lost::no) {
+        if (locator_.found_again()) ++answer_.counters.found_again;
+        follow_strays();
         add_faces();
         if (choose_submap()) {
           integrate();
@@ -67,6 +69,7 @@ class Mapper::State {
  private:
   void begin(std::span<const Face> faces, const View& view);
   void start();
+  void follow_strays();
   void add_faces();
   bool choose_submap();
   bool change_submap();
@@ -122,9 +125,21 @@ void Mapper::State::start() {
   locator_.note_motion(map_, frame_);
 }
 
+/// What lies beside its face is no evidence: the face may move.
+void Mapper::State::follow_strays() {
+  for (const Sighting& sighting : frame_.sightings) {
+    if (sighting.face == kNone) continue;
+    if (map_.follow(frame_.T_map_robot, sighting, sighting.stray, frame_.iteration))
+      ++answer_.counters.dynamic;
+    if (sighting.stray && map_.faces[sighting.face].is_dynamic)
+      answer_.associations[sighting.given] = sighting.face;
+  }
+  std::erase_if(frame_.sightings, [](const Sighting& sighting) { return sighting.stray; });
+}
+
 void Mapper::State::add_faces() {
   for (Sighting& sighting : frame_.sightings) {
-    if (sighting.face == kNone && !sighting.stray) sighting.face = map_.add_face();
+    if (sighting.face == kNone) sighting.face = map_.add_face();
   }
 }
 

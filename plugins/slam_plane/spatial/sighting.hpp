@@ -25,7 +25,7 @@ struct Sighting {
   std::vector<SightedEdge> edges;
   double reach_m = 0.0;  ///< of its farthest corner from its centre
   Index face = kNone;    ///< of the map
-  bool stray = false;    ///< lies beside the face that it should be: no evidence
+  bool stray = false;    ///< lies beside that face, or it is of one that moves: no evidence
 
   double offset() const { return normal.dot(centre); }
 };

@@ -107,6 +107,8 @@ struct Counters {
   std::uint64_t merged = 0;
   std::uint64_t edges = 0;          ///< that are certain, now
   std::uint64_t edges_revoked = 0;  ///< that were disproved
+  std::uint64_t dynamic = 0;        ///< faces that turned out to move
+  std::uint64_t found_again = 0;    ///< times that the pose was found by a search of the map
 };
 
 /// What a frame tells.

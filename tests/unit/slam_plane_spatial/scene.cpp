@@ -54,21 +54,35 @@ void add_solid(sense::FacePlan& plan, const Vec3& low, const Vec3& high) {
 
 }  // namespace
 
-Scene furnished_room(int frames) {
-  Scene scene{.name = "furnished_room", .plan = {}, .path = {}};
+Scene empty_room(int frames) {
+  Scene scene{.name = "empty_room", .plan = {}, .path = {}};
   add_box(scene.plan, hallway::Pose{}, {0.0, 0.0, 0.0}, {10.0, 8.0, 3.2}, true);
-  add_solid(scene.plan, {0.4, 0.5, 0.6}, {1.9, 1.5, 1.5});
-  add_solid(scene.plan, {7.5, 0.6, 0.5}, {8.5, 1.5, 2.2});
-  add_solid(scene.plan, {8.0, 6.0, 0.5}, {9.4, 7.0, 1.0});
-  add_solid(scene.plan, {1.0, 6.0, 1.0}, {2.0, 7.4, 2.1});
-  const hallway::Pose tilted{from_yaw_pitch_roll(0.4, 0.5, 0.3), Vec3(4.8, 4.0, 1.2)};
-  add_box(scene.plan, tilted, {-0.5, -0.6, -0.2}, {0.5, 0.6, 0.2}, false);
   for (int i = 0; i < frames; ++i) {
     const double s = 0.02 * i;  // radians round the circle
     const Vec3 at(5.0 + 2.6 * std::cos(s), 4.0 + 2.2 * std::sin(s), 1.5 + 0.4 * std::sin(2.0 * s));
     scene.path.push_back(
         {from_yaw_pitch_roll(s + 2.2, 0.25 * std::sin(3.0 * s), 0.35 * std::sin(1.7 * s)), at});
   }
+  return scene;
+}
+
+Scene furnished_room(int frames) {
+  Scene scene = empty_room(frames);
+  scene.name = "furnished_room";
+  add_solid(scene.plan, {0.4, 0.5, 0.6}, {1.9, 1.5, 1.5});
+  add_solid(scene.plan, {7.5, 0.6, 0.5}, {8.5, 1.5, 2.2});
+  add_solid(scene.plan, {8.0, 6.0, 0.5}, {9.4, 7.0, 1.0});
+  add_solid(scene.plan, {1.0, 6.0, 1.0}, {2.0, 7.4, 2.1});
+  const hallway::Pose tilted{from_yaw_pitch_roll(0.4, 0.5, 0.3), Vec3(4.8, 4.0, 1.2)};
+  add_box(scene.plan, tilted, {-0.5, -0.6, -0.2}, {0.5, 0.6, 0.2}, false);
+  return scene;
+}
+
+Scene room_with_panel(int frames, std::uint32_t& panel) {
+  Scene scene = furnished_room(frames);
+  scene.name = "room_with_panel";
+  panel = static_cast<std::uint32_t>(scene.plan.faces.size());
+  add_face(scene.plan, {{3.5, 5.4, 1.4}, {3.5, 6.6, 1.4}, {3.5, 6.6, 2.4}, {3.5, 5.4, 2.4}});
   return scene;
 }
 
@@ -136,6 +150,11 @@ hallway::Pose pose_of(const Pose3& T) {
 }
 
 std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64_t seed) {
+  return see(scene, noise, seed, {0, 0, 0, Vec3::Zero()});
+}
+
+std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64_t seed,
+                           const MovingFace& moving) {
   sense::PlaneSensorSpec spec;
   spec.name = "faces";
   spec.shape = sense::PlaneShape::faces;
@@ -143,11 +162,19 @@ std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64
   spec.noise_m = noise.plane_m;
   spec.noise_angle = noise.angle_rad;
   spec.noise_end_m = noise.end_m;
-  const sense::FaceSensor sensor(spec, scene.plan, seed);
+  sense::FacePlan plan = scene.plan;
+  const auto move = [&](hallway::Polygon& face) {
+    for (hallway::Vec3& p : face.vertices) p += moving.step_m;
+    face.plane.offset = face.plane.normal.dot(face.vertices.front());
+  };
   std::vector<TrueFrame> frames;
   std::vector<sense::PlaneObservation> seen;
   for (std::size_t i = 0; i < scene.path.size(); ++i) {
-    sensor.observe(scene.path[i], static_cast<std::uint32_t>(i), seen);
+    if (i >= moving.begin && i < moving.begin + moving.frames) {
+      move(plan.faces[moving.face]);
+      move(plan.obstacles[moving.face]);
+    }
+    sense::FaceSensor(spec, plan, seed).observe(scene.path[i], static_cast<std::uint32_t>(i), seen);
     TrueFrame& frame = frames.emplace_back();
     frame.T_world_robot = scene.path[i];
     for (const sense::PlaneObservation& plane : seen) {

@@ -23,6 +23,11 @@ Scene furnished_room(int frames);
 /// Two rooms of different heights, a door, and the way there and back.
 Scene two_rooms();
 
+/// A room with nothing in it, in which the robot does the same: turned by half a turn it looks as it did.
+Scene empty_room(int frames);
+/// The furnished room with a panel that hangs free; its index among the faces.
+Scene room_with_panel(int frames, std::uint32_t& panel);
+
 /// A room whose floor is level for half a metre and then a ramp: its side walls have an obtuse corner next to a short edge.
 Scene ramp_room(int frames);
 
@@ -45,6 +50,16 @@ inline constexpr View kView{1.5707963267948966, 1.3962634015954636, 0.0, 12.0, f
 
 /// What a sensor sees of a scene, frame by frame.
 std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64_t seed);
+
+/// The same with a face that moves: from a frame on, for some frames, by the same step in each.
+struct MovingFace {
+  std::uint32_t face;
+  std::size_t begin;
+  std::size_t frames;
+  Vec3 step_m;
+};
+std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64_t seed,
+                           const MovingFace& moving);
 
 /// A run of the mapper, compared with the truth. Everything is aligned by the first pose's truth.
 struct Outcome {

@@ -21,6 +21,7 @@ void expect_exact(const Outcome& outcome) {
   EXPECT_EQ(outcome.lost, 0);
   EXPECT_EQ(outcome.missing, 0);
   EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_EQ(outcome.counters.dynamic, 0u);
   EXPECT_EQ(outcome.false_edges, 0);
   EXPECT_LT(outcome.worst_position_m, 0.001);
   EXPECT_LT(outcome.worst_turn_rad, 0.001);
@@ -83,6 +84,7 @@ TEST(SpatialScenes, WithNoiseTwoRoomsAreMappedThereAndBack) {
   EXPECT_EQ(outcome.missing, 0);
   EXPECT_EQ(outcome.false_edges, 0);
   EXPECT_LE(outcome.duplicated, 1);
+  EXPECT_EQ(outcome.counters.dynamic, 0u) << "nothing moves";
   EXPECT_LT(outcome.position_rmse_m, 0.02);
   EXPECT_LT(outcome.plane_rmse_m, 0.01);
 }

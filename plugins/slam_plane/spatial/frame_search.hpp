@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "slam_plane/core/options.hpp"
+#include "slam_plane/spatial/face_map.hpp"
+#include "slam_plane/spatial/face_matcher.hpp"
+#include "slam_plane/spatial/pose_fit.hpp"
+
+namespace hallway::slam_plane::spatial {
+
+/// Finds a frame in the map without knowing anything of its pose. Three of its
+/// faces that are not parallel, laid on three of the map whose normals make the
+/// same angles and that were seen about together, give a rigid motion. It is a
+/// place where the frame may have been made if all of the frame, laid there,
+/// agrees with the map.
+class FrameSearch {
+ public:
+  explicit FrameSearch(const Options& options);
+
+  /// The one place where the frame fits; none if it fits nowhere well enough,
+  /// or somewhere else nearly as well. O(faces * faces seen about each ^ 2).
+  std::optional<Pose3> find(const FaceMap& map, const std::vector<Sighting>& frame);
+
+ private:
+  using Triple = std::array<Index, 3>;
+  /// How well a frame fits the map somewhere.
+  struct Place {
+    Pose3 T;
+    int faces = 0;           ///< sightings that lie on a face,
+    int edges = 0;           ///< edges of theirs that lie on certain ones
+    int contradictions = 0;  ///< sightings that go on beyond a certain edge
+    double score() const { return faces + 0.5 * edges - 2.0 * contradictions; }
+  };
+
+  static std::vector<Triple> triples(const std::vector<Sighting>& frame);
+  static std::vector<Index> seen_about(const FaceMap& map, Index face);
+  void lay(const FaceMap& map, const std::vector<Sighting>& frame, const Triple& seen);
+  void try_place(const FaceMap& map, const std::vector<Sighting>& frame, const Triple& seen,
+                 const Triple& known);
+  std::optional<Place> judge(const FaceMap& map, const std::vector<Sighting>& frame, const Pose3& T);
+  bool fit(const FaceMap& map, const std::vector<Sighting>& frame, Pose3& T);
+  void count(const FaceMap& map, const Sighting& sighting, Place& place) const;
+
+  FaceMatcher matcher_;
+  PoseFit fit_;
+  double bound_;
+  double angle_;  // by which angles between normals may differ [rad]
+  std::uint32_t least_observations_;
+  std::vector<Pose3> tried_;
+  std::vector<Place> places_;
+};
+
+}  // namespace hallway::slam_plane::spatial
