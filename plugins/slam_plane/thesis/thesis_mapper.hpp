@@ -34,10 +34,10 @@ class ThesisMapper {
   /// The first frame with a piece starts the map and has the identity pose. The answer lives until the next call.
   const Answer& process(std::span<const Piece> pieces, const View& view);
 
-  /// The map as it stands. O(map).
+  /// The map as it stands; after a roll back that of the iteration that was done again last. O(map).
   Map map() const;
-  /// The same: nothing is solved as a whole.
-  Map refined_map() const { return map(); }
+  /// The same once all that is being done again after a roll back was done: nothing is solved as a whole. O(map + what is to be done).
+  Map refined_map();
 
   /// Forgets everything but the options.
   void reset();
