@@ -37,25 +37,36 @@ class ThesisMapper::Engine {
   const Answer& answer() const { return answer_; }
   const ThesisCounters& counters() const { return counters_; }
 
-  /// Takes the newest frame. After a roll back some iterations are done again in each frame, until they have caught up with it.
+  /// Takes the newest frame. A frame after one that asks for a roll back goes back, and in those that follow some iterations are done again, until they have caught up with the newest one.
   void process(std::span<const Piece> pieces) {
+    const bool goes_back = roll_back_.has_value();
+    if (goes_back && waiting_.empty()) bridge_.emplace(options_, state_);
     Bridge::Told told;
-    if (!waiting_.empty()) told = bridge_->follow(pieces);
+    if (goes_back || !waiting_.empty()) told = bridge_->follow(pieces);
     const Iteration before = waiting_.empty() ? state_.now : waiting_.back().iteration;
     waiting_.push_back({before + 1, {pieces.begin(), pieces.end()}, {}, {}});
-    for (int i = 0; i < kIterationsPerFrame && !waiting_.empty(); ++i) {
+    if (goes_back) roll_back();
+    for (int i = 0; !goes_back && i < kIterationsPerFrame && !waiting_.empty() && !roll_back_; ++i) {
       take_next();
       if (waiting_.empty()) told = told_now(pieces.size());
-      if (roll_back()) break;
     }
     report(told);
   }
 
-  /// Does again what waits for it.
+  bool ask_roll_back(const Hint& hint) {
+    if (roll_back_ || !waiting_.empty() || !history_.reaches(hint.iteration - 1)) return false;
+    roll_back_ = hint;
+    return true;
+  }
+
+  /// Does again all that waits for it.
   void catch_up() {
-    while (!waiting_.empty()) {
-      take_next();
-      roll_back();
+    while (roll_back_ || !waiting_.empty()) {
+      if (roll_back_) {
+        roll_back();
+      } else {
+        take_next();
+      }
     }
   }
 
@@ -162,25 +173,21 @@ class ThesisMapper::Engine {
     waiting_.pop_front();
     history_.add(next.iteration, next.pieces);
     iterate(next.pieces);
-    if (next.iteration > newest_done_) return;
-    ++counters_.replayed;
-    roll_back_.reset();  // what asks for another one asks again
+    const bool again = next.iteration <= newest_done_;
+    if (again) ++counters_.replayed;
+    const std::size_t most = kMostWaiting * static_cast<std::size_t>(options_.roll_back_limit);
+    if (again || waiting_.size() > most) roll_back_.reset();  // what asked for it asks again
   }
 
-  /// Goes back to before the hinted event, if there is one, so that everything since then is done again (Rules 33, 34). @returns whether it did.
-  bool roll_back() {
-    if (!roll_back_) return false;
+  /// Goes back to before what was hinted at, so that everything since then waits to be done again (Rules 33, 34).
+  void roll_back() {
     const Hint hint = *roll_back_;
     roll_back_.reset();
-    const std::size_t most = kMostWaiting * static_cast<std::size_t>(options_.roll_back_limit);
-    if (waiting_.size() > most || !history_.reaches(hint.iteration - 1)) return false;
-    if (waiting_.empty()) bridge_.emplace(options_, state_);
     newest_done_ = state_.now;
     std::vector<Record> again = go_back(hint, options_, history_, state_);
     waiting_.insert(waiting_.begin(), std::make_move_iterator(again.begin()),
                     std::make_move_iterator(again.end()));
     ++counters_.roll_backs;
-    return true;
   }
 
   /// What the last iteration tells.
@@ -216,7 +223,7 @@ class ThesisMapper::Engine {
   History history_;
   std::vector<SubmapIndex> changed_;
   std::optional<Alignment> location_;
-  std::optional<Hint> roll_back_;     // asked for by the last iteration
+  std::optional<Hint> roll_back_;     // that the last iteration asked for
   std::deque<Record> waiting_;        // iterations to be done, or done again
   std::optional<Bridge> bridge_;      // while there are any
   Iteration newest_done_ = -1;        // up to it an iteration that waits is done again
@@ -245,6 +252,10 @@ Map ThesisMapper::map() const {
 Map ThesisMapper::refined_map() {
   engine_->catch_up();
   return map();
+}
+
+bool ThesisMapper::roll_back(const Hint& hint) {
+  return engine_->ask_roll_back(hint);
 }
 
 void ThesisMapper::reset() {
