@@ -23,6 +23,7 @@ echo
 "$build/bin/bench_slam_point_speed"
 echo
 "$build/bin/bench_slam_plane_pairs"
+"$build/bin/bench_slam_plane_roll_back"
 echo
 "$build/bin/bench_bsp"
 echo

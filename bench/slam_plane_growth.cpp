@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the plane mapper takes as more walls are in view, as its map grows and as its life grows. Times are of the thread's CPU, iteration by iteration the
+// What a plane mapper takes as more walls are in view, as its map grows and as its life grows, in mode=relative or mode=thesis. Times are of the thread's CPU, iteration by iteration the
 // least of several identical runs.
 #include <algorithm>
 #include <array>
@@ -7,14 +7,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/random.hpp"
 #include "growth.hpp"
+#include "plane_road.hpp"
 #include "slam_plane/core/mapper.hpp"
+#include "slam_plane/thesis/thesis_mapper.hpp"
 
 namespace {
 
@@ -22,117 +23,12 @@ using namespace hallway::slam_plane;
 using hallway::bench::cpu_us;
 using hallway::bench::GrowthTable;
 using hallway::bench::mean_of;
+using hallway::bench::kRange_m;
+using hallway::bench::kStep_m;
 using hallway::bench::resident_mb;
+using hallway::bench::Road;
 
 constexpr int kRuns = 5;
-constexpr double kStep_m = 0.1;
-constexpr double kRange_m = 12.0;     // depth
-constexpr double kPiece_m = 0.6;      // half of the longest wall
-constexpr double kLeastSeen_m = 0.1;  // shorter parts are not told
-constexpr double kBand_m = 13.0;      // on each side of the road, in which walls stand
-
-struct Segment {
-  Vec2 a, b;
-};
-
-/// A straight road between walls that stand about in cells, one in each, made when they are needed: any length takes no memory. Or a circle of it, which is
-/// driven round and round; or a stretch, there and back and there again. Nothing hides anything, so that the number in view is what the cells' size says.
-class Road {
- public:
-  /// `visible`: walls in view, about. `lap_m`: after which it returns to its beginning; 0: never.
-  /// `stretch_m`: after which it is driven backwards, facing the same way; 0: never.
-  Road(double visible, double lap_m, double stretch_m = 0.0)
-      : stretch_(stretch_m), random_(1, hallway::stream_id("bench.slam_plane_growth")) {
-    // The view is a triangle of range² m² on average; of each wall one side is told, and half of them turn that to the robot.
-    cell_ = std::sqrt(0.5 * kRange_m * kRange_m / visible);
-    rows_ = 2 * static_cast<std::int64_t>(std::ceil(kBand_m / cell_));
-    if (lap_m > 0.0) {
-      columns_ = std::max<std::int64_t>(1, std::llround(lap_m / cell_));
-      radius_ = static_cast<double>(columns_) * cell_ / (2.0 * std::numbers::pi);
-    }
-  }
-
-  /// Walls on a lap.
-  double walls() const { return static_cast<double>(columns_ * rows_); }
-  double lap_m() const { return static_cast<double>(columns_) * cell_; }
-
-  const std::vector<Piece>& see(std::uint32_t step) {
-    double s = kStep_m * static_cast<double>(step);
-    if (stretch_ > 0.0) s = stretch_ - std::abs(std::fmod(s, 2.0 * stretch_) - stretch_);
-    const Pose2 inverse = place(s).inverse();
-    pieces_.clear();
-    const double reach = kRange_m * std::numbers::sqrt2;
-    const auto first = static_cast<std::int64_t>(std::floor((s - reach) / cell_));
-    const auto last = static_cast<std::int64_t>(std::floor((s + reach) / cell_));
-    const std::int64_t most = columns_ > 0 ? first + columns_ - 1 : last;
-    for (std::int64_t column = first; column <= std::min(last, most); ++column) {
-      for (std::int64_t row = 0; row < rows_; ++row)
-        tell(wall(column, row), inverse, step, named(column) * rows_ + row);
-    }
-    return pieces_;
-  }
-
- private:
-  /// Of the robot at a length of road, or of what stands there.
-  Pose2 place(double s) const {
-    if (columns_ == 0) return {Vec2(s, 0.0), Vec2(1.0, 0.0)};
-    const double angle = s / radius_;
-    return Pose2::at(radius_ * Vec2(std::sin(angle), 1.0 - std::cos(angle)), angle);
-  }
-
-  std::int64_t named(std::int64_t column) const {
-    return columns_ == 0 ? column + 1000 : ((column % columns_) + columns_) % columns_;
-  }
-
-  Segment wall(std::int64_t column, std::int64_t row) const {
-    const auto key = static_cast<std::uint32_t>(named(column) * rows_ + row);
-    const double most = std::min(kPiece_m, 0.35 * cell_);
-    const double half = random_.uniform(key, 0, 0.5 * most, most);
-    const double angle = random_.uniform(key, 1, 0.0, 2.0 * std::numbers::pi);
-    const Pose2 at = place(cell_ * (static_cast<double>(column) + random_.uniform(key, 2, 0.4, 0.6)));
-    const double beside = cell_ * (static_cast<double>(row) + random_.uniform(key, 3, 0.4, 0.6) -
-                                   0.5 * static_cast<double>(rows_));
-    const Vec2 middle = at * Vec2(0.0, beside);
-    const Vec2 along = at.rotate(Pose2::at(Vec2::Zero(), angle).rotate(Vec2(half, 0.0)));
-    return {middle - along, middle + along};
-  }
-
-  /// What of a wall is within 45 degrees of the way ahead and within range, with noise.
-  void tell(const Segment& wall, const Pose2& inverse, std::uint32_t step, std::int64_t name) {
-    Vec2 a = inverse * wall.a;
-    Vec2 b = inverse * wall.b;
-    if (cross(a, b) >= 0.0) return;
-    for (const Vec2& inwards : {Vec2(1.0, 1.0), Vec2(1.0, -1.0)}) {
-      if (!clip(inwards.dot(a), inwards.dot(b), a, b)) return;
-    }
-    if (!clip(kRange_m - a.x(), kRange_m - b.x(), a, b) || (b - a).norm() < kLeastSeen_m) return;
-    const auto key = static_cast<std::uint64_t>(8 * name);
-    const Noise noise = Options{}.noise();
-    const Vec2 d = (b - a).normalized();
-    const Vec2 middle = 0.5 * (a + b) + noise.normal * random_.normal(step, key + 4) * left_of(d);
-    const Vec2 turned = Pose2::at(Vec2::Zero(), noise.angle * random_.normal(step, key + 5)).rotate(d);
-    const double half = 0.5 * (b - a).norm();
-    pieces_.push_back({middle - (half + noise.end * random_.normal(step, key + 6)) * turned,
-                       middle + (half + noise.end * random_.normal(step, key + 7)) * turned, 0.0, 2.5});
-  }
-
-  /// Keeps the part of a->b where a linear function, f at its ends, is not below 0.
-  static bool clip(double fa, double fb, Vec2& a, Vec2& b) {
-    if (fa < 0.0 && fb < 0.0) return false;
-    const Vec2 crossing = a + fa / (fa - fb) * (b - a);
-    if (fa < 0.0) a = crossing;
-    if (fb < 0.0) b = crossing;
-    return true;
-  }
-
-  double stretch_;
-  hallway::Random random_;
-  double cell_ = 1.0;
-  std::int64_t rows_ = 0;
-  std::int64_t columns_ = 0;  // of a lap; 0: it never returns
-  double radius_ = 0.0;
-  std::vector<Piece> pieces_;
-};
 
 struct Drive {
   std::vector<double> us;       // by iteration, the least of all runs
@@ -140,14 +36,27 @@ struct Drive {
   Counters counters;
 };
 
+/// The mapper of a mode, with the options that it has by default.
+template <typename AnyMapper>
+AnyMapper made();
+template <>
+Mapper made() {
+  return Mapper(Options{});
+}
+template <>
+thesis::ThesisMapper made() {
+  return thesis::ThesisMapper(thesis::Options{});
+}
+
 /// `stretch_m`: see Road.
+template <typename AnyMapper>
 Drive drive(double visible, double stretch_m, std::size_t steps) {
   Drive result;
   result.us.assign(steps, 1e300);
   result.visible.assign(steps, 0.0);
   for (int run = 0; run < kRuns; ++run) {
     Road road(visible, 0.0, stretch_m);
-    Mapper mapper{Options()};
+    auto mapper = made<AnyMapper>();
     for (std::size_t i = 0; i < steps; ++i) {
       const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
       const double start = cpu_us();
@@ -172,11 +81,12 @@ void print_row(GrowthTable& table, double asked, const Drive& drive, std::size_t
 
 const GrowthTable::Names kSizes{"asked", "walls", "submaps"};
 
+template <typename AnyMapper>
 void by_walls_in_view() {
   GrowthTable table("walls in view, on a road that never returns", kSizes);
   std::vector<std::pair<double, double>> cost;  // in view, mean
   for (const double visible : {5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
-    const Drive d = drive(visible, 0.0, 1500);
+    const Drive d = drive<AnyMapper>(visible, 0.0, 1500);
     print_row(table, visible, d, 500);
     cost.emplace_back(mean_of(from(d.visible, 500)), mean_of(from(d.us, 500)));
   }
@@ -193,20 +103,22 @@ double walls_per_m() {
   return 0.5 * road.walls() / road.lap_m();
 }
 
+template <typename AnyMapper>
 void by_map_size(double most) {
   GrowthTable table("map size, a stretch for the third time", kSizes);
   for (const double walls : {50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0}) {
     if (walls > most) break;
     const double stretch = std::max(1.0, walls / walls_per_m() - kRange_m);
     const auto steps = static_cast<std::size_t>(stretch / kStep_m);
-    print_row(table, walls, drive(10.0, stretch, 3 * steps), 2 * steps);
+    print_row(table, walls, drive<AnyMapper>(10.0, stretch, 3 * steps), 2 * steps);
   }
 }
 
+template <typename AnyMapper>
 void new_ground(double most) {
   GrowthTable table("new ground, a run and its tenths", kSizes);
   const auto steps = static_cast<std::size_t>(most / walls_per_m() / kStep_m);
-  const Drive d = drive(10.0, 0.0, steps);
+  const Drive d = drive<AnyMapper>(10.0, 0.0, steps);
   print_row(table, most, d, 0);
   std::vector<double> tenths;
   for (std::size_t k = 0; k < 10; ++k) {
@@ -216,11 +128,12 @@ void new_ground(double most) {
   std::printf("\nlast tenth / second tenth: %.3f\n", tenths[9] / tenths[1]);
 }
 
+template <typename AnyMapper>
 void known_ground(std::uint64_t iterations) {
   constexpr std::uint64_t kMostInRow = 100000;
   std::vector<double> us(kMostInRow, 0.0), visible(kMostInRow, 0.0);
   Road road(10.0, 60.0);
-  Mapper mapper{Options()};
+  auto mapper = made<AnyMapper>();
   const double before_mb = resident_mb();
   GrowthTable table("known ground, round a circle of about 60 m", {"iterations", "walls", "submaps"}, {"MB"});
   std::uint64_t next = 1000;
@@ -242,15 +155,29 @@ void known_ground(std::uint64_t iterations) {
   }
 }
 
+template <typename AnyMapper>
+void all_tables(double most_walls, std::uint64_t iterations) {
+  by_walls_in_view<AnyMapper>();
+  by_map_size<AnyMapper>(most_walls);
+  new_ground<AnyMapper>(most_walls);
+  known_ground<AnyMapper>(iterations);
+}
+
 }  // namespace
 
-/// The most walls of a map and the iterations on known ground, or 5000 and 1e6.
+/// The most walls of a map and the iterations on known ground, or 5000 and 1e6; then the mode, or relative.
 int main(int argc, char** argv) {
   const double most_walls = argc > 1 ? std::strtod(argv[1], nullptr) : 5000.0;
   const double iterations = argc > 2 ? std::strtod(argv[2], nullptr) : 1e6;
+  const std::string_view mode = argc > 3 ? argv[3] : "relative";
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  by_walls_in_view();
-  by_map_size(most_walls);
-  new_ground(most_walls);
-  known_ground(static_cast<std::uint64_t>(iterations));
+  if (mode == "relative") {
+    all_tables<Mapper>(most_walls, static_cast<std::uint64_t>(iterations));
+  } else if (mode == "thesis") {
+    all_tables<thesis::ThesisMapper>(most_walls, static_cast<std::uint64_t>(iterations));
+  } else {
+    std::fprintf(stderr, "usage: bench_slam_plane_growth [WALLS [ITERATIONS [relative|thesis]]]\n");
+    return 2;
+  }
+  return 0;
 }

@@ -99,7 +99,7 @@ class SlamPlane final : public sdk::Plugin {
       spatial_adapter_.put_map(host(), refine ? spatial_->refined_map() : spatial_->map());
       return;
     }
-    const Map map = thesis_ ? thesis_->map() : refine ? mapper_->refined_map() : mapper_->map();
+    const Map map = thesis_ ? map_of(*thesis_, refine) : map_of(*mapper_, refine);
     std::vector<hw_submap_t> submaps;
     std::vector<std::uint64_t> members;
     for (const Submap& submap : map.submaps) {
@@ -112,6 +112,11 @@ class SlamPlane final : public sdk::Plugin {
   }
 
  private:
+  template <typename AnyMapper>
+  static Map map_of(AnyMapper& mapper, bool refine) {
+    return refine ? mapper.refined_map() : mapper.map();
+  }
+
   void put_counters(const Answer& answer) const {
     const Counters& counters = answer.counters;
     const hw_counter_t list[] = {

@@ -56,13 +56,15 @@ void StaticPairs::keep_better(const Track& a, const Track& b, const Comparison& 
   if (conflict.any && conflict.newer_right) {
     const TrackId track = conflict.which == 0 ? a.id() : b.id();
     corner_since_[{track, made.key[conflict.which]}] = made.interval.first;
+    ++disproved_;
   }
   if (conflict.any ? conflict.newer_right : same_run || made.shared >= same->shared) *same = made;
 }
 
 /// Forgets what was found of ends that turned out not to be corners.
 void StaticPairs::drop_disproved(const Track& a, const Track& b, PairHistory& pair) {
-  if (corner_since_.empty()) return;
+  if (corner_since_.empty() || pair.disproved == disproved_) return;
+  pair.disproved = disproved_;
   std::erase_if(pair.saved, [&](const Comparison& saved) {
     for (const int which : {0, 1}) {
       const auto since = corner_since_.find({which == 0 ? a.id() : b.id(), saved.key[which]});

@@ -54,4 +54,15 @@ Pose2 MotionModel::restricted(const Alignment& alignment) {
   return result;
 }
 
+std::optional<Alignment> MotionModel::completed(std::optional<Alignment> told) {
+  if (!told) {
+    if (coast()) told = Alignment{pose_, false, pose_.r, false};
+  } else if (told->determined) {
+    known(told->T_to_from);
+  } else {
+    told->T_to_from = restricted(*told);
+  }
+  return told;
+}
+
 }  // namespace hallway::slam_plane::thesis

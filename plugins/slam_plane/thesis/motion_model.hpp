@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "slam_plane/thesis/alignment.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -25,6 +27,9 @@ class MotionModel {
   /// Takes a frame that told nothing: the robot goes on as it did, for `kCoast` frames. @returns whether that may still be believed.
   bool coast();
   static constexpr int kCoast = 30;
+
+  /// Takes what a frame told of the pose, if it told anything, and @returns it with what the movement tells; nothing where neither does.
+  std::optional<Alignment> completed(std::optional<Alignment> told);
 
   /// So many frames in a row did not tell a position that the model is on (Rule 26).
   bool active() const { return has_pose_ && unknown_ > begin_after_; }

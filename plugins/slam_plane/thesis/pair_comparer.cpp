@@ -10,7 +10,7 @@ PairComparer::PairComparer(const CompareOptions& options, std::size_t max_pairs)
 
 PairStatistics& PairComparer::statistics(const Track& a, const Track& b) {
   ++counters_.comparisons;
-  const Key key{a.id(), b.id()};
+  const TrackPair key{a.id(), b.id()};
   if (const auto found = by_key_.find(key); found != by_key_.end()) {
     ++counters_.hits;
     entries_.splice(entries_.begin(), entries_, found->second);
@@ -34,23 +34,15 @@ Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interv
   return evaluate(statistics(a, b).summary(a, b, interval, options_), combination, options_);
 }
 
-PairSums PairComparer::sums_in(const Track& a, const Track& b, const Interval& interval) {
-  return statistics(a, b).sums(a, b, interval);
-}
-
 void PairComparer::truncate(Iteration k) {
   for (Entry& entry : entries_) entry.statistics.truncate(k);
 }
 
-void PairComparer::forget(TrackId id) {
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    if (entry->key.first == id || entry->key.second == id) {
-      by_key_.erase(entry->key);
-      entry = entries_.erase(entry);
-    } else {
-      ++entry;
-    }
-  }
+void PairComparer::forget(TrackId a, TrackId b) {
+  const auto found = by_key_.find({std::min(a, b), std::max(a, b)});
+  if (found == by_key_.end()) return;
+  entries_.erase(found->second);
+  by_key_.erase(found);
 }
 
 }  // namespace hallway::slam_plane::thesis

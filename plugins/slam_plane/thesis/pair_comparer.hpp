@@ -3,9 +3,8 @@
 
 #include <cstdint>
 #include <list>
-#include <map>
 #include <span>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "slam_plane/thesis/comparison.hpp"
@@ -33,22 +32,21 @@ class PairComparer {
   /// O(log n) a call.
   Comparison compare_in(const Track& a, const Track& b, const Interval& interval, int combination);
 
-  /// What the shared sightings of an interval add up to, whatever their sizes; a's name before b's. O(log n).
-  PairSums sums_in(const Track& a, const Track& b, const Interval& interval);
+  /// The sums that are kept of two tracks, whatever the sightings' sizes; a's name before b's. Good until another pair is asked for. O(1) a new sighting.
+  const PairStatistics& kept(const Track& a, const Track& b) { return statistics(a, b); }
 
   /// Rolls back: to be called with Track::truncate of all tracks, before anything is compared again. O(pairs + forgotten).
   void truncate(Iteration k);
 
-  /// Forgets all pairs with a track, because its name will be given again or never used.
-  void forget(TrackId id);
+  /// Forgets two tracks, because one's name will be given again or never used. O(log pairs).
+  void forget(TrackId a, TrackId b);
 
   std::size_t pairs() const { return by_key_.size(); }
   const CompareCounters& counters() const { return counters_; }
 
  private:
-  using Key = std::pair<TrackId, TrackId>;
   struct Entry {
-    Key key;
+    TrackPair key;
     PairStatistics statistics;
   };
 
@@ -57,7 +55,7 @@ class PairComparer {
   CompareOptions options_;
   std::size_t max_pairs_;
   std::list<Entry> entries_;  // the one used last first
-  std::map<Key, std::list<Entry>::iterator> by_key_;
+  std::unordered_map<TrackPair, std::list<Entry>::iterator, TrackPairHash> by_key_;
   CompareCounters counters_;
 };
 

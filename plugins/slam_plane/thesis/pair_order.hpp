@@ -36,7 +36,7 @@ bool take_offer(Reference& parent, const Comparison& comparison, Reference& chil
 /// are known already (Prim's algorithm). Where each comparison knows the ends that it needs it is a maximum spanning tree, and steps that tell further ends.
 ///
 /// @param offers      sorted
-/// @param references  of all members, not valid; filled. O(steps * offers).
+/// @param references  of all members, not valid; filled. O(offers log offers).
 std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
                                       std::span<Reference> references);
 

@@ -59,21 +59,28 @@ std::size_t PairStatistics::first_checkpoint(Iteration k) const {
   return low;
 }
 
-PairSums PairStatistics::sums(const Track& a, const Track& b, const Interval& interval) const {
-  PairSums sums;
-  const auto add = [&](const Sighting& in_a, const Sighting& in_b) { sums += sums_of(in_a, in_b); };
-  const std::size_t from = first_checkpoint(interval.first);
-  const std::size_t to = first_checkpoint(interval.last + 1);  // behind the last one inside
-  if (from == to) {
-    for_each_shared(a, b, interval, add);
-    return sums;
+PairSums PairStatistics::up_to(const Track& a, const Track& b, Iteration k) const {
+  if (k >= updated_to_) return total_;
+  PairSums between;
+  const auto add = [&](const Sighting& in_a, const Sighting& in_b) { between += sums_of(in_a, in_b); };
+  const std::size_t next = first_checkpoint(k + 1);
+  const bool last = next == checkpoints_.size();
+  const Iteration above = last ? updated_to_ : checkpoints_[next].iteration;
+  if (next > 0 && k - checkpoints_[next - 1].iteration <= above - k) {
+    for_each_shared(a, b, {checkpoints_[next - 1].iteration + 1, k}, add);
+    between += checkpoints_[next - 1].sums;
+    return between;
   }
-  const Checkpoint& first = checkpoints_[from];
-  const Checkpoint& last = checkpoints_[to - 1];
-  for_each_shared(a, b, {interval.first, first.iteration}, add);
-  for_each_shared(a, b, {last.iteration + 1, interval.last}, add);
-  sums += last.sums;
-  sums -= first.sums;
+  for_each_shared(a, b, {k + 1, above}, add);
+  PairSums sums = last ? total_ : checkpoints_[next].sums;
+  sums -= between;
+  return sums;
+}
+
+PairSums PairStatistics::sums(const Track& a, const Track& b, const Interval& interval) const {
+  if (interval.empty()) return {};
+  PairSums sums = up_to(a, b, interval.last);
+  sums -= up_to(a, b, interval.first - 1);
   return sums;
 }
 

@@ -12,7 +12,7 @@
 namespace hallway::slam_plane::thesis {
 
 /// Running sums of one pair of tracks. Of every eighth shared sighting it keeps what all up to there add up to; so the sums on any interval come from two of those and at most
-/// fourteen sightings, wherever the interval is split later, and a roll back only drops the newest.
+/// eight sightings, wherever the interval is split later, and a roll back only drops the newest.
 class PairStatistics {
  public:
   explicit PairStatistics(std::size_t capacity);
@@ -22,6 +22,9 @@ class PairStatistics {
 
   /// Rolls back: forgets what came after iteration k. O(forgotten).
   void truncate(Iteration k);
+
+  /// Sums over the shared sightings up to iteration k, but for a constant that stays the same until the next update(): the difference of two is what lies between them. O(log n).
+  PairSums up_to(const Track& a, const Track& b, Iteration k) const;
 
   /// Sums over the shared sightings of an interval. O(log n).
   PairSums sums(const Track& a, const Track& b, const Interval& interval) const;

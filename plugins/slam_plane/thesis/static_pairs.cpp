@@ -55,7 +55,8 @@ void StaticPairs::shorten(const Track& a, const Track& b, int combination, Itera
   for (auto saved = pair.saved.begin(); saved != pair.saved.end(); ++saved) {
     if (!made_from(*saved, combination) || saved->interval.first != since || saved->interval.last <= last)
       continue;
-    const StillnessTest test(a, b, {since, last}, comparer_);
+    NewestShared newest(a, b, last);
+    StillnessTest test(newest, since, comparer_.kept(a, b));
     const bool still = last >= since && test.judge(combination, options_.max_deviation_m) == Stillness::still;
     if (still) {
       *saved = comparer_.compare_in(a, b, {since, last}, combination);
@@ -83,18 +84,18 @@ void StaticPairs::split_where_turned(const Track& a, const Track& b, Iteration s
   }
 }
 
-void StaticPairs::follow(const Track& a, const Track& b, bool due, PairHistory& pair) {
-  const Sighting& in_a = *a.find(pair.updated);
-  const Sighting& in_b = *b.find(pair.updated);
+void StaticPairs::follow(NewestShared& newest, bool due, PairHistory& pair) {
+  const Track& a = newest.a();
+  const Track& b = newest.b();
   std::optional<StillnessTest> test;
   Iteration tested_since = -1;
   for (int c = 0; c < 4; ++c) {
     EndRun& run = pair.runs[static_cast<std::size_t>(c)];
     if (run.since < 0) continue;
-    run.misses = agrees(end_offset(in_a, in_b, c), run.moments) ? 0 : run.misses + 1;
+    run.misses = agrees(newest.latest(c), run.moments) ? 0 : run.misses + 1;
     if (run.misses >= kMisses) end_run(a, b, c, pair);
     if (!due || run.since < 0 || run.misses > 0) continue;
-    if (tested_since != run.since) test.emplace(a, b, Interval{run.since, pair.updated}, comparer_);
+    if (tested_since != run.since) test.emplace(newest, run.since, comparer_.kept(a, b));
     tested_since = run.since;
     const Stillness found = test->judge(c, options_.max_deviation_m);
     if (found == Stillness::still) {
@@ -109,15 +110,15 @@ void StaticPairs::follow(const Track& a, const Track& b, bool due, PairHistory& 
 }
 
 /// Where there is no noise three sightings tell.
-void StaticPairs::search_exact(const Track& a, const Track& b, Iteration start, PairHistory& pair) {
-  const Interval newest{std::max(start, pair.updated - kExactReadings + 1), pair.updated};
-  if (newest.size() < kExactReadings) return;
-  const Sighting& in_a = *a.find(pair.updated);
-  const Sighting& in_b = *b.find(pair.updated);
+void StaticPairs::search_exact(NewestShared& newest, Iteration start, PairHistory& pair) {
+  const Track& a = newest.a();
+  const Track& b = newest.b();
+  const Interval least{std::max(start, pair.updated - kExactReadings + 1), pair.updated};
+  if (least.size() < kExactReadings) return;
   for (int c = 0; c < 4; ++c) {
     EndRun& run = pair.runs[static_cast<std::size_t>(c)];
     if (run.since >= 0) continue;
-    const OffsetMoments here{end_offset(in_a, in_b, c), 0.0};
+    const OffsetMoments here{newest.latest(c), 0.0};
     Iteration since = pair.updated;
     for (Iteration k = pair.updated - 1; k >= std::max(start, pair.updated - kLongest); --k) {
       const Sighting* before_a = a.find(k);
@@ -126,8 +127,8 @@ void StaticPairs::search_exact(const Track& a, const Track& b, Iteration start, 
         break;
       since = k;
     }
-    if (since > newest.first) continue;
-    const StillnessTest test(a, b, {since, pair.updated}, comparer_);
+    if (since > least.first) continue;
+    StillnessTest test(newest, since, comparer_.kept(a, b));
     if (test.judge(c, kNoDeviation_m) != Stillness::still) continue;
     run.since = since;
     run.moments = test.moments(c);
@@ -135,23 +136,23 @@ void StaticPairs::search_exact(const Track& a, const Track& b, Iteration start, 
 }
 
 /// The longest one of some intervals until now in which two ends stand still, for those that are not known to.
-void StaticPairs::search(const Track& a, const Track& b, Iteration start, PairHistory& pair) {
+void StaticPairs::search(NewestShared& newest, Iteration start, PairHistory& pair) {
   std::array<bool, 4> open{};
   for (std::size_t c = 0; c < 4; ++c) open[c] = pair.runs[c].since < 0;
   for (Iteration length = kReadings; length <= kLongest; length += length / 2) {
-    const Interval interval{std::max(start, pair.updated - length + 1), pair.updated};
+    const Iteration first = std::max(start, pair.updated - length + 1);
     if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return;
-    const StillnessTest test(a, b, interval, comparer_);
+    StillnessTest test(newest, first, comparer_.kept(newest.a(), newest.b()));
     for (int c = 0; c < 4; ++c) {
       const auto i = static_cast<std::size_t>(c);
       if (!open[i]) continue;
       const Stillness found = test.judge(c, options_.max_deviation_m);
       if (found == Stillness::moves) open[i] = false;
       if (found != Stillness::still) continue;
-      pair.runs[i].since = interval.first;
+      pair.runs[i].since = first;
       pair.runs[i].moments = test.moments(c);
     }
-    if (interval.first == start) return;
+    if (first == start) return;
   }
 }
 
@@ -171,29 +172,36 @@ void StaticPairs::find_lines(const Track& a, const Track& b, PairHistory& pair) 
   }
 }
 
+PairHistory& StaticPairs::begin(TrackId a, TrackId b) {
+  partners_[a].push_back(b);
+  partners_[b].push_back(a);
+  return pairs_[{a, b}];
+}
+
 const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   if (b.id() < a.id()) return update(b, a);
-  const auto [at, made] = pairs_.try_emplace({a.id(), b.id()});
-  PairHistory& pair = at->second;
-  if (made) {
-    partners_[a.id()].push_back(b.id());
-    partners_[b.id()].push_back(a.id());
-  }
+  static const PairHistory kNothing;
+  const Iteration last = a.empty() || b.empty() ? -1 : std::min(a.newest().iteration, b.newest().iteration);
+  const bool together = last >= 0 && a.find(last) != nullptr && b.find(last) != nullptr;
+  const auto known = pairs_.find({a.id(), b.id()});
+  if (known == pairs_.end() && !together) return kNothing;
+  PairHistory& pair = known != pairs_.end() ? known->second : begin(a.id(), b.id());
   if (a.empty() || b.empty()) return pair;
   drop_disproved(a, b, pair);
-  const Iteration last = std::min(a.newest().iteration, b.newest().iteration);
-  if (last <= pair.updated || a.find(last) == nullptr || b.find(last) == nullptr) return pair;
+  if (last <= pair.updated || !together) return pair;
   const bool due = last / kTestEvery != pair.updated / kTestEvery;
   const Iteration start = phase_begin(a, b);
   pair.updated = last;
+  pair.disproved = 0;
   if (start > last) {
     pair.runs = {};
     return pair;
   }
   split_where_turned(a, b, start, pair);
-  follow(a, b, due, pair);
-  search_exact(a, b, start, pair);
-  if (due) search(a, b, start, pair);
+  NewestShared newest(a, b, last);
+  follow(newest, due, pair);
+  search_exact(newest, start, pair);
+  if (due) search(newest, start, pair);
   judge_runs(a, b, pair);
   for (int c = 0; c < 4; ++c) {
     const EndRun& run = pair.runs[static_cast<std::size_t>(c)];
@@ -212,6 +220,7 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
 void StaticPairs::truncate(Iteration k) {
   comparer_.truncate(k);
   std::erase_if(corner_since_, [&](const auto& entry) { return entry.second > k; });
+  ++disproved_;
   std::erase_if(firm_, [&](const auto& entry) { return entry.second > k; });
   for (auto& [key, pair] : pairs_) {
     if (pair.updated <= k) continue;
@@ -222,7 +231,6 @@ void StaticPairs::truncate(Iteration k) {
 }
 
 void StaticPairs::forget(TrackId id) {
-  comparer_.forget(id);
   for (const KeyPoint key : {KeyPoint::left, KeyPoint::right}) {
     corner_since_.erase({id, key});
     firm_.erase({id, key});
@@ -230,6 +238,7 @@ void StaticPairs::forget(TrackId id) {
   const auto partners = partners_.find(id);
   if (partners == partners_.end()) return;
   for (const TrackId other : partners->second) {
+    comparer_.forget(id, other);
     pairs_.erase({std::min(id, other), std::max(id, other)});
     std::erase(partners_[other], id);
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,8 @@ struct PairHistory {
   std::array<EndRun, 4> runs;  ///< by 2 * end of the first plane + end of the second one
   std::vector<Comparison>
       saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
+
+  std::uint64_t disproved = 0;  ///< what was known of ends that are no corners, when `saved` was compared with it
 
   /// Whether an end of the first plane (0) or of the second one (1) stands still, as far as the pair tells.
   bool still(int which, int end) const;
@@ -61,12 +65,11 @@ class StaticPairs {
   void forget(TrackId id);
 
  private:
-  using Key = std::pair<TrackId, TrackId>;
-
+  PairHistory& begin(TrackId a, TrackId b);
   void split_where_turned(const Track& a, const Track& b, Iteration start, PairHistory& pair);
-  void follow(const Track& a, const Track& b, bool due, PairHistory& pair);
-  void search(const Track& a, const Track& b, Iteration start, PairHistory& pair);
-  void search_exact(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  void follow(NewestShared& newest, bool due, PairHistory& pair);
+  void search(NewestShared& newest, Iteration start, PairHistory& pair);
+  void search_exact(NewestShared& newest, Iteration start, PairHistory& pair);
   bool may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
                       Iteration now) const;
   void judge_runs(const Track& a, const Track& b, PairHistory& pair);
@@ -79,12 +82,13 @@ class StaticPairs {
 
   CompareOptions options_;
   PairComparer comparer_;
-  std::map<Key, PairHistory> pairs_;
+  std::unordered_map<TrackPair, PairHistory, TrackPairHash> pairs_;  // of planes that were seen together
   std::map<std::pair<TrackId, KeyPoint>, Iteration>
       firm_;  // ends that stood still to a plane that is not parallel, when last
   std::map<TrackId, std::vector<TrackId>> partners_;  // with whom a track was compared
   std::map<std::pair<TrackId, KeyPoint>, Iteration>
       corner_since_;  // ends that were taken for another place before
+  std::uint64_t disproved_ = 1;  // counts changes of it
 };
 
 }  // namespace hallway::slam_plane::thesis

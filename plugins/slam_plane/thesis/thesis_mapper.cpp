@@ -2,9 +2,13 @@
 #include "slam_plane/thesis/thesis_mapper.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "slam_plane/thesis/anchoring.hpp"
+#include "slam_plane/thesis/bridge.hpp"
 #include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/map_report.hpp"
 #include "slam_plane/thesis/matcher.hpp"
@@ -17,7 +21,8 @@ namespace {
 constexpr int kPlaceByPoseAfter =
     30;  // iterations after which a submap without a link is placed by the robot's pose
 constexpr std::size_t kTurns = 4;      // iterations in which each submap in view is computed once
-constexpr int kRollBacksPerFrame = 1;  // what asks for another one asks again in the next frame
+constexpr int kIterationsPerFrame = 4;      // while there are some to be done again
+constexpr std::size_t kMostWaiting = 2;     // limits of roll backs; where so many iterations wait there is no further one
 
 }  // namespace
 
@@ -32,12 +37,37 @@ class ThesisMapper::Engine {
   const Answer& answer() const { return answer_; }
   const ThesisCounters& counters() const { return counters_; }
 
+  /// Takes the newest frame. A frame after one that asks for a roll back goes back, and in those that follow some iterations are done again, until they have caught up with the newest one.
   void process(std::span<const Piece> pieces) {
-    history_.add(state_.now + 1, pieces);
-    iterate(pieces);
-    for (int i = 0; i < kRollBacksPerFrame && roll_back_; ++i) roll_back();
-    roll_back_.reset();
-    report(pieces.size());
+    const bool goes_back = roll_back_.has_value();
+    if (goes_back && waiting_.empty()) bridge_.emplace(options_, state_);
+    Bridge::Told told;
+    if (goes_back || !waiting_.empty()) told = bridge_->follow(pieces);
+    const Iteration before = waiting_.empty() ? state_.now : waiting_.back().iteration;
+    waiting_.push_back({before + 1, {pieces.begin(), pieces.end()}, {}, {}});
+    if (goes_back) roll_back();
+    for (int i = 0; !goes_back && i < kIterationsPerFrame && !waiting_.empty() && !roll_back_; ++i) {
+      take_next();
+      if (waiting_.empty()) told = told_now(pieces.size());
+    }
+    report(told);
+  }
+
+  bool ask_roll_back(const Hint& hint) {
+    if (roll_back_ || !waiting_.empty() || !history_.reaches(hint.iteration - 1)) return false;
+    roll_back_ = hint;
+    return true;
+  }
+
+  /// Does again all that waits for it.
+  void catch_up() {
+    while (roll_back_ || !waiting_.empty()) {
+      if (roll_back_) {
+        roll_back();
+      } else {
+        take_next();
+      }
+    }
   }
 
  private:
@@ -121,12 +151,9 @@ class ThesisMapper::Engine {
       location_ = state_.locator.locate(state_.seen, state_.tracks, state_.map, state_.pairs, state_.now,
                                         motion.predicted());
     }
-    if (!location_) {
-      if (motion.coast()) location_ = Alignment{motion.pose(), false, motion.pose().r, false};
-    } else if (location_->determined) {
-      motion.known(location_->T_to_from);
-    } else {
-      location_->T_to_from = motion.restricted(*location_);
+    const bool open = location_ && !location_->determined;
+    location_ = motion.completed(location_);
+    if (open) {
       expand_planes(location_->T_to_from);
       ++degenerate_;
     }
@@ -141,35 +168,49 @@ class ThesisMapper::Engine {
       state_.map.expand(id, T_map_robot * state_.tracks[id].newest().segment, state_.now);
   }
 
-  /// Goes back to before the hinted event and does everything again (Rules 33, 34).
+  void take_next() {
+    const Record next = std::move(waiting_.front());
+    waiting_.pop_front();
+    history_.add(next.iteration, next.pieces);
+    iterate(next.pieces);
+    const bool again = next.iteration <= newest_done_;
+    if (again) ++counters_.replayed;
+    const std::size_t most = kMostWaiting * static_cast<std::size_t>(options_.roll_back_limit);
+    if (again || waiting_.size() > most) roll_back_.reset();  // what asked for it asks again
+  }
+
+  /// Goes back to before what was hinted at, so that everything since then waits to be done again (Rules 33, 34).
   void roll_back() {
     const Hint hint = *roll_back_;
     roll_back_.reset();
-    if (!history_.reaches(hint.iteration - 1)) return;
-    const std::vector<Record> again = go_back(hint, options_, history_, state_);
-    for (const Record& record : again) {
-      history_.add(record.iteration, record.pieces);
-      iterate(record.pieces);
-    }
+    newest_done_ = state_.now;
+    std::vector<Record> again = go_back(hint, options_, history_, state_);
+    waiting_.insert(waiting_.begin(), std::make_move_iterator(again.begin()),
+                    std::make_move_iterator(again.end()));
     ++counters_.roll_backs;
-    counters_.replayed += again.size();
   }
 
-  void report(std::size_t pieces) {
-    answer_.has_pose = location_.has_value();
-    answer_.lost = location_ ? Lost::no : state_.seen.empty() ? Lost::nothing_seen : Lost::nothing_known;
+  /// What the last iteration tells.
+  Bridge::Told told_now(std::size_t pieces) const {
+    Bridge::Told told{location_, std::vector<WallId>(pieces, kNoWall), !state_.seen.empty()};
+    for (const Match& match : state_.matches) told.associations[match.piece] = wall_of(match.track, state_);
+    return told;
+  }
+
+  void report(const Bridge::Told& told) {
+    const std::optional<Alignment>& location = told.location;
+    answer_.has_pose = location.has_value();
+    answer_.lost = location ? Lost::no : told.seen ? Lost::nothing_known : Lost::nothing_seen;
     answer_.undetermined = Vec2::Zero();
-    if (location_) {
-      answer_.T_map_robot = location_->T_to_from;
-      answer_.undetermined = location_->determined ? Vec2(Vec2::Zero()) : location_->open;
-      answer_.covariance = covariance_of(*location_);
+    if (location) {
+      answer_.T_map_robot = location->T_to_from;
+      answer_.undetermined = location->determined ? Vec2(Vec2::Zero()) : location->open;
+      answer_.covariance = covariance_of(*location);
     }
-    answer_.associations.assign(pieces, kNoWall);
-    for (const Match& match : state_.matches)
-      answer_.associations[match.piece] = wall_of(match.track, state_);
+    answer_.associations = told.associations;
     Counters& counters = answer_.counters;
     ++counters.iterations;
-    if (!location_) ++counters.lost;
+    if (!location) ++counters.lost;
     counters.walls = count_walls(state_);
     counters.submaps = state_.submaps.size();
     counters.degenerate = degenerate_;
@@ -182,7 +223,10 @@ class ThesisMapper::Engine {
   History history_;
   std::vector<SubmapIndex> changed_;
   std::optional<Alignment> location_;
-  std::optional<Hint> roll_back_;
+  std::optional<Hint> roll_back_;     // that the last iteration asked for
+  std::deque<Record> waiting_;        // iterations to be done, or done again
+  std::optional<Bridge> bridge_;      // while there are any
+  Iteration newest_done_ = -1;        // up to it an iteration that waits is done again
   std::uint64_t degenerate_ = 0;
   ThesisCounters counters_;
   Answer answer_;
@@ -203,6 +247,15 @@ const Answer& ThesisMapper::process(std::span<const Piece> pieces, const View&) 
 
 Map ThesisMapper::map() const {
   return report_map(engine_->state());
+}
+
+Map ThesisMapper::refined_map() {
+  engine_->catch_up();
+  return map();
+}
+
+bool ThesisMapper::roll_back(const Hint& hint) {
+  return engine_->ask_roll_back(hint);
 }
 
 void ThesisMapper::reset() {

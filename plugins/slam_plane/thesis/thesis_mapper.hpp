@@ -5,6 +5,7 @@
 #include <span>
 
 #include "slam_plane/core/types.hpp"
+#include "slam_plane/thesis/hints.hpp"
 #include "slam_plane/thesis/options.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -34,10 +35,14 @@ class ThesisMapper {
   /// The first frame with a piece starts the map and has the identity pose. The answer lives until the next call.
   const Answer& process(std::span<const Piece> pieces, const View& view);
 
-  /// The map as it stands. O(map).
+  /// The map as it stands; after a roll back that of the iteration that was done again last. O(map).
   Map map() const;
-  /// The same: nothing is solved as a whole.
-  Map refined_map() const { return map(); }
+  /// The same once all that is being done again after a roll back was done: nothing is solved as a whole. O(map + what is to be done).
+  Map refined_map();
+
+  /// Asks for a roll back to before what a hint speaks of, as judging members does (Rules 33, 34): the next frames do everything since then again. @returns whether it can be: not farther back than
+  /// `roll_back_limit`, nor while another one is being done.
+  bool roll_back(const Hint& hint);
 
   /// Forgets everything but the options.
   void reset();

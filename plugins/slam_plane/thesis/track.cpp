@@ -141,7 +141,12 @@ void Track::truncate_index() {
 }
 
 std::size_t Track::lower_bound(Iteration k) const {
-  std::size_t low = 0, high = size();
+  if (empty() || newest().iteration < k) return size();
+  if (k <= oldest().iteration) return 0;
+  // There is at most one sighting an iteration, and mostly one in each.
+  const auto since = static_cast<std::size_t>(newest().iteration - k) + 1;
+  std::size_t low = size() - std::min(since, size()), high = size();
+  if ((*this)[low].iteration >= k) return low;
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
     if ((*this)[middle].iteration < k) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "slam_plane/thesis/interval.hpp"
 #include "slam_plane/thesis/ring_buffer.hpp"
@@ -18,6 +19,18 @@ namespace hallway::slam_plane::thesis {
 
 /// Names a track for the life of a mapper; after a roll back the names of tracks that are no more are given again.
 using TrackId = std::uint64_t;
+
+/// Two tracks, the one with the smaller name first.
+using TrackPair = std::pair<TrackId, TrackId>;
+
+/// For tables that are looked up by two tracks.
+struct TrackPairHash {
+  std::size_t operator()(const TrackPair& pair) const {
+    std::uint64_t h = (pair.first * 0x9e3779b97f4a7c15u) ^ (pair.second + 0x7f4a7c15u);  // Fibonacci hashing
+    h *= 0xff51afd7ed558ccdu;
+    return static_cast<std::size_t>(h ^ (h >> 32));
+  }
+};
 
 /// Iterations in which a plane was seen without a gap and did not turn from growing to shrinking or back: in all of them one end at least is static (Rule 18).
 struct Phase {

@@ -131,7 +131,7 @@ TEST(PairComparer, KeepsThePairsComparedLast) {
   EXPECT_EQ(comparer.pairs(), 2u);
   EXPECT_EQ(comparer.counters().discarded, 1u);
   EXPECT_EQ(comparer.counters().hits, 2u);
-  comparer.forget(0);
+  comparer.forget(1, 0);
   EXPECT_EQ(comparer.pairs(), 1u);
 }
 

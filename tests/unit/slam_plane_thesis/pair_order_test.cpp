@@ -126,6 +126,64 @@ TEST(PairOrder, EndsThatNothingHasInCommonPlaceNothingUntilTheyAreKnown) {
   EXPECT_TRUE(with[2].valid());
 }
 
+/// The order by its definition: always the first offer that tells anything.
+std::vector<PlaceStep> first_that_tells(std::size_t root, const std::vector<PlaceOffer>& offers,
+                                        std::vector<Reference>& references) {
+  std::vector<PlaceStep> steps;
+  for (std::size_t i = 0; i < offers.size();) {
+    const PlaceStep& step = offers[i].step;
+    if (steps.empty() && step.parent == root)
+      references[root] = reference_of(offers[i].comparison, 0);
+    const bool told = take_offer(references[step.parent], offers[i].comparison, references[step.child]);
+    if (told) steps.push_back(step);
+    i = told ? 0 : i + 1;
+  }
+  return steps;
+}
+
+/// Some comparisons between ends that chance chooses, both ways round.
+std::vector<PlaceOffer> offers_by_chance(std::size_t members, std::uint32_t draw) {
+  const Random random(7, stream_id("pair_order_test"));
+  std::vector<PlaceOffer> offers;
+  std::uint64_t n = 0;
+  const auto chance = [&](double most) { return random.uniform(draw, n++, 0.0, most); };
+  const auto key = [&] { return chance(1.0) < 0.5 ? KeyPoint::left : KeyPoint::right; };
+  for (std::size_t a = 0; a < members; ++a) {
+    for (std::size_t b = a + 1; b < members; ++b) {
+      if (chance(1.0) < 0.4) continue;
+      Comparison there = comparison_over(static_cast<int>(chance(12.0)) + 1, chance(1.0) < 0.3, key(),
+                                         chance(1.0) < 0.2 ? KeyPoint::none : key());
+      there.offset = Vec2(chance(4.0), chance(4.0));
+      offers.push_back({{a, b, {there.key[0], there.key[1]}}, there});
+      const Comparison back = inverse(there);
+      if (back.places()) offers.push_back({{b, a, {back.key[0], back.key[1]}}, back});
+    }
+  }
+  sort_offers(offers);
+  return offers;
+}
+
+TEST(PairOrder, TheNextStepIsAlwaysTheFirstOfferThatTellsAnything) {
+  for (std::uint32_t draw = 0; draw < 200; ++draw) {
+    const std::size_t members = 2 + draw % 8;
+    const std::vector<PlaceOffer> offers = offers_by_chance(members, draw);
+    for (std::size_t root = 0; root < members; ++root) {
+      std::vector<Reference> expected(members), found(members);
+      const std::vector<PlaceStep> by_definition = first_that_tells(root, offers, expected);
+      const std::vector<PlaceStep> steps = spanning_steps(root, offers, found);
+      ASSERT_EQ(steps.size(), by_definition.size());
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        EXPECT_EQ(steps[i].parent, by_definition[i].parent);
+        EXPECT_EQ(steps[i].child, by_definition[i].child);
+      }
+      for (std::size_t i = 0; i < members; ++i) {
+        EXPECT_EQ(found[i].valid(), expected[i].valid());
+        EXPECT_EQ(found[i].place.middle, expected[i].place.middle);
+      }
+    }
+  }
+}
+
 TEST(PairOrder, ALineIsTakenOnlyWhereNothingElsePlacesAMember) {
   std::vector<PlaceOffer> offers{
       {{0, 1, {KeyPoint::left, KeyPoint::none}}, comparison_over(500, false, KeyPoint::left, KeyPoint::none)},

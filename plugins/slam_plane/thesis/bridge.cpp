@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/bridge.hpp"
+
+#include <algorithm>
+
+#include "slam_plane/thesis/map_report.hpp"
+#include "slam_plane/thesis/matching.hpp"
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+/// Tracks that need to remember no more than what they are matched by.
+TrackOptions short_memory(const Options& options) {
+  TrackOptions result = options.track();
+  result.capacity = 2 * result.trend_window;
+  return result;
+}
+
+}  // namespace
+
+Bridge::Bridge(const Options& options, const State& before)
+    : options_(options.match()), now_(before.now), motion_(before.carried.motion) {
+  for (const TrackId id : before.recent) {
+    if (before.tracks[id].empty()) continue;
+    Followed& next = followed_.emplace_back(
+        Followed{Track(id, short_memory(options)), {}, {}, wall_of(id, before)});
+    next.track.push(before.tracks[id].newest());
+    const MappedPlane* plane = before.map.find(id);
+    if (plane == nullptr) continue;
+    next.in_map = plane->reference;
+    next.seen = before.locator.seen(before.tracks[id], before.now);
+  }
+}
+
+Bridge::Followed& Bridge::followed(const Track& track) {
+  return *std::lower_bound(followed_.begin(), followed_.end(), track.id(),
+                           [](const Followed& one, TrackId id) { return one.track.id() < id; });
+}
+
+Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
+  ++now_;
+  Told told;
+  told.associations.assign(pieces.size(), kNoWall);
+  std::vector<Sighting> sightings;
+  std::vector<std::size_t> piece_of;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::optional<Sighting> sighting = make_sighting(pieces[i], now_);
+    if (!sighting) continue;
+    sightings.push_back(*sighting);
+    piece_of.push_back(i);
+  }
+  std::vector<std::vector<const Track*>> stages(1);
+  for (const Followed& one : followed_) stages[0].push_back(&one.track);
+  const std::vector<const Track*> matched = match_tracks(sightings, stages, options_);
+  std::vector<PlanePair> evidence;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (matched[i] == nullptr) continue;
+    Followed& one = followed(*matched[i]);
+    one.track.push(sightings[i]);
+    told.associations[piece_of[i]] = one.wall;
+    told.seen = true;
+    if (!one.in_map.valid()) continue;
+    one.seen.place = {sightings[i].segment.middle(), sightings[i].direction, sightings[i].length, true};
+    append_pairs(one.seen, one.in_map, evidence);
+  }
+  if (motion_.has_pose()) told.location = align(evidence, motion_.predicted());
+  told.location = motion_.completed(told.location);
+  return told;
+}
+
+}  // namespace hallway::slam_plane::thesis

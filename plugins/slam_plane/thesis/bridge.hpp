@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "slam_plane/thesis/state.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// Where the robot is while iterations are done again (Rule 33): the planes that were seen last are followed on the map as it was before time was rolled back. Nothing is learned.
+class Bridge {
+ public:
+  /// What is told of one frame.
+  struct Told {
+    std::optional<Alignment> location;
+    std::vector<WallId> associations;  ///< of each piece
+    bool seen = false;                 ///< a piece was one of the planes that are followed
+  };
+
+  /// From the state after an iteration, before it is rolled back. O(planes seen lately).
+  Bridge(const Options& options, const State& before);
+
+  /// Takes the next frame. O(pieces * planes that are followed).
+  Told follow(std::span<const Piece> pieces);
+
+ private:
+  struct Followed {
+    Track track;     // its newest sightings
+    Reference seen;  // in the robot's frame, with the ends that stood still; not valid if the map does not have it
+    Reference in_map;
+    WallId wall = kNoWall;
+  };
+
+  Followed& followed(const Track& track);
+
+  MatchOptions options_;
+  Iteration now_;
+  MotionModel motion_;
+  std::vector<Followed> followed_;  // by the track's name, ascending
+};
+
+}  // namespace hallway::slam_plane::thesis
