@@ -25,12 +25,13 @@ void FrameLocator::locate(const WallMap& map, std::uint32_t since, Frame& frame)
   reckon(map.submaps[map.active()].T_map_submap, frame);
 }
 
-/// A robot that is not told along one direction has gone on along it.
+/// A robot that is not told along one direction has gone on along it. Where it looks along it, its step is not told either: then the motion so far is as good.
 void FrameLocator::reckon(const Pose2& T_map_submap, Frame& frame) {
   if (known_ == 0) return reckoning_.reset();
   reckoning_.predict(T_map_submap, frame.T_map_robot.r, fastest_);
   const PoseInformation& told = frame.in_map;
   if (!reckoning_.is_running() || !told.heading || told.open != 1) return;
+  if (std::abs(cross(told.direction, frame.T_map_robot.r)) <= kLeastCrossing) return reckoning_.reset();
   frame.T_map_robot.t += told.direction.dot(reckoning_.place() - frame.T_map_robot.t) * told.direction;
 }
 
