@@ -94,6 +94,7 @@ StillnessTest::StillnessTest(NewestShared& newest, Iteration first, const PairSt
 
 void StillnessTest::look_closer() {
   Details& details = details_.emplace();
+  details.oldest = 0;
   const Track& a = newest_.a();
   const Track& b = newest_.b();
   const Iteration size = interval_.size();

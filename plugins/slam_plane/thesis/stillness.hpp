@@ -78,7 +78,7 @@ class StillnessTest {
     PairSums tail;                                    // the newest sightings
     std::array<const Sighting*, kOutermost> oldest_a;  // the first `oldest` are set
     std::array<const Sighting*, kOutermost> oldest_b;
-    std::size_t oldest = 0;
+    std::size_t oldest;
   };
 
   void look_closer();
