@@ -182,6 +182,8 @@ PlaneScore::PlaneScore(std::span<const log::TrueWall> walls) {
   for (const log::TrueWall& wall : walls) {
     Face face;
     for (const auto& corner : wall.corners_m) face.corners.push_back(vector_of(corner));
+    for (const auto& corner : wall.hull_m) face.outline.push_back(vector_of(corner));
+    if (face.outline.empty()) face.outline = face.corners;
     const Vec3 along = face.corners[1] - face.corners[0];
     face.length_m = along.norm();
     if (!(face.length_m > 0.0)) continue;
@@ -344,7 +346,7 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
     angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
     offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
     for (const End& end :
-         level ? certain_ends(*plane, face->corners) : certain_edges(*plane, face->corners, *T_world_map)) {
+         level ? certain_ends(*plane, face->corners) : certain_edges(*plane, face->outline, *T_world_map)) {
       const Vec3 middle = *T_world_map * end.middle;
       corners.add((middle - end.truth.nearest(middle)).norm());
     }

@@ -61,7 +61,8 @@ class PlaneScore {
 
  private:
   struct Face {
-    std::vector<Vec3> corners;
+    std::vector<Vec3> corners;  ///< four
+    std::vector<Vec3> outline;  ///< the corners, or what it is within them
     Vec3 normal = Vec3::Zero();
     Vec3 along = Vec3::Zero();  ///< unit, from the first corner to the second
     double length_m = 0.0;

@@ -171,8 +171,9 @@ Pose fitted(const std::vector<Match>& matches, Pose T, const Sigmas& sigmas) {
 bool tells_position(const Mat6& h, bool level) {
   Eigen::Matrix3d turns = h.bottomRightCorner<3, 3>();
   turns.diagonal().array() += kHold;
-  const Eigen::Matrix3d position =
-      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * symmetric_inverse<3>(turns) * h.bottomLeftCorner<3, 3>();
+  const Eigen::Matrix3d position = h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() *
+                                                                 symmetric_inverse<3>(turns) *
+                                                                 h.bottomLeftCorner<3, 3>();
   const double worst =
       level ? spectrum<2>(position.topLeftCorner<2, 2>()).values(0) : spectrum<3>(position).values(0);
   return worst * RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m >= 1.0;

@@ -8,7 +8,8 @@ namespace hallway {
 
 template <int N>
 Spectrum<N> spectrum(const Eigen::Matrix<double, N, N>& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(matrix)};  // one solver for all sizes
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{
+      Eigen::MatrixXd(matrix)};  // one solver for all sizes
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 

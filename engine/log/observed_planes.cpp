@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "log/csv_reader.hpp"
+#include "log/hull_field.hpp"
 #include "log/row_writer.hpp"
 
 namespace hallway::log {
@@ -44,31 +43,6 @@ bool is_empty_frame(const CsvReader& row) {
   return row.text(kWall).empty();
 }
 
-/// The corners of a hull: x y z after x y z, with blanks between them.
-std::vector<std::array<double, 3>> read_hull(const CsvReader& row) {
-  std::vector<std::array<double, 3>> hull;
-  const std::string_view text = row.text(kHull);
-  if (text.empty()) return hull;
-  const auto bad = [&] { return row.bad_field(kHull, "the corners of a hull, three finite numbers each"); };
-  const std::vector<std::string_view> numbers = split(text, ' ');
-  if (numbers.size() < 9 || numbers.size() % 3 != 0) throw bad();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::optional<double> value = parse_double(numbers[i]);
-    if (!value || !std::isfinite(*value)) throw bad();
-    if (i % 3 == 0) hull.emplace_back();
-    hull.back()[i % 3] = *value;
-  }
-  return hull;
-}
-
-std::string hull_text(const ObservedPlane& observed) {
-  std::string text;
-  for (const auto& point : observed.hull_m) {
-    for (const double value : point) text += (text.empty() ? "" : " ") + format_double(value);
-  }
-  return text;
-}
-
 bool tells_hulls(const ObservedPlaneLog& log) {
   const auto& all = log.all();
   return std::any_of(all.begin(), all.end(), [](const ObservedPlane& seen) { return !seen.hull_m.empty(); });
@@ -83,7 +57,7 @@ ObservedPlane read_plane(const CsvReader& row) {
   plane.centroid_m = row.vector(kCentroid);
   for (std::size_t i = 0; i < 4; ++i) plane.corners_m[i] = row.vector(kCorners + 3 * i);
   plane.exclusive_share = 1.0;
-  observed.hull_m = read_hull(row);
+  observed.hull_m = read_hull(row, kHull);
   return observed;
 }
 
@@ -134,7 +108,7 @@ std::string print_observed_planes(const ObservedPlaneLog& log) {
       const Plane& plane = observed.plane;
       out.numbers(plane.normal).number(plane.offset_m).numbers(plane.centroid_m);
       for (const auto& corner : plane.corners_m) out.numbers(corner);
-      if (hulls) out.word(hull_text(observed));
+      if (hulls) out.word(hull_text(observed.hull_m));
       out.end_row();
     }
   }

@@ -85,6 +85,10 @@ TrueWallsMessage true_walls(const Json& json) {
     const Json& corners = entry.at("corners_m");
     if (!corners.is_array() || corners.size() != wall.corners_m.size()) bad("a wall without four corners");
     for (std::size_t i = 0; i < wall.corners_m.size(); ++i) wall.corners_m[i] = numbers<3>(corners[i]);
+    if (const auto hull = entry.find("hull_m"); hull != entry.end()) {
+      if (!hull->is_array() || hull->size() < 3) bad("a wall whose outline has fewer than three corners");
+      for (const Json& corner : *hull) wall.hull_m.push_back(numbers<3>(corner));
+    }
     if (!seen.insert(wall.id).second) bad("a wall that stands there twice");
   }
   return message;

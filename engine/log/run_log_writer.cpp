@@ -134,8 +134,11 @@ void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
 
 void RunLogWriter::add_true_walls(std::span<const TrueWall> walls) {
   Json list = Json::array();
-  for (const TrueWall& wall : walls)
-    list.push_back({{"id", wall.id}, {"corners_m", points_json(wall.corners_m)}});
+  for (const TrueWall& wall : walls) {
+    Json entry = {{"id", wall.id}, {"corners_m", points_json(wall.corners_m)}};
+    if (!wall.hull_m.empty()) entry["hull_m"] = points_json(wall.hull_m);
+    list.push_back(std::move(entry));
+  }
   add(topics::kTrueWalls, {}, text_of({{"walls", list}}));
 }
 

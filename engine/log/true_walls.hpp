@@ -17,9 +17,11 @@ struct TrueWall {
   LandmarkId id = 0;
   /// World, metres, in the order of hw_plane_t.corners: counter-clockwise as seen from its empty side.
   std::array<std::array<double, 3>, 4> corners_m{};
+  /// The convex outline of one with more than four corners, in the same sense; `corners_m` are then those of a rectangle around it. Else empty.
+  std::vector<std::array<double, 3>> hull_m{};
 };
 
-/// Reads true walls from CSV: columns `wall_id,x0,y0,z0,…,x3,y3,z3` in any order, each id once. Throws Error{kBadInput} with the line of
+/// Reads true walls from CSV: columns `wall_id,x0,y0,z0,…,x3,y3,z3` and perhaps `hull` in any order, each id once. Throws Error{kBadInput} with the line of
 /// the first thing that is wrong, also for a file that is cut off. The walls keep the file's order. O(n log n).
 ///
 /// @param text  the file's content

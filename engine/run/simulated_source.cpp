@@ -76,7 +76,8 @@ void SimulatedSource::set_walls(const sense::WallPlan& plan) {
                        .corners_m = {{{l.x(), l.y(), wall.low_m},
                                       {r.x(), r.y(), wall.low_m},
                                       {r.x(), r.y(), wall.high_m},
-                                      {l.x(), l.y(), wall.high_m}}}});
+                                      {l.x(), l.y(), wall.high_m}}},
+                       .hull_m = {}});
   }
 }
 
@@ -124,8 +125,13 @@ log::ObservedPlane plane_of(const sense::PlaneObservation& seen, std::uint64_t i
 
 void SimulatedSource::set_faces(const sense::FacePlan& plan) {
   walls_.emplace();
-  for (const Polygon& face : plan.faces)
-    walls_->push_back({.id = walls_->size(), .corners_m = corners_of(face)});
+  for (const Polygon& face : plan.faces) {
+    log::TrueWall& wall = walls_->emplace_back();
+    wall.id = walls_->size() - 1;
+    wall.corners_m = corners_of(face);
+    if (face.vertices.size() <= wall.corners_m.size()) continue;
+    for (const Vec3& corner : face.vertices) wall.hull_m.push_back(numbers_of(corner));
+  }
 }
 
 void SimulatedSource::read(std::uint32_t iteration, SourceFrame& frame) {

@@ -2,7 +2,9 @@
 #include "run/wall_layers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <span>
 #include <unordered_map>
 
 #include "render/colour.hpp"
@@ -38,8 +40,10 @@ void add_true_walls(render::Picture& picture, const Record& record) {
                          .opacity = 0.45,
                          .label = "true walls"};
   for (const log::TrueWall& wall : record.true_walls) {
-    for (std::size_t i = 0; i < 4; ++i)
-      walls.pairs.push_back({point_of(wall.corners_m[i]), point_of(wall.corners_m[(i + 1) % 4])});
+    const std::span<const std::array<double, 3>> outline =
+        wall.hull_m.empty() ? std::span(wall.corners_m) : std::span(wall.hull_m);
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      walls.pairs.push_back({point_of(outline[i]), point_of(outline[(i + 1) % outline.size()])});
   }
   if (!walls.pairs.empty()) picture.segments.push_back(std::move(walls));
 }

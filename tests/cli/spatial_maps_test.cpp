@@ -69,6 +69,8 @@ TEST_F(SpatialMaps, WithoutNoiseAreExact) {
   EXPECT_EQ(planes.at("final").at("duplicated"), 0);
   EXPECT_LT(planes.at("position_m").at("max").get<double>(), 1e-6);
   EXPECT_LT(planes.at("final").at("offset_m").at("max").get<double>(), 1e-6);
+  // Walls that the ramp stands against have an edge along it: corners of a rectangle about them are none.
+  EXPECT_LT(planes.at("final").at("corner_m").at("max").get<double>(), 1e-6);
   EXPECT_EQ(planes.at("association_errors"), 0);
 }
 

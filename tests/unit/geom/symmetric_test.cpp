@@ -27,7 +27,8 @@ TEST(Symmetric, TheSpectrumMakesTheMatrixAgain) {
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     const Mat6 matrix = random_matrix(seed, 8);
     const Spectrum<6> found = spectrum<6>(matrix);
-    EXPECT_LT((found.vectors * found.values.asDiagonal() * found.vectors.transpose() - matrix).norm(), 1e-12 * matrix.norm());
+    EXPECT_LT((found.vectors * found.values.asDiagonal() * found.vectors.transpose() - matrix).norm(),
+              1e-12 * matrix.norm());
     EXPECT_LT((found.vectors.transpose() * found.vectors - Mat6::Identity()).norm(), 1e-13);
     for (int k = 1; k < 6; ++k) EXPECT_LE(found.values(k - 1), found.values(k));
   }

@@ -139,6 +139,24 @@ TEST(TrueWalls, ReadBackToTheSameBits) {
     EXPECT_EQ(back[i].corners_m, walls[i].corners_m);
   }
   EXPECT_TRUE(print_true_walls(walls).starts_with("wall_id,x0,y0,z0,x1,"));
+  EXPECT_EQ(print_true_walls(walls).find("hull"), std::string::npos);
+}
+
+TEST(TrueWalls, OfMoreThanFourCornersHaveTheirOutline) {
+  const std::vector<double> values = test::random_doubles(15, 6);
+  std::vector<TrueWall> walls(2);
+  walls[1].id = 3;
+  for (std::size_t i = 0; i < 5; ++i)
+    walls[1].hull_m.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+  const std::vector<TrueWall> back = parse_true_walls(print_true_walls(walls), "true_walls.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_TRUE(back[0].hull_m.empty());
+  EXPECT_EQ(back[1].hull_m, walls[1].hull_m);
+  const std::string text = print_true_walls(walls);
+  const std::string begin = text.substr(0, text.find('\n') + 1) + "1,0,0,0,1,0,0,1,0,1,0,0,1,";
+  EXPECT_EQ(parse_true_walls(begin + "0 0 0 1 0 0 1 1 0\n", "a").front().hull_m.size(), 3u);
+  for (const char* hull : {"0 0 0 1 0 0", "0 0 0 1 0 0 1 1", "0 0 0 1 0 0 1 1 x"})
+    EXPECT_TRUE(error_of([&] { parse_true_walls(begin + hull + "\n", "a"); })) << hull;
 }
 
 TEST(TrueWalls, HaveDistinctIds) {

@@ -106,6 +106,32 @@ TEST(RunLog, MappedPlanesAndSubmapsReadBackToTheSameBits) {
   EXPECT_EQ(read.submap_members[1].first, 6u);
 }
 
+TEST(RunLog, TrueWallsReadBackToTheSameBits) {
+  std::vector<TrueWall> walls(2);
+  walls[0].corners_m = {{{0.1, 0, 0}, {1, 0, 0}, {1, 0, 1.0 / 3.0}, {0.1, 0, 1e-300}}};
+  walls[1].id = 7;
+  walls[1].hull_m = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0.1}, {1, 0, 1}, {0, 0, 1}};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  writer.add_true_walls(walls);
+  writer.finish();
+  const MemoryInput input(out.text());
+  McapReader reader(input);
+  std::vector<TrueWall> back;
+  while (const McapItem* item = reader.next()) {
+    const auto* message = std::get_if<McapMessage>(item);
+    if (message == nullptr) continue;
+    back = std::get<TrueWallsMessage>(parse_run_message(reader.channels().at(message->channel_id), *message))
+               .walls;
+  }
+  ASSERT_EQ(back.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back[i].id, walls[i].id);
+    EXPECT_EQ(back[i].corners_m, walls[i].corners_m);
+    EXPECT_EQ(back[i].hull_m, walls[i].hull_m);
+  }
+}
+
 TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {
   const PlaneAnswer plane{
       .plane = {.id = 5, .normal = {0, 0, -1}, .offset_m = -2, .points = 3, .exclusive_share = 0.5},
