@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "slam_plane/thesis/forgetting.hpp"
 #include "slam_plane/thesis/matcher.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -10,7 +11,6 @@ namespace {
 
 constexpr int kBeginning = 10;      // iterations in which planes join the very first submap at once
 constexpr int kFirstReadings = 3;   // of the planes of the very first submap
-constexpr int kForgetAfter = 50;    // iterations, or the limit of roll backs, for which an unassigned track is kept out of view
 constexpr int kTryAgainAfter = 20;  // iterations in which a submap has not placed a track that joined it
 constexpr int kLeastLinks = 2;      // Rule 8
 constexpr std::size_t kLookThrough = 64;  // submaps that are looked through for a link
@@ -166,7 +166,6 @@ bool assign(TrackId track, const Options& options, State& state) {
 void assign_unassigned(const Options& options, State& state) {
   std::vector<Unassigned> kept;
   const int least = beginning(state) ? kFirstReadings : options.min_readings;
-  const int forget_after = std::max(kForgetAfter, options.roll_back_limit);
   for (Unassigned entry : state.carried.unassigned) {
     const Track& track = state.tracks[entry.track];
     if (track.empty() || state.map.find(entry.track) != nullptr) continue;
@@ -174,7 +173,7 @@ void assign_unassigned(const Options& options, State& state) {
     const bool ready = track.newest().iteration == state.now && static_cast<int>(track.size()) >= least &&
                        !entry.part_of.has_value() && waited;
     if (ready && assign(entry.track, options, state)) entry.joined = state.now;
-    if (track.newest().iteration + forget_after >= state.now) {
+    if (track.newest().iteration + forget_after(options) >= state.now) {
       kept.push_back(entry);
     } else if (state.tracks.submaps(entry.track).empty()) {
       state.pairs.forget(entry.track);
@@ -207,6 +206,7 @@ void choose_current(State& state) {
     best = submap;
   }
   state.carried.current = best;
+  if (best != kNoSubmap) state.submaps[best].current_at = state.now;
 }
 
 /// All mapped planes that each plane in view may be, and the submap that would have every plane in view if those that are one were merged (Rule 37).

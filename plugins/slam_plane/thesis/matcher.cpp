@@ -2,6 +2,7 @@
 #include "slam_plane/thesis/matcher.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "slam_plane/thesis/matching.hpp"
@@ -87,7 +88,8 @@ void chart_submaps(State& state) {
     const auto& of = state.tracks.submaps(id);
     all.insert(all.end(), of.begin(), of.end());
     const auto& charted = state.tracks.charted(id);
-    all.insert(all.end(), charted.begin(), charted.end());
+    std::copy_if(charted.begin(), charted.end(), std::back_inserter(all),
+                 [&](SubmapIndex submap) { return !state.submaps[submap].members().empty(); });
   }
   std::sort(all.begin(), all.end());
   state.chart.clear();

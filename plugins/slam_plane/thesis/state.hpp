@@ -49,6 +49,7 @@ struct State {
   Iteration start = -1;  ///< iteration with the first piece; its robot frame is the map's
   TrackBook tracks;
   std::vector<Submap> submaps;
+  std::size_t dropped_submaps = 0;  ///< of them, those that came to nothing and are empty
   StaticPairs pairs;
   MapBuilder map;
   Locator locator;

@@ -65,6 +65,7 @@ class Submap {
   std::vector<Anchor> anchors;     ///< if there are any they place it
   Iteration anchored = -1;         ///< when they were set by a motion model
   std::vector<SubmapIndex> links;  ///< of submaps that it is linked to; the first one it was made from
+  Iteration current_at = -1;       ///< when it was the current one last
   bool by_motion = false;          ///< made from a motion model: placed by where the robot was
 
  private:

@@ -9,6 +9,7 @@
 
 #include "slam_plane/thesis/anchoring.hpp"
 #include "slam_plane/thesis/bridge.hpp"
+#include "slam_plane/thesis/forgetting.hpp"
 #include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/map_report.hpp"
 #include "slam_plane/thesis/matcher.hpp"
@@ -74,6 +75,7 @@ class ThesisMapper::Engine {
   /// One iteration (thesis 4.5).
   void iterate(std::span<const Piece> pieces) {
     ++state_.now;
+    forget_vain(options_, state_);
     match_with_map(options_, state_);
     add_planes(pieces, options_, state_);
     manage_submaps(options_, state_);
@@ -212,7 +214,7 @@ class ThesisMapper::Engine {
     ++counters.iterations;
     if (!location) ++counters.lost;
     counters.walls = count_walls(state_);
-    counters.submaps = state_.submaps.size();
+    counters.submaps = state_.submaps.size() - state_.dropped_submaps;
     counters.degenerate = degenerate_;
     counters_.comparisons = state_.pairs.comparer().counters().comparisons;
     counters_.cache_hits = state_.pairs.comparer().counters().hits;

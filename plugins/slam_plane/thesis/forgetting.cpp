@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/forgetting.hpp"
+
+#include <algorithm>
+
+namespace hallway::slam_plane::thesis {
+namespace {
+
+constexpr int kForgetAfter = 50;  // iterations, or the limit of roll backs
+constexpr Iteration kLookEvery = 20;  // iterations
+
+/// Whether a track is not in the map and was not seen for so long that it never will be.
+bool came_to_nothing(TrackId id, const Options& options, const State& state) {
+  const Track& track = state.tracks[id];
+  if (state.map.find(id) != nullptr) return false;
+  return track.empty() || track.newest().iteration + forget_after(options) < state.now;
+}
+
+/// Whether a placed submap other than this one tells as much of the ends of a plane, from as many sightings: then the map does not take the plane from this one alone.
+bool told_elsewhere(const Member& member, SubmapIndex index, const State& state) {
+  const auto& of = state.tracks.submaps(member.track);
+  return std::any_of(of.begin(), of.end(), [&](SubmapIndex other) {
+    if (other == index || !state.submaps[other].placed) return false;
+    const Member* there = state.submaps[other].find(member.track);
+    if (there == nullptr || !there->reference.valid()) return false;
+    const bool(&known)[2] = member.reference.known;
+    return there->reference.shared >= member.reference.shared &&
+           (there->reference.known[kEndA] || !known[kEndA]) && (there->reference.known[kEndB] || !known[kEndB]);
+  });
+}
+
+bool in_vain(SubmapIndex index, const Options& options, const State& state) {
+  const Submap& submap = state.submaps[index];
+  if (submap.members().empty() || index == state.carried.current) return false;
+  if (std::max(submap.created(), submap.current_at) + forget_after(options) >= state.now) return false;
+  return std::all_of(submap.members().begin(), submap.members().end(), [&](const Member& member) {
+    if (!member.link) return came_to_nothing(member.track, options, state);
+    return !submap.placed || !member.reference.valid() || told_elsewhere(member, index, state);
+  });
+}
+
+/// Links what a submap is linked to with what it was made from instead.
+void bypass(SubmapIndex index, State& state) {
+  const std::vector<SubmapIndex> linked = state.submaps[index].links;
+  for (const SubmapIndex a : linked) {
+    std::erase(state.submaps[a].links, index);
+    for (const SubmapIndex b : linked) {
+      auto& of = state.submaps[a].links;
+      if (a == b || std::min(a, b) > index || std::find(of.begin(), of.end(), b) != of.end()) continue;
+      of.push_back(b);
+    }
+  }
+}
+
+void drop(SubmapIndex index, State& state) {
+  bypass(index, state);
+  for (const Member& member : state.submaps[index].members()) {
+    auto& of = state.tracks.submaps(member.track);
+    std::erase(of, index);
+    if (member.link || !of.empty()) continue;
+    state.pairs.forget(member.track);
+    state.tracks[member.track].forget();
+  }
+  state.submaps[index] = Submap(state.submaps[index].id(), state.submaps[index].created());
+  ++state.dropped_submaps;
+}
+
+}  // namespace
+
+int forget_after(const Options& options) {
+  return std::max(kForgetAfter, options.roll_back_limit);
+}
+
+void forget_vain(const Options& options, State& state) {
+  if (state.now % kLookEvery != 0) return;
+  for (SubmapIndex index = 1; index < state.submaps.size(); ++index) {  // the first one holds the map's frame
+    if (in_vain(index, options, state)) drop(index, state);
+  }
+}
+
+}  // namespace hallway::slam_plane::thesis

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "slam_plane/thesis/state.hpp"
+
+namespace hallway::slam_plane::thesis {
+
+/// For how many iterations a track that is not in the map is kept out of view: longer than a roll back reaches.
+int forget_after(const Options& options);
+
+/// Forgets what came to nothing for longer than a roll back reaches (a rule of ours; the thesis keeps all). Every 20 iterations it looks for submaps that were not the current one for so long and have
+/// of their own only tracks that are not in the map and were not seen for so long; unless one of them alone tells an end of a wall of the map it is emptied, those linked to it are linked to what it was
+/// made from, and of its own tracks those that no other submap has are forgotten with their pairs. Its place in the list stays taken. O(submaps * members).
+void forget_vain(const Options& options, State& state);
+
+}  // namespace hallway::slam_plane::thesis

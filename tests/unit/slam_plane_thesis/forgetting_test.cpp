@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "slam_plane/thesis/forgetting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "plane_road.hpp"
+#include "slam_plane/thesis/thesis_mapper.hpp"
+#include "unit/slam_plane_thesis/small_world.hpp"
+
+namespace hallway::slam_plane::thesis::test {
+namespace {
+
+/// Two walls and one more in the map; a submap that takes the two over, made for a piece that was never placed; and a submap made from that one.
+class InVain : public ::testing::Test {
+ protected:
+  InVain() {
+    for (const Segment& wall : {kAlong, kAhead, kSlanted}) world_.see(wall, {{0, 60}}, curved);
+    piece_ = world_.see(kFacing, {{59, 60}}, curved);
+    world_.state.now = 60;
+    first_ = world_.fixed_group({0, 1, 2});
+    vain_ = make({0, 1}, piece_, first_);
+    later_ = make({0, 1}, 2, vain_);
+  }
+
+  SubmapIndex make(std::initializer_list<TrackId> links, TrackId own, SubmapIndex from) {
+    State& state = world_.state;
+    const SubmapIndex made = state.submaps.size();
+    state.submaps.emplace_back(made, state.now);
+    for (const TrackId id : links) state.submaps[made].add(id, state.now, true);
+    state.submaps[made].add(own, state.now, false);
+    for (const Member& member : state.submaps[made].members()) state.tracks.submaps(member.track).push_back(made);
+    state.submaps[made].links.push_back(from);
+    state.submaps[from].links.push_back(made);
+    return made;
+  }
+
+  void forget_at(Iteration now) {
+    world_.state.now = now;
+    forget_vain(world_.options, world_.state);
+  }
+
+  bool there(SubmapIndex index) const { return !world_.state.submaps[index].members().empty(); }
+
+  SmallWorld world_;
+  TrackId piece_ = 0;
+  SubmapIndex first_ = 0, vain_ = 0, later_ = 0;
+};
+
+TEST_F(InVain, ASubmapOfNothingButAPieceThatWasNeverPlacedGoesWithThePiece) {
+  forget_at(200);
+  EXPECT_FALSE(there(vain_));
+  EXPECT_TRUE(there(first_));
+  EXPECT_TRUE(there(later_)) << "what it was made for is in the map";
+  EXPECT_TRUE(world_.state.tracks[piece_].empty());
+  EXPECT_FALSE(world_.state.tracks[0].empty());
+  EXPECT_EQ(world_.state.dropped_submaps, 1u);
+  EXPECT_EQ(world_.state.tracks.submaps(0), (std::vector<SubmapIndex>{first_, later_}));
+  EXPECT_EQ(world_.state.submaps[later_].links, std::vector<SubmapIndex>{first_}) << "linked to what it was made from";
+  EXPECT_EQ(world_.state.submaps[first_].links, std::vector<SubmapIndex>{later_});
+}
+
+TEST_F(InVain, NothingGoesThatARollBackMayReach) {
+  const int after = forget_after(world_.options);
+  forget_at(100);
+  EXPECT_TRUE(there(vain_)) << after;
+  world_.state.submaps[vain_].current_at = 180;
+  forget_at(200);
+  EXPECT_TRUE(there(vain_)) << "it was the current one";
+}
+
+TEST_F(InVain, WhatAloneTellsAnEndOfAWallStays) {
+  State& state = world_.state;
+  state.submaps[vain_].compute(state.pairs, state.tracks, world_.options, state.now);
+  world_.fix(vain_);
+  ASSERT_TRUE(state.submaps[vain_].placed);
+  ASSERT_TRUE(state.submaps[vain_].find(0)->reference.valid());
+  ASSERT_EQ(state.map.find(piece_), nullptr);
+  const std::vector<SubmapIndex> of = state.tracks.submaps(0);
+  state.tracks.submaps(0) = {vain_, later_};  // as if the first one did not have it
+  forget_at(200);
+  EXPECT_TRUE(there(vain_));
+  state.tracks.submaps(0) = of;
+  forget_at(220);
+  EXPECT_FALSE(there(vain_)) << "the first one tells as much";
+}
+
+/// Pieces at the edge of the view join submaps that never place them, on each round again.
+TEST(Forgetting, SubmapsDoNotBecomeMoreRoundAfterRoundOfKnownGround) {
+  constexpr std::uint32_t kRound = 600;
+  bench::Road road(10.0, 60.0);
+  ThesisMapper mapper{Options{}};
+  std::uint64_t submaps = 0, walls = 0;
+  for (std::uint32_t i = 1; i <= 5 * kRound; ++i) {
+    const Counters& counters = mapper.process(road.see(i), View{}).counters;
+    if (i == 3 * kRound) {
+      submaps = counters.submaps;
+      walls = counters.walls;
+    }
+    if (i != 5 * kRound) continue;
+    EXPECT_EQ(counters.walls, walls) << "the ground is known";
+    EXPECT_LT(counters.submaps, submaps + submaps / 10);
+  }
+}
+
+}  // namespace
+}  // namespace hallway::slam_plane::thesis::test
