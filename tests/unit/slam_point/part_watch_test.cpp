@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "ground.hpp"
 #include "scenes.hpp"
 #include "slam_point/core/alignment.hpp"
 
@@ -133,14 +134,7 @@ class TwoParts {
   }
 
   Index add_submap(const std::vector<Vec3>& points, std::uint32_t count) {
-    const Index submap = graph.add_submap(Pose{});
-    for (const Vec3& p : points) {
-      const Index landmark = graph.add_landmark(p, 0);
-      const Index member = graph.join(submap, landmark, p, true);
-      graph.submaps[submap].members[member].count = count;
-      graph.resum(landmark);
-    }
-    return submap;
+    return add_seen_submap(graph, points, count);
   }
 };
 
