@@ -34,11 +34,12 @@ install: build-release
 test-long: build-release
 	ctest --test-dir build/release --output-on-failure
 
-## g++, clang, address+undefined and thread sanitizers: build and tests of each
+## g++, clang, address+undefined and thread sanitizers: build and tests of each; the benchmarks are built once
 check: deps
 	for preset in release clang asan tsan; do \
 	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && ctest --preset $$preset || exit 1; \
 	done
+	cmake --build --preset clang -j $(JOBS) --target benches
 
 ## libFuzzer on everything that reads foreign bytes, FUZZ_SECONDS each; what it finds is kept in build/fuzz/finds
 FUZZ_SECONDS ?= 600
@@ -54,6 +55,7 @@ fuzz: deps
 
 ## benchmarks: ratios against references measured in the same run, and a plot
 bench: build-release
+	cmake --build --preset release -j $(JOBS) --target benches
 	bench/run.sh build/release
 
 ## em beside PCL, CGAL and Open3D on the same clouds, slam_point beside MRPT and batch maximum likelihood on the same logs: installs and builds them, in a folder of its own

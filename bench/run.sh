@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run.sh BUILD: every benchmark of the build folder; files go to BUILD/bench-out. Speeds are ratios to references that are
-# measured in the same run.
+# measured in the same run. Their programs are the target `benches`: cmake --build --preset release --target benches
 set -euo pipefail
 build=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)

@@ -52,12 +52,13 @@ const std::map<std::string, std::set<std::string>> kAllowed{
       "run"}},
     {"robot", {"base", "host", "log", "record", "link", "hallway"}},
     {"loaders", {"base", "geom", "mesh", "import"}},
+    {"plugins/algebra", {"algebra"}},
     {"plugins/em/core", {"em"}},
-    {"plugins/slam_point/core", {"slam_point"}},
+    {"plugins/slam_point/core", {"algebra", "slam_point"}},
     {"plugins/slam_plane/core", {"slam_plane"}},
-    {"plugins/slam_plane/thesis", {"slam_plane"}},
-    {"plugins/slam_plane/spatial", {"slam_plane"}},
-    {"plugins/icp/core", {"icp"}},
+    {"plugins/slam_plane/thesis", {"algebra", "slam_plane"}},
+    {"plugins/slam_plane/spatial", {"algebra", "slam_plane"}},
+    {"plugins/icp/core", {"algebra", "icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
     {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",       "world",
              "sense",  "sim",    "host", "conformance", "log",   "record", "link",  "import",     "eval",
@@ -68,7 +69,7 @@ const std::set<std::string> kLibraries{
     "base",       "geom",       "map",         "csg",    "bsp", "pvs",    "trace",   "mesh",
     "world",      "sense",      "sim",         "host",   "log", "planes", "record",  "link",
     "foxglove",   "import",     "eval",        "render", "run", "editor", "hallway", "robot",
-    "slam_point", "slam_plane", "conformance", "em",     "icp", "batch",  "study"};
+    "slam_point", "slam_plane", "conformance", "em",     "icp", "batch",  "study",   "algebra"};
 
 struct Include {
   fs::path file;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "icp/core/fit.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "algebra/singular.hpp"
+#include "algebra/spectrum.hpp"
 
 namespace hallway::icp {
 namespace {
@@ -45,13 +48,13 @@ std::optional<Pose> fit_points(const std::vector<Pair>& pairs) {
   Mat3 cross = Mat3::Zero();  // sum w (target - mean) (moved - mean)^T
   for (const Pair& pair : pairs)
     cross += pair.weight * (pair.target - means.target) * (pair.moved - means.moved).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const algebra::Singular svd = algebra::singular(cross);
   // Two directions fix a rotation; the third follows from a right-handed frame.
-  if (!(svd.singularValues()(1) > kOpenAcross * svd.singularValues()(0))) return std::nullopt;
+  if (!(svd.values(1) > kOpenAcross * svd.values(0))) return std::nullopt;
   Mat3 proper = Mat3::Identity();
-  proper(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  proper(2, 2) = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   Pose motion;
-  motion.q = Eigen::Quaterniond(Mat3(svd.matrixU() * proper * svd.matrixV().transpose())).normalized();
+  motion.q = Eigen::Quaterniond(Mat3(svd.left * proper * svd.right.transpose())).normalized();
   motion.t = means.target - motion.q * means.moved;
   return motion;
 }
@@ -74,10 +77,9 @@ std::optional<Pose> fit_planes(const std::vector<Pair>& pairs) {
     curvature += pair.weight * row * row.transpose();
     gradient += pair.weight * pair.normal.dot(pair.target - pair.moved) * row;
   }
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(curvature);
-  if (!(eigen.eigenvalues()(0) > kOpenPlanes * eigen.eigenvalues()(5))) return std::nullopt;
-  const Vec6 step =
-      eigen.eigenvectors() * (eigen.eigenvectors().transpose() * gradient).cwiseQuotient(eigen.eigenvalues());
+  const algebra::Spectrum<6> eigen = algebra::spectrum(curvature);
+  if (!(eigen.values(0) > kOpenPlanes * eigen.values(5))) return std::nullopt;
+  const Vec6 step = eigen.vectors * (eigen.vectors.transpose() * gradient).cwiseQuotient(eigen.values);
   Pose motion;
   motion.q = rotation_by(step.head<3>() / radius);
   motion.t = means.moved + step.tail<3>() - motion.q * means.moved;

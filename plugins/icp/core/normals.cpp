@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "icp/core/normals.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "algebra/spectrum.hpp"
 
 namespace hallway::icp {
 namespace {
@@ -19,9 +19,9 @@ Vec3 normal_of(const Points& points, const std::vector<Neighbour>& near) {
     const Vec3 d = points[each.index] - mean;
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
-  if (!(eigen.eigenvalues()(1) > kLine * eigen.eigenvalues()(2))) return Vec3::Zero();
-  return eigen.eigenvectors().col(0);
+  const algebra::Spectrum<3> eigen = algebra::spectrum(scatter);
+  if (!(eigen.values(1) > kLine * eigen.values(2))) return Vec3::Zero();
+  return eigen.vectors.col(0);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include "slam_plane/spatial/evidence.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "algebra/spectrum.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -64,14 +64,14 @@ double Feature::variance_along(const Vec3& direction) const {
 
 Feature fit_plane(const Mat4& evidence, const Vec3& towards) {
   Feature feature;
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread_of(evidence));
-  Vec3 n = solver.eigenvectors().col(0);
+  const auto spread = algebra::spectrum<3>(spread_of(evidence));
+  Vec3 n = spread.vectors.col(0);
   if (n.dot(towards) < 0.0) n = -n;
   feature.plane.head<3>() = n;
   set_offset(evidence, feature);
   const Vec3 middle = middle_of(evidence);
   for (const int i : {0, 1}) {
-    const Vec3 turn = solver.eigenvectors().col(i + 1);
+    const Vec3 turn = spread.vectors.col(i + 1);
     feature.tangent.col(i) << turn, turn.dot(middle);
   }
   feature.tangent(3, 2) = 1.0;
@@ -85,9 +85,8 @@ Feature fit_edge(const Mat4& evidence, const Vec3& normal, const Vec3& towards) 
   const PlaneAxes axes(normal);
   Eigen::Matrix<double, 3, 2> basis;
   basis << axes.u, axes.v;
-  const Mat2 flat = basis.transpose() * spread_of(evidence) * basis;
-  const Eigen::SelfAdjointEigenSolver<Mat2> solver(flat);
-  Vec3 m = basis * solver.eigenvectors().col(0);
+  const auto flat = algebra::spectrum<2>(basis.transpose() * spread_of(evidence) * basis);
+  Vec3 m = basis * flat.vectors.col(0);
   if (m.dot(towards) < 0.0) m = -m;
   feature.plane.head<3>() = m;
   set_offset(evidence, feature);

@@ -2,12 +2,12 @@
 #include "slam_plane/spatial/frame_search.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "algebra/singular.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -120,11 +120,11 @@ void FrameSearch::try_place(const FaceMap& map, const std::vector<Sighting>& fra
     normals.row(i) = map.faces[known[at]].plane.normal().transpose();
     sum += map.faces[known[at]].plane.normal() * frame[seen[at]].normal.transpose();
   }
-  const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const algebra::Singular svd = algebra::singular(sum);
   Mat3 right = Mat3::Identity();
-  right(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  right(2, 2) = (svd.left * svd.right.transpose()).determinant();
   Pose3 T;
-  T.q = Quat(svd.matrixU() * right * svd.matrixV().transpose()).normalized();
+  T.q = Quat(svd.left * right * svd.right.transpose()).normalized();
   Vec3 offsets;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/spatial/pose_fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "algebra/spectrum.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -143,10 +143,9 @@ void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound_m, bool g
 void PoseFit::judge(PoseInformation& information) const {
   Vec6 scale;
   scale << Vec3::Constant(undetermined_m_), Vec3::Constant(kWorstTurn_rad);
-  const Eigen::SelfAdjointEigenSolver<Mat6> solver(scale.asDiagonal() * information.matrix *
-                                                   scale.asDiagonal());
-  information.open = static_cast<int>((solver.eigenvalues().array() < 1.0).count());
-  information.directions = solver.eigenvectors();
+  const auto spectrum = algebra::spectrum<6>(scale.asDiagonal() * information.matrix * scale.asDiagonal());
+  information.open = static_cast<int>((spectrum.values.array() < 1.0).count());
+  information.directions = spectrum.vectors;
 }
 
 PoseInformation PoseFit::solve(Pose3& T) const {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/thesis/alignment.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "algebra/spectrum.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -31,14 +32,14 @@ void place_by_lines(std::span<const PlanePair> pairs, const Pose2& guess, Alignm
     information += n * n.transpose();
     pull += n * n.dot(pair.point[1] - result.T_to_from.rotate(pair.point[0]) - guess.t);
   }
-  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(information);
+  const algebra::Spectrum<2> eigen = algebra::spectrum(information);
   result.T_to_from.t = guess.t;
-  result.determined = eigen.eigenvalues()[0] > kLeastCrossing * static_cast<double>(pairs.size());
+  result.determined = eigen.values[0] > kLeastCrossing * static_cast<double>(pairs.size());
   for (int k = result.determined ? 0 : 1; k < 2; ++k) {
-    const Vec2 axis = eigen.eigenvectors().col(k);
-    result.T_to_from.t += axis * (axis.dot(pull) / eigen.eigenvalues()[k]);
+    const Vec2 axis = eigen.vectors.col(k);
+    result.T_to_from.t += axis * (axis.dot(pull) / eigen.values[k]);
   }
-  if (!result.determined) result.open = eigen.eigenvectors().col(0);
+  if (!result.determined) result.open = eigen.vectors.col(0);
 }
 
 double median(std::vector<double> values) {

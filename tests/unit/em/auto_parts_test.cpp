@@ -2,7 +2,7 @@
 // The parts that `auto` is made of, against what is slow or simple and surely right.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "em/core/canonical.hpp"
@@ -11,6 +11,7 @@
 #include "em/core/neighbours.hpp"
 #include "em/core/seeds.hpp"
 #include "em/core/slab_points.hpp"
+#include "support/dense.hpp"
 #include "unit/em/auto_scene.hpp"
 
 namespace hallway::em {
@@ -97,7 +98,7 @@ TEST(Moments, VariancesAgreeWithTheEigensolverAndPartsAddUp) {
     all.add(cloud.points[i], 0.5);
   }
   first.join(second);
-  const Vec3 expected = Eigen::SelfAdjointEigenSolver<Mat3>(all.covariance()).eigenvalues();
+  const Vec3 expected = dense::eigenvalues_of(all.covariance());
   EXPECT_LT((all.variances() - expected).norm(), 1e-8 * expected[2]);
   EXPECT_LT((first.covariance() - all.covariance()).norm(), 1e-12);
   const PlaneFit fit = all.fit(Vec3(1, 1, 1));

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
 #include "patches.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::em {
 namespace {
@@ -19,14 +19,14 @@ PointSums moments_of(const std::vector<Vec3>& points) {
 }
 
 // The oracle: singular values and vectors of the centred points themselves.
-Eigen::JacobiSVD<Eigen::MatrixXd> svd_of(const std::vector<Vec3>& points, Vec3& centroid) {
+dense::Singular svd_of(const std::vector<Vec3>& points, Vec3& centroid) {
   centroid = Vec3::Zero();
   for (const Vec3& p : points) centroid += p / static_cast<double>(points.size());
   Eigen::MatrixXd centred(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
     centred.row(static_cast<Eigen::Index>(i)) = (points[i] - centroid).transpose();
   }
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(centred, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return dense::singular_of(centred);
 }
 
 TEST(PlaneFit, AgreesWithTheSingularValuesOfThePoints) {
@@ -38,10 +38,10 @@ TEST(PlaneFit, AgreesWithTheSingularValuesOfThePoints) {
     const auto svd = svd_of(points, centroid);
     const double n = static_cast<double>(points.size());
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const double variance = svd.singularValues()[2 - i] * svd.singularValues()[2 - i] / n;
+      const double variance = svd.values[2 - i] * svd.values[2 - i] / n;
       EXPECT_NEAR(fit->variances[i], variance, 1e-12) << seed;
     }
-    EXPECT_NEAR(std::abs(fit->normal.dot(svd.matrixV().col(2))), 1.0, 1e-12) << seed;
+    EXPECT_NEAR(std::abs(fit->normal.dot(Vec3(svd.right.col(2)))), 1.0, 1e-12) << seed;
     EXPECT_NEAR((fit->centroid - centroid).norm(), 0.0, 1e-12) << seed;
     EXPECT_NEAR(fit->distance(centroid), 0.0, 1e-12) << seed;
   }

@@ -2,10 +2,11 @@
 #include "unit/slam_plane/yardstick.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "support/dense.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
@@ -78,11 +79,11 @@ bool hold_open(Mat3& pose) {
   pose += 1e-9 * Mat3::Identity();
   const Mat2 position =
       pose.topLeftCorner<2, 2>() - pose.topRightCorner<2, 1>() * pose.bottomLeftCorner<1, 2>() / pose(2, 2);
-  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(position);
+  const dense::Spectrum2 eigen = dense::eigen_of(position);
   bool determined = true;
   for (int i = 0; i < 2; ++i) {
-    if (eigen.eigenvalues()(i) >= 100.0) continue;
-    const Vec2 u = eigen.eigenvectors().col(i);
+    if (eigen.values(i) >= 100.0) continue;
+    const Vec2 u = eigen.vectors.col(i);
     pose.topLeftCorner<2, 2>() += 1e10 * u * u.transpose();
     determined = false;
   }
@@ -162,7 +163,7 @@ void step(const std::vector<TrueFrame>& frames, const Sensor& sensor, Solution& 
     }
   }
   h.diagonal().array() += 1e-6;
-  const Eigen::VectorXd x = h.ldlt().solve(g);
+  const Eigen::VectorXd x = dense::solve_symmetric(h, g);
   for (std::size_t f = 0; f < frames.size(); ++f) {
     Vec3 gradient = kept[f].gradient;
     for (const auto& [i, a] : kept[f].cross) gradient -= a * x.segment<4>(i);

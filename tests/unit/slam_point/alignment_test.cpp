@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <vector>
 
 #include "scenes.hpp"
 #include "slam_point/core/robust_fit.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -32,9 +32,7 @@ Mat3 kabsch(const std::vector<Pair>& pairs) {
   Mat3 cross = Mat3::Zero();
   for (const Pair& pair : pairs)
     cross += pair.weight * (pair.reference - mean_a) * (pair.point - mean_b).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * Vec3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  return dense::nearest_rotation(cross);
 }
 
 TEST(Alignment, AgreesWithSingularValueDecomposition) {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "scenes.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -72,7 +72,7 @@ TEST(BlockCholesky, InvertsWhereTheMatrixHasBlocks) {
     const System system = random_system(size, share, static_cast<std::uint64_t>(size));
     ASSERT_EQ(factorise(factor, system, 1e12), State::done);
     factor.invert();
-    const Eigen::MatrixXd inverse = system.dense.inverse();
+    const Eigen::MatrixXd inverse = dense::inverse(system.dense);
     for (const System::Entry& entry : system.entries) {
       const Block expected = inverse.block<6, 6>(6 * static_cast<Eigen::Index>(entry.row),
                                                  6 * static_cast<Eigen::Index>(entry.column));
@@ -106,7 +106,7 @@ TEST(BlockCholesky, SolvesWhatADenseFactorisationSolves) {
     Eigen::VectorXd b(6 * size);
     for (int i = 0; i < size; ++i) b.segment<6>(6 * i) = x[static_cast<std::size_t>(i)];
     factor.solve(x);
-    const Eigen::VectorXd expected = system.dense.llt().solve(b);
+    const Eigen::VectorXd expected = dense::solve_symmetric(system.dense, b);
     for (int i = 0; i < size; ++i) {
       EXPECT_LT((x[static_cast<std::size_t>(i)] - expected.segment<6>(6 * i)).norm(), 1e-12)
           << size << ", " << share;

@@ -10,6 +10,7 @@
 #include "scenes.hpp"
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "support/dense.hpp"
 #include "support/long_mode.hpp"
 
 namespace hallway::slam_point {
@@ -60,8 +61,8 @@ using Truths = std::map<LandmarkId, std::int64_t>;
 /// T_map_world by the mapped landmarks of `map` that are among `fitted`.
 Pose fit_to_world(const Map& map, const std::set<LandmarkId>& fitted, const Truths& truth_of,
                   const scenes::Log& log) {
-  Eigen::MatrixXd from(3, 0);
-  Eigen::MatrixXd to(3, 0);
+  Eigen::Matrix3Xd from(3, 0);
+  Eigen::Matrix3Xd to(3, 0);
   for (const Landmark& landmark : map.landmarks) {
     if (landmark.status != LandmarkStatus::mapped || !fitted.contains(landmark.id)) continue;
     from.conservativeResize(3, from.cols() + 1);
@@ -69,7 +70,7 @@ Pose fit_to_world(const Map& map, const std::set<LandmarkId>& fitted, const Trut
     from.rightCols<1>() = log.landmarks[static_cast<std::size_t>(truth_of.at(landmark.id))];
     to.rightCols<1>() = landmark.position;
   }
-  const Eigen::Matrix4d T = Eigen::umeyama(from, to, false);
+  const Eigen::Matrix4d T = dense::rigid_motion(from, to);
   return {Eigen::Quaterniond(Mat3(T.topLeftCorner<3, 3>())), T.topRightCorner<3, 1>()};
 }
 
@@ -113,7 +114,7 @@ Nees nees_of_run(std::uint64_t seed) {
     const Pose truth = fit_to_world(mapper.map(), seen, truth_of, log) * log.poses[f];
     Eigen::Matrix<double, 6, 1> error;
     error << truth.t - answer.T_map_sensor.t, rotation_log(truth.q * answer.T_map_sensor.q.conjugate());
-    sum += error.dot(answer.covariance->inverse() * error);
+    sum += error.dot(dense::inverse(*answer.covariance) * error);
     freedom += 6.0;
   }
   return {landmark_nees(mapper.refined_map(), truth_of, log), sum / freedom};

@@ -2,7 +2,6 @@
 // Noise that differs along the ray to a point and across it, as of stereo cameras, and of range and bearing.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "slam_point/core/alignment.hpp"
 #include "slam_point/core/directional_fit.hpp"
 #include "slam_point/core/mapper.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point::directional {
 namespace {
@@ -182,7 +182,7 @@ Pose rigid_fit(const std::vector<Vec3>& to, const std::vector<Vec3>& from) {
     for (std::size_t i = 0; i < points.size(); ++i) m.col(static_cast<Eigen::Index>(i)) = points[i];
     return m;
   };
-  const Eigen::Matrix4d T = Eigen::umeyama(matrix(from), matrix(to), false);
+  const Eigen::Matrix4d T = dense::rigid_motion(matrix(from), matrix(to));
   return {Eigen::Quaterniond(Mat3(T.topLeftCorner<3, 3>())), T.topRightCorner<3, 1>()};
 }
 
@@ -227,7 +227,7 @@ std::vector<Vec3> batch(const Drive& drive) {
         gradient.segment<3>(l) += pull.tail<3>();
       }
     }
-    const Eigen::VectorXd move = -normal.llt().solve(gradient);
+    const Eigen::VectorXd move = -dense::solve_symmetric(normal, gradient);
     for (std::size_t f = 0; f < poses.size(); ++f) {
       const auto p = static_cast<Eigen::Index>(6 * f);
       poses[f].t += move.segment<3>(p);

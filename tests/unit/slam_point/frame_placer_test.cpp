@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "placing.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point::placing {
 namespace {
@@ -320,7 +321,7 @@ TEST(FramePlacer, ThePoseIsTheLeastSquaresFitToTheLandmarks) {
     sensor.placer.match(sensor.frame);
     ASSERT_TRUE(sensor.placer.fit(sensor.frame));
     ASSERT_TRUE(sensor.placer.is_placed(sensor.frame));
-    const Eigen::Matrix4d expected = Eigen::umeyama(from, to, false);
+    const Eigen::Matrix4d expected = dense::rigid_motion(from, to);
     const Pose& T = sensor.placer.T_map_sensor();
     EXPECT_LT((T.t - expected.topRightCorner<3, 1>()).norm(), 1e-9);
     EXPECT_LT((T.q.toRotationMatrix() - expected.topLeftCorner<3, 3>()).norm(), 1e-9);

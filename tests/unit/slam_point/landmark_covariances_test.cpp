@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "rings.hpp"
 #include "slam_point/core/submap_solver.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -34,22 +33,23 @@ Eigen::MatrixXd dense_covariance(const SubmapGraph& graph, const std::vector<boo
       Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(3, normal.rows());
       if (s > 0) derivative.block<3, 6>(0, 6 * (s - 1)) = motion_by_hand(pose.q * member.mean);
       derivative.block<3, 3>(0, poses + 3 * l) = -Mat3::Identity();
-      normal += member.count * derivative.transpose() * derivative;
+      normal += dense::product(member.count * derivative.transpose(), derivative);
       positions.col(l) += member.count * (pose * member.mean);
       counts(l) += member.count;
     }
   }
   for (Eigen::Index l = 0; l < landmarks; ++l) positions.col(l) /= counts(l);
-  const Eigen::MatrixXd held = normal.inverse().bottomRightCorner(3 * landmarks, 3 * landmarks);
+  const Eigen::MatrixXd held = dense::inverse(normal).bottomRightCorner(3 * landmarks, 3 * landmarks);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * landmarks, 6);
   Eigen::MatrixXd fitted = all;
   for (Eigen::Index l = 0; l < landmarks; ++l) {
     all.middleRows<3>(3 * l) = motion_by_hand(positions.col(l));
     if (in_gauge[static_cast<std::size_t>(l)]) fitted.middleRows<3>(3 * l) = all.middleRows<3>(3 * l);
   }
+  const Eigen::MatrixXd gauge = dense::inverse(dense::product(fitted.transpose(), fitted));
   const Eigen::MatrixXd project = Eigen::MatrixXd::Identity(3 * landmarks, 3 * landmarks) -
-                                  all * (fitted.transpose() * fitted).inverse() * fitted.transpose();
-  return project * held * project.transpose();
+                                  dense::product(dense::product(all, gauge), fitted.transpose());
+  return dense::product(dense::product(project, held), project.transpose());
 }
 
 TEST(LandmarkCovariances, AreThoseOfTheWholeNormalEquations) {

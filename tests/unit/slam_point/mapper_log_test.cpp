@@ -2,7 +2,6 @@
 // The mapper on recorded logs, against what batch maximum likelihood reaches on the same log.
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "slam_point/core/mapper.hpp"
 #include "support/data.hpp"
+#include "support/dense.hpp"
 #include "support/long_mode.hpp"
 
 namespace hallway::slam_point {
@@ -67,9 +67,7 @@ double aligned_rmse(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   }
   Mat3 cross = Mat3::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) cross += (a[i] - mean_a) * (b[i] - mean_b).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Mat3 r = svd.matrixU() * Vec3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  const Mat3 r = dense::nearest_rotation(cross);
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - mean_a - r * (b[i] - mean_b)).squaredNorm();
   return std::sqrt(sum / n);

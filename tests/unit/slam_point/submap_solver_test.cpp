@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "rings.hpp"
 #include "slam_point/core/alignment.hpp"
+#include "support/dense.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -32,11 +32,11 @@ void brute_force_step(const SubmapGraph& graph, std::vector<Pose>& poses, std::v
       }
       jacobian.block<3, 3>(0, pose_unknowns + 3 * static_cast<Eigen::Index>(member.landmark)) =
           -Mat3::Identity();
-      normal += member.count * jacobian.transpose() * jacobian;
+      normal += dense::product(member.count * jacobian.transpose(), jacobian);
       gradient += member.count * jacobian.transpose() * (y + poses[s].t - landmarks[member.landmark]);
     }
   }
-  const Eigen::VectorXd move = normal.ldlt().solve(gradient);
+  const Eigen::VectorXd move = dense::solve_symmetric(normal, gradient);
   for (std::size_t s = 1; s < poses.size(); ++s) {
     const Eigen::Index at = 6 * (static_cast<Eigen::Index>(s) - 1);
     poses[s].t -= move.segment<3>(at);
