@@ -35,7 +35,7 @@ void MotionModel::known(const Pose2& T_map_robot) {
   unknown_ = coasted_ = 0;
   if (!follows) has_pose_ = false;  // where it was is no longer what it was measured from
   moved_to(T_map_robot);
-  if (follows) speed_ = step_.t.x();
+  if (follows) steps_.add(step_.t.x(), 1.0);
 }
 
 Pose2 MotionModel::restricted(const Alignment& alignment) {
@@ -47,8 +47,9 @@ Pose2 MotionModel::restricted(const Alignment& alignment) {
   const Vec2 forward = (pose_.r + result.r).normalized();  // of an arc: the direction of its chord
   const double sine = across.dot(forward);
   const double distance = across.dot(result.t - pose_.t);
-  if (std::abs(sine) > least_sine_) speed_ = distance / sine;
-  const double travelled = speed_ * along.dot(forward);
+  const bool measured = std::abs(sine) > least_sine_;
+  if (measured) steps_.add(sine > 0.0 ? distance : -distance, std::abs(sine));
+  const double travelled = (measured ? distance / sine : steps_.mean()) * along.dot(forward);
   result.t += along * (along.dot(pose_.t) + travelled - along.dot(result.t));
   moved_to(result);
   return result;

@@ -4,11 +4,12 @@
 #include <optional>
 
 #include "slam_plane/thesis/alignment.hpp"
+#include "slam_plane/thesis/step_length.hpp"
 
 namespace hallway::slam_plane::thesis {
 
 /// Follows the robot while what it sees leaves the place along a wall open (thesis 4.3.6). The distance from the wall and the heading are measured; the robot is taken to
-/// move in the direction in which it looks (Rule 24), so the change of the distance tells how far.
+/// move in the direction in which it looks (Rule 24), so the change of the distance tells how far, and where the wall runs along the movement what was measured before.
 class MotionModel {
  public:
   MotionModel(int begin_after, double parallel_deg);
@@ -44,8 +45,8 @@ class MotionModel {
   int unknown_ = 0;
   int coasted_ = 0;
   Pose2 pose_;
-  Pose2 step_;          // the last movement, in the robot's frame before it
-  double speed_ = 0.0;  // length of the last movement that was measured [m]
+  Pose2 step_;        // the last movement, in the robot's frame before it
+  StepLength steps_;  // those that were measured
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -6,11 +6,13 @@
 #include <set>
 #include <vector>
 
+#include "base/random.hpp"
 #include "slam_plane/thesis/alignment.hpp"
 #include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/map_builder.hpp"
 #include "slam_plane/thesis/motion_model.hpp"
 #include "slam_plane/thesis/roll_back.hpp"
+#include "slam_plane/thesis/step_length.hpp"
 #include "slam_plane/thesis/thesis_mapper.hpp"
 #include "unit/slam_plane/scenes.hpp"
 #include "unit/slam_plane_thesis/walls.hpp"
@@ -205,6 +207,52 @@ TEST(Rule27, TheMotionModelStartsAtTheLastKnownPosition) {
   seen.T_to_from.t = Vec2(5.04, -100.0);
   const Pose2 pose = motion.restricted(seen);
   EXPECT_LT((pose.t - Vec2(5.04, 7.0)).norm(), 1e-12);
+}
+
+TEST(StepLength, IsTheMeanOfStepsThatTellPlacesWithNoise) {
+  // Places 4 cm apart are measured with 2 cm: a single step tells its length to 3 cm, the mean of thirty to 1 mm.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Random random(seed, stream_id("mapper_rules_test"));
+    StepLength steps;
+    EXPECT_EQ(steps.mean(), 0.0);
+    double last = 0.0;
+    for (int i = 1; i <= 60; ++i) {
+      const double place = 0.04 * i + 0.02 * random.normal(0, static_cast<std::uint64_t>(i));
+      steps.add(place - last, 1.0);
+      last = place;
+    }
+    EXPECT_NEAR(steps.mean(), 0.04, 0.004);
+  }
+}
+
+TEST(StepLength, TakesNoStepFromBeforeTheRobotChangedItsSpeed) {
+  StepLength steps;
+  for (int i = 0; i < 20; ++i) {
+    steps.add(0.04, 1.0);
+    steps.add(0.02, 0.5);  // along an axis at 60 degrees
+  }
+  EXPECT_NEAR(steps.mean(), 0.04, 1e-12);
+  for (int i = 0; i < 5; ++i) {
+    steps.add(0.01, 1.0);
+    EXPECT_NEAR(steps.mean(), 0.01, 1e-12);
+  }
+}
+
+TEST(MotionModel, AlongAWallItGoesOnByTheMeanOfTheStepsBefore) {
+  const Random random(1, stream_id("mapper_rules_test"));
+  MotionModel motion(3, 25.0);
+  for (int i = 0; i < 40; ++i) {
+    const double noise = 0.02 * random.normal(0, static_cast<std::uint64_t>(i));
+    motion.known(Pose2::at(Vec2(0.04 * i + noise, 0.0), 0.0));
+  }
+  Alignment seen;
+  seen.open = Vec2(1, 0);
+  double before = motion.pose().t.x();
+  for (int i = 0; i < 10; ++i) {
+    const double now = motion.restricted(seen).t.x();
+    EXPECT_NEAR(now - before, 0.04, 0.004);
+    before = now;
+  }
 }
 
 TEST(Rule33, ARollBackLeavesNothingOfWhatCameLater) {
