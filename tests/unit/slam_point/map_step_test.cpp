@@ -136,8 +136,10 @@ SubmapGraph with_groups_as_submaps(const SubmapGraph& graph, const ReducedSystem
       std::vector<Member>& members = merged.submaps[into].members;
       auto known = std::find_if(members.begin(), members.end(),
                                 [&](const Member& m) { return m.landmark == member.landmark; });
-      if (known == members.end())
-        known = members.begin() + merged.join(into, member.landmark, Vec3::Zero(), false);
+      if (known == members.end()) {
+        const Index place = merged.join(into, member.landmark, Vec3::Zero(), false);
+        known = members.begin() + place;
+      }
       known->count += member.count;
       known->mean +=
           (static_cast<double>(member.count) / known->count) * (T_into_s * member.mean - known->mean);
