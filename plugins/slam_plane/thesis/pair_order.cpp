@@ -2,9 +2,10 @@
 #include "slam_plane/thesis/pair_order.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <bit>
+#include <cstdint>
 #include <numeric>
-#include <queue>
+#include <optional>
 #include <utility>
 
 namespace hallway::slam_plane::thesis {
@@ -13,29 +14,79 @@ namespace {
 constexpr double kLineWorth = 1e-6;      // less than one iteration, however many there are
 constexpr double kParallelWorth = 0.95;  // so the sum is never below 0.95 of the greatest possible one
 
-using EarliestFirst = std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>>;
-
-/// Indices of offers, by their parents.
-class OffersOfParents {
+/// Numbers of which the least is taken first.
+class LeastFirst {
  public:
-  OffersOfParents(std::span<const PlaceOffer> offers, std::size_t members)
-      : begin_(members + 1, 0), offers_(offers.size()) {
-    for (const PlaceOffer& offer : offers) ++begin_[offer.step.parent + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t i = 0; i < offers.size(); ++i) offers_[next[offers[i].step.parent]++] = i;
+  explicit LeastFirst(std::size_t count) : words_((count + 63) / 64, 0), least_(words_.size()) {}
+
+  void add(std::size_t i) {
+    words_[i / 64] |= std::uint64_t{1} << (i % 64);
+    least_ = std::min(least_, i / 64);
   }
 
-  void add(std::size_t parent, EarliestFirst& to) const {
-    for (std::size_t i = begin_[parent]; i < begin_[parent + 1]; ++i) to.push(offers_[i]);
+  /// Takes the least one out; nothing if there is none.
+  std::optional<std::size_t> take() {
+    while (least_ < words_.size() && words_[least_] == 0) ++least_;
+    if (least_ == words_.size()) return std::nullopt;
+    const auto bit = static_cast<std::size_t>(std::countr_zero(words_[least_]));
+    words_[least_] &= words_[least_] - 1;
+    return 64 * least_ + bit;
   }
 
  private:
-  std::vector<std::size_t> begin_;  // by parent, in offers_
-  std::vector<std::size_t> offers_;
+  std::vector<std::uint64_t> words_;
+  std::size_t least_;  // words before it are empty
 };
 
+std::size_t end_of(std::size_t member, KeyPoint key) {
+  return 2 * member + (key == KeyPoint::right ? 1 : 0);
+}
+
 }  // namespace
+
+OfferGraph::OfferGraph(std::span<const PlaceOffer> offers, std::size_t members)
+    : offers_(offers),
+      begin_(2 * members + 1, 0),
+      edges_(offers.size()),
+      first_end_(members, kNoEnd),
+      placed_(members),
+      known_(2 * members) {
+  for (const PlaceOffer& offer : offers) {
+    const std::size_t from = end_of(offer.step.parent, offer.step.key[0]);
+    ++begin_[from + 1];
+    std::size_t& first = first_end_[offer.step.parent];
+    if (first == kNoEnd) first = from;
+  }
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    const PlaceStep& step = offers[i].step;
+    const bool line = step.key[1] == KeyPoint::none;
+    edges_[next[end_of(step.parent, step.key[0])]++] = {i, step.child,
+                                                        line ? kNoEnd : end_of(step.child, step.key[1])};
+  }
+}
+
+const std::vector<bool>& OfferGraph::placed_from(std::size_t root) {
+  std::fill(placed_.begin(), placed_.end(), false);
+  std::fill(known_.begin(), known_.end(), false);
+  open_.clear();
+  if (first_end_[root] == kNoEnd) return placed_;
+  placed_[root] = known_[first_end_[root]] = true;
+  open_.push_back(first_end_[root]);
+  while (!open_.empty()) {
+    const std::size_t from = open_.back();
+    open_.pop_back();
+    for (std::size_t i = begin_[from]; i < begin_[from + 1]; ++i) {
+      placed_[edges_[i].child] = true;
+      const std::size_t end = edges_[i].end;
+      if (end == kNoEnd || known_[end]) continue;
+      known_[end] = true;
+      open_.push_back(end);
+    }
+  }
+  return placed_;
+}
 
 double worth(const Comparison& comparison) {
   if (!comparison.places()) return 0.0;
@@ -47,7 +98,8 @@ void sort_offers(std::vector<PlaceOffer>& offers) {
   std::vector<std::pair<double, std::size_t>> order;  // offers are large: they are moved once
   order.reserve(offers.size());
   for (std::size_t i = 0; i < offers.size(); ++i) order.emplace_back(worth(offers[i].comparison), i);
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<PlaceOffer> sorted;
   sorted.reserve(offers.size());
   for (const auto& [value, i] : order) sorted.push_back(offers[i]);
@@ -66,23 +118,32 @@ bool take_offer(Reference& parent, const Comparison& comparison, Reference& chil
   return tells;
 }
 
-std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
-                                      std::span<Reference> references) {
-  const OffersOfParents offers_of(offers, references.size());
+std::vector<PlaceStep> OfferGraph::spanning_steps(std::size_t root, std::span<Reference> references) const {
   std::vector<PlaceStep> steps;
-  EarliestFirst open;  // offers of a parent that was placed, or of which another end became known, since they were looked at
-  offers_of.add(root, open);
-  while (!open.empty()) {
-    const PlaceOffer& offer = offers[open.top()];
-    open.pop();
+  LeastFirst open(offers_.size());  // offers from ends that are known
+  const auto open_from = [&](std::size_t end) {
+    for (std::size_t i = begin_[end]; i < begin_[end + 1]; ++i) open.add(edges_[i].offer);
+  };
+  if (first_end_[root] == kNoEnd) return steps;
+  open_from(first_end_[root]);
+  while (const std::optional<std::size_t> next = open.take()) {
+    const PlaceOffer& offer = offers_[*next];
     Reference& parent = references[offer.step.parent];
     Reference& child = references[offer.step.child];
     if (steps.empty()) parent = reference_of(offer.comparison, 0);
+    const bool before[2] = {child.known[kEndA], child.known[kEndB]};
     if (child.full() || !take_offer(parent, offer.comparison, child)) continue;
     steps.push_back(offer.step);
-    offers_of.add(offer.step.child, open);
+    for (int end = 0; end < 2; ++end) {
+      if (child.known[end] && !before[end]) open_from(2 * offer.step.child + static_cast<std::size_t>(end));
+    }
   }
   return steps;
+}
+
+std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
+                                      std::span<Reference> references) {
+  return OfferGraph(offers, references.size()).spanning_steps(root, references);
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -32,11 +32,39 @@ void sort_offers(std::vector<PlaceOffer>& offers);
 /// Places the child of a comparison in the parent's frame, or adds to what is known of it (Rule 28). @returns whether it told anything new.
 bool take_offer(Reference& parent, const Comparison& comparison, Reference& child);
 
-/// Which comparisons place the members of a submap (Rule 30): from the root outwards, always the one worth most of those that place another member or tell another end, given ends that
-/// are known already (Prim's algorithm). Where each comparison knows the ends that it needs it is a maximum spanning tree, and steps that tell further ends.
-///
-/// @param offers      sorted
-/// @param references  of all members, not valid; filled. O(offers log offers).
+/// Sorted offers, by the ends that they need to be known. The offers have to outlive it.
+class OfferGraph {
+ public:
+  OfferGraph(std::span<const PlaceOffer> offers, std::size_t members);
+
+  /// The members that spanning_steps places from a root, by member. O(offers). Good until the next call.
+  const std::vector<bool>& placed_from(std::size_t root);
+
+  /// Which comparisons place the members of a submap (Rule 30): from the root outwards, always the one worth most of those that place another member or tell another end, given ends that
+  /// are known already (Prim's algorithm). Where each comparison knows the ends that it needs it is a maximum spanning tree, and steps that tell further ends.
+  ///
+  /// @param references  of all members, not valid; filled. O(offers), and a look at each 64 offers for each step.
+  std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<Reference> references) const;
+
+ private:
+  struct Edge {
+    std::size_t offer;
+    std::size_t child;  // a member
+    std::size_t end;    // 2 * member + end that becomes known with it; kNoEnd: its line alone is told
+  };
+
+  static constexpr std::size_t kNoEnd = ~std::size_t{0};
+
+  std::span<const PlaceOffer> offers_;
+  std::vector<std::size_t> begin_;  // by 2 * parent + end, in edges_
+  std::vector<Edge> edges_;
+  std::vector<std::size_t> first_end_;  // by root: of its offer worth most; kNoEnd if it has none
+  std::vector<bool> placed_;
+  std::vector<bool> known_;        // by 2 * member + end
+  std::vector<std::size_t> open_;  // ends whose edges were not followed yet
+};
+
+/// OfferGraph::spanning_steps of offers that are asked once.
 std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
                                       std::span<Reference> references);
 

@@ -182,13 +182,13 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   if (b.id() < a.id()) return update(b, a);
   static const PairHistory kNothing;
   const Iteration last = a.empty() || b.empty() ? -1 : std::min(a.newest().iteration, b.newest().iteration);
-  const bool together = last >= 0 && a.find(last) != nullptr && b.find(last) != nullptr;
+  const auto together = [&] { return last >= 0 && a.find(last) != nullptr && b.find(last) != nullptr; };
   const auto known = pairs_.find({a.id(), b.id()});
-  if (known == pairs_.end() && !together) return kNothing;
+  if (known == pairs_.end() && !together()) return kNothing;
   PairHistory& pair = known != pairs_.end() ? known->second : begin(a.id(), b.id());
   if (a.empty() || b.empty()) return pair;
   drop_disproved(a, b, pair);
-  if (last <= pair.updated || !together) return pair;
+  if (last <= pair.updated || !together()) return pair;
   const bool due = last / kTestEvery != pair.updated / kTestEvery;
   const Iteration start = phase_begin(a, b);
   pair.updated = last;

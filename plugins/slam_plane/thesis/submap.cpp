@@ -34,27 +34,6 @@ std::vector<PlaceOffer> offers_of(const std::vector<Member>& members, StaticPair
   return offers;
 }
 
-/// Which members comparisons tie together, however they are chained: of each the first member of its part.
-std::vector<std::size_t> parts_of(const std::vector<PlaceOffer>& offers, std::size_t members) {
-  std::vector<std::size_t> part(members);
-  std::iota(part.begin(), part.end(), std::size_t{0});
-  const auto first_of = [&](std::size_t i) {
-    while (part[i] != i) i = part[i] = part[part[i]];
-    return i;
-  };
-  for (const PlaceOffer& offer : offers) {
-    const std::size_t a = first_of(offer.step.parent), b = first_of(offer.step.child);
-    part[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::size_t i = 0; i < members; ++i) part[i] = first_of(i);
-  return part;
-}
-
-std::size_t placed_count(const std::vector<Reference>& references) {
-  return static_cast<std::size_t>(std::count_if(
-      references.begin(), references.end(), [](const Reference& reference) { return reference.valid(); }));
-}
-
 std::size_t placed_count(const std::vector<Member>& members) {
   return static_cast<std::size_t>(std::count_if(
       members.begin(), members.end(), [](const Member& member) { return member.reference.valid(); }));
@@ -150,31 +129,32 @@ void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now)
   std::iota(roots.begin(), roots.end(), std::size_t{0});
   std::stable_sort(roots.begin(), roots.end(),
                    [&](std::size_t a, std::size_t b) { return reach[a] > reach[b]; });
-  const std::vector<std::size_t> part = parts_of(offers, members_.size());
-  std::vector<bool> done(members_.size(), false);  // parts of which no root can do better
+  OfferGraph graph(offers, members_.size());
   int best = -1;
-  order_.clear();
+  std::size_t best_root = 0;
   for (const std::size_t root : roots) {
     if (reach[root] <= 0.0) break;
-    if (done[part[root]]) continue;
-    std::vector<Reference> placed_now(members_.size());
-    std::vector<PlaceStep> order = spanning_steps(root, offers, placed_now);
-    const int score = score_of(placed_now);
-    done[part[root]] = placed_count(placed_now) ==
-                       static_cast<std::size_t>(std::count(part.begin(), part.end(), part[root]));
-    if (score <= best) continue;
-    best = score;
-    order_.swap(order);
-    if (placed_count(placed_now) == members_.size()) break;
+    const std::vector<bool>& placed_then = graph.placed_from(root);
+    const int score = score_of(placed_then);
+    if (score > best) {
+      best = score;
+      best_root = root;
+    }
+    if (std::find(placed_then.begin(), placed_then.end(), false) == placed_then.end()) break;
+  }
+  order_.clear();
+  if (best >= 0) {
+    std::vector<Reference> references(members_.size());
+    order_ = graph.spanning_steps(best_root, references);
   }
   ordered_ = now;
 }
 
 /// Members placed; the first two of those that link to older submaps count most.
-int Submap::score_of(const std::vector<Reference>& references) const {
+int Submap::score_of(const std::vector<bool>& then) const {
   int placed_members = 0, links_placed = 0;
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    if (!references[i].valid()) continue;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!then[i]) continue;
     ++placed_members;
     links_placed += members_[i].link ? 1 : 0;
   }

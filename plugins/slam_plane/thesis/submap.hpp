@@ -73,7 +73,7 @@ class Submap {
   void take_best(const TrackBook& tracks);
   void keep_best(Iteration now);
   void reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now);
-  int score_of(const std::vector<Reference>& references) const;
+  int score_of(const std::vector<bool>& then) const;
   void take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now);
   static void note_still(const PairHistory& history, Member& parent, Member& child, Iteration now);
 

@@ -132,8 +132,7 @@ std::vector<PlaceStep> first_that_tells(std::size_t root, const std::vector<Plac
   std::vector<PlaceStep> steps;
   for (std::size_t i = 0; i < offers.size();) {
     const PlaceStep& step = offers[i].step;
-    if (steps.empty() && step.parent == root)
-      references[root] = reference_of(offers[i].comparison, 0);
+    if (steps.empty() && step.parent == root) references[root] = reference_of(offers[i].comparison, 0);
     const bool told = take_offer(references[step.parent], offers[i].comparison, references[step.child]);
     if (told) steps.push_back(step);
     i = told ? 0 : i + 1;
@@ -176,7 +175,9 @@ TEST(PairOrder, TheNextStepIsAlwaysTheFirstOfferThatTellsAnything) {
         EXPECT_EQ(steps[i].parent, by_definition[i].parent);
         EXPECT_EQ(steps[i].child, by_definition[i].child);
       }
+      OfferGraph graph(offers, members);
       for (std::size_t i = 0; i < members; ++i) {
+        EXPECT_EQ(graph.placed_from(root)[i], expected[i].valid());
         EXPECT_EQ(found[i].valid(), expected[i].valid());
         EXPECT_EQ(found[i].place.middle, expected[i].place.middle);
       }
