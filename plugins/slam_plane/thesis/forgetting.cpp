@@ -2,12 +2,14 @@
 #include "slam_plane/thesis/forgetting.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kForgetAfter = 50;  // iterations, or the limit of roll backs
-constexpr Iteration kLookEvery = 20;  // iterations
+constexpr int kForgetAfter = 50;       // iterations, or the limit of roll backs
+constexpr Iteration kLookEvery = 20;   // iterations
+constexpr std::size_t kFewEmpty = 32;  // empty submaps that are left in the list
 
 /// Whether a track is not in the map and was not seen for so long that it never will be.
 bool came_to_nothing(TrackId id, const Options& options, const State& state) {
@@ -25,7 +27,8 @@ bool told_elsewhere(const Member& member, SubmapIndex index, const State& state)
     if (there == nullptr || !there->reference.valid()) return false;
     const bool(&known)[2] = member.reference.known;
     return there->reference.shared >= member.reference.shared &&
-           (there->reference.known[kEndA] || !known[kEndA]) && (there->reference.known[kEndB] || !known[kEndB]);
+           (there->reference.known[kEndA] || !known[kEndA]) &&
+           (there->reference.known[kEndB] || !known[kEndB]);
   });
 }
 
@@ -65,6 +68,20 @@ void drop(SubmapIndex index, State& state) {
   ++state.dropped_submaps;
 }
 
+/// Releases the tracks of which nothing is left. A roll back to before this finds none of them in what it restores.
+void release_unused(State& state) {
+  for (TrackId id = 0; id < state.tracks.size(); ++id) {
+    if (state.tracks.is_free(id) || !state.tracks[id].empty()) continue;
+    if (!state.tracks.submaps(id).empty() || state.map.find(id) != nullptr) continue;
+    state.pairs.forget(id);
+    state.hints.forget(id);
+    state.map.forget(id);
+    std::erase(state.recent, id);
+    std::erase_if(state.carried.unassigned, [&](const Unassigned& entry) { return entry.track == id; });
+    state.tracks.release(id);
+  }
+}
+
 }  // namespace
 
 int forget_after(const Options& options) {
@@ -76,6 +93,32 @@ void forget_vain(const Options& options, State& state) {
   for (SubmapIndex index = 1; index < state.submaps.size(); ++index) {  // the first one holds the map's frame
     if (in_vain(index, options, state)) drop(index, state);
   }
+  release_unused(state);
+}
+
+std::vector<SubmapIndex> close_up(State& state) {
+  if (state.dropped_submaps < kFewEmpty || 2 * state.dropped_submaps < state.submaps.size()) return {};
+  std::vector<SubmapIndex> now_at(state.submaps.size(), kNoSubmap);
+  std::vector<Submap> kept;
+  for (SubmapIndex index = 0; index < state.submaps.size(); ++index) {
+    if (index > 0 && state.submaps[index].members().empty()) continue;
+    now_at[index] = kept.size();
+    kept.push_back(std::move(state.submaps[index]));
+  }
+  state.submaps.swap(kept);
+  state.dropped_submaps = 0;
+  const auto renumber = [&](std::vector<SubmapIndex>& list) {
+    for (SubmapIndex& index : list) index = now_at[index];
+    std::erase(list, kNoSubmap);
+  };
+  for (Submap& submap : state.submaps) renumber(submap.links);
+  for (TrackId id = 0; id < state.tracks.size(); ++id) {
+    renumber(state.tracks.submaps(id));
+    renumber(state.tracks.charted(id));
+  }
+  if (state.carried.current != kNoSubmap) state.carried.current = now_at[state.carried.current];
+  state.hints.renumber([&](SubmapIndex index) { return index < now_at.size() ? now_at[index] : index; });
+  return now_at;
 }
 
 }  // namespace hallway::slam_plane::thesis

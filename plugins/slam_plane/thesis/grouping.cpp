@@ -67,7 +67,7 @@ std::vector<SubmapIndex> reachable(const State& state) {
 
 SubmapIndex make_submap(State& state) {
   const SubmapIndex index = state.submaps.size();
-  state.submaps.emplace_back(index, state.now);
+  state.submaps.emplace_back(index == 0 ? 0 : state.submaps.back().id() + 1, state.now);
   return index;
 }
 

@@ -45,6 +45,18 @@ class Hints {
     std::erase_if(hints_, [&](const Hint& hint) { return hint.iteration < k; });
   }
 
+  /// Forgets a track whose id is going to be another one's.
+  void forget(TrackId track) {
+    std::erase_if(hints_, [&](const Hint& hint) { return hint.track == track; });
+    if (track < strikes_.size()) strikes_[track] = 0;
+  }
+
+  /// Submaps got other indices: `now_at` of the one that they had.
+  template <typename NowAt>
+  void renumber(const NowAt& now_at) {
+    for (Hint& hint : hints_) hint.submap = now_at(hint.submap);
+  }
+
   std::size_t size() const { return hints_.size(); }
 
  private:

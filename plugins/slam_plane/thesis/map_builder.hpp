@@ -48,6 +48,11 @@ class MapBuilder {
   /// Grows a plane of the map, where its ends are not known, to what is seen of it while only a motion model tells where (Rule 23).
   void expand(TrackId track, const Segment& seen, Iteration now);
 
+  /// Forgets a track that the map does not have, and what it was seen to reach.
+  void forget(TrackId track) {
+    if (track < planes_.size()) planes_[track] = {};
+  }
+
   /// Rolls back to iteration k: forgets everything but what was expanded until then; build() all submaps then.
   void clear(Iteration k);
 

@@ -25,10 +25,10 @@ bool lies_within(const Wall& inner, const Wall& outer) {
   return true;
 }
 
-Wall wall_from(TrackId id, const Reference& reference, const Track& track) {
+Wall wall_from(WallId name, const Reference& reference, const Track& track) {
   const Segment segment = reference.place.segment();
   Wall wall;
-  wall.id = id;
+  wall.id = name;
   wall.a = segment.end[kEndA];
   wall.b = segment.end[kEndB];
   for (int end = 0; end < 2; ++end) wall.certain[end] = reference.known[end];
@@ -45,8 +45,9 @@ std::vector<Wall> walls_of(const State& state) {
   std::vector<Wall> all;
   for (TrackId id = 0; id < state.map.size(); ++id) {
     const MappedPlane* plane = state.map.find(id);
-    if (plane != nullptr) all.push_back(wall_from(id, plane->reference, state.tracks[id]));
+    if (plane != nullptr) all.push_back(wall_from(state.tracks.name(id), plane->reference, state.tracks[id]));
   }
+  std::sort(all.begin(), all.end(), [](const Wall& a, const Wall& b) { return a.id < b.id; });
   return all;
 }
 
@@ -67,14 +68,14 @@ Map report_map(const State& state) {
     told.id = submap.id();
     told.T_map_submap = submap.T_map_submap;
     told.lines_only = submap.by_motion;
-    for (const Member& member : submap.members()) told.members.push_back(member.track);
+    for (const Member& member : submap.members()) told.members.push_back(state.tracks.name(member.track));
     map.submaps.push_back(told);
   }
   return map;
 }
 
 WallId wall_of(TrackId track, const State& state) {
-  return state.tracks.submaps(track).empty() ? kNoWall : track;
+  return state.tracks.submaps(track).empty() ? kNoWall : state.tracks.name(track);
 }
 
 std::uint64_t count_walls(const State& state) {

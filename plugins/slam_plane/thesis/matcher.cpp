@@ -71,7 +71,8 @@ void add_planes(std::span<const Piece> pieces, const Options& options, State& st
   state.matches.clear();
   state.seen.clear();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const TrackId id = matched[i] != nullptr ? matched[i]->id() : state.tracks.create(state.now).id();
+    const TrackId id =
+        matched[i] != nullptr ? matched[i]->id() : state.tracks.create(state.now, piece_of[i]).id();
     if (matched[i] == nullptr) state.carried.unassigned.push_back({id, -1, std::nullopt});
     state.tracks[id].push(sightings[i]);
     state.matches.push_back({piece_of[i], id});

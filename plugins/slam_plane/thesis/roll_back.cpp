@@ -34,6 +34,14 @@ std::vector<Record> History::take_after(Iteration k) {
   return taken;
 }
 
+void History::renumber(const std::vector<SubmapIndex>& now_at) {
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (!records_[i].after) continue;
+    SubmapIndex& current = records_[i].after->current;
+    if (current != kNoSubmap) current = now_at[current];
+  }
+}
+
 namespace {
 
 /// Forgets the submaps begun later, and what is linked to them.
@@ -63,6 +71,9 @@ void roll_back_to(const Record& record, const Options& options, State& state) {
   forget_submaps(k, state);
   state.carried = *record.after;
   state.recent = record.recent;
+  const auto released = [&](TrackId id) { return state.tracks.is_free(id); };
+  std::erase_if(state.recent, released);
+  std::erase_if(state.carried.unassigned, [&](const Unassigned& entry) { return released(entry.track); });
   state.met_again.clear();
   state.unanchored.clear();
   state.locator.clear();

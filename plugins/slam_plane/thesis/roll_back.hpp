@@ -34,6 +34,8 @@ class History {
   /// Takes the records after k out, in the order of time.
   std::vector<Record> take_after(Iteration k);
   void clear() { records_.clear(); }
+  /// Submaps got other indices: `now_at[i]` for i.
+  void renumber(const std::vector<SubmapIndex>& now_at);
 
  private:
   RingBuffer<Record> records_;

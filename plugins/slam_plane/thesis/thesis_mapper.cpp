@@ -21,9 +21,10 @@ namespace {
 
 constexpr int kPlaceByPoseAfter =
     30;  // iterations after which a submap without a link is placed by the robot's pose
-constexpr std::size_t kTurns = 4;      // iterations in which each submap in view is computed once
-constexpr int kIterationsPerFrame = 4;      // while there are some to be done again
-constexpr std::size_t kMostWaiting = 2;     // limits of roll backs; where so many iterations wait there is no further one
+constexpr std::size_t kTurns = 4;       // iterations in which each submap in view is computed once
+constexpr int kIterationsPerFrame = 4;  // while there are some to be done again
+constexpr std::size_t kMostWaiting =
+    2;  // limits of roll backs; where so many iterations wait there is no further one
 
 }  // namespace
 
@@ -76,6 +77,7 @@ class ThesisMapper::Engine {
   void iterate(std::span<const Piece> pieces) {
     ++state_.now;
     forget_vain(options_, state_);
+    if (const std::vector<SubmapIndex> now_at = close_up(state_); !now_at.empty()) history_.renumber(now_at);
     match_with_map(options_, state_);
     add_planes(pieces, options_, state_);
     manage_submaps(options_, state_);
@@ -83,7 +85,9 @@ class ThesisMapper::Engine {
     build_map();
     locate();
     history_.close(state_);
-    state_.hints.forget_before(state_.now - options_.roll_back_limit);
+    const Iteration reached = state_.now - options_.roll_back_limit;
+    state_.hints.forget_before(reached);
+    state_.tracks.forget_names_before(reached);
   }
 
   /// Submaps of which at least two planes are in view (thesis 4.5 ComputeXPoints).
@@ -225,10 +229,10 @@ class ThesisMapper::Engine {
   History history_;
   std::vector<SubmapIndex> changed_;
   std::optional<Alignment> location_;
-  std::optional<Hint> roll_back_;     // that the last iteration asked for
-  std::deque<Record> waiting_;        // iterations to be done, or done again
-  std::optional<Bridge> bridge_;      // while there are any
-  Iteration newest_done_ = -1;        // up to it an iteration that waits is done again
+  std::optional<Hint> roll_back_;  // that the last iteration asked for
+  std::deque<Record> waiting_;     // iterations to be done, or done again
+  std::optional<Bridge> bridge_;   // while there are any
+  Iteration newest_done_ = -1;     // up to it an iteration that waits is done again
   std::uint64_t degenerate_ = 0;
   ThesisCounters counters_;
   Answer answer_;

@@ -17,7 +17,7 @@
 
 namespace hallway::slam_plane::thesis {
 
-/// Names a track for the life of a mapper; after a roll back the names of tracks that are no more are given again.
+/// A track's place in the book of tracks; those of tracks that are no more are given again.
 using TrackId = std::uint64_t;
 
 /// Two tracks, the one with the smaller name first.

@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <deque>
+#include <map>
+#include <utility>
 #include <vector>
 
+#include "slam_plane/core/types.hpp"
 #include "slam_plane/thesis/track.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -12,49 +15,89 @@ namespace hallway::slam_plane::thesis {
 /// A submap's place in the list of submaps.
 using SubmapIndex = std::size_t;
 
-/// All tracks, by name, and the submaps that each is a member of (thesis 4.4.3.1: the master list).
+/// All tracks, and the submaps that each is a member of (thesis 4.4.3.1: the master list). A track's id is its place in the book, which is given again when the track is released or a
+/// roll back takes it away; its *name* is what it is called outside, and is never another one's.
 class TrackBook {
  public:
+  static constexpr std::size_t kNoPiece = ~std::size_t{0};
+
   explicit TrackBook(const TrackOptions& options) : options_(options) {}
 
-  /// A new track that begins in an iteration.
-  Track& create(Iteration now) {
-    begun_.push_back(now);
-    tracks_.emplace_back(tracks_.size(), options_);
-    submaps_.emplace_back();
-    charted_.emplace_back();
-    return tracks_.back();
+  /// A new track that begins in an iteration, with a piece of it. One that begins again where it began before a roll back has the name that it had. O(log(names kept)).
+  Track& create(Iteration now, std::size_t piece = kNoPiece) {
+    if (free_.empty()) {
+      free_.push_back(entries_.size());
+      entries_.emplace_back(Entry{Track(entries_.size(), options_), now, 0, {}, {}});
+    }
+    Entry& entry = entries_[free_.back()];
+    free_.pop_back();
+    entry.begun = now;
+    entry.name = name_of(now, piece);
+    return entry.track;
   }
 
-  std::size_t size() const { return tracks_.size(); }
-  Track& operator[](TrackId id) { return tracks_[id]; }
-  const Track& operator[](TrackId id) const { return tracks_[id]; }
+  /// Highest id ever given, plus one. Some may be free.
+  std::size_t size() const { return entries_.size(); }
+  Track& operator[](TrackId id) { return entries_[id].track; }
+  const Track& operator[](TrackId id) const { return entries_[id].track; }
+
+  WallId name(TrackId id) const { return entries_[id].name; }
+  /// Whether there is no track of this id now.
+  bool is_free(TrackId id) const { return entries_[id].begun == kFree; }
 
   /// Submaps that have the track as a member, in the order in which it joined.
-  std::vector<SubmapIndex>& submaps(TrackId id) { return submaps_[id]; }
-  const std::vector<SubmapIndex>& submaps(TrackId id) const { return submaps_[id]; }
+  std::vector<SubmapIndex>& submaps(TrackId id) { return entries_[id].submaps; }
+  const std::vector<SubmapIndex>& submaps(TrackId id) const { return entries_[id].submaps; }
 
   /// Submaps that only count the track when the current one is chosen (Rule 37).
-  std::vector<SubmapIndex>& charted(TrackId id) { return charted_[id]; }
-  const std::vector<SubmapIndex>& charted(TrackId id) const { return charted_[id]; }
+  std::vector<SubmapIndex>& charted(TrackId id) { return entries_[id].charted; }
+  const std::vector<SubmapIndex>& charted(TrackId id) const { return entries_[id].charted; }
+
+  /// The track is no more, and its id may be given to another one.
+  void release(TrackId id) {
+    entries_[id] = Entry{Track(id, options_), kFree, 0, {}, {}};
+    free_.push_back(id);
+  }
 
   /// Rolls back to iteration k: tracks begun later are no more. O(tracks).
   void truncate(Iteration k) {
-    while (!tracks_.empty() && begun_.back() > k) {
-      begun_.pop_back();
-      tracks_.pop_back();
-      submaps_.pop_back();
-      charted_.pop_back();
+    for (TrackId id = entries_.size(); id-- > 0;) {
+      if (entries_[id].begun > k) {
+        release(id);
+      } else {
+        entries_[id].track.truncate(k);
+      }
     }
-    for (Track& track : tracks_) track.truncate(k);
+  }
+
+  /// Forgets what tracks were called that began before iteration k: no roll back takes those away. O(forgotten).
+  void forget_names_before(Iteration k) {
+    while (!names_.empty() && names_.begin()->first.first < k) names_.erase(names_.begin());
   }
 
  private:
+  static constexpr Iteration kFree = -1;
+
+  struct Entry {
+    Track track;
+    Iteration begun;  // or kFree
+    WallId name;
+    std::vector<SubmapIndex> submaps;
+    std::vector<SubmapIndex> charted;
+  };
+
+  WallId name_of(Iteration now, std::size_t piece) {
+    if (piece == kNoPiece) return next_name_++;
+    const auto [found, fresh] = names_.try_emplace({now, piece}, next_name_);
+    if (fresh) ++next_name_;
+    return found->second;
+  }
+
   TrackOptions options_;
-  std::deque<Track> tracks_;  // what points to one stays good
-  std::vector<Iteration> begun_;
-  std::vector<std::vector<SubmapIndex>> submaps_;
-  std::vector<std::vector<SubmapIndex>> charted_;
+  std::deque<Entry> entries_;                                  // what points to a track stays good
+  std::vector<TrackId> free_;                                  // the last one is given next
+  std::map<std::pair<Iteration, std::size_t>, WallId> names_;  // by where a track began
+  WallId next_name_ = 0;
 };
 
 }  // namespace hallway::slam_plane::thesis

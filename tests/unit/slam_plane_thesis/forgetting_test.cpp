@@ -32,7 +32,8 @@ class InVain : public ::testing::Test {
     state.submaps.emplace_back(made, state.now);
     for (const TrackId id : links) state.submaps[made].add(id, state.now, true);
     state.submaps[made].add(own, state.now, false);
-    for (const Member& member : state.submaps[made].members()) state.tracks.submaps(member.track).push_back(made);
+    for (const Member& member : state.submaps[made].members())
+      state.tracks.submaps(member.track).push_back(made);
     state.submaps[made].links.push_back(from);
     state.submaps[from].links.push_back(made);
     return made;
@@ -59,7 +60,8 @@ TEST_F(InVain, ASubmapOfNothingButAPieceThatWasNeverPlacedGoesWithThePiece) {
   EXPECT_FALSE(world_.state.tracks[0].empty());
   EXPECT_EQ(world_.state.dropped_submaps, 1u);
   EXPECT_EQ(world_.state.tracks.submaps(0), (std::vector<SubmapIndex>{first_, later_}));
-  EXPECT_EQ(world_.state.submaps[later_].links, std::vector<SubmapIndex>{first_}) << "linked to what it was made from";
+  EXPECT_EQ(world_.state.submaps[later_].links, std::vector<SubmapIndex>{first_})
+      << "linked to what it was made from";
   EXPECT_EQ(world_.state.submaps[first_].links, std::vector<SubmapIndex>{later_});
 }
 
@@ -86,6 +88,67 @@ TEST_F(InVain, WhatAloneTellsAnEndOfAWallStays) {
   state.tracks.submaps(0) = of;
   forget_at(220);
   EXPECT_FALSE(there(vain_)) << "the first one tells as much";
+}
+
+TEST_F(InVain, TheIdOfATrackOfWhichNothingIsLeftIsGivenAgainAndItsNameIsNot) {
+  State& state = world_.state;
+  const WallId name = state.tracks.name(piece_);
+  state.hints.add({70, piece_, vain_});
+  forget_at(200);
+  EXPECT_TRUE(state.tracks.is_free(piece_));
+  EXPECT_FALSE(state.tracks.is_free(0)) << "it is in the map";
+  Track& next = state.tracks.create(200);
+  EXPECT_EQ(next.id(), piece_);
+  EXPECT_NE(state.tracks.name(piece_), name);
+  EXPECT_TRUE(next.empty());
+  EXPECT_EQ(state.hints.strikes(piece_), 0) << "it was another one that did not fit";
+}
+
+TEST_F(InVain, TheListOfSubmapsIsClosedUpWhereMostOfItAreEmpty) {
+  State& state = world_.state;
+  EXPECT_TRUE(close_up(state).empty());
+  SubmapIndex last = 0;
+  for (int i = 0; i < 60; ++i) last = make({0, 1}, piece_, first_);
+  const SubmapIndex kept = make({1}, 2, last);
+  state.carried.current = kept;
+  state.tracks.charted(0) = {vain_, kept};
+  state.hints.add({70, 0, kept});
+  forget_at(200);
+  ASSERT_EQ(state.dropped_submaps, 61u);
+  const std::vector<SubmapIndex> now_at = close_up(state);
+  ASSERT_EQ(now_at.size(), 64u);
+  EXPECT_EQ(now_at[first_], 0u);
+  EXPECT_EQ(now_at[later_], 1u);
+  EXPECT_EQ(now_at[kept], 2u);
+  EXPECT_EQ(now_at[vain_], kNoSubmap);
+  ASSERT_EQ(state.submaps.size(), 3u);
+  EXPECT_EQ(state.dropped_submaps, 0u);
+  EXPECT_EQ(state.submaps[2].links, std::vector<SubmapIndex>{0u})
+      << "what it was made from was made from the first one";
+  EXPECT_EQ(state.submaps[0].links, (std::vector<SubmapIndex>{1u, 2u}));
+  EXPECT_EQ(state.tracks.submaps(1), (std::vector<SubmapIndex>{0u, 1u, 2u}));
+  EXPECT_EQ(state.tracks.charted(0), std::vector<SubmapIndex>{2u});
+  EXPECT_EQ(state.carried.current, 2u);
+  EXPECT_FALSE(state.hints.may_join(0, 2));
+  EXPECT_TRUE(close_up(state).empty());
+}
+
+TEST(TrackBook, ATrackThatBeginsAgainWhereItBeganBeforeARollBackHasItsNameAndNoOtherOneHas) {
+  TrackBook tracks{TrackOptions{}};
+  const WallId first = tracks.name(tracks.create(3, 0).id());
+  const TrackId a = tracks.create(7, 1).id(), b = tracks.create(7, 4).id();
+  const WallId name_a = tracks.name(a), name_b = tracks.name(b);
+  tracks.truncate(5);
+  EXPECT_FALSE(tracks.is_free(0));
+  EXPECT_TRUE(tracks.is_free(a) && tracks.is_free(b));
+  EXPECT_EQ(tracks.name(tracks.create(6, 1).id()), name_b + 1) << "it begins earlier than those two did";
+  EXPECT_EQ(tracks.name(tracks.create(7, 4).id()), name_b);
+  EXPECT_EQ(tracks.name(tracks.create(7, 1).id()), name_a);
+  EXPECT_EQ(tracks.size(), 4u);
+  EXPECT_EQ(tracks.name(0), first);
+  tracks.truncate(5);
+  tracks.forget_names_before(8);
+  EXPECT_GT(tracks.name(tracks.create(7, 1).id()), name_b + 1);
 }
 
 /// Pieces at the edge of the view join submaps that never place them, on each round again.
