@@ -19,11 +19,14 @@ TrackOptions short_memory(const Options& options) {
 }  // namespace
 
 Bridge::Bridge(const Options& options, const State& before)
-    : options_(options.match()), now_(before.now), motion_(before.carried.motion) {
+    : options_(options.match()),
+      memory_(short_memory(options)),
+      now_(before.now),
+      motion_(before.carried.motion),
+      next_(before.tracks.size()) {
   for (const TrackId id : before.recent) {
     if (before.tracks[id].empty()) continue;
-    Followed& next = followed_.emplace_back(
-        Followed{Track(id, short_memory(options)), {}, {}, wall_of(id, before)});
+    Followed& next = followed_.emplace_back(Followed{Track(id, memory_), {}, {}, wall_of(id, before)});
     next.track.push(before.tracks[id].newest());
     const MappedPlane* plane = before.map.find(id);
     if (plane == nullptr) continue;
@@ -37,8 +40,15 @@ Bridge::Followed& Bridge::followed(const Track& track) {
                            [](const Followed& one, TrackId id) { return one.track.id() < id; });
 }
 
+void Bridge::forget_unseen() {
+  std::erase_if(followed_, [&](const Followed& one) {
+    return one.track.newest().iteration + options_.recent_iterations < now_;
+  });
+}
+
 Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
   ++now_;
+  forget_unseen();
   Told told;
   told.associations.assign(pieces.size(), kNoWall);
   std::vector<Sighting> sightings;
@@ -53,16 +63,22 @@ Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
   for (const Followed& one : followed_) stages[0].push_back(&one.track);
   const std::vector<const Track*> matched = match_tracks(sightings, stages, options_);
   std::vector<PlanePair> evidence;
+  std::vector<std::size_t> unmatched;
+  told.seen = !sightings.empty();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (matched[i] == nullptr) continue;
+    if (matched[i] == nullptr) {
+      unmatched.push_back(i);
+      continue;
+    }
     Followed& one = followed(*matched[i]);
     one.track.push(sightings[i]);
     told.associations[piece_of[i]] = one.wall;
-    told.seen = true;
     if (!one.in_map.valid()) continue;
     one.seen.place = {sightings[i].segment.middle(), sightings[i].direction, sightings[i].length, true};
     append_pairs(one.seen, one.in_map, evidence);
   }
+  for (const std::size_t i : unmatched)
+    followed_.emplace_back(Followed{Track(next_++, memory_), {}, {}, kNoWall}).track.push(sightings[i]);
   if (motion_.has_pose()) told.location = align(evidence, motion_.predicted());
   told.location = motion_.completed(told.location);
   return told;

@@ -10,14 +10,15 @@
 
 namespace hallway::slam_plane::thesis {
 
-/// Where the robot is while iterations are done again (Rule 33): the planes that were seen last are followed on the map as it was before time was rolled back. Nothing is learned.
+/// Where the robot is while iterations are done again (Rule 33): the planes that were seen last are followed on the map as it was before time was rolled back. Nothing is learned; what comes into view is
+/// followed too, so that it is not taken for a wall beside it that went out of view.
 class Bridge {
  public:
   /// What is told of one frame.
   struct Told {
     std::optional<Alignment> location;
     std::vector<WallId> associations;  ///< of each piece
-    bool seen = false;                 ///< a piece was one of the planes that are followed
+    bool seen = false;                 ///< there was a piece
   };
 
   /// From the state after an iteration, before it is rolled back. O(planes seen lately).
@@ -28,18 +29,22 @@ class Bridge {
 
  private:
   struct Followed {
-    Track track;     // its newest sightings
-    Reference seen;  // in the robot's frame, with the ends that stood still; not valid if the map does not have it
+    Track track;  // its newest sightings
+    Reference
+        seen;  // in the robot's frame, with the ends that stood still; not valid if the map does not have it
     Reference in_map;
     WallId wall = kNoWall;
   };
 
   Followed& followed(const Track& track);
+  void forget_unseen();
 
   MatchOptions options_;
+  TrackOptions memory_;  // no more than tracks are matched by
   Iteration now_;
   MotionModel motion_;
-  std::vector<Followed> followed_;  // by the track's name, ascending
+  std::vector<Followed> followed_;  // by the track's id, ascending
+  TrackId next_ = 0;
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -22,6 +22,12 @@ double shared_part(const Extent& a, const Extent& b, double slack) {
   return (std::min(a.high, b.high) - std::max(a.low, b.low) + slack) / std::max(shorter, 1e-9);
 }
 
+/// Intersection by union; negative for extents that are apart.
+double likeness(const Extent& a, const Extent& b) {
+  return (std::min(a.high, b.high) - std::max(a.low, b.low)) /
+         (std::max(a.high, b.high) - std::min(a.low, b.low));
+}
+
 Extent own_extent(const Sighting& sighting) {
   return {sighting.direction.dot(sighting.segment.end[kEndA]),
           sighting.direction.dot(sighting.segment.end[kEndB])};
@@ -29,6 +35,7 @@ Extent own_extent(const Sighting& sighting) {
 
 struct Candidate {
   double score;
+  double likeness;  // of the extents: decides between equal scores
   std::size_t sighting;
   std::size_t order;  // of the track
   const Track* track;
@@ -45,13 +52,19 @@ std::vector<Candidate> candidates(std::span<const Sighting> seen, MatchStages st
       if (track->empty() || !given.insert(track).second) continue;
       ++order;
       for (std::size_t i = 0; i < seen.size(); ++i) {
-        const auto score = match_score(tracked_terms(seen[i], track->newest(), options), options);
-        if (score) result.push_back({*score - kStage * static_cast<double>(stage), i, order, track});
+        const MatchTerms terms = tracked_terms(seen[i], track->newest(), options);
+        const auto score = match_score(terms, options);
+        // One that was out of view is asked last: what was seen on and on is not to be given to it.
+        const std::size_t asked = terms.age > 1 ? stages.size() - 1 : stage;
+        if (!score) continue;
+        const double like = likeness(own_extent(seen[i]), own_extent(track->newest()));
+        result.push_back({*score - kStage * static_cast<double>(asked), like, i, order, track});
       }
     }
   }
   std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
-    return std::make_tuple(-a.score, a.sighting, a.order) < std::make_tuple(-b.score, b.sighting, b.order);
+    return std::make_tuple(-a.score, -a.likeness, a.sighting, a.order) <
+           std::make_tuple(-b.score, -b.likeness, b.sighting, b.order);
   });
   return result;
 }

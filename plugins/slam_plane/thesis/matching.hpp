@@ -34,7 +34,7 @@ MatchTerms placed_terms(const Segment& seen, const Segment& wall, const MatchOpt
 using MatchStages = std::span<const std::vector<const Track*>>;
 
 /// Takes each sighting of one iteration for a recently seen track, or for none: the best pairs first, each track once. A track of a later stage has to be better by a tenth of the
-/// greatest score for each stage; one given in several stages counts in its first one. Ties go to the earlier sighting, then to the earlier track.
+/// greatest score for each stage; one given in several stages counts in its first one. One that was out of view is asked last, whatever its stage. Ties go to the one whose extent is more like it, then to the earlier sighting, then to the earlier track.
 ///
 /// @returns for each sighting the track, or null. O(sightings x tracks seen recently).
 std::vector<const Track*> match_tracks(std::span<const Sighting> seen, MatchStages stages,

@@ -71,6 +71,17 @@ TEST(Matching, EarlierStagesComeFirstUnlessLaterOnesFitMuchBetter) {
   EXPECT_EQ(match_tracks(far, Stages{{&current}, {&other}}, MatchOptions{})[0], &other);
 }
 
+/// Two walls in one line, of which the first one went out of view when only its last centimetres beside the second one were left.
+TEST(Matching, AWallThatWentOutOfViewDoesNotTakeTheOneBesideItThoughItIsAskedEarlier) {
+  const Segment gone{{Vec2(2.2, 3.02), Vec2(2.28, 3.02)}}, beside{{Vec2(2.28, 3.0), Vec2(8.0, 3.0)}};
+  const Track before = track_at(0, gone, 0), own = track_at(1, beside, 2);
+  const std::vector<Sighting> now{seen(Segment{{Vec2(2.28, 3.02), Vec2(8.0, 3.02)}}, straight(3), 3)};
+  ASSERT_TRUE(
+      match_score(tracked_terms(now[0], before.newest(), MatchOptions{}), MatchOptions{}).has_value());
+  EXPECT_EQ(match_tracks(now, Stages{{&before}, {}, {&own}}, MatchOptions{})[0], &own);
+  EXPECT_EQ(match_tracks(now, Stages{{&before}}, MatchOptions{})[0], &before) << "where nothing else is it";
+}
+
 TEST(Matching, TracksNotSeenForLongAreNotMatched) {
   const Track track = track_at(0, kAhead, 0);
   EXPECT_EQ(

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
+#include "slam_plane/thesis/bridge.hpp"
 #include "slam_plane/thesis/thesis_mapper.hpp"
 #include "unit/slam_plane/scenes.hpp"
+#include "unit/slam_plane_thesis/small_world.hpp"
 
 namespace hallway::slam_plane::thesis::test {
 namespace {
@@ -78,9 +81,49 @@ TEST(RollBack, NoFrameDoesMuchAgainAndTheRobotIsNotLostMeanwhile) {
     if (again == 0) continue;
     ++behind;
     ASSERT_TRUE(answer.has_pose) << "frame " << i;
-    EXPECT_LT((answer.T_map_robot.t - (T_map_world * frames[i].T_world_robot).t).norm(), 0.2) << "frame " << i;
+    EXPECT_LT((answer.T_map_robot.t - (T_map_world * frames[i].T_world_robot).t).norm(), 0.2)
+        << "frame " << i;
   }
   EXPECT_GT(behind, 0u);
+}
+
+TEST(RollBack, NoNameStandsForTwoWalls) {
+  const std::vector<TrueFrame> frames = corridor(0.0);
+  ThesisMapper mapper(severe());
+  std::map<WallId, int> wall_of_name;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Answer& answer = mapper.process(frames[i].pieces, View{});
+    for (std::size_t k = 0; k < frames[i].pieces.size(); ++k) {
+      const WallId name = answer.associations[k];
+      if (name == kNoWall) continue;
+      const auto [known, fresh] = wall_of_name.try_emplace(name, frames[i].wall[k]);
+      ASSERT_EQ(known->second, frames[i].wall[k]) << "name " << name << " in frame " << i;
+    }
+  }
+  EXPECT_GT(mapper.counters().roll_backs, 2u) << "the scene is to have some";
+}
+
+/// A wall of which the last centimetres were seen, and the one in line with it, which comes into view while time is rolled back.
+TEST(RollBack, WhatComesIntoViewMeanwhileIsNotTakenForTheWallBesideIt) {
+  SmallWorld world;
+  const Segment gone{{Vec2(-2, 3), Vec2(2, 3)}};
+  const auto no_way = [](Iteration) { return Pose2{}; };
+  for (const Segment& wall : {kAhead, kSlanted, gone}) world.see(wall, {{0, 40}}, no_way);
+  world.fixed_group({0, 1, 2});
+  world.set_now(40);
+  world.state.recent = world.state.seen;
+  Bridge bridge(world.options, world.state);
+  const auto piece = [](const Segment& segment) {
+    return Piece{segment.end[kEndA], segment.end[kEndB], 0.0, 2.5};
+  };
+  const auto part = [&](double from, double to) { return piece(Segment{{Vec2(from, 3), Vec2(to, 3)}}); };
+  const std::vector<Piece> both{piece(kAhead), part(1.95, 2.0), part(2.0, 8.0)};
+  EXPECT_EQ(bridge.follow(both).associations,
+            (std::vector<WallId>{world.state.tracks.name(0), world.state.tracks.name(2), kNoWall}));
+  for (int i = 0; i < 8; ++i) {
+    const std::vector<Piece> one{piece(kAhead), part(2.0, 8.0)};
+    EXPECT_EQ(bridge.follow(one).associations, (std::vector<WallId>{world.state.tracks.name(0), kNoWall}));
+  }
 }
 
 /// Maps a corridor without noise, and at the end goes back over so many iterations, with a hint that forbids nothing.
