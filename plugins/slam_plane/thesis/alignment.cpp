@@ -16,13 +16,6 @@ constexpr double kSpread =
 constexpr double kLeastSpread_m = 1e-3;
 constexpr double kLeastCrossing = 0.02;  // sum of squared sines per line, below which lines count as parallel
 
-Vec2 mean_rotation(std::span<const PlanePair> pairs) {
-  Vec2 sum = Vec2::Zero();
-  for (const PlanePair& pair : pairs)
-    sum += Vec2(pair.direction[0].dot(pair.direction[1]), cross(pair.direction[0], pair.direction[1]));
-  return sum.norm() > 0.0 ? Vec2(sum.normalized()) : Vec2(1.0, 0.0);
-}
-
 /// The translation that lines tell; along what they leave open that of the guess.
 void place_by_lines(std::span<const PlanePair> pairs, const Pose2& guess, Alignment& result) {
   Mat2 information = Mat2::Zero();
@@ -70,6 +63,24 @@ Vec2 mean_of_most(const std::vector<Vec2>& told) {
 }
 
 }  // namespace
+
+Vec2 mean_rotation(std::span<const PlanePair> pairs) {
+  Vec2 sum = Vec2::Zero();
+  for (const PlanePair& pair : pairs)
+    sum += Vec2(pair.direction[0].dot(pair.direction[1]), cross(pair.direction[0], pair.direction[1]));
+  return sum.norm() > 0.0 ? Vec2(sum.normalized()) : Vec2(1.0, 0.0);
+}
+
+void leave_out_jumps(const Pose2& guess, double bound_m, std::vector<PlanePair>& pairs) {
+  const Vec2 turn = mean_rotation(pairs);
+  const Pose2 turned{Vec2::Zero(), turn};
+  const auto jumps = [&](const PlanePair& pair) {
+    return pair.same_point && (pair.point[1] - turned.rotate(pair.point[0]) - guess.t).norm() > bound_m;
+  };
+  const bool any_near = std::any_of(pairs.begin(), pairs.end(),
+                                    [&](const PlanePair& pair) { return pair.same_point && !jumps(pair); });
+  if (any_near) std::erase_if(pairs, jumps);
+}
 
 std::optional<Alignment> align(std::span<const PlanePair> pairs, const Pose2& guess) {
   if (pairs.empty()) return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "slam_plane/core/types.hpp"
 
@@ -23,6 +24,12 @@ struct Alignment {
   Vec2 open = Vec2::Zero();  ///< unit, frame `to`
   bool by_points = false;    ///< same points told the place, and not lines alone
 };
+
+/// Cosine and sine of the mean turn of the pairs' directions.
+Vec2 mean_rotation(std::span<const PlanePair> pairs);
+
+/// Leaves out the points that tell a place farther than a bound from the guess's, if others tell one that is nearer.
+void leave_out_jumps(const Pose2& guess, double bound_m, std::vector<PlanePair>& pairs);
 
 /// The rigid motion between two frames: the mean of the directions' differences, then the mean of the points' (Rules 4, 5, 8). Where no point is the same,
 /// lines that cross tell the place; if none do, `guess` tells it along them. Nothing without pairs. O(pairs).

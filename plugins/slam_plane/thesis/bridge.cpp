@@ -2,6 +2,7 @@
 #include "slam_plane/thesis/bridge.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slam_plane/thesis/map_report.hpp"
 #include "slam_plane/thesis/matching.hpp"
@@ -21,6 +22,7 @@ TrackOptions short_memory(const Options& options) {
 Bridge::Bridge(const Options& options, const State& before)
     : options_(options.match()),
       memory_(short_memory(options)),
+      corner_bound_m_(options.max_deviation_m),
       now_(before.now),
       motion_(before.carried.motion),
       next_(before.tracks.size()) {
@@ -46,6 +48,29 @@ void Bridge::forget_unseen() {
   });
 }
 
+/// An end that is not where it should be is one that the view cuts now, or something hides: it is no corner any more.
+std::vector<PlanePair> Bridge::evidence_of(std::span<Followed* const> mapped) const {
+  std::vector<PlanePair> lines;
+  for (const Followed* one : mapped) {
+    lines.emplace_back();
+    lines.back().direction[0] = one->seen.place.direction;
+    lines.back().direction[1] = one->in_map.place.direction;
+  }
+  std::vector<PlanePair> evidence;
+  if (lines.empty() || !motion_.has_pose()) return evidence;
+  const Pose2 expected{motion_.predicted().t, mean_rotation(lines)};
+  for (Followed* one : mapped) {
+    const Segment now = expected * one->seen.place.segment();
+    const Segment corners = one->in_map.place.segment();
+    for (int end = 0; end < 2; ++end) {
+      const double off = one->in_map.place.direction.dot(now.end[end] - corners.end[end]);
+      if (std::abs(off) > corner_bound_m_) one->seen.known[end] = false;
+    }
+    append_pairs(one->seen, one->in_map, evidence);
+  }
+  return evidence;
+}
+
 Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
   ++now_;
   forget_unseen();
@@ -62,7 +87,7 @@ Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
   std::vector<std::vector<const Track*>> stages(1);
   for (const Followed& one : followed_) stages[0].push_back(&one.track);
   const std::vector<const Track*> matched = match_tracks(sightings, stages, options_);
-  std::vector<PlanePair> evidence;
+  std::vector<Followed*> mapped;
   std::vector<std::size_t> unmatched;
   told.seen = !sightings.empty();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
@@ -75,8 +100,9 @@ Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
     told.associations[piece_of[i]] = one.wall;
     if (!one.in_map.valid()) continue;
     one.seen.place = {sightings[i].segment.middle(), sightings[i].direction, sightings[i].length, true};
-    append_pairs(one.seen, one.in_map, evidence);
+    mapped.push_back(&one);
   }
+  const std::vector<PlanePair> evidence = evidence_of(mapped);
   for (const std::size_t i : unmatched)
     followed_.emplace_back(Followed{Track(next_++, memory_), {}, {}, kNoWall}).track.push(sightings[i]);
   if (motion_.has_pose()) told.location = align(evidence, motion_.predicted());

@@ -38,9 +38,11 @@ class Bridge {
 
   Followed& followed(const Track& track);
   void forget_unseen();
+  std::vector<PlanePair> evidence_of(std::span<Followed* const> mapped) const;
 
   MatchOptions options_;
-  TrackOptions memory_;  // no more than tracks are matched by
+  TrackOptions memory_;    // no more than tracks are matched by
+  double corner_bound_m_;  // from where an end should be, along its wall
   Iteration now_;
   MotionModel motion_;
   std::vector<Followed> followed_;  // by the track's id, ascending

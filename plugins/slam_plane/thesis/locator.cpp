@@ -53,6 +53,7 @@ std::optional<Alignment> Locator::locate(std::span<const TrackId> tracks_now, co
     if (id >= static_.size() || static_[id].at != now) recalculate(id, tracks_now, tracks, pairs, now);
     append_pairs(seen(tracks[id], now), plane->reference, evidence);
   }
+  leave_out_jumps(guess, options_.match_distance_m, evidence);
   return align(evidence, guess);
 }
 

@@ -129,6 +129,20 @@ TEST(Alignment, PointsThatAreTheSameTellTheRotationAndThePlace) {
   EXPECT_LT((alignment->T_to_from.r - truth.r).norm(), 1e-12);
 }
 
+TEST(Alignment, PointsThatTellAJumpAreLeftOutWhereOthersTellNone) {
+  const Pose2 truth = Pose2::at(Vec2(3, -2), 0.7), expected = Pose2::at(Vec2(3.02, -1.97), 0.65);
+  PlanePair wrong = pair_at(truth, Vec2(2, -3), Vec2(1, 0), true);
+  wrong.point[1] += Vec2(3.3, 0.0);
+  std::vector<PlanePair> pairs{pair_at(truth, Vec2(4, 1), Vec2(0, -1), true), wrong};
+  EXPECT_GT((align(pairs, expected)->T_to_from.t - truth.t).norm(), 1.0);
+  leave_out_jumps(expected, 0.3, pairs);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_LT((align(pairs, expected)->T_to_from.t - truth.t).norm(), 1e-12);
+  std::vector<PlanePair> alone{wrong};
+  leave_out_jumps(expected, 0.3, alone);
+  EXPECT_EQ(alone.size(), 1u) << "it may be right, and what was expected wrong";
+}
+
 TEST(ThesisMapper, ACorridorIsOneMapOfManySubmaps) {
   const Outcome result = run(corridor_return(), 1.5707963);
   EXPECT_GT(result.submaps, 3u);

@@ -126,6 +126,33 @@ TEST(RollBack, WhatComesIntoViewMeanwhileIsNotTakenForTheWallBesideIt) {
   }
 }
 
+/// Of two walls whose ends stood still, one end each goes out of view.
+TEST(RollBack, AnEndThatTheViewCutsMeanwhileIsNoCornerAnyMore) {
+  SmallWorld world;
+  for (const Segment& wall : {kAhead, kSlanted}) world.see(wall, {{0, 40}});
+  world.fixed_group({0, 1});
+  world.set_now(40);
+  world.state.recent = world.state.seen;
+  const bool both[2] = {true, true};
+  for (const TrackId id : world.state.seen) {
+    ASSERT_NE(world.state.map.find(id), nullptr);
+    world.state.locator.note(id, both, 40);
+  }
+  for (const Iteration k : {39, 40}) world.state.carried.motion.known(straight(k));
+  Bridge bridge(world.options, world.state);
+  Iteration now = 40;
+  for (const double cut : {0.0, 1.0, 1.1, 1.2, 1.3}) {
+    ++now;
+    std::vector<Piece> pieces;
+    for (const Sighting& s :
+         {seen(kAhead, straight(now), now, cut), seen(kSlanted, straight(now), now, 0.0, cut)})
+      pieces.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
+    const std::optional<Alignment> told = bridge.follow(pieces).location;
+    ASSERT_TRUE(told && told->by_points);
+    EXPECT_LT((told->T_to_from.t - straight(now).t).norm(), kExact) << "cut by " << cut;
+  }
+}
+
 /// Maps a corridor without noise, and at the end goes back over so many iterations, with a hint that forbids nothing.
 Map mapped(Iteration back) {
   Options options;
