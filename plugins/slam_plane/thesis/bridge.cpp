@@ -10,6 +10,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
+constexpr double kAbout_m = 30.0;  // how far a robot sees and goes until all is done again
+
 /// Tracks that need to remember no more than what they are matched by.
 TrackOptions short_memory(const Options& options) {
   TrackOptions result = options.track();
@@ -25,7 +27,8 @@ Bridge::Bridge(const Options& options, const State& before)
       corner_bound_m_(options.max_deviation_m),
       now_(before.now),
       motion_(before.carried.motion),
-      next_(before.tracks.size()) {
+      next_(before.tracks.size()),
+      in_map_(options.map_match()) {
   for (const TrackId id : before.recent) {
     if (before.tracks[id].empty()) continue;
     Followed& next = followed_.emplace_back(Followed{Track(id, memory_), {}, {}, wall_of(id, before)});
@@ -34,6 +37,14 @@ Bridge::Bridge(const Options& options, const State& before)
     if (plane == nullptr) continue;
     next.in_map = plane->reference;
     next.seen = before.locator.seen(before.tracks[id], before.now);
+  }
+  if (!motion_.has_pose()) return;
+  for (TrackId id = 0; id < before.map.size(); ++id) {
+    const MappedPlane* plane = before.map.find(id);
+    if (plane == nullptr) continue;
+    const Placement& place = plane->reference.place;
+    if ((place.middle - motion_.pose().t).norm() < kAbout_m + 0.5 * place.size)
+      about_.push_back({plane->reference, wall_of(id, before)});
   }
 }
 
@@ -46,6 +57,23 @@ void Bridge::forget_unseen() {
   std::erase_if(followed_, [&](const Followed& one) {
     return one.track.newest().iteration + options_.recent_iterations < now_;
   });
+}
+
+/// What no plane that is followed is may be one of the map that was out of view; of that one nothing but its line is evidence.
+void Bridge::begin_following(const Sighting& sighting, std::span<const WallId> taken) {
+  Followed& next = followed_.emplace_back(Followed{Track(next_++, memory_), {}, {}, kNoWall});
+  next.track.push(sighting);
+  if (!motion_.has_pose()) return;
+  const Segment segment = motion_.pose() * sighting.segment;
+  double best = 0.0;
+  for (const Mapped& mapped : about_) {
+    if (std::find(taken.begin(), taken.end(), mapped.wall) != taken.end()) continue;
+    const auto score = match_score(placed_terms(segment, mapped.place.place.segment(), in_map_), in_map_);
+    if (!score || *score <= best) continue;
+    best = *score;
+    next.in_map = mapped.place;
+    next.wall = mapped.wall;
+  }
 }
 
 /// An end that is not where it should be is one that the view cuts now, or something hides: it is no corner any more.
@@ -103,10 +131,12 @@ Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
     mapped.push_back(&one);
   }
   const std::vector<PlanePair> evidence = evidence_of(mapped);
-  for (const std::size_t i : unmatched)
-    followed_.emplace_back(Followed{Track(next_++, memory_), {}, {}, kNoWall}).track.push(sightings[i]);
   if (motion_.has_pose()) told.location = align(evidence, motion_.predicted());
   told.location = motion_.completed(told.location);
+  for (const std::size_t i : unmatched) {
+    begin_following(sightings[i], told.associations);
+    told.associations[piece_of[i]] = followed_.back().wall;
+  }
   return told;
 }
 

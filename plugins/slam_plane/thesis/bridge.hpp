@@ -11,7 +11,7 @@
 namespace hallway::slam_plane::thesis {
 
 /// Where the robot is while iterations are done again (Rule 33): the planes that were seen last are followed on the map as it was before time was rolled back. Nothing is learned; what comes into view is
-/// followed too, so that it is not taken for a wall beside it that went out of view.
+/// followed too, so that it is not taken for a wall beside it that went out of view, and is looked for in that map (Rule 11).
 class Bridge {
  public:
   /// What is told of one frame.
@@ -21,10 +21,10 @@ class Bridge {
     bool seen = false;                 ///< there was a piece
   };
 
-  /// From the state after an iteration, before it is rolled back. O(planes seen lately).
+  /// From the state after an iteration, before it is rolled back. O(planes of the map).
   Bridge(const Options& options, const State& before);
 
-  /// Takes the next frame. O(pieces * planes that are followed).
+  /// Takes the next frame. O(pieces * planes that are followed + new pieces * planes about the robot).
   Told follow(std::span<const Piece> pieces);
 
  private:
@@ -36,7 +36,14 @@ class Bridge {
     WallId wall = kNoWall;
   };
 
+  /// A plane of the map as it was.
+  struct Mapped {
+    Reference place;
+    WallId wall;
+  };
+
   Followed& followed(const Track& track);
+  void begin_following(const Sighting& sighting, std::span<const WallId> taken);
   void forget_unseen();
   std::vector<PlanePair> evidence_of(std::span<Followed* const> mapped) const;
 
@@ -47,6 +54,8 @@ class Bridge {
   MotionModel motion_;
   std::vector<Followed> followed_;  // by the track's id, ascending
   TrackId next_ = 0;
+  std::vector<Mapped> about_;  // the robot when it began
+  MatchOptions in_map_;        // what a piece may differ by from one of them
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -153,6 +153,31 @@ TEST(RollBack, AnEndThatTheViewCutsMeanwhileIsNoCornerAnyMore) {
   }
 }
 
+/// A wall of the map that was out of view is met again, and soon no other one is seen.
+TEST(RollBack, AWallThatIsMetAgainMeanwhileIsFoundInTheMap) {
+  SmallWorld world;
+  const TrackId along = world.see(kAlong, {{0, 30}});
+  for (const Segment& wall : {kAhead, kSlanted}) world.see(wall, {{0, 40}});
+  world.fixed_group({0, 1, 2});
+  world.set_now(40);
+  world.state.recent = world.state.seen;
+  for (const Iteration k : {39, 40}) world.state.carried.motion.known(straight(k));
+  Bridge bridge(world.options, world.state);
+  for (Iteration now = 41; now < 60; ++now) {
+    std::vector<Piece> pieces;
+    const auto see = [&](const Segment& wall) {
+      const Sighting s = seen(wall, straight(now), now, 0.5, 0.5);
+      pieces.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
+    };
+    see(kAlong);
+    if (now < 50) see(kAhead);
+    const Bridge::Told told = bridge.follow(pieces);
+    EXPECT_EQ(told.associations.front(), world.state.tracks.name(along)) << now;
+    ASSERT_TRUE(told.location.has_value());
+    EXPECT_NEAR(told.location->T_to_from.t.y(), 0.0, kExact) << "the wall along the way tells that";
+  }
+}
+
 /// Maps a corridor without noise, and at the end goes back over so many iterations, with a hint that forbids nothing.
 Map mapped(Iteration back) {
   Options options;
