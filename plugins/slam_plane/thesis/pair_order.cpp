@@ -44,6 +44,10 @@ std::size_t end_of(std::size_t member, KeyPoint key) {
 
 }  // namespace
 
+std::size_t OfferGraph::end_told(const PlaceStep& step) {
+  return step.key[1] == KeyPoint::none ? kNoEnd : end_of(step.child, step.key[1]);
+}
+
 OfferGraph::OfferGraph(std::span<const PlaceOffer> offers, std::size_t members)
     : offers_(offers),
       begin_(2 * members + 1, 0),
@@ -61,9 +65,7 @@ OfferGraph::OfferGraph(std::span<const PlaceOffer> offers, std::size_t members)
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t i = 0; i < offers.size(); ++i) {
     const PlaceStep& step = offers[i].step;
-    const bool line = step.key[1] == KeyPoint::none;
-    edges_[next[end_of(step.parent, step.key[0])]++] = {i, step.child,
-                                                        line ? kNoEnd : end_of(step.child, step.key[1])};
+    edges_[next[end_of(step.parent, step.key[0])]++] = {i, step.child, end_told(step)};
   }
 }
 
@@ -89,21 +91,23 @@ const std::vector<bool>& OfferGraph::placed_from(std::size_t root) {
 }
 
 double worth(const Comparison& comparison) {
-  if (!comparison.places()) return 0.0;
-  if (!comparison.has_keys()) return kLineWorth * comparison.shared;
+  const int ends =
+      (comparison.key[0] != KeyPoint::none ? 1 : 0) + (comparison.key[1] != KeyPoint::none ? 1 : 0);
+  if (!comparison.valid || ends == 0) return 0.0;
+  if (ends == 1) return kLineWorth * comparison.shared;
   return (comparison.parallel ? kParallelWorth : 1.0) * comparison.shared;
 }
 
+void append_offers(const PlaceStep& there, double worth, std::vector<PlaceOffer>& offers) {
+  const PlaceStep back{there.child, there.parent, {there.key[1], there.key[0]}};
+  for (const PlaceStep& step : {there, back}) {
+    if (step.key[0] != KeyPoint::none) offers.push_back({step, worth});
+  }
+}
+
 void sort_offers(std::vector<PlaceOffer>& offers) {
-  std::vector<std::pair<double, std::size_t>> order;  // offers are large: they are moved once
-  order.reserve(offers.size());
-  for (std::size_t i = 0; i < offers.size(); ++i) order.emplace_back(worth(offers[i].comparison), i);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<PlaceOffer> sorted;
-  sorted.reserve(offers.size());
-  for (const auto& [value, i] : order) sorted.push_back(offers[i]);
-  offers.swap(sorted);
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const PlaceOffer& a, const PlaceOffer& b) { return a.worth > b.worth; });
 }
 
 bool take_offer(Reference& parent, const Comparison& comparison, Reference& child) {
@@ -118,32 +122,27 @@ bool take_offer(Reference& parent, const Comparison& comparison, Reference& chil
   return tells;
 }
 
-std::vector<PlaceStep> OfferGraph::spanning_steps(std::size_t root, std::span<Reference> references) const {
+std::vector<PlaceStep> OfferGraph::spanning_steps(std::size_t root) const {
   std::vector<PlaceStep> steps;
+  if (first_end_[root] == kNoEnd) return steps;
   LeastFirst open(offers_.size());  // offers from ends that are known
-  const auto open_from = [&](std::size_t end) {
+  std::vector<bool> placed(placed_.size(), false), known(known_.size(), false);
+  const auto learn = [&](std::size_t end) {
+    known[end] = true;
     for (std::size_t i = begin_[end]; i < begin_[end + 1]; ++i) open.add(edges_[i].offer);
   };
-  if (first_end_[root] == kNoEnd) return steps;
-  open_from(first_end_[root]);
+  placed[root] = true;
+  learn(first_end_[root]);
   while (const std::optional<std::size_t> next = open.take()) {
-    const PlaceOffer& offer = offers_[*next];
-    Reference& parent = references[offer.step.parent];
-    Reference& child = references[offer.step.child];
-    if (steps.empty()) parent = reference_of(offer.comparison, 0);
-    const bool before[2] = {child.known[kEndA], child.known[kEndB]};
-    if (child.full() || !take_offer(parent, offer.comparison, child)) continue;
-    steps.push_back(offer.step);
-    for (int end = 0; end < 2; ++end) {
-      if (child.known[end] && !before[end]) open_from(2 * offer.step.child + static_cast<std::size_t>(end));
-    }
+    const PlaceStep& step = offers_[*next].step;
+    const std::size_t end = end_told(step);
+    const bool tells = end != kNoEnd && !known[end];
+    if (placed[step.child] && !tells) continue;
+    placed[step.child] = true;
+    steps.push_back(step);
+    if (tells) learn(end);
   }
   return steps;
-}
-
-std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
-                                      std::span<Reference> references) {
-  return OfferGraph(offers, references.size()).spanning_steps(root, references);
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -14,17 +14,21 @@ struct PlaceStep {
   std::size_t parent = 0;
   std::size_t child = 0;
   KeyPoint key[2] = {KeyPoint::none, KeyPoint::none};  ///< the ends that are compared: parent's, child's
+  bool operator==(const PlaceStep&) const = default;
 };
 
 /// A comparison that can be a step.
 struct PlaceOffer {
   PlaceStep step;
-  Comparison comparison;  ///< child relative to parent
+  double worth = 0.0;
 };
 
-/// What a comparison is worth: the iterations it was made over; of parallel planes 0.95 of that, so that others are preferred (Rules 15, 30). One that tells a line alone is worth next to nothing, so
+/// What a comparison is worth, whichever way round: the iterations it was made over; of parallel planes 0.95 of that, so that others are preferred (Rules 15, 30). One that tells a line alone is worth next to nothing, so
 /// that it is used only where nothing else places a member.
 double worth(const Comparison& comparison);
+
+/// Appends what a comparison can place: the child from the parent, and the parent from the child, each if the end that it starts from is told.
+void append_offers(const PlaceStep& there, double worth, std::vector<PlaceOffer>& offers);
 
 /// Sorts offers, those worth most first; equal ones stay in their order.
 void sort_offers(std::vector<PlaceOffer>& offers);
@@ -32,7 +36,7 @@ void sort_offers(std::vector<PlaceOffer>& offers);
 /// Places the child of a comparison in the parent's frame, or adds to what is known of it (Rule 28). @returns whether it told anything new.
 bool take_offer(Reference& parent, const Comparison& comparison, Reference& child);
 
-/// Sorted offers, by the ends that they need to be known. The offers have to outlive it.
+/// Sorted offers, by the ends that they need to be known. Which offer tells something depends on nothing but the ends that are known, so nothing is placed here. The offers have to outlive it.
 class OfferGraph {
  public:
   OfferGraph(std::span<const PlaceOffer> offers, std::size_t members);
@@ -42,9 +46,8 @@ class OfferGraph {
 
   /// Which comparisons place the members of a submap (Rule 30): from the root outwards, always the one worth most of those that place another member or tell another end, given ends that
   /// are known already (Prim's algorithm). Where each comparison knows the ends that it needs it is a maximum spanning tree, and steps that tell further ends.
-  ///
-  /// @param references  of all members, not valid; filled. O(offers), and a look at each 64 offers for each step.
-  std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<Reference> references) const;
+  /// The first step places the root too, with the end that it needs. O(offers), and a look at each 64 offers for each step.
+  std::vector<PlaceStep> spanning_steps(std::size_t root) const;
 
  private:
   struct Edge {
@@ -55,6 +58,9 @@ class OfferGraph {
 
   static constexpr std::size_t kNoEnd = ~std::size_t{0};
 
+  /// The end of the child that becomes known with a step.
+  static std::size_t end_told(const PlaceStep& step);
+
   std::span<const PlaceOffer> offers_;
   std::vector<std::size_t> begin_;  // by 2 * parent + end, in edges_
   std::vector<Edge> edges_;
@@ -63,9 +69,5 @@ class OfferGraph {
   std::vector<bool> known_;        // by 2 * member + end
   std::vector<std::size_t> open_;  // ends whose edges were not followed yet
 };
-
-/// OfferGraph::spanning_steps of offers that are asked once.
-std::vector<PlaceStep> spanning_steps(std::size_t root, std::span<const PlaceOffer> offers,
-                                      std::span<Reference> references);
 
 }  // namespace hallway::slam_plane::thesis

@@ -22,12 +22,9 @@ std::vector<PlaceOffer> offers_of(const std::vector<Member>& members, StaticPair
     for (std::size_t b = a + 1; b < members.size(); ++b) {
       const Track& in_a = tracks[members[a].track];
       const Track& in_b = tracks[members[b].track];
-      for (const Comparison& saved : pairs.update(in_a, in_b).saved) {
-        const Comparison there = StaticPairs::oriented(saved, in_a, in_b);
-        const Comparison back = inverse(there);
-        if (there.places()) offers.push_back({{a, b, {there.key[0], there.key[1]}}, there});
-        if (back.places()) offers.push_back({{b, a, {back.key[0], back.key[1]}}, back});
-      }
+      const int first = in_a.id() < in_b.id() ? 0 : 1;  // which plane of the pair a is
+      for (const Comparison& saved : pairs.update(in_a, in_b).saved)
+        append_offers({a, b, {saved.key[first], saved.key[1 - first]}}, worth(saved), offers);
     }
   }
   sort_offers(offers);
@@ -124,7 +121,7 @@ void Submap::keep_frame(const std::vector<Member>& before) {
 void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
   const std::vector<PlaceOffer> offers = offers_of(members_, pairs, tracks);
   std::vector<double> reach(members_.size(), 0.0);
-  for (const PlaceOffer& offer : offers) reach[offer.step.parent] += worth(offer.comparison);
+  for (const PlaceOffer& offer : offers) reach[offer.step.parent] += offer.worth;
   std::vector<std::size_t> roots(members_.size());
   std::iota(roots.begin(), roots.end(), std::size_t{0});
   std::stable_sort(roots.begin(), roots.end(),
@@ -143,10 +140,7 @@ void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now)
     if (std::find(placed_then.begin(), placed_then.end(), false) == placed_then.end()) break;
   }
   order_.clear();
-  if (best >= 0) {
-    std::vector<Reference> references(members_.size());
-    order_ = graph.spanning_steps(best_root, references);
-  }
+  if (best >= 0) order_ = graph.spanning_steps(best_root);
   ordered_ = now;
 }
 
