@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam_plane/thesis/anchoring.hpp"
+#include "slam_plane/thesis/map_report.hpp"
 #include "unit/slam_plane_thesis/small_world.hpp"
 
 namespace hallway::slam_plane::thesis::test {
@@ -164,6 +165,55 @@ TEST(Rule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
   const PairHistory& history = pairs.update(a, b);
   ASSERT_EQ(history.shared(), 40);
   EXPECT_LT(error_of(history.saved.front(), kAlong, kAhead), kExact);
+}
+
+/// The walls that a map of these ones, beside a robot on its way along x, is told as.
+std::vector<Wall> told_of(std::initializer_list<Segment> walls) {
+  SmallWorld world;
+  std::vector<TrackId> ids{world.see(kAhead, {{0, 60}})};
+  for (const Segment& wall : walls) ids.push_back(world.see(wall, {{0, 60}}));
+  const SubmapIndex made = world.state.submaps.size();
+  world.state.submaps.emplace_back(made, world.state.start);
+  for (const TrackId id : ids) {
+    world.state.submaps[made].add(id, world.state.start, false);
+    world.state.tracks.submaps(id).push_back(made);
+  }
+  world.state.submaps[made].compute(world.state.pairs, world.state.tracks, world.options, 60);
+  world.fix(made);
+  std::vector<Wall> told = report_map(world.state).walls;
+  std::erase_if(told, [](const Wall& wall) { return wall.id == 0; });
+  return told;
+}
+
+Segment left_of_the_way(double from, double to, double y = 2.0) {
+  return {{Vec2(from, y), Vec2(to, y)}};
+}
+
+TEST(MapReport, PlanesOfOneLineThatShareSomeOfItAreOneWall) {
+  for (const bool turned : {false, true}) {
+    const Segment first = left_of_the_way(-2, 6), second = left_of_the_way(5, 9, 2.03);
+    const std::vector<Wall> told = turned ? told_of({second, first}) : told_of({first, second});
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].id, 1u) << "the older one's name";
+    EXPECT_LT((told[0].a - Vec2(-2, 2)).norm(), 1e-6);
+    EXPECT_LT((told[0].b - Vec2(9, 2)).norm(), 1e-6) << "in the line of the longer one";
+    EXPECT_TRUE(told[0].certain[kEndA] && told[0].certain[kEndB]);
+    EXPECT_EQ(told[0].observations, 122u);
+  }
+}
+
+TEST(MapReport, AChainOfPartsIsOneWallToo) {
+  const std::vector<Wall> told = told_of(
+      {left_of_the_way(-2, 1), left_of_the_way(5, 9), left_of_the_way(3.5, 5.5), left_of_the_way(0, 4)});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_LT((told[0].a - Vec2(-2, 2)).norm(), 1e-6);
+  EXPECT_LT((told[0].b - Vec2(9, 2)).norm(), 1e-6);
+}
+
+TEST(MapReport, WallsThatOnlyTouchOrLieBesideEachOtherAreTwo) {
+  EXPECT_EQ(told_of({left_of_the_way(-2, 6), left_of_the_way(5.95, 9)}).size(), 2u);
+  EXPECT_EQ(told_of({left_of_the_way(-2, 6), left_of_the_way(6.8, 9)}).size(), 2u) << "a door";
+  EXPECT_EQ(told_of({left_of_the_way(-2, 6), left_of_the_way(5, 9, 2.2)}).size(), 2u);
 }
 
 }  // namespace
