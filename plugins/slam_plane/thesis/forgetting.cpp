@@ -74,12 +74,14 @@ void release_unused(State& state) {
     if (state.tracks.is_free(id) || !state.tracks[id].empty()) continue;
     if (!state.tracks.submaps(id).empty() || state.map.find(id) != nullptr) continue;
     state.pairs.forget(id);
-    state.hints.forget(id);
     state.map.forget(id);
     std::erase(state.recent, id);
     std::erase_if(state.carried.unassigned, [&](const Unassigned& entry) { return entry.track == id; });
     state.tracks.release(id);
   }
+  const std::vector<WallId> names = state.tracks.names();
+  state.hints.forget_tracks(
+      [&](WallId name) { return std::binary_search(names.begin(), names.end(), name); });
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ bool has(const std::vector<TrackId>& tracks, TrackId track) {
 
 /// Whether a comparison with another track tells where a track is. One that was rolled back for a short comparison has to wait for a longer one (Rule 32).
 bool comparable(TrackId track, TrackId member, const Options& options, State& state) {
-  const int least = std::max(1, options.min_interval * state.hints.strikes(track));
+  const int least = std::max(1, options.min_interval * state.hints.strikes(state.tracks.name(track)));
   return member != track && state.pairs.update(state.tracks[track], state.tracks[member]).shared() >= least;
 }
 
@@ -41,7 +41,8 @@ bool beginning(const State& state) {
 
 /// Joins a submap in which all members were visible together with it (Rule 7).
 bool try_join(TrackId track, SubmapIndex submap, const Options& options, State& state) {
-  if (!state.hints.may_join(track, submap) || state.submaps[submap].contains(track)) return false;
+  if (!state.hints.may_join(state.tracks.name(track), submap) || state.submaps[submap].contains(track))
+    return false;
   const int least = std::min<int>(options.min_readings, static_cast<int>(state.tracks[track].size()));
   if (!fits(state.submaps[submap].common(state.tracks), state.tracks[track], least)) return false;
   if (!beginning(state) && !comparable(track, state.submaps[submap], options, state)) return false;

@@ -135,11 +135,12 @@ class ThesisMapper::Engine {
     const std::optional<TrackId> track = state_.submaps[index].too_short(options_, state_.now);
     if (!track || roll_back_) return;
     const Iteration joined = state_.submaps[index].find(*track)->joined;
-    if (options_.roll_back_limit == 0 || state_.hints.exhausted(*track) || !history_.reaches(joined - 1)) {
+    if (options_.roll_back_limit == 0 || state_.hints.exhausted(state_.tracks.name(*track)) ||
+        !history_.reaches(joined - 1)) {
       state_.submaps[index].confirm(*track);
       return;
     }
-    roll_back_ = Hint{joined, *track, index};
+    roll_back_ = Hint{joined, state_.tracks.name(*track), index};
   }
 
   void build_map() {

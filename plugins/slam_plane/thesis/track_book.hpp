@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <map>
@@ -68,6 +69,17 @@ class TrackBook {
         entries_[id].track.truncate(k);
       }
     }
+  }
+
+  /// The names of all tracks, and of those that may begin again after a roll back, ascending. O(n log n).
+  std::vector<WallId> names() const {
+    std::vector<WallId> result;
+    for (const Entry& entry : entries_) {
+      if (entry.begun != kFree) result.push_back(entry.name);
+    }
+    for (const auto& [where, name] : names_) result.push_back(name);
+    std::sort(result.begin(), result.end());
+    return result;
   }
 
   /// Forgets what tracks were called that began before iteration k: no roll back takes those away. O(forgotten).

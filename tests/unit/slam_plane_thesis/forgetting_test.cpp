@@ -93,7 +93,7 @@ TEST_F(InVain, WhatAloneTellsAnEndOfAWallStays) {
 TEST_F(InVain, TheIdOfATrackOfWhichNothingIsLeftIsGivenAgainAndItsNameIsNot) {
   State& state = world_.state;
   const WallId name = state.tracks.name(piece_);
-  state.hints.add({70, piece_, vain_});
+  state.hints.add({70, name, vain_});
   forget_at(200);
   EXPECT_TRUE(state.tracks.is_free(piece_));
   EXPECT_FALSE(state.tracks.is_free(0)) << "it is in the map";
@@ -101,7 +101,8 @@ TEST_F(InVain, TheIdOfATrackOfWhichNothingIsLeftIsGivenAgainAndItsNameIsNot) {
   EXPECT_EQ(next.id(), piece_);
   EXPECT_NE(state.tracks.name(piece_), name);
   EXPECT_TRUE(next.empty());
-  EXPECT_EQ(state.hints.strikes(piece_), 0) << "it was another one that did not fit";
+  EXPECT_EQ(state.hints.strikes(state.tracks.name(piece_)), 0) << "it was another one that did not fit";
+  EXPECT_EQ(state.hints.strikes(name), 0) << "it will not be again";
 }
 
 TEST_F(InVain, TheListOfSubmapsIsClosedUpWhereMostOfItAreEmpty) {
@@ -112,7 +113,7 @@ TEST_F(InVain, TheListOfSubmapsIsClosedUpWhereMostOfItAreEmpty) {
   const SubmapIndex kept = make({1}, 2, last);
   state.carried.current = kept;
   state.tracks.charted(0) = {vain_, kept};
-  state.hints.add({70, 0, kept});
+  state.hints.add({70, state.tracks.name(0), kept});
   forget_at(200);
   ASSERT_EQ(state.dropped_submaps, 61u);
   const std::vector<SubmapIndex> now_at = close_up(state);
@@ -129,7 +130,7 @@ TEST_F(InVain, TheListOfSubmapsIsClosedUpWhereMostOfItAreEmpty) {
   EXPECT_EQ(state.tracks.submaps(1), (std::vector<SubmapIndex>{0u, 1u, 2u}));
   EXPECT_EQ(state.tracks.charted(0), std::vector<SubmapIndex>{2u});
   EXPECT_EQ(state.carried.current, 2u);
-  EXPECT_FALSE(state.hints.may_join(0, 2));
+  EXPECT_FALSE(state.hints.may_join(state.tracks.name(0), 2));
   EXPECT_TRUE(close_up(state).empty());
 }
 
@@ -149,6 +150,20 @@ TEST(TrackBook, ATrackThatBeginsAgainWhereItBeganBeforeARollBackHasItsNameAndNoO
   tracks.truncate(5);
   tracks.forget_names_before(8);
   EXPECT_GT(tracks.name(tracks.create(7, 1).id()), name_b + 1);
+}
+
+/// A track that was rolled back is no more, its id is another one's, and it begins again with another id.
+TEST(TrackBook, WhatAHintForbidsGoesWithTheTrackAndNotWithItsId) {
+  State state{Options{}};
+  state.tracks.create(3, 0);
+  const TrackId id = state.tracks.create(7, 1).id();
+  state.hints.add({7, state.tracks.name(id), 0});
+  state.hints.add({7, state.tracks.name(id), 0});
+  state.tracks.truncate(5);
+  const TrackId other = state.tracks.create(6, 0).id(), again = state.tracks.create(7, 1).id();
+  EXPECT_EQ(other, id);
+  EXPECT_TRUE(state.hints.may_join(state.tracks.name(other), 0));
+  EXPECT_FALSE(state.hints.may_join(state.tracks.name(again), 1));
 }
 
 /// Pieces at the edge of the view join submaps that never place them, on each round again.
