@@ -102,7 +102,7 @@ constexpr Test kTests[] = {
      survives_no_sensors},
     {"activate-unknown-kind", "Sensors of a kind that the plugin does not know are skipped.",
      skips_unknown_sensors},
-    {"activate-unknown-facts", "NaN stands for a fact that is not known, and is no reason to fail.",
+    {"activate-unknown-facts", "NaN means that a fact is unknown, and is no reason to fail.",
      takes_unknown_facts},
     {"activate-two-sensors", "With two sensors of a kind the plugin works, or refuses them with a reason.",
      survives_two_sensors},

@@ -195,7 +195,7 @@ void check_head(const Head& head, std::size_t size) {
             fmt::format("layout {} of a frame; this program reads {}", head.version, kFrameBytesVersion));
   }
   if (head.total != size)
-    damaged(8, "head", fmt::format("a frame of {} bytes stands in {}", head.total, size));
+    damaged(8, "head", fmt::format("a frame of {} bytes has room for {}", head.total, size));
   if (head.abi_major != HW_ABI_MAJOR) {
     damaged(16, "head", fmt::format("written for ABI {}; this program has {}", head.abi_major, HW_ABI_MAJOR));
   }

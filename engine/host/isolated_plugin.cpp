@@ -54,7 +54,7 @@ void IsolatedPlugin::submit(Request request, Write&& write) {
   ByteWriter writer(process_.room());
   write(writer);
   if (!writer.fits())
-    throw Error(ErrorCode::kBadInput, "what a plugin is told is larger than the room for it");
+    throw Error(ErrorCode::kBadInput, "a request to the plugin is larger than the room for it");
   process_.submit(request, writer.size());
 }
 

@@ -59,7 +59,7 @@ void MappedPlaneList::add(const hw_mapped_planes_t& planes) {
   append(corners_, Strided<hw_mapped_corner_t>(planes.corners, planes.n_corners, planes.corner_stride));
   std::uint64_t end = 0;
   for (hw_mapped_plane_t& plane : std::span(planes_).subspan(first_plane)) {
-    demand(plane.id != HW_NO_LANDMARK, "an id that stands for no landmark");
+    demand(plane.id != HW_NO_LANDMARK, "the id HW_NO_LANDMARK");
     const auto fail = [&](const char* what) {
       throw Malformed{fmt::format("plane {} has {}", plane.id, what)};
     };

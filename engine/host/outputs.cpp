@@ -151,7 +151,7 @@ hw_status_t OutputCollector::copy_landmarks(const hw_landmarks_t& landmarks) {
   outputs_.landmarks_.reserve(outputs_.landmarks_.size() + list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const hw_landmark_t landmark = list[i];
-    demand(landmark.id != HW_NO_LANDMARK, "an id that stands for no landmark");
+    demand(landmark.id != HW_NO_LANDMARK, "the id HW_NO_LANDMARK");
     if (!is_finite(landmark.position)) {
       throw Malformed{fmt::format("landmark {} has a position that is not finite", landmark.id)};
     }

@@ -58,7 +58,7 @@ Address parse_address(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) bad(text, "it is IP:PORT, such as 127.0.0.1:7000 or [::1]:7000");
   const std::string ip(text.substr(0, colon));
-  if (ip.find(':') != std::string::npos) bad(text, "an IPv6 address stands in brackets: [::1]:7000");
+  if (ip.find(':') != std::string::npos) bad(text, "an IPv6 address is written in brackets: [::1]:7000");
   Address address;
   address.port = parse_port(text, text.substr(colon + 1));
   if (::inet_pton(AF_INET, ip.c_str(), address.ip.data()) != 1) {

@@ -101,7 +101,7 @@ bool HostEnd::take_frame(std::uint64_t sequence) {
     return bad_frame(error.what());
   }
   if (frame_->sequence != sequence) {
-    return bad_frame(fmt::format("frame {} stands in message {}", frame_->sequence, sequence));
+    return bad_frame(fmt::format("message {1} holds frame {0}", frame_->sequence, sequence));
   }
   if (frame_->t_ns < t_ns_) {
     return bad_frame(fmt::format("the time of frame {} lies before that of the one before", sequence));

@@ -58,12 +58,13 @@ class FrameRows {
       throw row.bad_field(iteration_column, fmt::format("an iteration not below {}", iteration_));
     const bool begins = !begun_ || iteration != iteration_;
     if (is_empty()) {
-      if (!begins) throw row.error("a row without " + what_ + " stands beside others of the same iteration");
+      if (!begins)
+        throw row.error("a row without " + what_ + " has other rows of the same iteration beside it");
       begin(iteration);
       empty_ = true;
       return;
     }
-    if (!begins && empty_) throw row.error(what_ + " stands in an iteration that was said to have none");
+    if (!begins && empty_) throw row.error(what_ + " follows in an iteration that was declared empty");
     const Element element = read();
     if (begins) begin(iteration);
     frame_.push_back(element);

@@ -71,8 +71,7 @@ bool McapReader::read_from_file() {
 
 bool McapReader::take_data(std::uint8_t op) {
   const bool first = record_ == kMcapMagic.size();
-  demand(first == (static_cast<McapOp>(op) == McapOp::kHeader),
-         "a header that does not stand at the start alone");
+  demand(first == (static_cast<McapOp>(op) == McapOp::kHeader), "a header that is not at the start");
   if (static_cast<McapOp>(op) == McapOp::kDataEnd) {
     end_data();
     return false;

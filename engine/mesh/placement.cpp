@@ -80,7 +80,7 @@ std::filesystem::path model_path(const Placement& placement, const std::filesyst
   if (name.front() != '/' && (end == std::string::npos || name[end] != ':')) return map_folder / name;
   throw Error(ErrorCode::kBadInput,
               "the model `" + printable(name) +
-                  "` is not a path relative to the map's folder; meshes stand in that folder",
+                  "` is not a path relative to the map's folder; meshes are searched in that folder",
               {placement.file, placement.line, "entity " + std::to_string(placement.entity) + " (hw_mesh)"});
 }
 

@@ -42,11 +42,11 @@ void add_occupants_in_solid(std::vector<Finding>& findings, const map::Document&
                             const world::CompiledWorld& world) {
   for (const std::size_t index : world.partition.enclosure.in_solid) {
     const map::Occupant& occupant = world.occupants[index];
-    findings.push_back({is_ours(occupant.classname) ? Severity::kError : Severity::kWarning,
-                        where_of(document, occupant.entity, occupant.line),
-                        fmt::format("{} stands in solid, at {}", printable(occupant.classname),
-                                    place_text(occupant.position_m)),
-                        "occupant-in-solid"});
+    findings.push_back(
+        {is_ours(occupant.classname) ? Severity::kError : Severity::kWarning,
+         where_of(document, occupant.entity, occupant.line),
+         fmt::format("{} is in solid, at {}", printable(occupant.classname), place_text(occupant.position_m)),
+         "occupant-in-solid"});
   }
 }
 

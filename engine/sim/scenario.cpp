@@ -81,7 +81,7 @@ class ScenarioReader {
     TableReader robot = reader("robot", top.table("robot"), top.line("robot"), kRobotKeys);
     scenario_.robot.path = robot.text("path");
     if (robot.has("speed_m_s") && robot.has("loop_steps")) {
-      throw robot.error("loop_steps", "stands beside `speed_m_s`; give one of them");
+      throw robot.error("loop_steps", "is given together with `speed_m_s`; give one of them");
     }
     if (robot.has("loop_steps")) {
       scenario_.robot.loop_steps = static_cast<std::uint32_t>(robot.whole("loop_steps", 1, kMaxSteps));
@@ -97,7 +97,8 @@ class ScenarioReader {
   void read_body(TableReader& robot) {
     const bool round = robot.has("radius_m");
     if (round && (robot.has("length_m") || robot.has("width_m"))) {
-      throw robot.error("radius_m", "stands beside `length_m` or `width_m`; a robot is a cylinder or a box");
+      throw robot.error("radius_m",
+                        "is given together with `length_m` or `width_m`; a robot is a cylinder or a box");
     }
     if (!round && !robot.has("length_m") && !robot.has("width_m")) {
       for (const char* key : {"bottom_m", "top_m"}) {

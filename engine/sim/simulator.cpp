@@ -92,14 +92,14 @@ void report_brushes(const map::Document& document, const map::World& world, std:
   }
 }
 
-/// Throws if the robot start stands in solid.
+/// Throws if the robot start is in solid.
 void check_robot_start(const map::Document& document, const world::CompiledWorld& world) {
   const std::optional<map::RobotStart> start = map::find_robot_start(document);
   if (!start) return;
   for (const std::size_t index : world.partition.enclosure.in_solid) {
     const map::Occupant& occupant = world.occupants[index];
     if (occupant.entity != start->entity) continue;
-    throw Error(ErrorCode::kBadInput, "the robot start stands in solid",
+    throw Error(ErrorCode::kBadInput, "the robot start is in solid",
                 Where{file_of(document), start->line, "hw_robot_start"});
   }
 }

@@ -85,8 +85,8 @@ Outcome conclude_dynamic(const std::vector<StudyRun>& runs, const Request&) {
 const Study kDynamic{.name = "dynamic",
                      .figures = "117, 157-162",
                      .about =
-                         "The figure eight where 10 to 40 % of the landmarks move, each for itself or in "
-                         "groups: whether they are told from those that stand (6.5.3, 6.7.3)",
+                         "The figure eight where 10 to 40 % of the landmarks move, singly or in groups: "
+                         "moving-landmark detection (6.5.3, 6.7.3)",
                      .size = "6 kinds of motion, 3800 iterations each",
                      .plan = plan_dynamic,
                      .conclude = conclude_dynamic};

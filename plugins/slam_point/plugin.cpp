@@ -40,14 +40,13 @@ class SlamPoint final : public sdk::Plugin {
 
   explicit SlamPoint(const hw_host_t* host) : Plugin(host) {
     add_options(parameters(), options_, slam_point::parameters());
-    parameters().add_choice(
-        "index", &options_.index, kIndexNames,
-        "What finds points near a place; changes the time a frame takes and nothing else.");
+    parameters().add_choice("index", &options_.index, kIndexNames,
+                            "Spatial index of points; changes the time of a frame and no result.");
     parameters().add_choice(
         "association", &association_, kAssociations,
-        "What tells which landmark a point is: its place, or the track under which the sensor follows it.");
+        "How a point is associated: by its place, or by the track that the sensor gives it.");
     parameters().add_choice("mode", &mode_, kModeNames,
-                            "ours: submaps solved together; thesis: groups placed one after another.");
+                            "ours: submaps optimised together; thesis: groups placed one after another.");
     parameters().add_choice(
         "thesis_basis", &thesis_options_.basis, thesis::kBasisNames,
         "mode=thesis: three: three points of a group are its axes; all: its mean shape is.");

@@ -168,13 +168,13 @@ class Udp final : public sdk::Driver {
   static const hw_driver_info_t* info() {
     static constexpr hw_driver_info_t kInfo = sdk::driver_info(
         "udp", "Datagrams", "0.1.0", "Hallway",
-        "A robot, a microcontroller or a simulator at the other end of a datagram protocol.",
+        "A robot, a microcontroller or a simulator, over a datagram protocol.",
         "address    IP:PORT of the robot\n"
         "bind       IP:PORT to listen to [the address that leads to the robot, any free port]\n"
         "lockstep   true or false: refuse a robot that does otherwise [as the robot says]\n"
-        "loss       share of datagrams to lose on purpose, 0 to 1 [0]\n"
-        "seed       of what is lost on purpose [1]\n"
-        "give_up_s  seconds for which the robot may be silent; 0: for ever [10]\n");
+        "loss       share of datagrams to drop, 0 to 1 [0]\n"
+        "seed       of which datagrams are dropped [1]\n"
+        "give_up_s  seconds of silence after which the robot counts as gone; 0: never [10]\n");
     return &kInfo;
   }
 

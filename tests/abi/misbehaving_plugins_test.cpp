@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"associations_of_no_sample", "associations: sample 1 of a frame of 1"},
                     Case{"associations_twice", "associations: a second time for one sample"},
                     Case{"infinite_landmark", "landmark 1 has a position that is not finite"},
-                    Case{"landmark_without_id", "landmarks: an id that stands for no landmark"},
+                    Case{"landmark_without_id", "landmarks: the id HW_NO_LANDMARK"},
                     Case{"unknown_landmark_status", "landmark 1 has the unknown status 99"},
                     Case{"same_landmark_twice", "two of them have the id 5"},
                     Case{"too_many_landmarks", "landmarks: a list of 2147483648 elements"},

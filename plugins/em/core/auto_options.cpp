@@ -8,12 +8,12 @@ namespace {
 
 constexpr std::array<OptionRow<AutoOptions>, 12> kRows{{
     {"noise", "length", 0.0, 1e9,
-     "Standard deviation of the points across their planes; 0 means that the cloud tells it.",
+     "Standard deviation of the points across their planes; 0: estimated from the cloud.",
      &AutoOptions::noise, nullptr},
     {"min_points", "points", 4, 1000000, "A plane has at least so many different points.", nullptr,
      &AutoOptions::min_points},
     {"sample_points", "points", 1000, 100000000,
-     "In a cloud half as large again or larger, planes are sought among so many points, then settled with "
+     "In a cloud half as large again or larger, planes are sought among so many points, then refined with "
      "all.",
      nullptr, &AutoOptions::sample_points},
     {"seeds", "neighbourhoods", 1, 100000, "Neighbourhoods tried in a round of the search for planes.",

@@ -9,20 +9,19 @@ namespace {
 
 constexpr std::array<Parameter, 10> kParameters{{
     {"max_distance_m", "m", 0.0, 1000.0,
-     "Farthest that a matching point may lie in the end; 0: half the median distance between neighbours, and "
+     "Largest distance of a matching point in the end; 0: half the median distance between neighbours, and "
      "three "
      "times that distance with point_to_plane.",
      &Options::max_distance_m, nullptr},
-    {"reach_m", "m", 0.0, 1000.0,
-     "Farthest that a matching point is looked for at first; 0: 4 max_distance_m.", &Options::reach_m,
-     nullptr},
+    {"reach_m", "m", 0.0, 1000.0, "Largest distance of a matching point at first; 0: 4 max_distance_m.",
+     &Options::reach_m, nullptr},
     {"max_points", "points", 10, 10000000,
      "Most points of a frame that are registered; of more, a sample. All of them are a reference for others.",
      nullptr, &Options::max_points},
     {"max_iterations", "steps", 1, 10000, "Steps after which a registration has failed.", nullptr,
      &Options::max_iterations},
     {"tolerance", "1", 1e-9, 1.0,
-     "A registration has settled where a step moves less than this share of the residual.",
+     "A registration has converged where a step moves less than this share of the residual.",
      &Options::tolerance, nullptr},
     {"normal_neighbours", "points", 3, 1000, "With point_to_plane: how many points a normal is taken from.",
      nullptr, &Options::normal_neighbours},

@@ -19,7 +19,7 @@ Track::Track(TrackId id, const TrackOptions& options)
   if (options.capacity < 2 * options.trend_window || options.capacity > kMaxCapacity ||
       options.trend_window < 1)
     throw std::invalid_argument("track: a capacity of " + std::to_string(options.capacity) +
-                                " sightings and a window of " + std::to_string(options.trend_window) +
+                                " observations and a window of " + std::to_string(options.trend_window) +
                                 ": at least twice the window, at most " + std::to_string(kMaxCapacity));
 }
 

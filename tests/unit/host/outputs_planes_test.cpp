@@ -112,7 +112,7 @@ TEST(MappedPlanes, ThatAreNoneAreRefusedWithTheCause) {
   using Corners = std::vector<hw_mapped_corner_t>;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Case cases[] = {
-      {"an id that stands for no landmark", [](hw_mapped_plane_t& p, Corners&) { p.id = HW_NO_LANDMARK; }},
+      {"the id HW_NO_LANDMARK", [](hw_mapped_plane_t& p, Corners&) { p.id = HW_NO_LANDMARK; }},
       {"unknown status 3", [](hw_mapped_plane_t& p, Corners&) { p.status = 3; }},
       {"a number that is not finite", [](hw_mapped_plane_t& p, Corners&) { p.offset_m = kNan; }},
       {"a normal that is not of unit length", [](hw_mapped_plane_t& p, Corners&) { p.normal[0] = -1.1; }},

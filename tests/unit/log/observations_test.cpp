@@ -190,7 +190,7 @@ TEST(ParseObservations, AnEmptyFrameAmongPointsIsDamage) {
   const ReadLog read = parse_observations(kSample + "5,,,,\n", "obs.csv");
   ASSERT_TRUE(read.damage);
   EXPECT_EQ(read.damage->line, 6);
-  EXPECT_EQ(read.damage->cause, "a row without a point stands beside others of the same iteration");
+  EXPECT_EQ(read.damage->cause, "a row without a point has other rows of the same iteration beside it");
   expect_same_log(read.log, whole(kSample));
 }
 

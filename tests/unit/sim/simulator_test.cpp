@@ -435,7 +435,7 @@ TEST(Simulator, RefusesARobotStartInsideASolid) {
   const Error error = only_error(world);
   EXPECT_EQ(error.code(), ErrorCode::kBadInput);
   EXPECT_GT(error.where().line, 0);
-  EXPECT_NE(error.message().find("stands in solid"), std::string::npos) << error.what();
+  EXPECT_NE(error.message().find("is in solid"), std::string::npos) << error.what();
 }
 
 TEST(Simulator, RefusesTwoRobotStarts) {
