@@ -87,66 +87,65 @@ int align_clouds(AlignCommand command) {
   return good ? 0 : 1;
 }
 
-void add_numbers(CLI::App& command, icp::AlignOptions& options) {
-  const auto length = CLI::Range(1e-9, 1e9);
+void add_numbers(Command& command, icp::AlignOptions& options) {
+  constexpr double kLeast_m = 1e-9, kMost_m = 1e9;
   command
-      .add_option("--max-distance", options.max_distance_m,
-                  "Farthest that a matching point may lie in the end [3 spacings of the points of A]")
-      ->check(length)
-      ->type_name("M");
+      .option("--max-distance", &options.max_distance_m,
+              "Farthest that a matching point may lie in the end [3 spacings of the points of A]")
+      .range(kLeast_m, kMost_m)
+      .value("M");
   command
-      .add_option("--reach", options.reach_m,
-                  "Farthest that a matching point is looked for at first [a fifth of the size of A]")
-      ->check(length)
-      ->type_name("M");
+      .option("--reach", &options.reach_m,
+              "Farthest that a matching point is looked for at first [a fifth of the size of A]")
+      .range(kLeast_m, kMost_m)
+      .value("M");
   command
-      .add_option(
-          "--voxel", options.cube_m,
+      .option(
+          "--voxel", &options.cube_m,
           "Thin both clouds to one point in each cube of this edge; 0: not [a hundredth of the size of A]")
-      ->check(CLI::Range(0.0, 1e9))
-      ->type_name("M");
-  command.add_option("--neighbours", options.normal_neighbours, "Points that a normal is taken from")
-      ->check(CLI::Range(3, 1000))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--iterations", options.max_iterations, "Most steps")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N")
-      ->capture_default_str();
+      .range(0.0, 1e9)
+      .value("M");
+  command.option("--neighbours", &options.normal_neighbours, "Points that a normal is taken from")
+      .range(3, 1000)
+      .value("N")
+      .show_default();
+  command.option("--iterations", &options.max_iterations, "Most steps")
+      .range(1, 1'000'000)
+      .value("N")
+      .show_default();
 }
 
 }  // namespace
 
-void add_align_command(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("align", "Register two point clouds: how B has to be moved to fit A");
+void add_align_command(Command& app) {
+  Command& command = app.command("align", "Register two point clouds: how B has to be moved to fit A");
   const auto options = std::make_shared<AlignCommand>();
   command
-      ->add_option("a", options->a,
-                   "Cloud that stays: PLY, PCD, CSV with a header (x, y, z), OBJ, or a depth image in PNG")
-      ->required()
-      ->type_name("A");
-  command->add_option("b", options->b, "Cloud that is moved")->required()->type_name("B");
-  add_cloud_options(*command, options->input);
+      .argument("a", &options->a,
+                "Cloud that stays: PLY, PCD, CSV with a header (x, y, z), OBJ, or a depth image in PNG")
+      .required()
+      .value("A");
+  command.argument("b", &options->b, "Cloud that is moved").required().value("B");
+  add_cloud_options(command, options->input);
   command
-      ->add_option("--guess", options->guess,
-                   "Where B is about: \"x y z yaw pitch roll\" in metres and degrees [where it stands]")
-      ->type_name("POSE");
-  command->add_option("--method", options->method, "What is made small: distances of points, or from planes")
-      ->check(CLI::IsMember({"point_to_point", "point_to_plane"}))
-      ->capture_default_str();
-  command->add_option("--weights", options->weights, "How matches that do not fit are weighted")
-      ->check(CLI::IsMember({"none", "huber", "cauchy", "tukey"}))
-      ->capture_default_str();
-  add_numbers(*command, options->options);
-  command->add_option("--out", options->out, "PLY file to write: B, moved to fit A")->type_name("FILE");
-  command->add_option("--picture", options->picture, "PNG file to write: A and the moved B from above")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .option("--guess", &options->guess,
+              "Where B is about: \"x y z yaw pitch roll\" in metres and degrees [where it stands]")
+      .value("POSE");
+  command.option("--method", &options->method, "What is made small: distances of points, or from planes")
+      .choices({"point_to_point", "point_to_plane"})
+      .show_default();
+  command.option("--weights", &options->weights, "How matches that do not fit are weighted")
+      .choices({"none", "huber", "cauchy", "tukey"})
+      .show_default();
+  add_numbers(command, options->options);
+  command.option("--out", &options->out, "PLY file to write: B, moved to fit A").value("FILE");
+  command.option("--picture", &options->picture, "PNG file to write: A and the moved B from above")
+      .value("FILE");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Exit status 1 when it did not converge; no file is written then.\n"
       "Example: hallway align scan1.pcd scan2.pcd --guess \"1.8 0.7 0 40 0 0\" --out scan2_moved.ply");
-  command->callback([&chosen, options] { chosen = [options] { return align_clouds(*options); }; });
+  command.action([options] { return align_clouds(*options); });
 }
 
 }  // namespace hallway::cli

@@ -64,30 +64,30 @@ int run_batch(const BatchOptions& options) {
 
 }  // namespace
 
-void add_batch_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_batch_command(Command& app) {
+  Command& command = app.command(
       "batch",
       "Run every combination of scenarios, seeds, plugins and parameters, and tabulate what came out");
   const auto options = std::make_shared<BatchOptions>();
-  command->add_option("plan", options->plan, "What to run (docs/formats.md, Batches)")
-      ->required()
-      ->type_name("FILE.toml");
-  command->add_option("--out", options->out, "Folder to write [out/<plan>]")->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "How many runs at a time")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u))
-      ->capture_default_str();
-  command->add_flag(
-      "--resume", options->resume,
+  command.argument("plan", &options->plan, "What to run (docs/formats.md, Batches)")
+      .required()
+      .value("FILE.toml");
+  command.option("--out", &options->out, "Folder to write [out/<plan>]").value("DIR");
+  command.option("--jobs", &options->jobs, "How many runs at a time")
+      .value("N")
+      .range(1u, 1024u)
+      .show_default();
+  command.flag(
+      "--resume", &options->resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer(
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  command.footer(
       "Writes results.csv, results.json, and a run folder and a log of each run in cells/.\n"
       "Exit status: 0 all runs are good and keep the plan's thresholds; 1 one is not or does not; 130 "
       "interrupted, and --resume goes on.\n"
       "Example: hallway batch sweep.toml --jobs 4 --resume");
-  command->callback([&chosen, options] { chosen = [options] { return run_batch(*options); }; });
+  command.action([options] { return run_batch(*options); });
 }
 
 }  // namespace hallway::cli

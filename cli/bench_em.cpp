@@ -240,75 +240,64 @@ int bench_em(const BenchOptions& options) {
   return 0;
 }
 
-void add_scene_options(CLI::App& command, BenchOptions& options) {
-  command.add_option("--scenes", options.scenes, "Number of scenes")
-      ->check(CLI::Range(1u, 1'000'000u))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--seed", options.seed, "Seed of the scenes")->type_name("S")->capture_default_str();
-  command.add_option("--planes", options.planes, "Planes of a scene")
-      ->type_name("LOW..HIGH")
-      ->capture_default_str();
-  command.add_option("--points", options.points, "Points of a scene")
-      ->type_name("LOW..HIGH")
-      ->capture_default_str();
-  command.add_option("--sigma", options.sigma, "Noise of a scene, metres along each axis")
-      ->type_name("LOW..HIGH")
-      ->capture_default_str();
-  command.add_option("--half-size", options.half_size, "Half sides of a scene's rectangles, metres")
-      ->type_name("LOW..HIGH")
-      ->capture_default_str();
-  command.add_option("--outliers", options.outliers, "Most outliers of a scene, as a share of its points")
-      ->check(CLI::Range(0.0, 0.9))
-      ->type_name("X")
-      ->capture_default_str();
+void add_scene_options(Command& command, BenchOptions& options) {
+  command.option("--scenes", &options.scenes, "Number of scenes")
+      .range(1u, 1'000'000u)
+      .value("N")
+      .show_default();
+  command.option("--seed", &options.seed, "Seed of the scenes").value("S").show_default();
+  command.option("--planes", &options.planes, "Planes of a scene").value("LOW..HIGH").show_default();
+  command.option("--points", &options.points, "Points of a scene").value("LOW..HIGH").show_default();
+  command.option("--sigma", &options.sigma, "Noise of a scene, metres along each axis")
+      .value("LOW..HIGH")
+      .show_default();
+  command.option("--half-size", &options.half_size, "Half sides of a scene's rectangles, metres")
+      .value("LOW..HIGH")
+      .show_default();
+  command.option("--outliers", &options.outliers, "Most outliers of a scene, as a share of its points")
+      .range(0.0, 0.9)
+      .value("X")
+      .show_default();
   command
-      .add_option("--scenes-dir", options.scenes_dir,
-                  "Scenes NAME.csv (x,y,z,label) and NAME_planes.csv of a folder instead")
-      ->type_name("DIR");
+      .option("--scenes-dir", &options.scenes_dir,
+              "Scenes NAME.csv (x,y,z,label) and NAME_planes.csv of a folder instead")
+      .value("DIR");
 }
 
 }  // namespace
 
-void add_bench_em_command(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("bench-em", "Try plugins that find planes on scenes whose planes are known");
+void add_bench_em_command(Command& app) {
+  Command& command = app.command("bench-em", "Try plugins that find planes on scenes whose planes are known");
   const auto options = std::make_shared<BenchOptions>();
   command
-      ->add_option(
-          "--plugin", options->plugins,
-          "A plugin that finds planes, an id or a file, and its parameters; may be given several times")
-      ->type_name("NAME[:parameter=value]...")
-      ->required()
-      ->take_all()
-      ->expected(1);
-  add_scene_options(*command, *options);
+      .option("--plugin", &options->plugins,
+              "A plugin that finds planes, an id or a file, and its parameters; may be given several times")
+      .value("NAME[:parameter=value]...")
+      .required()
+      .repeatable();
+  add_scene_options(command, *options);
   command
-      ->add_option("--repeat", options->repeat,
-                   "How often a plugin is asked for each scene; the time is the median")
-      ->check(CLI::Range(1u, 10'000u))
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "Folder to write results.json and pictures to")
-      ->type_name("DIR");
+      .option("--repeat", &options->repeat,
+              "How often a plugin is asked for each scene; the time is the median")
+      .range(1u, 10'000u)
+      .value("N")
+      .show_default();
+  command.option("--out", &options->out, "Folder to write results.json and pictures to").value("DIR");
   command
-      ->add_option("--pictures", options->pictures,
-                   "Of how many scenes, those with most faults, for each plugin")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--write-scenes", options->write_scenes, "Write the scenes too");
-  command->add_option("--view", options->view, "Of the pictures")
-      ->check(CLI::IsMember({"top", "perspective"}))
-      ->capture_default_str();
-  add_plugin_path_option(*command, options->plugin_path);
-  add_limit_options(*command, options->isolation);
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer(
+      .option("--pictures", &options->pictures, "Of how many scenes, those with most faults, for each plugin")
+      .value("N")
+      .show_default();
+  command.flag("--write-scenes", &options->write_scenes, "Write the scenes too");
+  command.option("--view", &options->view, "Of the pictures").choices({"top", "perspective"}).show_default();
+  add_plugin_path_option(command, options->plugin_path);
+  add_limit_options(command, options->isolation);
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  command.footer(
       "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
       "Decidable are the planes that a labelling which knows all of them gets right.\n"
       "Example: hallway bench-em --plugin em --plugin em2 --scenes 200 --seed 7 --out out/bench");
-  command->callback([&chosen, options] { chosen = [options] { return bench_em(*options); }; });
+  command.action([options] { return bench_em(*options); });
 }
 
 }  // namespace hallway::cli

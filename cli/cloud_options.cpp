@@ -34,15 +34,14 @@ planes::CloudColumns parse_columns(const std::string& text) {
 
 }  // namespace hallway::cli
 
-void add_cloud_options(CLI::App& command, CloudInput& input) {
-  command.add_option("--columns", input.columns, "Names of the columns of a CSV file [x,y,z,label]")
-      ->type_name("X,Y,Z[,LABEL]");
-  command.add_option("--intrinsics", input.intrinsics, "Camera of a depth image, pixels")
-      ->type_name("FX,FY,CX,CY");
-  command.add_option("--depth-scale", input.depth_scale, "Units of a depth image in one metre")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->type_name("N")
-      ->capture_default_str();
+void add_cloud_options(Command& command, CloudInput& input) {
+  command.option("--columns", &input.columns, "Names of the columns of a CSV file [x,y,z,label]")
+      .value("X,Y,Z[,LABEL]");
+  command.option("--intrinsics", &input.intrinsics, "Camera of a depth image, pixels").value("FX,FY,CX,CY");
+  command.option("--depth-scale", &input.depth_scale, "Units of a depth image in one metre")
+      .range(1e-3, 1e6)
+      .value("N")
+      .show_default();
 }
 
 planes::CloudOptions cloud_options(const CloudInput& input) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.hpp"
 #include "planes/cloud.hpp"
 
 namespace hallway::cli {
@@ -16,7 +16,7 @@ struct CloudInput {
 };
 
 /// Adds `--columns`, `--intrinsics` and `--depth-scale`.
-void add_cloud_options(CLI::App& command, CloudInput& input);
+void add_cloud_options(Command& command, CloudInput& input);
 
 /// The same for planes::read_cloud(). Throws Error{kUsage}.
 planes::CloudOptions cloud_options(const CloudInput& input);

@@ -104,46 +104,41 @@ int compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_compare_command(Command& app) {
+  Command& command = app.command(
       "compare",
       "Give several plugins, or one with several parameters, the same input, and show what each made of it");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("input", options->input, "A scenario, a log (.csv, .mcap), or the folder of a run")
-      ->required()
-      ->type_name("SCENARIO|LOG");
+  command.argument("input", &options->input, "A scenario, a log (.csv, .mcap), or the folder of a run")
+      .required()
+      .value("SCENARIO|LOG");
   command
-      ->add_option("--plugin", options->plugins,
-                   "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
-                   "may be given several times")
-      ->type_name("NAME[:param=a,b,...]...")
-      ->required()
-      ->take_all()
-      ->expected(1);
-  command->add_option("--set", options->settings, "Set a scenario value for all; may be given several times")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--seed", options->seed, "Seed, instead of the scenario's")->type_name("N");
-  command->add_option("--steps", options->steps, "Number of iterations, instead of the scenario's")
-      ->type_name("N");
-  command->add_option("--out", options->out, "Folder to write [out/<input>-compared]")->type_name("DIR");
-  command->add_option("--view", options->view, "Of the picture")
-      ->check(CLI::IsMember({"top", "perspective"}))
-      ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "How many runs at a time; times are fair with 1")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer(
+      .option("--plugin", &options->plugins,
+              "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
+              "may be given several times")
+      .value("NAME[:param=a,b,...]...")
+      .required()
+      .repeatable();
+  command.option("--set", &options->settings, "Set a scenario value for all; may be given several times")
+      .value("KEY=VALUE")
+      .repeatable();
+  command.option("--seed", &options->seed, "Seed, instead of the scenario's").value("N");
+  command.option("--steps", &options->steps, "Number of iterations, instead of the scenario's").value("N");
+  command.option("--out", &options->out, "Folder to write [out/<input>-compared]").value("DIR");
+  command.option("--view", &options->view, "Of the picture").choices({"top", "perspective"}).show_default();
+  command.option("--jobs", &options->jobs, "How many runs at a time; times are fair with 1")
+      .value("N")
+      .range(1u, 1024u)
+      .show_default();
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  command.footer(
       "Writes a table (results.csv, results.json), comparison.png with all maps over the truth, and the "
       "folder of each run in cells/.\n"
       "Exit status: 0, or that of the first run that failed.\n"
       "Example: hallway compare maps/office.toml --plugin slam_point:noise_m=0.01,0.05 --plugin "
       "build/my_slam.so");
-  command->callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
+  command.action([options] { return compare(*options); });
 }
 
 }  // namespace hallway::cli

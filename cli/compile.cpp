@@ -218,26 +218,25 @@ int compile(const CompileOptions& options) {
 
 }  // namespace
 
-void add_compile_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_compile_command(Command& app) {
+  Command& command = app.command(
       "compile", "Make a map ready for questions: its surface, its rooms and what can see what; find leaks");
   const auto options = std::make_shared<CompileOptions>();
-  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
-  command->add_option("--level", options->level, "How hard to look for what cannot be seen")
-      ->check(CLI::IsMember({"fast", "full"}))
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
-  command->add_flag("--no-cache", options->no_cache,
-                    "Neither read nor write the folder .hallway beside the map");
-  command->add_flag("--strict", options->strict,
-                    "Refuse a map with brushes that are no solids or occupants in solid");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+  command.argument("map", &options->map, "A .map file").required().value("MAP");
+  command.option("--level", &options->level, "How hard to look for what cannot be seen")
+      .choices({"fast", "full"})
+      .show_default();
+  command.option("--threads", &options->threads, "Threads; results do not depend on it")
+      .value("N")
+      .range(1u, 1024u);
+  command.flag("--no-cache", &options->no_cache, "Neither read nor write the folder .hallway beside the map");
+  command.flag("--strict", &options->strict,
+               "Refuse a map with brushes that are no solids or occupants in solid");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "A map that leaks is status 1; the way out is then written beside it, as MAP's name with .pts.\n"
       "Example: hallway compile maps/office.map --level full --threads 2");
-  command->callback([&chosen, options] { chosen = [options] { return compile(*options); }; });
+  command.action([options] { return compile(*options); });
 }
 
 }  // namespace hallway::cli

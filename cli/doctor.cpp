@@ -194,18 +194,18 @@ int doctor(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("doctor", "Look whether all that Hallway needs is there and works");
+void add_doctor_command(Command& app) {
+  Command& command = app.command("doctor", "Look whether all that Hallway needs is there and works");
   const auto options = std::make_shared<DoctorOptions>();
-  add_plugin_path_option(*command, options->plugin_path);
-  command->add_option("--picture", options->picture, "Write the test picture")->type_name("FILE.png");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+  add_plugin_path_option(command, options->plugin_path);
+  command.option("--picture", &options->picture, "Write the test picture").value("FILE.png");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Draws a small picture, starts a plugin in a process of its own, and says what the kernel does not "
       "provide to confine it.\n"
       "Exit status: 0 all works (what is lacking is said); 1 something is broken.\n"
       "Example: hallway doctor --picture test.png");
-  command->callback([&chosen, options] { chosen = [options] { return doctor(*options); }; });
+  command.action([options] { return doctor(*options); });
 }
 
 }  // namespace hallway::cli

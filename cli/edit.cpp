@@ -186,54 +186,48 @@ int edit(EditOptions options) {
 
 }  // namespace
 
-void add_edit_command(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("edit", "Author and change a map: one command, a script, or a console");
+void add_edit_command(Command& app) {
+  Command& command = app.command("edit", "Author and change a map: one command, a script, or a console");
   const auto options = std::make_shared<EditOptions>();
   const auto shell = std::make_shared<std::string>();
   const auto reference = std::make_shared<bool>(false);
-  command->add_option("map", options->map, "A .map file; made where there is none")->type_name("MAP");
+  command.argument("map", &options->map, "A .map file; made where there is none").value("MAP");
   command
-      ->add_option("-f,--file", options->script,
-                   "Run a file of commands (- for standard input): all of them or none")
-      ->type_name("SCRIPT");
-  command->add_flag("--keep-going", options->keep_going,
-                    "With -f: each line counts for itself, and one that fails is passed over");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--candidates", options->candidates, "Print what the last word may become (for shells)");
+      .option("-f,--file", &options->script,
+              "Run a file of commands (- for standard input): all of them or none")
+      .value("SCRIPT");
+  command.flag("--keep-going", &options->keep_going,
+               "With -f: each line counts for itself, and one that fails is passed over");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--candidates", &options->candidates, "Print what the last word may become (for shells)");
   command
-      ->add_option("--completion", *shell,
-                   "Print a script that makes a shell complete commands: bash, zsh or fish")
-      ->type_name("SHELL");
-  command->add_flag("--reference", *reference,
-                    "Print the table of commands, as docs/edit.md has it; with --json as data");
-  command->prefix_command();
-  command->footer(
+      .option("--completion", shell.get(),
+              "Print a script that makes a shell complete commands: bash, zsh or fish")
+      .value("SHELL");
+  command.flag("--reference", reference.get(),
+               "Print the table of commands, as docs/edit.md has it; with --json as data");
+  command.rest(&options->words);
+  command.footer(
       "Without a command or script this is a console. `hallway edit MAP help` lists the commands, `help "
       "NAME` explains one.\n"
       "Every step can be undone, also in the next shell: the history is in MAP.journal.\n"
       "Example: hallway edit flat.map new\n"
       "         hallway edit flat.map entity light at 1,2,2.5\n"
       "         hallway edit flat.map undo");
-  command->callback([&chosen, options, shell, reference, command] {
-    for (const std::string& word : command->remaining()) {
-      if (word != "--" || !options->words.empty()) options->words.push_back(word);
+  command.action([options, shell, reference] {
+    if (*reference) {
+      if (options->json)
+        print_json({{"schema", "hallway.edit-commands/1"}, {"commands", editor::reference_json()}});
+      else
+        print_result(editor::reference_markdown());
+      return 0;
     }
-    chosen = [options, shell, reference] {
-      if (*reference) {
-        if (options->json)
-          print_json({{"schema", "hallway.edit-commands/1"}, {"commands", editor::reference_json()}});
-        else
-          print_result(editor::reference_markdown());
-        return 0;
-      }
-      if (!shell->empty()) {
-        print_result(editor::completion_script(*shell));
-        return 0;
-      }
-      if (options->map.empty()) throw Error(ErrorCode::kUsage, "which map? `hallway edit --help` says more");
-      return edit(*options);
-    };
+    if (!shell->empty()) {
+      print_result(editor::completion_script(*shell));
+      return 0;
+    }
+    if (options->map.empty()) throw Error(ErrorCode::kUsage, "which map? `hallway edit --help` says more");
+    return edit(*options);
   });
 }
 

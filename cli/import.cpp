@@ -86,37 +86,36 @@ int import_model(const ImportCommand& command) {
 
 }  // namespace
 
-void add_import_command(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("import", "Make a map around a model: glTF, COLLADA, OBJ, STL, PLY, FBX, ...");
+void add_import_command(Command& app) {
+  Command& command =
+      app.command("import", "Make a map around a model: glTF, COLLADA, OBJ, STL, PLY, FBX, ...");
   const auto options = std::make_shared<ImportCommand>();
-  command->add_option("model", options->model, "Model file, in the folder of the map or below it")
-      ->required()
-      ->type_name("MODEL");
-  command->add_option("--out", options->out, "Map file to write")->required()->type_name("MAP");
+  command.argument("model", &options->model, "Model file, in the folder of the map or below it")
+      .required()
+      .value("MODEL");
+  command.option("--out", &options->out, "Map file to write").required().value("MAP");
+  command.option("--units", &options->units, "Metres in one unit of the file [what the file says, else 1]")
+      .range(1e-6, 1e6)
+      .value("M");
+  command.option("--margin", &options->margin_m, "Metres between the model and the walls around it")
+      .range(1.0, 1e4)
+      .value("M")
+      .show_default();
+  command.flag("--copy", &options->copy,
+               "Copy the model, and the files that it names, into the folder of the map");
   command
-      ->add_option("--units", options->units, "Metres in one unit of the file [what the file says, else 1]")
-      ->check(CLI::Range(1e-6, 1e6))
-      ->type_name("M");
-  command->add_option("--margin", options->margin_m, "Metres between the model and the walls around it")
-      ->check(CLI::Range(1.0, 1e4))
-      ->type_name("M")
-      ->capture_default_str();
-  command->add_flag("--copy", options->copy,
-                    "Copy the model, and the files that it names, into the folder of the map");
-  command
-      ->add_option("--root", options->root,
-                   "With --copy: folder that the model may name files in; they keep their paths below it "
-                   "[the model's folder]")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace an earlier map, and earlier copies");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .option("--root", &options->root,
+              "With --copy: folder that the model may name files in; they keep their paths below it "
+              "[the model's folder]")
+      .value("DIR");
+  command.flag("--force", &options->force, "Replace an earlier map, and earlier copies");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "The map is closed by six blocks outside the model, which is detail geometry: it is seen and blocks "
       "sight.\n"
       "Example: hallway import models/willowgarage.dae --out garage.map && hallway render garage.map --out "
       "garage.png");
-  command->callback([&chosen, options] { chosen = [options] { return import_model(*options); }; });
+  command.action([options] { return import_model(*options); });
 }
 
 }  // namespace hallway::cli

@@ -11,31 +11,31 @@
 
 namespace hallway::cli {
 
-void add_limit_options(CLI::App& command, IsolationOptions& options) {
-  command.add_flag(
-      "--in-process", options.in_process,
+void add_limit_options(Command& command, IsolationOptions& options) {
+  command.flag(
+      "--in-process", &options.in_process,
       "Run plugins in this process, for debuggers and benchmarks: no limits, and a crash is a crash of all");
   command
-      .add_option("--call-timeout", options.call_timeout_s,
-                  "Seconds that one call of a plugin may take [the scenario's, else 60]")
-      ->type_name("S")
-      ->check(CLI::Range(0.01, 1e6));
+      .option("--call-timeout", &options.call_timeout_s,
+              "Seconds that one call of a plugin may take [the scenario's, else 60]")
+      .value("S")
+      .range(0.01, 1e6);
   command
-      .add_option("--memory-limit", options.memory_limit_mib,
-                  "MiB of memory that a plugin's process may hold [the scenario's, else 4096]")
-      ->type_name("MIB")
-      ->check(CLI::Range(16u, 1u << 24));
+      .option("--memory-limit", &options.memory_limit_mib,
+              "MiB of memory that a plugin's process may hold [the scenario's, else 4096]")
+      .value("MIB")
+      .range(16u, 1u << 24);
 }
 
-void add_isolation_options(CLI::App& command, IsolationOptions& options) {
+void add_isolation_options(Command& command, IsolationOptions& options) {
   add_limit_options(command, options);
   command
-      .add_option("--on-failure", options.on_failure,
-                  "When a plugin fails: stop (write what there is), continue (without answers) or restart (a "
-                  "new instance with "
-                  "an empty map); the exit status is 5 in any case [the scenario's, else stop]")
-      ->type_name("WHAT")
-      ->check(CLI::IsMember(host::kOnFailure));
+      .option("--on-failure", &options.on_failure,
+              "When a plugin fails: stop (write what there is), continue (without answers) or restart (a "
+              "new instance with "
+              "an empty map); the exit status is 5 in any case [the scenario's, else stop]")
+      .value("WHAT")
+      .choices(host::kOnFailure);
 }
 
 host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "base/setting.hpp"
+#include "command_line.hpp"
 #include "host/isolation.hpp"
 #include "host/plugin_limits.hpp"
 
@@ -20,10 +20,10 @@ struct IsolationOptions {
 };
 
 /// Adds --in-process, --call-timeout and --memory-limit.
-void add_limit_options(CLI::App& command, IsolationOptions& options);
+void add_limit_options(Command& command, IsolationOptions& options);
 
 /// The same and --on-failure.
-void add_isolation_options(CLI::App& command, IsolationOptions& options);
+void add_isolation_options(Command& command, IsolationOptions& options);
 
 /// `limits` with what the command line says above them.
 host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits);

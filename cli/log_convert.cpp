@@ -194,55 +194,54 @@ int convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_log_convert_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand("convert",
-                                           "Turn an MCAP log into the CSV files of replay, and those or a "
-                                           "recording of other programs into an MCAP log");
+void add_log_convert_command(Command& group) {
+  Command& command = group.command("convert",
+                                   "Turn an MCAP log into the CSV files of replay, and those or a "
+                                   "recording of other programs into an MCAP log");
   const auto options = std::make_shared<ConvertOptions>();
   command
-      ->add_option("log", options->choice.log,
-                   "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
-                   "(.ply, .pcd) or one "
-                   "of them, a TUM RGB-D folder, the folder of Victoria Park, a table of stereo tracks or of "
-                   "ranges and "
-                   "bearings, a ROS 1 .bag")
-      ->required()
-      ->type_name("LOG");
-  command->add_option("--from", options->from, "What it is [what it looks like]")
-      ->type_name("KIND")
-      ->check(CLI::IsMember(
-          {"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"}));
-  command->add_option("--out", options->out, "File to write if it ends in .mcap, else a folder for CSV files")
-      ->required()
-      ->type_name("FILE|DIR");
+      .argument("log", &options->choice.log,
+                "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
+                "(.ply, .pcd) or one "
+                "of them, a TUM RGB-D folder, the folder of Victoria Park, a table of stereo tracks or of "
+                "ranges and "
+                "bearings, a ROS 1 .bag")
+      .required()
+      .value("LOG");
+  command.option("--from", &options->from, "What it is [what it looks like]")
+      .value("KIND")
+      .choices({"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"});
+  command.option("--out", &options->out, "File to write if it ends in .mcap, else a folder for CSV files")
+      .required()
+      .value("FILE|DIR");
   command
-      ->add_option("--truth-poses", options->choice.true_poses,
-                   "True poses, for a log that is CSV or a table of stereo tracks or ranges and bearings "
-                   "[what stands beside it]")
-      ->type_name("FILE");
+      .option("--truth-poses", &options->choice.true_poses,
+              "True poses, for a log that is CSV or a table of stereo tracks or ranges and bearings "
+              "[what stands beside it]")
+      .value("FILE");
   command
-      ->add_option(
-          "--truth-landmarks", options->choice.true_landmarks,
+      .option(
+          "--truth-landmarks", &options->choice.true_landmarks,
           "True landmarks, for a log that is CSV or a table of ranges and bearings [what stands beside it]")
-      ->type_name("FILE");
+      .value("FILE");
   command
-      ->add_option(
-          "--period", options->choice.period_s,
+      .option(
+          "--period", &options->choice.period_s,
           "Seconds from frame to frame of a CSV log [the run's, else 0.1] and of clouds without times [0.1]")
-      ->type_name("S")
-      ->check(CLI::Range(1e-6, 1e6));
-  command->add_flag("--foxglove", options->foxglove,
-                    "Add channels that show the log in Foxglove; of an MCAP log all that it has is kept");
-  add_import_options(*command, options->import);
-  command->add_flag("--force", options->force, "Replace what is there");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .value("S")
+      .range(1e-6, 1e6);
+  command.flag("--foxglove", &options->foxglove,
+               "Add channels that show the log in Foxglove; of an MCAP log all that it has is kept");
+  add_import_options(command, options->import);
+  command.flag("--force", &options->force, "Replace what is there");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Without --foxglove, what plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
       "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
       "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap\n"
       "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap");
-  command->callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
+  command.action([options] { return convert(*options); });
 }
 
 }  // namespace hallway::cli

@@ -142,58 +142,51 @@ int copy(const CopyOptions& options, const fs::path& out, const CopyBytes& copy_
   return 0;
 }
 
-void add_common_options(CLI::App& command, CopyOptions& options) {
-  command.add_option("log", options.log, "An .mcap file, or a folder with a run.mcap")
-      ->required()
-      ->type_name("LOG");
-  command.add_flag("--force", options.force, "Replace the file to write");
-  command.add_flag("--json", options.json, "Print one JSON document");
+void add_common_options(Command& command, CopyOptions& options) {
+  command.argument("log", &options.log, "An .mcap file, or a folder with a run.mcap").required().value("LOG");
+  command.flag("--force", &options.force, "Replace the file to write");
+  command.flag("--json", &options.json, "Print one JSON document");
 }
 
 }  // namespace
 
-void add_log_cut_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand("cut", "Copy a part of an MCAP log, by time or by iteration");
+void add_log_cut_command(Command& group) {
+  Command& command = group.command("cut", "Copy a part of an MCAP log, by time or by iteration");
   const auto options = std::make_shared<CopyOptions>();
-  add_common_options(*command, *options);
-  command->add_option("--out", options->out, "File to write")->required()->type_name("FILE");
-  const CLI::Range seconds(0.0, 9e9);
-  command->add_option("--from", options->from_s, "First log time, seconds [start]")
-      ->type_name("S")
-      ->check(seconds);
-  command->add_option("--to", options->to_s, "Last log time, seconds [end]")->type_name("S")->check(seconds);
-  command->add_option("--from-iteration", options->from_iteration, "First iteration [first]")->type_name("N");
-  command->add_option("--to-iteration", options->to_iteration, "Last iteration [last]")->type_name("N");
-  command->footer(
+  add_common_options(command, *options);
+  command.option("--out", &options->out, "File to write").required().value("FILE");
+  constexpr double kMost_s = 9e9;
+  command.option("--from", &options->from_s, "First log time, seconds [start]")
+      .value("S")
+      .range(0.0, kMost_s);
+  command.option("--to", &options->to_s, "Last log time, seconds [end]").value("S").range(0.0, kMost_s);
+  command.option("--from-iteration", &options->from_iteration, "First iteration [first]").value("N");
+  command.option("--to-iteration", &options->to_iteration, "Last iteration [last]").value("N");
+  command.footer(
       "The facts of the whole log (sensors, true landmarks, metadata, attachments) are kept.\n"
       "Example: hallway log cut out/office/run.mcap --from 10 --to 20.5 --out ten_seconds.mcap");
-  command->callback([&chosen, options] {
-    chosen = [options] {
-      const log::McapSpan span = mcap_span(span_of(*options));
-      return copy(*options, options->out, [&span](const log::ByteInput& input, log::ByteOutput& output) {
-        return log::copy_mcap_span(input, output, span);
-      });
-    };
+  command.action([options] {
+    const log::McapSpan span = mcap_span(span_of(*options));
+    return copy(*options, options->out, [&span](const log::ByteInput& input, log::ByteOutput& output) {
+      return log::copy_mcap_span(input, output, span);
+    });
   });
 }
 
-void add_log_recover_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand(
+void add_log_recover_command(Command& group) {
+  Command& command = group.command(
       "recover", "Write what can be read of a damaged or unfinished MCAP log as a whole one, with an index");
   const auto options = std::make_shared<CopyOptions>();
-  add_common_options(*command, *options);
-  command->add_option("--out", options->out, "File to write [LOG with .recovered.mcap at its end]")
-      ->type_name("FILE");
-  command->footer(
+  add_common_options(command, *options);
+  command.option("--out", &options->out, "File to write [LOG with .recovered.mcap at its end]").value("FILE");
+  command.footer(
       "A run that was killed leaves its folder as NAME.part-PID.\n"
       "Example: hallway log recover out/office.part-4711 --out office.mcap");
-  command->callback([&chosen, options] {
-    chosen = [options] {
-      const fs::path beside = mcap_file(options->log).replace_extension(".recovered.mcap");
-      return copy(
-          *options, options->out.empty() ? beside : fs::path(options->out),
-          [](const log::ByteInput& input, log::ByteOutput& output) { return log::copy_mcap(input, output); });
-    };
+  command.action([options] {
+    const fs::path beside = mcap_file(options->log).replace_extension(".recovered.mcap");
+    return copy(
+        *options, options->out.empty() ? beside : fs::path(options->out),
+        [](const log::ByteInput& input, log::ByteOutput& output) { return log::copy_mcap(input, output); });
   });
 }
 

@@ -136,35 +136,32 @@ std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const I
 
 }  // namespace hallway::cli
 
-void add_import_options(CLI::App& command, ImportChoice& choice) {
+void add_import_options(Command& command, ImportChoice& choice) {
   command
-      .add_option(
-          "--stride", choice.stride,
-          "Of clouds and bags take each n-th point, of depth images each n-th pixel of each n-th row [1]")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1'000'000u));
+      .option("--stride", &choice.stride,
+              "Of clouds and bags take each n-th point, of depth images each n-th pixel of each n-th row [1]")
+      .value("N")
+      .range(1u, 1'000'000u);
   command
-      .add_option(
-          "--times", choice.times,
-          "List of SECONDS FILE, the frames of a folder [clouds: timestamps.txt, if it is there; tum: "
-          "depth.txt, else associations.txt]")
-      ->type_name("FILE");
+      .option("--times", &choice.times,
+              "List of SECONDS FILE, the frames of a folder [clouds: timestamps.txt, if it is there; tum: "
+              "depth.txt, else associations.txt]")
+      .value("FILE");
   command
-      .add_option("--camera", choice.camera,
-                  "Of depth images: fx,fy,cx,cy in pixels [525,525,319.5,239.5, for 640 x 480]")
-      ->type_name("FX,FY,CX,CY")
-      ->delimiter(',')
-      ->expected(4);
+      .option("--camera", &choice.camera,
+              "Of depth images: fx,fy,cx,cy in pixels [525,525,319.5,239.5, for 640 x 480]")
+      .value("FX,FY,CX,CY")
+      .numbers(4);
   command
-      .add_option("--truth-within", choice.truth_within_s,
-                  "Seconds from a frame to the true poses that are taken for it [tum 0.02, bag 0.1, "
-                  "victoria-park 0.2]")
-      ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6));
-  command.add_option("--topic", choice.topic, "Of a bag: PointCloud2 or LaserScan [the one there is]")
-      ->type_name("TOPIC");
-  command.add_option("--truth-topic", choice.truth_topic, "Of a bag: Odometry or PoseStamped, as true poses")
-      ->type_name("TOPIC");
+      .option("--truth-within", &choice.truth_within_s,
+              "Seconds from a frame to the true poses that are taken for it [tum 0.02, bag 0.1, "
+              "victoria-park 0.2]")
+      .value("S")
+      .range(0.0, 1e6);
+  command.option("--topic", &choice.topic, "Of a bag: PointCloud2 or LaserScan [the one there is]")
+      .value("TOPIC");
+  command.option("--truth-topic", &choice.truth_topic, "Of a bag: Odometry or PoseStamped, as true poses")
+      .value("TOPIC");
 }
 
 void check_import_options(std::optional<Kind> kind, const LogChoice& log, const ImportChoice& choice) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "import/kind.hpp"
 #include "log_input.hpp"
 
@@ -22,7 +22,7 @@ struct ImportChoice {
 };
 
 /// Adds the options of ImportChoice.
-void add_import_options(CLI::App& command, ImportChoice& choice);
+void add_import_options(Command& command, ImportChoice& choice);
 
 /// Throws Error{kUsage} for options that do not belong to the kind, or to logs of our own where there is none.
 void check_import_options(std::optional<import::Kind> kind, const LogChoice& log, const ImportChoice& choice);

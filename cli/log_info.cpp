@@ -163,25 +163,23 @@ Json document_of(const Facts& facts) {
 
 }  // namespace
 
-void add_log_info_command(CLI::App& group, Action& chosen) {
-  CLI::App* command =
-      group.add_subcommand("info", "Read all of an MCAP log; say what is in it and whether it is whole");
+void add_log_info_command(Command& group) {
+  Command& command =
+      group.command("info", "Read all of an MCAP log; say what is in it and whether it is whole");
   const auto file = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  command->add_option("log", *file, "An .mcap file, or a run folder")->required()->type_name("LOG");
-  command->add_flag("--json", *json, "Print one JSON document");
-  command->footer(
+  command.argument("log", file.get(), "An .mcap file, or a run folder").required().value("LOG");
+  command.flag("--json", json.get(), "Print one JSON document");
+  command.footer(
       "Exit status 1 says that the log is damaged.\nExample: hallway log info out/office/run.mcap");
-  command->callback([&chosen, file, json] {
-    chosen = [file, json] {
-      const Facts facts = checked_facts_of(mcap_file(*file));
-      if (*json) {
-        print_json(document_of(facts));
-      } else {
-        print_result(text_of(facts));
-      }
-      return facts.damage ? 1 : 0;
-    };
+  command.action([file, json] {
+    const Facts facts = checked_facts_of(mcap_file(*file));
+    if (*json) {
+      print_json(document_of(facts));
+    } else {
+      print_result(text_of(facts));
+    }
+    return facts.damage ? 1 : 0;
   });
 }
 

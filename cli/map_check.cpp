@@ -74,16 +74,16 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_map_check_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand("check", "List what is wrong with a map");
+void add_map_check_command(Command& group) {
+  Command& command = group.command("check", "List what is wrong with a map");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
-  command->add_flag("--strict", options->strict, "Let warnings count as errors");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+  command.argument("map", &options->map, "A .map file").required().value("MAP");
+  command.flag("--strict", &options->strict, "Let warnings count as errors");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Status 1 if there is an error, 0 if there are warnings at most.\n"
       "Example: hallway map check maps/office.map --strict");
-  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::cli

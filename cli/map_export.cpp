@@ -103,21 +103,19 @@ int export_map(const ExportOptions& options) {
 
 }  // namespace
 
-void add_map_export_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand(
-      "export", "Write a map's surface and its models, or its points, for other programs");
+void add_map_export_command(Command& group) {
+  Command& command =
+      group.command("export", "Write a map's surface and its models, or its points, for other programs");
   const auto options = std::make_shared<ExportOptions>();
-  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
-  command
-      ->add_option("--out", options->out,
-                   "File to write: .glb (y up), .obj with .mtl, or .ply (z up); metres")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--all", options->all, "Also the faces of a sealed map that nothing inside can see");
-  command->add_flag("--points", options->points, "The points that a point sensor can see, as .ply");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer("Example: hallway map export maps/office.map --out office.glb");
-  command->callback([&chosen, options] { chosen = [options] { return export_map(*options); }; });
+  command.argument("map", &options->map, "A .map file").required().value("MAP");
+  command.option("--out", &options->out, "File to write: .glb (y up), .obj with .mtl, or .ply (z up); metres")
+      .required()
+      .value("FILE");
+  command.flag("--all", &options->all, "Also the faces of a sealed map that nothing inside can see");
+  command.flag("--points", &options->points, "The points that a point sensor can see, as .ply");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer("Example: hallway map export maps/office.map --out office.glb");
+  command.action([options] { return export_map(*options); });
 }
 
 }  // namespace hallway::cli

@@ -146,23 +146,21 @@ Json document_of(const std::string& map, const Facts& facts) {
 
 }  // namespace
 
-void add_map_info_command(CLI::App& group, Action& chosen) {
-  CLI::App* command = group.add_subcommand("info", "Say what is in a map");
+void add_map_info_command(Command& group) {
+  Command& command = group.command("info", "Say what is in a map");
   const auto file = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  command->add_option("map", *file, "A .map file")->required()->type_name("MAP");
-  command->add_flag("--json", *json, "Print one JSON document");
-  command->footer("Example: hallway map info maps/office.map");
-  command->callback([&chosen, file, json] {
-    chosen = [file, json] {
-      const Facts facts = facts_of(load_map(*file));
-      if (*json) {
-        print_json(document_of(*file, facts));
-      } else {
-        print_result(text_of(*file, facts));
-      }
-      return 0;
-    };
+  command.argument("map", file.get(), "A .map file").required().value("MAP");
+  command.flag("--json", json.get(), "Print one JSON document");
+  command.footer("Example: hallway map info maps/office.map");
+  command.action([file, json] {
+    const Facts facts = facts_of(load_map(*file));
+    if (*json) {
+      print_json(document_of(*file, facts));
+    } else {
+      print_result(text_of(*file, facts));
+    }
+    return 0;
   });
 }
 

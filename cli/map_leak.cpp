@@ -70,20 +70,19 @@ int leak(const LeakOptions& options) {
 
 }  // namespace
 
-void add_map_leak_command(CLI::App& group, Action& chosen) {
-  CLI::App* command =
-      group.add_subcommand("leak", "Show the way on which something in the map reaches the void outside");
+void add_map_leak_command(Command& group) {
+  Command& command =
+      group.command("leak", "Show the way on which something in the map reaches the void outside");
   const auto options = std::make_shared<LeakOptions>();
-  command->add_option("map", options->map, "A .map file")->required()->type_name("MAP");
-  command->add_option("--picture", options->picture, "PNG file to write: a plan with the way out")
-      ->type_name("FILE");
-  command->add_option("--pts", options->points, "File to write the way to, as Quake editors read it")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+  command.argument("map", &options->map, "A .map file").required().value("MAP");
+  command.option("--picture", &options->picture, "PNG file to write: a plan with the way out").value("FILE");
+  command.option("--pts", &options->points, "File to write the way to, as Quake editors read it")
+      .value("FILE");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Status 1 if the map leaks, 0 if it is sealed.\n"
       "Example: hallway map leak maps/office.map --picture leak.png");
-  command->callback([&chosen, options] { chosen = [options] { return leak(*options); }; });
+  command.action([options] { return leak(*options); });
 }
 
 }  // namespace hallway::cli

@@ -36,11 +36,11 @@ Json place_json(const Vec3& place) {
   return Json::array({place.x(), place.y(), place.z()});
 }
 
-void add_places(CLI::App& command, QueryOptions& options) {
-  command.add_option("map", options.map, "A .map file")->required()->type_name("MAP");
-  command.add_option("from", options.from, "Where to look from, metres")->required()->type_name("X,Y,Z");
-  command.add_option("to", options.to, "Where to look to, metres")->required()->type_name("X,Y,Z");
-  command.add_flag("--json", options.json, "Print one JSON document");
+void add_places(Command& command, QueryOptions& options) {
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  command.argument("from", &options.from, "Where to look from, metres").required().value("X,Y,Z");
+  command.argument("to", &options.to, "Where to look to, metres").required().value("X,Y,Z");
+  command.flag("--json", &options.json, "Print one JSON document");
 }
 
 // ---- pvs ------------------------------------------------------------------------------------------------------------
@@ -193,27 +193,26 @@ int ask_ray(const QueryOptions& options) {
 
 }  // namespace
 
-void add_map_pvs_command(CLI::App& group, Action& chosen) {
-  CLI::App* command =
-      group.add_subcommand("pvs", "Say whether one place may see another by the visible sets, and by a line");
+void add_map_pvs_command(Command& group) {
+  Command& command =
+      group.command("pvs", "Say whether one place may see another by the visible sets, and by a line");
   const auto options = std::make_shared<QueryOptions>();
-  add_places(*command, *options);
-  command->add_option("--level", options->level, "How hard to look for what cannot be seen")
-      ->check(CLI::IsMember({"fast", "full"}))
-      ->capture_default_str();
-  command->footer(
+  add_places(command, *options);
+  command.option("--level", &options->level, "How hard to look for what cannot be seen")
+      .choices({"fast", "full"})
+      .show_default();
+  command.footer(
       "Status 0 if the sets say visible, 1 if they say hidden.\n"
       "Example: hallway map pvs maps/office.map 1,2,1.5 9,2,1.5");
-  command->callback([&chosen, options] { chosen = [options] { return ask_pvs(*options); }; });
+  command.action([options] { return ask_pvs(*options); });
 }
 
-void add_map_ray_command(CLI::App& group, Action& chosen) {
-  CLI::App* command =
-      group.add_subcommand("ray", "Say which face or model of the map is met first on a line");
+void add_map_ray_command(Command& group) {
+  Command& command = group.command("ray", "Say which face or model of the map is met first on a line");
   const auto options = std::make_shared<QueryOptions>();
-  add_places(*command, *options);
-  command->footer("Example: hallway map ray maps/office.map 1,2,1.5 9,2,1.5");
-  command->callback([&chosen, options] { chosen = [options] { return ask_ray(*options); }; });
+  add_places(command, *options);
+  command.footer("Example: hallway map ray maps/office.map 1,2,1.5 9,2,1.5");
+  command.action([options] { return ask_ray(*options); });
 }
 
 }  // namespace hallway::cli

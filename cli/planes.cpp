@@ -140,54 +140,51 @@ int planes_of(const PlanesOptions& options) {
   return 0;
 }
 
-void add_input_options(CLI::App& command, PlanesOptions& options) {
+void add_input_options(Command& command, PlanesOptions& options) {
   command
-      .add_option("cloud", options.cloud,
-                  "Points: PLY, PCD, CSV with a header (x, y, z, label), OBJ, or a depth image in PNG")
-      ->required()
-      ->type_name("CLOUD");
+      .argument("cloud", &options.cloud,
+                "Points: PLY, PCD, CSV with a header (x, y, z, label), OBJ, or a depth image in PNG")
+      .required()
+      .value("CLOUD");
   add_cloud_options(command, options.input);
   command
-      .add_option("--labels", options.labels,
-                  "Labels to score against: a whole number for each row of the cloud")
-      ->type_name("FILE");
+      .option("--labels", &options.labels,
+              "Labels to score against: a whole number for each row of the cloud")
+      .value("FILE");
   command
-      .add_option("--unlabelled", options.unlabelled,
-                  "Label of points that belong to no plane, beside all negative ones")
-      ->type_name("N")
-      ->capture_default_str();
+      .option("--unlabelled", &options.unlabelled,
+              "Label of points that belong to no plane, beside all negative ones")
+      .value("N")
+      .show_default();
 }
 
 }  // namespace
 
-void add_planes_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("planes", "Find planes in a point cloud with a plugin");
+void add_planes_command(Command& app) {
+  Command& command = app.command("planes", "Find planes in a point cloud with a plugin");
   const auto options = std::make_shared<PlanesOptions>();
-  add_input_options(*command, *options);
+  add_input_options(command, *options);
   command
-      ->add_option("--plugin", options->plugin,
-                   "A plugin that finds planes, an id or a file, and its parameters")
-      ->type_name("NAME[:parameter=value]...")
-      ->required();
-  command->add_option("--repeat", options->repeat, "How often the plugin is asked; the time is the median")
-      ->check(CLI::Range(1u, 10'000u))
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "Folder to write planes.json, planes.ply and planes.png to")
-      ->type_name("DIR");
-  command->add_option("--view", options->view, "Of the picture")
-      ->check(CLI::IsMember({"top", "perspective"}))
-      ->capture_default_str();
-  add_plugin_path_option(*command, options->plugin_path);
-  add_limit_options(*command, options->isolation);
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no table");
-  command->footer(
+      .option("--plugin", &options->plugin, "A plugin that finds planes, an id or a file, and its parameters")
+      .value("NAME[:parameter=value]...")
+      .required();
+  command.option("--repeat", &options->repeat, "How often the plugin is asked; the time is the median")
+      .range(1u, 10'000u)
+      .value("N")
+      .show_default();
+  command.option("--out", &options->out, "Folder to write planes.json, planes.ply and planes.png to")
+      .value("DIR");
+  command.option("--view", &options->view, "Of the picture").choices({"top", "perspective"}).show_default();
+  add_plugin_path_option(command, options->plugin_path);
+  add_limit_options(command, options->isolation);
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no table");
+  command.footer(
       "With labels (a column of the file, or --labels) the planes are scored, and the picture shows the "
       "labelled ones beside "
       "them.\n"
       "Example: hallway planes room.pcd --plugin em --out out/room");
-  command->callback([&chosen, options] { chosen = [options] { return planes_of(*options); }; });
+  command.action([options] { return planes_of(*options); });
 }
 
 }  // namespace hallway::cli

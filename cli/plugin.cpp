@@ -76,19 +76,18 @@ int list(const ListOptions& options) {
 
 }  // namespace
 
-void add_plugin_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("plugin", "Look at plugins, check them, and begin new ones");
-  command->require_subcommand(1);
-  CLI::App* listing =
-      command->add_subcommand("list", "List the plugins on the search path, with what they take and give");
+void add_plugin_command(Command& app) {
+  Command& command = app.command("plugin", "Look at plugins, check them, and begin new ones");
+  Command& listing =
+      command.command("list", "List the plugins on the search path, with what they take and give");
   const auto options = std::make_shared<ListOptions>();
-  add_plugin_path_option(*listing, options->plugin_path);
-  listing->add_flag("--json", options->json, "Print one JSON document");
-  listing->callback([&chosen, options] { chosen = [options] { return list(*options); }; });
-  add_plugin_info_command(*command, chosen);
-  add_plugin_check_command(*command, chosen);
-  add_plugin_validate_command(*command, chosen);
-  add_plugin_new_command(*command, chosen);
+  add_plugin_path_option(listing, options->plugin_path);
+  listing.flag("--json", &options->json, "Print one JSON document");
+  listing.action([options] { return list(*options); });
+  add_plugin_info_command(command);
+  add_plugin_check_command(command);
+  add_plugin_validate_command(command);
+  add_plugin_new_command(command);
 }
 
 }  // namespace hallway::cli

@@ -125,23 +125,23 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_plugin_check_command(CLI::App& plugin, Action& chosen) {
-  CLI::App* command = plugin.add_subcommand(
+void add_plugin_check_command(Command& plugin) {
+  Command& command = plugin.command(
       "check", "Say whether a plugin's file will load, here or on a robot, without running any of it");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("file", options->file, "A plugin's shared object")->type_name("FILE")->required();
+  command.argument("file", &options->file, "A plugin's shared object").value("FILE").required();
   command
-      ->add_option("--profile", options->profile,
-                   "The robot, as `hallway-robot profile` described it [this machine]")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .option("--profile", &options->profile,
+              "The robot, as `hallway-robot profile` described it [this machine]")
+      .value("FILE");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Reads machine, needed libraries, versions of glibc and libstdc++, entry symbol and other exported "
       "symbols from the file.\n"
       "Exit status: 0 it will load; 1 it will not, and why; 3 the profile cannot be read; 4 there is no such "
       "file.\n"
       "Example: hallway plugin check build/my_slam.so --profile robot.toml");
-  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::cli

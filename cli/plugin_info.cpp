@@ -101,16 +101,14 @@ int show(const InfoOptions& options) {
 
 }  // namespace
 
-void add_plugin_info_command(CLI::App& plugin, Action& chosen) {
-  CLI::App* command = plugin.add_subcommand("info", "Say what a plugin takes and gives, and its parameters");
+void add_plugin_info_command(Command& plugin) {
+  Command& command = plugin.command("info", "Say what a plugin takes and gives, and its parameters");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("plugin", options->plugin, "A plugin's id, or its file")
-      ->type_name("NAME|FILE")
-      ->required();
-  add_plugin_path_option(*command, options->plugin_path);
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer("Example: hallway plugin info slam_point");
-  command->callback([&chosen, options] { chosen = [options] { return show(*options); }; });
+  command.argument("plugin", &options->plugin, "A plugin's id, or its file").value("NAME|FILE").required();
+  add_plugin_path_option(command, options->plugin_path);
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer("Example: hallway plugin info slam_point");
+  command.action([options] { return show(*options); });
 }
 
 }  // namespace hallway::cli

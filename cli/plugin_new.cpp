@@ -96,16 +96,14 @@ int make_project(const NewOptions& options) {
 
 }  // namespace
 
-void add_plugin_new_command(CLI::App& plugin, Action& chosen) {
-  CLI::App* command = plugin.add_subcommand(
-      "new", "Write a project for a plugin of your own, which builds and runs as it is");
+void add_plugin_new_command(Command& plugin) {
+  Command& command =
+      plugin.command("new", "Write a project for a plugin of your own, which builds and runs as it is");
   const auto options = std::make_shared<NewOptions>();
-  command->add_option("name", options->name, "Its id: small letters, digits and _")
-      ->type_name("NAME")
-      ->required();
-  command->add_option("--folder", options->folder, "Where to write it [NAME]")->type_name("DIR");
-  command->footer("Example: hallway plugin new my_slam && cd my_slam && cmake --workflow --preset release");
-  command->callback([&chosen, options] { chosen = [options] { return make_project(*options); }; });
+  command.argument("name", &options->name, "Its id: small letters, digits and _").value("NAME").required();
+  command.option("--folder", &options->folder, "Where to write it [NAME]").value("DIR");
+  command.footer("Example: hallway plugin new my_slam && cd my_slam && cmake --workflow --preset release");
+  command.action([options] { return make_project(*options); });
 }
 
 }  // namespace hallway::cli

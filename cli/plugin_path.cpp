@@ -10,15 +10,14 @@ namespace hallway::cli {
 
 namespace fs = std::filesystem;
 
-void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders) {
+void add_plugin_path_option(Command& command, std::vector<std::string>& folders) {
   command
-      .add_option("--plugin-path", folders,
-                  "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may "
-                  "be given "
-                  "several times")
-      ->type_name("DIR")
-      ->take_all()
-      ->expected(1);
+      .option("--plugin-path", &folders,
+              "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may "
+              "be given "
+              "several times")
+      .value("DIR")
+      .repeatable();
 }
 
 std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {

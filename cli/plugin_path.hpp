@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
+
 namespace hallway::cli {
 
 /// Adds `--plugin-path DIR`, which may stand several times.
-void add_plugin_path_option(CLI::App& command, std::vector<std::string>& folders);
+void add_plugin_path_option(Command& command, std::vector<std::string>& folders);
 
 /// Where plugins are looked for: the folders given, those of the environment variable HALLWAY_PLUGIN_PATH (separated by
 /// colons), then the program's own.

@@ -158,41 +158,38 @@ int validate(const ValidateOptions& options) {
 
 }  // namespace
 
-void add_plugin_validate_command(CLI::App& plugin, Action& chosen) {
-  CLI::App* command = plugin.add_subcommand(
+void add_plugin_validate_command(Command& plugin) {
+  Command& command = plugin.command(
       "validate", "Try whether a plugin keeps every rule of the ABI, each in a process of its own");
   const auto options = std::make_shared<ValidateOptions>();
-  command->add_option("file", options->file, "A plugin's shared object")->type_name("FILE");
+  command.argument("file", &options->file, "A plugin's shared object").value("FILE");
+  command.option("--plugin", &options->plugin, "Which of the file's plugins; needed where it holds several")
+      .value("ID");
+  command.option("--test", &options->tests, "Only this test; may be given several times")
+      .value("NAME")
+      .repeatable();
   command
-      ->add_option("--plugin", options->plugin, "Which of the file's plugins; needed where it holds several")
-      ->type_name("ID");
-  command->add_option("--test", options->tests, "Only this test; may be given several times")
-      ->type_name("NAME")
-      ->take_all()
-      ->expected(1);
-  command
-      ->add_option("--set", options->settings,
-                   "Value of a parameter, set before activation; may be given several times")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--seed", options->seed, "Of the frames that the plugin is given")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--timeout", options->timeout_s, "Seconds after which a test has hung")
-      ->type_name("S")
-      ->check(CLI::Range(0.1, 1e6))
-      ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "How many tests at a time [the number of processors]")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
-  command->add_flag("--list", options->list, "Say what each test demands, and run none");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .option("--set", &options->settings,
+              "Value of a parameter, set before activation; may be given several times")
+      .value("NAME=VALUE")
+      .repeatable();
+  command.option("--seed", &options->seed, "Of the frames that the plugin is given")
+      .value("N")
+      .show_default();
+  command.option("--timeout", &options->timeout_s, "Seconds after which a test has hung")
+      .value("S")
+      .range(0.1, 1e6)
+      .show_default();
+  command.option("--jobs", &options->jobs, "How many tests at a time [the number of processors]")
+      .value("N")
+      .range(1u, 1024u);
+  command.flag("--list", &options->list, "Say what each test demands, and run none");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Exit status: 0 every test passed or had nothing to try; 4 the file cannot be loaded; 5 a test "
       "failed.\n"
       "Example: hallway plugin validate build/my_slam.so");
-  command->callback([&chosen, options] { chosen = [options] { return validate(*options); }; });
+  command.action([options] { return validate(*options); });
 }
 
 }  // namespace hallway::cli

@@ -2,47 +2,141 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cstring>
+#include <map>
+#include <type_traits>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
 
+// The one source that knows CLI11: its templates are made here, once for each type of value.
 namespace hallway::cli {
 namespace {
 
 /// The first words are the command; the parser would only say that one is required.
-void check_command(const CLI::App& app, int argc, char** argv) {
-  const CLI::App* group = &app;
+void check_command(const Command& program, int argc, char** argv) {
+  const Command* group = &program;
   std::string path;
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : group->get_subcommands({})) names.push_back(command->get_name());
-    if (names.empty()) return;
+    if (group->commands().empty()) return;
     const std::string wanted = argv[i];
-    if (std::find(names.begin(), names.end(), wanted) == names.end()) {
+    const Command* command = group->find(wanted);
+    if (command == nullptr) {
+      std::vector<std::string> names;
+      for (const auto& known : group->commands()) names.push_back(known->name());
       throw Error(ErrorCode::kUsage,
                   fmt::format("there is no command \"{}{}\"{}; there are: {}", path, printable(wanted),
                               suggestion(wanted, names), fmt::join(names, ", ")));
     }
-    group = group->get_subcommand(wanted);
+    group = command;
     path += wanted + " ";
   }
 }
 
-/// Help and version end a parse too, and are no failure.
-int report_parse(const CLI::App& app, const CLI::ParseError& stop, bool json) {
-  if (stop.get_exit_code() == 0) return app.exit(stop);
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  const int status = report_failure(Error(ErrorCode::kUsage, stop.what()), json);
-  std::string name = command->get_name();
-  for (const CLI::App* group = command->get_parent(); group != nullptr; group = group->get_parent()) {
-    name = group->get_name() + " " + name;
+template <typename T>
+struct Scalar {
+  using Type = T;
+};
+template <typename T>
+struct Scalar<std::optional<T>> {
+  using Type = T;
+};
+template <typename T>
+struct Scalar<std::vector<T>> {
+  using Type = T;
+};
+
+/// A check of the type that the value has, so that help names it.
+template <typename T>
+CLI::Validator range_of(std::pair<double, double> limits) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return CLI::Range(static_cast<T>(limits.first), static_cast<T>(limits.second));
+  } else {
+    throw Error(ErrorCode::kInternal, "a range belongs to a number");
   }
-  fmt::print(stderr, "Try `{} --help`.\n", name);
+}
+
+/// The parser of one command line: CLI11's commands, made from ours.
+class Parser {
+ public:
+  explicit Parser(const Command& program) : app_(program.about(), program.name()) { fill(app_, program); }
+
+  void parse(int argc, char** argv) {
+    app_.parse(argc, argv);
+    for (const auto& [app, words] : rest_) take_rest(*app, *words);
+  }
+  /// What the arguments ask for, once they are parsed; null before.
+  const Command* chosen() const { return chosen_; }
+  /// Prints what a parse ended with that is no failure: help, the version.
+  void print(const CLI::ParseError& stop) const { app_.exit(stop); }
+  /// The command in whose arguments the parse stopped.
+  const Command& last() const {
+    const CLI::App* app = &app_;
+    while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+    return *commands_.at(app);
+  }
+
+ private:
+  void fill(CLI::App& app, const Command& command) {
+    commands_[&app] = &command;
+    for (const auto& option : command.options()) add(app, *option);
+    if (!command.footer().empty()) app.footer(command.footer());
+    if (!command.version().empty()) app.set_version_flag("--version", command.version());
+    if (command.rest() != nullptr) {
+      app.prefix_command();
+      rest_[&app] = command.rest();
+    }
+    if (!command.commands().empty()) app.require_subcommand(1);
+    for (const auto& below : command.commands())
+      fill(*app.add_subcommand(below->name(), below->about()), *below);
+    if (command.action()) app.callback([this, &command] { chosen_ = &command; });
+  }
+
+  void add(CLI::App& app, const Option& option) {
+    CLI::Option* added =
+        std::visit([&](auto* target) { return add_to(app, option, target); }, option.target());
+    if (!option.value_name().empty()) added->type_name(option.value_name());
+    if (!option.words().empty()) added->check(CLI::IsMember(option.words()));
+    if (option.shows_default()) added->capture_default_str();
+    if (option.is_required()) added->required();
+    if (option.is_repeatable()) added->take_all()->expected(1);
+    if (option.number_count() > 0) added->delimiter(',')->expected(option.number_count());
+    if (option.excluded() != nullptr) added->excludes(options_.at(option.excluded()));
+    options_[&option] = added;
+  }
+
+  template <typename T>
+  static CLI::Option* add_to(CLI::App& app, const Option& option, T* target) {
+    if constexpr (std::is_same_v<T, bool>) {
+      return app.add_flag(option.names(), *target, option.help());
+    } else {
+      CLI::Option* added = app.add_option(option.names(), *target, option.help());
+      if (option.limits()) added->check(range_of<typename Scalar<T>::Type>(*option.limits()));
+      return added;
+    }
+  }
+
+  static void take_rest(const CLI::App& app, std::vector<std::string>& words) {
+    for (const std::string& word : app.remaining()) {
+      if (word != "--" || !words.empty()) words.push_back(word);
+    }
+  }
+
+  CLI::App app_;
+  const Command* chosen_ = nullptr;
+  std::map<const CLI::App*, const Command*> commands_;
+  std::map<const CLI::App*, std::vector<std::string>*> rest_;
+  std::map<const Option*, CLI::Option*> options_;
+};
+
+/// An argument that is wrong, and where to read what is right.
+int report_parse(const Command& command, const CLI::ParseError& stop, bool json) {
+  const int status = report_failure(Error(ErrorCode::kUsage, stop.what()), json);
+  fmt::print(stderr, "Try `{} --help`.\n", command.path());
   return status;
 }
 
@@ -55,14 +149,17 @@ bool asks_for_json(int argc, char** argv) {
   return false;
 }
 
-int run_chosen(CLI::App& app, int argc, char** argv, const Action& chosen) {
-  check_command(app, argc, argv);
+int run_program(const Command& program, int argc, char** argv) {
+  check_command(program, argc, argv);
+  Parser parser(program);
   try {
-    app.parse(argc, argv);
+    parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
-    return report_parse(app, stop, asks_for_json(argc, argv));
+    if (stop.get_exit_code() != 0) return report_parse(parser.last(), stop, asks_for_json(argc, argv));
+    parser.print(stop);
+    return 0;
   }
-  return chosen();
+  return parser.chosen()->action()();
 }
 
 }  // namespace hallway::cli

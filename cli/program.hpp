@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include "command_line.hpp"
 
 namespace hallway::cli {
-
-/// What the command line asks for; called once it is parsed. @return the exit status
-using Action = std::function<int()>;
 
 /// What `--help` says of exit statuses.
 inline constexpr const char* kExitStatusHelp =
@@ -17,9 +13,8 @@ inline constexpr const char* kExitStatusHelp =
 /// Whether `--json` is among the arguments, wherever: failures are told so before they are parsed.
 bool asks_for_json(int argc, char** argv);
 
-/// Parses the arguments and does what they ask for. @return the exit status. Throws Error{kUsage} for a command that there is not, and
-/// what the command throws.
-/// @param chosen  set by the commands of `app` while they are parsed
-int run_chosen(CLI::App& app, int argc, char** argv, const Action& chosen);
+/// Parses the arguments by the program's commands and does what they ask for; help and the version are printed, and an argument that is wrong
+/// is reported. @return the exit status. Throws Error{kUsage} for a command that there is not, and what the command throws.
+int run_program(const Command& program, int argc, char** argv);
 
 }  // namespace hallway::cli

@@ -113,44 +113,40 @@ int render(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("render", "Draw a map, or what a run believed, as a PNG picture");
+void add_render_command(Command& app) {
+  Command& command = app.command("render", "Draw a map, or what a run believed, as a PNG picture");
   const auto options = std::make_shared<RenderOptions>();
-  command->add_option("input", options->input, "A .map file, or the folder of a run")
-      ->required()
-      ->type_name("MAP|RUN");
+  command.argument("input", &options->input, "A .map file, or the folder of a run")
+      .required()
+      .value("MAP|RUN");
   command
-      ->add_option("--view", options->view,
-                   "top: like a plan; perspective: from a viewpoint; panels: of a run in which planes were "
-                   "found in points, four in one")
-      ->check(CLI::IsMember({"top", "perspective", "panels"}))
-      ->capture_default_str();
-  command->add_option("--out", options->out, "PNG file to write; an earlier one is replaced")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--size", options->size, "Width and height in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+      .option("--view", &options->view,
+              "top: like a plan; perspective: from a viewpoint; panels: of a run in which planes were "
+              "found in points, four in one")
+      .choices({"top", "perspective", "panels"})
+      .show_default();
+  command.option("--out", &options->out, "PNG file to write; an earlier one is replaced")
+      .required()
+      .value("FILE");
+  command.option("--size", &options->size, "Width and height in pixels").value("WxH").show_default();
   command
-      ->add_option("--cut", options->cut_z_m,
-                   "Cut away what stands above this height (metres) [what opens a closed building]")
-      ->type_name("Z");
-  command->add_option("--eye", options->eye, "perspective: viewpoint in metres [what shows everything]")
-      ->type_name("X,Y,Z");
-  command->add_option("--target", options->target, "perspective: the place looked at")->type_name("X,Y,Z");
+      .option("--cut", &options->cut_z_m,
+              "Cut away what stands above this height (metres) [what opens a closed building]")
+      .value("Z");
+  command.option("--eye", &options->eye, "perspective: viewpoint in metres [what shows everything]")
+      .value("X,Y,Z");
+  command.option("--target", &options->target, "perspective: the place looked at").value("X,Y,Z");
   command
-      ->add_option(
-          "--show", options->show,
-          "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
-      ->type_name("LAYER,...")
-      ->take_all()
-      ->expected(1);
-  command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->footer(
+      .option("--show", &options->show,
+              "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
+      .value("LAYER,...")
+      .repeatable();
+  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.footer(
       "Examples: hallway render out/office --view perspective --out office.png --show map,truth,estimate\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
-  command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
+  command.action([options] { return render(*options); });
 }
 
 }  // namespace hallway::cli

@@ -179,62 +179,54 @@ int replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("replay", "Feed recorded observations to a plugin, and measure what it maps");
+void add_replay_command(Command& app) {
+  Command& command =
+      app.command("replay", "Feed recorded observations to a plugin, and measure what it maps");
   const auto options = std::make_shared<ReplayOptions>();
   command
-      ->add_option(
-          "observations", options->observations,
-          "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or of "
-          "observed planes, an .mcap log, "
-          "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
-          "parameters and "
-          "truth with them")
-      ->required()
-      ->type_name("LOG");
-  command->add_option("--plugin", options->plugin, "Plugin to run: an id or a .so file")
-      ->type_name("NAME|FILE");
+      .argument("observations", &options->observations,
+                "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or of "
+                "observed planes, an .mcap log, "
+                "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
+                "parameters and "
+                "truth with them")
+      .required()
+      .value("LOG");
+  command.option("--plugin", &options->plugin, "Plugin to run: an id or a .so file").value("NAME|FILE");
   command
-      ->add_option(
-          "--set", options->settings,
-          "Set a plugin's parameter (noise_m=0.1, or slam_point.noise_m=0.1); may be given several times")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--steps", options->steps, "Number of iterations [all]")
-      ->type_name("N")
-      ->check(CLI::Range(1u, log::kMaxIteration));
+      .option("--set", &options->settings,
+              "Set a plugin's parameter (noise_m=0.1, or slam_point.noise_m=0.1); may be given several times")
+      .value("KEY=VALUE")
+      .repeatable();
+  command.option("--steps", &options->steps, "Number of iterations [all]")
+      .value("N")
+      .range(1u, log::kMaxIteration);
   command
-      ->add_option("--truth-poses", options->true_poses,
-                   "CSV file with the columns iteration,x,y,z and perhaps qw,qx,qy,qz")
-      ->type_name("FILE");
+      .option("--truth-poses", &options->true_poses,
+              "CSV file with the columns iteration,x,y,z and perhaps qw,qx,qy,qz")
+      .value("FILE");
+  command.option("--truth-landmarks", &options->true_landmarks, "CSV file with the columns landmark_id,x,y,z")
+      .value("FILE");
+  command.option("--period", &options->period_s, "Seconds from frame to frame [the run's, else 0.1]")
+      .value("S")
+      .range(1e-6, 1e6);
   command
-      ->add_option("--truth-landmarks", options->true_landmarks,
-                   "CSV file with the columns landmark_id,x,y,z")
-      ->type_name("FILE");
-  command->add_option("--period", options->period_s, "Seconds from frame to frame [the run's, else 0.1]")
-      ->type_name("S")
-      ->check(CLI::Range(1e-6, 1e6));
-  command
-      ->add_option(
-          "--rate", options->rate,
-          "Feed frames at their own pace: 1 as recorded, 2 twice as fast [as fast as the plugin answers]")
-      ->type_name("X")
-      ->check(CLI::Range(1e-3, 1e3));
-  command->add_flag("--ids-as-tracks", options->ids_as_tracks,
-                    "Give plugins the true landmark of each point as the sensor's track of it, for those "
-                    "that need to be told");
-  command->add_option("--out", options->out, "Folder to write [out/replay-<name>]")->type_name("DIR");
-  add_plugin_path_option(*command, options->plugin_path);
-  add_isolation_options(*command, options->isolation);
-  command->add_flag("--foxglove", options->foxglove,
-                    "Add channels to run.mcap that show the run in Foxglove");
-  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer("Example: hallway replay out/office/run.mcap --plugin ./my_slam.so --out out/mine");
-  command->callback([&chosen, options] { chosen = [options] { return replay(*options); }; });
+      .option("--rate", &options->rate,
+              "Feed frames at their own pace: 1 as recorded, 2 twice as fast [as fast as the plugin answers]")
+      .value("X")
+      .range(1e-3, 1e3);
+  command.flag("--ids-as-tracks", &options->ids_as_tracks,
+               "Give plugins the true landmark of each point as the sensor's track of it, for those "
+               "that need to be told");
+  command.option("--out", &options->out, "Folder to write [out/replay-<name>]").value("DIR");
+  add_plugin_path_option(command, options->plugin_path);
+  add_isolation_options(command, options->isolation);
+  command.flag("--foxglove", &options->foxglove, "Add channels to run.mcap that show the run in Foxglove");
+  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  command.footer("Example: hallway replay out/office/run.mcap --plugin ./my_slam.so --out out/mine");
+  command.action([options] { return replay(*options); });
 }
 
 }  // namespace hallway::cli

@@ -96,45 +96,41 @@ int run_scenario(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_run_command(Command& app) {
+  Command& command = app.command(
       "run",
       "Drive a simulated robot through a map, feed what it sees to a plugin, and measure what it maps");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("scenario", options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
-      ->required()
-      ->type_name("SCENARIO");
-  command->add_option("--out", options->out, "Folder to write [out/<scenario>]")->type_name("DIR");
-  command->add_option("--seed", options->seed, "Seed of all random numbers, instead of the scenario's")
-      ->type_name("N");
-  command->add_option("--steps", options->steps, "Number of iterations, instead of the scenario's")
-      ->type_name("N");
+  command.argument("scenario", &options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
+      .required()
+      .value("SCENARIO");
+  command.option("--out", &options->out, "Folder to write [out/<scenario>]").value("DIR");
+  command.option("--seed", &options->seed, "Seed of all random numbers, instead of the scenario's")
+      .value("N");
+  command.option("--steps", &options->steps, "Number of iterations, instead of the scenario's").value("N");
   command
-      ->add_option(
-          "--set", options->settings,
+      .option(
+          "--set", &options->settings,
           "Set a scenario value (sensor.eyes.noise_m=0.1) or a plugin's parameter (slam_point.noise_m=0.1); "
           "may be given several times")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
+      .value("KEY=VALUE")
+      .repeatable();
   command
-      ->add_option("--plugin", options->plugin,
-                   "Run this plugin instead of the scenario's: an id or a .so file")
-      ->type_name("NAME|FILE");
-  add_plugin_path_option(*command, options->plugin_path);
-  command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
-  add_isolation_options(*command, options->isolation);
-  command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
-  command->add_flag("--foxglove", options->foxglove,
-                    "Add channels to run.mcap that show the run in Foxglove");
-  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no table");
-  command->footer(
+      .option("--plugin", &options->plugin, "Run this plugin instead of the scenario's: an id or a .so file")
+      .value("NAME|FILE");
+  add_plugin_path_option(command, options->plugin_path);
+  command.option("--threads", &options->threads, "Threads of the simulator; results do not depend on it")
+      .value("N")
+      .range(1u, 1024u);
+  add_isolation_options(command, options->isolation);
+  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
+  command.flag("--foxglove", &options->foxglove, "Add channels to run.mcap that show the run in Foxglove");
+  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  command.footer(
       "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
-  command->callback([&chosen, options] { chosen = [options] { return run_scenario(*options); }; });
+  command.action([options] { return run_scenario(*options); });
 }
 
 }  // namespace hallway::cli

@@ -185,57 +185,55 @@ int serve(const ServeOptions& options) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "serve", "Be the robot at the other end of a datagram protocol: a simulated one, or a log");
+void add_serve_command(Command& app) {
+  Command& command =
+      app.command("serve", "Be the robot at the other end of a datagram protocol: a simulated one, or a log");
   const auto options = std::make_shared<ServeOptions>();
   command
-      ->add_option("input", options->input,
-                   "Scenario file (.toml), or a log as of `replay`: .mcap, .csv, a run folder")
-      ->required()
-      ->type_name("SCENARIO|LOG");
+      .argument("input", &options->input,
+                "Scenario file (.toml), or a log as of `replay`: .mcap, .csv, a run folder")
+      .required()
+      .value("SCENARIO|LOG");
   command
-      ->add_option("--udp", options->udp,
-                   "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")
-      ->required()
-      ->type_name("IP:PORT");
-  CLI::Option* lock_step =
-      command->add_flag("--lockstep", options->lock_step,
-                        "Wait for the answer to each frame, and lose nothing; else in real time");
-  command->add_option("--rate", options->rate, "Seconds of the input that pass in one [1]")
-      ->type_name("X")
-      ->check(CLI::Range(1e-3, 1e3))
-      ->excludes(lock_step);
-  command->add_option("--loss", options->loss, "Share of datagrams to lose on purpose [0]")
-      ->type_name("P")
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--loss-seed", options->loss_seed, "Seed of what is lost on purpose [1]")
-      ->type_name("N");
+      .option("--udp", &options->udp,
+              "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")
+      .required()
+      .value("IP:PORT");
+  const Option& lock_step =
+      command.flag("--lockstep", &options->lock_step,
+                   "Wait for the answer to each frame, and lose nothing; else in real time");
+  command.option("--rate", &options->rate, "Seconds of the input that pass in one [1]")
+      .value("X")
+      .range(1e-3, 1e3)
+      .excludes(lock_step);
+  command.option("--loss", &options->loss, "Share of datagrams to lose on purpose [0]")
+      .value("P")
+      .range(0.0, 1.0);
+  command.option("--loss-seed", &options->loss_seed, "Seed of what is lost on purpose [1]").value("N");
   command
-      ->add_option("--give-up", options->give_up_s,
-                   "Seconds for which the robot program may be silent once it has come; 0: for ever [10]")
-      ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6));
-  command->add_option("--steps", options->steps, "Number of frames, instead of the input's")
-      ->type_name("N")
-      ->check(CLI::Range(1u, log::kMaxIteration));
-  command->add_option("--seed", options->seed, "Seed of all random numbers, instead of the scenario's")
-      ->type_name("N");
-  command->add_option("--set", options->settings, "Set a scenario value; may be given several times")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
-  command->add_option("--threads", options->threads, "Threads of the simulator; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
-  command->add_option("--out", options->out, "Folder to write: the log, the truth, the commands [none]")
-      ->type_name("DIR");
-  command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
-  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->add_flag("--quiet", options->quiet, "Print no address, no progress and no table");
-  command->footer("Example: hallway serve maps/office.toml --udp 127.0.0.1:7000 --lockstep --out out/served");
-  command->callback([&chosen, options] { chosen = [options] { return serve(*options); }; });
+      .option("--give-up", &options->give_up_s,
+              "Seconds for which the robot program may be silent once it has come; 0: for ever [10]")
+      .value("S")
+      .range(0.0, 1e6);
+  command.option("--steps", &options->steps, "Number of frames, instead of the input's")
+      .value("N")
+      .range(1u, log::kMaxIteration);
+  command.option("--seed", &options->seed, "Seed of all random numbers, instead of the scenario's")
+      .value("N");
+  command.option("--set", &options->settings, "Set a scenario value; may be given several times")
+      .value("KEY=VALUE")
+      .repeatable();
+  command.option("--threads", &options->threads, "Threads of the simulator; results do not depend on it")
+      .value("N")
+      .range(1u, 1024u);
+  command.option("--out", &options->out, "Folder to write: the log, the truth, the commands [none]")
+      .value("DIR");
+  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
+  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.flag("--quiet", &options->quiet, "Print no address, no progress and no table");
+  command.footer("Example: hallway serve maps/office.toml --udp 127.0.0.1:7000 --lockstep --out out/served");
+  command.action([options] { return serve(*options); });
 }
 
 }  // namespace hallway::cli

@@ -145,50 +145,47 @@ int run_study(const study::Study& study, const StudyOptions& options) {
   return report_plugin_failures(runs) ? exit_status(ErrorCode::kPluginFault) : 0;
 }
 
-void add_options(CLI::App& command, StudyOptions& options) {
+void add_options(Command& command, StudyOptions& options) {
   command
-      .add_option("--plugin", options.plugins,
-                  "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
-                  "may be given several times [slam_point]")
-      ->type_name("NAME[:param=a,b,...]...")
-      ->take_all()
-      ->expected(1);
+      .option("--plugin", &options.plugins,
+              "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
+              "may be given several times [slam_point]")
+      .value("NAME[:param=a,b,...]...")
+      .repeatable();
   add_plugin_path_option(command, options.plugin_path);
   command
-      .add_option("--seeds", options.seeds,
-                  "How many seeds, from 1: each has other noise and other landmarks; curves are medians")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  command.add_option("--steps", options.steps, "Iterations of each run, instead of the study's")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 10'000'000u));
-  command.add_flag("--quick", options.quick, "A small size for trying out: seconds, at most two seeds");
-  command.add_option("--out", options.out, "Folder to write [out/study-<name>]")->type_name("DIR");
-  command.add_option("--maps", options.maps, "Folder of the scenarios [beside the program]")
-      ->type_name("DIR");
-  command.add_option("--data", options.data, "Folder of recorded data [$HALLWAY_DATA]")->type_name("DIR");
-  command.add_option("--threads", options.threads, "Threads of the simulator; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 1024u));
+      .option("--seeds", &options.seeds,
+              "How many seeds, from 1: each has other noise and other landmarks; curves are medians")
+      .value("N")
+      .range(1u, 1000u)
+      .show_default();
+  command.option("--steps", &options.steps, "Iterations of each run, instead of the study's")
+      .value("N")
+      .range(1u, 10'000'000u);
+  command.flag("--quick", &options.quick, "A small size for trying out: seconds, at most two seeds");
+  command.option("--out", &options.out, "Folder to write [out/study-<name>]").value("DIR");
+  command.option("--maps", &options.maps, "Folder of the scenarios [beside the program]").value("DIR");
+  command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
+  command.option("--threads", &options.threads, "Threads of the simulator; results do not depend on it")
+      .value("N")
+      .range(1u, 1024u);
   add_limit_options(command, options.isolation);
-  command.add_flag("--force", options.force, "Replace an earlier study in the output folder");
-  command.add_flag("--json", options.json, "Print one JSON document");
-  command.add_flag("--quiet", options.quiet, "Print no progress and no table");
+  command.flag("--force", &options.force, "Replace an earlier study in the output folder");
+  command.flag("--json", &options.json, "Print one JSON document");
+  command.flag("--quiet", &options.quiet, "Print no progress and no table");
 }
 
 }  // namespace
 
-void add_study_command(CLI::App& app, Action& chosen) {
-  CLI::App* group = app.add_subcommand(
-      "study", "Repeat an evaluation of the thesis with any plugin: tables, findings and charts");
-  group->require_subcommand(1);
-  group->footer("Example: hallway study straight --plugin slam_point --plugin ./my_slam.so --seeds 3");
+void add_study_command(Command& app) {
+  Command& group =
+      app.command("study", "Repeat an evaluation of the thesis with any plugin: tables, findings and charts");
+  group.footer("Example: hallway study straight --plugin slam_point --plugin ./my_slam.so --seeds 3");
   for (const study::Study& study : study::studies()) {
-    CLI::App* command = group->add_subcommand(std::string(study.name), std::string(study.about));
+    Command& command = group.command(std::string(study.name), std::string(study.about));
     const auto options = std::make_shared<StudyOptions>();
-    add_options(*command, *options);
-    command->footer(
+    add_options(command, *options);
+    command.footer(
         fmt::format("Full size: {}. Corresponds to the thesis's figures {}.\n"
                     "Writes findings.csv, runs.csv, curves.csv, charts as SVG and PNG, and all of it as "
                     "study.json; facts "
@@ -196,8 +193,7 @@ void add_study_command(CLI::App& app, Action& chosen) {
                     "Exit status: 0 done; 5 a plugin failed in a run, the others count.\n"
                     "Example: hallway study {} --seeds 3 --out out/{}",
                     study.size, study.figures, study.name, study.name));
-    command->callback(
-        [&chosen, &study, options] { chosen = [&study, options] { return run_study(study, *options); }; });
+    command.action([&study, options] { return run_study(study, *options); });
   }
 }
 

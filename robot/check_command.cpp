@@ -130,14 +130,14 @@ int check(const ConfigOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, cli::Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_check_command(cli::Command& app) {
+  cli::Command& command = app.command(
       "check",
       "Say all that is wrong with a configuration: opens the robot, reads no frame and writes no command");
   const auto options = std::make_shared<ConfigOptions>();
-  add_config_options(*command, *options);
-  command->footer("Example: hallway-robot check robot.toml");
-  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+  add_config_options(command, *options);
+  command.footer("Example: hallway-robot check robot.toml");
+  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::robot

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,11 +12,11 @@
 
 namespace hallway::robot {
 
-/// Each adds its subcommand to `app`, which sets `chosen` when it is the one that is asked for.
-void add_run_command(CLI::App& app, cli::Action& chosen);
-void add_check_command(CLI::App& app, cli::Action& chosen);
-void add_drivers_command(CLI::App& app, cli::Action& chosen);
-void add_profile_command(CLI::App& app, cli::Action& chosen);
+/// Each adds its command to the program.
+void add_run_command(cli::Command& app);
+void add_check_command(cli::Command& app);
+void add_drivers_command(cli::Command& app);
+void add_profile_command(cli::Command& app);
 
 /// What `run` and `check` both take.
 struct ConfigOptions {
@@ -32,9 +31,9 @@ struct ConfigOptions {
 };
 
 /// Adds CONFIG, --driver, --plugin, --set, --driver-path, --plugin-path, --in-process and --json.
-void add_config_options(CLI::App& command, ConfigOptions& options);
+void add_config_options(cli::Command& command, ConfigOptions& options);
 /// Adds `--driver-path DIR`, which may stand several times.
-void add_driver_path_option(CLI::App& command, std::vector<std::string>& folders);
+void add_driver_path_option(cli::Command& command, std::vector<std::string>& folders);
 
 /// What the command line sets above the file. Throws Error{kUsage}.
 std::vector<Override> overrides_of(const ConfigOptions& options);

@@ -13,40 +13,35 @@
 
 namespace hallway::robot {
 
-void add_config_options(CLI::App& command, ConfigOptions& options) {
-  command.add_option("config", options.config, "Configuration: driver, plugins, limits, robot")
-      ->required()
-      ->type_name("CONFIG");
+void add_config_options(cli::Command& command, ConfigOptions& options) {
+  command.argument("config", &options.config, "Configuration: driver, plugins, limits, robot")
+      .required()
+      .value("CONFIG");
+  command.option("--driver", &options.driver, "Another driver than the configuration's: an id or a .so file")
+      .value("NAME|FILE");
   command
-      .add_option("--driver", options.driver, "Another driver than the configuration's: an id or a .so file")
-      ->type_name("NAME|FILE");
+      .option("--plugin", &options.plugin,
+              "Run this plugin instead of the configuration's: an id or a .so file")
+      .value("NAME|FILE");
   command
-      .add_option("--plugin", options.plugin,
-                  "Run this plugin instead of the configuration's: an id or a .so file")
-      ->type_name("NAME|FILE");
-  command
-      .add_option(
-          "--set", options.settings,
-          "Set a value (robot.rate_hz=50, driver.log=run.mcap, limits.on_failure=restart) or a plugin's "
-          "parameter "
-          "(slam_point.noise_m=0.1); may be given several times")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1);
+      .option("--set", &options.settings,
+              "Set a value (robot.rate_hz=50, driver.log=run.mcap, limits.on_failure=restart) or a plugin's "
+              "parameter "
+              "(slam_point.noise_m=0.1); may be given several times")
+      .value("KEY=VALUE")
+      .repeatable();
   add_driver_path_option(command, options.driver_path);
   cli::add_plugin_path_option(command, options.plugin_path);
-  command.add_flag("--in-process", options.in_process,
-                   "Run plugins in this process, for debuggers: no limits, and a crash is a crash of all");
-  command.add_flag("--json", options.json, "Print one JSON document");
+  command.flag("--in-process", &options.in_process,
+               "Run plugins in this process, for debuggers: no limits, and a crash is a crash of all");
+  command.flag("--json", &options.json, "Print one JSON document");
 }
 
-void add_driver_path_option(CLI::App& command, std::vector<std::string>& folders) {
+void add_driver_path_option(cli::Command& command, std::vector<std::string>& folders) {
   command
-      .add_option("--driver-path", folders,
-                  "Look for drivers in this folder first; may be given several times")
-      ->type_name("DIR")
-      ->take_all()
-      ->expected(1);
+      .option("--driver-path", &folders, "Look for drivers in this folder first; may be given several times")
+      .value("DIR")
+      .repeatable();
 }
 
 std::vector<Override> overrides_of(const ConfigOptions& options) {

@@ -77,24 +77,22 @@ int list(const DriversOptions& options) {
 
 }  // namespace
 
-void add_drivers_command(CLI::App& app, cli::Action& chosen) {
-  CLI::App* command = app.add_subcommand("drivers", "List the drivers that are found, with their settings");
+void add_drivers_command(cli::Command& app) {
+  cli::Command& command = app.command("drivers", "List the drivers that are found, with their settings");
   const auto options = std::make_shared<DriversOptions>();
-  add_driver_path_option(*command, options->driver_path);
-  command->add_flag("--json", options->json, "Print one JSON document");
-  command->callback([&chosen, options] { chosen = [options] { return list(*options); }; });
+  add_driver_path_option(command, options->driver_path);
+  command.flag("--json", &options->json, "Print one JSON document");
+  command.action([options] { return list(*options); });
 }
 
-void add_profile_command(CLI::App& app, cli::Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_profile_command(cli::Command& app) {
+  cli::Command& command = app.command(
       "profile",
       "Print what this machine offers to plugins, for `hallway plugin check FILE --profile PROFILE`");
-  command->footer("Example: hallway-robot profile > robot-profile.toml");
-  command->callback([&chosen] {
-    chosen = [] {
-      cli::print_result(host::print_profile(host::this_machine()));
-      return 0;
-    };
+  command.footer("Example: hallway-robot profile > robot-profile.toml");
+  command.action([] {
+    cli::print_result(host::print_profile(host::this_machine()));
+    return 0;
   });
 }
 

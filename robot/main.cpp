@@ -16,16 +16,14 @@ int main(int argc, char** argv) {
   hallway::cli::prepare_standard_streams();
   const bool json = hallway::cli::asks_for_json(argc, argv);
   try {
-    CLI::App app(kAbout, "hallway-robot");
+    hallway::cli::Command app("hallway-robot", kAbout);
     app.footer(hallway::cli::kExitStatusHelp);
-    app.set_version_flag("--version", "hallway-robot " + hallway::record::version());
-    app.require_subcommand(1);
-    hallway::cli::Action chosen;
-    hallway::robot::add_run_command(app, chosen);
-    hallway::robot::add_check_command(app, chosen);
-    hallway::robot::add_drivers_command(app, chosen);
-    hallway::robot::add_profile_command(app, chosen);
-    return hallway::cli::run_chosen(app, argc, argv, chosen);
+    app.version("hallway-robot " + hallway::record::version());
+    hallway::robot::add_run_command(app);
+    hallway::robot::add_check_command(app);
+    hallway::robot::add_drivers_command(app);
+    hallway::robot::add_profile_command(app);
+    return hallway::cli::run_program(app, argc, argv);
   } catch (const std::exception& failure) {
     return hallway::cli::report_failure(failure, json);
   }

@@ -116,19 +116,19 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, cli::Action& chosen) {
-  CLI::App* command = app.add_subcommand(
+void add_run_command(cli::Command& app) {
+  cli::Command& command = app.command(
       "run", "Run plugins on a robot: its frames in, their commands out, until the robot ends or Ctrl-C");
   const auto options = std::make_shared<RunOptions>();
-  add_config_options(*command, options->config);
-  command->add_option("--out", options->out, "Folder to write [out/<config>]")->type_name("DIR");
-  command->add_option("--duration", options->duration_s, "Seconds after which to end [until the robot ends]")
-      ->type_name("S")
-      ->check(CLI::Range(0.001, 1e9));
-  command->add_flag("--force", options->force, "Replace an earlier run in the output folder");
-  command->add_flag("--quiet", options->quiet, "Print no table");
-  command->footer("Example: hallway-robot run robot.toml --out out/monday");
-  command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+  add_config_options(command, options->config);
+  command.option("--out", &options->out, "Folder to write [out/<config>]").value("DIR");
+  command.option("--duration", &options->duration_s, "Seconds after which to end [until the robot ends]")
+      .value("S")
+      .range(0.001, 1e9);
+  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
+  command.flag("--quiet", &options->quiet, "Print no table");
+  command.footer("Example: hallway-robot run robot.toml --out out/monday");
+  command.action([options] { return run(*options); });
 }
 
 }  // namespace hallway::robot
