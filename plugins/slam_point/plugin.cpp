@@ -60,6 +60,7 @@ class SlamPoint final : public sdk::Plugin {
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
+    parameters().take_from_sensor("noise_m", adapter_.noise_m());
     options_.association = static_cast<Association>(association_);
     if (mode_ == static_cast<int>(Mode::thesis)) {
       thesis_.emplace(options_, thesis_options_);
@@ -85,6 +86,7 @@ class SlamPoint final : public sdk::Plugin {
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor, answer.covariance);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer);
+    host().put_map_epoch(answer.epoch);
   }
 
   void report(bool refine) override {
