@@ -133,7 +133,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
   command->footer(
-      "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
+      "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.02 --out out/noisy");
   command->callback([&chosen, options] { chosen = [options] { return run_scenario(*options); }; });
 }
 

@@ -279,14 +279,15 @@ class Parameters {
   /// In activate(): gives the number `name`, unless the host has set it, the value that a sensor's description has, at most
   /// its maximum and at least its minimum, until the plugin is deactivated. NaN leaves the default. Throws std::logic_error
   /// where there is no such number.
-  void take_from_sensor(const char* name, double value) {
+  /// @return whether it was taken
+  bool take_from_sensor(const char* name, double value) {
     for (Row& row : rows_) {
       double* const* real = row.name == name ? std::get_if<double*>(&row.variable) : nullptr;
       if (real == nullptr) continue;
-      if (row.origin == HW_PARAM_FROM_HOST || std::isnan(value)) return;
+      if (row.origin == HW_PARAM_FROM_HOST || std::isnan(value)) return false;
       **real = std::fmin(std::fmax(value, row.info.minimum.as.real), row.info.maximum.as.real);
       row.origin = HW_PARAM_FROM_SENSOR;
-      return;
+      return true;
     }
     throw std::logic_error(std::string("take_from_sensor: no number is called ") + name);
   }
@@ -327,7 +328,7 @@ class Parameters {
   }
   /// Where the value of parameter `index` comes from, HW_PARAM_FROM_….
   std::uint32_t origin(std::uint32_t index) const {
-    return index < rows_.size() ? rows_[index].origin : HW_PARAM_FROM_DEFAULT;
+    return index < rows_.size() ? rows_[index].origin : std::uint32_t{HW_PARAM_FROM_DEFAULT};
   }
 
  private:
@@ -385,7 +386,7 @@ class Parameters {
     Row& row = add_row(name, variable, type, "", help);
     row.default_text = *variable;
     row.info.default_text = row.default_text.c_str();
-    row.info.flags = access == Access::kWrite ? HW_PARAM_WRITABLE : 0u;
+    if (access == Access::kWrite) row.info.flags = HW_PARAM_WRITABLE;
   }
   Row& add_row(const char* name, Variable variable, std::uint32_t type, const char* unit, const char* help) {
     rows_.push_back(Row{name, unit, help, variable, {}, {}, HW_PARAM_FROM_DEFAULT});
