@@ -32,6 +32,8 @@ std::string range_of(const host::Parameter& parameter) {
   if (parameter.default_value.type == HW_PARAM_CHOICE)
     return fmt::format("{}", fmt::join(parameter.choices, ", "));
   if (parameter.default_value.type == HW_PARAM_BOOL) return "true, false";
+  if (parameter.is_path()) return parameter.writable ? "is written" : "is read";
+  if (parameter.is_text()) return "any";
   return parameter.print(parameter.minimum) + " to " + parameter.print(parameter.maximum);
 }
 
@@ -51,9 +53,8 @@ std::string text_of(const host::Stage& plugin) {
   for (const host::Parameter& parameter : plugin.parameters()) {
     const bool bare = parameter.unit.empty() || parameter.unit == "1";  // a ratio
     const std::string unit = bare ? "" : " " + parameter.unit;
-    text += fmt::format("  {} = {}{}  ({}: {})\n      {}\n", parameter.name,
-                        parameter.print(parameter.default_value), unit, parameter.type_name(),
-                        range_of(parameter), parameter.help);
+    text += fmt::format("  {} = {}{}  ({}: {})\n      {}\n", parameter.name, parameter.default_value_text(),
+                        unit, parameter.type_name(), range_of(parameter), parameter.help);
   }
   return text;
 }
@@ -65,11 +66,13 @@ Json json_of(const host::Stage& plugin) {
     Json one{{"name", parameter.name},
              {"type", parameter.type_name()},
              {"unit", parameter.unit},
-             {"default", parameter.print(parameter.default_value)},
+             {"default", parameter.default_value_text()},
              {"help", parameter.help}};
     if (parameter.default_value.type == HW_PARAM_CHOICE) {
       one["choices"] = parameter.choices;
-    } else if (parameter.default_value.type != HW_PARAM_BOOL) {
+    } else if (parameter.is_path()) {
+      one["writable"] = parameter.writable;
+    } else if (parameter.default_value.type != HW_PARAM_BOOL && !parameter.is_text()) {
       one["minimum"] = parameter.print(parameter.minimum);
       one["maximum"] = parameter.print(parameter.maximum);
     }

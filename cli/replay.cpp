@@ -50,6 +50,7 @@ struct ReplayOptions {
 struct Stages {
   std::vector<host::StageSpec> specs;
   std::vector<run::ParameterOrigin> origins;
+  std::vector<std::string> warnings{};
 };
 
 /// Of a plugin that a log names only the id counts: a log must not make this program load a file of its choice.
@@ -64,6 +65,12 @@ void check_recorded_id(const std::string& id) {
               {.file = run::files::kRun, .element = "plugins"});
 }
 
+/// A log must not choose what a plugin reads and writes either.
+bool names_path(const nlohmann::ordered_json& parameter) {
+  const std::string type = parameter.value("type", "");
+  return type == "file" || type == "folder";
+}
+
 /// What the run that wrote the log used, as far as it had been set.
 void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const std::string& wanted) {
   for (const auto& plugin : manifest.at("plugins")) {
@@ -72,8 +79,15 @@ void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const 
     if (!wanted.empty() && sim::short_plugin_name(wanted) != id) continue;
     host::StageSpec spec{.plugin = wanted.empty() ? id : wanted, .parameters = {}};
     for (const auto& parameter : plugin.at("parameters")) {
-      if (parameter.at("origin").get<std::string>() == "default") continue;
+      const std::string origin = parameter.at("origin").get<std::string>();
+      if (origin == "default" || origin == "sensor") continue;  // the log has what the sensor told
       const std::string name = parameter.at("name").get<std::string>();
+      if (names_path(parameter)) {
+        stages.warnings.push_back(fmt::format(
+            "the log names a file or folder for {}.{}, which is not taken from it: give it by --set",
+            printable(id), printable(name)));
+        continue;
+      }
       spec.parameters.push_back({name, parameter.at("value").get<std::string>(), {.file = run::files::kRun}});
       stages.origins.push_back({id, name, run::files::kRun});
     }
@@ -147,6 +161,7 @@ int replay(const ReplayOptions& options) {
   }
   run::Source& source = paced ? *paced : *input.source;
   Stages stages = stages_of(options, input);
+  for (std::string& warning : stages.warnings) input.warnings.push_back(std::move(warning));
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;

@@ -129,7 +129,7 @@ void add_run_command(Command& app) {
   command.flag("--json", &options->json, "Print one JSON document");
   command.flag("--quiet", &options->quiet, "Print no progress and no table");
   command.footer(
-      "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
+      "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.02 --out out/noisy");
   command.action([options] { return run_scenario(*options); });
 }
 

@@ -9,6 +9,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <system_error>
+
 #include "base/helper.hpp"
 #include "base/syscall_filter.hpp"
 
@@ -68,8 +70,16 @@ bool allow_beneath(int ruleset, const std::filesystem::path& path, std::uint64_t
   return added == 0;
 }
 
-/// No file is changed but under `scratch`. @return false if the kernel cannot see to that
-bool restrain_writes(const std::filesystem::path& scratch) {
+/// Lets a file be written, or all beneath a folder.
+bool allow_writes(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
+  std::error_code problem;
+  const bool is_folder = std::filesystem::is_directory(path, problem);
+  const std::uint64_t of_files = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_TRUNCATE;
+  return allow_beneath(ruleset, path, is_folder ? rights : rights & of_files);
+}
+
+/// No file is changed but those that `confinement` names. @return false if the kernel cannot see to that
+bool restrain_writes(const Confinement& confinement) {
   const long version =
       ::syscall(SYS_landlock_create_ruleset, nullptr, std::size_t{0}, LANDLOCK_CREATE_RULESET_VERSION);
   if (version < 1) return false;
@@ -79,8 +89,10 @@ bool restrain_writes(const std::filesystem::path& scratch) {
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0));
   if (ruleset < 0) return false;
   allow_beneath(ruleset, "/dev/null", LANDLOCK_ACCESS_FS_WRITE_FILE);
-  const bool good = (scratch.empty() || allow_beneath(ruleset, scratch, rights)) &&
-                    ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
+  bool good = confinement.scratch.empty() || allow_beneath(ruleset, confinement.scratch, rights);
+  for (const std::filesystem::path& path : confinement.writable)
+    good = allow_writes(ruleset, path, rights) && good;
+  good = ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0 && good;
   ::close(ruleset);
   return good;
 }
@@ -91,7 +103,7 @@ std::vector<std::string> confine(const Confinement& confinement) {
   std::vector<std::string> missing;
   set_limits(confinement, missing);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) missing.emplace_back("no_new_privs is not known here");
-  const bool restrained = restrain_writes(confinement.scratch);
+  const bool restrained = restrain_writes(confinement);
   if (!drop_powers()) missing.emplace_back("the powers of root could not be given up");
   const bool filtered = filter_system_calls(restrained ? FileWrites::kAllowed : FileWrites::kNone);
   if (!filtered) {

@@ -12,13 +12,14 @@ namespace hallway {
 struct Confinement {
   std::uint64_t data_bytes =
       0;  ///< private writable memory (RLIMIT_DATA); left out under sanitizers, which reserve more
-  std::uint64_t file_bytes = 0;     ///< largest file that it may write
-  std::uint64_t open_files = 256;   ///< descriptors at a time
-  std::filesystem::path scratch{};  ///< the one folder it may write in; empty: none
+  std::uint64_t file_bytes = 0;                   ///< largest file that it may write
+  std::uint64_t open_files = 256;                 ///< descriptors at a time
+  std::filesystem::path scratch{};                ///< the folder it may write in; empty: none
+  std::vector<std::filesystem::path> writable{};  ///< further files and folders that it may write
 };
 
 /// Confines this process, for good, before it makes a second thread: limits; no core file; no new privileges, and of root's only
-/// those to read files; no files written but under `scratch` and to /dev/null (Landlock; where the kernel has none, no file is opened for
+/// those to read files; no files written but under `scratch`, `writable` and to /dev/null (Landlock; where the kernel has none, no file is opened for
 /// writing at all); no sockets but pairs, no other programs or processes, no signals to or memory of other processes (seccomp).
 /// @return what this kernel does not provide, as one sentence each; empty where all of it stands
 std::vector<std::string> confine(const Confinement& confinement);

@@ -160,6 +160,7 @@ void has_all_functions(const Subject& subject, Remains&) {
   demand(v.activate && v.deactivate && v.reset && v.process && v.report && v.get_extension && v.destroy,
          "a function of the vtable is null");
   plugin.parameters();
+  plugin.parameters_2();
 }
 
 void knows_no_other_extension(const Subject& subject, Remains&) {

@@ -11,7 +11,7 @@
 #include "conformance/call_mark.hpp"
 #include "conformance/walk.hpp"
 #include "host/error_text.hpp"
-#include "host/parameter.hpp"
+#include "host/text_parameter.hpp"
 
 namespace hallway::conformance {
 
@@ -72,6 +72,23 @@ Instance::~Instance() {
   }
 }
 
+Ended Instance::apply_setting(const hw_params_t& params, std::uint32_t index,
+                              const host::Parameter& parameter, const std::string& value) {
+  Ended ended{.call = "set", .error = host::empty_error()};
+  if (!parameter.is_text()) {
+    const hw_param_value_t parsed = parameter.parse(value);
+    ended.status = marked("set", [&] { return params.set(plugin_.self, index, &parsed, &ended.error); });
+    return ended;
+  }
+  const hw_params_2_t* texts = parameters_2();
+  demand(texts != nullptr, "declares a text parameter without " HW_EXT_PARAMS_2);
+  const std::string text = host::text_parameter_value(parameter, value, {});
+  ended.call = "set_text";
+  ended.status =
+      marked("set_text", [&] { return texts->set_text(plugin_.self, index, text.c_str(), &ended.error); });
+  return ended;
+}
+
 void Instance::apply_settings(const Subject& subject) {
   if (subject.settings.empty()) return;
   const hw_params_t* params = parameters();
@@ -82,9 +99,7 @@ void Instance::apply_settings(const Subject& subject) {
       const hw_param_info_t* info = marked("describe", [&] { return params->describe(plugin_.self, i); });
       if (info == nullptr || info->name == nullptr || name != info->name) continue;
       found = true;
-      const hw_param_value_t parsed = host::read_parameter(info).parse(value);
-      Ended ended{.call = "set", .error = host::empty_error()};
-      ended.status = marked("set", [&] { return params->set(plugin_.self, i, &parsed, &ended.error); });
+      const Ended ended = apply_setting(*params, i, host::read_parameter(info), value);
       if (!ended.good())
         throw Error(ErrorCode::kBadInput, "parameter `" + printable(name) + "`: " + ended.text());
     }
@@ -97,6 +112,14 @@ const hw_params_t* Instance::parameters() {
       marked("get_extension", [&] { return plugin_.vtable->get_extension(plugin_.self, HW_EXT_PARAMS); }));
   demand(!params || (params->count && params->describe && params->get && params->set),
          "has null functions in " HW_EXT_PARAMS);
+  return params;
+}
+
+const hw_params_2_t* Instance::parameters_2() {
+  const auto* params = static_cast<const hw_params_2_t*>(
+      marked("get_extension", [&] { return plugin_.vtable->get_extension(plugin_.self, HW_EXT_PARAMS_2); }));
+  demand(!params || (params->get_text && params->set_text && params->origin),
+         "has null functions in " HW_EXT_PARAMS_2);
   return params;
 }
 

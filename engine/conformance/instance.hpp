@@ -11,6 +11,7 @@
 #include "conformance/loaded_library.hpp"
 #include "conformance/test.hpp"
 #include "conformance/test_host.hpp"
+#include "host/parameter.hpp"
 
 namespace hallway::conformance {
 
@@ -58,6 +59,8 @@ class Instance {
   void give_no_errors() { gives_errors_ = false; }
   /// Its parameters, or null. Throws Failed if one of its functions is null.
   const hw_params_t* parameters();
+  /// The same of hw_params_2_t.
+  const hw_params_2_t* parameters_2();
 
   Ended activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape = {});
   /// With the ordinary sensor. Throws Failed where it is refused; Skipped where the plugin needs kinds of samples that this suite does not make.
@@ -77,6 +80,8 @@ class Instance {
 
  private:
   void apply_settings(const Subject& subject);
+  Ended apply_setting(const hw_params_t& params, std::uint32_t index, const host::Parameter& parameter,
+                      const std::string& value);
   hw_error_t* error_of(Ended& ended) const { return gives_errors_ ? &ended.error : nullptr; }
 
   TestHost host_;

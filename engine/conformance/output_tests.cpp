@@ -51,6 +51,12 @@ void writes_zeros(const Subject& subject, Remains&) {
   });
 }
 
+void numbers_parts(const Subject& subject, Remains&) {
+  check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
+    demand(answer.put.epoch_problem.empty(), answer.call + "(): " + answer.put.epoch_problem);
+  });
+}
+
 void puts_in_turn(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
@@ -70,6 +76,9 @@ constexpr Test kTests[] = {
      puts_valid_outputs},
     {"outputs-declared", "Only outputs are put whose kinds the plugin declares.", puts_what_it_declares},
     {"outputs-reserved", "Flags and reserved members of what is put are 0.", writes_zeros},
+    {"outputs-map-epoch",
+     "Parts of the map are numbered by whole numbers, once in a call, and joined to older ones.",
+     numbers_parts},
     {"outputs-in-turn", "Outputs are put during process() and report(), and at no other time.", puts_in_turn},
 };
 

@@ -50,7 +50,8 @@ inline std::string text_of(const hw_param_value_t& value) {
 class Parameters {
  public:
   /// Throws Skipped if there are none.
-  explicit Parameters(Instance& plugin) : self_(plugin.raw().self), functions_(plugin.parameters()) {
+  explicit Parameters(Instance& plugin)
+      : self_(plugin.raw().self), functions_(plugin.parameters()), functions_2_(plugin.parameters_2()) {
     if (functions_ == nullptr || count() == 0) throw Skipped("the plugin declares no parameters");
   }
 
@@ -75,6 +76,41 @@ class Parameters {
       if (is_known(info(i).type)) indices.push_back(i);
     }
     return indices;
+  }
+  /// Indices of those whose values are texts. Throws Failed where there are some, and no hw_params_2_t.
+  std::vector<std::uint32_t> texts() const {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (info(i).type >= HW_PARAM_TEXT && info(i).type <= HW_PARAM_FOLDER) indices.push_back(i);
+    }
+    demand(indices.empty() || functions_2_ != nullptr, "declares a text parameter without " HW_EXT_PARAMS_2);
+    return indices;
+  }
+  /// Throws Skipped where the plugin has no hw_params_2_t.
+  void need_origins() const {
+    if (functions_2_ == nullptr) throw Skipped("the plugin has no " HW_EXT_PARAMS_2);
+  }
+  std::uint32_t origin(std::uint32_t index) const {
+    return marked("origin", [&] { return functions_2_->origin(self_, index); });
+  }
+  Ended try_get_text(std::uint32_t index, const char** text) const {
+    Ended ended{.call = "get_text", .error = host::empty_error()};
+    ended.status =
+        marked("get_text", [&] { return functions_2_->get_text(self_, index, text, &ended.error); });
+    return ended;
+  }
+  /// Throws Failed where it fails.
+  std::string get_text(std::uint32_t index) const {
+    const char* text = nullptr;
+    try_get_text(index, &text).demand_good();
+    demand(text != nullptr, name(index) + ": get_text() gives null");
+    return text;
+  }
+  Ended set_text(std::uint32_t index, const char* text) const {
+    Ended ended{.call = "set_text", .error = host::empty_error()};
+    ended.status =
+        marked("set_text", [&] { return functions_2_->set_text(self_, index, text, &ended.error); });
+    return ended;
   }
   std::string name(std::uint32_t index) const { return "parameter `" + printable(info(index).name) + "`"; }
 
@@ -133,6 +169,7 @@ class Parameters {
  private:
   void* self_;
   const hw_params_t* functions_;
+  const hw_params_2_t* functions_2_;
 };
 
 }  // namespace hallway::conformance

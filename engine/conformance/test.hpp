@@ -67,6 +67,7 @@ const Test* find_test(std::string_view name);
 std::span<const Test> entry_tests();
 std::span<const Test> life_cycle_tests();
 std::span<const Test> parameter_tests();
+std::span<const Test> parameter_2_tests();
 std::span<const Test> activation_tests();
 std::span<const Test> frame_tests();
 std::span<const Test> input_tests();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "host/outputs_bytes.hpp"
@@ -22,6 +23,26 @@ std::string bytes_of(const host::Outputs& outputs, std::uint32_t n_samples) {
   host::ByteWriter writer{std::as_writable_bytes(std::span(bytes))};
   host::write_outputs(writer, outputs, n_samples);
   return bytes;
+}
+
+/// What is wrong with the counters that tell parts of the map, as output.h has them.
+std::string epoch_problem(const host::Outputs& outputs) {
+  constexpr std::string_view kName = HW_COUNTER_MAP_EPOCH;
+  std::size_t epochs = 0, joins = 0;
+  for (const host::Counter& counter : outputs.counters()) {
+    if (counter.name == kName) ++epochs;
+    if (counter.name.starts_with(std::string(kName) + "_")) ++joins;
+  }
+  if (epochs > 1) return "map_epoch is put twice";
+  if (epochs == 1 && !outputs.map_epoch()) return "map_epoch is no whole number from 0 to 2^53";
+  const std::vector<host::JoinedEpoch> joined = outputs.joined_epochs();
+  if (joined.size() != joins) return "map_epoch_N has no whole number";
+  for (const host::JoinedEpoch& part : joined) {
+    if (part.into >= part.epoch) return "a part is joined to one that is not older";
+    const auto again = std::ranges::find(joined, part.into, &host::JoinedEpoch::epoch);
+    if (again != joined.end()) return "a part is joined to one that is itself joined to another";
+  }
+  return "";
 }
 
 }  // namespace
@@ -52,6 +73,7 @@ void TestHost::begin(const hw_frame_t* frame, std::vector<std::uint32_t> indices
 Collected TestHost::finish() {
   open_ = false;
   collected_.problem = collector_.finish();
+  collected_.epoch_problem = epoch_problem(collector_.outputs());
   collected_.bytes = bytes_of(collector_.outputs(), n_samples_) + collected_.problem;
   return std::move(collected_);
 }

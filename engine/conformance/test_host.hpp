@@ -30,7 +30,8 @@ struct Collected {
   std::string bytes{};              ///< all of it, so that equal bytes mean equal outputs
   std::string problem{};            ///< what the host finds wrong with it; empty: nothing
   std::set<std::uint32_t> kinds{};  ///< of outputs
-  bool reserved_written = false;    ///< a member was not 0 that must be
+  std::string epoch_problem{};  ///< what is wrong with the counters of HW_COUNTER_MAP_EPOCH; empty if nothing
+  bool reserved_written = false;  ///< a member was not 0 that must be
 };
 
 /// The host of one instance. It takes wrong outputs without a word, so that the plugin goes on and only what asks for them finds them.

@@ -11,6 +11,7 @@
 #include "host/isolated_list.hpp"
 #include "host/outputs_bytes.hpp"
 #include "host/sample_parts.hpp"
+#include "host/text_parameter.hpp"
 
 namespace hallway::host {
 namespace {
@@ -21,25 +22,42 @@ constexpr std::size_t kMaxText = 20'000;
 
 IsolatedPlugin::IsolatedPlugin(const std::string& wanted, std::span<const std::filesystem::path> folders,
                                const Isolation& isolation, const LogSink& log)
-    : process_(isolation, log, wanted) {
-  StartRequest request{.wanted = find_plugin_file(wanted, folders, isolation),
+    : wanted_(wanted), folders_(folders.begin(), folders.end()), isolation_(isolation), log_(log) {
+  start();
+}
+
+/// Makes the process, and in it the plugin with default parameters.
+void IsolatedPlugin::start() {
+  process_.emplace(isolation_, log_, wanted_);
+  StartRequest request{.wanted = find_plugin_file(wanted_, folders_, isolation_),
                        .folders = {},
-                       .data_bytes = data_limit(isolation),
-                       .file_bytes = isolation.file_bytes,
-                       .scratch = process_.scratch().string()};
-  for (const std::filesystem::path& folder : folders) request.folders.push_back(folder.string());
+                       .data_bytes = data_limit(isolation_),
+                       .file_bytes = isolation_.file_bytes,
+                       .scratch = process_->scratch().string(),
+                       .writable = writable_};
+  for (const std::filesystem::path& folder : folders_) request.folders.push_back(folder.string());
   submit(Request::kStart, [&](ByteWriter& writer) { write_start(writer, request); });
   await(Request::kStart, [&](ByteReader& reader) { started_ = read_started(reader); });
-  if (!isolation.temporary.empty() && process_.scratch().empty()) {
+  if (!isolation_.temporary.empty() && process_->scratch().empty()) {
     started_.missing.push_back("no scratch folder can be made in " +
-                               printable(isolation.temporary.string(), kMaxText));
+                               printable(isolation_.temporary.string(), kMaxText));
   }
   file_ = started_.file;
-  process_.set_plugin(started_.info.id, file_);
+  process_->set_plugin(started_.info.id, file_);
+  sent_kinds_.clear();
   // Samples of other kinds cannot be sent; see frame_bytes_size().
   for (const std::uint32_t kind : {HW_SAMPLE_POINTS, HW_SAMPLE_PLANES}) {
     if (std::ranges::count(started_.info.inputs, kind) > 0) sent_kinds_.push_back(kind);
   }
+}
+
+/// A process can only lose rights, and has lost them before the plugin's code says which paths it writes: so a new one begins with the right.
+void IsolatedPlugin::start_with(const std::string& writable_path) {
+  if (std::ranges::count(writable_, writable_path) > 0) return;
+  writable_.push_back(writable_path);
+  process_->end();
+  start();
+  for (const Setting& setting : settings_) send_parameter(setting);
 }
 
 IsolatedPlugin::~IsolatedPlugin() {
@@ -51,22 +69,22 @@ IsolatedPlugin::~IsolatedPlugin() {
 
 template <typename Write>
 void IsolatedPlugin::submit(Request request, Write&& write) {
-  ByteWriter writer(process_.room());
+  ByteWriter writer(process_->room());
   write(writer);
   if (!writer.fits())
     throw Error(ErrorCode::kBadInput, "a request to the plugin is larger than the room for it");
-  process_.submit(request, writer.size());
+  process_->submit(request, writer.size());
 }
 
 template <typename Read>
 void IsolatedPlugin::await(Request request, Read&& read) {
-  const HostChannel::Answer answer = process_.await(request);
+  const HostChannel::Answer answer = process_->await(request);
   ByteReader reader(answer.bytes);
   try {
     if (answer.reply == Reply::kError) throw_error(reader, started_.info.id);
     read(reader);
   } catch (const BadBytes& bad) {
-    process_.fail_protocol(request, bad.what);
+    process_->fail_protocol(request, bad.what);
   }
   last_call_ = {answer.wall_ns, answer.cpu_ns};
 }
@@ -78,20 +96,39 @@ void IsolatedPlugin::call(Request request, Write&& write) {
   await(request, [](ByteReader& reader) { reader.expect_end(); });
 }
 
-std::string IsolatedPlugin::parameter_text(std::size_t index) {
+IsolatedPlugin::ParameterState IsolatedPlugin::parameter_state(std::size_t index) {
   submit(Request::kGetParameter, [&](ByteWriter& writer) { writer.put<std::uint64_t>(index); });
-  std::string text;
-  await(Request::kGetParameter, [&](ByteReader& reader) { text = printable(reader.get_text(), kMaxText); });
-  return text;
+  ParameterState state{};
+  await(Request::kGetParameter, [&](ByteReader& reader) {
+    state.text = printable(reader.get_text(), kMaxText);
+    state.from_sensor = reader.get<std::uint64_t>() != 0;
+    reader.expect_end();
+  });
+  return state;
+}
+
+void IsolatedPlugin::send_parameter(const Setting& setting) {
+  call(Request::kSetParameter, [&](ByteWriter& writer) {
+    writer.put_text(setting.name);
+    writer.put_text(setting.value);
+    write_where(writer, setting.where);
+  });
 }
 
 void IsolatedPlugin::set_parameter(std::string_view name, std::string_view value, const Where& where) {
   if (active_) throw Error(ErrorCode::kInternal, "set_parameter() after activate()");
-  call(Request::kSetParameter, [&](ByteWriter& writer) {
-    writer.put_text(name);
-    writer.put_text(value);
-    write_where(writer, where);
-  });
+  Setting setting{std::string(name), std::string(value), where};
+  const auto parameter = std::ranges::find(started_.parameters, name, &Parameter::name);
+  if (parameter != started_.parameters.end() && parameter->is_path()) {
+    try {
+      setting.value = text_parameter_value(*parameter, value, where);
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("plugin `{}`: {}", info().id, error.message()), where);
+    }
+    if (parameter->writable && !setting.value.empty()) start_with(setting.value);
+  }
+  send_parameter(setting);
+  settings_.push_back(std::move(setting));
 }
 
 void IsolatedPlugin::activate(std::span<const SensorInfo> sensors) {
@@ -126,7 +163,7 @@ void IsolatedPlugin::submit(const hw_frame_t& frame) {
   if (submitted_ - collected_ >= capacity()) throw Error(ErrorCode::kInternal, "too many frames under way");
   const hw_frame_t& selected = selection_.select(frame, sent_kinds_);
   const std::size_t size = frame_bytes_size(selected);
-  const std::span<std::byte> room = process_.room();
+  const std::span<std::byte> room = process_->room();
   if (size > room.size()) {
     throw Error(ErrorCode::kBadInput,
                 fmt::format("a frame of {} bytes; an isolated plugin takes {} at most", size, room.size()));
@@ -134,7 +171,7 @@ void IsolatedPlugin::submit(const hw_frame_t& frame) {
   write_frame_bytes(selected, room.first(size));
   pending_[submitted_ % pending_.size()].remember(selected, selection_.indices());
   ++submitted_;
-  process_.submit(Request::kProcess, size);
+  process_->submit(Request::kProcess, size);
 }
 
 const Outputs& IsolatedPlugin::collect() {
@@ -160,20 +197,20 @@ void IsolatedPlugin::read_answer(Request request, ByteReader& reader, const hw_f
   read_outputs(reader, collector_);
   reader.expect_end();
   const std::string problem = collector_.finish();
-  if (!problem.empty()) process_.fail_protocol(request, problem);
+  if (!problem.empty()) process_->fail_protocol(request, problem);
 }
 
 void IsolatedPlugin::close() {
-  if (std::exchange(closed_, true) || !process_.runs()) return;
+  if (std::exchange(closed_, true) || !process_ || !process_->runs()) return;
   try {
-    while (process_.under_way() != 0) process_.await(Request::kProcess);
+    while (process_->under_way() != 0) process_->await(Request::kProcess);
     submit(Request::kClose, [](ByteWriter&) {});
     await(Request::kClose, [](ByteReader& reader) { reader.expect_end(); });
   } catch (...) {
-    process_.end();
+    process_->end();
     throw;
   }
-  process_.end();
+  process_->end();
 }
 
 }  // namespace hallway::host

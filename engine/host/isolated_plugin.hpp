@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ class IsolatedPlugin final : public Stage {
   const PluginInfo& info() const override { return started_.info; }
   const std::filesystem::path& file() const override { return file_; }
   std::span<const Parameter> parameters() const override { return started_.parameters; }
-  std::string parameter_text(std::size_t index) override;
+  std::string parameter_text(std::size_t index) override { return parameter_state(index).text; }
+  bool parameter_is_from_sensor(std::size_t index) override { return parameter_state(index).from_sensor; }
   void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) override;
   void activate(std::span<const SensorInfo> sensors) override;
   void reset() override;
@@ -57,6 +59,19 @@ class IsolatedPlugin final : public Stage {
     void remember(const hw_frame_t& sent, std::span<const std::uint32_t> sent_indices);
   };
 
+  struct ParameterState {
+    std::string text;
+    bool from_sensor;
+  };
+  struct Setting {
+    std::string name, value;
+    Where where;
+  };
+
+  void start();
+  void send_parameter(const Setting& setting);
+  void start_with(const std::string& writable_path);
+  ParameterState parameter_state(std::size_t index);
   template <typename Write>
   void submit(Request request, Write&& write);
   template <typename Read>
@@ -66,7 +81,13 @@ class IsolatedPlugin final : public Stage {
   void read_answer(Request request, ByteReader& reader, const hw_frame_t* frame,
                    std::span<const std::uint32_t> indices);
 
-  PluginProcess process_;
+  std::string wanted_;
+  std::vector<std::filesystem::path> folders_;
+  Isolation isolation_;
+  LogSink log_;
+  std::vector<std::string> writable_;  ///< files and folders that parameters let the plugin write
+  std::vector<Setting> settings_;      ///< those that were made
+  std::optional<PluginProcess> process_;
   StartReply started_;
   std::filesystem::path file_;
   bool active_ = false;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 
+#include "base/text.hpp"
 #include "host/plugin_info.hpp"
 #include "host/sample_parts.hpp"
 #include "host/strided.hpp"
@@ -16,6 +17,7 @@ namespace hallway::host {
 namespace {
 
 constexpr std::size_t kMaxCounterName = 64;
+constexpr double kLargestEpoch = 9007199254740992.0;  // 2^53: doubles count up to it
 
 /// What is wrong with a pose, null if nothing.
 const char* pose_problem(const hw_pose_t& pose) {
@@ -39,6 +41,20 @@ const char* covariance_problem(const std::array<double, 36>& numbers) {
   return nullptr;
 }
 
+std::optional<std::uint64_t> whole_number(double value) {
+  if (!(value >= 0.0 && value <= kLargestEpoch) || std::floor(value) != value) return std::nullopt;
+  return static_cast<std::uint64_t>(value);
+}
+
+/// N of a counter that is called "map_epoch_N".
+std::optional<std::uint64_t> joined_number(std::string_view name) {
+  constexpr std::string_view kPrefix = HW_COUNTER_MAP_EPOCH "_";
+  if (!name.starts_with(kPrefix)) return std::nullopt;
+  const auto number = parse_int(name.substr(kPrefix.size()));
+  if (!number || *number < 0) return std::nullopt;
+  return static_cast<std::uint64_t>(*number);
+}
+
 template <typename Payload>
 const Payload& payload_of(const hw_output_t& output) {
   return *static_cast<const Payload*>(output.payload);
@@ -55,6 +71,24 @@ std::optional<std::span<const std::uint64_t>> Outputs::associations(std::uint32_
 
 std::span<const std::uint64_t> Outputs::members(const hw_submap_t& submap) const {
   return std::span(submap_members_).subspan(submap.first_member, submap.n_members);
+}
+
+std::optional<std::uint64_t> Outputs::map_epoch() const {
+  for (const Counter& counter : counters()) {
+    if (counter.name == HW_COUNTER_MAP_EPOCH) return whole_number(counter.value);
+  }
+  return std::nullopt;
+}
+
+std::vector<JoinedEpoch> Outputs::joined_epochs() const {
+  std::vector<JoinedEpoch> joined;
+  for (const Counter& counter : counters()) {
+    const auto epoch = joined_number(counter.name);
+    const auto into = whole_number(counter.value);
+    if (epoch && into) joined.push_back({*epoch, *into});
+  }
+  std::ranges::sort(joined, {}, &JoinedEpoch::epoch);
+  return joined;
 }
 
 void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32_t> sample_indices) {

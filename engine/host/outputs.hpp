@@ -42,6 +42,14 @@ struct Counter {
   double value = 0;
 };
 
+/// Poses answered under one number of the map's parts belong to another part; see HW_COUNTER_MAP_EPOCH.
+struct JoinedEpoch {
+  std::uint64_t epoch = 0;
+  std::uint64_t into = 0;
+
+  friend bool operator==(const JoinedEpoch&, const JoinedEpoch&) = default;
+};
+
 /// What one call of a plugin put, checked and copied into buffers that are used again for the next call.
 class Outputs {
  public:
@@ -68,6 +76,11 @@ class Outputs {
   std::span<const std::uint64_t> all_members() const { return submap_members_; }
   /// The counters, in the order put.
   std::span<const Counter> counters() const { return std::span(counters_).first(n_counters_); }
+  /// Of process(): which connected part of the map the pose is in (HW_COUNTER_MAP_EPOCH); nothing if it was not put, or is no whole number from 0
+  /// to 2^53. O(counters).
+  std::optional<std::uint64_t> map_epoch() const;
+  /// Of report(): which parts were joined to others, ascending. What is no such counter is left out. O(n log n) of the counters.
+  std::vector<JoinedEpoch> joined_epochs() const;
 
  private:
   friend class OutputCollector;

@@ -21,9 +21,9 @@ constexpr std::uint32_t kMaxChoices = 1000;
   throw Error(ErrorCode::kPluginLoad, "declares a parameter badly: " + message);
 }
 
-std::string read_text(const char* text, const char* member) {
+std::string read_text(const char* text, const char* member, std::size_t most = kMaxTextBytes) {
   if (text == nullptr) fail_load(fmt::format("its {} is null", member));
-  return printable({text, strnlen(text, kMaxTextBytes)}, kMaxTextBytes);
+  return printable({text, strnlen(text, most)}, most);
 }
 
 std::vector<std::string> read_choices(const hw_param_info_t& info) {
@@ -60,6 +60,12 @@ void check_range(const Parameter& parameter) {
   if (!in_range(parameter, parameter.default_value)) fail_load("its default is outside of its range");
 }
 
+void read_text_facts(const hw_param_info_t& info, Parameter& parameter) {
+  if (!HW_HAS(&info, hw_param_info_t, flags)) fail_load("it has no default text");
+  parameter.default_text = read_text(info.default_text, "default text", HW_PARAM_TEXT_BYTES);
+  parameter.writable = parameter.is_path() && (info.flags & HW_PARAM_WRITABLE) != 0;
+}
+
 std::string range_text(const Parameter& parameter) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   return fmt::format("from {} to {}{}", parameter.print(parameter.minimum),
@@ -67,6 +73,14 @@ std::string range_text(const Parameter& parameter) {
 }
 
 }  // namespace
+
+bool Parameter::is_text() const {
+  return default_value.type == HW_PARAM_TEXT || is_path();
+}
+
+bool Parameter::is_path() const {
+  return default_value.type == HW_PARAM_FILE || default_value.type == HW_PARAM_FOLDER;
+}
 
 std::string Parameter::type_name() const {
   switch (default_value.type) {
@@ -78,6 +92,12 @@ std::string Parameter::type_name() const {
       return "double";
     case HW_PARAM_CHOICE:
       return "choice";
+    case HW_PARAM_TEXT:
+      return "text";
+    case HW_PARAM_FILE:
+      return "file";
+    case HW_PARAM_FOLDER:
+      return "folder";
     default:
       return fmt::format("type {}", default_value.type);
   }
@@ -156,6 +176,7 @@ Parameter read_parameter(const hw_param_info_t* info) {
       parameter.maximum = whole(info->type, static_cast<std::int64_t>(last));
     }
     if (info->type >= HW_PARAM_BOOL && info->type <= HW_PARAM_CHOICE) check_range(parameter);
+    if (parameter.is_text()) read_text_facts(*info, parameter);
   } catch (const Error& error) {
     throw Error(error.code(), error.message(), {"", 0, fmt::format("parameter `{}`", parameter.name)});
   }

@@ -47,7 +47,7 @@ void Pipeline::start() {
   try {
     prepare_stages();
     check_kinds();
-    for (const auto& plugin : stages_) plugin->activate(sensors_);
+    activate_stages();
   } catch (...) {
     stages_.clear();
     throw;
@@ -62,14 +62,34 @@ void Pipeline::prepare_stages() {
   for (const StageSpec& spec : specs_) {
     Stage& plugin = *stages_.emplace_back(make_stage(spec.plugin));
     const auto parameters = plugin.parameters();
-    facts_.push_back({plugin.info(), plugin.file(), {parameters.begin(), parameters.end()}, {}});
+    facts_.push_back({plugin.info(), plugin.file(), {parameters.begin(), parameters.end()}, {}, {}});
     for (const ParameterSetting& setting : spec.parameters) {
       plugin.set_parameter(setting.name, setting.value, setting.where);
     }
-    std::vector<std::string> values;
-    for (std::size_t i = 0; i < parameters.size(); ++i) values.push_back(plugin.parameter_text(i));
-    facts_.back().values = std::move(values);
+    note_values(stages_.size() - 1);
   }
+}
+
+void Pipeline::activate_stages() {
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    stages_[i]->activate(sensors_);
+    note_values(i);  // what it has taken from the sensors
+  }
+}
+
+void Pipeline::note_values(std::size_t stage) {
+  StageFacts& facts = facts_[stage];
+  std::vector<std::string> values;
+  facts.from_sensor.clear();
+  for (std::size_t i = 0; i < facts.parameters.size(); ++i) {
+    values.push_back(stages_[stage]->parameter_text(i));
+    facts.from_sensor.push_back(stages_[stage]->parameter_is_from_sensor(i));
+    if (!facts.parameters[i].is_path()) continue;
+    for (const ParameterSetting& setting : specs_[stage].parameters) {
+      if (setting.name == facts.parameters[i].name) values.back() = setting.value;
+    }
+  }
+  facts.values = std::move(values);
 }
 
 void Pipeline::check_kinds() const {

@@ -32,7 +32,9 @@ struct StageFacts {
   PluginInfo info{};
   std::filesystem::path file{};
   std::vector<Parameter> parameters{};
-  std::vector<std::string> values{};  ///< of the parameters at activation; empty where it never came to that
+  std::vector<std::string>
+      values{};  ///< of the parameters in effect, paths as they were given; empty where it never came to that
+  std::vector<bool> from_sensor{};  ///< for each, whether the plugin has taken it from a sensor's description
 };
 
 /// Plugins in order, each fed with the samples of the kinds it needs: those of the frame, and the planes that plugins before it found in
@@ -90,6 +92,8 @@ class Pipeline {
   Pipeline() = default;
   void start();
   void prepare_stages();
+  void activate_stages();
+  void note_values(std::size_t stage);
   void check_kinds() const;
   bool takes_what_others_find() const;
   const Outputs& collect_in_turn();

@@ -14,6 +14,7 @@
 #include "host/c_sensor.hpp"
 #include "host/error_text.hpp"
 #include "host/load_step.hpp"
+#include "host/text_parameter.hpp"
 
 namespace hallway::host {
 namespace {
@@ -109,16 +110,23 @@ const Outputs& Plugin::timed(const char* name, Call&& call) {
   return collector_.outputs();
 }
 
-void Plugin::read_parameters() {
+void Plugin::read_parameter_functions() {
   const auto& vtable = *plugin_.vtable;
+  params_ = static_cast<const hw_params_t*>(vtable.get_extension(plugin_.self, HW_EXT_PARAMS));
+  if (params_ == nullptr) return;
+  if (!params_->count || !params_->describe || !params_->get || !params_->set)
+    throw Error(ErrorCode::kPluginLoad, "has null functions in " HW_EXT_PARAMS);
+  params_2_ = static_cast<const hw_params_2_t*>(vtable.get_extension(plugin_.self, HW_EXT_PARAMS_2));
+  if (params_2_ && (!params_2_->get_text || !params_2_->set_text || !params_2_->origin))
+    throw Error(ErrorCode::kPluginLoad, "has null functions in " HW_EXT_PARAMS_2);
+}
+
+void Plugin::read_parameters() {
   const Where where{file().string(), 0, fmt::format("plugin `{}`", info().id)};
   enter(LoadStep::kParameters);
   try {
-    params_ = static_cast<const hw_params_t*>(vtable.get_extension(plugin_.self, HW_EXT_PARAMS));
+    read_parameter_functions();
     if (params_ == nullptr) return;
-    if (!params_->count || !params_->describe || !params_->get || !params_->set) {
-      throw Error(ErrorCode::kPluginLoad, "has null functions in " HW_EXT_PARAMS);
-    }
     const std::uint32_t count = params_->count(plugin_.self);
     if (count > kMaxParameters) {
       throw Error(ErrorCode::kPluginLoad, fmt::format("declares {} parameters", count));
@@ -128,6 +136,10 @@ void Plugin::read_parameters() {
       for (const Parameter& other : parameters_) {
         if (other.name != parameter.name) continue;
         throw Error(ErrorCode::kPluginLoad, fmt::format("declares the parameter `{}` twice", parameter.name));
+      }
+      if (parameter.is_text() && params_2_ == nullptr) {
+        throw Error(ErrorCode::kPluginLoad, fmt::format("declares the text parameter `{}` without {}",
+                                                        parameter.name, HW_EXT_PARAMS_2));
       }
       parameters_.push_back(std::move(parameter));
     }
@@ -139,12 +151,42 @@ void Plugin::read_parameters() {
   }
 }
 
+bool Plugin::parameter_is_from_sensor(std::size_t index) {
+  if (params_2_ == nullptr) return false;
+  std::uint32_t origin = HW_PARAM_FROM_DEFAULT;
+  guarded("origin", [&] {
+    origin = params_2_->origin(plugin_.self, static_cast<std::uint32_t>(index));
+    return HW_OK;
+  });
+  return origin == HW_PARAM_FROM_SENSOR;
+}
+
 std::string Plugin::parameter_text(std::size_t index) {
+  if (parameters_.at(index).is_text()) {
+    const char* text = nullptr;
+    const hw_status_t got = guarded("get_text", [&] {
+      return params_2_->get_text(plugin_.self, static_cast<std::uint32_t>(index), &text, &error_);
+    });
+    if (got != HW_OK) fail(ErrorCode::kPluginFault, "get_text", error_text(error_, got));
+    if (text == nullptr) fail(ErrorCode::kPluginFault, "get_text", "gave null");
+    return printable({text, strnlen(text, HW_PARAM_TEXT_BYTES)}, HW_PARAM_TEXT_BYTES);
+  }
   hw_param_value_t value{};
   const hw_status_t status = guarded(
       "get", [&] { return params_->get(plugin_.self, static_cast<std::uint32_t>(index), &value, &error_); });
   if (status != HW_OK) fail(ErrorCode::kPluginFault, "get", error_text(error_, status));
   return parameters_.at(index).print(value);
+}
+
+hw_status_t Plugin::set_value(std::uint32_t index, std::string_view value, const Where& where) {
+  const Parameter& parameter = parameters_[index];
+  if (parameter.is_text()) {
+    const std::string text = text_parameter_value(parameter, value, where);
+    return guarded("set_text",
+                   [&] { return params_2_->set_text(plugin_.self, index, text.c_str(), &error_); });
+  }
+  const hw_param_value_t parsed = parameter.parse(value);
+  return guarded("set", [&] { return params_->set(plugin_.self, index, &parsed, &error_); });
 }
 
 void Plugin::set_parameter(std::string_view name, std::string_view value, const Where& where) {
@@ -161,16 +203,14 @@ void Plugin::set_parameter(std::string_view name, std::string_view value, const 
                 where);
   }
   try {
-    const hw_param_value_t parsed = found->parse(value);
     const auto index = static_cast<std::uint32_t>(found - parameters_.begin());
-    const hw_status_t status =
-        guarded("set", [&] { return params_->set(plugin_.self, index, &parsed, &error_); });
+    const hw_status_t status = set_value(index, value, where);
     if (status != HW_OK) {
       throw Error(ErrorCode::kBadInput,
                   fmt::format("parameter `{}`: {}", found->name, error_text(error_, status)));
     }
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::kBadInput) throw;
+    if (error.code() != ErrorCode::kBadInput && error.code() != ErrorCode::kIo) throw;
     throw Error(error.code(), fmt::format("plugin `{}`: {}", info().id, error.message()), where);
   }
 }

@@ -27,6 +27,7 @@ class Plugin final : public Stage {
   const std::filesystem::path& file() const override { return found_.library->file(); }
   std::span<const Parameter> parameters() const override { return parameters_; }
   std::string parameter_text(std::size_t index) override;
+  bool parameter_is_from_sensor(std::size_t index) override;
   void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) override;
   void activate(std::span<const SensorInfo> sensors) override;
   void reset() override;
@@ -47,6 +48,8 @@ class Plugin final : public Stage {
   template <typename Call>
   const Outputs& timed(const char* name, Call&& call);
   void read_parameters();
+  void read_parameter_functions();
+  hw_status_t set_value(std::uint32_t index, std::string_view value, const Where& where);
   [[noreturn]] void fail(ErrorCode code, const char* call, const std::string& reason);
 
   Found found_;
@@ -54,6 +57,7 @@ class Plugin final : public Stage {
   hw_host_t host_{};
   hw_plugin_t plugin_{};
   const hw_params_t* params_ = nullptr;
+  const hw_params_2_t* params_2_ = nullptr;
   std::vector<Parameter> parameters_;
   const hw_frame_t* submitted_ = nullptr;
   bool active_ = false;

@@ -55,6 +55,8 @@ void write_parameter(ByteWriter& writer, const Parameter& parameter) {
   for (const auto* value : {&parameter.default_value, &parameter.minimum, &parameter.maximum})
     writer.put(*value);
   write_texts(writer, parameter.choices);
+  writer.put_text(parameter.default_text);
+  writer.put<std::uint64_t>(parameter.writable ? 1 : 0);
 }
 
 Parameter read_parameter(ByteReader& reader) {
@@ -64,6 +66,8 @@ Parameter read_parameter(ByteReader& reader) {
     *value = reader.get<hw_param_value_t>();
   }
   parameter.choices = read_printables(reader);
+  parameter.default_text = get_printable(reader);
+  parameter.writable = reader.get<std::uint64_t>() != 0;
   return parameter;
 }
 
@@ -84,6 +88,7 @@ void write_start(ByteWriter& writer, const StartRequest& request) {
   writer.put(request.data_bytes);
   writer.put(request.file_bytes);
   writer.put_text(request.scratch);
+  write_texts(writer, request.writable);
 }
 
 StartRequest read_start(ByteReader& reader) {
@@ -93,6 +98,7 @@ StartRequest read_start(ByteReader& reader) {
   request.data_bytes = reader.get<std::uint64_t>();
   request.file_bytes = reader.get<std::uint64_t>();
   request.scratch = reader.get_text();
+  request.writable = read_texts(reader);
   return request;
 }
 

@@ -17,11 +17,12 @@ namespace hallway::host {
 
 /// The first request.
 struct StartRequest {
-  std::string wanted{};                ///< a plugin, as find_plugin() takes it
-  std::vector<std::string> folders{};  ///< to look in
-  std::uint64_t data_bytes = 0;        ///< private memory that may be had
-  std::uint64_t file_bytes = 0;        ///< largest file that may be written
-  std::string scratch{};               ///< folder that may be written in
+  std::string wanted{};                 ///< a plugin, as find_plugin() takes it
+  std::vector<std::string> folders{};   ///< to look in
+  std::uint64_t data_bytes = 0;         ///< private memory that may be had
+  std::uint64_t file_bytes = 0;         ///< largest file that may be written
+  std::string scratch{};                ///< folder that may be written in
+  std::vector<std::string> writable{};  ///< further files and folders that may be written
 };
 void write_start(ByteWriter& writer, const StartRequest& request);
 StartRequest read_start(ByteReader& reader);

@@ -71,7 +71,7 @@ class Server {
         set_parameter(reader);
         return {};
       case Request::kGetParameter:
-        writer.put_text(plugin_->parameter_text(reader.get<std::uint64_t>()));
+        get_parameter(reader.get<std::uint64_t>(), writer);
         return {};
       case Request::kActivate:
         plugin_->activate(read_sensors(reader));
@@ -99,7 +99,8 @@ class Server {
     return confine({.data_bytes = request.data_bytes,
                     .file_bytes = request.file_bytes,
                     .open_files = 256,
-                    .scratch = request.scratch});
+                    .scratch = request.scratch,
+                    .writable = {request.writable.begin(), request.writable.end()}});
   }
 
   void describe(const StartRequest& request, ByteWriter& writer) {
@@ -121,6 +122,11 @@ class Server {
     reply.info = plugin_->info();
     reply.parameters.assign(plugin_->parameters().begin(), plugin_->parameters().end());
     write_started(writer, reply);
+  }
+
+  void get_parameter(std::size_t index, ByteWriter& writer) {
+    writer.put_text(plugin_->parameter_text(index));
+    writer.put<std::uint64_t>(plugin_->parameter_is_from_sensor(index) ? 1 : 0);
   }
 
   void set_parameter(ByteReader& reader) {

@@ -64,8 +64,10 @@ class Stage {
   virtual std::span<const Parameter> parameters() const = 0;
   /// The present value of parameter `index`, as text.
   virtual std::string parameter_text(std::size_t index) = 0;
+  /// Whether the plugin has taken the present value of parameter `index` from a sensor's description; false without hw.params/2.
+  virtual bool parameter_is_from_sensor(std::size_t index) = 0;
   /// Sets a parameter; only before activate(). Throws Error{kBadInput} at `where`: unknown name (with a
-  /// suggestion), not a value of its type, outside of its range, or refused by the plugin.
+  /// suggestion), not a value of its type, outside of its range, a path that text_parameter_value() refuses, or refused by the plugin.
   virtual void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) = 0;
 
   /// Makes it ready for frames. Throws Error{kBadInput} with the plugin's reason where it does not accept its

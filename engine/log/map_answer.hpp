@@ -16,6 +16,8 @@ struct MapAnswer {
   std::vector<MappedPlane> planes{};
   std::vector<SubmapPose> submaps{};
   std::vector<IdPair> submap_members{};  ///< submap, landmark or plane
+  std::vector<IdPair>
+      joined_epochs{};  ///< number of a part of the map, and that of the part that it was joined to
 };
 
 }  // namespace hallway::log

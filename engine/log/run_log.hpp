@@ -57,6 +57,8 @@ struct PoseAnswer {
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
   std::optional<PoseCovariance> covariance{};             ///< where it was told
+  std::optional<std::uint64_t>
+      map_epoch{};  ///< where it was told: which connected part of the map the pose is in
 };
 
 /// A drive command that a plugin put.

@@ -99,6 +99,7 @@ PoseMessage pose_answer(const Json& json) {
   const std::string status = json.at("status").get<std::string>();
   if (status != "valid" && status != "lost") bad("a status that is none");
   message.pose.valid = status == "valid";
+  if (json.contains("map_epoch")) message.pose.map_epoch = whole(json["map_epoch"], UINT64_MAX);
   if (!message.pose.valid) return message;
   const Json& pose = json.at("T_map_body");
   message.pose.position_m = numbers<3>(pose.at("position_m"));
@@ -153,6 +154,10 @@ MapMessage map_answer(const Json& json) {
     for (const Json& plane : json["planes"]) map.planes.push_back(mapped_plane(plane));
   }
   for (const Json& submap : json.at("submaps")) read_submap(submap, map);
+  if (json.contains("joined_epochs")) {
+    for (const Json& pair : json["joined_epochs"])
+      map.joined_epochs.push_back({whole(pair.at(0), UINT64_MAX), whole(pair.at(1), UINT64_MAX)});
+  }
   return {std::move(map)};
 }
 

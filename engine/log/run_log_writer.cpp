@@ -162,6 +162,7 @@ void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
   Json json{{"iteration", stamp.iteration}, {"status", pose.valid ? "valid" : "lost"}};
   if (pose.valid) json["T_map_body"] = pose_json(pose.position_m, pose.orientation);
   if (pose.valid && pose.covariance) json["covariance"] = numbers(*pose.covariance);
+  if (pose.map_epoch) json["map_epoch"] = *pose.map_epoch;
   add(topics::kPose, stamp, text_of(json));
 }
 
@@ -199,6 +200,7 @@ void RunLogWriter::add_map(const FrameStamp& stamp, const MapAnswer& map) {
     for (const MappedPlane& plane : map.planes) planes.push_back(mapped_plane_json(plane));
   }
   json["submaps"] = submaps_json(map);
+  for (const IdPair& pair : map.joined_epochs) json["joined_epochs"].push_back({pair.first, pair.second});
   add(topics::kMap, stamp, text_of(json));
 }
 

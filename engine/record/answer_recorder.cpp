@@ -35,12 +35,14 @@ std::string activation_text(const LogFacts& facts) {
 
 }  // namespace
 
-log::PoseAnswer pose_answer(const host::PoseOutput& pose) {
+log::PoseAnswer pose_answer(const host::Outputs& outputs) {
+  const host::PoseOutput& pose = outputs.pose().value();
   const auto& t = pose.T_map_body.position;
   const auto& q = pose.T_map_body.orientation;
   log::PoseAnswer answer{
       .valid = pose.valid, .position_m = {t[0], t[1], t[2]}, .orientation = {q[0], q[1], q[2], q[3]}};
   if (pose.covariance) answer.covariance = log::upper_triangle(*pose.covariance);
+  answer.map_epoch = outputs.map_epoch();
   return answer;
 }
 
@@ -66,7 +68,7 @@ void AnswerRecorder::record_answer(const host::Outputs& outputs) {
 }
 
 void AnswerRecorder::record_pose(const host::Outputs& outputs) {
-  if (outputs.pose()) writer_.add_pose(stamp_, pose_answer(*outputs.pose()));
+  if (outputs.pose()) writer_.add_pose(stamp_, pose_answer(outputs));
 }
 
 void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {

@@ -25,8 +25,8 @@ struct LogFacts {
   bool has_identities = false;  ///< whether the observations' true landmarks are recorded too
 };
 
-/// A pose as logs have it.
-log::PoseAnswer pose_answer(const host::PoseOutput& pose);
+/// The pose that was put, with the part of the map that it is in, as logs have them. There must be one.
+log::PoseAnswer pose_answer(const host::Outputs& outputs);
 
 /// Records into an MCAP log (docs/formats.md) what plugins are given and what they answer. Same calls, same bytes. All functions
 /// throw Error{kIo}.

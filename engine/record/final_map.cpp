@@ -65,6 +65,8 @@ FinalMap copy_map(const host::Outputs* report) {
     for (const std::uint64_t member : report->members(submap))
       map.submap_members.push_back({submap.id, member});
   }
+  for (const host::JoinedEpoch& joined : report->joined_epochs())
+    map.joined_epochs.push_back({joined.epoch, joined.into});
   return map;
 }
 

@@ -25,10 +25,13 @@ Json describe(const std::vector<ParameterOrigin>& origins, const host::StageFact
   Json parameters = Json::array();
   for (std::size_t i = 0; i < plugin.values.size(); ++i) {
     const host::Parameter& parameter = plugin.parameters[i];
-    parameters.push_back({{"name", parameter.name},
-                          {"value", plugin.values[i]},
-                          {"unit", parameter.unit},
-                          {"origin", origin_of(origins, plugin.info.id, parameter.name)}});
+    const bool from_sensor = i < plugin.from_sensor.size() && plugin.from_sensor[i];
+    Json one{{"name", parameter.name},
+             {"value", parameter.is_path() ? printable(plugin.values[i], 4096) : plugin.values[i]},
+             {"unit", parameter.unit},
+             {"origin", from_sensor ? "sensor" : origin_of(origins, plugin.info.id, parameter.name)}};
+    if (parameter.is_text()) one["type"] = parameter.type_name();
+    parameters.push_back(std::move(one));
   }
   return {{"id", plugin.info.id},
           {"version", plugin.info.version},

@@ -94,7 +94,7 @@ void LogRecorder::keep() {
 
 void LogRecorder::record_answer(const host::Outputs& outputs) {
   recorder_.record_pose(outputs);  // what is shown of a message follows it, as in a log that is copied
-  if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(*outputs.pose()));
+  if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(outputs));
   recorder_.record_the_rest(outputs);
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ class PointAdapter {
   /// Takes the sensors that give points. Throws sdk::Failure when there is none.
   void activate(const hw_activation_t& activation) {
     sensors_.clear();
+    noise_m_ = std::nan("");
     for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
       const hw_sensor_info_t& sensor = *activation.sensors[i];
       if (sensor.kind == HW_SAMPLE_POINTS) add_sensor(sensor);
@@ -34,6 +36,9 @@ class PointAdapter {
     if (sensors_.empty()) throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives points");
     reset();
   }
+
+  /// The largest standard deviation that the sensors' descriptions tell, metres; NaN where they tell none.
+  double noise_m() const { return noise_m_; }
 
   /// As after activate().
   void reset() { lost_ = false; }
@@ -128,6 +133,7 @@ class PointAdapter {
   }
 
   void add_sensor(const hw_sensor_info_t& info) {
+    noise_m_ = std::fmax(noise_m_, sdk::largest_noise_m(info));
     const Pose T_body_sensor = to_pose(info.T_body_sensor);
     if (sensors_.empty()) {
       T_body_reference_ = T_body_sensor;
@@ -169,6 +175,7 @@ class PointAdapter {
   std::vector<Sensor> sensors_;  ///< those that give points; the first one is the reference
   Pose T_body_reference_;
   Pose T_reference_body_;
+  double noise_m_ = std::nan("");
   bool lost_ = false;
   std::vector<Vec3> points_;  ///< of this frame, in the reference sensor's frame
   std::vector<std::uint64_t> tracks_;

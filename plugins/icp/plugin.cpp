@@ -52,6 +52,7 @@ class Icp final : public sdk::Plugin {
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor);
     if (options_.against == Against::map) adapter_.put_associations(host(), answer.associations);
     put_counters(answer.counters);
+    host().put_map_epoch(answer.epoch);
   }
 
   void report(bool) override {

@@ -26,6 +26,7 @@ class PlaneAdapter {
     if (sensor == nullptr) sensor = only_sensor(activation, HW_SAMPLE_POINTS);
     if (sensor == nullptr) throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives planes or points");
     sensor_id_ = sensor->id;
+    noise_m_ = sdk::largest_noise_m(*sensor);
     const auto& q = sensor->T_body_sensor.orientation;
     q_body_sensor_ = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
     const auto& t = sensor->T_body_sensor.position;
@@ -40,6 +41,8 @@ class PlaneAdapter {
   }
 
   View& view() { return view_; }
+  /// The largest standard deviation that the sensor's description tells, metres; NaN where it tells none.
+  double noise_m() const { return noise_m_; }
 
   /// The walls' pieces among the planes of a frame, in the sensor's frame; they live until the next call. Throws sdk::Failure for planes of a
   /// sensor that was not announced.
@@ -192,6 +195,7 @@ class PlaneAdapter {
   }
 
   std::uint32_t sensor_id_ = 0;
+  double noise_m_ = std::nan("");
   Eigen::Quaterniond q_body_sensor_ = Eigen::Quaterniond::Identity();
   Vec3 t_body_sensor_ = Vec3::Zero();
   Pose2 T_body_sensor_;

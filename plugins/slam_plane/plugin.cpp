@@ -45,6 +45,7 @@ class SlamPlane final : public sdk::Plugin {
       if (mode_ == static_cast<int>(Mode::thesis))
         throw sdk::Failure(HW_ERROR_ARGUMENT, "dof=6 goes with mode=relative alone: mode=thesis is 2 1/2-D");
       spatial_adapter_.activate(activation);
+      parameters().take_from_sensor("noise_m", spatial_adapter_.noise_m());
       spatial_adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
       spatial_.emplace(options_);
       return;
@@ -52,8 +53,9 @@ class SlamPlane final : public sdk::Plugin {
     adapter_.activate(activation);
     adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
     if (mode_ == static_cast<int>(Mode::thesis)) {
-      thesis_.emplace(thesis_options_);
+      thesis_.emplace(thesis_options_);  // knows no noise
     } else {
+      parameters().take_from_sensor("noise_m", adapter_.noise_m());
       mapper_.emplace(options_);
     }
   }
@@ -74,6 +76,7 @@ class SlamPlane final : public sdk::Plugin {
     if (spatial_) {
       spatial_adapter_.put_answer(host(),
                                   spatial_->process(spatial_adapter_.gather(frame), spatial_adapter_.view()));
+      host().put_map_epoch(0);  // it never begins anew
       return;
     }
     const std::vector<Piece>& pieces = adapter_.gather(frame);
@@ -92,6 +95,7 @@ class SlamPlane final : public sdk::Plugin {
     } else {
       put_counters(answer);
     }
+    host().put_map_epoch(answer.part);
   }
 
   void report(bool refine) override {
@@ -108,6 +112,10 @@ class SlamPlane final : public sdk::Plugin {
       members.insert(members.end(), submap.members.begin(), submap.members.end());
     }
     adapter_.put_walls(host(), map.walls);
+    if (mapper_) {
+      for (const JoinedPart& joined : mapper_->joined_parts())
+        host().put_joined_epoch(joined.part, joined.into);
+    }
     host().put_submaps(submaps, members);
   }
 

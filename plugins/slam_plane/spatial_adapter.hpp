@@ -25,6 +25,7 @@ class SpatialAdapter {
     if (sensor == nullptr) sensor = only_sensor(activation, HW_SAMPLE_POINTS);
     if (sensor == nullptr) throw sdk::Failure(HW_ERROR_ARGUMENT, "no sensor gives planes or points");
     sensor_id_ = sensor->id;
+    noise_m_ = sdk::largest_noise_m(*sensor);
     const auto& q = sensor->T_body_sensor.orientation;
     const auto& t = sensor->T_body_sensor.position;
     T_body_sensor_ = {spatial::Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
@@ -36,6 +37,8 @@ class SpatialAdapter {
   }
 
   spatial::View& view() { return view_; }
+  /// The largest standard deviation that the sensor's description tells, metres; NaN where it tells none.
+  double noise_m() const { return noise_m_; }
 
   /// The planes of a frame; they live until the next call. Throws sdk::Failure for planes of a sensor that was not announced.
   const std::vector<spatial::Face>& gather(const hw_frame_t& frame) {
@@ -205,6 +208,7 @@ class SpatialAdapter {
   }
 
   std::uint32_t sensor_id_ = 0;
+  double noise_m_ = std::nan("");
   spatial::Pose3 T_body_sensor_;
   spatial::View view_;
   std::vector<spatial::Face> faces_;

@@ -33,6 +33,9 @@ constexpr const char* kAssociations[] = {"place", "sensor"};  // by Association
 enum class Mode : int { ours = 0, thesis = 1 };
 constexpr const char* kModeNames[] = {"ours", "thesis"};
 
+/// What bounds derive from at least where the noise is a sensor's own: they have to cover the motion too, which a sensor knows nothing of.
+constexpr double kLeastBoundNoise_m = 0.01;
+
 /// The mapper behind the plugin ABI, and in its place, with mode=thesis, the thesis's own algorithm.
 class SlamPoint final : public sdk::Plugin {
  public:
@@ -59,6 +62,8 @@ class SlamPoint final : public sdk::Plugin {
 
   void activate(const hw_activation_t& activation) override {
     adapter_.activate(activation);
+    const bool from_sensor = parameters().take_from_sensor("noise_m", adapter_.noise_m());
+    options_.least_bound_noise_m = from_sensor ? kLeastBoundNoise_m : 0.0;
     options_.association = static_cast<Association>(association_);
     if (mode_ == static_cast<int>(Mode::thesis)) {
       thesis_.emplace(options_, thesis_options_);
@@ -84,6 +89,7 @@ class SlamPoint final : public sdk::Plugin {
     adapter_.put_pose(host(), frame, answer.has_pose, answer.T_map_sensor, answer.covariance);
     adapter_.put_associations(host(), answer.associations);
     put_counters(answer);
+    host().put_map_epoch(answer.epoch);
   }
 
   void report(bool refine) override {

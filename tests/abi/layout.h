@@ -245,7 +245,7 @@ AT(hw_param_value_t, type, 0);
 AT(hw_param_value_t, reserved, 4);
 AT(hw_param_value_t, as, 8);
 
-SIZE(hw_param_info_t, 96);
+SIZE(hw_param_info_t, 112);
 AT(hw_param_info_t, size, 0);
 AT(hw_param_info_t, type, 4);
 AT(hw_param_info_t, name, 8);
@@ -257,12 +257,20 @@ AT(hw_param_info_t, maximum, 64);
 AT(hw_param_info_t, choices, 80);
 AT(hw_param_info_t, n_choices, 88);
 AT(hw_param_info_t, reserved, 92);
+AT(hw_param_info_t, default_text, 96);
+AT(hw_param_info_t, flags, 104);
+AT(hw_param_info_t, reserved_2, 108);
 
 SIZE(hw_params_t, 32);
 AT(hw_params_t, count, 0);
 AT(hw_params_t, describe, 8);
 AT(hw_params_t, get, 16);
 AT(hw_params_t, set, 24);
+
+SIZE(hw_params_2_t, 24);
+AT(hw_params_2_t, get_text, 0);
+AT(hw_params_2_t, set_text, 8);
+AT(hw_params_2_t, origin, 16);
 
 SIZE(hw_log_t, 8);
 AT(hw_log_t, write, 0);

@@ -92,6 +92,89 @@ TEST(PluginParameter, IsRecordedWithItsOrigin) {
   EXPECT_TRUE(found);
 }
 
+/// A parameter of the only plugin of a run, by its name.
+nlohmann::json parameter_of(const std::string& folder, const std::string& name) {
+  const auto manifest = nlohmann::json::parse(read_file(std::filesystem::path(folder) / "run.json"));
+  for (const auto& parameter : manifest.at("plugins").at(0).at("parameters")) {
+    if (parameter.at("name") == name) return parameter;
+  }
+  return nullptr;
+}
+
+TEST(PluginParameter, NoiseIsTakenFromTheSensor) {
+  const SmallWorld world;
+  for (const std::string way : {"isolated", "in-process"}) {
+    std::vector<std::string> more{"--quiet", "--set", "sensor.eyes.noise_m=0.03"};
+    if (way == "in-process") more.push_back("--in-process");
+    ASSERT_EQ(world.run(more, way).status, 0);
+    const auto noise = parameter_of(world.out(way), "noise_m");
+    EXPECT_EQ(noise.at("value"), "0.03");
+    EXPECT_EQ(noise.at("origin"), "sensor");
+    EXPECT_EQ(parameter_of(world.out(way), "overlap").at("origin"), "default");
+  }
+  const auto replay = [&](const std::string& log, const std::string& name) {
+    ASSERT_EQ(
+        hallway({"replay", world.out("isolated") + "/" + log, "--quiet", "--out", world.out(name)}).status,
+        0);
+    const auto noise = parameter_of(world.out(name), "noise_m");
+    EXPECT_EQ(noise.at("value"), "0.03");
+    EXPECT_EQ(noise.at("origin"), "sensor");
+    EXPECT_EQ(read_file(std::filesystem::path(world.out(name)) / "trajectory.tum"),
+              read_file(std::filesystem::path(world.out("isolated")) / "trajectory.tum"));
+  };
+  replay("run.mcap", "from-mcap");
+  replay("observations.csv", "from-csv");
+  const std::filesystem::path alone = world.folder().path() / "alone.csv";
+  std::filesystem::copy_file(world.out("isolated") + "/observations.csv", alone);
+  ASSERT_EQ(
+      hallway({"replay", alone.string(), "--plugin", "slam_point", "--quiet", "--out", world.out("alone")})
+          .status,
+      0);
+  EXPECT_EQ(parameter_of(world.out("alone"), "noise_m").at("value"), "0.05") << "no sensor is known";
+  EXPECT_EQ(parameter_of(world.out("alone"), "noise_m").at("origin"), "default");
+}
+
+TEST(PluginParameter, PathsAreRelativeToTheFileThatHasThem) {
+  const SmallWorld world;
+  std::filesystem::create_directory(world.folder().path() / "sub");
+  world.folder().write("sub/model.bin", "1234567");
+  world.folder().write("sub/small.toml", replaced(replaced(small_scenario(), "small.map", "../small.map"),
+                                                  "name = \"slam_point\"",
+                                                  "name = \"" + fixture("reads_paths") +
+                                                      "\"\nparams = { model = \"model.bin\", store = "
+                                                      "\"made\", label = \"a text\" }"));
+  const std::string scenario = (world.folder().path() / "sub/small.toml").string();
+  const Ended ended = hallway({"run", scenario, "--quiet", "--out", world.out()});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto model = parameter_of(world.out(), "model");
+  EXPECT_EQ(model.at("value"), "model.bin");
+  EXPECT_EQ(model.at("type"), "file");
+  EXPECT_NE(model.at("origin").get<std::string>().find("small.toml:"), std::string::npos);
+  EXPECT_EQ(parameter_of(world.out(), "label").at("value"), "a text");
+  EXPECT_TRUE(std::filesystem::exists(world.folder().path() / "sub/made/made"))
+      << "the plugin has written there";
+  EXPECT_EQ(hallway({"run", scenario, "--quiet", "--force", "--out", world.out(), "--set",
+                     "reads_paths.model=gone.bin"})
+                .status,
+            3);
+
+  // A log must not choose what is read and written.
+  const Ended replayed = hallway({"replay", world.out() + "/run.mcap", "--plugin", fixture("reads_paths"),
+                                  "--out", world.out("replayed")});
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_NE(replayed.err.find("reads_paths.model"), std::string::npos) << replayed.err;
+  EXPECT_EQ(parameter_of(world.out("replayed"), "model").at("value"), "");
+  EXPECT_EQ(parameter_of(world.out("replayed"), "label").at("value"), "a text");
+}
+
+TEST(PluginInfo, ShowsKindsOfPaths) {
+  const Ended ended = hallway({"plugin", "info", fixture("reads_paths")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  for (const char* part :
+       {"label = none  (text: any)", "model =   (file: is read)", "store =   (folder: is written)"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
 TEST(PluginList, NamesEachWithItsFile) {
   const Ended ended = hallway({"plugin", "list"});
   EXPECT_EQ(ended.status, 0);

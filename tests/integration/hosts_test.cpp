@@ -52,6 +52,14 @@ Json manifest_of(const fs::path& folder) {
   return Json::parse(read_file(folder / "run.json"));
 }
 
+/// Names and values in effect of a plugin's parameters.
+std::map<std::string, std::string> parameters_of(const fs::path& folder) {
+  std::map<std::string, std::string> values;
+  for (const Json& parameter : manifest_of(folder).at("plugins").at(0).at("parameters"))
+    values[parameter.at("name")] = parameter.at("value");
+  return values;
+}
+
 void expect_same_answers(const fs::path& a, const fs::path& b) {
   for (const char* table : kTables)
     EXPECT_TRUE(content(a / table) == content(b / table)) << table << " in " << b;
@@ -63,6 +71,7 @@ void expect_same_answers(const fs::path& a, const fs::path& b) {
     ASSERT_TRUE(there.contains(topic)) << topic << " in " << b;
     EXPECT_TRUE(messages == there.at(topic)) << topic << " in " << b;
   }
+  EXPECT_EQ(parameters_of(a), parameters_of(b)) << "the noise is that of the sensor in both";
   const Json hash = manifest_of(a).at("plugins").at(0).at("hash");
   EXPECT_TRUE(hash.is_string());
   EXPECT_EQ(hash, manifest_of(b).at("plugins").at(0).at("hash")) << "the same file in both";

@@ -70,6 +70,7 @@ bool Localiser::start(const Points& points) {
   Reference first = make_reference(points, Pose());
   if (register_cloud(first.target, sample_of(points), Pose(), first.rules).outcome != Outcome::converged)
     return false;
+  if (reference_) ++answer_.epoch;
   reference_.emplace(std::move(first));
   T_map_predicted_ = T_map_last_ = motion_ = answer_.T_map_sensor = Pose();
   last_points_.clear();

@@ -25,6 +25,8 @@ struct Answer {
   Pose T_map_sensor;  ///< defined when has_pose
   std::vector<std::uint64_t>
       associations;  ///< with Against::map: one per point given, kNoLandmark for none; else empty
+  std::uint64_t epoch =
+      0;  ///< how often the map was started over: poses under one number are in one frame of reference
   Counters counters;
 };
 

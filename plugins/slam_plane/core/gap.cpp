@@ -21,8 +21,9 @@ bool OpenGaps::watch(const Frame& frame, const Pose2& motion, double fastest) {
     ++epoch_;
     // Where no wall is known, the way ahead is what is known least.
     const bool any = frame.in_map.heading;
-    gaps_.push_back(
-        {epoch_, any ? frame.in_map.direction : frame.T_map_robot.r, any ? 0.0 : kBridgeFrames * fastest});
+    if (!any) parts_.push_back({epoch_, part()});
+    gaps_.push_back({epoch_, any ? frame.in_map.direction : frame.T_map_robot.r,
+                     any ? 0.0 : kBridgeFrames * fastest, !any});
   }
   Gap& gap = gaps_.back();
   // How far it can have gone; standing about, a robot does not go far.
@@ -47,6 +48,31 @@ int OpenGaps::close(const Frame& frame, const std::function<PoseInformation(std:
 void OpenGaps::erase(const Gap& gap) {
   std::erase_if(gaps_, [&](const Gap& other) { return other.epoch == gap.epoch; });
   was_tied_ = true;  // a frame that is not tied opens a new one
+}
+
+bool OpenGaps::is_open(std::uint32_t epoch) const {
+  return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) { return gap.epoch == epoch; });
+}
+
+std::uint32_t OpenGaps::part() const {
+  for (auto gap = gaps_.rbegin(); gap != gaps_.rend(); ++gap) {
+    if (gap->is_blind) return gap->epoch;
+  }
+  return 0;
+}
+
+std::vector<JoinedPart> OpenGaps::joined_parts() const {
+  std::vector<JoinedPart> joined;
+  for (const JoinedPart& begun : parts_) {
+    if (is_open(begun.part)) continue;
+    // What it came after is older, and resolved.
+    std::uint32_t into = begun.into;
+    for (const JoinedPart& older : joined) {
+      if (older.part == into) into = older.into;
+    }
+    joined.push_back({begun.part, into});
+  }
+  return joined;
 }
 
 std::uint32_t OpenGaps::epochs_known() const {

@@ -40,6 +40,7 @@ class Mapper::State {
   const Answer& process(std::span<const Piece> pieces, const View& view);
   Map map() const { return told(solver_.refreshed(map_), options_.min_observations); }
   Map refined_map() const { return told(settled(solver_.refreshed(map_)), options_.min_observations); }
+  std::vector<JoinedPart> joined_parts() const { return gaps_.joined_parts(); }
   const Options& options() const { return options_; }
 
  private:
@@ -300,6 +301,7 @@ void Mapper::State::lose(Lost reason) {
 const Answer& Mapper::State::answer() {
   answer_.has_pose = has_pose_;
   answer_.lost = lost_;
+  answer_.part = gaps_.part();
   answer_.undetermined = answer_.untied = Vec2::Zero();
   answer_.covariance.setZero();
   if (has_pose_) {
@@ -338,6 +340,10 @@ Map Mapper::map() const {
 
 Map Mapper::refined_map() const {
   return state_->refined_map();
+}
+
+std::vector<JoinedPart> Mapper::joined_parts() const {
+  return state_->joined_parts();
 }
 
 void Mapper::reset() {

@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "slam_plane/core/gap.hpp"
 #include "slam_plane/core/options.hpp"
 #include "slam_plane/core/types.hpp"
 
@@ -33,6 +35,10 @@ class Mapper {
 
   /// The map after further steps over all submaps, until they settle. The online state is not changed.
   Map refined_map() const;
+
+  /// Parts of the map are what lies between times in which no wall that was in view was known, so that the prediction alone ties them. Those
+  /// listed here were found again to lie at the end of others: poses answered in `part` belong to `into`. Ascending.
+  std::vector<JoinedPart> joined_parts() const;
 
   /// Forgets everything but the options.
   void reset();

@@ -139,6 +139,7 @@ struct Answer {
   Vec2 undetermined = Vec2::Zero();
   /// Unit vector of the map's frame along which the ground about the robot is not tied to that seen earlier, or zero.
   Vec2 untied = Vec2::Zero();
+  std::uint32_t part = 0;            ///< of the map, that the pose is in; see Mapper::joined_parts()
   std::vector<WallId> associations;  ///< one per piece given, in their order; kNoWall for none
   Counters counters;
 };

@@ -46,6 +46,8 @@ class MapParts {
   /// Frames placed in a part so far.
   std::uint64_t frames(Index part) const { return parts_[part].frames; }
 
+  /// Parts begun since clear(), also those that are no more: numbers of parts are below.
+  std::size_t begun() const { return parts_.size(); }
   /// Parts that the map has now.
   std::size_t count() const { return alive_; }
   /// The part that the map began with, or that holds it.

@@ -97,7 +97,8 @@ class Mapper::State {
   bool started_ = false;
   bool has_pose_ = false;
   std::uint64_t placed_frames_ = 0;
-  LandmarkId first_id_ = 0;  // id of landmark 0
+  LandmarkId first_id_ = 0;        // id of landmark 0
+  std::uint64_t first_epoch_ = 0;  // Answer::epoch of the map's first part
   Answer answer_;
   StageClock clock_;
 };
@@ -251,6 +252,7 @@ bool Mapper::State::start_over() {
   if (placed_frames_ > 1 && !(waited && PartWatch::is_young(placed_frames_))) return false;
   if (!can_start()) return false;
   first_id_ += graph_.landmarks.size();
+  first_epoch_ += parts_.begun();
   placed_frames_ = 0;
   graph_.clear();
   submaps_.clear();
@@ -344,6 +346,7 @@ const Answer& Mapper::State::answer() {
   answer_.in_part = has_pose_;
   if (has_pose_) answer_.determined = is_planar() ? 3 : 6;
   answer_.part = started_ ? parts_.number_of(graph_.part()) : 0;
+  answer_.epoch = first_epoch_ + (started_ ? parts_.number_of(told_part()) : 0);
   answer_.has_pose = has_pose_ && graph_.part() == told_part();
   answer_.covariance.reset();
   if (answer_.has_pose) {

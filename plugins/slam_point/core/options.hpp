@@ -45,6 +45,8 @@ struct Options {
       10;  ///< frames without a pose that the last motion is continued for; then a new part begins
   int report_parts = 0;  ///< 1: pose and map are told of whatever part the sensor is in; 0: of the first only
   Association association = Association::place;
+  /// Bounds derive from a noise of at least this [m]: a prediction is never as good as a sensor may be. No parameter.
+  double least_bound_noise_m = 0.0;
 
   /// Standard deviation of one coordinate of an observation at a range [m]: independent parts that are constant, grow with
   /// the range, and grow with its square (stereo, whose disparity is equally exact everywhere).
@@ -66,9 +68,10 @@ struct Options {
   void validate() const;
 
   /// The three bounds with their derived values filled in [m].
-  double match_bound() const { return match_bound_m > 0.0 ? match_bound_m : 12.0 * noise_m; }
-  double map_bound() const { return map_bound_m > 0.0 ? map_bound_m : 16.0 * noise_m; }
-  double separation() const { return separation_m > 0.0 ? separation_m : 5.0 * noise_m; }
+  double match_bound() const { return match_bound_m > 0.0 ? match_bound_m : 12.0 * bound_noise(); }
+  double map_bound() const { return map_bound_m > 0.0 ? map_bound_m : 16.0 * bound_noise(); }
+  double separation() const { return separation_m > 0.0 ? separation_m : 5.0 * bound_noise(); }
+  double bound_noise() const { return std::max(noise_m, least_bound_noise_m); }
 };
 
 /// One row of the table that describes Options to a host. Exactly one of `real` and `whole` is set.

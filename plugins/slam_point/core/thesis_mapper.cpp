@@ -146,6 +146,7 @@ bool Mapper::State::start_over() {
   // A map of one frame that the next frames do not find again is a false start: it knows nothing to keep.
   if (iteration_ > 0 || !can_start()) return false;
   first_id_ += tracks_.size();
+  ++answer_.epoch;
   tracks_ = Tracks(Grouping::kept_iterations(options_), std::max(common_.map_bound(), common_.separation()),
                    static_cast<IndexKind>(common_.index));
   grouping_ = Grouping(options_, kBasisNoises * common_.noise_m);

@@ -114,6 +114,9 @@ struct Answer {
   bool in_part = false;  ///< the frame was placed in the part of the map that is numbered `part`
   std::uint64_t part =
       0;  ///< parts are numbered in the order of their first frames; the map's own frame is that of part 0
+  /// Which map the pose is in, and which part of it: poses under one number are in one frame of reference. A map that is started over goes on with
+  /// numbers that were never used.
+  std::uint64_t epoch = 0;
   /// Of the pose's error against the map, as PoseInformation has it [m, rad]: where the map's landmarks in view lie is taken
   /// as known but for the noise of their own observations. Empty without a pose and while the noise is not known yet.
   std::optional<Mat6> covariance{};

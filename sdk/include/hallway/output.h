@@ -117,6 +117,17 @@ typedef struct hw_submaps_t {
   const uint64_t* members;  ///< landmark ids
 } hw_submaps_t;
 
+/// Name of a counter that hosts read; since 1.4. In process(): the number of the connected part of the map that this
+/// frame's pose is in, a whole number from 0 to 2^53. Poses under one number are in one frame of reference. A part without
+/// a known connection to those before has a number that was never used; so has a map that is started over. Where two parts
+/// are joined, both go by the smaller number from that frame on. A plugin that puts no such counter has one part. Of a
+/// frame without a pose the number is not read.
+///
+/// In report(): where the poses answered under number N belong to the frame of reference of part M, the counter with the
+/// name HW_COUNTER_MAP_EPOCH "_N" (`map_epoch_3`) has the value M. It is put for joined parts only, and M is not joined to
+/// another part. Where poses were answered in a frame of reference of their own before a join, it is not put.
+#define HW_COUNTER_MAP_EPOCH "map_epoch"
+
 /// A number worth watching. Frozen.
 typedef struct hw_counter_t {
   const char* name;  ///< snake_case ASCII with its unit where it has one, e.g. "submaps_closed"

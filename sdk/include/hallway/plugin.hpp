@@ -18,6 +18,7 @@
 //     };
 //     HALLWAY_PLUGINS(Mapper);
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -168,11 +169,20 @@ class Host {
   /// Answers numbers worth watching.
   template <std::size_t N>
   void put_counters(const hw_counter_t (&counters)[N]) const {
-    hw_counters_t payload{};
-    payload.stride = sizeof(hw_counter_t);
-    payload.count = N;
-    payload.counters = counters;
-    put(HW_OUTPUT_COUNTERS, payload);
+    put_counters(counters, N);
+  }
+
+  /// Answers, in process(), which connected part of the map the pose is in; see HW_COUNTER_MAP_EPOCH.
+  void put_map_epoch(std::uint64_t epoch) const {
+    const hw_counter_t counter[] = {{HW_COUNTER_MAP_EPOCH, static_cast<double>(epoch)}};
+    put_counters(counter);
+  }
+
+  /// Answers, in report(), that the poses answered under `epoch` belong to the part `into`; see HW_COUNTER_MAP_EPOCH.
+  void put_joined_epoch(std::uint64_t epoch, std::uint64_t into) const {
+    const std::string name = HW_COUNTER_MAP_EPOCH "_" + std::to_string(epoch);
+    const hw_counter_t counter[] = {{name.c_str(), static_cast<double>(into)}};
+    put_counters(counter);
   }
 
   /// Tells a person something; does nothing where the host keeps no log. `level` is HW_LOG_….
@@ -194,9 +204,29 @@ class Host {
     }
   }
 
+  void put_counters(const hw_counter_t* counters, std::size_t count) const {
+    hw_counters_t payload{};
+    payload.stride = sizeof(hw_counter_t);
+    payload.count = count;
+    payload.counters = counters;
+    put(HW_OUTPUT_COUNTERS, payload);
+  }
+
   const hw_host_t* host_;
   const hw_log_t* log_;
 };
+
+/// The largest known standard deviation of a sensor along an axis, metres; NaN where none is known.
+inline double largest_noise_m(const hw_sensor_info_t& sensor) {
+  double largest = std::nan("");
+  for (const double noise : sensor.noise_m) {
+    if (std::isfinite(noise) && !(noise <= largest)) largest = noise;
+  }
+  return largest;
+}
+
+/// What a plugin does with the file or folder that a parameter names.
+enum class Access { kRead, kWrite };
 
 /// The parameters of a plugin: variables of it that the host may set before activation. Their values when
 /// they are added are the defaults.
@@ -233,6 +263,35 @@ class Parameters {
     row.info.n_choices = static_cast<std::uint32_t>(N);
   }
 
+  /// Declares a text.
+  void add_text(const char* name, std::string* variable, const char* help) {
+    add_text_row(name, variable, HW_PARAM_TEXT, Access::kRead, help);
+  }
+  /// Declares the path of a file, absolute; empty: none. With Access::kWrite the plugin may write to it, also where it is isolated.
+  void add_file(const char* name, std::string* variable, Access access, const char* help) {
+    add_text_row(name, variable, HW_PARAM_FILE, access, help);
+  }
+  /// Declares the path of a folder, likewise.
+  void add_folder(const char* name, std::string* variable, Access access, const char* help) {
+    add_text_row(name, variable, HW_PARAM_FOLDER, access, help);
+  }
+
+  /// In activate(): gives the number `name`, unless the host has set it, the value that a sensor's description has, at most
+  /// its maximum and at least its minimum, until the plugin is deactivated. NaN leaves the default. Throws std::logic_error
+  /// where there is no such number.
+  /// @return whether it was taken
+  bool take_from_sensor(const char* name, double value) {
+    for (Row& row : rows_) {
+      double* const* real = row.name == name ? std::get_if<double*>(&row.variable) : nullptr;
+      if (real == nullptr) continue;
+      if (row.origin == HW_PARAM_FROM_HOST || std::isnan(value)) return false;
+      **real = std::fmin(std::fmax(value, row.info.minimum.as.real), row.info.maximum.as.real);
+      row.origin = HW_PARAM_FROM_SENSOR;
+      return true;
+    }
+    throw std::logic_error(std::string("take_from_sensor: no number is called ") + name);
+  }
+
   /// Number of parameters.
   std::uint32_t count() const { return static_cast<std::uint32_t>(rows_.size()); }
   /// What parameter `index` is; null if there is none.
@@ -243,8 +302,9 @@ class Parameters {
   hw_param_value_t get(std::uint32_t index) const { return read(at(index)); }
   /// Sets parameter `index`. Throws Failure; the old value then stays.
   void set(std::uint32_t index, const hw_param_value_t& value) {
-    const Row& row = at(index);
-    if (value.type != row.info.type) throw Failure(HW_ERROR_ARGUMENT, row.name + ": a value of another type");
+    Row& row = at(index);
+    if (value.type != row.info.type || row.is_text())
+      throw Failure(HW_ERROR_ARGUMENT, row.name + ": a value of another type");
     const bool allowed =
         row.info.type == HW_PARAM_DOUBLE
             ? value.as.real >= row.info.minimum.as.real && value.as.real <= row.info.maximum.as.real
@@ -254,15 +314,44 @@ class Parameters {
     if (double* const* real = std::get_if<double*>(&row.variable)) **real = value.as.real;
     if (int* const* whole = std::get_if<int*>(&row.variable)) **whole = static_cast<int>(value.as.integer);
     if (bool* const* flag = std::get_if<bool*>(&row.variable)) **flag = value.as.integer != 0;
+    row.origin = HW_PARAM_FROM_HOST;
+  }
+  /// The value of parameter `index`, of a text type. Throws Failure.
+  const char* get_text(std::uint32_t index) { return text_at(index).c_str(); }
+  /// Sets parameter `index`, of a text type. Throws Failure; the old value then stays.
+  void set_text(std::uint32_t index, const char* text) {
+    std::string& variable = text_at(index);
+    if (std::strlen(text) >= HW_PARAM_TEXT_BYTES)
+      throw Failure(HW_ERROR_RANGE, at(index).name + ": too long");
+    variable = text;
+    at(index).origin = HW_PARAM_FROM_HOST;
+  }
+  /// Where the value of parameter `index` comes from, HW_PARAM_FROM_….
+  std::uint32_t origin(std::uint32_t index) const {
+    return index < rows_.size() ? rows_[index].origin : std::uint32_t{HW_PARAM_FROM_DEFAULT};
   }
 
  private:
-  using Variable = std::variant<double*, int*, bool*>;
+  friend struct Border;
+  using Variable = std::variant<double*, int*, bool*, std::string*>;
   struct Row {
     std::string name, unit, help;
     Variable variable;
     hw_param_info_t info{};
+    std::string default_text{};
+    std::uint32_t origin = HW_PARAM_FROM_DEFAULT;
+
+    bool is_text() const { return std::holds_alternative<std::string*>(variable); }
   };
+
+  /// Takes back what take_from_sensor() gave.
+  void forget_sensors() {
+    for (Row& row : rows_) {
+      if (row.origin != HW_PARAM_FROM_SENSOR) continue;
+      *std::get<double*>(row.variable) = row.info.default_value.as.real;
+      row.origin = HW_PARAM_FROM_DEFAULT;
+    }
+  }
 
   static hw_param_value_t real_value(double value) {
     hw_param_value_t result{};
@@ -279,14 +368,28 @@ class Parameters {
   static hw_param_value_t read(const Row& row) {
     if (double* const* real = std::get_if<double*>(&row.variable)) return real_value(**real);
     if (int* const* whole = std::get_if<int*>(&row.variable)) return whole_value(row.info.type, **whole);
-    return whole_value(row.info.type, *std::get<bool*>(row.variable) ? 1 : 0);
+    bool* const* flag = std::get_if<bool*>(&row.variable);
+    return whole_value(row.info.type, flag && **flag ? 1 : 0);
   }
   const Row& at(std::uint32_t index) const {
     if (index >= rows_.size()) throw Failure(HW_ERROR_NOT_FOUND, "no parameter has that index");
     return rows_[index];
   }
+  Row& at(std::uint32_t index) { return const_cast<Row&>(std::as_const(*this).at(index)); }
+  std::string& text_at(std::uint32_t index) {
+    Row& row = at(index);
+    if (!row.is_text()) throw Failure(HW_ERROR_ARGUMENT, row.name + ": is no text");
+    return *std::get<std::string*>(row.variable);
+  }
+  void add_text_row(const char* name, std::string* variable, std::uint32_t type, Access access,
+                    const char* help) {
+    Row& row = add_row(name, variable, type, "", help);
+    row.default_text = *variable;
+    row.info.default_text = row.default_text.c_str();
+    if (access == Access::kWrite) row.info.flags = HW_PARAM_WRITABLE;
+  }
   Row& add_row(const char* name, Variable variable, std::uint32_t type, const char* unit, const char* help) {
-    rows_.push_back(Row{name, unit, help, variable, {}});
+    rows_.push_back(Row{name, unit, help, variable, {}, {}, HW_PARAM_FROM_DEFAULT});
     Row& row = rows_.back();
     row.info.size = sizeof(hw_param_info_t);
     row.info.type = type;
@@ -367,14 +470,21 @@ struct Border {
     return guard(error, [&] {
       demand(activation != nullptr, HW_ERROR_ARGUMENT, "activate: the activation is null");
       demand(!plugin(self).active_, HW_ERROR_STATE, "activate: the plugin is active");
-      plugin(self).activate(*activation);
+      try {
+        plugin(self).activate(*activation);
+      } catch (...) {
+        plugin(self).parameters_.forget_sensors();
+        throw;
+      }
       plugin(self).active_ = true;
     });
   }
 
   static void deactivate(void* self) noexcept {
     guard(nullptr, [&] {
-      if (std::exchange(plugin(self).active_, false)) plugin(self).deactivate();
+      if (!std::exchange(plugin(self).active_, false)) return;
+      plugin(self).deactivate();
+      plugin(self).parameters_.forget_sensors();
     });
   }
 
@@ -405,8 +515,13 @@ struct Border {
     const void* extension = nullptr;
     guard(nullptr, [&] {
       if (!id) return;
-      const bool params = std::strcmp(id, HW_EXT_PARAMS) == 0;
-      extension = params ? &kParams : plugin(self).get_extension(id);
+      if (std::strcmp(id, HW_EXT_PARAMS) == 0) {
+        extension = &kParams;
+      } else if (std::strcmp(id, HW_EXT_PARAMS_2) == 0) {
+        extension = &kParams2;
+      } else {
+        extension = plugin(self).get_extension(id);
+      }
     });
     return extension;
   }
@@ -436,7 +551,29 @@ struct Border {
     });
   }
 
+  static hw_status_t params_get_text(void* self, std::uint32_t index, const char** text,
+                                     hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(text != nullptr, HW_ERROR_ARGUMENT, "get_text: the text is null");
+      *text = plugin(self).parameters_.get_text(index);
+    });
+  }
+
+  static hw_status_t params_set_text(void* self, std::uint32_t index, const char* text,
+                                     hw_error_t* error) noexcept {
+    return guard(error, [&] {
+      demand(text != nullptr, HW_ERROR_ARGUMENT, "set_text: the text is null");
+      demand(!plugin(self).active_, HW_ERROR_STATE, "set_text: the plugin is active");
+      plugin(self).parameters_.set_text(index, text);
+    });
+  }
+
+  static std::uint32_t params_origin(void* self, std::uint32_t index) noexcept {
+    return plugin(self).parameters_.origin(index);
+  }
+
   static constexpr hw_params_t kParams{&params_count, &params_describe, &params_get, &params_set};
+  static constexpr hw_params_2_t kParams2{&params_get_text, &params_set_text, &params_origin};
   static constexpr hw_plugin_vtable_t kVtable{&activate, &deactivate,    &reset,  &process,
                                               &report,   &get_extension, &destroy};
 };

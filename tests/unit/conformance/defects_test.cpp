@@ -82,6 +82,7 @@ const std::vector<Defect> kDefects{
     {"few_associations", {"outputs-valid"}},
     {"flags_in_output", {"outputs-reserved"}},
     {"flushes_to_zero", {"keeps-rounding"}},
+    {"fractional_epoch", {"outputs-map-epoch"}},
     {"grown_activation", {"grown-activation"}},
     {"grown_error_overrun", {"grown-error"}},
     {"grown_error_refused", {"grown-error"}},
@@ -96,6 +97,7 @@ const std::vector<Defect> kDefects{
     {"mapped_plane_is_landmark", {"report-valid", "report-refined"}},
     {"id_twice", {"plugin-ids"}},
     {"id_with_space", {"plugin-ids"}},
+    {"joins_to_younger", {"outputs-map-epoch"}},
     {"keeps_activation", {"activation-not-kept"}},
     {"keeps_input", {"input-not-kept"}, Others::kMayFailToo},
     {"kind_twice", {"plugin-kinds"}},
@@ -114,14 +116,17 @@ const std::vector<Defect> kDefects{
     {"needs_log", {"host-no-extensions"}},
     {"nan_plane", {"outputs-valid"}},
     {"normal_away", {"outputs-valid"}},
+    {"null_param_2_function", {"create-functions"}, Others::kMayFailToo},
     {"null_param_function", {"create-functions"}, Others::kMayFailToo},
     {"null_reset", {"create-functions"}, Others::kMayFailToo},
+    {"origin_untold", {"params-origin", "params-set-stands", "params-sensor"}},
     {"param_any_bool", {"params-below", "params-above"}},
     {"param_any_index", {"params-index"}},
     {"param_any_type", {"params-type"}},
     {"param_clamps", {"params-below", "params-not-finite"}},
     {"param_default_outside",
-     {"params-described", "params-round-trip", "params-inactive", "params-instances"}},
+     {"params-described", "params-round-trip", "params-inactive", "params-instances", "params-origin",
+      "params-set-stands"}},
     {"param_described_behind_end", {"params-end"}},
     {"param_name_of_spaces", {"params-described"}},
     {"param_name_twice", {"params-described"}},
@@ -159,6 +164,9 @@ const std::vector<Defect> kDefects{
     {"reserved_in_info", {"plugin-kinds"}},
     {"reserved_in_output", {"outputs-reserved"}},
     {"reset_needs_frames", {"reset-at-once"}},
+    {"sensor_kept", {"params-sensor"}},
+    {"sensor_not_clamped", {"params-sensor"}},
+    {"sensor_over_set", {"params-set-stands"}},
     {"sets_locale", {"keeps-locale"}},
     {"sets_rounding", {"keeps-rounding"}},
     {"sets_signal_handler", {"keeps-signals"}},
@@ -171,6 +179,10 @@ const std::vector<Defect> kDefects{
     {"stuck_after_refusal", {"refused-activate"}},
     {"text_latin1", {"plugin-texts"}},
     {"text_null", {"plugin-texts"}},
+    {"text_param_as_number", {"params-text-type"}},
+    {"text_param_cut", {"params-text-round-trip"}},
+    {"text_param_default_null", {"params-text-described"}},
+    {"text_param_set_while_active", {"params-text-active"}},
     {"third_differs", {"instances-independent", "frame-unknown-kind", "same-again", "same-at-once"}},
     {"throws_for_tracks", {"frame-tracks"}},
     {"two_poses", {"outputs-valid"}},
@@ -253,8 +265,13 @@ TEST_P(GoodPlugins, PassEveryTest) {
   setup.subject.file = GetParam();
   setup.subject.plugin = inspect_plugin(setup);
   for (const Result& result : run_suite(setup)) {
-    const bool uncounted = result.verdict == Verdict::kSkipped && reserves_addresses();
-    EXPECT_TRUE(result.verdict == Verdict::kPassed || uncounted)
+    const bool skipped = result.verdict == Verdict::kSkipped;
+    const bool uncounted = skipped && reserves_addresses();
+    // The example in C has no hw.params/2, and no mapper of ours a text.
+    const bool has_no_such = skipped && GetParam() != std::string(FIXTURES "/defects/defective.so") &&
+                             (result.reason.find("no " HW_EXT_PARAMS_2) != std::string::npos ||
+                              result.reason.find("is a text") != std::string::npos);
+    EXPECT_TRUE(result.verdict == Verdict::kPassed || uncounted || has_no_such)
         << result.test->name << ": " << verdict_name(result.verdict) << ": " << result.reason;
   }
 }

@@ -73,6 +73,47 @@ TEST(Outputs, ADriveCommandAnswersAFrame) {
   EXPECT_FALSE(collector.outputs().drive_command());
 }
 
+/// Hands over one counter.
+void put_counter(OutputCollector& collector, const char* name, double value) {
+  const hw_counter_t counter{name, value};
+  hw_counters_t payload{};
+  payload.stride = sizeof counter;
+  payload.count = 1;
+  payload.counters = &counter;
+  EXPECT_EQ(put(collector, HW_OUTPUT_COUNTERS, payload), HW_OK);
+}
+
+TEST(Outputs, MapEpochIsAWholeNumber) {
+  const auto epoch_of = [](const char* name, double value) {
+    OutputCollector collector;
+    collector.begin(nullptr, {});
+    put_counter(collector, "map_epochs", 7);
+    put_counter(collector, name, value);
+    EXPECT_EQ(collector.finish(), "");
+    return collector.outputs().map_epoch();
+  };
+  EXPECT_EQ(epoch_of("map_epoch", 0), 0u);
+  EXPECT_EQ(epoch_of("map_epoch", 9007199254740992.0), 9007199254740992u);
+  EXPECT_FALSE(epoch_of("map_epoch", 0.5));
+  EXPECT_FALSE(epoch_of("map_epoch", -1));
+  EXPECT_FALSE(epoch_of("map_epoch", 1e300));
+  EXPECT_FALSE(epoch_of("epoch", 1));
+}
+
+TEST(Outputs, JoinedEpochsAreSorted) {
+  OutputCollector collector;
+  collector.begin(nullptr, {});
+  put_counter(collector, "map_epoch_12", 4);
+  put_counter(collector, "map_epoch", 1);
+  put_counter(collector, "map_epoch_3", 0);
+  put_counter(collector, "map_epoch_", 0);
+  put_counter(collector, "map_epoch_x", 0);
+  put_counter(collector, "map_epoch_-2", 0);
+  put_counter(collector, "map_epoch_5", 0.5);
+  EXPECT_EQ(collector.finish(), "");
+  EXPECT_EQ(collector.outputs().joined_epochs(), (std::vector<JoinedEpoch>{{3, 0}, {12, 4}}));
+}
+
 TEST(Outputs, LandmarksAreReadByTheirStride) {
   OutputCollector collector;
   collector.begin(nullptr, {});

@@ -185,8 +185,10 @@ TEST(Localiser, PointsThatDetermineNoPoseStartNothing) {
 TEST(Localiser, AFalseFirstFrameIsReplaced) {
   Localiser localiser(options_against(Against::map));
   EXPECT_TRUE(localiser.process(clouds::scattered(10, 11)).has_pose);
+  EXPECT_EQ(localiser.process({}).epoch, 0u);
   EXPECT_TRUE(
       localiser.process(clouds::moved(clouds::pose({300, 0, 0}, 0), clouds::scattered(100, 12))).has_pose);
+  EXPECT_EQ(localiser.process({}).epoch, 1u) << "the poses are in another map";
   EXPECT_GT(localiser.landmarks().size(), 50u);
   EXPECT_LE(localiser.landmarks().size(), 100u) << "those of the first frame are gone";
 }

@@ -30,6 +30,7 @@ TEST(MapperDegenerate, NoPointsBeforeTheMapStarts) {
   const Answer& answer = mapper.process(cloud(10, 1));
   EXPECT_TRUE(answer.has_pose);
   EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
+  EXPECT_EQ(answer.epoch, 1u) << "the pose is in another map";
 }
 
 TEST(MapperDegenerate, OneTwoOrCollinearPointsStartNoMap) {
@@ -137,6 +138,7 @@ TEST(MapperDegenerate, ThePoseComesBackWithThePoints) {
 TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
   Mapper mapper{Options()};
   EXPECT_TRUE(mapper.process(cloud(5, 6)).has_pose);
+  EXPECT_EQ(mapper.process({}).epoch, 0u);
   const Answer answer = mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0)));
   EXPECT_TRUE(answer.has_pose);
   EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
@@ -156,7 +158,11 @@ TEST(MapperDegenerate, AFalseStartOfSeveralSubmapsLeavesNothingBehind) {
     for (const scenes::Seen& seen : log.frames[f]) points.push_back(seen.point);
     return mapper.process(points);
   };
-  for (std::size_t f = 0; f < 9; ++f) ASSERT_TRUE(see(f).has_pose);
+  for (std::size_t f = 0; f < 9; ++f) {
+    const Answer& answer = see(f);
+    ASSERT_TRUE(answer.has_pose);
+    EXPECT_EQ(answer.epoch, 0u);
+  }
   const std::size_t false_landmarks = mapper.map().landmarks.size();
   ASSERT_GT(mapper.map().submaps.size(), 2u);
   for (int f = 0; f <= options.bridge_frames; ++f) EXPECT_FALSE(mapper.process({}).has_pose);
@@ -166,6 +172,7 @@ TEST(MapperDegenerate, AFalseStartOfSeveralSubmapsLeavesNothingBehind) {
     ASSERT_TRUE(answer.has_pose) << "frame " << f;
     EXPECT_LT((start * answer.T_map_sensor.t - log.poses[f].t).norm(), 1.0) << "frame " << f;
     EXPECT_EQ(answer.counters.parts, 1u);
+    EXPECT_EQ(answer.epoch, 1u);
   }
   for (const Landmark& landmark : mapper.map().landmarks) EXPECT_GE(landmark.id, false_landmarks);
 }

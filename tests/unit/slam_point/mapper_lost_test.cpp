@@ -252,6 +252,7 @@ TEST(MapperLostOnce, UnknownGroundIsAnotherPartUntilItMeetsTheFirst) {
     if (joined_at == 0) joined_at = f;
     EXPECT_TRUE(drive.right()) << "frame " << f;
     EXPECT_EQ(answer.part, 0u);
+    EXPECT_EQ(answer.epoch, 0u);
   }
   // The first stretch comes into view about 100 m before its beginning, which is frame 3800 of the second lap.
   EXPECT_GT(joined_at, 3000u);
@@ -278,6 +279,7 @@ TEST(MapperLostOnce, APartIsToldInItsOwnFrameWhereThatIsAskedFor) {
     const Answer& answer = carried.drive.see(carried.log.poses[f]);
     if (!answer.has_pose) continue;
     EXPECT_EQ(answer.part, 1u);
+    EXPECT_EQ(answer.epoch, 1u);
     EXPECT_EQ(answer.counters.parts, 2u);
     if (begun == 0) {
       begun = f;
@@ -289,7 +291,9 @@ TEST(MapperLostOnce, APartIsToldInItsOwnFrameWhereThatIsAskedFor) {
   EXPECT_LT(begun, 2620u);
   EXPECT_LT(carried.drive.mapper().map().landmarks.size(), landmarks);
   // Back in the first part, that is what is told.
-  EXPECT_TRUE(carried.drive.see(carried.log.poses[300]).has_pose);
+  const Answer& back = carried.drive.see(carried.log.poses[300]);
+  EXPECT_TRUE(back.has_pose);
+  EXPECT_EQ(back.epoch, 0u);
   EXPECT_TRUE(carried.drive.right());
   EXPECT_EQ(carried.drive.mapper().map().landmarks.front().id, 0u);
 }

@@ -148,6 +148,7 @@ TEST(ThesisMapper, AFalseStartIsStartedOver) {
   const Answer& answer = mapper.process(spread_points());
   ASSERT_TRUE(answer.has_pose);
   EXPECT_EQ(answer.associations.front(), 10u) << "ids are not used twice";
+  EXPECT_EQ(answer.epoch, 1u) << "the pose is in another map";
 }
 
 TEST(ThesisMapper, PlanarDataStaysInItsPlane) {

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The extension hw.params/2: texts, and where values come from.
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/text.hpp"
+#include "conformance/instance.hpp"
+#include "conformance/parameters.hpp"
+#include "conformance/texts.hpp"
+#include "conformance/walk.hpp"
+
+namespace hallway::conformance {
+namespace {
+
+/// An instance and its parameters. Throws Skipped without hw.params/2.
+struct Fixture {
+  explicit Fixture(const Subject& subject)
+      : library(subject.file),
+        plugin(library, {.file = subject.file, .plugin = subject.plugin}),
+        parameters(plugin) {
+    texts = parameters.texts();
+    parameters.need_origins();
+  }
+  LoadedLibrary library;
+  Instance plugin;
+  Parameters parameters;
+  std::vector<std::uint32_t> texts;
+};
+
+/// The same with at least one text parameter.
+struct TextFixture : Fixture {
+  explicit TextFixture(const Subject& subject) : Fixture(subject) {
+    if (texts.empty()) throw Skipped("no parameter of the plugin is a text");
+  }
+};
+
+const char* root_of(std::uint32_t type) {
+  return type == HW_PARAM_TEXT ? "" : "/";
+}
+
+void texts_are_described(const Subject& subject, Remains&) {
+  const TextFixture fixture(subject);
+  for (const std::uint32_t i : fixture.texts) {
+    const hw_param_info_t& info = fixture.parameters.info(i);
+    const std::string name = fixture.parameters.name(i);
+    demand(HW_HAS(&info, hw_param_info_t, reserved_2),
+           name + ": its description is smaller than that of 1.4");
+    demand_text(info.default_text, name + ": its default text");
+    demand((info.flags & ~std::uint32_t{HW_PARAM_WRITABLE}) == 0, name + ": has unknown flags");
+    demand(info.type != HW_PARAM_TEXT || info.flags == 0, name + ": a text that is no path is writable");
+    demand(fixture.parameters.get_text(i) == info.default_text, name + " of a new plugin is not its default");
+  }
+}
+
+void texts_are_kept(const Subject& subject, Remains&) {
+  const TextFixture fixture(subject);
+  for (const std::uint32_t i : fixture.texts) {
+    const std::string path = root_of(fixture.parameters.info(i).type);
+    for (const std::string& text :
+         {path + "a", path + "größer, 100 %", std::string(), path + std::string(4000, 'x')}) {
+      std::string given = text;
+      fixture.parameters.set_text(i, given.c_str()).demand_good();
+      std::fill(given.begin(), given.end(), '?');  // the plugin has a copy
+      demand(fixture.parameters.get_text(i) == text,
+             fixture.parameters.name(i) + " is not what it was set to");
+    }
+  }
+}
+
+void texts_stand_while_active(const Subject& subject, Remains&) {
+  TextFixture fixture(subject);
+  fixture.plugin.activate();
+  for (const std::uint32_t i : fixture.texts) {
+    const std::string before = fixture.parameters.get_text(i);
+    const Ended ended = fixture.parameters.set_text(i, "/other");
+    demand(ended.status == HW_ERROR_STATE,
+           fixture.parameters.name(i) + ": set_text() while active gave " + hw_status_name(ended.status));
+    ended.demand_reason();
+    demand(fixture.parameters.get_text(i) == before,
+           fixture.parameters.name(i) + " was refused and has changed");
+  }
+}
+
+void texts_are_no_numbers(const Subject& subject, Remains&) {
+  const TextFixture fixture(subject);
+  for (const std::uint32_t i : fixture.texts) {
+    const Ended ended = fixture.parameters.set(i, whole(fixture.parameters.info(i).type, 0));
+    demand(ended.status == HW_ERROR_ARGUMENT,
+           fixture.parameters.name(i) + ": set() of a text parameter gave " + hw_status_name(ended.status));
+    ended.demand_reason();
+  }
+  for (const std::uint32_t i : fixture.parameters.known()) {
+    const Ended ended = fixture.parameters.set_text(i, "1");
+    demand(ended.status == HW_ERROR_ARGUMENT,
+           fixture.parameters.name(i) + ": set_text() of a number gave " + hw_status_name(ended.status));
+    ended.demand_reason();
+  }
+}
+
+void origins_are_told(const Subject& subject, Remains&) {
+  const Fixture fixture(subject);
+  const Parameters& parameters = fixture.parameters;
+  for (std::uint32_t i = 0; i < parameters.count(); ++i)
+    demand(parameters.origin(i) == HW_PARAM_FROM_DEFAULT,
+           parameters.name(i) + " of a new plugin is not FROM_DEFAULT");
+  demand(parameters.origin(parameters.count()) == HW_PARAM_FROM_DEFAULT &&
+             parameters.origin(UINT32_MAX) == HW_PARAM_FROM_DEFAULT,
+         "origin() of an index that does not exist is not FROM_DEFAULT");
+  for (const std::uint32_t i : parameters.known()) {
+    parameters.set_and_check(i, parameters.get(i));
+    demand(parameters.origin(i) == HW_PARAM_FROM_HOST, parameters.name(i) + " was set and is not FROM_HOST");
+  }
+  for (const std::uint32_t i : fixture.texts) {
+    parameters.set_text(i, "").demand_good();
+    demand(parameters.origin(i) == HW_PARAM_FROM_HOST, parameters.name(i) + " was set and is not FROM_HOST");
+  }
+}
+
+/// A sensor with a noise that no default is.
+hw_sensor_info_t odd_sensor() {
+  hw_sensor_info_t sensor = ordinary_sensor();
+  sensor.noise_m[0] = 0.0123;
+  sensor.noise_m[1] = 0.0456;
+  sensor.noise_m[2] = std::numeric_limits<double>::quiet_NaN();
+  return sensor;
+}
+
+void activate(Fixture& fixture) {
+  if (!fixture.plugin.activate({odd_sensor()}).good())
+    fixture.plugin.activate();  // skips where it needs more
+}
+
+std::vector<hw_param_value_t> values_of(const Parameters& parameters) {
+  std::vector<hw_param_value_t> values;
+  for (const std::uint32_t i : parameters.known()) values.push_back(parameters.get(i));
+  return values;
+}
+
+void set_values_stand(const Subject& subject, Remains&) {
+  Fixture fixture(subject);
+  const Parameters& parameters = fixture.parameters;
+  for (const std::uint32_t i : parameters.known()) parameters.set_and_check(i, parameters.get(i));
+  const std::vector<hw_param_value_t> before = values_of(parameters);
+  activate(fixture);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const std::uint32_t i = parameters.known()[k];
+    demand(same(parameters.get(i), before[k]) && parameters.origin(i) == HW_PARAM_FROM_HOST,
+           parameters.name(i) + " was set, and activate() has changed it");
+  }
+}
+
+bool is_within_range(const hw_param_info_t& info, const hw_param_value_t& value) {
+  if (info.type == HW_PARAM_DOUBLE)
+    return value.as.real >= info.minimum.as.real && value.as.real <= info.maximum.as.real;
+  if (info.type != HW_PARAM_INT) return true;
+  return value.as.integer >= info.minimum.as.integer && value.as.integer <= info.maximum.as.integer;
+}
+
+void sensor_values_are_given_back(const Subject& subject, Remains&) {
+  Fixture fixture(subject);
+  const Parameters& parameters = fixture.parameters;
+  const std::vector<std::uint32_t> known = parameters.known();
+  const std::vector<hw_param_value_t> before = values_of(parameters);
+  activate(fixture);
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const hw_param_value_t now = parameters.get(known[k]);
+    const bool from_sensor = parameters.origin(known[k]) == HW_PARAM_FROM_SENSOR;
+    demand(from_sensor || same(now, before[k]),
+           parameters.name(known[k]) + " has changed in activate() and is not FROM_SENSOR");
+    demand(!from_sensor || is_within_range(parameters.info(known[k]), now),
+           parameters.name(known[k]) + " is outside of its range after activate()");
+  }
+  fixture.plugin.deactivate();
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    demand(same(parameters.get(known[k]), before[k]) && parameters.origin(known[k]) == HW_PARAM_FROM_DEFAULT,
+           parameters.name(known[k]) + " is not as before after deactivate()");
+  }
+}
+
+constexpr Test kTests[] = {
+    {"params-text-described",
+     "Text parameters have a default text, no flags but HW_PARAM_WRITABLE, and begin with it.",
+     texts_are_described},
+    {"params-text-round-trip", "get_text() gives the very text that was set, of which the plugin has a copy.",
+     texts_are_kept},
+    {"params-text-active",
+     "set_text() while active gives HW_ERROR_STATE and a reason, and the old text stays.",
+     texts_stand_while_active},
+    {"params-text-type", "set() of a text and set_text() of a number give HW_ERROR_ARGUMENT and a reason.",
+     texts_are_no_numbers},
+    {"params-origin", "origin() is FROM_DEFAULT in a new plugin, and FROM_HOST once a parameter was set.",
+     origins_are_told},
+    {"params-set-stands", "A parameter that was set is not taken from a sensor.", set_values_stand},
+    {"params-sensor",
+     "A parameter that activate() takes from a sensor is within its range, FROM_SENSOR, and its default "
+     "after "
+     "deactivate().",
+     sensor_values_are_given_back},
+};
+
+}  // namespace
+
+std::span<const Test> parameter_2_tests() {
+  return kTests;
+}
+
+}  // namespace hallway::conformance
