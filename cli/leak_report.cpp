@@ -30,6 +30,14 @@ Json occupant_json(const map::Occupant& occupant) {
           {"position_m", place_json(occupant.position_m)}};
 }
 
+/// null where nothing is known; a height that is not known is null.
+Json opening_json(const bsp::Opening& opening) {
+  if (opening.width_m == 0.0) return nullptr;
+  return {{"at_m", place_json(opening.at)},
+          {"width_m", opening.width_m},
+          {"height_m", opening.is_measured() ? Json(opening.height_m) : Json(nullptr)}};
+}
+
 void add_line(std::string& out, const Vec3& point_m, double metres_per_unit) {
   for (int axis = 0; axis < 3; ++axis) {
     if (axis > 0) out += ' ';
@@ -52,9 +60,7 @@ std::string leak_text(const world::CompiledWorld& world, const std::string& way_
   text += row("from", run::occupant_text(occupant) + " at " + run::place_text(occupant.position_m));
   text += row("way out", fmt::format("{}, to {}", render::measure_text(leak.length_m),
                                      run::place_text(leak.way.back())));
-  text += row("opening",
-              fmt::format("{} x {} at {}", render::measure_text(leak.narrowest.width_m),
-                          render::measure_text(leak.narrowest.height_m), run::place_text(leak.narrowest.at)));
+  text += row("through", run::opening_text(leak.narrowest));
   if (!way_file.empty()) text += row("points", printable(way_file, 4096));
   return text;
 }
@@ -70,10 +76,7 @@ Json leak_json(const world::CompiledWorld& world) {
   return {{"occupant", occupant_json(world.occupants[leak.occupant])},
           {"length_m", leak.length_m},
           {"way_m", way},
-          {"opening",
-           {{"at_m", place_json(leak.narrowest.at)},
-            {"width_m", leak.narrowest.width_m},
-            {"height_m", leak.narrowest.height_m}}},
+          {"opening", opening_json(leak.narrowest)},
           {"leaking", leaking}};
 }
 

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/selection.hpp"
+#include "editor/shapes.hpp"
 #include "editor/shown.hpp"
 #include "editor/validate.hpp"
 #include "map/writer.hpp"
@@ -158,19 +161,51 @@ std::string picture_of(const Edit& edit, const sim::PictureSpec& spec, const run
   return run::draw_map_picture(subject, spec, view);
 }
 
+/// The door or window whose cut an opening is in.
+std::optional<Thing> cut_at(const Edit& edit, const bsp::Opening& opening) {
+  const Vec3 at = opening.at / edit.metres_per_unit();
+  for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
+    const EntityItem& entity = *edit.state.entities[e];
+    if (!is_opening(entity)) continue;
+    for (const BrushItem& brush : entity.brushes) {
+      constexpr double kRounding = 0.01;  // map units
+      const auto is_behind = [&](const map::Face& face) {
+        const auto plane = plane_of(face);
+        return plane && plane->distance(at) <= kRounding;
+      };
+      if (std::all_of(brush.brush->faces.begin(), brush.brush->faces.end(), is_behind)) return Thing{e, {}};
+    }
+  }
+  return std::nullopt;
+}
+
+void say_leak(Edit& edit, const map::Occupant& occupant, const bsp::Leak& leak) {
+  const Thing who{static_cast<std::size_t>(occupant.entity), {}};
+  const bsp::Opening& opening = leak.narrowest;
+  std::string line = fmt::format("leaks: {} reaches the void after {}, through {}", describe(edit.state, who),
+                                 render::measure_text(leak.length_m), run::opening_text(opening));
+  edit.report.data["occupant"] = id_of(edit.state, who);
+  edit.report.data["length_m"] = leak.length_m;
+  if (opening.is_measured()) {
+    edit.report.data["opening"] = {{"at_m", {opening.at.x(), opening.at.y(), opening.at.z()}},
+                                   {"width_m", opening.width_m},
+                                   {"height_m", opening.height_m}};
+    if (const auto cut = cut_at(edit, opening)) {
+      line += fmt::format(", which is {}", describe(edit.state, *cut));
+      edit.report.data["opening"]["thing"] = id_of(edit.state, *cut);
+    }
+  }
+  edit.report.lines.push_back(std::move(line));
+  edit.report.status = 1;
+}
+
 void show_leak(Edit& edit, const Arguments& arguments) {
   map::Document document;
   const world::CompiledWorld world = compiled(edit, document);
   const auto& leak = world.partition.enclosure.leak;
   edit.report.data["sealed"] = world.sealed();
   if (leak) {
-    const map::Occupant& occupant = world.occupants[leak->occupant];
-    edit.report.lines.push_back(
-        fmt::format("leaks: {} reaches the void after {}, through an opening of {} x {} at {}",
-                    run::occupant_text(occupant), render::measure_text(leak->length_m),
-                    render::measure_text(leak->narrowest.width_m),
-                    render::measure_text(leak->narrowest.height_m), run::place_text(leak->narrowest.at)));
-    edit.report.status = 1;
+    say_leak(edit, world.occupants[leak->occupant], *leak);
   } else {
     edit.report.lines.push_back(
         world.sealed() ? "sealed" : "encloses nothing: there is no start, light or other occupant inside");

@@ -12,12 +12,15 @@
 
 namespace hallway::bsp {
 
-/// The narrowest place on a way out.
+/// The hole by which a way leaves the inside: flat, with solid all around it. Where there is no such hole on the way, `polygons` is empty
+/// and height_m is 0; width_m is then that of the narrowest gap that was found between two faces, or 0.
 struct Opening {
-  Vec3 at = Vec3::Zero();           ///< where the way passes it, metres
+  Vec3 at = Vec3::Zero();           ///< its middle, metres; of a gap, where the way passes it
   double width_m = 0.0;             ///< the lesser side of the rectangle that holds it
   double height_m = 0.0;            ///< the greater
   std::vector<Polygon> polygons{};  ///< convex pieces that together are the opening
+
+  bool is_measured() const { return !polygons.empty(); }
 };
 
 /// A way from an occupant of a world into the void around it.

@@ -7,8 +7,7 @@
 #include <queue>
 #include <tuple>
 
-#include "bsp/passage.hpp"
-#include "geom/box.hpp"
+#include "bsp/opening_search.hpp"
 
 namespace hallway::bsp {
 namespace {
@@ -97,36 +96,20 @@ std::vector<Vec3> without_straight_points(const std::vector<Vec3>& way) {
   return out;
 }
 
-bool boxes_touch(const Polygon& a, const Polygon& b) {
-  constexpr double kTouch_m = 1e-6;
-  Box box_a, box_b;
-  for (const Vec3& vertex : a.vertices) box_a.extend(vertex);
-  for (const Vec3& vertex : b.vertices) box_b.extend(vertex);
-  return ((box_a.min() - box_b.max()).array() <= kTouch_m).all() &&
-         ((box_b.min() - box_a.max()).array() <= kTouch_m).all();
-}
-
-/// The open portals in the same plane that hang together with one.
-std::vector<Polygon> opening_around(const CellSpace& space, const std::vector<bool>& open,
-                                    std::uint32_t portal) {
-  std::vector<Polygon> rest;
-  for (std::uint32_t p = 0; p < space.portals.size(); ++p) {
-    if (p != portal && open[p] && space.portals[p].facet.plane == space.portals[portal].facet.plane) {
-      rest.push_back(polygon_of(space, space.portals[p]));
-    }
+/// The pieces of a way through a chain of portals. Where it follows an edge it is drawn a little into the open, so that what is asked about
+/// its points is about space and not about surfaces.
+std::vector<WayPiece> pieces_of(const std::vector<Vec3>& way, const std::vector<Vec3>& middles,
+                                const std::vector<std::int32_t>& cells) {
+  constexpr double kShare = 0.03, kMost_m = 0.05;
+  std::vector<Vec3> points = way;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec3 inward = middles[i - 1] - points[i];
+    const double length = inward.norm();
+    if (length > 0.0) points[i] += std::min(kShare, kMost_m / length) * inward;
   }
-  std::vector<Polygon> found{polygon_of(space, space.portals[portal])};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (std::size_t k = 0; k < rest.size();) {
-      if (boxes_touch(found[i], rest[k])) {
-        found.push_back(std::move(rest[k]));
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-      } else {
-        ++k;
-      }
-    }
-  }
-  return found;
+  std::vector<WayPiece> pieces;
+  for (std::size_t i = 0; i < cells.size(); ++i) pieces.push_back({points[i], points[i + 1], cells[i]});
+  return pieces;
 }
 
 }  // namespace
@@ -186,13 +169,6 @@ double WaysOut::length_m(const Vec3& from_m, std::int32_t cell) const {
                         : (middle_[first] - from_m).norm() + best_[first];
 }
 
-std::int32_t WaysOut::common_cell(std::uint32_t a, std::uint32_t b) const {
-  const auto& of_a = space_.portals[a].region;
-  const auto& of_b = space_.portals[b].region;
-  const bool first = of_a[0] != ExactPortal::kBeyond && (of_a[0] == of_b[0] || of_a[0] == of_b[1]);
-  return first ? of_a[0] : of_a[1];
-}
-
 void WaysOut::end_at_rim(const Vec3& from_m, std::int32_t cell, std::vector<std::uint32_t>& chain) const {
   Vec3 place = from_m;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -229,28 +205,18 @@ Leak WaysOut::find(const Vec3& from_m, std::int32_t cell) const {
   for (std::uint32_t p = first_portal(from_m, cell); p != kNone; p = next_[p]) chain.push_back(p);
   end_at_rim(from_m, cell, chain);
   std::vector<Polygon> polygons;
-  std::vector<Vec3> way{from_m};
+  std::vector<Vec3> way{from_m}, middles;
+  std::vector<std::int32_t> cells;  // that the way is in before each portal
   for (const std::uint32_t p : chain) {
     polygons.push_back(polygon_of(space_, space_.portals[p]));
     way.push_back(middle_[p]);
+    middles.push_back(middle_[p]);
+    cells.push_back(cell);
+    const auto& region = space_.portals[p].region;
+    cell = region[0] == cell ? region[1] : region[0];
   }
   pull_tight(polygons, way);
-  constexpr double kNarrower = 0.99;  // a slanted cut is no better than the portal that it touches
-  leak.narrowest.width_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    const double portal_width = width(space_.planes, space_.portals[chain[i]].facet) * space_.metres_per_unit;
-    if (portal_width >= leak.narrowest.width_m) continue;
-    std::vector<Polygon> opening = opening_around(space_, open_, chain[i]);
-    const auto [width_m, height_m] = sides_of_rectangle(opening);
-    if (width_m >= leak.narrowest.width_m) continue;
-    leak.narrowest = {way[i + 1], width_m, height_m, std::move(opening)};
-  }
-  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-    const Passage passage{common_cell(chain[i], chain[i + 1]), polygons[i], polygons[i + 1], way[i + 1],
-                          way[i + 2]};
-    const auto within = narrowest_within(space_, passage);
-    if (within && within->width_m < kNarrower * leak.narrowest.width_m) leak.narrowest = *within;
-  }
+  leak.narrowest = find_opening(EmptySpace(space_, open_), pieces_of(way, middles, cells));
   leak.way = without_straight_points(way);
   leak.length_m = length_of(leak.way);
   return leak;

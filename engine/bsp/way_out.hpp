@@ -15,12 +15,10 @@ class WaysOut {
 
   /// Length of the way from a place (metres) in a cell, nearly; infinite where there is none.
   double length_m(const Vec3& from_m, std::int32_t cell) const;
-  /// The way, pulled tight within the portals that it passes, and its narrowest opening. There must be one.
+  /// The way, pulled tight within the portals that it passes, and the hole by which it leaves (find_opening()). There must be one.
   Leak find(const Vec3& from_m, std::int32_t cell) const;
 
  private:
-  /// The cell that two portals bound.
-  std::int32_t common_cell(std::uint32_t a, std::uint32_t b) const;
   /// Ends a chain of portals in the first cell that touches the rim, by the nearest portal there: shortest over middles is not shortest where the
   /// portals are as large as the rim's.
   void end_at_rim(const Vec3& from_m, std::int32_t cell, std::vector<std::uint32_t>& chain) const;

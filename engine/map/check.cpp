@@ -16,6 +16,7 @@
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
 #include "map/sensors.hpp"
+#include "map/start_check.hpp"
 #include "map/world.hpp"
 
 namespace hallway::map {
@@ -58,6 +59,7 @@ class Checker {
     check_references("hw_waypoint", paths);
     check_references("hw_landmark_cloud", paths);
     check_paths(paths);
+    check_start_of_paths();
     check_world();
     sort();
     return std::move(findings_);
@@ -254,6 +256,14 @@ class Checker {
     }
   }
 
+  void check_start_of_paths() {
+    const auto found = start_off_all_paths(document_);
+    if (!found) return;
+    const Entity& start = document_.entities[static_cast<std::size_t>(found->start.entity)];
+    add(Severity::kWarning, EntityKeys(document_, start).error(start_off_path_text(*found)),
+        "start-off-path");
+  }
+
   void check_world() {
     std::optional<World> world;
     try {
@@ -339,10 +349,11 @@ class Checker {
 
 const std::vector<std::string>& finding_ids() {
   static const std::vector<std::string> ids{
-      "bad-brush",       "bad-path",           "bad-value",       "brushes-ignored", "doubled-key",
-      "doubled-name",    "doubled-targetname", "duplicate-plane", "many-paths",      "missing-key",
-      "no-brushes",      "no-class",           "no-worldspawn",   "tied-order",      "two-robot-starts",
-      "two-worldspawns", "unknown-class",      "unknown-key",     "unknown-path",    "unread-shape"};
+      "bad-brush",        "bad-path",           "bad-value",       "brushes-ignored", "doubled-key",
+      "doubled-name",     "doubled-targetname", "duplicate-plane", "many-paths",      "missing-key",
+      "no-brushes",       "no-class",           "no-worldspawn",   "start-off-path",  "tied-order",
+      "two-robot-starts", "two-worldspawns",    "unknown-class",   "unknown-key",     "unknown-path",
+      "unread-shape"};
   return ids;
 }
 

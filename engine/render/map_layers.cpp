@@ -76,8 +76,9 @@ void add_portals(Picture& picture, const bsp::PortalGraph& portals) {
 
 void add_leak(Picture& picture, const bsp::Leak& leak, const std::string& occupant) {
   const bsp::Opening& opening = leak.narrowest;
-  const std::string size =
-      fmt::format("{} × {}", measure_text(opening.width_m), measure_text(opening.height_m));
+  const std::string size = opening.is_measured() ? fmt::format("{} × {}", measure_text(opening.width_m),
+                                                               measure_text(opening.height_m))
+                                                 : "gap of " + measure_text(opening.width_m);
   Patches patches{.polygons = {}, .colour = kOpening, .opacity = 0.5, .outline_px = 2.0, .label = {}};
   for (const Polygon& polygon : opening.polygons) patches.polygons.push_back(polygon.vertices);
   picture.patches.push_back(std::move(patches));
@@ -85,24 +86,26 @@ void add_leak(Picture& picture, const bsp::Leak& leak, const std::string& occupa
                                .colour = palette::kError,
                                .width_px = 4.0,
                                .dashed = false,
-                               .label = fmt::format("way into the void, {}", measure_text(leak.length_m))});
+                               .label = fmt::format("leak path, {}", measure_text(leak.length_m))});
   picture.markers.push_back({.positions = {leak.way.front()},
                              .shape = MarkerShape::kDot,
                              .colour = palette::kError,
                              .size_px = 12.0,
                              .label = occupant});
-  picture.markers.push_back({.positions = {opening.at},
-                             .shape = MarkerShape::kRing,
-                             .colour = kOpening,
-                             .size_px = 22.0,
-                             .label = "narrowest opening, " + size});
+  if (opening.width_m > 0.0) {
+    picture.markers.push_back({.positions = {opening.at},
+                               .shape = MarkerShape::kRing,
+                               .colour = kOpening,
+                               .size_px = 22.0,
+                               .label = "narrowest opening, " + size});
+    picture.labels.push_back({.position = opening.at, .text = size});
+  }
   picture.markers.push_back({.positions = {leak.way.back()},
                              .shape = MarkerShape::kCross,
                              .colour = palette::kError,
                              .size_px = 15.0,
                              .label = "in the void"});
   picture.labels.push_back({.position = leak.way.front(), .text = occupant});
-  picture.labels.push_back({.position = opening.at, .text = size});
 }
 
 void add_wireframe(Picture& picture, const csg::Surface& surface, const std::vector<bool>& inside,

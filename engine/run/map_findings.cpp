@@ -60,10 +60,8 @@ void add_leak(std::vector<Finding>& findings, const map::Document& document,
   const map::Occupant& occupant = world.occupants[leak->occupant];
   findings.push_back(
       {Severity::kWarning, where_of(document, occupant.entity, occupant.line),
-       fmt::format("the map leaks: {} reaches the void after {}, through an opening of {} x {} at {}",
-                   printable(occupant.classname), render::measure_text(leak->length_m),
-                   render::measure_text(leak->narrowest.width_m),
-                   render::measure_text(leak->narrowest.height_m), place_text(leak->narrowest.at)),
+       fmt::format("the map leaks: {} reaches the void after {}, through {}", printable(occupant.classname),
+                   render::measure_text(leak->length_m), opening_text(leak->narrowest)),
        "leak"});
 }
 

@@ -112,6 +112,18 @@ std::string occupant_text(const map::Occupant& occupant) {
   return fmt::format("{}{} (line {})", printable(occupant.classname, 60), name, occupant.line);
 }
 
+std::string opening_text(const bsp::Opening& opening) {
+  if (opening.is_measured()) {
+    return fmt::format("an opening of {} x {} at {}", render::measure_text(opening.width_m),
+                       render::measure_text(opening.height_m), place_text(opening.at));
+  }
+  if (opening.width_m > 0.0) {
+    return fmt::format("a gap {} wide at {}, of uncertain length", render::measure_text(opening.width_m),
+                       place_text(opening.at));
+  }
+  return "an opening of uncertain size and place";
+}
+
 std::string place_text(const Vec3& place) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x(), place.y(), place.z());
 }

@@ -41,6 +41,9 @@ std::vector<render::Surface> model_faces(const map::Document& document, const st
 /// "robot start (hw_robot_start, line 12)": how messages and pictures name an occupant.
 std::string occupant_text(const map::Occupant& occupant);
 
+/// What a leak path passes: "an opening of 0.90 m x 2.10 m at (8.10, 3.00, 1.05)"; where its outline is not known, what is known of it.
+std::string opening_text(const bsp::Opening& opening);
+
 /// "(1.25, 0.00, -3.10)": how messages and pictures name a place, metres.
 std::string place_text(const Vec3& place);
 

@@ -11,7 +11,7 @@
 namespace hallway::world {
 namespace {
 
-constexpr std::string_view kMagic = "hallway.world/1\n";
+constexpr std::string_view kMagic = "hallway.world/2\n";
 constexpr std::size_t kVecBytes = 3 * sizeof(double);
 
 void put(ByteWriter& out, const Vec3& v) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "map/reader.hpp"
+#include "map/start_check.hpp"
 #include "map_text.hpp"
 #include "random_document.hpp"
 #include "support/data.hpp"
@@ -64,6 +65,54 @@ TEST(Check, TwoRobotStarts) {
   const std::string start = entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}});
   EXPECT_EQ(findings_of(kWorld + start), "");
   EXPECT_EQ(findings_of(kWorld + start + start + start), "9 two-robot-starts!\n13 two-robot-starts!\n");
+}
+
+std::string waypoint_text(const std::string& path, int index, const std::string& origin) {
+  return entity_text(
+      {{"classname", "hw_waypoint"}, {"path", path}, {"index", std::to_string(index)}, {"origin", origin}});
+}
+
+std::string path_text(const std::string& name, const std::string& closed, const std::string& first) {
+  return entity_text({{"classname", "hw_path"}, {"name", name}, {"closed", closed}}) +
+         waypoint_text(name, 0, first) + waypoint_text(name, 1, "900 200 30") +
+         waypoint_text(name, 2, "900 900 30");
+}
+
+TEST(Check, RobotStartOffEveryPath) {
+  const auto start = [](const std::string& origin) {
+    return entity_text({{"classname", "hw_robot_start"}, {"origin", origin}});
+  };
+  const std::string way = path_text("way", "0", "200 200 30");
+  EXPECT_EQ(findings_of(kWorld + start("200 200 30") + way), "");
+  EXPECT_EQ(findings_of(kWorld + start("200.5 200 30") + way), "") << "within a centimetre";
+  const std::string off = kWorld + start("100 100 30") + way;
+  EXPECT_EQ(findings_of(off), "5 start-off-path\n");
+  expect_message(off,
+                 "the robot start is at (1, 1, 0.3), but path `way` begins at (2, 2, 0.3), 1.4142 m away: a "
+                 "robot on the path begins there");
+  EXPECT_EQ(findings_of(kWorld + start("200 200 0") + way), "5 start-off-path\n") << "heights count";
+  EXPECT_EQ(findings_of(off + path_text("other", "0", "100 100 30")), "") << "one path is enough";
+  expect_message(off + path_text("near", "0", "110 100 30"), "path `near` begins at (1.1, 1, 0.3)");
+  // A closed path begins behind the corner at its first waypoint; a start at that waypoint is as good.
+  EXPECT_EQ(findings_of(kWorld + start("200 200 30") + path_text("round", "1", "200 200 30")), "");
+  EXPECT_EQ(findings_of(kWorld + start("900 200 30") + path_text("round", "1", "200 200 30")),
+            "5 start-off-path\n");
+  EXPECT_EQ(findings_of(kWorld + way), "") << "without a start there is nothing to compare";
+}
+
+TEST(StartOffPath, ComparesWithThePathThatIsNamed) {
+  const Document document =
+      parse(kWorld + entity_text({{"classname", "hw_robot_start"}, {"origin", "200 200 30"}}) +
+                path_text("way", "0", "200 200 30") + path_text("other", "0", "200 500 30"),
+            "a.map");
+  EXPECT_FALSE(start_off_all_paths(document));
+  EXPECT_FALSE(start_off_path(document, "way"));
+  const auto found = start_off_path(document, "other");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->path, "other");
+  EXPECT_NEAR(found->distance_m, 3.0, 1e-12);
+  EXPECT_EQ(found->start.line, 5);
+  EXPECT_THROW(start_off_path(document, "none"), Error);
 }
 
 TEST(Check, MissingKeys) {
