@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo install test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
+.PHONY: demo install uninstall package test-package test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
 .DEFAULT_GOAL := demo
 
 deps:
@@ -25,10 +25,26 @@ demo: build-release
 test: build-release
 	ctest --preset release
 
-## the program, its plugins and the SDK, into $(DESTDIR)$(PREFIX)
+## the programs, the plugins, the SDK, maps and documents, into $(DESTDIR)$(PREFIX); what is installed is built, and no test
 PREFIX ?= /usr/local
-install: build-release
+install: programs
 	DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX)
+
+programs: deps
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS) --target programs
+
+## takes away what `make install` with the same DESTDIR and PREFIX left
+uninstall:
+	@scripts/uninstall.sh $(DESTDIR)$(PREFIX)
+
+## Debian packages into build/package: hallway, hallway-robot, hallway-dev
+package: programs
+	scripts/package.sh build/release build/package
+
+## builds the packages, and installs, uses and purges them in a chroot of a bare Debian
+test-package: programs
+	tests/package/debian_test.sh build/release
 
 ## every test, at full size
 test-long: build-release

@@ -24,6 +24,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A tenth of g++'s time goes into collecting its garbage; it may take some 400 MB before it begins.
   add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=400000")
 endif()
+# Tables that the loader fills are read-only afterwards.
+add_link_options(-Wl,-z,relro,-z,now)
 if(HALLWAY_WERROR)
   add_compile_options(-Werror)
 endif()

@@ -23,6 +23,8 @@ esac
 packages=(
   # build
   cmake g++ clang libclang-rt-14-dev make ninja-build pkg-config
+  # make package
+  dpkg-dev file
   # libraries
   libassimp-dev libedit-dev libeigen3-dev libembree-dev libgmp-dev libmuparser-dev libosmesa6-dev libprotobuf-dev libtbb-dev libtinygltf-dev libcli11-dev libfmt-dev libtomlplusplus-dev
   nlohmann-json3-dev libpng-dev libstb-dev libxxhash-dev libzstd-dev protobuf-compiler zlib1g-dev fonts-dejavu-core

@@ -10,10 +10,10 @@
 #include <numbers>
 #include <optional>
 
-#include "editor/grey_picture.hpp"
 #include "editor/height_function.hpp"
 #include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
+#include "image/grey_picture.hpp"
 
 namespace hallway::editor {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/png.hpp"
+#include "image/png.hpp"
 #include "import/point_collector.hpp"
 
 namespace hallway::import {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/png.hpp"
 #include "base/text.hpp"
+#include "image/png.hpp"
 
 namespace hallway::mesh {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/png.hpp"
 #include "base/text.hpp"
+#include "image/png.hpp"
 #include "import/pcd.hpp"
 #include "import/ply.hpp"
 #include "import/point_records.hpp"

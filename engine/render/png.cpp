@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/png.hpp"
 
-#include "base/png.hpp"
+#include "image/png.hpp"
 
 namespace hallway::render {
 

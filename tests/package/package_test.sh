@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# package_test.sh SOURCE BUILD: installs what was built into a folder, and goes the way of a plugin's author with that alone.
+# package_test.sh BUILD: installs what was built into a folder, and goes the way of a plugin's author with that alone.
 set -euo pipefail
-source=$1
-build=$2
+build=$1
+here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -78,19 +78,22 @@ cmp out/landmarks.csv robot/landmarks.csv
 cmp out/trajectory.tum robot/trajectory.tum
 
 # The same source by pkg-config, without CMake.
-export PKG_CONFIG_PATH="$work/opt/hallway/lib/pkgconfig"
+export PKG_CONFIG_PATH="$work/opt/hallway/share/pkgconfig"
 # shellcheck disable=SC2046
 ${CXX:-c++} -std=c++17 -O2 -shared -fPIC -fvisibility=hidden $(pkg-config --cflags hallway) \
   "-Wl,--version-script=$(pkg-config --variable=version_script hallway)" my_slam/my_slam.cpp -o by_hand.so
 hallway plugin check by_hand.so | grep -q 'exports *hw_entry$' || fail "a plugin that was built by hand"
 
-# A plugin of the repository, out of tree: the same answers as the one that was built with the program.
-cmake -S "$source/tests/package/slam_point" -B slam_point "-DSOURCES=$source/plugins/slam_point" > slam_point.log
-cmake --build slam_point >> slam_point.log
-office=$work/opt/hallway/share/hallway/maps/office.toml
-hallway run "$office" --steps 60 --out inside --quiet
-hallway run "$office" --steps 60 --plugin slam_point/slam_point.so --out outside --quiet
-for file in trajectory.tum landmarks.csv; do
-  cmp "inside/$file" "outside/$file"
-done
+# The documents' links lead to what is installed.
+doc=$work/opt/hallway/share/doc/hallway
+while IFS= read -r page; do
+  while IFS= read -r link; do
+    [[ -e $(dirname "$page")/$link ]] || fail "$page leads to $link, which is not installed"
+  done < <(grep -oP '\]\(\K(?!https?:)[^)#]+' "$page" | grep -v 'maps/regress/' || true)
+done < <(find "$doc" -name '*.md')
+
+# Taken away, and nothing else.
+touch opt/hallway/bin/mine
+"$here/../../scripts/uninstall.sh" opt/hallway
+[[ $(find opt/hallway ! -type d) == opt/hallway/bin/mine ]] || fail "uninstalling leaves $(find opt/hallway ! -type d)"
 echo "package: all as it should be"

@@ -11,8 +11,8 @@
 #include <png.h>
 
 #include "base/file.hpp"
-#include "base/png.hpp"
-#include "editor/grey_picture.hpp"
+#include "image/grey_picture.hpp"
+#include "image/png.hpp"
 #include "solidity.hpp"
 #include "world/compiled_world.hpp"
 
@@ -337,7 +337,7 @@ TEST_F(ShapeCommands, APictureOfSixteenBitsCountsInFull) {
     png_write_end(png, nullptr);
     png_destroy_write_struct(&png, &info);
     std::fclose(out);
-    const auto picture = editor::read_grey_png(file);
+    const auto picture = read_grey_png(file);
     ASSERT_EQ(picture.values.size(), 4u);
     EXPECT_NEAR(picture.at(0, 0), 100.0 / 65535.0, 1e-9) << gamma;
     EXPECT_NEAR(picture.at(1, 1), 30000.0 / 65535.0, 1e-9) << gamma;
@@ -367,7 +367,7 @@ TEST_F(ShapeCommands, TerrainRefusals) {
     for (const std::string& bytes : {png.substr(0, i), changed}) {
       std::ofstream(editing.folder / "bad.png", std::ios::binary) << bytes;
       try {
-        editor::read_grey_png(editing.folder / "bad.png");
+        read_grey_png(editing.folder / "bad.png");
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kBadInput);
       }

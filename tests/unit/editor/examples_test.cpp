@@ -7,10 +7,10 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/png.hpp"
 #include "base/text.hpp"
 #include "editing.hpp"
 #include "editor/help.hpp"
+#include "image/png.hpp"
 #include "map/reader.hpp"
 #include "map/writer.hpp"
 #include "random_commands.hpp"

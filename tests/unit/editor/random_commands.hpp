@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "base/png.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
 #include "editor/selection.hpp"
+#include "image/png.hpp"
 
 namespace hallway::test {
 

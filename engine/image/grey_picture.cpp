@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/grey_picture.hpp"
+#include "image/grey_picture.hpp"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -12,7 +12,7 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 
-namespace hallway::editor {
+namespace hallway {
 namespace {
 
 constexpr std::uint32_t kMaxSide = 4096;
@@ -84,4 +84,4 @@ GreyPicture read_grey_png(const std::filesystem::path& file) {
   return picture;
 }
 
-}  // namespace hallway::editor
+}  // namespace hallway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/png.hpp"
+#include "image/png.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>

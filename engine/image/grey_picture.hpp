@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hallway::editor {
+namespace hallway {
 
 /// A picture in shades of grey, as numbers.
 struct GreyPicture {
@@ -22,4 +22,4 @@ struct GreyPicture {
 /// Error{kBadInput} where it is no PNG or larger than 4096 pixels a side.
 GreyPicture read_grey_png(const std::filesystem::path& file);
 
-}  // namespace hallway::editor
+}  // namespace hallway
