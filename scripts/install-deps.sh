@@ -77,6 +77,7 @@ declare -A offered=()
 ask_apt() {
   offered=()
   local entry line package='' names=()
+  # shellcheck disable=SC2206 # the parts of an entry are words
   for entry in "$@"; do names+=(${entry//[|?]/ }); done
   while IFS= read -r line; do
     case $line in
