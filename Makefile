@@ -6,31 +6,35 @@ HALLWAY := build/release/bin/hallway
 .PHONY: demo install uninstall package test-package test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
 .DEFAULT_GOAL := demo
 
-deps:
-	@scripts/install-deps.sh
+## deps-demo, deps-test, deps-check, …: the packages that a command needs
+deps: deps-test
+deps-%:
+	@scripts/install-deps.sh $*
 
 ## also the packages of ROS 1, for the driver ros1
 deps-ros:
-	@scripts/install-deps.sh --with-ros
+	@scripts/install-deps.sh test --with-ros
 
-build-release: deps
+build-release: deps-test
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS)
 
 ## packages, build, the two demonstration runs, their pictures and tables
-demo: build-release
+demo: deps-demo
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS) --target hallway slam_point em slam_plane
 	scripts/demo.sh $(HALLWAY)
 
 ## packages, release build, every test that is not labelled `long`
 test: build-release
-	ctest --preset release
+	ctest --preset release --no-tests=error
 
 ## the programs, the plugins, the SDK, maps and documents, into $(DESTDIR)$(PREFIX); what is installed is built, and no test
 PREFIX ?= /usr/local
 install: programs
 	DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX)
 
-programs: deps
+programs: deps-package
 	cmake --preset release
 	cmake --build --preset release -j $(JOBS) --target programs
 
@@ -51,7 +55,7 @@ test-long: build-release
 	ctest --test-dir build/release --output-on-failure
 
 ## g++, clang, address+undefined and thread sanitizers: build and tests of each; the benchmarks are built once
-check: deps
+check: deps-check
 	for preset in release clang asan tsan; do \
 	  cmake --preset $$preset && cmake --build --preset $$preset -j $(JOBS) && ctest --preset $$preset || exit 1; \
 	done
@@ -60,7 +64,7 @@ check: deps
 ## libFuzzer on everything that reads foreign bytes, FUZZ_SECONDS each; what it finds is kept in build/fuzz/finds
 FUZZ_SECONDS ?= 600
 FUZZ_TARGETS := map_reader mesh_protocol mesh_scene edit_command edit_journal mcap_reader udp_datagrams cloud_reader landmark_tables
-fuzz: deps
+fuzz: deps-fuzz
 	cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
 	  -DHALLWAY_FUZZ=ON -DHALLWAY_SANITIZE=address,undefined,fuzzer-no-link -DHALLWAY_BENCH=OFF
 	cmake --build build/fuzz -j $(JOBS) --target $(FUZZ_TARGETS:%=fuzz_%)
@@ -70,13 +74,13 @@ fuzz: deps
 	done
 
 ## benchmarks: ratios against references measured in the same run, and a plot
-bench: build-release
+bench: deps-bench build-release
 	cmake --build --preset release -j $(JOBS) --target benches
 	bench/run.sh build/release
 
 ## em beside PCL, CGAL and Open3D on the same clouds, slam_point beside MRPT and batch maximum likelihood on the same logs: installs and builds them, in a folder of its own
-bench-peers: deps
-	@scripts/install-deps.sh --with-peers
+bench-peers:
+	@scripts/install-deps.sh bench --with-peers
 	cmake -S . -B build/peers -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALLWAY_PEERS=ON -DHALLWAY_TESTS=OFF -DHALLWAY_BENCH=OFF
 	cmake --build build/peers -j $(JOBS) --target hallway em slam_point peers slam_peers
 	bench/peers/run.sh build/peers
@@ -86,10 +90,10 @@ bench-peers: deps
 renders: build-release
 	renders/make.sh $(HALLWAY)
 
-format:
+format: deps-format
 	git ls-files '*.cpp' '*.hpp' '*.h' '*.c' | xargs clang-format -i
 
-lint: deps
+lint: deps-lint
 	cmake --preset clang
 	git ls-files 'engine/*.cpp' 'cli/*.cpp' 'plugins/*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy -p build/clang --quiet
 

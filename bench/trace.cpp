@@ -4,7 +4,6 @@
 // from one point, and by Embree alone with its own triangles in single precision (which decides rays near edges
 // differently).
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "trace/embree_library.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway {
@@ -152,9 +152,8 @@ void embree_alone(benchmark::State& state) {
     ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
     ray.tfar = 1.0f;
     ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &ray);
+    trace::EmbreeQuery query;
+    trace::embree_occluded(scene, query, ray);
     benchmark::DoNotOptimize(ray.tfar);
   }
   rtcReleaseScene(scene);

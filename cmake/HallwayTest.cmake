@@ -5,7 +5,6 @@
 #
 # One GoogleTest executable, registered as one ctest test per executable. The label `threads` marks what runs under
 # the thread sanitizer. A test at the size that only `make test-long` runs is registered with hallway_add_long_test.
-find_package(GTest REQUIRED)
 
 set(HALLWAY_TEST_ENVIRONMENT
     "HALLWAY_SOURCE_DIR=${PROJECT_SOURCE_DIR}"

@@ -43,8 +43,27 @@ bool read_file(std::vector<unsigned char>* out, std::string* message, const std:
   }
 }
 
+/// What FileAccess reads it limits itself.
+bool file_size_unknown(std::size_t* size, std::string*, const std::string&, void*) {
+  *size = 0;
+  return true;
+}
+
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
   return false;
+}
+
+/// The only way to files that the parser gets. `Callbacks` is tinygltf::FsCallbacks; from 2.9 on it has one more, and none may be missing.
+template <typename Callbacks>
+Callbacks callbacks_for(FileAccess& access) {
+  Callbacks callbacks{};
+  callbacks.FileExists = &file_exists;
+  callbacks.ExpandFilePath = &keep_path;
+  callbacks.ReadWholeFile = &read_file;
+  callbacks.WriteWholeFile = &write_nothing;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = &file_size_unknown;
+  callbacks.user_data = &access;
+  return callbacks;
 }
 
 /// Keeps the encoded bytes; decoding comes later and only for what is shown. The range of a buffer view is not checked
@@ -79,12 +98,13 @@ Accessor accessor_of(const tinygltf::Accessor& in) {
   out.normalized = in.normalized;
   out.is_sparse = in.sparse.isSparse;
   if (out.is_sparse) {
+    // Some versions have whole numbers with a sign here; what is then below 0 the reader of the document refuses.
     out.sparse = {in.sparse.count,
                   in.sparse.indices.bufferView,
-                  in.sparse.indices.byteOffset,
+                  static_cast<std::int64_t>(in.sparse.indices.byteOffset),
                   in.sparse.indices.componentType,
                   in.sparse.values.bufferView,
-                  in.sparse.values.byteOffset};
+                  static_cast<std::int64_t>(in.sparse.values.byteOffset)};
   }
   return out;
 }
@@ -146,7 +166,7 @@ Document parse(const std::string& bytes, FileAccess& access) {
     throw Error(ErrorCode::kBadInput, "is larger than 4 GB");
   check_gltf_container(bytes);
   tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({&file_exists, &keep_path, &read_file, &write_nothing, &access});
+  parser.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(access));
   parser.SetImageLoader(&keep_image, nullptr);
   tinygltf::Model model;
   std::string message;

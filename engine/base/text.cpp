@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/utf8.hpp"
+
 namespace hallway {
 namespace {
 
@@ -21,25 +23,10 @@ std::optional<T> parse_whole(std::string_view text) {
   return value;
 }
 
-/// Length of the valid UTF-8 sequence at the start of `text`, 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  std::size_t length = 0;
-  std::uint32_t code = 0;
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) length = 2, code = first & 0x1Fu;
-  if (first >= 0xE0 && first <= 0xEF) length = 3, code = first & 0x0Fu;
-  if (first >= 0xF0 && first <= 0xF4) length = 4, code = first & 0x07u;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3Fu);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  const bool c1_control = code >= 0x80 && code < 0xA0;
-  return overlong || surrogate || c1_control || code > 0x10FFFF ? 0 : length;
+/// Length of the code point at the start of `text` if it may be shown, else 0: C1 controls are none.
+std::size_t shown_length(std::string_view text) {
+  const Utf8Code code = first_utf8_code(text);
+  return code.value >= 0x80 && code.value < 0xA0 ? 0 : code.length;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -88,7 +75,7 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
   std::string safe;
   while (!text.empty()) {
     if (safe.size() >= max_bytes) return safe + "…";
-    const std::size_t length = utf8_length(text);
+    const std::size_t length = shown_length(text);
     const auto first = static_cast<unsigned char>(text[0]);
     if (length == 0 || first < 0x20 || first == 0x7F) {
       safe += first == '\n' ? "\\n" : first == '\t' ? "\\t" : fmt::format("\\x{:02x}", first);

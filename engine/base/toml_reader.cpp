@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/toml_ascii.hpp"
 #include "base/toml_depth.hpp"
 #include "base/toml_library.hpp"
 
@@ -70,14 +71,22 @@ void forget_lines(TomlNode& node) {
   }
 }
 
+/// The text as the parser may see it. Throws Error{kBadInput} with the line where the text is malformed.
+std::string checked(std::string_view text, const std::string& file) {
+  const auto refuse = [&](const std::string& cause, int line) {
+    throw Error(ErrorCode::kBadInput, cause, {.file = printable(file), .line = line});
+  };
+  if (const int line = line_of_deep_key(text, kMaxKeyParts); line > 0)
+    refuse("a key has more than " + std::to_string(kMaxKeyParts) + " dotted parts", line);
+  auto ascii = ascii_toml(text);
+  if (const auto* problem = std::get_if<TomlProblem>(&ascii)) refuse(problem->cause, problem->line);
+  return std::get<std::string>(std::move(ascii));
+}
+
 }  // namespace
 
 TomlTable parse_toml(std::string_view text, const std::string& file) {
-  if (const int line = line_of_deep_key(text, kMaxKeyParts); line > 0) {
-    throw Error(ErrorCode::kBadInput, "a key has more than " + std::to_string(kMaxKeyParts) + " dotted parts",
-                {.file = printable(file), .line = line});
-  }
-  const toml::parse_result result = toml::parse(text, file);
+  const toml::parse_result result = toml::parse(checked(text, file), file);
   if (!result) {
     const toml::parse_error& error = result.error();
     throw Error(ErrorCode::kBadInput, printable(error.description()),
@@ -90,7 +99,9 @@ std::optional<TomlNode> parse_toml_value(std::string_view text) {
   if (text.find('\n') != std::string_view::npos) return std::nullopt;  // could smuggle in a second key
   const std::string line = "value = " + std::string(text);
   if (line_of_deep_key(line, kMaxKeyParts) > 0) return std::nullopt;
-  const toml::parse_result result = toml::parse(line);
+  const auto ascii = ascii_toml(line);
+  if (!std::holds_alternative<std::string>(ascii)) return std::nullopt;
+  const toml::parse_result result = toml::parse(std::get<std::string>(ascii));
   if (!result) return std::nullopt;
   TomlTable table = convert_table(result.table());
   forget_lines(table.front().node);

@@ -51,7 +51,7 @@ fs::path place_of(const Cell& cell, const Json& run, std::size_t i) {
 
 bool inputs_are_the_same(const Cell& cell, const Json& run) {
   for (std::size_t i = 0; i < run.at("inputs").size(); ++i) {
-    if (file_hash(place_of(cell, run, i)) != run.at("inputs").at(i).at("hash")) return false;
+    if (Json(file_hash(place_of(cell, run, i))) != run.at("inputs").at(i).at("hash")) return false;
   }
   return true;
 }
@@ -60,7 +60,7 @@ bool plugins_are_the_same(const Json& run) {
   const Json& files = run.at("host").at("plugin_files");
   if (files.size() != run.at("plugins").size()) return false;  // one that ended before it was known
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (file_hash(files.at(i).get<std::string>()) != run.at("plugins").at(i).at("hash")) return false;
+    if (Json(file_hash(files.at(i).get<std::string>())) != run.at("plugins").at(i).at("hash")) return false;
   }
   return true;
 }

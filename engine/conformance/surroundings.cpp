@@ -12,6 +12,7 @@
 #include <cfenv>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -114,6 +115,10 @@ std::string float_settings() {
   std::string text = fmt::format("rounding {}", std::fegetround());
 #if defined(__x86_64__)
   text += fmt::format(", MXCSR {:x}", _mm_getcsr() & ~static_cast<unsigned>(_MM_EXCEPT_MASK));
+#elif defined(__aarch64__)
+  std::uint64_t control = 0;  // flush to zero, default NaN, traps; flags that were raised stand elsewhere
+  asm volatile("mrs %0, fpcr" : "=r"(control));
+  text += fmt::format(", FPCR {:x}", control);
 #endif
   return text;
 }

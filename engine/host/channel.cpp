@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kHeadBytes = std::size_t{64} << 10;
 constexpr std::size_t kRequestBytes = std::size_t{128} << 20;  ///< of a slot
 constexpr std::size_t kReplyBytes = std::size_t{256} << 20;    ///< of a slot
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kPage = std::size_t{64} << 10;           ///< the largest that a kernel has: on arm64
 constexpr std::chrono::microseconds kSpin{20};
 static_assert(sizeof(RequestArea) <= kHeadBytes && sizeof(ReplyArea) <= kHeadBytes);
 

@@ -23,7 +23,8 @@ constexpr int kFatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGT
 constexpr int kMaxFrames = 48;
 
 CrashRecord* the_record = nullptr;
-alignas(16) std::array<char, std::size_t{64} << 10> the_stack;
+alignas(
+    16) std::array<char, std::size_t{256} << 10> the_stack;  ///< arm64 saves up to 64 KiB of registers on it
 
 /// Text of a fixed size, made without the heap: this runs in signal handlers.
 class Line {

@@ -17,14 +17,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The CPU's name, or on machines whose kernel gives none (arm64) the numbers of its maker and kind.
 std::string cpu_name() {
   std::ifstream info("/proc/cpuinfo");
   std::string line;
+  std::string numbers;
   while (std::getline(info, line)) {
     const std::size_t colon = line.find(':');
-    if (line.starts_with("model name") && colon != std::string::npos) {
-      return printable(trim(std::string_view(line).substr(colon + 1)));
-    }
+    if (colon == std::string::npos) continue;
+    const std::string value = printable(trim(std::string_view(line).substr(colon + 1)));
+    if (line.starts_with("model name")) return value;
+    if (line.starts_with("CPU implementer")) numbers = "implementer " + value;
+    if (line.starts_with("CPU part")) return numbers + ", part " + value;
   }
   return "unknown";
 }
@@ -56,11 +60,10 @@ Json make_manifest(const ManifestFacts& facts) {
   for (const Setting& setting : facts.settings) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
-  return {{"schema", "hallway.run/1"},  {"hallway", version()},
-          {"command", facts.command},   {"name", facts.name},
-          {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", Json::array()},
-          {"warnings", facts.warnings}, {"host", describe_host()}};
+  return {{"schema", "hallway.run/1"}, {"hallway", version()},     {"command", facts.command},
+          {"name", facts.name},        {"inputs", inputs},         {"period_ns", facts.period_ns},
+          {"settings", settings},      {"plugins", Json::array()}, {"warnings", facts.warnings},
+          {"host", describe_host()}};
 }
 
 Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {

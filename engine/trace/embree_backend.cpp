@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The only source file that knows Embree. Embree holds a tree of boxes in single precision, one box for each block
+// The only source file that works with Embree. It holds a tree of boxes in single precision, one box for each block
 // of up to eight triangles ("user geometry"); it finds which boxes a ray passes, and the block's triangles are
 // decided in single precision with bounds on the error (triangle_blocks.cpp); those that the bounds leave open, by
 // TriangleSet::hit() in double precision. Hence the answers are those of the brute-force backend if no box is missed
@@ -16,8 +16,6 @@
 //   covers 32 of them, twice what the longest chain of operations needs. The time at which a box is entered
 //   is thus never taken too late, either, and boxes are skipped only if they are entered after the best hit
 //   so far.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,6 +25,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "trace/embree_library.hpp"
 #include "trace/query_backend.hpp"
 #include "trace/triangle_blocks.hpp"
 
@@ -50,10 +49,9 @@ const char* error_text(RTCError error) {
       return "this CPU is not supported";
     case RTC_ERROR_CANCELLED:
       return "cancelled";
-    case RTC_ERROR_UNKNOWN:
-      break;
+    default:  // each version adds some
+      return "unknown error";
   }
-  return "unknown error";
 }
 
 /// Throws if Embree reported a failure on this thread since the last call. `device` may be null after a
@@ -179,7 +177,7 @@ class EmbreeBackend final : public QueryBackend {
     RTCRayHit ray{};
     ray.ray = float_ray(segment);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_.get(), &query, &ray);
+    embree_first_hit(scene_.get(), query, ray);
     return query.nearest;
   }
 
@@ -211,27 +209,22 @@ class EmbreeBackend final : public QueryBackend {
  private:
   /// Rides along with rays through Embree to the call-back. Rays carry their index in `time`, which nothing here uses
   /// otherwise: where Embree regroups rays it does not hand on `id`.
-  struct OcclusionQuery : RTCIntersectContext {
+  struct OcclusionQuery : EmbreeQuery {
     OcclusionQuery(const Vec3& start, const Vec3* end_points, const FloatSegment* float_segments)
-        : RTCIntersectContext(), from(start), ends(end_points), segments(float_segments) {
-      rtcInitIntersectContext(this);
-    }
+        : from(start), ends(end_points), segments(float_segments) {}
     const Vec3& from;
     const Vec3* ends;
     const FloatSegment* segments;
   };
 
-  struct FirstHitQuery : RTCIntersectContext {
+  struct FirstHitQuery : EmbreeQuery {
     FirstHitQuery(const EmbreeBackend& asked_backend, const SightLine& asked_line,
                   const FloatSegment& float_segment, double ray_begin, double ray_length)
-        : RTCIntersectContext(),
-          backend(asked_backend),
+        : backend(asked_backend),
           line(asked_line),
           segment(float_segment),
           begin(ray_begin),
-          length(ray_length) {
-      rtcInitIntersectContext(this);
-    }
+          length(ray_length) {}
     const EmbreeBackend& backend;
     const SightLine& line;
     const FloatSegment& segment;
@@ -296,7 +289,7 @@ class EmbreeBackend final : public QueryBackend {
   bool trace(const Vec3& from, const Vec3& to, const FloatSegment& segment) const {
     OcclusionQuery query(from, &to, &segment);
     RTCRay ray = float_ray(segment);
-    rtcOccluded1(scene_.get(), &query, &ray);
+    embree_occluded(scene_.get(), query, ray);
     return ray.tfar < 0.0f;
   }
 
@@ -321,7 +314,7 @@ class EmbreeBackend final : public QueryBackend {
     }
     alignas(32) static constexpr std::array<int, kPacket> kAllValid{-1, -1, -1, -1, -1, -1, -1, -1};
     OcclusionQuery query(eye, points.data(), segments.data());
-    rtcOccluded8(kAllValid.data(), scene_.get(), &query, &rays);
+    embree_occluded(scene_.get(), query, kAllValid.data(), rays);
     for (std::size_t i = 0; i < kPacket; ++i) occluded_points[i] = rays.tfar[i] < 0.0f ? 1 : 0;
   }
 
