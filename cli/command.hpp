@@ -15,6 +15,7 @@ void add_render_command(CLI::App& app, Action& chosen);
 void add_batch_command(CLI::App& app, Action& chosen);
 void add_study_command(CLI::App& app, Action& chosen);
 void add_align_command(CLI::App& app, Action& chosen);
+void add_score_command(CLI::App& app, Action& chosen);
 void add_compare_command(CLI::App& app, Action& chosen);
 void add_doctor_command(CLI::App& app, Action& chosen);
 void add_plugin_command(CLI::App& app, Action& chosen);
