@@ -15,6 +15,7 @@ void add_render_command(Command& app);
 void add_batch_command(Command& app);
 void add_study_command(Command& app);
 void add_align_command(Command& app);
+void add_score_command(Command& app);
 void add_compare_command(Command& app);
 void add_doctor_command(Command& app);
 void add_plugin_command(Command& app);

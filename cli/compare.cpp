@@ -11,7 +11,8 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "plugin_sweep.hpp"
-#include "run/pictures.hpp"
+#include "render/png.hpp"
+#include "run/comparison.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -58,10 +59,12 @@ fs::path draw(const CompareOptions& options, const fs::path& folder,
   if (runs.empty()) return {};
   sim::PictureSpec spec;
   spec.view = options.view == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
-  spec.show = {sim::PictureLayer::kMap, sim::PictureLayer::kTruth, sim::PictureLayer::kEstimate,
-               sim::PictureLayer::kLandmarks};
+  spec.show = {sim::PictureLayer::kMap,       sim::PictureLayer::kTruth,  sim::PictureLayer::kEstimate,
+               sim::PictureLayer::kLandmarks, sim::PictureLayer::kErrors, sim::PictureLayer::kWalls};
+  spec.width_px = 960;
+  spec.height_px = 640;
   const fs::path file = folder / "comparison.png";
-  write_file_atomically(file, run::draw_comparison(runs, spec));
+  write_file_atomically(file, render::encode_png(run::draw_comparison(runs, spec)));
   return file;
 }
 
@@ -133,7 +136,7 @@ void add_compare_command(Command& app) {
   command.flag("--json", &options->json, "Print one JSON document");
   command.flag("--quiet", &options->quiet, "Print no progress and no table");
   command.footer(
-      "Writes a table (results.csv, results.json), comparison.png with all maps over the truth, and the "
+      "Writes a table (results.csv, results.json), comparison.png with a panel for each run, and the "
       "folder of each run in cells/.\n"
       "Exit status: 0, or that of the first run that failed.\n"
       "Example: hallway compare maps/office.toml --plugin slam_point:noise_m=0.01,0.05 --plugin "

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     hallway::cli::add_run_command(app);
     hallway::cli::add_replay_command(app);
     hallway::cli::add_serve_command(app);
+    hallway::cli::add_score_command(app);
     hallway::cli::add_compare_command(app);
     hallway::cli::add_batch_command(app);
     hallway::cli::add_study_command(app);

@@ -32,6 +32,34 @@ std::string metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f} m", *value) : std::string("unknown");
 }
 
+/// "98.6 % of landmarks", for the end of a line with errors; empty where the share is not known.
+std::string coverage_text(const std::optional<double>& share, const char* of) {
+  return share ? fmt::format("; {:.1f} % of {}", 100.0 * *share, of) : std::string();
+}
+
+std::string verdict_text(const Metrics& metrics) {
+  if (!metrics.verdict) return "unknown: too few true poses";
+  std::string text = eval::name_of(*metrics.verdict);
+  if (metrics.diverged_at)
+    text += fmt::format(" from iteration {} on: position error up to {:.4f} m, limit {:.4f} m",
+                        *metrics.diverged_at, metrics.divergence->worst_m, metrics.divergence->limit_m);
+  if (metrics.diverged_at && metrics.divergence->worst_deg)
+    text += fmt::format("; rotation error up to {:.1f} deg, limit {:.0f} deg", *metrics.divergence->worst_deg,
+                        eval::Divergence::kLimit_deg);
+  return text;
+}
+
+void add_path(Table& table, const Metrics& metrics) {
+  table.row("verdict", verdict_text(metrics));
+  table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
+  if (metrics.parts.count > 1 || metrics.parts.restarts > 0)
+    table.row("parts of the map",
+              fmt::format("{} with {} restarts; scored is the one with most poses, {} of {} iterations{}",
+                          metrics.parts.count, metrics.parts.restarts, metrics.parts.scored_iterations,
+                          metrics.iterations,
+                          metrics.parts.ends_in_scored ? "" : "; the map at the end is another one"));
+}
+
 void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
   // Plugins that give a path alone have nothing to be missed.
   if (!metrics.landmarks_true || metrics.landmarks_mapped == 0) {
@@ -47,14 +75,14 @@ void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) 
 void add_associations(Table& table, const Metrics& metrics) {
   if (!metrics.association_errors) {
     table.row("observations",
-              fmt::format("{}, {} given to no landmark", metrics.observations, metrics.associations_none));
+              fmt::format("{}, {} unassociated", metrics.observations, metrics.associations_none));
     return;
   }
   const double share = metrics.observations == 0 ? 0.0
                                                  : 100.0 * static_cast<double>(*metrics.association_errors) /
                                                        static_cast<double>(metrics.observations);
   table.row("observations",
-            fmt::format("{}, {} given to no landmark, {} to a wrong one ({:.4f} %)", metrics.observations,
+            fmt::format("{}, {} unassociated, {} misassociated ({:.4f} %)", metrics.observations,
                         metrics.associations_none, *metrics.association_errors, share));
 }
 
@@ -64,44 +92,58 @@ std::string errors_text(const std::optional<eval::ErrorSummary>& errors, const c
                      unit);
 }
 
-void add_planes(Table& table, const eval::PlaneMetrics& planes, std::uint64_t submaps) {
+void add_planes(Table& table, const Metrics& metrics, std::uint64_t submaps) {
+  const eval::PlaneMetrics& planes = *metrics.planes;
+  const std::string walls = coverage_text(metrics.wall_coverage(), "walls");
+  const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
   const eval::PlaneMapMetrics& map = planes.refined;
-  table.row("planes seen", fmt::format("{}, {} given to no wall, {} to a wrong one", planes.observations,
+  table.row("planes seen", fmt::format("{}, {} unassociated, {} misassociated", planes.observations,
                                        planes.associations_none, planes.association_errors));
   table.row(
       "walls mapped",
       fmt::format("{} of {} in {} submaps; {} duplicated, {} in parts, {} that are none", map.walls_mapped,
                   planes.walls_true, submaps, map.duplicated, map.parts, map.unmatched));
   if (map.corner_m) table.row("certain corners", fmt::format("{}", map.corner_m->count));
-  table.row("corner error", errors_text(map.corner_m, "m"));
-  table.row("wall error, across it", errors_text(map.offset_m, "m"));
-  table.row("wall error, direction", errors_text(map.angle_deg, "deg"));
+  table.row("corner error", errors_text(map.corner_m, "m") + walls);
+  table.row("wall error, across it", errors_text(map.offset_m, "m") + walls);
+  table.row("wall error, direction", errors_text(map.angle_deg, "deg") + walls);
   if (map.extent_iou_mean)
     table.row("wall extent, IoU", fmt::format("{:.4f} mean, {:.4f} least", *map.extent_iou_mean,
                                               map.extent_iou_least.value_or(0)));
-  table.row("position error, online", errors_text(planes.position_m, "m"));
+  table.row("position error, online", errors_text(planes.position_m, "m") + poses);
   table.row("position error, re-fitted", errors_text(planes.position_refitted_m, "m"));
-  table.row("heading error, online", errors_text(planes.heading_deg, "deg"));
+  table.row("heading error, online", errors_text(planes.heading_deg, "deg") + poses);
   table.row("heading error, re-fitted", errors_text(planes.heading_refitted_deg, "deg"));
 }
 
+void add_relative(Table& table, const char* label, const eval::PathError& error, const std::string& poses) {
+  if (!error.translation_m || !error.rotation_deg) return;
+  table.row(label, fmt::format("{:.4f} m, {:.4f} deg RMSE{}", error.translation_m->rmse,
+                               error.rotation_deg->rmse, poses));
+}
+
 void add_errors(Table& table, const Metrics& metrics) {
+  const std::string landmarks = coverage_text(metrics.landmark_coverage(), "landmarks");
+  const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
   if (metrics.landmark_rmse_m.aligned) {
     table.row("landmark RMSE, aligned",
-              fmt::format("{} online, {} as re-solved at the end", metres(metrics.landmark_rmse_m.aligned),
-                          metres(metrics.landmark_rmse_final_aligned_m)));
-    table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose));
+              fmt::format("{} online, {} as re-solved at the end{}", metres(metrics.landmark_rmse_m.aligned),
+                          metres(metrics.landmark_rmse_final_aligned_m), landmarks));
+    table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose) + landmarks);
   }
   if (metrics.position_rmse_m.aligned) {
-    table.row("position RMSE, aligned", fmt::format("{} online, {} as re-fitted to the map at the end",
+    table.row("position RMSE, aligned", fmt::format("{} online, {} as re-fitted to the map at the end{}",
                                                     metres(metrics.position_rmse_m.aligned),
-                                                    metres(metrics.position_rmse_refitted_aligned_m)));
+                                                    metres(metrics.position_rmse_refitted_aligned_m), poses));
   }
   if (metrics.position_rmse_m.first_pose) {
     table.row("position RMSE, first pose",
-              fmt::format("{}, {} at the end", metres(metrics.position_rmse_m.first_pose),
-                          metres(metrics.position_final_m)));
+              fmt::format("{}, {} at the end{}", metres(metrics.position_rmse_m.first_pose),
+                          metres(metrics.position_final_m), poses));
   }
+  add_relative(table, "RPE, per frame", metrics.rpe_frame, poses);
+  add_relative(table, "RPE, per metre", metrics.rpe_metre, poses);
+  add_relative(table, "RPE, per second", metrics.rpe_second, poses);
 }
 
 void add_times(Table& table, const char* label, const std::optional<eval::TimeSummary>& times) {
@@ -122,8 +164,8 @@ std::string table_of(const Outcome& outcome) {
   const run::RunResult& result = outcome.result;
   const Metrics& metrics = result.metrics;
   Table table;
-  table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
-  if (metrics.planes) add_planes(table, *metrics.planes, result.submaps);
+  add_path(table, metrics);
+  if (metrics.planes) add_planes(table, metrics, result.submaps);
   if (!metrics.planes || metrics.landmarks_mapped > 0) {
     add_associations(table, metrics);
     add_landmarks(table, metrics, result.submaps);

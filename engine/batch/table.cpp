@@ -58,6 +58,12 @@ std::optional<double> number_of(const Json& metrics, const std::string& name) {
   return std::nullopt;
 }
 
+std::string path_verdict_of(const Result& result) {
+  if (!result.metrics.is_object()) return {};
+  const auto verdict = result.metrics.find("verdict");
+  return verdict != result.metrics.end() && verdict->is_string() ? verdict->get<std::string>() : "";
+}
+
 std::string print_csv(const std::vector<Result>& results) {
   std::vector<std::string> labels, metrics;
   for (const Result& result : results) {
@@ -66,14 +72,14 @@ std::string print_csv(const std::vector<Result>& results) {
   }
   std::string text = "name";
   for (const std::string& label : labels) text += "," + field(label);
-  text += ",status,verdict,problem,wall_s";
+  text += ",status,verdict,problem,wall_s,path_verdict";
   for (const std::string& metric : metrics) text += "," + field(metric);
   text += "\r\n";
   for (const Result& result : results) {
     text += field(result.name);
     for (const std::string& label : labels) text += "," + field(label_of(result, label));
-    text += fmt::format(",{},{},{},{}", result.status, field(verdict_name(result)), field(result.problem),
-                        format_double(result.wall_s));
+    text += fmt::format(",{},{},{},{},{}", result.status, field(verdict_name(result)), field(result.problem),
+                        format_double(result.wall_s), field(path_verdict_of(result)));
     const auto numbers = numbers_of(result.metrics);
     for (const std::string& metric : metrics) {
       const auto found = std::find_if(numbers.begin(), numbers.end(),

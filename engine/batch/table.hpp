@@ -17,7 +17,11 @@ std::vector<std::pair<std::string, double>> numbers_of(const nlohmann::ordered_j
 /// The number of that name, if there is one.
 std::optional<double> number_of(const nlohmann::ordered_json& metrics, const std::string& name);
 
-/// All results as CSV (RFC 4180): name, labels, status, verdict, problem, seconds, then every metric that one of them has.
+/// What a run's metrics say of its path: "ok", "diverged", "lost"; empty where they do not.
+std::string path_verdict_of(const Result& result);
+
+/// All results as CSV (RFC 4180): name, labels, status, verdict of a plugin that failed, problem, seconds, verdict of the path, then every metric that one of
+/// them has.
 std::string print_csv(const std::vector<Result>& results);
 
 /// The same as one JSON document of schema `hallway.batch_results/1`.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "eval/evaluator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "eval/point_error.hpp"
 #include "eval/time_summary.hpp"
@@ -115,13 +117,12 @@ void Evaluator::add(const Iteration& iteration) {
   if (planes_) add_planes(iteration);
   ++iterations_;
   if (!iteration.T_map_body) ++lost_;
-  if (iteration.T_world_body && iteration.T_map_body) {
-    if (iteration.orientation_known) {
-      trajectory_.add(*iteration.T_world_body, *iteration.T_map_body, iteration.pose_covariance);
-    } else {
-      trajectory_.add_position(iteration.T_world_body->t, *iteration.T_map_body);
-    }
-  }
+  path_.add({.t_s = iteration.t_s,
+             .T_world_body = iteration.T_world_body,
+             .orientation_known = iteration.orientation_known,
+             .T_map_body = iteration.T_map_body,
+             .covariance = iteration.pose_covariance,
+             .map_epoch = iteration.map_epoch});
   if (iteration.T_world_body && !iteration.points.empty())
     refitted_path_.add(iteration.T_world_body->t, iteration.points, iteration.associations);
   if (truth_.has_identities) {
@@ -135,25 +136,74 @@ void Evaluator::add(const Iteration& iteration) {
   if (iteration.cpu_ms) cpu_ms_.push_back(*iteration.cpu_ms);
 }
 
+void Evaluator::finish(std::span<const JoinedEpoch> joined) {
+  if (!planes_) return;
+  const std::vector<std::uint64_t> frames = path_.frames_of_map(joined);
+  planes_->keep_poses([&](std::uint32_t iteration) {
+    return std::binary_search(frames.begin(), frames.end(), std::uint64_t{iteration});
+  });
+}
+
 Metrics Evaluator::metrics(std::span<const MapLandmark> online,
-                           const std::optional<std::vector<MapLandmark>>& refined) const {
+                           const std::optional<std::vector<MapLandmark>>& refined,
+                           std::span<const JoinedEpoch> joined) const {
   Metrics metrics;
   metrics.iterations = iterations_;
   metrics.observations = associations_.observations();
   metrics.lost_iterations = lost_;
   metrics.landmarks_mapped = count_mapped(online);
   metrics.associations_none = associations_.none();
+  PathParts::Summary summary = path_.summary(joined);
+  const PartPath scored = path_.path_of(summary.scored, joined);
+  // The map at the end is of the part that the last pose is in.
+  const auto first_pose = summary.last == summary.scored
+                              ? scored.score.first_pose_frame()
+                              : path_.path_of(summary.last, joined).score.first_pose_frame();
   std::optional<Pose> T_map_world;
-  if (truth_.has_identities) T_map_world = score_landmarks(online, refined, metrics);
-  metrics.position_pairs = trajectory_.pairs();
-  metrics.position_rmse_m = trajectory_.position_rmse_m();
+  if (truth_.has_identities) T_map_world = score_landmarks(online, refined, first_pose, metrics);
+  if (truth_.has_identities && !planes_ && !online.empty()) {
+    metrics.associations_dropped = dropped_associations(online);
+    const std::uint64_t associated = metrics.observations - metrics.associations_none;
+    summary.poses.map_forgotten = 2 * *metrics.associations_dropped > associated;
+  }
   if (refined) score_refitted_path(*refined, metrics);
-  metrics.position_final_m = trajectory_.position_final_m();
-  metrics.rotation_rmse_deg = trajectory_.rotation_rmse_deg();
-  metrics.pose_consistency = trajectory_.consistency(T_map_world);
+  if (summary.last != summary.scored) T_map_world.reset();
+  score_path(summary, scored, T_map_world, metrics);
   metrics.iteration_ms = summarize(wall_ms_);
   metrics.iteration_cpu_ms = summarize(cpu_ms_);
   return metrics;
+}
+
+std::uint64_t Evaluator::dropped_associations(std::span<const MapLandmark> map) const {
+  std::unordered_set<LandmarkId> there;
+  for (const MapLandmark& landmark : map) there.insert(landmark.id);
+  std::uint64_t dropped = 0;
+  for (const auto& [pair, count] : associations_.votes()) dropped += there.contains(pair.map) ? 0 : count;
+  return dropped;
+}
+
+void Evaluator::score_path(const PathParts::Summary& summary, const PartPath& path,
+                           const std::optional<Pose>& T_map_world, Metrics& metrics) const {
+  metrics.parts = {.count = summary.parts,
+                   .restarts = summary.restarts,
+                   .scored_iterations = summary.poses.scored,
+                   .other_iterations = summary.poses.other_parts,
+                   .ends_in_scored = summary.poses.ends_in_scored};
+  metrics.divergence =
+      divergence_of(path.pairs, path_.orientations_known() ? Judged::kAll : Judged::kPositions);
+  if (metrics.divergence && metrics.divergence->first)
+    metrics.diverged_at = path.pair_frames[*metrics.divergence->first];
+  metrics.verdict = judge(summary.poses, metrics.divergence);
+  const TrajectoryScore& score = path.score;
+  metrics.position_pairs = score.pairs();
+  metrics.position_rmse_m = score.position_rmse_m();
+  metrics.position_final_m = score.position_final_m();
+  metrics.rotation_rmse_deg = score.rotation_rmse_deg();
+  metrics.pose_consistency = score.consistency(T_map_world);
+  if (!path_.orientations_known()) return;
+  metrics.rpe_frame = relative_error(path.pairs, {1.0, DeltaUnit::kFrames});
+  metrics.rpe_metre = relative_error(path.pairs, {1.0, DeltaUnit::kMetres});
+  metrics.rpe_second = relative_error(path.pairs, {1.0, DeltaUnit::kSeconds});
 }
 
 void Evaluator::score_refitted_path(const std::vector<MapLandmark>& refined, Metrics& metrics) const {
@@ -165,6 +215,7 @@ void Evaluator::score_refitted_path(const std::vector<MapLandmark>& refined, Met
 
 std::optional<Pose> Evaluator::score_landmarks(std::span<const MapLandmark> online,
                                                const std::optional<std::vector<MapLandmark>>& refined,
+                                               const std::optional<Pose>& first_pose,
                                                Metrics& metrics) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   metrics.association_errors = ownership.errors;
@@ -183,9 +234,7 @@ std::optional<Pose> Evaluator::score_landmarks(std::span<const MapLandmark> onli
   const PositionMap truth = positions_by_id(*truth_.landmarks);
   const LandmarkPairs pairs = pair_landmarks(online, owner, truth);
   metrics.landmark_pairs = pairs.truth.size();
-  if (const auto T_world_map = trajectory_.first_pose_frame()) {
-    metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *T_world_map);
-  }
+  if (first_pose) metrics.landmark_rmse_m.first_pose = rmse(pairs.truth, pairs.estimate, *first_pose);
   metrics.landmark_rmse_m.aligned = aligned_rmse(pairs.truth, pairs.estimate);
   if (refined) {
     const LandmarkPairs final_pairs = pair_landmarks(*refined, owner, truth);

@@ -9,9 +9,9 @@
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
 #include "eval/motion_score.hpp"
+#include "eval/path_parts.hpp"
 #include "eval/plane_score.hpp"
 #include "eval/refitted_path.hpp"
-#include "eval/trajectory_score.hpp"
 #include "geom/pose.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
@@ -23,6 +23,9 @@ struct Iteration {
   std::optional<Pose> T_world_body;  ///< the truth, where known
   bool orientation_known = true;     ///< false: of the truth only the position is meant
   std::optional<Pose> T_map_body;    ///< the plugin's estimate; empty where it gave none (lost)
+  double t_s = 0.0;                  ///< time of the frame
+  /// Which connected part of its map the pose is in, where the plugin says so (`map_epoch`).
+  std::optional<std::uint64_t> map_epoch{};
   /// Of the estimate's error, as hw_pose_output_t says; empty where it is not told.
   std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;
   /// By observation: the landmark that the plugin took it for, kNoLandmark for none.
@@ -63,22 +66,34 @@ class Evaluator {
   /// Which true landmark's observations were given to which landmark of the map.
   const AssociationScore& associations() const { return associations_; }
 
+  /// Says that no more iterations come, and which parts of the map are one: poses in a frame of reference other than that of the map at
+  /// the end have no errors on maps of planes.
+  void finish(std::span<const JoinedEpoch> joined);
+
   /// The metrics of everything added so far.
   ///
   /// @param online   the map as the plugin left it after the last iteration, each id once
   /// @param refined  the map as re-solved at the end under the same ids; empty where the plugin does not do so
+  /// @param joined   parts of the map that the plugin says at the end to be one
   Metrics metrics(std::span<const log::MapLandmark> online,
-                  const std::optional<std::vector<log::MapLandmark>>& refined) const;
+                  const std::optional<std::vector<log::MapLandmark>>& refined,
+                  std::span<const JoinedEpoch> joined = {}) const;
   /// The same for maps of planes; null where the true walls are not known.
   const PlaneScore* planes() const { return planes_ ? &*planes_ : nullptr; }
 
  private:
   void add_planes(const Iteration& iteration);
   void score_refitted_path(const std::vector<log::MapLandmark>& refined, Metrics& metrics) const;
+  /// @param first_pose  T_world_map by the first pose in the part that the map is of
   /// @return T_map_world by the landmarks of `online`, if they determine it
   std::optional<Pose> score_landmarks(std::span<const log::MapLandmark> online,
                                       const std::optional<std::vector<log::MapLandmark>>& refined,
-                                      Metrics& metrics) const;
+                                      const std::optional<Pose>& first_pose, Metrics& metrics) const;
+  /// Associated observations whose landmark a map does not have.
+  std::uint64_t dropped_associations(std::span<const log::MapLandmark> map) const;
+  /// @param T_map_world  of the map at the end, if that is determined
+  void score_path(const PathParts::Summary& summary, const PartPath& path,
+                  const std::optional<Pose>& T_map_world, Metrics& metrics) const;
 
   bool moves(log::LandmarkId landmark) const { return motion_ && motion_->moves(landmark); }
 
@@ -88,7 +103,7 @@ class Evaluator {
   AssociationScore associations_;
   std::optional<MotionScore> motion_;  ///< where the truth says what moves
   std::optional<PlaneScore> planes_;   ///< where the truth has walls
-  TrajectoryScore trajectory_;
+  PathParts path_;
   RefittedPath refitted_path_;
   std::vector<double> wall_ms_;
   std::vector<double> cpu_ms_;

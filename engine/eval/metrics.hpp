@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "eval/consistency.hpp"
+#include "eval/path_error.hpp"
+#include "eval/path_verdict.hpp"
 #include "eval/plane_metrics.hpp"
 
 namespace hallway::eval {
@@ -26,6 +28,12 @@ struct TimeSummary {
   double max = 0.0;
 };
 
+/// A part of a whole; empty where the whole is nothing.
+inline std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// How the true landmarks that move were told from those that stand. A true landmark is marked when more of its observations
 /// were given to landmarks of the map with the status dynamic than to mapped ones.
 struct MovingMetrics {
@@ -36,12 +44,16 @@ struct MovingMetrics {
 
   std::optional<double> recall() const { return share(moved_marked, moved); }
   std::optional<double> precision() const { return share(marked_moving, marked); }
+};
 
- private:
-  static std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
-    if (whole == 0) return std::nullopt;
-    return static_cast<double>(part) / static_cast<double>(whole);
-  }
+/// The connected parts of a map that poses are in, as the plugin says (`map_epoch`).
+struct MapParts {
+  std::uint64_t count = 0;     ///< parts with a pose; such as were joined count as one
+  std::uint64_t restarts = 0;  ///< how often a pose was in a new part
+  std::uint64_t scored_iterations =
+      0;  ///< iterations with a pose in the part that is scored: the one with the most
+  std::uint64_t other_iterations = 0;  ///< iterations with a pose in another part
+  bool ends_in_scored = true;  ///< the last pose, and with it the map at the end, is of the scored part
 };
 
 /// How well a run was estimated; docs/metrics.md defines each member. What cannot be computed is empty, never zero.
@@ -49,6 +61,26 @@ struct Metrics {
   std::uint64_t iterations = 0;
   std::uint64_t observations = 0;
   std::uint64_t lost_iterations = 0;  ///< iterations without an estimated pose
+
+  std::optional<PathVerdict> verdict;        ///< empty where the true path is not known
+  std::optional<Divergence> divergence;      ///< from three pairs of poses on
+  std::optional<std::uint64_t> diverged_at;  ///< the first iteration over a limit
+  MapParts parts;                            ///< what is said of poses below is of the scored part alone
+
+  /// Share of the iterations with a pose in the scored part; empty without iterations.
+  std::optional<double> pose_coverage() const { return share(parts.scored_iterations, iterations); }
+  /// Share of the observed true landmarks that own a mapped one; empty where that is not known, where there are none, and where
+  /// what was mapped are planes.
+  std::optional<double> landmark_coverage() const {
+    if (planes && landmarks_mapped == 0) return std::nullopt;
+    if (!landmarks_true || !landmarks_missed) return std::nullopt;
+    return share(*landmarks_true - *landmarks_missed, *landmarks_true);
+  }
+  /// Share of the true walls asked for that own a mapped plane, map as re-solved at the end; empty likewise.
+  std::optional<double> wall_coverage() const {
+    if (!planes) return std::nullopt;
+    return share(planes->refined.walls_mapped, planes->walls_true);
+  }
 
   std::optional<std::uint64_t> landmarks_true;  ///< different true landmarks among the observations; here
                                                 ///< and below without those that move
@@ -60,8 +92,10 @@ struct Metrics {
   std::optional<MovingMetrics> moving;  ///< online map; where the truth says what moves
 
   std::optional<std::uint64_t>
-      association_errors;               ///< observations given to another true landmark's landmark
-  std::uint64_t associations_none = 0;  ///< observations that the plugin gave to no landmark
+      association_errors;  ///< misassociated observations: with another true landmark's
+  std::optional<std::uint64_t>
+      associations_dropped;  ///< associated with landmarks that the online map does not have any more
+  std::uint64_t associations_none = 0;  ///< unassociated observations
 
   std::uint64_t landmark_pairs = 0;  ///< what landmark_rmse_m is taken over
   AlignedRmse landmark_rmse_m;       ///< online map; aligned: landmarks fitted rigidly
@@ -75,6 +109,9 @@ struct Metrics {
   std::optional<double> position_rmse_refitted_aligned_m;  ///< of those, positions fitted rigidly
   std::optional<double> position_final_m;  ///< error of the last estimate, in the frame of first_pose
   AlignedRmse rotation_rmse_deg;           ///< aligned: orientations fitted by one rotation
+  PathError rpe_frame;                     ///< relative pose error from frame to frame
+  PathError rpe_metre;                     ///< over one metre of the true path
+  PathError rpe_second;                    ///< over one second
 
   Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
   Consistency pose_consistency;      ///< poses as answered, after the fit of the online map's landmarks

@@ -30,7 +30,36 @@ Json moving(const std::optional<MovingMetrics>& metrics) {
           {"precision", number(metrics->precision())}};
 }
 
+Json parts(const MapParts& parts) {
+  return {{"count", parts.count},
+          {"restarts", parts.restarts},
+          {"scored_iterations", parts.scored_iterations},
+          {"other_iterations", parts.other_iterations},
+          {"ends_in_scored", parts.ends_in_scored}};
+}
+
+Json divergence(const Metrics& metrics) {
+  if (!metrics.divergence) return nullptr;
+  return {{"position_limit_m", metrics.divergence->limit_m},
+          {"position_worst_m", metrics.divergence->worst_m},
+          {"rotation_worst_deg", number(metrics.divergence->worst_deg)},
+          {"iteration", number(metrics.diverged_at)}};
+}
+
 }  // namespace
+
+Json to_json(const std::optional<ErrorStatistics>& errors) {
+  if (!errors) return nullptr;
+  return {{"count", errors->count},
+          {"rmse", errors->rmse},
+          {"mean", errors->mean},
+          {"median", errors->median},
+          {"max", errors->max}};
+}
+
+Json to_json(const PathError& error) {
+  return {{"translation_m", to_json(error.translation_m)}, {"rotation_deg", to_json(error.rotation_deg)}};
+}
 
 Json to_json(const std::optional<TimeSummary>& times) {
   if (!times) return nullptr;
@@ -46,9 +75,16 @@ Json to_json(const Metrics& metrics) {
   document["schema"] = "hallway.metrics/1";
   document["iterations"] = metrics.iterations;
   document["lost_iterations"] = metrics.lost_iterations;
+  document["verdict"] = metrics.verdict ? Json(name_of(*metrics.verdict)) : Json(nullptr);
+  document["coverage"] = {{"poses", number(metrics.pose_coverage())},
+                          {"landmarks", number(metrics.landmark_coverage())},
+                          {"walls", number(metrics.wall_coverage())}};
+  document["parts"] = parts(metrics.parts);
+  document["divergence"] = divergence(metrics);
   document["observations"] = metrics.observations;
   document["associations_none"] = metrics.associations_none;
   document["association_errors"] = number(metrics.association_errors);
+  document["associations_dropped"] = number(metrics.associations_dropped);
   document["landmarks_true"] = number(metrics.landmarks_true);
   document["landmarks_mapped"] = metrics.landmarks_mapped;
   document["landmarks_duplicated"] = number(metrics.landmarks_duplicated);
@@ -62,6 +98,9 @@ Json to_json(const Metrics& metrics) {
   document["position_refitted_pairs"] = metrics.position_refitted_pairs;
   document["position_final_m"] = number(metrics.position_final_m);
   document["rotation_rmse_deg"] = aligned(metrics.rotation_rmse_deg);
+  document["rpe"] = {{"frame", to_json(metrics.rpe_frame)},
+                     {"metre", to_json(metrics.rpe_metre)},
+                     {"second", to_json(metrics.rpe_second)}};
   document["nees"] = {{"landmarks", number(metrics.landmark_consistency.mean())},
                       {"landmark_pairs", metrics.landmark_consistency.count()},
                       {"poses", number(metrics.pose_consistency.mean())},

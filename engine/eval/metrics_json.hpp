@@ -14,6 +14,12 @@ nlohmann::ordered_json to_json(const Metrics& metrics);
 /// The member `planes`; null for none.
 nlohmann::ordered_json to_json(const std::optional<PlaneMetrics>& planes);
 
+/// {"count", "rmse", "mean", "median", "max"}; null for none.
+nlohmann::ordered_json to_json(const std::optional<ErrorStatistics>& errors);
+
+/// {"translation_m", "rotation_deg"}.
+nlohmann::ordered_json to_json(const PathError& error);
+
 /// {"mean", "p50", "p99", "max"}; null for none.
 nlohmann::ordered_json to_json(const std::optional<TimeSummary>& times);
 

@@ -227,6 +227,17 @@ void PlaneScore::add_pose(std::uint32_t iteration, const Pose& T_world_body, con
   refitted_.add(iteration, T_map_body, given);
 }
 
+void PlaneScore::keep_poses(const std::function<bool(std::uint32_t)>& is_in_map) {
+  for (TwoPoses& poses : poses_) poses.in_map = is_in_map(poses.iteration);
+}
+
+std::optional<Pose> PlaneScore::first_pose_frame() const {
+  const auto first =
+      std::find_if(poses_.begin(), poses_.end(), [](const TwoPoses& poses) { return poses.in_map; });
+  if (first == poses_.end()) return std::nullopt;
+  return first->T_world_body * first->T_map_body.inverse();
+}
+
 std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const MappedPlane> map) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   std::vector<Pair> pairs;
@@ -248,15 +259,15 @@ bool PlaneScore::are_level(const std::vector<Pair>& pairs) {
 /// By the planes, from where the first pose puts the map.
 std::optional<Pose> PlaneScore::spatial_alignment(const std::vector<Pair>& pairs, bool& by_planes) const {
   by_planes = false;
-  if (poses_.empty()) return std::nullopt;
+  const std::optional<Pose> first = first_pose_frame();
+  if (!first) return std::nullopt;
   std::vector<PointOnPlane> points;
   for (const Pair& pair : pairs) {
     const Plane plane{pair.face->normal, pair.face->normal.dot(pair.face->corners[0])};
     for (const log::MappedCorner& corner : pair.plane->outline)
       points.push_back({vector_of(corner.position_m), plane});
   }
-  const Pose first = poses_.front().T_world_body * poses_.front().T_map_body.inverse();
-  const std::optional<Pose> aligned = align_to_planes(points, first);
+  const std::optional<Pose> aligned = align_to_planes(points, *first);
   by_planes = aligned.has_value();
   return aligned ? aligned : first;
 }
@@ -276,12 +287,12 @@ std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& 
   by_corners = determine_a_pose(from) && determine_a_pose(to);
   if (by_corners) {
     Pose T_world_map = *rigid_fit(from, to);
-    if (!poses_.empty())
-      T_world_map.t.z() = poses_.front().T_world_body.t.z() - poses_.front().T_map_body.t.z();
+    const auto first =
+        std::find_if(poses_.begin(), poses_.end(), [](const TwoPoses& poses) { return poses.in_map; });
+    if (first != poses_.end()) T_world_map.t.z() = first->T_world_body.t.z() - first->T_map_body.t.z();
     return T_world_map;
   }
-  if (poses_.empty()) return std::nullopt;
-  return poses_.front().T_world_body * poses_.front().T_map_body.inverse();
+  return first_pose_frame();
 }
 
 std::optional<Pose> PlaneScore::alignment(std::span<const MappedPlane> map) const {
@@ -362,8 +373,10 @@ std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const MappedPla
   std::vector<log::PoseErrorRow> errors;
   const std::optional<Pose> T_world_map = alignment(map);
   if (!T_world_map) return errors;
-  for (const TwoPoses& poses : poses_)
+  for (const TwoPoses& poses : poses_) {
+    if (!poses.in_map) continue;
     errors.push_back(error_of(poses.iteration, *T_world_map * poses.T_map_body, poses.T_world_body));
+  }
   return errors;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -43,6 +44,10 @@ class PlaneScore {
   void add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body,
                 std::span<const GivenPlane> given = {});
 
+  /// Says which of the poses are in the frame of reference of the map at the end: the others have no error there. All are, where nothing
+  /// is said. @param is_in_map  by iteration
+  void keep_poses(const std::function<bool(std::uint32_t)>& is_in_map);
+
   /// @param online, refined  the maps after the last iteration and as re-solved, each id once
   PlaneMetrics metrics(std::span<const log::MappedPlane> online,
                        std::span<const log::MappedPlane> refined) const;
@@ -77,8 +82,11 @@ class PlaneScore {
   struct TwoPoses {
     std::uint32_t iteration;
     Pose T_world_body, T_map_body;
+    bool in_map = true;  ///< of the frame of reference of the map at the end
   };
 
+  /// T_world_map by the first pose in the map; empty without one.
+  std::optional<Pose> first_pose_frame() const;
   bool is_asked_for(const Face& face) const { return face.frames >= kLeastFrames; }
   /// Whether all planes are upright, as a map in 2 1/2-D has them.
   static bool are_level(const std::vector<Pair>& pairs);

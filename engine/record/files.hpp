@@ -16,6 +16,7 @@ inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
 inline constexpr const char* kTrueWalls = "true_walls.csv";
 inline constexpr const char* kTrueTrajectory = "truth.tum";
 inline constexpr const char* kTrajectory = "trajectory.tum";
+inline constexpr const char* kMapEpochs = "map_epochs.csv";
 inline constexpr const char* kPoseCovariances = "pose_covariances.csv";
 inline constexpr const char* kCommands = "commands.csv";
 inline constexpr const char* kPlanes = "planes.csv";

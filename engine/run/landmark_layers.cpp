@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -32,17 +33,23 @@ std::vector<std::array<Vec3, 2>> error_lines(const Record& record, const Landmar
   return lines;
 }
 
-/// Makes the lines longer by a power of ten if they would be too short to be seen in a picture of this extent.
-/// @return the power of ten
-double lengthen(std::vector<std::array<Vec3, 2>>& lines, double extent_m) {
+/// The power of ten by which lines have to be longer to be seen in a picture of this extent.
+double scale_for(const std::vector<std::array<Vec3, 2>>& lines, double extent_m) {
   double sum = 0.0;
   for (const auto& line : lines) sum += (line[1] - line[0]).squaredNorm();
   const double rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(lines.size(), 1)));
   constexpr double kVisibleShare = 0.006;  // of the extent: some 7 px in a picture of 1200
   double scale = 1.0;
   while (rms > 0.0 && rms * scale * 3.0 < kVisibleShare * extent_m && scale < 1e6) scale *= 10.0;
-  for (auto& line : lines) line[1] = line[0] + scale * (line[1] - line[0]);
   return scale;
+}
+
+/// Of true and mapped landmarks.
+Box extent_of(const Record& record, const LandmarkPlaces& mapped) {
+  Box extent;
+  for (const auto& [id, place] : mapped) extent.extend(place);
+  for (const log::Landmark& landmark : record.true_landmarks) extent.extend(Vec3(landmark.position_m.data()));
+  return extent;
 }
 
 void add_submaps(render::Picture& picture, const Record& record, const LandmarkPlaces& mapped) {
@@ -63,6 +70,13 @@ void add_submaps(render::Picture& picture, const Record& record, const LandmarkP
 
 }  // namespace
 
+std::optional<double> error_scale_of(const Record& record, const Pose& T_world_map) {
+  const LandmarkPlaces mapped = mapped_places(record, T_world_map);
+  const auto lines = error_lines(record, mapped);
+  if (lines.empty()) return std::nullopt;
+  return scale_for(lines, extent_of(record, mapped).diagonal().norm());
+}
+
 LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map) {
   LandmarkPlaces places;
   for (const log::MapLandmark& landmark : record.landmarks) {
@@ -74,10 +88,10 @@ LandmarkPlaces mapped_places(const Record& record, const Pose& T_world_map) {
 }
 
 void add_landmarks(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
-                   const Pose& T_world_map) {
+                   const Pose& T_world_map, std::optional<double> error_scale) {
   if (record.landmarks.empty() && !record.planes.empty()) return;  // what was mapped are walls
   const LandmarkPlaces mapped = mapped_places(record, T_world_map);
-  Box extent;
+  const Box extent = extent_of(record, mapped);
   render::Markers estimates{.positions = {},
                             .shape = render::MarkerShape::kDot,
                             .colour = render::palette::kEstimate,
@@ -88,7 +102,6 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
     const auto place = mapped.find(landmark.id);
     if (place == mapped.end()) continue;
     estimates.positions.push_back(place->second);
-    extent.extend(place->second);
   }
   std::unordered_set<log::LandmarkId> mapped_truths;
   for (const log::IdPair& match : record.matches) mapped_truths.insert(match.second);
@@ -105,7 +118,6 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   for (const log::Landmark& landmark : record.true_landmarks) {
     auto& markers = mapped_truths.contains(landmark.id) ? truth : others;
     markers.positions.push_back(Vec3(landmark.position_m.data()));
-    extent.extend(markers.positions.back());
   }
   if (spec.shows(sim::PictureLayer::kSubmaps)) add_submaps(picture, record, mapped);
   if (spec.shows(sim::PictureLayer::kErrors) && !extent.isEmpty()) {
@@ -114,7 +126,8 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
                             .width_px = 1.4,
                             .opacity = 0.9,
                             .label = {}};
-    const double scale = lengthen(errors.pairs, extent.diagonal().norm());
+    const double scale = error_scale ? *error_scale : scale_for(errors.pairs, extent.diagonal().norm());
+    for (auto& line : errors.pairs) line[1] = line[0] + scale * (line[1] - line[0]);
     errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";
     if (!errors.pairs.empty()) picture.segments.push_back(std::move(errors));
   }

@@ -17,6 +17,7 @@
 #include "render/colour.hpp"
 #include "render/draw.hpp"
 #include "run/abi_pose.hpp"
+#include "run/paste.hpp"
 #include "run/pictures.hpp"
 #include "run/wall_layers.hpp"
 
@@ -126,17 +127,6 @@ render::Picture planes_panel(const Record& record, const Moment& moment) {
     picture.segments.push_back(std::move(outline));
   }
   return picture;
-}
-
-/// Copies an image into a larger one.
-void paste(const render::Image& from, int x, int y, render::Image& to) {
-  const auto stride = [](const render::Image& image) {
-    return 3 * static_cast<std::ptrdiff_t>(image.width_px);
-  };
-  for (int row = 0; row < from.height_px; ++row) {
-    const auto begin = from.bytes.begin() + row * stride(from);
-    std::copy(begin, begin + stride(from), to.bytes.begin() + (y + row) * stride(to) + 3 * x);
-  }
 }
 
 }  // namespace

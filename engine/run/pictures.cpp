@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +15,7 @@
 #include "run/abi_pose.hpp"
 #include "run/landmark_layers.hpp"
 #include "run/panels.hpp"
+#include "run/picture_frame.hpp"
 #include "run/wall_layers.hpp"
 
 namespace hallway::run {
@@ -45,6 +45,13 @@ std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose
   return line;
 }
 
+/// Poses in other parts of the map are in frames of reference of their own.
+std::string path_label(const Record& record) {
+  if (record.poses_in_other_parts == 0) return "estimated path";
+  return fmt::format("estimated path ({} poses in other parts of the map not shown)",
+                     record.poses_in_other_parts);
+}
+
 void add_paths(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
                const Pose& T_world_map) {
   if (spec.shows(sim::PictureLayer::kTruth) && !record.truth.empty()) {
@@ -59,7 +66,7 @@ void add_paths(render::Picture& picture, const Record& record, const sim::Pictur
                                  .colour = render::palette::kEstimate,
                                  .width_px = 1.8,
                                  .dashed = false,
-                                 .label = "estimated path"});
+                                 .label = path_label(record)});
     picture.labels.push_back(
         {.position = T_world_map * vector_of(record.trajectory.front().position_m), .text = "start"});
   }
@@ -110,23 +117,52 @@ std::string walls_text(const nlohmann::ordered_json& metrics) {
   return text;
 }
 
+/// " (98 % of the frames)"; empty where metrics.json does not say so.
+std::string coverage_text(const nlohmann::ordered_json& metrics, const char* what, const char* of) {
+  const auto coverage = metrics.find("coverage");
+  if (coverage == metrics.end() || !coverage->is_object()) return {};
+  const auto share = coverage->find(what);
+  if (share == coverage->end() || !share->is_number()) return {};
+  return fmt::format(" ({:.1f} % of {})", 100.0 * share->get<double>(), of);
+}
+
+/// What went wrong with the path; empty where nothing did.
+std::string verdict_text(const nlohmann::ordered_json& metrics) {
+  const auto verdict = metrics.find("verdict");
+  if (verdict == metrics.end() || !verdict->is_string() || *verdict == "ok") return {};
+  return verdict->get<std::string>() + ": ";
+}
+
 std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
-  std::string text = fmt::format("{} iterations", metrics.value("iterations", 0));
-  const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
-  if (mapped.is_number() && mapped.get<std::uint64_t>() > 0)
-    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
+  std::string text = verdict_text(metrics) + fmt::format("{} iterations", metrics.value("iterations", 0));
   const auto rmse = metrics.find("landmark_rmse_m");
   if (rmse != metrics.end() && rmse->is_object() && rmse->contains("final_aligned") &&
       (*rmse)["final_aligned"].is_number()) {
     text += ", landmark RMSE " + number_text((*rmse)["final_aligned"], "{:.4f}") + " m";
+    text += coverage_text(metrics, "landmarks", "landmarks");
+  } else if (const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
+             mapped.is_number() && mapped.get<std::uint64_t>() > 0) {
+    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
   }
   text += walls_text(metrics);
   const auto positions = metrics.find("position_rmse_m");
   if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number()) {
     text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
+    text += coverage_text(metrics, "poses", "frames");
   }
   return text;
+}
+
+/// Where the poses stand in the world.
+Pose path_place(const Record& record) {
+  const std::optional<Pose> T_world_planes = align_planes(record);
+  return T_world_planes ? *T_world_planes : align_path(record).value_or(Pose());
+}
+
+/// Where the map of the end stands in the world.
+Pose map_place(const Record& record) {
+  return align_landmarks(record).value_or(path_place(record));
 }
 
 /// How the map is opened: as the picture's description says, else as the building suggests.
@@ -139,18 +175,8 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan) {
-  render::View view;
-  view.kind =
-      spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
-  view.cut_z_m = plan.cut_z_m;
-  view.eye = spec.eye_m;
-  view.target = spec.target_m;
-  return view;
-}
-
 std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan) {
-  return render::encode_png(render::draw(picture, view_of(spec, plan), spec.width_px, spec.height_px));
+  return render::encode_png(render::draw(picture, view_of_plan(spec, plan), spec.width_px, spec.height_px));
 }
 
 std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
@@ -168,71 +194,24 @@ std::string map_subtitle(const world::CompiledWorld& world, const MapView& view)
   return {};
 }
 
-/// Colours of runs beside each other, after Okabe and Ito; none is that of the truth.
-render::Rgb comparison_colour(std::size_t index) {
-  constexpr std::array<render::Rgb, 6> kColours{
-      {{213, 94, 0}, {0, 158, 115}, {170, 51, 119}, {230, 159, 0}, {86, 180, 233}, {60, 60, 60}}};
-  return index < kColours.size() ? kColours[index] : render::submap_colour(index);
-}
-
-/// The path and the landmarks of one run among others. Those that are drawn first are wider, and show behind what covers them.
-void add_compared(render::Picture& picture, const Compared& run, const sim::PictureSpec& spec,
-                  render::Rgb colour, double wider_px) {
-  const Pose T_world_path = align_path(run.record).value_or(Pose());
-  const Pose T_world_map = align_landmarks(run.record).value_or(T_world_path);
-  const LandmarkPlaces mapped = mapped_places(run.record, T_world_map);
-  render::Markers marks{.positions = {},
-                        .shape = render::MarkerShape::kDot,
-                        .colour = colour,
-                        .size_px = 3.5 + wider_px,
-                        .label = {}};
-  for (const log::MapLandmark& landmark :
-       run.record.landmarks) {  // in the file's order, so that the picture is the same
-    if (const auto place = mapped.find(landmark.id); place != mapped.end())
-      marks.positions.push_back(place->second);
-  }
-  if (spec.shows(sim::PictureLayer::kLandmarks) && !marks.positions.empty())
-    picture.markers.push_back(std::move(marks));
-  if (spec.shows(sim::PictureLayer::kEstimate) && !run.record.trajectory.empty()) {
-    picture.polylines.push_back({.points = line_of(run.record.trajectory, T_world_path),
-                                 .colour = colour,
-                                 .width_px = 1.8 + wider_px,
-                                 .dashed = false,
-                                 .label = printable(run.name)});
-  }
-}
-
 }  // namespace
 
-render::Picture compose_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
-                                   render::Faces faces) {
-  const Record& first = runs.front().record;
-  render::Picture picture;
-  picture.title = printable(first.run.value("name", "run"));
-  picture.subtitle = fmt::format("{} runs of the same input", runs.size());
-  if (first.world && spec.shows(sim::PictureLayer::kMap)) {
-    add_map(picture, *first.world, {}, faces);
-    picture.surfaces.insert(picture.surfaces.end(), first.models.begin(), first.models.end());
-  }
-  if (spec.shows(sim::PictureLayer::kTruth)) {
-    add_true_landmarks(picture, first);
-    if (!first.truth.empty()) {
-      picture.polylines.push_back({.points = line_of(first.truth, Pose()),
-                                   .colour = render::palette::kTruth,
-                                   .width_px = 5.0,
-                                   .dashed = false,
-                                   .label = "true path"});
-    }
-  }
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const double covering = static_cast<double>(std::min<std::size_t>(runs.size() - 1 - i, 5));
-    add_compared(picture, runs[i], spec, comparison_colour(i), 1.7 * covering);
-  }
-  return picture;
+render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan) {
+  render::View view;
+  view.kind =
+      spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
+  view.cut_z_m = plan.cut_z_m;
+  view.eye = spec.eye_m;
+  view.target = spec.target_m;
+  return view;
+}
+
+render::Plan picture_plan(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
+  return record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
 }
 
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
-                                render::Faces faces) {
+                                render::Faces faces, std::optional<double> error_scale) {
   render::Picture picture;
   picture.title = printable(record.run.value("name", "run"));
   picture.subtitle = subtitle_of(record);
@@ -241,13 +220,13 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
     if (!map_view.wireframe)
       picture.surfaces.insert(picture.surfaces.end(), record.models.begin(), record.models.end());
   }
-  const std::optional<Pose> T_world_planes = align_planes(record);
-  const Pose T_world_path = T_world_planes ? *T_world_planes : align_path(record).value_or(Pose());
-  const Pose T_world_map = align_landmarks(record).value_or(T_world_path);
+  const Pose T_world_path = path_place(record);
+  const Pose T_world_map = map_place(record);
   add_walls(picture, record, spec, T_world_map);
   if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
-  add_landmarks(picture, record, spec, T_world_map);
+  add_landmarks(picture, record, spec, T_world_map, error_scale);
   add_paths(picture, record, spec, T_world_path);
+  cut_to(frame_of(record, picture.surfaces), picture);
   return picture;
 }
 
@@ -262,17 +241,15 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   return picture;
 }
 
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
-  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
-  const render::Plan plan =
-      record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan);
+std::optional<double> error_scale_of(const Record& record) {
+  return error_scale_of(record, map_place(record));
 }
 
-std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec) {
-  const Record& first = runs.front().record;
-  const render::Plan plan = first.world ? plan_for(*first.world, spec, {}) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_comparison(runs, spec, plan.faces), spec, plan);
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
+                             std::optional<double> error_scale) {
+  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
+  const render::Plan plan = picture_plan(record, spec, map_view);
+  return draw_png(compose_picture(record, spec, map_view, plan.faces, error_scale), spec, plan);
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,

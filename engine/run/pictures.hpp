@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/image.hpp"
+#include "render/map_surfaces.hpp"
 #include "render/picture.hpp"
+#include "render/view.hpp"
 #include "run/map_view.hpp"
 #include "run/record.hpp"
 #include "sim/scenario.hpp"
@@ -13,22 +16,23 @@
 namespace hallway::run {
 
 /// A picture of a run: the map, true and estimated path, true and mapped landmarks with lines between, submaps, and what
-/// the sensor saw at the end. Estimates are drawn where the best rigid fit to the truth puts them. Errors too small to be
+/// the sensor saw at the end. Estimates are drawn where the best rigid fit to the truth puts them, and cut off at the border of frame_of(). Errors too small to be
 /// seen are drawn longer, by a power of ten that the legend states.
-/// @param faces  which of the map are shown
+/// @param faces        which of the map are shown
+/// @param error_scale  by how much errors are drawn longer; empty: as error_scale_of() says
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec,
-                                const MapView& map_view = {}, render::Faces faces = render::Faces::kAll);
+                                const MapView& map_view = {}, render::Faces faces = render::Faces::kAll,
+                                std::optional<double> error_scale = std::nullopt);
 
-/// A run that is shown beside others of the same input.
-struct Compared {
-  std::string name;
-  const Record& record;
-};
+/// The power of ten by which the errors of landmarks have to be drawn longer to be seen; empty where there are none. Pictures that are compared have
+/// the smallest of theirs in common.
+std::optional<double> error_scale_of(const Record& record);
 
-/// One picture of several runs, at least one: the map and the truth of the first, and of each the estimated path and the mapped landmarks where
-/// its best rigid fit to the truth puts them, in a colour of its own.
-render::Picture compose_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
-                                   render::Faces faces = render::Faces::kAll);
+/// How the map of a run is opened in a picture: as its description says, else as the building suggests.
+render::Plan picture_plan(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {});
+
+/// From where a picture is seen.
+render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan);
 
 /// A map alone, and what is drawn over it.
 struct MapSubject {
@@ -42,11 +46,8 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 
 /// Draws and encodes a picture of a run; opens closed buildings in a top view unless the picture's description says how.
 /// @return the bytes of a PNG file
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
-                             const MapView& map_view = {});
-
-/// The same for several runs.
-std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec);
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {},
+                             std::optional<double> error_scale = std::nullopt);
 
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,

@@ -11,6 +11,7 @@
 #include "eval/plane_score.hpp"
 #include "geom/rigid_fit.hpp"
 #include "map/reader.hpp"
+#include "run/epoch_table.hpp"
 #include "run/map_view.hpp"
 
 namespace hallway::run {
@@ -70,6 +71,7 @@ Record read_record(const fs::path& folder) {
   record.run = read_manifest(folder);
   record.metrics = read_json(folder / files::kMetrics);
   record.trajectory = log::read_tum(folder / files::kTrajectory);
+  record.poses_in_other_parts = keep_scored_part(folder, record.trajectory);
   record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
   record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
   record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);

@@ -31,7 +31,8 @@ struct Record {
   std::optional<world::CompiledWorld> world;  ///< of map.map, without visible sets
   std::vector<render::Surface> models;        ///< that stand in it, as far as the folder has them
   std::vector<log::StampedPose> truth;        ///< T_world_body
-  std::vector<log::StampedPose> trajectory;   ///< T_map_body
+  std::vector<log::StampedPose> trajectory;   ///< T_map_body, of the part of the map that is scored
+  std::size_t poses_in_other_parts = 0;  ///< left out of `trajectory`: they are in other frames of reference
   std::vector<log::Landmark> true_landmarks;  ///< world
   std::vector<log::MapLandmark> landmarks;    ///< map frame
   std::vector<log::TrueWall> true_walls;      ///< world

@@ -19,10 +19,12 @@
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "run/abi_pose.hpp"
+#include "run/epoch_table.hpp"
 #include "run/found_table.hpp"
 #include "run/frame_feed.hpp"
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
+#include "run/map_epoch.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 #include "run/run_files.hpp"
@@ -69,6 +71,8 @@ class Tally {
     eval::Iteration iteration{.T_world_body = frame.T_world_body,
                               .orientation_known = frame.orientation_known,
                               .T_map_body = {},
+                              .t_s = static_cast<double>(frame.t_ns) * 1e-9,
+                              .map_epoch = {},
                               .pose_covariance = {},
                               .associations = associations(answer),
                               .identities = identities_,
@@ -87,6 +91,8 @@ class Tally {
     keep_truth(answer.iteration, frame);
   }
 
+  /// No more frames come. @param joined  parts of the map that are one
+  void finish(std::span<const eval::JoinedEpoch> joined) { evaluator_.finish(joined); }
   const eval::Evaluator& evaluator() const { return evaluator_; }
   const Collected& collected() const { return collected_; }
 
@@ -101,6 +107,7 @@ class Tally {
     iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
     iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
+    iteration.map_epoch = map_epoch_of(*answer.outputs);
     if (iteration.T_map_body && answer.outputs->pose()->covariance) {
       using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
       iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
@@ -225,6 +232,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
   record::AnswerTables tables(folder);
+  EpochTable epochs;
   FoundTable found(folder);
   host::FrameBuilder builder;
   Tally tally(source, plan.write_observations, maps_planes(pipeline));
@@ -243,6 +251,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
       if (answer.outputs != nullptr) {
         recorder.record_answer(*answer.outputs);
         tables.add(answer.iteration, answer.frame.t_ns, *answer.outputs, answer.time);
+        epochs.add(answer.iteration, *answer.outputs);
       }
       found.add(answer);
       tally.add(answer);
@@ -252,16 +261,20 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
     if (hooks.progress) hooks.progress(feed.done());
     result.stopped = result.stopped || (hooks.stop && hooks.stop());
   }
-  const record::FinalMap online = record::copy_map(feed.report(false));
+  const host::Outputs* online_outputs = feed.report(false);
+  const record::FinalMap online = record::copy_map(online_outputs);
+  const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs);
   const host::Outputs* refined_outputs = feed.report(true);
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
   tables.close();
+  epochs.write(folder, joined);
   found.close();
   feed.close();
   result.failures = feed.failures();
   events.update();
-  result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks);
+  tally.finish(joined);
+  result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks, joined);
   if (const eval::PlaneScore* planes = tally.evaluator().planes()) {
     result.metrics.planes = planes->metrics(online.planes, refined.planes);
     log::write_pose_errors(folder / files::kPoseErrors, planes->pose_errors(online.planes));

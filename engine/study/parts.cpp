@@ -57,12 +57,22 @@ void add_accuracy(const std::vector<RunGroup>& groups, const std::string& figure
         [](const Trace& trace) { return trace.metrics.landmark_rmse_m.aligned; });
     add("landmark RMSE aligned, at the end", "m",
         [](const Trace& trace) { return trace.metrics.landmark_rmse_final_aligned_m; });
+    add("true landmarks mapped, share", "1",
+        [](const Trace& trace) { return trace.metrics.landmark_coverage(); });
     add("position RMSE aligned", "m",
         [](const Trace& trace) { return trace.metrics.position_rmse_m.aligned; });
+    add("frames with a pose, share", "1", [](const Trace& trace) { return trace.metrics.pose_coverage(); });
+    for (const auto verdict : {eval::PathVerdict::kDiverged, eval::PathVerdict::kLost}) {
+      const auto count = std::count_if(group.runs.begin(), group.runs.end(), [&](const StudyRun* run) {
+        return run->trace.metrics.verdict == verdict;
+      });
+      findings.add(figures, group.name, fmt::format("runs {}", eval::name_of(verdict)),
+                   static_cast<double>(count), "1");
+    }
     add("iterations without a pose", "1", [](const Trace& trace) {
       return std::optional<double>(static_cast<double>(trace.metrics.lost_iterations));
     });
-    add("wrong associations", "1", [](const Trace& trace) -> std::optional<double> {
+    add("misassociated observations, share", "1", [](const Trace& trace) -> std::optional<double> {
       if (!trace.metrics.association_errors || trace.metrics.observations == 0) return std::nullopt;
       return static_cast<double>(*trace.metrics.association_errors) /
              static_cast<double>(trace.metrics.observations);

@@ -11,6 +11,7 @@
 #include "record/final_map.hpp"
 #include "run/abi_pose.hpp"
 #include "run/frame_feed.hpp"
+#include "run/map_epoch.hpp"
 #include "run/truth_of.hpp"
 
 namespace hallway::study {
@@ -76,9 +77,10 @@ class Tracer {
 
   Trace finish(const host::Outputs* online, const std::function<const host::Outputs*()>& refine) {
     const FinalMap before = record::copy_map(online);
+    const std::vector<eval::JoinedEpoch> joined = run::joined_epochs_of(online);
     const host::Outputs* refined = refine();
     trace_.map = refined != nullptr ? record::copy_map(refined).landmarks : before.landmarks;
-    trace_.metrics = evaluator_.metrics(before.landmarks, trace_.map);
+    trace_.metrics = evaluator_.metrics(before.landmarks, trace_.map, joined);
     for (CounterMean& counter : trace_.counters) counter.mean /= static_cast<double>(counted_[counter.name]);
     return std::move(trace_);
   }
@@ -99,6 +101,8 @@ class Tracer {
     evaluator_.add({.T_world_body = frame.T_world_body,
                     .orientation_known = frame.orientation_known,
                     .T_map_body = estimate,
+                    .t_s = static_cast<double>(frame.t_ns) * 1e-9,
+                    .map_epoch = run::map_epoch_of(outputs),
                     .pose_covariance = std::nullopt,
                     .associations = associations,
                     .identities = identities_,

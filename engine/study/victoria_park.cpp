@@ -82,6 +82,11 @@ Outcome conclude_victoria_park(const std::vector<StudyRun>& runs, const Request&
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
     findings.add(interval.figures, group.name, "scans", count(metrics.iterations), "1");
     findings.add(interval.figures, group.name, "scans without a pose", count(metrics.lost_iterations), "1");
+    findings.add(interval.figures, group.name, "scans with a pose, share", metrics.pose_coverage(), "1");
+    findings.add(interval.figures, group.name, "diverged",
+                 count(metrics.verdict == eval::PathVerdict::kDiverged ? 1 : 0), "1");
+    findings.add(interval.figures, group.name, "lost",
+                 count(metrics.verdict == eval::PathVerdict::kLost ? 1 : 0), "1");
     findings.add(interval.figures, group.name, "trees mapped", count(metrics.landmarks_mapped), "1");
     findings.add(interval.figures, group.name, "path against satellite fixes, RMSE aligned",
                  metrics.position_rmse_m.aligned, "m");

@@ -4,24 +4,26 @@
 usage: metrics_oracle.py RUN.json METRICS.json
 
 RUN.json holds what the evaluator was given:
-  iterations: [{truth, estimate: [x, y, z, qw, qx, qy, qz] or null, covariance: 6x6 or null, associations, identities:
-    [id or -1], points: [[x, y, z]], wall_ms, cpu_ms}]
+  iterations: [{truth, estimate: [x, y, z, qw, qx, qy, qz] or null, t_s, map_epoch: number or null, covariance: 6x6 or null,
+    associations, identities: [id or -1], points: [[x, y, z]], wall_ms, cpu_ms}]
+  joined: [[epoch, into]]
   landmarks: {id: [x, y, z]} or null, has_identities: bool
   online, refined: [{id, position, observations, status, covariance: 3x3 or null}] (refined may be null)
 """
 import json
 import math
+import os
 import sys
 from collections import Counter, defaultdict
 
 import numpy as np
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
+import trajectory_oracle as paths  # noqa: E402
+
 
 def rotation(q):
-    w, x, y, z = np.array(q) / np.linalg.norm(q)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return paths.rotation(q)
 
 
 def umeyama(model, data):
@@ -144,12 +146,12 @@ def rotation_vector(r):
     return 0.5 * skew if angle < 1e-7 else angle / (2 * math.sin(angle)) * skew
 
 
-def score_pose_nees(run, result):
-    pairs = [(i["truth"], i["estimate"], i["covariance"]) for i in run["iterations"] if i["truth"] and i["estimate"]]
+def score_pose_nees(run, parts, result):
+    pairs = [(i["truth"], i["estimate"], i["covariance"]) for i in pairs_of(run, parts, parts["scored"])]
     if len(pairs) < 3:
         return
     truth, estimate = [a[:3] for a, _, _ in pairs], [b[:3] for _, b, _ in pairs]
-    if run["has_identities"] and run["landmarks"] is not None:
+    if parts["scored"] == parts["last"] and run["has_identities"] and run["landmarks"] is not None:
         of_landmarks = landmark_pairs(run["online"], owners(run["iterations"])[0], run["landmarks"])
         if all(determine_a_pose(side) for side in of_landmarks):
             truth, estimate = of_landmarks
@@ -184,7 +186,7 @@ def moving(run):
     return {"moved": 0, "moved_marked": 0, "marked": marked, "marked_moving": 0, "recall": None, "precision": precision}
 
 
-def score_landmarks(run, first_pose_frame, result):
+def score_landmarks(run, first_frame, result):
     owner, errors = owners(run["iterations"])
     observed = {i for iteration in run["iterations"] for i in iteration["identities"] if i != -1}
     mapped = [m["id"] for m in run["online"] if m["status"] == "mapped"]
@@ -193,25 +195,101 @@ def score_landmarks(run, first_pose_frame, result):
     result["landmarks_true"] = len(observed)
     result["landmarks_duplicated"] = sum(count - 1 for count in owned.values())
     result["landmarks_missed"] = len(observed - set(owned))
+    result["coverage"]["landmarks"] = 1 - result["landmarks_missed"] / len(observed) if observed else None
     result["landmarks_unmatched"] = sum(i not in owner for i in mapped)
     if run["landmarks"] is None:
         return
     result["moving"] = moving(run)
     truth, estimate = landmark_pairs(run["online"], owner, run["landmarks"])
     result["landmark_pairs"] = len(truth)
-    if first_pose_frame is not None:
-        result["landmark_rmse_m"]["first_pose"] = rmse(truth, estimate, *first_pose_frame)
+    if first_frame is not None:
+        result["landmark_rmse_m"]["first_pose"] = rmse(truth, estimate, *first_frame)
     result["landmark_rmse_m"]["aligned"] = aligned_rmse(truth, estimate)
     if run["refined"] is not None:
         result["landmark_rmse_m"]["final_aligned"] = aligned_rmse(*landmark_pairs(run["refined"], owner, run["landmarks"]))
         score_landmark_nees(run, owner, result)
 
 
-def score_trajectory(run, result):
-    pairs = [(i["truth"], i["estimate"]) for i in run["iterations"] if i["truth"] and i["estimate"]]
-    result["position_pairs"] = len(pairs)
+def parts_of(run):
+    """Which part of the map each frame with a pose is in, and what that comes to."""
+    final = dict(run["joined"])
+    number, raw, frames, last = 0, {}, {}, 0
+    for index, i in enumerate(run["iterations"]):
+        if i["estimate"] is None:
+            continue
+        number = number if i["map_epoch"] is None else i["map_epoch"]
+        raw[index] = number
+        frames.setdefault(final.get(number, number), []).append(index)
+        last = final.get(number, number)
+    scored = max(frames, key=lambda part: (len(frames[part]), -frames[part][0])) if frames else 0
+    return {"frames": frames, "scored": scored, "last": last, "restarts": max(len(set(raw.values())) - 1, 0)}
+
+
+def pairs_of(run, parts, part):
+    return [run["iterations"][i] for i in parts["frames"].get(part, []) if run["iterations"][i]["truth"]]
+
+
+def first_pose_frame(pairs):
     if not pairs:
         return None
+    truth, estimate = pairs[0]["truth"], pairs[0]["estimate"]
+    r = rotation(truth[3:]) @ rotation(estimate[3:]).T
+    return r, np.array(truth[:3]) - r @ np.array(estimate[:3])
+
+
+def poses_of(pairs, side):
+    return [paths.pose(i[side][:3], rotation(i[side][3:])) for i in pairs]
+
+
+def dropped_associations(run):
+    if not run["has_identities"] or not run["online"]:
+        return None, False
+    there = {m["id"] for m in run["online"]}
+    given = [a for i in run["iterations"] for a in i["associations"] if a != -1]
+    dropped = sum(a not in there for a in given)
+    return dropped, 2 * dropped > len(given)
+
+
+def score_parts(run, parts, result):
+    n = len(run["iterations"])
+    scored = parts["frames"].get(parts["scored"], [])
+    others = sum(len(f) for f in parts["frames"].values()) - len(scored)
+    ends = parts["last"] == parts["scored"]
+    result["coverage"]["poses"] = len(scored) / n if n else None
+    result["parts"] = {"count": len(parts["frames"]), "restarts": parts["restarts"], "scored_iterations": len(scored),
+                       "other_iterations": others, "ends_in_scored": ends}
+    result["associations_dropped"], forgotten = dropped_associations(run)
+    lost = n > 0 and (forgotten or len(scored) < n / 2 or others > n / 20 or not ends or
+                      (n - 1 - scored[-1] if scored else n - 1) * 10 >= n)
+    pairs = pairs_of(run, parts, parts["scored"])
+    truth, estimate = poses_of(pairs, "truth"), poses_of(pairs, "estimate")
+    found = paths.divergence(truth, estimate, True)
+    if found is None:
+        result["verdict"] = "lost" if lost else None
+    else:
+        limit, worst_m, worst_deg, first = found
+        at = None if first is None else [i for i in scored if run["iterations"][i]["truth"]][first]
+        result["divergence"] = {"position_limit_m": limit, "position_worst_m": worst_m, "rotation_worst_deg": worst_deg,
+                                "iteration": at}
+        result["verdict"] = "diverged" if first is not None else "lost" if lost else "ok"
+    along, last, sum_m = {}, None, 0.0
+    for index, i in enumerate(run["iterations"]):
+        if i["truth"]:
+            if last is not None:
+                sum_m += float(np.linalg.norm(np.array(i["truth"][:3]) - last))
+            last = np.array(i["truth"][:3])
+            along[index] = sum_m
+    indices = [i for i in scored if run["iterations"][i]["truth"]]
+    for name, unit, places in (("frame", "frames", indices), ("metre", "metres", [along[i] for i in indices]),
+                               ("second", "seconds", [run["iterations"][i]["t_s"] for i in indices])):
+        result["rpe"][name] = paths.relative_error(truth, estimate, places, 1.0, unit)
+
+
+def score_trajectory(run, parts, result):
+    pairs = [(i["truth"], i["estimate"]) for i in pairs_of(run, parts, parts["scored"])]
+    result["position_pairs"] = len(pairs)
+    if not pairs:
+        return
     truth, estimate = [np.array(a[:3]) for a, _ in pairs], [np.array(b[:3]) for _, b in pairs]
     truth_r, estimate_r = [rotation(a[3:]) for a, _ in pairs], [rotation(b[3:]) for _, b in pairs]
     r = truth_r[0] @ estimate_r[0].T
@@ -222,7 +300,6 @@ def score_trajectory(run, result):
     mean = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ vt))]) @ vt
     result["rotation_rmse_deg"] = {"first_pose": rotation_rmse(truth_r, estimate_r, r),
                                    "aligned": rotation_rmse(truth_r, estimate_r, mean)}
-    return r, t
 
 
 def evaluate(run):
@@ -231,9 +308,14 @@ def evaluate(run):
         "schema": "hallway.metrics/1",
         "iterations": len(iterations),
         "lost_iterations": sum(i["estimate"] is None for i in iterations),
+        "verdict": None,
+        "coverage": {"poses": None, "landmarks": None, "walls": None},
+        "parts": None,
+        "divergence": None,
         "observations": sum(len(i["associations"]) for i in iterations),
         "associations_none": sum(i["associations"].count(-1) for i in iterations),
         "association_errors": None,
+        "associations_dropped": None,
         "landmarks_true": None,
         "landmarks_mapped": sum(m["status"] == "mapped" for m in run["online"]),
         "landmarks_duplicated": None,
@@ -246,16 +328,19 @@ def evaluate(run):
         "position_refitted_pairs": 0,
         "position_final_m": None,
         "rotation_rmse_deg": {"first_pose": None, "aligned": None},
+        "rpe": {},
         "nees": {"landmarks": None, "landmark_pairs": 0, "poses": None, "pose_pairs": 0},
         "planes": None,
         "iteration_ms": summary([i["wall_ms"] for i in iterations if i["wall_ms"] is not None]),
         "iteration_cpu_ms": summary([i["cpu_ms"] for i in iterations if i["cpu_ms"] is not None]),
     }
-    first_pose_frame = score_trajectory(run, result)
+    parts = parts_of(run)
+    score_parts(run, parts, result)
+    score_trajectory(run, parts, result)
     score_refitted(run, result)
-    score_pose_nees(run, result)
+    score_pose_nees(run, parts, result)
     if run["has_identities"]:
-        score_landmarks(run, first_pose_frame, result)
+        score_landmarks(run, first_pose_frame(pairs_of(run, parts, parts["last"])), result)
     return result
 
 

@@ -33,6 +33,8 @@ struct RandomIteration {
   Ids identities;
   std::vector<Vec3> points;
   std::optional<double> wall_ms;
+  double t_s = 0.0;
+  std::optional<std::uint64_t> map_epoch;
 };
 
 struct RandomRun {
@@ -40,6 +42,7 @@ struct RandomRun {
   std::vector<RandomIteration> iterations;
   std::vector<MapLandmark> online;
   std::optional<std::vector<MapLandmark>> refined;
+  std::vector<JoinedEpoch> joined;
 };
 
 /// A run with everything that can go wrong: frames without truth, lost ones, wrong and missing associations, split and
@@ -55,8 +58,17 @@ class RunMaker {
     run.truth.has_identities = !chance(0.15);
     if (!chance(0.15)) run.truth.landmarks = true_landmarks();
     const std::uint32_t iterations = below(40);  // 0 to 2 of them among others
-    for (std::uint32_t i = 0; i < iterations; ++i)
+    const bool starts_over = chance(0.4);
+    std::uint64_t epoch = 0;
+    for (std::uint32_t i = 0; i < iterations; ++i) {
       run.iterations.push_back(iteration(run.truth.has_identities));
+      run.iterations.back().t_s = 0.3 * i;
+      if (starts_over && chance(0.1)) ++epoch;
+      if (starts_over && !chance(0.1)) run.iterations.back().map_epoch = epoch;
+    }
+    for (std::uint64_t e = 1; e <= epoch; ++e) {
+      if (chance(0.3)) run.joined.push_back({e, 0});
+    }
     run.online = map();
     if (chance(0.7)) run.refined = map();
     return run;
@@ -150,11 +162,13 @@ Metrics evaluate(const RandomRun& run) {
     entry.identities = iteration.identities;
     entry.pose_covariance = iteration.covariance;
     entry.points = iteration.points;
+    entry.t_s = iteration.t_s;
+    entry.map_epoch = iteration.map_epoch;
     entry.wall_ms = iteration.wall_ms;
     if (iteration.wall_ms) entry.cpu_ms = *iteration.wall_ms / 3;
     evaluator.add(entry);
   }
-  return evaluator.metrics(run.online, run.refined);
+  return evaluator.metrics(run.online, run.refined, run.joined);
 }
 
 Json to_json(const std::optional<Pose>& pose) {
@@ -208,6 +222,8 @@ Json to_json(const RandomRun& run) {
   }
   document["online"] = to_json(run.online);
   document["refined"] = run.refined ? to_json(*run.refined) : Json(nullptr);
+  document["joined"] = Json::array();
+  for (const JoinedEpoch& row : run.joined) document["joined"].push_back({row.epoch, row.into});
   document["iterations"] = Json::array();
   for (const RandomIteration& iteration : run.iterations) {
     Json entry;
@@ -218,6 +234,8 @@ Json to_json(const RandomRun& run) {
     entry["covariance"] = iteration.covariance ? rows_of(*iteration.covariance) : Json(nullptr);
     entry["points"] = Json::array();
     for (const Vec3& point : iteration.points) entry["points"].push_back({point.x(), point.y(), point.z()});
+    entry["t_s"] = iteration.t_s;
+    entry["map_epoch"] = iteration.map_epoch ? Json(*iteration.map_epoch) : Json(nullptr);
     entry["wall_ms"] = iteration.wall_ms ? Json(*iteration.wall_ms) : Json(nullptr);
     entry["cpu_ms"] = iteration.wall_ms ? Json(*iteration.wall_ms / 3) : Json(nullptr);
     document["iterations"].push_back(entry);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "eval/path_verdict.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+
+#include "geom/rigid_fit.hpp"
+
+namespace hallway::eval {
+
+const char* name_of(PathVerdict verdict) {
+  switch (verdict) {
+    case PathVerdict::kOk:
+      return "ok";
+    case PathVerdict::kDiverged:
+      return "diverged";
+    case PathVerdict::kLost:
+      return "lost";
+  }
+  return "";
+}
+
+double extent_of(std::span<const PosePair> pairs) {
+  if (pairs.empty()) return 0.0;
+  Vec3 mean = Vec3::Zero();
+  for (const PosePair& pair : pairs) mean += pair.T_world_body.t / static_cast<double>(pairs.size());
+  double farthest = 0.0;
+  for (const PosePair& pair : pairs) farthest = std::max(farthest, (pair.T_world_body.t - mean).norm());
+  return 2.0 * farthest;
+}
+
+std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged judged, Alignment alignment) {
+  constexpr std::size_t kFewestPairs = 3;
+  if (pairs.size() < kFewestPairs) return std::nullopt;
+  const bool judge_rotation = judged == Judged::kAll;
+  const PathFit fit = align(pairs, alignment);
+  Divergence divergence;
+  divergence.limit_m = std::max(Divergence::kLeastLimit_m, Divergence::kShareOfExtent * extent_of(pairs));
+  Quat q_world_map = Quat::Identity();
+  if (judge_rotation) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const PosePair& pair : pairs)
+      sum += (pair.T_world_body.q * pair.T_map_body.q.conjugate()).toRotationMatrix();
+    q_world_map = nearest_rotation(sum);
+    divergence.worst_deg = 0.0;
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double error_m = (fit * pairs[i].T_map_body.t - pairs[i].T_world_body.t).norm();
+    divergence.worst_m = std::max(divergence.worst_m, error_m);
+    bool over = error_m > divergence.limit_m;
+    if (judge_rotation) {
+      const double error_deg = 180.0 / std::numbers::pi *
+                               angle_between(pairs[i].T_world_body.q, q_world_map * pairs[i].T_map_body.q);
+      divergence.worst_deg = std::max(*divergence.worst_deg, error_deg);
+      over = over || error_deg > Divergence::kLimit_deg;
+    }
+    if (over && !divergence.first) divergence.first = i;
+  }
+  return divergence;
+}
+
+bool PoseCount::lost() const {
+  constexpr std::uint64_t kLastShare = 10;   // one in ten
+  constexpr std::uint64_t kOtherShare = 20;  // one in twenty
+  if (frames == 0) return false;
+  if (2 * scored < frames || kOtherShare * other_parts > frames || !ends_in_scored || map_forgotten)
+    return true;
+  return kLastShare * (frames - 1 - last_scored) >= frames;
+}
+
+std::optional<PathVerdict> judge(const PoseCount& count, const std::optional<Divergence>& divergence) {
+  if (divergence && divergence->diverged()) return PathVerdict::kDiverged;
+  if (count.lost()) return PathVerdict::kLost;
+  if (!divergence) return std::nullopt;
+  return PathVerdict::kOk;
+}
+
+}  // namespace hallway::eval

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "eval/pose_pairs.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "eval/point_error.hpp"
+#include "geom/rigid_fit.hpp"
+
+namespace hallway::eval {
+namespace {
+
+constexpr std::size_t kFewestPairs = 3;
+
+PathFit fit_positions(std::span<const PosePair> pairs, bool with_scale) {
+  if (pairs.size() < kFewestPairs)
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("a fit needs {} pairs of poses, and there are {}", kFewestPairs, pairs.size()));
+  PathFit fit;
+  for (const PosePair& pair : pairs) {
+    fit.from += pair.T_map_body.t / static_cast<double>(pairs.size());
+    fit.to += pair.T_world_body.t / static_cast<double>(pairs.size());
+  }
+  std::vector<Vec3> from, to;
+  for (const PosePair& pair : pairs) {
+    from.push_back(pair.T_map_body.t - fit.from);
+    to.push_back(pair.T_world_body.t - fit.to);
+  }
+  fit.q = rigid_fit(from, to)->q;
+  fit.rotation_known = determine_a_pose(from) && determine_a_pose(to);
+  if (!with_scale) return fit;
+  double common = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    common += to[i].dot(fit.q * from[i]);
+    spread += from[i].squaredNorm();
+  }
+  if (!(spread > 0.0) || !(common > 0.0))
+    throw Error(ErrorCode::kBadInput, "the estimate does not move as the reference does: it has no scale");
+  fit.scale = common / spread;
+  return fit;
+}
+
+}  // namespace
+
+PathFit align(std::span<const PosePair> pairs, Alignment alignment) {
+  if (pairs.empty()) throw Error(ErrorCode::kBadInput, "there are no pairs of poses");
+  switch (alignment) {
+    case Alignment::kNone:
+      return {};
+    case Alignment::kFirstPose: {
+      const PosePair& first = pairs.front();
+      return {.scale = 1.0,
+              .q = (first.T_world_body.q * first.T_map_body.q.conjugate()).normalized(),
+              .from = first.T_map_body.t,
+              .to = first.T_world_body.t};
+    }
+    case Alignment::kRigid:
+      return fit_positions(pairs, false);
+    case Alignment::kSimilarity:
+      return fit_positions(pairs, true);
+  }
+  return {};
+}
+
+}  // namespace hallway::eval
