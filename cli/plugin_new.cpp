@@ -98,7 +98,7 @@ int make_project(const NewOptions& options) {
 
 void add_plugin_new_command(Command& plugin) {
   Command& command =
-      plugin.command("new", "Write a project for a plugin of your own, which builds and runs as it is");
+      plugin.command("new", "Write a project for your own plugin, which builds and runs as it is");
   const auto options = std::make_shared<NewOptions>();
   command.argument("name", &options->name, "Its id: small letters, digits and _").value("NAME").required();
   command.option("--folder", &options->folder, "Where to write it [NAME]").value("DIR");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenario_input.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -13,14 +11,6 @@
 namespace hallway::cli {
 
 namespace fs = std::filesystem;
-
-sim::Override parse_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set takes key=value, not \"{}\"", printable(text)));
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
 
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {
   std::vector<std::string> warnings;

@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "run/run.hpp"
-#include "sim/setting.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {
-
-/// Reads what stands after --set. Throws Error{kUsage}.
-sim::Override parse_setting(const std::string& text);
 
 /// What the user should know of the map, printed too. Throws the first of it if `strict`.
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict);
