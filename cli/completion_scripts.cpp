@@ -83,8 +83,10 @@ function __@FUNCTION@
         __fish_complete_directories "$current" ''
       case :files
         if test -n "$parts[2]"
-          for ending in (string split ' ' -- $parts[2])
-            __fish_complete_suffix .$ending
+          set -l wanted '(/|\.('(string replace -a ' ' '|' -- $parts[2])'))$'
+          for file in (__fish_complete_path "$current")
+            set -l name (string split -m 1 \t -- $file)[1]
+            string match -qr -- $wanted $name; and echo $name
           end
         else
           __fish_complete_path "$current"

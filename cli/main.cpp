@@ -45,8 +45,10 @@ int main(int argc, char** argv) {
     hallway::cli::add_log_command(app);
     hallway::cli::add_render_command(app);
     hallway::cli::add_plugin_command(app);
+    hallway::cli::add_driver_command(app);
     hallway::cli::add_planes_command(app);
     hallway::cli::add_bench_em_command(app);
+    hallway::cli::add_scenario_command(app);
     hallway::cli::add_import_command(app);
     hallway::cli::add_align_command(app);
     hallway::cli::add_compile_command(app);

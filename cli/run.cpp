@@ -55,7 +55,8 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
 }
 
 int run_scenario(const RunOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario, overrides_of(options));
+  const ScenarioInput read = read_scenario_input(options.scenario, overrides_of(options));
+  const sim::Scenario& scenario = read.scenario;
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
   run::SimulatedSource source(simulator);
@@ -76,7 +77,7 @@ int run_scenario(const RunOptions& options) {
                            .warnings = warnings,
                            .period_ns = scenario.period_ns,
                            .threads = options.threads};
-  facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+  facts.inputs = {{fs::path(scenario.file).filename().string(), read.text},
                   {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
   const std::vector<run::Attachment> models = model_files(simulator);
   facts.inputs.insert(facts.inputs.end(), models.begin(), models.end());
@@ -102,9 +103,12 @@ void add_run_command(Command& app) {
   Command& command = app.command(
       "run", "Drive a simulated robot through a map, run a plugin on what it observes, and score its map");
   const auto options = std::make_shared<RunOptions>();
-  command.argument("scenario", &options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
+  command
+      .argument("scenario", &options->scenario,
+                "Scenario file: map, robot, sensors, plugins, pictures; or a .map file, for which a scenario "
+                "is made")
       .required()
-      .value("SCENARIO");
+      .value("SCENARIO|MAP");
   add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<scenario>");
   add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
   add_shared(command, Shared::kSteps, &options->steps).fallback("the scenario's");

@@ -65,7 +65,8 @@ Input open_scenario(const ServeOptions& options) {
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
   if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
-  const sim::Scenario scenario = sim::load_scenario(options.input, overrides);
+  const ScenarioInput read = read_scenario_input(options.input, overrides);
+  const sim::Scenario& scenario = read.scenario;
   Input input;
   input.simulator = std::make_unique<sim::Simulator>(scenario, options.threads, trace::Backend::kEmbree);
   input.facts.warnings = take_warnings(*input.simulator, options.strict);
@@ -74,7 +75,7 @@ Input open_scenario(const ServeOptions& options) {
   input.facts.settings = input.simulator->scenario().settings;
   input.facts.period_ns = scenario.period_ns;
   input.facts.threads = options.threads;
-  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read.text},
                         {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
   input.attachments = {{run::files::kScenario, input.facts.inputs[0].content},
                        {run::files::kMap, input.facts.inputs[1].content}};
@@ -145,7 +146,8 @@ int status_of(const run::ServeResult& result) {
 
 int serve(const ServeOptions& options) {
   const link::Address listen = link::parse_address(options.udp);
-  const bool is_scenario = fs::path(options.input).extension() == ".toml";
+  const bool is_scenario =
+      fs::path(options.input).extension() == ".toml" || fs::path(options.input).extension() == ".map";
   Input input = is_scenario ? open_scenario(options) : open_recording(options);
   input.facts.command = "serve";
   run::ServePlan plan{.lock_step = options.lock_step, .rate = options.rate, .replace = options.force};
@@ -192,9 +194,9 @@ void add_serve_command(Command& app) {
   const auto options = std::make_shared<ServeOptions>();
   command
       .argument("input", &options->input,
-                "Scenario file (.toml), or a log as of `replay`: .mcap, .csv, a run folder")
+                "Scenario file (.toml), a .map file, or a log as of `replay`: .mcap, .csv, a run folder")
       .required()
-      .value("SCENARIO|LOG");
+      .value("SCENARIO|MAP|LOG");
   command
       .option("--udp", &options->udp,
               "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")

@@ -15,6 +15,7 @@
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
+#include "map/path_start.hpp"
 #include "map/sensors.hpp"
 #include "map/world.hpp"
 
@@ -58,6 +59,7 @@ class Checker {
     check_references("hw_waypoint", paths);
     check_references("hw_landmark_cloud", paths);
     check_paths(paths);
+    check_start(paths);
     check_world();
     sort();
     return std::move(findings_);
@@ -254,6 +256,21 @@ class Checker {
     }
   }
 
+  /// Where there are several paths, one that begins at the start is enough.
+  void check_start(const Names& paths) {
+    std::optional<Error> first;
+    for (const auto& [name, line] : paths) {
+      try {
+        std::optional<Error> off = start_off_path(document_, name);
+        if (!off) return;
+        if (!first) first = std::move(off);
+      } catch (const Error&) {
+        return;  // reported above
+      }
+    }
+    if (first) add(Severity::kWarning, *first, "start-off-path");
+  }
+
   void check_world() {
     std::optional<World> world;
     try {
@@ -341,7 +358,7 @@ const std::vector<std::string>& finding_ids() {
   static const std::vector<std::string> ids{
       "bad-brush",       "bad-path",           "bad-value",       "brushes-ignored", "doubled-key",
       "doubled-name",    "doubled-targetname", "duplicate-plane", "many-paths",      "missing-key",
-      "no-brushes",      "no-class",           "no-worldspawn",   "tied-order",      "two-robot-starts",
+      "no-brushes",      "no-class",           "no-worldspawn",   "start-off-path",  "tied-order",      "two-robot-starts",
       "two-worldspawns", "unknown-class",      "unknown-key",     "unknown-path",    "unread-shape"};
   return ids;
 }

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "map/entity_keys.hpp"
+#include "map/path_start.hpp"
 
 namespace hallway::map {
 namespace {
@@ -29,13 +30,6 @@ std::vector<const Entity*> path_entities(const Document& document) {
     if (entity.classname() == "hw_path") paths.push_back(&entity);
   }
   return paths;
-}
-
-std::vector<std::string> path_names(const Document& document) {
-  std::vector<std::string> names;
-  for (const Entity* entity : path_entities(document))
-    names.push_back(EntityKeys(document, *entity).text("name"));
-  return names;
 }
 
 const Entity& path_entity(const Document& document, std::string_view name) {

@@ -53,8 +53,10 @@ std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wan
 }
 
 [[noreturn]] void refuse(TomlTable& scenario, const std::string& key) {
-  throw Error(ErrorCode::kUsage,
-              "the scenario has no such setting" + suggestion(key, settable_keys(scenario, key)),
+  std::string hint = suggestion(key, settable_keys(scenario, key));
+  if (hint.empty() && key.find('.') == std::string::npos)
+    hint = "; a parameter of one of the plugins is PLUGIN.KEY";
+  throw Error(ErrorCode::kUsage, "the scenario has no such setting" + hint,
               {.file = "command line", .element = "key `" + printable(key) + "`"});
 }
 

@@ -86,7 +86,9 @@ std::string shell_file(const std::string& name) {
 
 /// A folder with a map, and what a shell in it needs to find the programs.
 struct Desk {
-  Desk() { folder.write("room.map", "x"), folder.write("notes.txt", "x"), folder.write("work/x", "x"); }
+  Desk() {
+    folder.write("room.map", "x"), folder.write("notes.txt", "x"), fs::create_directory(folder / "work");
+  }
   Strings environment() const {
     return with_sanitizer_options({"PATH=" + (binary_folder() / "bin").string() + ":/usr/bin:/bin",
                                    "TERM=dumb", "HOME=" + folder.path().string(), "PS1=ready> ",

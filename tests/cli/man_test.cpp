@@ -44,7 +44,8 @@ TEST(ManPages, OneForEachCommand) {
   const Pages pages;
   std::size_t commands = 0;
   for (const Ended& tree : {hallway({"help", "--json"}), hallway_robot({"help", "--json"})}) {
-    for (const auto& command : nlohmann::json::parse(tree.out).at("commands")) {
+    const auto parsed = nlohmann::json::parse(tree.out);
+    for (const auto& command : parsed.at("commands")) {
       std::string name = command.at("command").get<std::string>();
       std::replace(name.begin(), name.end(), ' ', '-');
       EXPECT_TRUE(fs::exists(pages.folder() / (name + ".1"))) << name;
