@@ -14,6 +14,7 @@
 #include "cloud_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -118,14 +119,15 @@ void add_numbers(Command& command, icp::AlignOptions& options) {
 }  // namespace
 
 void add_align_command(Command& app) {
-  Command& command = app.command("align", "Register two point clouds: how B has to be moved to fit A");
+  Command& command =
+      app.command("align", "Register two point clouds: find the transform that registers B to A");
   const auto options = std::make_shared<AlignCommand>();
   command
       .argument("a", &options->a,
                 "Cloud that stays: PLY, PCD, CSV with a header (x, y, z), OBJ, or a depth image in PNG")
       .required()
-      .value("A");
-  command.argument("b", &options->b, "Cloud that is moved").required().value("B");
+      .value("CLOUD");
+  command.argument("b", &options->b, "Cloud that is registered to it").required().value("CLOUD");
   add_cloud_options(command, options->input);
   command
       .option("--guess", &options->guess,
@@ -138,10 +140,9 @@ void add_align_command(Command& app) {
       .choices({"none", "huber", "cauchy", "tukey"})
       .show_default();
   add_numbers(command, options->options);
-  command.option("--out", &options->out, "PLY file to write: B, moved to fit A").value("FILE");
-  command.option("--picture", &options->picture, "PNG file to write: A and the moved B from above")
-      .value("FILE");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kOutFile, &options->out).fallback("none");
+  add_shared(command, Shared::kPicture, &options->picture).fallback("none");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Exit status 1 when it did not converge; no file is written then.\n"
       "Example: hallway align scan1.pcd scan2.pcd --guess \"1.8 0.7 0 40 0 0\" --out scan2_moved.ply");

@@ -11,6 +11,7 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -66,22 +67,16 @@ int run_batch(const BatchOptions& options) {
 
 void add_batch_command(Command& app) {
   Command& command = app.command(
-      "batch",
-      "Run every combination of scenarios, seeds, plugins and parameters, and tabulate what came out");
+      "batch", "Run every combination of scenarios, seeds, plugins and parameters, and tabulate the results");
   const auto options = std::make_shared<BatchOptions>();
-  command.argument("plan", &options->plan, "What to run (docs/formats.md, Batches)")
-      .required()
-      .value("FILE.toml");
-  command.option("--out", &options->out, "Folder to write [out/<plan>]").value("DIR");
-  command.option("--jobs", &options->jobs, "How many runs at a time")
-      .value("N")
-      .range(1u, 1024u)
-      .show_default();
+  command.argument("plan", &options->plan, "What to run (docs/formats.md, Batches)").required().value("PLAN");
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<plan>");
+  add_shared(command, Shared::kJobs, &options->jobs).show_default();
   command.flag(
       "--resume", &options->resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
       "Writes results.csv, results.json, and a run folder and a log of each run in cells/.\n"
       "Exit status: 0 all runs are good and keep the plan's thresholds; 1 one is not or does not; 130 "

@@ -12,14 +12,16 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
-#include "plane_plugin.hpp"
+#include "plane_view.hpp"
 #include "planes/files.hpp"
 #include "planes/finder.hpp"
 #include "planes/oracle.hpp"
 #include "planes/picture.hpp"
 #include "planes/scene_files.hpp"
+#include "plugin_argument.hpp"
 #include "plugin_report.hpp"
 #include "render/png.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -29,6 +31,7 @@ using Json = nlohmann::ordered_json;
 
 struct BenchOptions {
   std::vector<std::string> plugins;
+  std::vector<std::string> settings;
   std::uint32_t scenes = 20;
   std::uint64_t seed = 1;
   std::string planes = "3..40";
@@ -115,12 +118,15 @@ struct Contender {
 
 std::vector<Contender> contenders(const BenchOptions& options) {
   std::vector<Contender> list;
-  for (const std::string& plugin : options.plugins) {
+  std::vector<host::StageSpec> stages;
+  for (const std::string& plugin : options.plugins) stages.push_back(parse_plugin(plugin));
+  for (const std::string& setting : options.settings) set_parameter(stages, setting);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
     Contender contender{.finder = std::make_unique<planes::PlaneFinder>(
-                            parse_plane_plugin(plugin), plugin_folders(options.plugin_path), print_plugin_log,
+                            stages[i], plugin_folders(options.plugin_path), print_plugin_log,
                             isolation_of(options.isolation, apply(options.isolation, {}))),
                         .result = {}};
-    contender.result = {.plugin = printable(plugin),
+    contender.result = {.plugin = printable(options.plugins[i]),
                         .id = contender.finder->info().id,
                         .version = contender.finder->info().version};
     list.push_back(std::move(contender));
@@ -245,7 +251,7 @@ void add_scene_options(Command& command, BenchOptions& options) {
       .range(1u, 1'000'000u)
       .value("N")
       .show_default();
-  command.option("--seed", &options.seed, "Seed of the scenes").value("S").show_default();
+  add_shared(command, Shared::kSeed, &options.seed).show_default();
   command.option("--planes", &options.planes, "Planes of a scene").value("LOW..HIGH").show_default();
   command.option("--points", &options.points, "Points of a scene").value("LOW..HIGH").show_default();
   command.option("--sigma", &options.sigma, "Noise of a scene, metres along each axis")
@@ -267,32 +273,24 @@ void add_scene_options(Command& command, BenchOptions& options) {
 }  // namespace
 
 void add_bench_em_command(Command& app) {
-  Command& command = app.command("bench-em", "Try plugins that find planes on scenes whose planes are known");
+  Command& command =
+      app.command("bench-em", "Score plugins that find planes on scenes whose planes are known");
   const auto options = std::make_shared<BenchOptions>();
-  command
-      .option("--plugin", &options->plugins,
-              "A plugin that finds planes, an id or a file, and its parameters; may be given several times")
-      .value("NAME[:parameter=value]...")
-      .required()
-      .repeatable();
+  add_shared(command, Shared::kPlugin, &options->plugins).required().repeatable();
+  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
   add_scene_options(command, *options);
-  command
-      .option("--repeat", &options->repeat,
-              "How often a plugin is asked for each scene; the time is the median")
-      .range(1u, 10'000u)
-      .value("N")
-      .show_default();
-  command.option("--out", &options->out, "Folder to write results.json and pictures to").value("DIR");
+  add_shared(command, Shared::kRepeat, &options->repeat).show_default();
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
   command
       .option("--pictures", &options->pictures, "Of how many scenes, those with most faults, for each plugin")
       .value("N")
       .show_default();
   command.flag("--write-scenes", &options->write_scenes, "Write the scenes too");
-  command.option("--view", &options->view, "Of the pictures").choices({"top", "perspective"}).show_default();
+  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
   add_plugin_path_option(command, options->plugin_path);
   add_limit_options(command, options->isolation);
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
       "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
       "Decidable are the planes that a labelling which knows all of them gets right.\n"

@@ -8,6 +8,7 @@ namespace hallway::cli {
 
 /// Each adds its command to the program.
 void add_run_command(Command& app);
+void add_scenario_command(Command& app);
 void add_replay_command(Command& app);
 void add_serve_command(Command& app);
 void add_log_command(Command& app);
@@ -19,6 +20,7 @@ void add_score_command(Command& app);
 void add_compare_command(Command& app);
 void add_doctor_command(Command& app);
 void add_plugin_command(Command& app);
+void add_driver_command(Command& app);
 void add_import_command(Command& app);
 void add_planes_command(Command& app);
 void add_bench_em_command(Command& app);

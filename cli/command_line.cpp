@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace hallway::cli {
 
 Option& Option::value(std::string name) {
@@ -35,8 +37,29 @@ Option& Option::choices(std::vector<std::string> words) {
   return *this;
 }
 
+Option& Option::fallback(std::string text) {
+  fallback_ = std::move(text);
+  return *this;
+}
+
+std::vector<std::string> Option::name_list() const {
+  std::vector<std::string> list;
+  for (const std::string_view name : split(names_, ',')) list.emplace_back(name);
+  return list;
+}
+
+std::string Option::help() const {
+  return help_ + (repeatable_ ? "; may be given several times" : "") +
+         (fallback_.empty() ? "" : " [" + fallback_ + "]");
+}
+
 Option& Option::show_default() {
   shows_default_ = true;
+  return *this;
+}
+
+Option& Option::shared() {
+  shared_ = true;
   return *this;
 }
 
@@ -68,6 +91,14 @@ const Command* Command::find(const std::string& name) const {
   const auto at = std::find_if(commands_.begin(), commands_.end(),
                                [&](const auto& command) { return command->name_ == name; });
   return at != commands_.end() ? at->get() : nullptr;
+}
+
+std::vector<const Option*> Command::arguments() const {
+  std::vector<const Option*> found;
+  for (const auto& option : options_) {
+    if (option->is_argument()) found.push_back(option.get());
+  }
+  return found;
 }
 
 std::string Command::path() const {

@@ -40,8 +40,12 @@ class Option {
   Option& range(double least, double most);
   /// The words allowed.
   Option& choices(std::vector<std::string> words);
+  /// What counts where it is not given: help shows that in brackets.
+  Option& fallback(std::string text);
   /// Help shows the value that the target has now as the default.
   Option& show_default();
+  /// It is one that several commands have: a row of the table in shared_options.cpp.
+  Option& shared();
   /// It may not be given together with an earlier option of the same command.
   Option& excludes(const Option& other);
 
@@ -49,16 +53,20 @@ class Option {
     return names_;
   }  ///< as help has them: "-f,--file", or "map" for an argument
   bool is_argument() const { return names_.front() != '-'; }
+  std::vector<std::string> name_list() const;  ///< {"-f", "--file"}
   bool is_flag() const { return std::holds_alternative<bool*>(target_); }
   const Target& target() const { return target_; }
-  const std::string& help() const { return help_; }
+  const std::string& about() const { return help_; }
+  std::string help() const;  ///< what it is, whether it may be repeated, and what counts without it
   const std::string& value_name() const { return value_; }
   bool is_required() const { return required_; }
   bool is_repeatable() const { return repeatable_; }
   int number_count() const { return numbers_; }  ///< 0: no list of numbers
   const std::optional<std::pair<double, double>>& limits() const { return range_; }
   const std::vector<std::string>& words() const { return words_; }
+  const std::string& fallback_text() const { return fallback_; }
   bool shows_default() const { return shows_default_; }
+  bool is_shared() const { return shared_; }
   const Option* excluded() const { return excluded_; }
 
  private:
@@ -66,12 +74,14 @@ class Option {
   Target target_;
   std::string help_;
   std::string value_;
+  std::string fallback_;
   bool required_ = false;
   bool repeatable_ = false;
   int numbers_ = 0;
   std::optional<std::pair<double, double>> range_;
   std::vector<std::string> words_;
   bool shows_default_ = false;
+  bool shared_ = false;
   const Option* excluded_ = nullptr;
 };
 
@@ -90,19 +100,28 @@ class Command {
   Option& argument(std::string name, Target target, std::string help);
   /// From the first word that no argument takes, all words go to `words`, options among them; a leading "--" is dropped.
   void rest(std::vector<std::string>* words) { rest_ = words; }
+  /// What the last of `words` may become, where those are all arguments and what goes to rest(): for the completions of shells.
+  using Completer = std::function<std::vector<std::string>(const std::vector<std::string>& words)>;
+  void complete_rest(Completer completer) { completer_ = std::move(completer); }
   /// What help says at its end: exit statuses, examples.
   void footer(std::string text) { footer_ = std::move(text); }
+  /// What a manual page's first line says, where help begins with more than one line.
+  void summary(std::string text) { summary_ = std::move(text); }
   /// What `--version` prints.
   void version(std::string text) { version_ = std::move(text); }
   /// What the command does.
   void action(Action action) { action_ = std::move(action); }
 
   const std::string& name() const { return name_; }
-  const std::string& about() const { return about_; }
+  const std::string& about() const { return about_; }  ///< what help says first
+  const std::string& summary() const { return summary_.empty() ? about_ : summary_; }  ///< one line
+  const Command* parent() const { return parent_; }
   const std::string& footer() const { return footer_; }
   const std::string& version() const { return version_; }
   const Action& action() const { return action_; }
   std::vector<std::string>* rest() const { return rest_; }
+  const Completer& rest_completer() const { return completer_; }
+  std::vector<const Option*> arguments() const;  ///< those of options() that are told by their place
   const std::vector<std::unique_ptr<Option>>& options() const { return options_; }  ///< in the order of help
   const std::vector<std::unique_ptr<Command>>& commands() const { return commands_; }
   /// The command of that name directly below, or null.
@@ -113,10 +132,12 @@ class Command {
  private:
   std::string name_;
   std::string about_;
+  std::string summary_;
   std::string footer_;
   std::string version_;
   Action action_;
   std::vector<std::string>* rest_ = nullptr;
+  Completer completer_;
   std::vector<std::unique_ptr<Option>> options_;
   std::vector<std::unique_ptr<Command>> commands_;
   const Command* parent_ = nullptr;

@@ -10,9 +10,13 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "host/plugin_table.hpp"
+#include "isolation_options.hpp"
+#include "plugin_argument.hpp"
 #include "plugin_sweep.hpp"
 #include "render/png.hpp"
 #include "run/comparison.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -28,21 +32,70 @@ struct CompareOptions {
   std::optional<std::uint32_t> steps;
   std::string out;
   std::string view = "top";
+  std::vector<std::string> plugin_path;
+  std::optional<unsigned> threads;
+  IsolationOptions isolation;
+  bool force = false;
   unsigned jobs = 1;
   bool json = false;
   bool quiet = false;
 };
 
+bool is_log(const fs::path& input) {
+  std::error_code none;
+  return input.extension() == ".csv" || input.extension() == ".mcap" || fs::is_directory(input, none);
+}
+
+/// Options that every run is given as they are. Throws Error{kUsage} for those of a scenario where the input is a log.
+std::vector<std::string> common_arguments(const CompareOptions& options) {
+  std::vector<std::string> arguments;
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.insert(arguments.end(), {option, value});
+  };
+  const auto add_of_scenario = [&](const char* option, auto value) {
+    if (!value) return;
+    if (is_log(options.input))
+      throw Error(ErrorCode::kUsage, fmt::format("{} is for a scenario, and {} is a log", option,
+                                                 printable(options.input, 4096)));
+    add(option, fmt::to_string(*value));
+  };
+  add_of_scenario("--seed", options.seed);
+  add_of_scenario("--threads", options.threads);
+  if (options.steps) add("--steps", fmt::to_string(*options.steps));
+  for (const std::string& folder : options.plugin_path) add("--plugin-path", folder);
+  for (const std::string& argument : arguments_of(options.isolation)) arguments.push_back(argument);
+  return arguments;
+}
+
+/// What is set of one of the plugins is set where that runs; everything else in every run.
+void add_settings(const CompareOptions& options, batch::Dimensions& dimensions) {
+  for (const std::string& text : options.settings) {
+    const Override setting = parse_setting(text);
+    bool of_plugin = false;
+    for (batch::PluginSweep& plugin : dimensions.plugins) {
+      const std::string prefix = host::short_plugin_name(plugin.plugin) + ".";
+      if (!setting.key.starts_with(prefix)) continue;
+      plugin.parameters.push_back({setting.key.substr(prefix.size()), {setting.value}});
+      of_plugin = true;
+    }
+    if (!of_plugin) dimensions.more.insert(dimensions.more.end(), {"--set", text});
+  }
+}
+
 batch::Plan plan_of(const CompareOptions& options) {
   batch::Dimensions dimensions;
   dimensions.inputs = {options.input};
   for (const std::string& plugin : options.plugins) dimensions.plugins.push_back(parse_plugin_sweep(plugin));
-  for (const std::string& setting : options.settings)
-    dimensions.more.insert(dimensions.more.end(), {"--set", setting});
-  if (options.seed) dimensions.more.insert(dimensions.more.end(), {"--seed", fmt::to_string(*options.seed)});
-  if (options.steps)
-    dimensions.more.insert(dimensions.more.end(), {"--steps", fmt::to_string(*options.steps)});
+  dimensions.more = common_arguments(options);
+  add_settings(options, dimensions);
   return {.cells = batch::combine(dimensions)};
+}
+
+void check_out(const fs::path& folder, bool force) {
+  std::error_code none;
+  if (force || !fs::exists(folder / batch::kDocumentFile, none)) return;
+  throw Error(ErrorCode::kIo, "an earlier comparison is there; --force replaces it",
+              {.file = printable(folder.string(), 4096)});
 }
 
 /// The picture of all runs that left something. @return its file, empty where there was nothing to draw
@@ -73,6 +126,7 @@ int compare(const CompareOptions& options) {
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / (fs::path(options.input).stem().string() + "-compared")
                               : fs::path(options.out);
+  check_out(folder, options.force);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
   const std::vector<batch::Result> results =
@@ -110,32 +164,27 @@ int compare(const CompareOptions& options) {
 void add_compare_command(Command& app) {
   Command& command = app.command(
       "compare",
-      "Give several plugins, or one with several parameters, the same input, and show what each made of it");
+      "Run several plugins, or one with several parameters, on the same input, and compare their maps");
   const auto options = std::make_shared<CompareOptions>();
   command.argument("input", &options->input, "A scenario, a log (.csv, .mcap), or the folder of a run")
       .required()
       .value("SCENARIO|LOG");
-  command
-      .option("--plugin", &options->plugins,
-              "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
-              "may be given several times")
-      .value("NAME[:param=a,b,...]...")
-      .required()
-      .repeatable();
-  command.option("--set", &options->settings, "Set a scenario value for all; may be given several times")
-      .value("KEY=VALUE")
-      .repeatable();
-  command.option("--seed", &options->seed, "Seed, instead of the scenario's").value("N");
-  command.option("--steps", &options->steps, "Number of iterations, instead of the scenario's").value("N");
-  command.option("--out", &options->out, "Folder to write [out/<input>-compared]").value("DIR");
-  command.option("--view", &options->view, "Of the picture").choices({"top", "perspective"}).show_default();
-  command.option("--jobs", &options->jobs, "How many runs at a time; times are fair with 1")
-      .value("N")
-      .range(1u, 1024u)
-      .show_default();
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  add_shared(command, Shared::kPlugin, &options->plugins).required().repeatable();
+  add_shared(command, Shared::kSet, &options->settings).repeatable();
+  add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
+  add_shared(command, Shared::kSteps, &options->steps).fallback("the input's");
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<input>-compared");
+  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
+  add_shared(command, Shared::kJobs, &options->jobs).show_default();
+  add_plugin_path_option(command, options->plugin_path);
+  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
+  add_isolation_options(command, options->isolation);
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
+      "Several values of a parameter are tried each with each: --plugin "
+      "slam_point:noise_m=0.01,0.05,mode=thesis.\n"
       "Writes a table (results.csv, results.json), comparison.png with a panel for each run, and the "
       "folder of each run in cells/.\n"
       "Exit status: 0, or that of the first run that failed.\n"

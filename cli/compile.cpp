@@ -13,6 +13,7 @@
 #include "compiled_map.hpp"
 #include "console.hpp"
 #include "leak_report.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -220,21 +221,16 @@ int compile(const CompileOptions& options) {
 
 void add_compile_command(Command& app) {
   Command& command = app.command(
-      "compile", "Make a map ready for questions: its surface, its rooms and what can see what; find leaks");
+      "compile", "Compile a map: its surface, its clusters and potentially visible sets; find leaks");
   const auto options = std::make_shared<CompileOptions>();
   command.argument("map", &options->map, "A .map file").required().value("MAP");
-  command.option("--level", &options->level, "How hard to look for what cannot be seen")
-      .choices({"fast", "full"})
-      .show_default();
-  command.option("--threads", &options->threads, "Threads; results do not depend on it")
-      .value("N")
-      .range(1u, 1024u);
+  add_shared(command, Shared::kLevel, &options->level);
+  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
   command.flag("--no-cache", &options->no_cache, "Neither read nor write the folder .hallway beside the map");
-  command.flag("--strict", &options->strict,
-               "Refuse a map with brushes that are no solids or occupants in solid");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kStrict, &options->strict);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
-      "A map that leaks is status 1; the way out is then written beside it, as MAP's name with .pts.\n"
+      "Status 1: the map leaks; the leak path is then written beside it, in a file with the ending .pts.\n"
       "Example: hallway compile maps/office.map --level full --threads 2");
   command.action([options] { return compile(*options); });
 }

@@ -88,6 +88,10 @@ void print_json(const nlohmann::ordered_json& document) {
   print_result(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+void print_notice(const std::string& text) {
+  fmt::print(stderr, "hallway: {}\n", text);
+}
+
 void print_warning(const std::string& text) {
   fmt::print(stderr, "hallway: warning: {}\n", text);
 }

@@ -17,6 +17,9 @@ void print_result(const std::string& text);
 /// Prints a JSON document and a line end on standard output, as print_result() does.
 void print_json(const nlohmann::ordered_json& document);
 
+/// Prints "hallway: …" on standard error.
+void print_notice(const std::string& text);
+
 /// Prints "hallway: warning: …" on standard error.
 void print_warning(const std::string& text);
 

@@ -22,6 +22,7 @@
 #include "render/gl_context.hpp"
 #include "render/png.hpp"
 #include "run/manifest.hpp"
+#include "shared_options.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::cli {
@@ -195,11 +196,11 @@ int doctor(const DoctorOptions& options) {
 }  // namespace
 
 void add_doctor_command(Command& app) {
-  Command& command = app.command("doctor", "Look whether all that Hallway needs is there and works");
+  Command& command = app.command("doctor", "Check the installation");
   const auto options = std::make_shared<DoctorOptions>();
   add_plugin_path_option(command, options->plugin_path);
-  command.option("--picture", &options->picture, "Write the test picture").value("FILE.png");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kPicture, &options->picture);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Draws a small picture, starts a plugin in a process of its own, and says what the kernel does not "
       "provide to confine it.\n"

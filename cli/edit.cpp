@@ -19,6 +19,7 @@
 #include "editor/complete.hpp"
 #include "editor/help.hpp"
 #include "editor/session.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -34,7 +35,6 @@ struct EditOptions {
   std::string script;
   std::vector<std::string> words;
   bool keep_going = false;
-  bool candidates = false;
   bool json = false;
 };
 
@@ -145,21 +145,19 @@ int recover_map(const EditOptions& options) {
   return 0;
 }
 
-int print_candidates(const EditOptions& options) {
-  std::vector<std::string> words = options.words;
+/// What the last word may become; the first is the map.
+std::vector<std::string> candidates(const std::vector<std::string>& map_and_words) {
+  std::vector<std::string> words(map_and_words.begin() + 1, map_and_words.end());
   const std::string current = words.empty() ? std::string() : words.back();
   if (!words.empty()) words.pop_back();
   // No session: completing must not wait for one, nor leave a journal behind.
   editor::State state;
   try {
-    state = editor::state_of(load_map(options.map));
+    state = editor::state_of(load_map(map_and_words.front()));
   } catch (const Error&) {
     // a map to be
   }
-  std::string text;
-  for (const std::string& candidate : editor::completions(state, words, current)) text += candidate + "\n";
-  print_result(text);
-  return 0;
+  return editor::completions(state, words, current);
 }
 
 int edit(EditOptions options) {
@@ -168,7 +166,6 @@ int edit(EditOptions options) {
     options.json = true;
     options.words.erase(json);
   }
-  if (options.candidates) return print_candidates(options);
   if (!options.words.empty() && !options.script.empty())
     throw Error(ErrorCode::kUsage, "either a command or a script (-f), not both");
   if (!options.words.empty() && options.words[0] == "recover") return recover_map(options);
@@ -187,9 +184,8 @@ int edit(EditOptions options) {
 }  // namespace
 
 void add_edit_command(Command& app) {
-  Command& command = app.command("edit", "Author and change a map: one command, a script, or a console");
+  Command& command = app.command("edit", "Create and change a map: one command, a script, or a console");
   const auto options = std::make_shared<EditOptions>();
-  const auto shell = std::make_shared<std::string>();
   const auto reference = std::make_shared<bool>(false);
   command.argument("map", &options->map, "A .map file; made where there is none").value("MAP");
   command
@@ -198,15 +194,11 @@ void add_edit_command(Command& app) {
       .value("SCRIPT");
   command.flag("--keep-going", &options->keep_going,
                "With -f: each line counts for itself, and one that fails is passed over");
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--candidates", &options->candidates, "Print what the last word may become (for shells)");
-  command
-      .option("--completion", shell.get(),
-              "Print a script that makes a shell complete commands: bash, zsh or fish")
-      .value("SHELL");
+  add_shared(command, Shared::kJson, &options->json);
   command.flag("--reference", reference.get(),
                "Print the table of commands, as docs/edit.md has it; with --json as data");
   command.rest(&options->words);
+  command.complete_rest(candidates);
   command.footer(
       "Without a command or script this is a console. `hallway edit MAP help` lists the commands, `help "
       "NAME` explains one.\n"
@@ -214,16 +206,12 @@ void add_edit_command(Command& app) {
       "Example: hallway edit flat.map new\n"
       "         hallway edit flat.map entity light at 1,2,2.5\n"
       "         hallway edit flat.map undo");
-  command.action([options, shell, reference] {
+  command.action([options, reference] {
     if (*reference) {
       if (options->json)
         print_json({{"schema", "hallway.edit-commands/1"}, {"commands", editor::reference_json()}});
       else
         print_result(editor::reference_markdown());
-      return 0;
-    }
-    if (!shell->empty()) {
-      print_result(editor::completion_script(*shell));
       return 0;
     }
     if (options->map.empty()) throw Error(ErrorCode::kUsage, "which map? `hallway edit --help` says more");

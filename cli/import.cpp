@@ -12,6 +12,7 @@
 #include "map/writer.hpp"
 #include "mesh/import.hpp"
 #include "mesh/load.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -93,7 +94,7 @@ void add_import_command(Command& app) {
   command.argument("model", &options->model, "Model file, in the folder of the map or below it")
       .required()
       .value("MODEL");
-  command.option("--out", &options->out, "Map file to write").required().value("MAP");
+  add_shared(command, Shared::kOutFile, &options->out).required();
   command.option("--units", &options->units, "Metres in one unit of the file [what the file says, else 1]")
       .range(1e-6, 1e6)
       .value("M");
@@ -108,8 +109,8 @@ void add_import_command(Command& app) {
               "With --copy: folder that the model may name files in; they keep their paths below it "
               "[the model's folder]")
       .value("DIR");
-  command.flag("--force", &options->force, "Replace an earlier map, and earlier copies");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "The map is closed by six blocks outside the model, which is detail geometry: it is seen and blocks "
       "sight.\n"

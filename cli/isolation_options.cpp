@@ -8,34 +8,19 @@
 #include <system_error>
 
 #include "base/text.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 
 void add_limit_options(Command& command, IsolationOptions& options) {
-  command.flag(
-      "--in-process", &options.in_process,
-      "Run plugins in this process, for debuggers and benchmarks: no limits, and a crash is a crash of all");
-  command
-      .option("--call-timeout", &options.call_timeout_s,
-              "Seconds that one call of a plugin may take [the scenario's, else 60]")
-      .value("S")
-      .range(0.01, 1e6);
-  command
-      .option("--memory-limit", &options.memory_limit_mib,
-              "MiB of memory that a plugin's process may hold [the scenario's, else 4096]")
-      .value("MIB")
-      .range(16u, 1u << 24);
+  add_shared(command, Shared::kInProcess, &options.in_process);
+  add_shared(command, Shared::kCallTimeout, &options.call_timeout_s).fallback("the scenario's, else 60");
+  add_shared(command, Shared::kMemoryLimit, &options.memory_limit_mib).fallback("the scenario's, else 4096");
 }
 
 void add_isolation_options(Command& command, IsolationOptions& options) {
   add_limit_options(command, options);
-  command
-      .option("--on-failure", &options.on_failure,
-              "When a plugin fails: stop (write what there is), continue (without answers) or restart (a "
-              "new instance with "
-              "an empty map); the exit status is 5 in any case [the scenario's, else stop]")
-      .value("WHAT")
-      .choices(host::kOnFailure);
+  add_shared(command, Shared::kOnFailure, &options.on_failure).fallback("the scenario's, else stop");
 }
 
 host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits) {
@@ -56,6 +41,17 @@ std::vector<Override> overrides_of(const IsolationOptions& options) {
   }
   if (options.on_failure) overrides.push_back({"on_failure", *options.on_failure});
   return overrides;
+}
+
+std::vector<std::string> arguments_of(const IsolationOptions& options) {
+  std::vector<std::string> arguments;
+  if (options.in_process) arguments.emplace_back("--in-process");
+  if (options.call_timeout_s)
+    arguments.insert(arguments.end(), {"--call-timeout", format_double(*options.call_timeout_s)});
+  if (options.memory_limit_mib)
+    arguments.insert(arguments.end(), {"--memory-limit", fmt::to_string(*options.memory_limit_mib)});
+  if (options.on_failure) arguments.insert(arguments.end(), {"--on-failure", *options.on_failure});
+  return arguments;
 }
 
 std::optional<host::Isolation> isolation_of(const IsolationOptions& options,

@@ -31,6 +31,9 @@ host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits lim
 /// The same as settings of a scenario.
 std::vector<Override> overrides_of(const IsolationOptions& options);
 
+/// The same as arguments of another command that takes them.
+std::vector<std::string> arguments_of(const IsolationOptions& options);
+
 /// How plugins are kept within these limits; unset with --in-process. Their scratch folders stand in the system's folder for temporary files.
 std::optional<host::Isolation> isolation_of(const IsolationOptions& options,
                                             const host::PluginLimits& limits);

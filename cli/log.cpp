@@ -4,7 +4,7 @@
 namespace hallway::cli {
 
 void add_log_command(Command& app) {
-  Command& group = app.command("log", "Look at recorded logs, cut, mend and convert them");
+  Command& group = app.command("log", "Inspect, cut, recover and convert recorded logs");
   add_log_info_command(group);
   add_log_cut_command(group);
   add_log_recover_command(group);

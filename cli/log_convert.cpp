@@ -22,6 +22,7 @@
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -211,30 +212,14 @@ void add_log_convert_command(Command& group) {
   command.option("--from", &options->from, "What it is [what it looks like]")
       .value("KIND")
       .choices({"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"});
-  command.option("--out", &options->out, "File to write if it ends in .mcap, else a folder for CSV files")
-      .required()
-      .value("FILE|DIR");
-  command
-      .option("--truth-poses", &options->choice.true_poses,
-              "True poses, for a log that is CSV or a table of stereo tracks or ranges and bearings "
-              "[what stands beside it]")
-      .value("FILE");
-  command
-      .option(
-          "--truth-landmarks", &options->choice.true_landmarks,
-          "True landmarks, for a log that is CSV or a table of ranges and bearings [what stands beside it]")
-      .value("FILE");
-  command
-      .option(
-          "--period", &options->choice.period_s,
-          "Seconds from frame to frame of a CSV log [the run's, else 0.1] and of clouds without times [0.1]")
-      .value("S")
-      .range(1e-6, 1e6);
-  command.flag("--foxglove", &options->foxglove,
-               "Add channels that show the log in Foxglove; of an MCAP log all that it has is kept");
+  add_shared(command, Shared::kOutLog, &options->out).required();
+  add_shared(command, Shared::kTruePoses, &options->choice.true_poses).fallback("those of the log");
+  add_shared(command, Shared::kTrueLandmarks, &options->choice.true_landmarks).fallback("those of the log");
+  add_shared(command, Shared::kPeriod, &options->choice.period_s).fallback("the run's, else 0.1");
+  add_shared(command, Shared::kFoxglove, &options->foxglove);
   add_import_options(command, options->import);
-  command.flag("--force", &options->force, "Replace what is there");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Without --foxglove, what plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"

@@ -16,6 +16,7 @@
 #include "log_command.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -144,8 +145,8 @@ int copy(const CopyOptions& options, const fs::path& out, const CopyBytes& copy_
 
 void add_common_options(Command& command, CopyOptions& options) {
   command.argument("log", &options.log, "An .mcap file, or a folder with a run.mcap").required().value("LOG");
-  command.flag("--force", &options.force, "Replace the file to write");
-  command.flag("--json", &options.json, "Print one JSON document");
+  add_shared(command, Shared::kForce, &options.force);
+  add_shared(command, Shared::kJson, &options.json);
 }
 
 }  // namespace
@@ -154,7 +155,7 @@ void add_log_cut_command(Command& group) {
   Command& command = group.command("cut", "Copy a part of an MCAP log, by time or by iteration");
   const auto options = std::make_shared<CopyOptions>();
   add_common_options(command, *options);
-  command.option("--out", &options->out, "File to write").required().value("FILE");
+  add_shared(command, Shared::kOutFile, &options->out).required();
   constexpr double kMost_s = 9e9;
   command.option("--from", &options->from_s, "First log time, seconds [start]")
       .value("S")
@@ -178,7 +179,7 @@ void add_log_recover_command(Command& group) {
       "recover", "Write what can be read of a damaged or unfinished MCAP log as a whole one, with an index");
   const auto options = std::make_shared<CopyOptions>();
   add_common_options(command, *options);
-  command.option("--out", &options->out, "File to write [LOG with .recovered.mcap at its end]").value("FILE");
+  add_shared(command, Shared::kOutFile, &options->out).fallback("LOG with .recovered.mcap at its end");
   command.footer(
       "A run that was killed leaves its folder as NAME.part-PID.\n"
       "Example: hallway log recover out/office.part-4711 --out office.mcap");

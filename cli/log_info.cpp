@@ -11,6 +11,7 @@
 #include "log/unfinished_input.hpp"
 #include "log_command.hpp"
 #include "log_input.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -164,12 +165,11 @@ Json document_of(const Facts& facts) {
 }  // namespace
 
 void add_log_info_command(Command& group) {
-  Command& command =
-      group.command("info", "Read all of an MCAP log; say what is in it and whether it is whole");
+  Command& command = group.command("info", "List what an MCAP log contains, and whether it is complete");
   const auto file = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   command.argument("log", file.get(), "An .mcap file, or a run folder").required().value("LOG");
-  command.flag("--json", json.get(), "Print one JSON document");
+  add_shared(command, Shared::kJson, json.get());
   command.footer(
       "Exit status 1 says that the log is damaged.\nExample: hallway log info out/office/run.mcap");
   command.action([file, json] {

@@ -6,6 +6,7 @@
 #include "batch/runner.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "help_commands.hpp"
 #include "record/version.hpp"
 
 namespace {
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   const bool json = hallway::cli::asks_for_json(argc, argv);
   try {
     hallway::cli::Command app("hallway", kAbout);
+    app.summary("headless map editor, simulator and plugin host for robot mapping algorithms");
     app.footer(hallway::cli::kExitStatusHelp);
     app.version("hallway " + hallway::record::version());
     hallway::cli::add_run_command(app);
@@ -44,14 +46,17 @@ int main(int argc, char** argv) {
     hallway::cli::add_log_command(app);
     hallway::cli::add_render_command(app);
     hallway::cli::add_plugin_command(app);
+    hallway::cli::add_driver_command(app);
     hallway::cli::add_planes_command(app);
     hallway::cli::add_bench_em_command(app);
+    hallway::cli::add_scenario_command(app);
     hallway::cli::add_import_command(app);
     hallway::cli::add_align_command(app);
     hallway::cli::add_compile_command(app);
     hallway::cli::add_map_command(app);
     hallway::cli::add_edit_command(app);
     hallway::cli::add_doctor_command(app);
+    hallway::cli::add_help_commands(app);
     return hallway::cli::run_program(app, argc, argv);
   } catch (const std::exception& failure) {
     return hallway::cli::report_failure(failure, json);

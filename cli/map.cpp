@@ -4,7 +4,8 @@
 namespace hallway::cli {
 
 void add_map_command(Command& app) {
-  Command& group = app.command("map", "Ask a map questions");
+  Command& group =
+      app.command("map", "Query a map: check it, list what is in it, find leaks, test visibility, export it");
   add_map_check_command(group);
   add_map_info_command(group);
   add_map_leak_command(group);

@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "map_command.hpp"
 #include "run/map_findings.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -75,11 +76,11 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void add_map_check_command(Command& group) {
-  Command& command = group.command("check", "List what is wrong with a map");
+  Command& command = group.command("check", "List the problems of a map");
   const auto options = std::make_shared<CheckOptions>();
   command.argument("map", &options->map, "A .map file").required().value("MAP");
-  command.flag("--strict", &options->strict, "Let warnings count as errors");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kStrict, &options->strict);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Status 1 if there is an error, 0 if there are warnings at most.\n"
       "Example: hallway map check maps/office.map --strict");

@@ -13,6 +13,7 @@
 #include "mesh/export.hpp"
 #include "run/map_export.hpp"
 #include "sense/landmarks.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -108,12 +109,10 @@ void add_map_export_command(Command& group) {
       group.command("export", "Write a map's surface and its models, or its points, for other programs");
   const auto options = std::make_shared<ExportOptions>();
   command.argument("map", &options->map, "A .map file").required().value("MAP");
-  command.option("--out", &options->out, "File to write: .glb (y up), .obj with .mtl, or .ply (z up); metres")
-      .required()
-      .value("FILE");
+  add_shared(command, Shared::kOutFile, &options->out).required();
   command.flag("--all", &options->all, "Also the faces of a sealed map that nothing inside can see");
   command.flag("--points", &options->points, "The points that a point sensor can see, as .ply");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer("Example: hallway map export maps/office.map --out office.glb");
   command.action([options] { return export_map(*options); });
 }

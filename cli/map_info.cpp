@@ -12,6 +12,7 @@
 #include "map/world.hpp"
 #include "map_command.hpp"
 #include "sense/landmarks.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -147,11 +148,11 @@ Json document_of(const std::string& map, const Facts& facts) {
 }  // namespace
 
 void add_map_info_command(Command& group) {
-  Command& command = group.command("info", "Say what is in a map");
+  Command& command = group.command("info", "List what is in a map");
   const auto file = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   command.argument("map", file.get(), "A .map file").required().value("MAP");
-  command.flag("--json", json.get(), "Print one JSON document");
+  add_shared(command, Shared::kJson, json.get());
   command.footer("Example: hallway map info maps/office.map");
   command.action([file, json] {
     const Facts facts = facts_of(load_map(*file));

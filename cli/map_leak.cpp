@@ -12,6 +12,7 @@
 #include "leak_report.hpp"
 #include "map_command.hpp"
 #include "run/pictures.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -71,14 +72,13 @@ int leak(const LeakOptions& options) {
 }  // namespace
 
 void add_map_leak_command(Command& group) {
-  Command& command =
-      group.command("leak", "Show the way on which something in the map reaches the void outside");
+  Command& command = group.command("leak", "Show the leak path from inside the map to the outside");
   const auto options = std::make_shared<LeakOptions>();
   command.argument("map", &options->map, "A .map file").required().value("MAP");
-  command.option("--picture", &options->picture, "PNG file to write: a plan with the way out").value("FILE");
-  command.option("--pts", &options->points, "File to write the way to, as Quake editors read it")
+  add_shared(command, Shared::kPicture, &options->picture);
+  command.option("--pts", &options->points, "File to write the leak path to, as Quake editors read it")
       .value("FILE");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Status 1 if the map leaks, 0 if it is sealed.\n"
       "Example: hallway map leak maps/office.map --picture leak.png");

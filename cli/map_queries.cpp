@@ -14,6 +14,7 @@
 #include "render/map_layers.hpp"
 #include "run/map_view.hpp"
 #include "sense/occluders.hpp"
+#include "shared_options.hpp"
 #include "sim/models.hpp"
 #include "trace/scene.hpp"
 
@@ -38,9 +39,9 @@ Json place_json(const Vec3& place) {
 
 void add_places(Command& command, QueryOptions& options) {
   command.argument("map", &options.map, "A .map file").required().value("MAP");
-  command.argument("from", &options.from, "Where to look from, metres").required().value("X,Y,Z");
-  command.argument("to", &options.to, "Where to look to, metres").required().value("X,Y,Z");
-  command.flag("--json", &options.json, "Print one JSON document");
+  command.argument("from", &options.from, "Start of the ray, metres").required().value("X,Y,Z");
+  command.argument("to", &options.to, "End of the ray, metres").required().value("X,Y,Z");
+  add_shared(command, Shared::kJson, &options.json);
 }
 
 // ---- pvs ------------------------------------------------------------------------------------------------------------
@@ -194,13 +195,11 @@ int ask_ray(const QueryOptions& options) {
 }  // namespace
 
 void add_map_pvs_command(Command& group) {
-  Command& command =
-      group.command("pvs", "Say whether one place may see another by the visible sets, and by a line");
+  Command& command = group.command(
+      "pvs", "Test whether one place can see another, by the potentially visible sets and by a ray");
   const auto options = std::make_shared<QueryOptions>();
   add_places(command, *options);
-  command.option("--level", &options->level, "How hard to look for what cannot be seen")
-      .choices({"fast", "full"})
-      .show_default();
+  add_shared(command, Shared::kLevel, &options->level);
   command.footer(
       "Status 0 if the sets say visible, 1 if they say hidden.\n"
       "Example: hallway map pvs maps/office.map 1,2,1.5 9,2,1.5");
@@ -208,7 +207,7 @@ void add_map_pvs_command(Command& group) {
 }
 
 void add_map_ray_command(Command& group) {
-  Command& command = group.command("ray", "Say which face or model of the map is met first on a line");
+  Command& command = group.command("ray", "Find the first face or model that a ray hits");
   const auto options = std::make_shared<QueryOptions>();
   add_places(command, *options);
   command.footer("Example: hallway map ray maps/office.map 1,2,1.5 9,2,1.5");

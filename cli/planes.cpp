@@ -11,12 +11,14 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
-#include "plane_plugin.hpp"
+#include "plane_view.hpp"
 #include "planes/files.hpp"
 #include "planes/finder.hpp"
 #include "planes/picture.hpp"
+#include "plugin_argument.hpp"
 #include "plugin_report.hpp"
 #include "render/png.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -27,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct PlanesOptions {
   std::string cloud;
   std::string plugin;
+  std::vector<std::string> settings;
   CloudInput input;
   std::string labels;
   std::int64_t unlabelled = planes::kNoLabel;
@@ -54,8 +57,10 @@ Found find(const PlanesOptions& options) {
   Found found{.cloud = planes::read_cloud(options.cloud, reading)};
   if (!options.labels.empty())
     found.cloud.labels = planes::read_labels(options.labels, found.cloud, options.unlabelled);
-  planes::PlaneFinder finder(parse_plane_plugin(options.plugin), plugin_folders(options.plugin_path),
-                             print_plugin_log, isolation_of(options.isolation, apply(options.isolation, {})));
+  std::vector<host::StageSpec> stages{parse_plugin(options.plugin)};
+  for (const std::string& setting : options.settings) set_parameter(stages, setting);
+  planes::PlaneFinder finder(stages.front(), plugin_folders(options.plugin_path), print_plugin_log,
+                             isolation_of(options.isolation, apply(options.isolation, {})));
   found.plugin = finder.info();
   found.answer = finder.find(found.cloud.points, options.repeat, found.cloud.image);
   if (!found.cloud.labels.empty()) {
@@ -164,21 +169,15 @@ void add_planes_command(Command& app) {
   Command& command = app.command("planes", "Find planes in a point cloud with a plugin");
   const auto options = std::make_shared<PlanesOptions>();
   add_input_options(command, *options);
-  command
-      .option("--plugin", &options->plugin, "A plugin that finds planes, an id or a file, and its parameters")
-      .value("NAME[:parameter=value]...")
-      .required();
-  command.option("--repeat", &options->repeat, "How often the plugin is asked; the time is the median")
-      .range(1u, 10'000u)
-      .value("N")
-      .show_default();
-  command.option("--out", &options->out, "Folder to write planes.json, planes.ply and planes.png to")
-      .value("DIR");
-  command.option("--view", &options->view, "Of the picture").choices({"top", "perspective"}).show_default();
+  add_shared(command, Shared::kPlugin, &options->plugin).required();
+  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
+  add_shared(command, Shared::kRepeat, &options->repeat).show_default();
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
+  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
   add_plugin_path_option(command, options->plugin_path);
   add_limit_options(command, options->isolation);
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no table");
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
       "With labels (a column of the file, or --labels) the planes are scored, and the picture shows the "
       "labelled ones beside "

@@ -9,6 +9,7 @@
 #include "host/isolated_list.hpp"
 #include "isolation_options.hpp"
 #include "run/manifest.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -77,12 +78,12 @@ int list(const ListOptions& options) {
 }  // namespace
 
 void add_plugin_command(Command& app) {
-  Command& command = app.command("plugin", "Look at plugins, check them, and begin new ones");
+  Command& command = app.command("plugin", "List plugins, check them, and start new ones");
   Command& listing =
-      command.command("list", "List the plugins on the search path, with what they take and give");
+      command.command("list", "List the plugins on the search path, with their inputs and outputs");
   const auto options = std::make_shared<ListOptions>();
   add_plugin_path_option(listing, options->plugin_path);
-  listing.flag("--json", &options->json, "Print one JSON document");
+  add_shared(listing, Shared::kJson, &options->json);
   listing.action([options] { return list(*options); });
   add_plugin_info_command(command);
   add_plugin_check_command(command);

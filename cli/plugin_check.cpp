@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "host/loadability.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -127,14 +128,14 @@ int check(const CheckOptions& options) {
 
 void add_plugin_check_command(Command& plugin) {
   Command& command = plugin.command(
-      "check", "Say whether a plugin's file will load, here or on a robot, without running any of it");
+      "check", "Check that a plugin's file loads, here or on a robot, without running any of its code");
   const auto options = std::make_shared<CheckOptions>();
-  command.argument("file", &options->file, "A plugin's shared object").value("FILE").required();
+  command.argument("file", &options->file, "A plugin's shared object").value("LIBRARY").required();
   command
       .option("--profile", &options->profile,
               "The robot, as `hallway-robot profile` described it [this machine]")
-      .value("FILE");
-  command.flag("--json", &options->json, "Print one JSON document");
+      .value("PROFILE");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Reads machine, needed libraries, versions of glibc and libstdc++, entry symbol and other exported "
       "symbols from the file.\n"

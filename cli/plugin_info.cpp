@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "host/isolated_plugin.hpp"
 #include "isolation_options.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -105,11 +106,11 @@ int show(const InfoOptions& options) {
 }  // namespace
 
 void add_plugin_info_command(Command& plugin) {
-  Command& command = plugin.command("info", "Say what a plugin takes and gives, and its parameters");
+  Command& command = plugin.command("info", "Show a plugin's inputs, outputs and parameters");
   const auto options = std::make_shared<InfoOptions>();
   command.argument("plugin", &options->plugin, "A plugin's id, or its file").value("NAME|FILE").required();
   add_plugin_path_option(command, options->plugin_path);
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer("Example: hallway plugin info slam_point");
   command.action([options] { return show(*options); });
 }

@@ -5,19 +5,14 @@
 
 #include "base/text.hpp"
 #include "host/search.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 
 namespace fs = std::filesystem;
 
 void add_plugin_path_option(Command& command, std::vector<std::string>& folders) {
-  command
-      .option("--plugin-path", &folders,
-              "Folder to look for plugins in, before those of HALLWAY_PLUGIN_PATH and Hallway's own; may "
-              "be given "
-              "several times")
-      .value("DIR")
-      .repeatable();
+  add_shared(command, Shared::kPluginPath, &folders).repeatable();
 }
 
 std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {

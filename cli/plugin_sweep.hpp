@@ -7,8 +7,8 @@
 
 namespace hallway::cli {
 
-/// "slam_point:noise_m=0.01,0.05:mode=thesis": a plugin, and values of its parameters that are tried each with each. "FILE.so:ID" names one
-/// of several plugins of a file. Throws Error{kUsage} for anything else.
+/// What `--plugin` says (plugin_argument.hpp) where a command tries all values of each parameter with all of the others:
+/// "slam_point:noise_m=0.01,0.05,mode=thesis". Throws Error{kUsage}.
 batch::PluginSweep parse_plugin_sweep(const std::string& text);
 
 }  // namespace hallway::cli

@@ -11,6 +11,9 @@
 #include "command.hpp"
 #include "conformance/suite.hpp"
 #include "console.hpp"
+#include "host/plugin_table.hpp"
+#include "plugin_argument.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -25,7 +28,6 @@ struct ValidateOptions {
   std::string file;
   std::vector<std::string> tests;
   std::vector<std::string> settings;
-  std::string plugin;
   std::uint64_t seed = 1;
   double timeout_s = 20.0;
   unsigned jobs = hardware_threads();
@@ -48,25 +50,23 @@ int list_tests(bool json) {
   return 0;
 }
 
-/// "NAME=VALUE" taken apart; "PLUGIN.NAME=VALUE", as other commands have it, is understood too.
-std::pair<std::string, std::string> parse_setting(const std::string& text, const std::string& plugin) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set {}: not of the form NAME=VALUE", printable(text)));
-  }
-  std::string name = text.substr(0, equals);
-  const std::string prefix = plugin + ".";
-  if (!plugin.empty() && name.starts_with(prefix)) name.erase(0, prefix.size());
-  return {name, text.substr(equals + 1)};
+/// A parameter's name and value; "PLUGIN.KEY=VALUE" is understood where that is the plugin.
+std::pair<std::string, std::string> parameter_of(const std::string& text, const std::string& plugin) {
+  Override setting = parse_setting(text);
+  const std::string prefix = host::short_plugin_name(plugin) + ".";
+  if (setting.key.starts_with(prefix)) setting.key.erase(0, prefix.size());
+  return {setting.key, setting.value};
 }
 
 SuiteSetup setup_of(const ValidateOptions& options) {
   SuiteSetup setup;
   std::error_code problem;
-  setup.subject = {
-      .file = options.file, .plugin = options.plugin, .seed = options.seed, .settings = {}, .scratch = {}};
+  const std::size_t id = options.file.rfind(".so:");
+  setup.subject.file = id == std::string::npos ? options.file : options.file.substr(0, id + 3);
+  if (id != std::string::npos) setup.subject.plugin = options.file.substr(id + 4);
+  setup.subject.seed = options.seed;
   for (const std::string& text : options.settings) {
-    setup.subject.settings.push_back(parse_setting(text, options.plugin));
+    setup.subject.settings.push_back(parameter_of(text, options.file));
   }
   setup.only = options.tests;
   setup.jobs = options.jobs;
@@ -159,32 +159,21 @@ int validate(const ValidateOptions& options) {
 }  // namespace
 
 void add_plugin_validate_command(Command& plugin) {
-  Command& command = plugin.command(
-      "validate", "Try whether a plugin keeps every rule of the ABI, each in a process of its own");
+  Command& command =
+      plugin.command("validate", "Test a plugin against every rule of the ABI, each in its own process");
   const auto options = std::make_shared<ValidateOptions>();
-  command.argument("file", &options->file, "A plugin's shared object").value("FILE");
-  command.option("--plugin", &options->plugin, "Which of the file's plugins; needed where it holds several")
-      .value("ID");
-  command.option("--test", &options->tests, "Only this test; may be given several times")
-      .value("NAME")
-      .repeatable();
-  command
-      .option("--set", &options->settings,
-              "Value of a parameter, set before activation; may be given several times")
-      .value("NAME=VALUE")
-      .repeatable();
-  command.option("--seed", &options->seed, "Of the frames that the plugin is given")
-      .value("N")
-      .show_default();
+  command.argument("file", &options->file, "A plugin's shared object; FILE.so:ID names one of several in it")
+      .value("LIBRARY[:ID]");
+  command.option("--test", &options->tests, "Only this test").value("NAME").repeatable();
+  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
+  add_shared(command, Shared::kSeed, &options->seed).show_default();
   command.option("--timeout", &options->timeout_s, "Seconds after which a test has hung")
       .value("S")
       .range(0.1, 1e6)
       .show_default();
-  command.option("--jobs", &options->jobs, "How many tests at a time [the number of processors]")
-      .value("N")
-      .range(1u, 1024u);
+  add_shared(command, Shared::kJobs, &options->jobs).fallback("all processors");
   command.flag("--list", &options->list, "Say what each test demands, and run none");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Exit status: 0 every test passed or had nothing to try; 4 the file cannot be loaded; 5 a test "
       "failed.\n"

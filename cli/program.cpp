@@ -5,13 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <type_traits>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "completion.hpp"
 #include "console.hpp"
+#include "plugin_path.hpp"
 
 // The one source that knows CLI11: its templates are made here, once for each type of value.
 namespace hallway::cli {
@@ -20,21 +23,19 @@ namespace {
 /// The first words are the command; the parser would only say that one is required.
 void check_command(const Command& program, int argc, char** argv) {
   const Command* group = &program;
-  std::string path;
-  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    if (group->commands().empty()) return;
-    const std::string wanted = argv[i];
-    const Command* command = group->find(wanted);
-    if (command == nullptr) {
-      std::vector<std::string> names;
-      for (const auto& known : group->commands()) names.push_back(known->name());
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("there is no command \"{}{}\"{}; there are: {}", path, printable(wanted),
-                              suggestion(wanted, names), fmt::join(names, ", ")));
-    }
-    group = command;
-    path += wanted + " ";
+  for (int i = 1; i < argc && argv[i][0] != '-' && !group->commands().empty(); ++i) {
+    group = &command_below(*group, argv[i]);
   }
+}
+
+/// Answers what a shell asks while a command line is typed. @return false if that is not what the arguments are
+bool answer_shell(const Command& program, int argc, char** argv) {
+  if (argc < 3 || std::strcmp(argv[1], kCompletionCommand) != 0 ||
+      std::strcmp(argv[2], kCompletionWords) != 0)
+    return false;
+  const std::vector<std::string> words(argv + 3, argv + argc);
+  print_result(print_completion(complete(program, words, plugin_folders({}))));
+  return true;
 }
 
 template <typename T>
@@ -133,9 +134,25 @@ class Parser {
   std::map<const Option*, CLI::Option*> options_;
 };
 
+/// ` (did you mean "--plugin"?)` for the first option that the command does not have.
+std::string correction(const Command& command, int argc, char** argv) {
+  std::vector<std::string> names{"--help"};
+  for (const auto& option : command.options()) {
+    for (std::string& name : option->name_list()) names.push_back(std::move(name));
+  }
+  for (int i = 1; i < argc; ++i) {
+    const std::string word(argv[i], std::strcspn(argv[i], "="));
+    if (word.starts_with("--") && std::find(names.begin(), names.end(), word) == names.end())
+      return suggestion(word, names);
+  }
+  return "";
+}
+
 /// An argument that is wrong, and where to read what is right.
-int report_parse(const Command& command, const CLI::ParseError& stop, bool json) {
-  const int status = report_failure(Error(ErrorCode::kUsage, stop.what()), json);
+int report_parse(const Command& command, const CLI::ParseError& stop, int argc, char** argv) {
+  std::string message = stop.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&stop) != nullptr) message += correction(command, argc, argv);
+  const int status = report_failure(Error(ErrorCode::kUsage, message), asks_for_json(argc, argv));
   fmt::print(stderr, "Try `{} --help`.\n", command.path());
   return status;
 }
@@ -149,17 +166,37 @@ bool asks_for_json(int argc, char** argv) {
   return false;
 }
 
+const Command& command_below(const Command& group, const std::string& name) {
+  if (const Command* command = group.find(name)) return *command;
+  std::vector<std::string> names;
+  for (const auto& known : group.commands()) names.push_back(known->name());
+  const std::string path = group.path();
+  const std::size_t space = path.find(' ');
+  throw Error(ErrorCode::kUsage,
+              fmt::format("there is no command \"{}{}\"{}; there are: {}",
+                          space == std::string::npos ? "" : path.substr(space + 1) + " ", printable(name),
+                          suggestion(name, names), fmt::join(names, ", ")));
+}
+
 int run_program(const Command& program, int argc, char** argv) {
+  if (answer_shell(program, argc, argv)) return 0;
   check_command(program, argc, argv);
   Parser parser(program);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
-    if (stop.get_exit_code() != 0) return report_parse(parser.last(), stop, asks_for_json(argc, argv));
+    if (stop.get_exit_code() != 0) return report_parse(parser.last(), stop, argc, argv);
     parser.print(stop);
     return 0;
   }
   return parser.chosen()->action()();
+}
+
+int run_program(const Command& program, std::vector<std::string> arguments) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  return run_program(program, static_cast<int>(arguments.size()), argv.data());
 }
 
 }  // namespace hallway::cli

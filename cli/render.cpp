@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
+#include "shared_options.hpp"
 #include "show_list.hpp"
 
 namespace hallway::cli {
@@ -114,20 +115,13 @@ int render(const RenderOptions& options) {
 }  // namespace
 
 void add_render_command(Command& app) {
-  Command& command = app.command("render", "Draw a map, or what a run believed, as a PNG picture");
+  Command& command = app.command("render", "Draw a map, or the map that a run estimated, as a PNG picture");
   const auto options = std::make_shared<RenderOptions>();
   command.argument("input", &options->input, "A .map file, or the folder of a run")
       .required()
       .value("MAP|RUN");
-  command
-      .option("--view", &options->view,
-              "top: like a plan; perspective: from a viewpoint; panels: of a run in which planes were "
-              "found in points, four in one")
-      .choices({"top", "perspective", "panels"})
-      .show_default();
-  command.option("--out", &options->out, "PNG file to write; an earlier one is replaced")
-      .required()
-      .value("FILE");
+  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective", "panels"}).show_default();
+  add_shared(command, Shared::kOutFile, &options->out).required();
   command.option("--size", &options->size, "Width and height in pixels").value("WxH").show_default();
   command
       .option("--cut", &options->cut_z_m,
@@ -141,8 +135,8 @@ void add_render_command(Command& app) {
               "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
       .value("LAYER,...")
       .repeatable();
-  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kStrict, &options->strict);
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Examples: hallway render out/office --view perspective --out office.png --show map,truth,estimate\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");

@@ -14,12 +14,14 @@
 #include "log/observations.hpp"
 #include "log_import.hpp"
 #include "log_input.hpp"
+#include "plugin_argument.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/paced_source.hpp"
 #include "run/record.hpp"
 #include "run/run.hpp"
 #include "run/tracked_source.hpp"
+#include "shared_options.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::cli {
@@ -95,41 +97,27 @@ void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const 
   }
 }
 
-/// `PLUGIN.parameter=value`, or `parameter=value` where there is one plugin.
 void add_setting(Stages& stages, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set takes parameter=value, not \"{}\"", printable(text)));
-  }
-  std::string name = text.substr(0, equals);
-  host::StageSpec* stage = stages.specs.size() == 1 ? &stages.specs.front() : nullptr;
-  if (const std::size_t dot = name.find('.'); dot != std::string::npos) {
-    stage = nullptr;
-    for (host::StageSpec& candidate : stages.specs) {
-      if (sim::short_plugin_name(candidate.plugin) == name.substr(0, dot)) stage = &candidate;
-    }
-    name = name.substr(dot + 1);
-  }
-  if (stage == nullptr) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set {}: no plugin of that name is run", printable(text)));
-  }
-  stage->parameters.push_back({name, text.substr(equals + 1), {.file = "--set"}});
+  const auto [stage, name] = set_parameter(stages.specs, text);
   stages.origins.push_back({sim::short_plugin_name(stage->plugin), name, "command line"});
 }
 
 Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
+  const host::StageSpec wanted = options.plugin.empty() ? host::StageSpec{} : parse_plugin(options.plugin);
   Stages stages;
   try {
-    if (input.manifest) add_recorded(stages, *input.manifest, options.plugin);
+    if (input.manifest) add_recorded(stages, *input.manifest, wanted.plugin);
   } catch (const nlohmann::json::exception& failure) {
     throw Error(ErrorCode::kBadInput, printable(failure.what()),
                 {.file = run::files::kRun, .element = "plugins"});
   }
-  if (stages.specs.empty() && options.plugin.empty()) {
+  if (stages.specs.empty() && wanted.plugin.empty()) {
     throw Error(ErrorCode::kUsage,
                 "--plugin is needed: the log does not stand in a run folder that names one");
   }
-  if (stages.specs.empty()) stages.specs.push_back({.plugin = options.plugin, .parameters = {}});
+  if (stages.specs.empty()) stages.specs.push_back({.plugin = wanted.plugin, .parameters = {}});
+  for (const host::ParameterSetting& parameter : wanted.parameters)
+    add_setting(stages, parameter.name + "=" + parameter.value);
   for (const std::string& setting : options.settings) add_setting(stages, setting);
   return stages;
 }
@@ -195,8 +183,7 @@ int replay(const ReplayOptions& options) {
 }  // namespace
 
 void add_replay_command(Command& app) {
-  Command& command =
-      app.command("replay", "Feed recorded observations to a plugin, and measure what it maps");
+  Command& command = app.command("replay", "Run a plugin on recorded observations, and score its map");
   const auto options = std::make_shared<ReplayOptions>();
   command
       .argument("observations", &options->observations,
@@ -207,39 +194,23 @@ void add_replay_command(Command& app) {
                 "truth with them")
       .required()
       .value("LOG");
-  command.option("--plugin", &options->plugin, "Plugin to run: an id or a .so file").value("NAME|FILE");
-  command
-      .option("--set", &options->settings,
-              "Set a plugin's parameter (noise_m=0.1, or slam_point.noise_m=0.1); may be given several times")
-      .value("KEY=VALUE")
-      .repeatable();
-  command.option("--steps", &options->steps, "Number of iterations [all]")
-      .value("N")
-      .range(1u, log::kMaxIteration);
-  command
-      .option("--truth-poses", &options->true_poses,
-              "CSV file with the columns iteration,x,y,z and perhaps qw,qx,qy,qz")
-      .value("FILE");
-  command.option("--truth-landmarks", &options->true_landmarks, "CSV file with the columns landmark_id,x,y,z")
-      .value("FILE");
-  command.option("--period", &options->period_s, "Seconds from frame to frame [the run's, else 0.1]")
-      .value("S")
-      .range(1e-6, 1e6);
-  command
-      .option("--rate", &options->rate,
-              "Feed frames at their own pace: 1 as recorded, 2 twice as fast [as fast as the plugin answers]")
-      .value("X")
-      .range(1e-3, 1e3);
+  add_shared(command, Shared::kPlugin, &options->plugin).fallback("the run's that wrote the log");
+  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
+  add_shared(command, Shared::kSteps, &options->steps).fallback("all");
+  add_shared(command, Shared::kTruePoses, &options->true_poses).fallback("those of the log");
+  add_shared(command, Shared::kTrueLandmarks, &options->true_landmarks).fallback("those of the log");
+  add_shared(command, Shared::kPeriod, &options->period_s).fallback("the run's, else 0.1");
+  add_shared(command, Shared::kRate, &options->rate).fallback("as fast as the plugin answers");
   command.flag("--ids-as-tracks", &options->ids_as_tracks,
                "Give plugins the true landmark of each point as the sensor's track of it, for those "
                "that need to be told");
-  command.option("--out", &options->out, "Folder to write [out/replay-<name>]").value("DIR");
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/replay-<name>");
   add_plugin_path_option(command, options->plugin_path);
   add_isolation_options(command, options->isolation);
-  command.flag("--foxglove", &options->foxglove, "Add channels to run.mcap that show the run in Foxglove");
-  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  add_shared(command, Shared::kFoxglove, &options->foxglove);
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer("Example: hallway replay out/office/run.mcap --plugin ./my_slam.so --out out/mine");
   command.action([options] { return replay(*options); });
 }

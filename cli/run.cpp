@@ -13,11 +13,13 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
+#include "plugin_argument.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
 #include "run/simulated_source.hpp"
 #include "scenario_input.hpp"
+#include "shared_options.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {
@@ -44,7 +46,7 @@ struct RunOptions {
 
 std::vector<sim::Override> overrides_of(const RunOptions& options) {
   std::vector<sim::Override> overrides;
-  if (!options.plugin.empty()) overrides.push_back({"plugin", options.plugin});
+  if (!options.plugin.empty()) overrides = plugin_overrides(options.plugin);
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
   if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
@@ -53,7 +55,8 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
 }
 
 int run_scenario(const RunOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario, overrides_of(options));
+  const ScenarioInput read = read_scenario_input(options.scenario, overrides_of(options));
+  const sim::Scenario& scenario = read.scenario;
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
   run::SimulatedSource source(simulator);
@@ -74,7 +77,7 @@ int run_scenario(const RunOptions& options) {
                            .warnings = warnings,
                            .period_ns = scenario.period_ns,
                            .threads = options.threads};
-  facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+  facts.inputs = {{fs::path(scenario.file).filename().string(), read.text},
                   {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
   const std::vector<run::Attachment> models = model_files(simulator);
   facts.inputs.insert(facts.inputs.end(), models.begin(), models.end());
@@ -98,36 +101,27 @@ int run_scenario(const RunOptions& options) {
 
 void add_run_command(Command& app) {
   Command& command = app.command(
-      "run",
-      "Drive a simulated robot through a map, feed what it sees to a plugin, and measure what it maps");
+      "run", "Drive a simulated robot through a map, run a plugin on what it observes, and score its map");
   const auto options = std::make_shared<RunOptions>();
-  command.argument("scenario", &options->scenario, "Scenario file: map, robot, sensors, plugins, pictures")
+  command
+      .argument("scenario", &options->scenario,
+                "Scenario file: map, robot, sensors, plugins, pictures; or a .map file, for which a scenario "
+                "is made")
       .required()
-      .value("SCENARIO");
-  command.option("--out", &options->out, "Folder to write [out/<scenario>]").value("DIR");
-  command.option("--seed", &options->seed, "Seed of all random numbers, instead of the scenario's")
-      .value("N");
-  command.option("--steps", &options->steps, "Number of iterations, instead of the scenario's").value("N");
-  command
-      .option(
-          "--set", &options->settings,
-          "Set a scenario value (sensor.eyes.noise_m=0.1) or a plugin's parameter (slam_point.noise_m=0.1); "
-          "may be given several times")
-      .value("KEY=VALUE")
-      .repeatable();
-  command
-      .option("--plugin", &options->plugin, "Run this plugin instead of the scenario's: an id or a .so file")
-      .value("NAME|FILE");
+      .value("SCENARIO|MAP");
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<scenario>");
+  add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
+  add_shared(command, Shared::kSteps, &options->steps).fallback("the scenario's");
+  add_shared(command, Shared::kSet, &options->settings).repeatable();
+  add_shared(command, Shared::kPlugin, &options->plugin).fallback("the scenario's");
   add_plugin_path_option(command, options->plugin_path);
-  command.option("--threads", &options->threads, "Threads of the simulator; results do not depend on it")
-      .value("N")
-      .range(1u, 1024u);
+  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
   add_isolation_options(command, options->isolation);
-  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
-  command.flag("--foxglove", &options->foxglove, "Add channels to run.mcap that show the run in Foxglove");
-  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no progress and no table");
+  add_shared(command, Shared::kStrict, &options->strict);
+  add_shared(command, Shared::kFoxglove, &options->foxglove);
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
       "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.02 --out out/noisy");
   command.action([options] { return run_scenario(*options); });

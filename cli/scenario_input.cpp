@@ -4,22 +4,34 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
+#include "map/reader.hpp"
+#include "sim/default_scenario.hpp"
 
 namespace hallway::cli {
 
 namespace fs = std::filesystem;
 
-sim::Override parse_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("--set takes key=value, not \"{}\"", printable(text)));
+ScenarioInput read_scenario_input(const std::string& file, std::span<const Override> overrides) {
+  const fs::path path = file;
+  if (path.extension() != ".map") {
+    ScenarioInput input{.scenario = sim::load_scenario(path, overrides)};
+    input.text = read_file(path, sim::kMaxScenarioBytes);
+    return input;
   }
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  sim::DefaultScenario made = sim::default_scenario(map::load(path), path.filename().string());
+  for (const std::string& sentence : made.assumed) print_notice(sentence);
+  print_notice(fmt::format("`hallway scenario new {}` writes this scenario", printable(file, 4096)));
+  fs::path as_file = path;
+  as_file.replace_extension(".toml");
+  return {.scenario = sim::parse_scenario(made.text, as_file, overrides),
+          .text = std::move(made.text),
+          .assumed = std::move(made.assumed)};
 }
 
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {

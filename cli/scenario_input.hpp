@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "run/run.hpp"
-#include "sim/setting.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {
 
-/// Reads what stands after --set. Throws Error{kUsage}.
-sim::Override parse_setting(const std::string& text);
+/// A scenario, and the text that it was read from.
+struct ScenarioInput {
+  sim::Scenario scenario{};
+  std::string text{};
+  std::vector<std::string> assumed{};  ///< of a map that has no scenario: what it does not say
+};
+
+/// Reads a scenario file, or makes a scenario for a `.map` file and prints what it assumes. Throws what sim::load_scenario() throws.
+ScenarioInput read_scenario_input(const std::string& file, std::span<const Override> overrides);
 
 /// What the user should know of the map, printed too. Throws the first of it if `strict`.
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict);

@@ -17,10 +17,12 @@
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
 #include "log_input.hpp"
+#include "plugin_argument.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
 #include "run/simulated_source.hpp"
 #include "scenario_input.hpp"
+#include "shared_options.hpp"
 #include "sim/scenario.hpp"
 #include "sim/simulator.hpp"
 
@@ -63,7 +65,8 @@ Input open_scenario(const ServeOptions& options) {
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
   if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
-  const sim::Scenario scenario = sim::load_scenario(options.input, overrides);
+  const ScenarioInput read = read_scenario_input(options.input, overrides);
+  const sim::Scenario& scenario = read.scenario;
   Input input;
   input.simulator = std::make_unique<sim::Simulator>(scenario, options.threads, trace::Backend::kEmbree);
   input.facts.warnings = take_warnings(*input.simulator, options.strict);
@@ -72,7 +75,7 @@ Input open_scenario(const ServeOptions& options) {
   input.facts.settings = input.simulator->scenario().settings;
   input.facts.period_ns = scenario.period_ns;
   input.facts.threads = options.threads;
-  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read_file(scenario.file)},
+  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read.text},
                         {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
   input.attachments = {{run::files::kScenario, input.facts.inputs[0].content},
                        {run::files::kMap, input.facts.inputs[1].content}};
@@ -143,7 +146,8 @@ int status_of(const run::ServeResult& result) {
 
 int serve(const ServeOptions& options) {
   const link::Address listen = link::parse_address(options.udp);
-  const bool is_scenario = fs::path(options.input).extension() == ".toml";
+  const bool is_scenario =
+      fs::path(options.input).extension() == ".toml" || fs::path(options.input).extension() == ".map";
   Input input = is_scenario ? open_scenario(options) : open_recording(options);
   input.facts.command = "serve";
   run::ServePlan plan{.lock_step = options.lock_step, .rate = options.rate, .replace = options.force};
@@ -186,14 +190,13 @@ int serve(const ServeOptions& options) {
 }  // namespace
 
 void add_serve_command(Command& app) {
-  Command& command =
-      app.command("serve", "Be the robot at the other end of a datagram protocol: a simulated one, or a log");
+  Command& command = app.command("serve", "Serve a simulated or recorded robot over UDP to a robot program");
   const auto options = std::make_shared<ServeOptions>();
   command
       .argument("input", &options->input,
-                "Scenario file (.toml), or a log as of `replay`: .mcap, .csv, a run folder")
+                "Scenario file (.toml), a .map file, or a log as of `replay`: .mcap, .csv, a run folder")
       .required()
-      .value("SCENARIO|LOG");
+      .value("SCENARIO|MAP|LOG");
   command
       .option("--udp", &options->udp,
               "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")
@@ -202,36 +205,25 @@ void add_serve_command(Command& app) {
   const Option& lock_step =
       command.flag("--lockstep", &options->lock_step,
                    "Wait for the answer to each frame, and lose nothing; else in real time");
-  command.option("--rate", &options->rate, "Seconds of the input that pass in one [1]")
-      .value("X")
-      .range(1e-3, 1e3)
-      .excludes(lock_step);
+  add_shared(command, Shared::kRate, &options->rate).fallback("1").excludes(lock_step);
   command.option("--loss", &options->loss, "Share of datagrams to lose on purpose [0]")
       .value("P")
       .range(0.0, 1.0);
   command.option("--loss-seed", &options->loss_seed, "Seed of what is lost on purpose [1]").value("N");
   command
       .option("--give-up", &options->give_up_s,
-              "Seconds for which the robot program may be silent once it has come; 0: for ever [10]")
+              "Seconds without a datagram from the robot program after which to stop; 0: never [10]")
       .value("S")
       .range(0.0, 1e6);
-  command.option("--steps", &options->steps, "Number of frames, instead of the input's")
-      .value("N")
-      .range(1u, log::kMaxIteration);
-  command.option("--seed", &options->seed, "Seed of all random numbers, instead of the scenario's")
-      .value("N");
-  command.option("--set", &options->settings, "Set a scenario value; may be given several times")
-      .value("KEY=VALUE")
-      .repeatable();
-  command.option("--threads", &options->threads, "Threads of the simulator; results do not depend on it")
-      .value("N")
-      .range(1u, 1024u);
-  command.option("--out", &options->out, "Folder to write: the log, the truth, the commands [none]")
-      .value("DIR");
-  command.flag("--strict", &options->strict, "Refuse a map with brushes that are no solids");
-  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
-  command.flag("--json", &options->json, "Print one JSON document");
-  command.flag("--quiet", &options->quiet, "Print no address, no progress and no table");
+  add_shared(command, Shared::kSteps, &options->steps).fallback("the input's");
+  add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
+  add_shared(command, Shared::kSetScenario, &options->settings).repeatable();
+  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
+  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
+  add_shared(command, Shared::kStrict, &options->strict);
+  add_shared(command, Shared::kForce, &options->force);
+  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer("Example: hallway serve maps/office.toml --udp 127.0.0.1:7000 --lockstep --out out/served");
   command.action([options] { return serve(*options); });
 }

@@ -16,6 +16,7 @@
 #include "isolation_options.hpp"
 #include "plugin_report.hpp"
 #include "plugin_sweep.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -146,12 +147,7 @@ int run_study(const study::Study& study, const StudyOptions& options) {
 }
 
 void add_options(Command& command, StudyOptions& options) {
-  command
-      .option("--plugin", &options.plugins,
-              "A plugin, an id or a file, and values of its parameters, which are tried each with each; "
-              "may be given several times [slam_point]")
-      .value("NAME[:param=a,b,...]...")
-      .repeatable();
+  add_shared(command, Shared::kPlugin, &options.plugins).repeatable().fallback("slam_point");
   add_plugin_path_option(command, options.plugin_path);
   command
       .option("--seeds", &options.seeds,
@@ -159,20 +155,16 @@ void add_options(Command& command, StudyOptions& options) {
       .value("N")
       .range(1u, 1000u)
       .show_default();
-  command.option("--steps", &options.steps, "Iterations of each run, instead of the study's")
-      .value("N")
-      .range(1u, 10'000'000u);
+  add_shared(command, Shared::kSteps, &options.steps).fallback("the study's");
   command.flag("--quick", &options.quick, "A small size for trying out: seconds, at most two seeds");
-  command.option("--out", &options.out, "Folder to write [out/study-<name>]").value("DIR");
+  add_shared(command, Shared::kOutFolder, &options.out).fallback("out/study-<name>");
   command.option("--maps", &options.maps, "Folder of the scenarios [beside the program]").value("DIR");
   command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
-  command.option("--threads", &options.threads, "Threads of the simulator; results do not depend on it")
-      .value("N")
-      .range(1u, 1024u);
+  add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_limit_options(command, options.isolation);
-  command.flag("--force", &options.force, "Replace an earlier study in the output folder");
-  command.flag("--json", &options.json, "Print one JSON document");
-  command.flag("--quiet", &options.quiet, "Print no progress and no table");
+  add_shared(command, Shared::kForce, &options.force);
+  add_shared(command, Shared::kJson, &options.json);
+  add_shared(command, Shared::kQuiet, &options.quiet);
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor/complete.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "editor/selection.hpp"
 
@@ -77,45 +74,6 @@ void add_arguments(const State& state, const CommandSpec& command, const std::ve
   for (const CommandSpec& other : commands()) out.emplace(other.name);
 }
 
-constexpr std::string_view kBash = R"sh(_hallway_edit() {
-  local current=${COMP_WORDS[COMP_CWORD]}
-  [[ ${COMP_WORDS[1]} == edit && $COMP_CWORD -ge 3 ]] || { mapfile -t COMPREPLY < <(compgen -f -- "$current"); return; }
-  local line=${COMP_LINE:0:COMP_POINT}
-  local -a typed
-  read -ra typed <<< "$line"
-  [[ $line == *[[:blank:]] ]] && typed+=("")
-  mapfile -t COMPREPLY < <("${typed[0]}" edit "${typed[2]}" --candidates "${typed[@]:3}" 2>/dev/null)
-  # Bash breaks words at `=`: only what stands behind the last one is replaced.
-  local last=${typed[-1]}
-  if [[ $last == *=* ]]; then COMPREPLY=("${COMPREPLY[@]#"${last%"${last##*=}"}"}"); fi
-  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
-  return 0
-}
-complete -o default -F _hallway_edit hallway
-)sh";
-
-constexpr std::string_view kZsh = R"sh(#compdef hallway
-_hallway_edit() {
-  if [[ $words[2] == edit && $CURRENT -ge 4 ]]; then
-    local -a found
-    found=(${(f)"$($words[1] edit $words[3] --candidates ${words[4,CURRENT]} 2>/dev/null)"})
-    compadd -Q -S '' -- $found
-  else
-    _files
-  fi
-}
-compdef _hallway_edit hallway
-)sh";
-
-constexpr std::string_view kFish = R"sh(function __hallway_edit
-  set -l typed (commandline -opc)
-  set -l current (commandline -ct)
-  test (count $typed) -ge 3; and test $typed[2] = edit; or return
-  $typed[1] edit $typed[3] --candidates $typed[4..-1] $current 2>/dev/null
-end
-complete -c hallway -n '__fish_seen_subcommand_from edit' -a '(__hallway_edit)'
-)sh";
-
 }  // namespace
 
 std::vector<std::string> completions(const State& state, const std::vector<std::string>& words,
@@ -143,15 +101,6 @@ std::vector<std::string> completions(const State& state, const std::vector<std::
     if ((prefix + candidate).starts_with(current)) out.push_back(prefix + candidate);
   }
   return out;
-}
-
-std::string completion_script(std::string_view shell) {
-  if (shell == "bash") return std::string(kBash);
-  if (shell == "zsh") return std::string(kZsh);
-  if (shell == "fish") return std::string(kFish);
-  throw Error(ErrorCode::kUsage,
-              fmt::format("there is no completion for the shell \"{}\"; there are bash, zsh and fish",
-                          printable(shell)));
 }
 
 }  // namespace hallway::editor

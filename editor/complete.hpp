@@ -16,7 +16,4 @@ namespace hallway::editor {
 std::vector<std::string> completions(const State& state, const std::vector<std::string>& words,
                                      std::string_view current);
 
-/// A script that makes a shell complete `hallway edit`: `bash`, `zsh` or `fish`. Throws Error{kUsage} for another one.
-std::string completion_script(std::string_view shell);
-
 }  // namespace hallway::editor

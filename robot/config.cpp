@@ -80,15 +80,19 @@ class ConfigReader {
   Config config_;
 };
 
+bool holds(const std::vector<std::string>& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 /// Every key that could have been meant, for suggestions.
-std::vector<std::string> settable_keys(TomlTable& root) {
+std::vector<std::string> settable_keys(TomlTable& root, std::string_view wanted) {
   std::vector<std::string> keys{"driver", "plugin"};
   for (const std::string& key : kRobotKeys) keys.push_back("robot." + key);
   for (const std::string& key : host::kPluginLimitKeys) keys.push_back("limits." + key);
   if (const TomlTable* driver = table_in(root, "driver")) {
     for (const std::string& key : keys_of(*driver)) keys.push_back("driver." + key);
   }
-  for (std::string& key : host::plugin_parameter_keys(root)) keys.push_back(std::move(key));
+  for (std::string& key : host::plugin_parameter_keys(root, wanted)) keys.push_back(std::move(key));
   return keys;
 }
 
@@ -104,11 +108,8 @@ void replace_driver(TomlTable& root, const std::string& name) {
 
 /// True if `key` is one of a table of settings.
 bool set_in_table(TomlTable& root, std::string_view table, std::string_view key, const TomlNode& value) {
-  const auto holds = [&](const std::vector<std::string>& keys) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
-  };
-  const bool known = (table == "driver" && !key.empty()) || (table == "robot" && holds(kRobotKeys)) ||
-                     (table == "limits" && holds(host::kPluginLimitKeys));
+  const bool known = (table == "driver" && !key.empty()) || (table == "robot" && holds(kRobotKeys, key)) ||
+                     (table == "limits" && holds(host::kPluginLimitKeys, key));
   if (!known) return false;
   if (TomlTable* found = table_in(root, table)) assign(*found, key, value);
   return true;
@@ -120,10 +121,13 @@ void apply(TomlTable& root, const Override& setting) {
   const std::string_view table = key.substr(0, dot);
   const std::string_view name = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
   const TomlNode value = toml_value_or_text(setting.value);
-  if (set_in_table(root, table, name, value) || host::set_plugin_parameter(root, table, name, value)) return;
-  throw Error(ErrorCode::kUsage,
-              "the configuration has no such setting" + suggestion(setting.key, settable_keys(root)),
-              {.file = "command line", .element = "key `" + printable(setting.key) + "`"});
+  if (set_in_table(root, table, name, value) ||
+      (!holds(kTopKeys, key) && host::set_plugin_parameter(root, key, value)))
+    return;
+  throw Error(
+      ErrorCode::kUsage,
+      "the configuration has no such setting" + suggestion(setting.key, settable_keys(root, setting.key)),
+      {.file = "command line", .element = "key `" + printable(setting.key) + "`"});
 }
 
 void apply_overrides(TomlTable& root, std::span<const Override> overrides) {

@@ -7,9 +7,11 @@
 #include "base/text.hpp"
 #include "host/search.hpp"
 #include "isolation_options.hpp"
+#include "plugin_argument.hpp"
 #include "plugin_path.hpp"
 #include "plugin_report.hpp"
 #include "robot/command.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::robot {
 
@@ -18,28 +20,19 @@ void add_config_options(cli::Command& command, ConfigOptions& options) {
       .required()
       .value("CONFIG");
   command.option("--driver", &options.driver, "Another driver than the configuration's: an id or a .so file")
-      .value("NAME|FILE");
-  command
-      .option("--plugin", &options.plugin,
-              "Run this plugin instead of the configuration's: an id or a .so file")
-      .value("NAME|FILE");
-  command
-      .option("--set", &options.settings,
-              "Set a value (robot.rate_hz=50, driver.log=run.mcap, limits.on_failure=restart) or a plugin's "
-              "parameter "
-              "(slam_point.noise_m=0.1); may be given several times")
-      .value("KEY=VALUE")
-      .repeatable();
+      .value("DRIVER|FILE");
+  cli::add_shared(command, cli::Shared::kPlugin, &options.plugin).fallback("the configuration's");
+  cli::add_shared(command, cli::Shared::kSet, &options.settings).repeatable();
   add_driver_path_option(command, options.driver_path);
   cli::add_plugin_path_option(command, options.plugin_path);
-  command.flag("--in-process", &options.in_process,
-               "Run plugins in this process, for debuggers: no limits, and a crash is a crash of all");
-  command.flag("--json", &options.json, "Print one JSON document");
+  cli::add_shared(command, cli::Shared::kInProcess, &options.in_process);
+  cli::add_shared(command, cli::Shared::kJson, &options.json);
 }
 
 void add_driver_path_option(cli::Command& command, std::vector<std::string>& folders) {
   command
-      .option("--driver-path", &folders, "Look for drivers in this folder first; may be given several times")
+      .option("--driver-path", &folders,
+              "Folder to look for drivers in, before those of HALLWAY_DRIVER_PATH and Hallway's own")
       .value("DIR")
       .repeatable();
 }
@@ -47,14 +40,11 @@ void add_driver_path_option(cli::Command& command, std::vector<std::string>& fol
 std::vector<Override> overrides_of(const ConfigOptions& options) {
   std::vector<Override> overrides;
   if (!options.driver.empty()) overrides.push_back({"driver", options.driver});
-  if (!options.plugin.empty()) overrides.push_back({"plugin", options.plugin});
-  for (const std::string& text : options.settings) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Error(ErrorCode::kUsage, fmt::format("--set takes key=value, not \"{}\"", printable(text)));
-    }
-    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  if (!options.plugin.empty()) {
+    for (Override& of_plugin : cli::plugin_overrides(options.plugin))
+      overrides.push_back(std::move(of_plugin));
   }
+  for (const std::string& text : options.settings) overrides.push_back(cli::parse_setting(text));
   return overrides;
 }
 

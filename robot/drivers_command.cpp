@@ -9,6 +9,7 @@
 #include "host/machine_profile.hpp"
 #include "host/search.hpp"
 #include "robot/command.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::robot {
 namespace {
@@ -81,7 +82,7 @@ void add_drivers_command(cli::Command& app) {
   cli::Command& command = app.command("drivers", "List the drivers that are found, with their settings");
   const auto options = std::make_shared<DriversOptions>();
   add_driver_path_option(command, options->driver_path);
-  command.flag("--json", &options->json, "Print one JSON document");
+  cli::add_shared(command, cli::Shared::kJson, &options->json);
   command.action([options] { return list(*options); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "console.hpp"
+#include "help_commands.hpp"
 #include "record/version.hpp"
 #include "robot/command.hpp"
 
@@ -17,12 +18,14 @@ int main(int argc, char** argv) {
   const bool json = hallway::cli::asks_for_json(argc, argv);
   try {
     hallway::cli::Command app("hallway-robot", kAbout);
+    app.summary("run mapping plugins on a robot");
     app.footer(hallway::cli::kExitStatusHelp);
     app.version("hallway-robot " + hallway::record::version());
     hallway::robot::add_run_command(app);
     hallway::robot::add_check_command(app);
     hallway::robot::add_drivers_command(app);
     hallway::robot::add_profile_command(app);
+    hallway::cli::add_help_commands(app);
     return hallway::cli::run_program(app, argc, argv);
   } catch (const std::exception& failure) {
     return hallway::cli::report_failure(failure, json);

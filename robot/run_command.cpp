@@ -9,6 +9,7 @@
 #include "plugin_report.hpp"
 #include "robot/command.hpp"
 #include "robot/session.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::robot {
 namespace {
@@ -121,12 +122,12 @@ void add_run_command(cli::Command& app) {
       "run", "Run plugins on a robot: its frames in, their commands out, until the robot ends or Ctrl-C");
   const auto options = std::make_shared<RunOptions>();
   add_config_options(command, options->config);
-  command.option("--out", &options->out, "Folder to write [out/<config>]").value("DIR");
+  cli::add_shared(command, cli::Shared::kOutFolder, &options->out).fallback("out/<config>");
   command.option("--duration", &options->duration_s, "Seconds after which to end [until the robot ends]")
       .value("S")
       .range(0.001, 1e9);
-  command.flag("--force", &options->force, "Replace an earlier run in the output folder");
-  command.flag("--quiet", &options->quiet, "Print no table");
+  cli::add_shared(command, cli::Shared::kForce, &options->force);
+  cli::add_shared(command, cli::Shared::kQuiet, &options->quiet);
   command.footer("Example: hallway-robot run robot.toml --out out/monday");
   command.action([options] { return run(*options); });
 }

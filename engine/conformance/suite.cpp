@@ -226,8 +226,9 @@ std::vector<Result> run_suite(const SuiteSetup& setup) {
 }
 
 std::string command_to_repeat(const SuiteSetup& setup, const Test& test) {
-  std::string text = "hallway plugin validate " + quoted(setup.subject.file.string());
-  if (!setup.subject.plugin.empty()) text += " --plugin " + quoted(setup.subject.plugin);
+  std::string text =
+      "hallway plugin validate " +
+      quoted(setup.subject.file.string() + (setup.subject.plugin.empty() ? "" : ":" + setup.subject.plugin));
   for (const auto& [name, value] : setup.subject.settings) text += " --set " + quoted(name + "=" + value);
   return printable(text + fmt::format(" --test {} --seed {}", test.name, setup.subject.seed),
                    2 * kMaxReasonBytes);

@@ -112,23 +112,29 @@ void leave_plugin_alone(TomlTable& root, const std::string& plugin) {
   assign(root, kKey, {.value = std::move(pipeline), .line = 0});
 }
 
-bool set_plugin_parameter(TomlTable& root, std::string_view plugin, std::string_view key,
-                          const TomlNode& value) {
-  for (auto& [name, table] : named_plugins(root)) {
-    if (name != plugin || key.empty()) continue;
-    if (TomlTable* params = table_in(*table, "params")) assign(*params, key, value);
+bool set_plugin_parameter(TomlTable& root, std::string_view key, const TomlNode& value) {
+  const std::size_t dot = key.rfind('.');
+  const std::string_view name = dot == std::string_view::npos ? key : key.substr(dot + 1);
+  const auto plugins = named_plugins(root);
+  if (name.empty() || (dot == std::string_view::npos && plugins.size() != 1)) return false;
+  for (const auto& [plugin, table] : plugins) {
+    if (dot != std::string_view::npos && plugin != key.substr(0, dot)) continue;
+    if (TomlTable* params = table_in(*table, "params")) assign(*params, name, value);
     return true;
   }
   return false;
 }
 
-std::vector<std::string> plugin_parameter_keys(TomlTable& root) {
+std::vector<std::string> plugin_parameter_keys(TomlTable& root, std::string_view wanted) {
   std::vector<std::string> keys;
+  const std::string_view last = wanted.substr(wanted.rfind('.') + 1);
   for (const auto& [name, table] : named_plugins(root)) {
     const TomlNode* params = find(*table, "params");
     const auto* entries = params != nullptr ? std::get_if<TomlTable>(&params->value) : nullptr;
-    if (entries == nullptr) continue;
-    for (const TomlEntry& entry : *entries) keys.push_back(name + "." + entry.key);
+    if (entries != nullptr) {
+      for (const TomlEntry& entry : *entries) keys.push_back(name + "." + entry.key);
+    }
+    keys.push_back(name + "." + std::string(last));
   }
   return keys;
 }

@@ -30,11 +30,11 @@ std::vector<StageSpec> read_plugin_tables(const std::filesystem::path& file, con
 /// Leaves that plugin alone in the pipeline, with the parameters that `root` has for it, if any.
 void leave_plugin_alone(TomlTable& root, const std::string& plugin);
 
-/// Sets the parameter `key` of the plugin of that short name. False if there is no such plugin.
-bool set_plugin_parameter(TomlTable& root, std::string_view plugin, std::string_view key,
-                          const TomlNode& value);
+/// Sets a parameter: `key` is "slam_point.noise_m", or "noise_m" where there is one plugin. False if there is no such plugin.
+bool set_plugin_parameter(TomlTable& root, std::string_view key, const TomlNode& value);
 
-/// "slam_point.noise_m" for each parameter that stands in `root`.
-std::vector<std::string> plugin_parameter_keys(TomlTable& root);
+/// Keys that `wanted` may be a misspelling of: "slam_point.noise_m" for each parameter that is set in `root`, and for each plugin its name with
+/// what follows the last point of `wanted`.
+std::vector<std::string> plugin_parameter_keys(TomlTable& root, std::string_view wanted);
 
 }  // namespace hallway::host

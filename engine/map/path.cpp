@@ -31,13 +31,6 @@ std::vector<const Entity*> path_entities(const Document& document) {
   return paths;
 }
 
-std::vector<std::string> path_names(const Document& document) {
-  std::vector<std::string> names;
-  for (const Entity* entity : path_entities(document))
-    names.push_back(EntityKeys(document, *entity).text("name"));
-  return names;
-}
-
 const Entity& path_entity(const Document& document, std::string_view name) {
   const std::vector<const Entity*> entities = path_entities(document);
   const std::vector<std::string> names = path_names(document);
@@ -126,6 +119,14 @@ bool Path::closed() const {
 
 Pose Path::at(double distance_m) const {
   return std::visit([&](const auto& curve) { return curve.at(distance_m); }, curve_);
+}
+
+std::vector<std::string> path_names(const Document& document) {
+  std::vector<std::string> names;
+  for (const Entity& entity : document.entities) {
+    if (entity.classname() == "hw_path") names.push_back(EntityKeys(document, entity).text("name"));
+  }
+  return names;
 }
 
 Path find_path(const Document& document, std::string_view name) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "geom/pose.hpp"
 #include "map/document.hpp"
@@ -28,6 +30,9 @@ class Path {
  private:
   std::variant<RoundedPolyline, Lemniscate> curve_;
 };
+
+/// The names of the map's paths, in the order of the file. Throws Error{kBadInput} for a path without a name.
+std::vector<std::string> path_names(const Document& document);
 
 /// The path that the entity `hw_path` of that name describes (entities and keys: docs/formats.md).
 /// Throws Error{kBadInput}: no such path (naming those that exist), two of one name, a key missing or out of range, too few

@@ -38,7 +38,7 @@ std::vector<std::string> sensor_names(const TomlTable& scenario) {
 }
 
 /// Every key that could have been meant, for suggestions.
-std::vector<std::string> settable_keys(TomlTable& scenario) {
+std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wanted) {
   std::vector<std::string> keys = kTopOverrideKeys;
   keys.push_back("plugin");
   for (const std::string& key : kRobotKeys) keys.push_back("robot." + key);
@@ -48,13 +48,15 @@ std::vector<std::string> settable_keys(TomlTable& scenario) {
     }
   }
   for (const std::string& key : kCloudKeys) keys.push_back("cloud.NAME." + key);
-  for (std::string& key : host::plugin_parameter_keys(scenario)) keys.push_back(std::move(key));
+  for (std::string& key : host::plugin_parameter_keys(scenario, wanted)) keys.push_back(std::move(key));
   return keys;
 }
 
 [[noreturn]] void refuse(TomlTable& scenario, const std::string& key) {
-  throw Error(ErrorCode::kUsage,
-              "the scenario has no such setting" + suggestion(key, settable_keys(scenario)),
+  std::string hint = suggestion(key, settable_keys(scenario, key));
+  if (hint.empty() && key.find('.') == std::string::npos)
+    hint = "; a parameter of one of the plugins is PLUGIN.KEY";
+  throw Error(ErrorCode::kUsage, "the scenario has no such setting" + hint,
               {.file = "command line", .element = "key `" + printable(key) + "`"});
 }
 
@@ -99,13 +101,11 @@ void apply(TomlTable& scenario, const Override& setting) {
     set_cloud(scenario, parts[1], parts[2], toml_value_or_text(setting.value));
     return;
   }
-  const std::size_t dot = setting.key.rfind('.');
-  if (dot == std::string::npos) refuse(scenario, setting.key);
-  const std::string_view key = setting.key;
-  if (!host::set_plugin_parameter(scenario, key.substr(0, dot), key.substr(dot + 1),
-                                  toml_value_or_text(setting.value))) {
+  // A word like a key of the scenario is that, misspelt, and no parameter of a plugin.
+  const bool bare = setting.key.find('.') == std::string::npos;
+  const bool misspelt = bare && (holds(kTopKeys, setting.key) || nearest_name(setting.key, kTopOverrideKeys));
+  if (misspelt || !host::set_plugin_parameter(scenario, setting.key, toml_value_or_text(setting.value)))
     refuse(scenario, setting.key);
-  }
 }
 
 }  // namespace

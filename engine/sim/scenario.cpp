@@ -13,6 +13,7 @@
 #include "base/toml_reader.hpp"
 #include "map/sensors.hpp"
 #include "sim/clouds.hpp"
+#include "sim/default_scenario.hpp"
 #include "sim/overrides.hpp"
 #include "sim/schema.hpp"
 #include "sim/sensors.hpp"
@@ -79,7 +80,14 @@ class ScenarioReader {
 
   void read_robot(const TableReader& top) {
     TableReader robot = reader("robot", top.table("robot"), top.line("robot"), kRobotKeys);
-    scenario_.robot.path = robot.text("path");
+    if (robot.has("path")) scenario_.robot.path = robot.text("path");
+    if (!robot.has("path") && !top.has("robot")) throw robot.error("path", "is missing");
+    if (!robot.has("path")) {
+      if (robot.has("speed_m_s") || robot.has("loop_steps"))
+        throw robot.error("path", "is missing; a robot that moves needs one");
+      read_body(robot);
+      return;
+    }
     if (robot.has("speed_m_s") && robot.has("loop_steps")) {
       throw robot.error("loop_steps", "is given together with `speed_m_s`; give one of them");
     }
@@ -216,7 +224,12 @@ bool PictureSpec::shows(PictureLayer layer) const {
 }
 
 Scenario load_scenario(const std::filesystem::path& file, std::span<const Override> overrides) {
-  TomlTable root = parse_toml(read_file(file, kMaxScenarioBytes), file.string());
+  return parse_scenario(read_file(file, kMaxScenarioBytes), file, overrides);
+}
+
+Scenario parse_scenario(const std::string& text, const std::filesystem::path& file,
+                        std::span<const Override> overrides) {
+  TomlTable root = parse_toml(text, file.string());
   apply_overrides(root, overrides);
   return ScenarioReader(file, root).read();
 }

@@ -21,9 +21,9 @@
 
 namespace hallway::sim {
 
-/// How the robot moves: along a path of the map. Exactly one of `speed_m_s` and `loop_steps` is set.
+/// How the robot moves: along a path of the map, where exactly one of `speed_m_s` and `loop_steps` is set; or not at all.
 struct RobotSpec {
-  std::string path;                   ///< name of an `hw_path` entity
+  std::string path;                   ///< name of an `hw_path` entity; empty: it stays at the map's `hw_robot_start`
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
       loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one

@@ -13,6 +13,7 @@
 #include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "map/reader.hpp"
+#include "map/start_check.hpp"
 #include "sense/cloud_landmarks.hpp"
 #include "sense/face_landmarks.hpp"
 #include "sense/mesh_landmarks.hpp"
@@ -26,6 +27,19 @@ namespace {
 double find_step_length(const Scenario& scenario, const map::Path& path) {
   if (scenario.robot.loop_steps) return path.length_m() / *scenario.robot.loop_steps;
   return scenario.robot.speed_m_s.value_or(0.0) * scenario.period_s();
+}
+
+/// The path of the scenario; without one, a piece of the straight line ahead of the robot start, on which it stays.
+map::Path path_of(const map::Document& document, const RobotSpec& robot) {
+  if (!robot.path.empty()) return map::find_path(document, robot.path);
+  const std::optional<map::RobotStart> start = map::find_robot_start(document);
+  if (!start) {
+    throw Error(ErrorCode::kBadInput, "the scenario names no path, and the map has no hw_robot_start",
+                Where{printable(document.file), 0, {}});
+  }
+  const Pose& pose = start->T_world_body;
+  const Vec3 line[]{pose.t, pose.t + pose.q * Vec3::UnitX()};
+  return map::Path(map::RoundedPolyline(line, false, 1.0));
 }
 
 std::string file_of(const map::Document& document) {
@@ -117,7 +131,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       document_(map::load(scenario.map_file)),
       world_(compile_for_run(document_, scenario.map_file, threads_)),
       models_(load_models(document_, scenario.map_file.parent_path())),
-      path_(map::find_path(document_, scenario.robot.path)),
+      path_(path_of(document_, scenario.robot)),
       step_length_m_(find_step_length(scenario, path_)),
       scene_(sense::make_occluders(world_.partition.surface, triangles_of(models_)), backend),
       landmarks_(find_landmarks(with_clouds(document_, scenario), world_, models_)),
@@ -127,6 +141,12 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
   check_robot_start(document_, world_);
+  if (!scenario.robot.path.empty()) {
+    if (const auto off = map::start_off_path(document_, scenario.robot.path)) {
+      problems_.emplace_back(ErrorCode::kBadInput, map::start_off_path_text(*off),
+                             Where{file_of(document_), off->start.line, "hw_robot_start"});
+    }
+  }
   stop_at_obstacle();
   check_poses();
 }
@@ -171,7 +191,9 @@ void Simulator::stop_at_obstacle() {
   const double way_m = std::min(path_.length_m(), step_length_m_ * (scenario_.steps - 1));
   const auto obstacle = find_obstacle(world_, scene_, path_, way_m, scenario_.robot.body);
   if (!obstacle) return;
-  const Where where{file_of(document_), obstacle->line, "path `" + printable(scenario_.robot.path) + "`"};
+  const std::string& path = scenario_.robot.path;
+  const Where where{file_of(document_), obstacle->line,
+                    path.empty() ? "hw_robot_start" : "path `" + printable(path) + "`"};
   if (obstacle->distance_m == 0.0) {
     throw Error(ErrorCode::kBadInput,
                 "begins inside " + obstacle->name + ", at " + place_text(obstacle->from), where);

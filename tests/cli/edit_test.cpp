@@ -186,16 +186,18 @@ TEST_F(Edit, WhatIsNoMapIsRefused) {
 TEST_F(Edit, CompletionForShells) {
   edit({"new"});
   edit({"entity", "light", "at", "1,1,1", "targetname=lamp"});
-  EXPECT_EQ(edit({"--candidates", "ent"}).out, "entity\n");
-  EXPECT_EQ(edit({"--candidates", "key", "la"}).out, "lamp\n");
-  EXPECT_EQ(edit({"--candidates", "entity", "cl"}).out, "class=\n");
-  for (const char* shell : {"bash", "zsh", "fish"})
-    EXPECT_EQ(hallway({"edit", "--completion", shell}).status, 0);
-  EXPECT_EQ(hallway({"edit", "--completion", "cmd"}).status, 2);
-  const std::string script = hallway({"edit", "--completion", "bash"}).out;
+  const auto offered = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"completion", "--words", "edit", map()});
+    return hallway(words).out;
+  };
+  EXPECT_EQ(offered({"ent"}), "entity\n");
+  EXPECT_EQ(offered({"key", "la"}), "lamp\n");
+  EXPECT_EQ(offered({"entity", "cl"}), "class=\n");
+  EXPECT_EQ(hallway({"completion", "cmd"}).status, 2);
+  const std::string script = hallway({"completion", "bash"}).out;
   const std::string typed = script + "COMP_WORDS=(" + hallway_program() + " edit " + map() +
                             " key la); COMP_CWORD=4; COMP_LINE=\"${COMP_WORDS[*]}\"; " +
-                            "COMP_POINT=${#COMP_LINE}; _hallway_edit; echo \"${COMPREPLY[@]}\"";
+                            "COMP_POINT=${#COMP_LINE}; _hallway; echo \"${COMPREPLY[@]}\"";
   const Ended bash = Process({"/bin/bash", "-c", typed}).wait();
   EXPECT_EQ(bash.out, "lamp\n") << bash.err;
 }

@@ -176,7 +176,7 @@ TEST(CommandToRepeat, CanBeGivenToAShell) {
   setup.subject = {
       .file = "my plugins/it's.so", .plugin = "a", .seed = 7, .settings = {{"x", "1"}}, .scratch = {}};
   EXPECT_EQ(command_to_repeat(setup, *find_test("stride")),
-            "hallway plugin validate 'my plugins/it'\\''s.so' --plugin a --set x=1 --test stride --seed 7");
+            "hallway plugin validate 'my plugins/it'\\''s.so:a' --set x=1 --test stride --seed 7");
 }
 
 }  // namespace

@@ -110,6 +110,12 @@ TEST(Overrides, SetAPluginsParameter) {
   EXPECT_EQ(origin_of(scenario, "slam_point.noise_m"), "command line");
 }
 
+TEST(Overrides, AParameterOfTheOnlyPluginNeedsNoName) {
+  EXPECT_EQ(load_with({{"plugin", "slam_point"}, {"noise_m", "0.1"}}).pipeline.at(0).parameters.at(0).value,
+            "0.1");
+  expect_refused({"noise_m", "0.1"}, "PLUGIN.KEY");  // which of the two?
+}
+
 TEST(Overrides, APluginReplacesThePipeline) {
   const Scenario scenario = load_with({{"plugin", "other"}});
   ASSERT_EQ(scenario.pipeline.size(), 1u);
