@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "editor/anchor.hpp"
 #include "editor/selection.hpp"
 
 namespace hallway::editor {
@@ -27,10 +28,30 @@ void add_names(const State& state, std::set<std::string>& out) {
   }
 }
 
-/// Values that an argument may have.
-std::set<std::string> values(const State& state, const ArgSpec& spec) {
+/// `@NAME.` for all names; once a name is typed, `@NAME.ANCHOR`. Of a list of places the last is completed.
+void add_anchors(const State& state, std::string_view typed, std::set<std::string>& out) {
+  const std::size_t at = typed.rfind('@');
+  if (at == std::string_view::npos || typed.find(',', at) != std::string_view::npos) return;
+  const std::string before(typed.substr(0, at + 1));
+  std::set<std::string> names;
+  add_names(state, names);
+  for (const std::string& name : names) {
+    if (!typed.substr(at + 1).starts_with(name + ".")) {
+      out.insert(before + name + ".");
+      continue;
+    }
+    for (const Anchor& anchor : anchors()) out.insert(before + name + "." + std::string(anchor.name));
+  }
+}
+
+/// Values that an argument may have. @param typed  what of it is there already
+std::set<std::string> values(const State& state, const ArgSpec& spec, std::string_view typed) {
   std::set<std::string> out;
   switch (spec.kind) {
+    case ArgKind::kPlace:
+    case ArgKind::kPlaces:
+      add_anchors(state, typed, out);
+      break;
     case ArgKind::kChoice:
       for (const std::string_view choice : split(spec.choices, ' ')) out.emplace(choice);
       break;
@@ -64,13 +85,13 @@ std::set<std::string_view> given(const CommandSpec& command, const std::vector<s
 }
 
 void add_arguments(const State& state, const CommandSpec& command, const std::vector<std::string>& words,
-                   std::set<std::string>& out) {
+                   std::string_view typed, std::set<std::string>& out) {
   const auto names = given(command, words);
   bool first = true;
   for (const ArgSpec& spec : command.arguments) {
     if (names.contains(spec.name)) continue;
     if (spec.kind != ArgKind::kKeys) out.insert(std::string(spec.name) + "=");
-    if (first) out.merge(values(state, spec));
+    if (first) out.merge(values(state, spec, typed));
     first = false;
   }
   if (command.name != "help") return;
@@ -85,10 +106,12 @@ constexpr std::string_view kBash = R"sh(_hallway_edit() {
   read -ra typed <<< "$line"
   [[ $line == *[[:blank:]] ]] && typed+=("")
   mapfile -t COMPREPLY < <("${typed[0]}" edit "${typed[2]}" --candidates "${typed[@]:3}" 2>/dev/null)
-  # Bash breaks words at `=`: only what stands behind the last one is replaced.
+  # Bash breaks words before and behind `=` and `@`: only what is behind the last break is replaced.
   local last=${typed[-1]}
-  if [[ $last == *=* ]]; then COMPREPLY=("${COMPREPLY[@]#"${last%"${last##*=}"}"}"); fi
-  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
+  local behind=${last##*[=@]}
+  [[ $last == *@"$behind" ]] && behind=@$behind
+  if [[ $last == *[=@]* ]]; then COMPREPLY=("${COMPREPLY[@]#"${last%"$behind"}"}"); fi
+  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[=.] ]] && compopt -o nospace
   return 0
 }
 complete -o default -F _hallway_edit hallway
@@ -131,11 +154,11 @@ std::vector<std::string> completions(const State& state, const std::vector<std::
     const ArgSpec* before = words.size() > 1 ? argument_of(*command, words.back()) : nullptr;
     if (named != nullptr) {
       prefix = current.substr(0, equals + 1);
-      all = values(state, *named);
+      all = values(state, *named, current.substr(equals + 1));
     } else if (before != nullptr) {
-      all = values(state, *before);
+      all = values(state, *before, current);
     } else {
-      add_arguments(state, *command, words, all);
+      add_arguments(state, *command, words, current, all);
     }
   }
   std::vector<std::string> out;

@@ -150,6 +150,11 @@ Wall wall_of(const Edit& edit, const Thing& host, const Arguments& opening) {
   return std::move(*wall);
 }
 
+/// To a tenth of a millimetre.
+std::string length_text(double metres) {
+  return format_double(std::round(metres * 1e4) / 1e4 + 0.0);
+}
+
 /// Where an opening is in its wall, map units.
 struct Gap {
   double begin = 0.0;  ///< along the middle line
@@ -167,12 +172,12 @@ Gap gap_of(const Edit& edit, const Wall& wall, std::string_view command, const A
   const double length = wall.length() * scale, height = wall.height * scale;
   constexpr double kSlack_m = 1e-9;
   if (at - half < -kSlack_m || at + half > length + kSlack_m) {
-    refuse(fmt::format("{}: it reaches from {:.6g} m to {:.6g} m along a wall that is {:.6g} m long", command,
-                       at - half, at + half, length));
+    refuse(fmt::format("{}: it reaches from {} m to {} m along a wall that is {} m long", command,
+                       length_text(at - half), length_text(at + half), length_text(length)));
   }
   if (high > height + kSlack_m) {
-    refuse(
-        fmt::format("{}: it reaches {:.6g} m high in a wall that is {:.6g} m high", command, high, height));
+    refuse(fmt::format("{}: it reaches {} m high in a wall that is {} m high", command, length_text(high),
+                       length_text(height)));
   }
   return {(at - half) / scale, (at + half) / scale, low / scale, std::min(high / scale, wall.height)};
 }
