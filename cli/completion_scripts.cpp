@@ -17,8 +17,10 @@ _@FUNCTION@() {
   read -ra typed <<< "$line"
   [[ $line == *[[:blank:]] ]] && typed+=("")
   local current=${typed[-1]}
-  # Bash breaks words at `=` and `:`: only what follows the last one is replaced.
-  local kept=${current%"${current##*[=:]}"}
+  # Bash breaks words after `=` and `:` and before `@`: only what follows the last break is replaced.
+  local behind=${current##*[=:@]}
+  [[ $current == *@"$behind" ]] && behind=@$behind
+  local kept=${current%"$behind"}
   local -a found=()
   while IFS=$'\t' read -r word about; do
     case $word in
@@ -36,7 +38,7 @@ _@FUNCTION@() {
     esac
   done < <("${typed[0]}" completion --words "${typed[@]:1}" 2>/dev/null)
   COMPREPLY=("${found[@]}")
-  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
+  [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[=.] ]] && compopt -o nospace
   return 0
 }
 complete -F _@FUNCTION@ @PROGRAM@
@@ -55,7 +57,7 @@ _@FUNCTION@() {
       '') ;;
       :folders) _files -/ ;;
       :files) if [[ -n $about ]]; then _files -g "*.(${about// /|})"; else _files; fi ;;
-      *=) open+=("$word") ;;
+      *=|*@*.) open+=("$word") ;;
       *) found+=("${word//:/\\:}${about:+:$about}") ;;
     esac
   done

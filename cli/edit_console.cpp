@@ -45,7 +45,9 @@ std::vector<std::string> words_before(int start) {
 char** complete(const char* text, int start, int) {
   rl_attempted_completion_over = 1;  // no names of files
   completing.candidates = editor::completions(completing.session->state(), words_before(start), text);
-  const bool open = completing.candidates.size() == 1 && completing.candidates.front().ends_with('=');
+  const bool one = completing.candidates.size() == 1;
+  const bool open =
+      one && (completing.candidates[0].ends_with('=') || completing.candidates[0].ends_with('.'));
   rl_completion_append_character = open ? '\0' : ' ';
   return rl_completion_matches(text, &next_candidate);
 }
@@ -81,6 +83,10 @@ void run_line(editor::Session& session, const std::string& line) {
 int run_edit_console(editor::Session& session) {
   prepare(session);
   const std::string name = printable(session.file().filename().string());
+  print_result(
+      fmt::format("Editing {}. `help` lists the commands, `help NAME` explains one, TAB completes; `quit` or "
+                  "Ctrl-D leaves.\n",
+                  name));
   for (;;) {
     const std::string prompt = fmt::format("{}{}> ", name, session.unsaved() ? " (unsaved)" : "");
     const std::unique_ptr<char, decltype(&std::free)> typed(::readline(prompt.c_str()), &std::free);
@@ -91,9 +97,12 @@ int run_edit_console(editor::Session& session) {
     if (line == "quit" || line == "exit") break;
     run_line(session, line);
   }
-  if (session.unsaved())
-    print_result(fmt::format(
-        "{} is not saved; the journal keeps the changes, and the next session goes on from here\n", name));
+  print_result(
+      session.unsaved()
+          ? fmt::format("{} is not saved. {}.journal keeps the changes, and the next session continues from "
+                        "here; `hallway edit {} save` writes the map.\n",
+                        name, name, name)
+          : fmt::format("{} is saved.\n", name));
   return 0;
 }
 

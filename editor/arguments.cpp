@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "editor/anchor.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -73,16 +74,42 @@ double read_angle(const ArgSpec& spec, std::string_view word) {
   return in_range(spec, word, *angle) * std::numbers::pi / 180.0;
 }
 
-Vec3 read_place(const ArgSpec& spec, std::string_view word, const Units& units) {
+/// "DX,DY" or "DX,DY,DZ".
+std::optional<Vec3> lengths_of(std::string_view word, const Units& units) {
   const auto parts = split(word, ',');
-  if (parts.size() != 2 && parts.size() != 3) refuse(spec, word, "no place: X,Y or X,Y,Z in metres");
-  Vec3 place = Vec3::Zero();
+  if (parts.size() != 2 && parts.size() != 3) return std::nullopt;
+  Vec3 lengths = Vec3::Zero();
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto length = length_of(trim(parts[i]), units);
-    if (!length) refuse(spec, word, "no place: X,Y or X,Y,Z in metres");
-    place[static_cast<Eigen::Index>(i)] = in_range(spec, word, *length);
+    if (!length) return std::nullopt;
+    lengths[static_cast<Eigen::Index>(i)] = *length;
   }
-  return place;
+  return lengths;
+}
+
+/// "@NAME.ANCHOR", with "+DX,DY[,DZ]" behind it or "-DX,…" for an offset whose first number is negative.
+Vec3 read_anchor(const ArgSpec& spec, std::string_view word, const Units& units) {
+  if (units.state == nullptr) refuse(spec, word, "no place: there is no map in which it could be looked up");
+  const std::string_view text = word.substr(1);
+  // Names may have signs in them: the offset begins at the last one behind which there are two or three lengths.
+  for (std::size_t sign = text.find_first_of("+-"); sign != std::string_view::npos;
+       sign = text.find_first_of("+-", sign + 1)) {
+    const auto offset = lengths_of(text.substr(text[sign] == '+' ? sign + 1 : sign), units);
+    if (!offset) continue;
+    const Vec3 place = anchor_place(*units.state, text.substr(0, sign)) + *offset;
+    for (const double x : place) in_range(spec, word, x);
+    return place;
+  }
+  if (text.find(',') != std::string_view::npos)
+    refuse(spec, word, "no place: behind an anchor there is +DX,DY[,DZ] or nothing");
+  return anchor_place(*units.state, text);
+}
+
+Vec3 read_place(const ArgSpec& spec, std::string_view word, const Units& units) {
+  const auto place = lengths_of(word, units);
+  if (!place) refuse(spec, word, "no place: X,Y or X,Y,Z in metres, or @NAME.ANCHOR");
+  for (const double x : *place) in_range(spec, word, x);
+  return *place;
 }
 
 Vec3 read_factors(const ArgSpec& spec, std::string_view word) {
@@ -103,7 +130,9 @@ std::vector<Vec3> read_places(const ArgSpec& spec, std::string_view word, const 
   while (at < word.size()) {
     const std::size_t end = std::min(word.find_first_of("; ", at), word.size());
     const std::string_view part = trim(word.substr(at, end - at));
-    if (!part.empty()) places.push_back(read_place(spec, part, units));
+    if (!part.empty())
+      places.push_back(part.starts_with('@') ? read_anchor(spec, part, units)
+                                             : read_place(spec, part, units));
     at = end + 1;
   }
   if (places.empty()) refuse(spec, word, "no list of places: X,Y;X,Y;...");
@@ -198,6 +227,8 @@ Value read_value(const ArgSpec& spec, std::string_view word, const Units& units)
     case ArgKind::kAngle:
       return read_angle(spec, word);
     case ArgKind::kPlace:
+      if (word.starts_with('@')) return read_anchor(spec, word, units);
+      return read_place(spec, word, units);
     case ArgKind::kVector:
       return read_place(spec, word, units);
     case ArgKind::kFactors:

@@ -21,7 +21,7 @@ enum class ArgKind {
   kWhole,
   kLength,    ///< "2.7", "15cm"
   kAngle,     ///< "90", "1.57rad"
-  kPlace,     ///< "x,y" (z is 0) or "x,y,z", each a length; where something is
+  kPlace,     ///< "x,y" (z is 0) or "x,y,z", each a length, or "@name.anchor+x,y"; where something is
   kVector,    ///< the same; a way from one place to another, which no grid rounds
   kFactors,   ///< one number or "x,y,z"
   kPlaces,    ///< places, with blanks or `;` between them (as one word: with `;` or in quotes)
@@ -51,9 +51,13 @@ std::string type_name(const ArgSpec& spec);
 using Value = std::variant<std::string, double, std::int64_t, Vec3, std::vector<Vec3>,
                            std::vector<std::pair<std::string, std::string>>>;
 
+struct State;
+
 /// How a typed word becomes a value.
 struct Units {
   double metres_per_unit = 0.01;
+  const State* state =
+      nullptr;  ///< where `@NAME.ANCHOR` is looked up; not owned, and read while words are read only
 };
 
 /// Reads one word. Throws Error{kUsage} naming argument, word and what is expected.

@@ -39,10 +39,10 @@ Units units_of(const State& state) {
     if (entity->classname() != "worldspawn") continue;
     const std::string* scale = entity->head->find("_scale");
     const auto value = scale != nullptr ? parse_double(*scale) : std::nullopt;
-    if (value && *value >= 1e-6 && *value <= 1e3) return {*value};
+    if (value && *value >= 1e-6 && *value <= 1e3) return {*value, &state};
     break;
   }
-  return {map::kQuakeMetresPerUnit};
+  return {map::kQuakeMetresPerUnit, &state};
 }
 
 double Edit::metres_per_unit() const {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "editor/anchor.hpp"
 #include "editor/selection.hpp"
 
 namespace hallway::editor {
@@ -24,10 +25,30 @@ void add_names(const State& state, std::set<std::string>& out) {
   }
 }
 
-/// Values that an argument may have.
-std::set<std::string> values(const State& state, const ArgSpec& spec) {
+/// `@NAME.` for all names; once a name is typed, `@NAME.ANCHOR`. Of a list of places the last is completed.
+void add_anchors(const State& state, std::string_view typed, std::set<std::string>& out) {
+  const std::size_t at = typed.rfind('@');
+  if (at == std::string_view::npos || typed.find(',', at) != std::string_view::npos) return;
+  const std::string before(typed.substr(0, at + 1));
+  std::set<std::string> names;
+  add_names(state, names);
+  for (const std::string& name : names) {
+    if (!typed.substr(at + 1).starts_with(name + ".")) {
+      out.insert(before + name + ".");
+      continue;
+    }
+    for (const Anchor& anchor : anchors()) out.insert(before + name + "." + std::string(anchor.name));
+  }
+}
+
+/// Values that an argument may have. @param typed  what of it is there already
+std::set<std::string> values(const State& state, const ArgSpec& spec, std::string_view typed) {
   std::set<std::string> out;
   switch (spec.kind) {
+    case ArgKind::kPlace:
+    case ArgKind::kPlaces:
+      add_anchors(state, typed, out);
+      break;
     case ArgKind::kChoice:
       for (const std::string_view choice : split(spec.choices, ' ')) out.emplace(choice);
       break;
@@ -61,13 +82,13 @@ std::set<std::string_view> given(const CommandSpec& command, const std::vector<s
 }
 
 void add_arguments(const State& state, const CommandSpec& command, const std::vector<std::string>& words,
-                   std::set<std::string>& out) {
+                   std::string_view typed, std::set<std::string>& out) {
   const auto names = given(command, words);
   bool first = true;
   for (const ArgSpec& spec : command.arguments) {
     if (names.contains(spec.name)) continue;
     if (spec.kind != ArgKind::kKeys) out.insert(std::string(spec.name) + "=");
-    if (first) out.merge(values(state, spec));
+    if (first) out.merge(values(state, spec, typed));
     first = false;
   }
   if (command.name != "help") return;
@@ -89,11 +110,11 @@ std::vector<std::string> completions(const State& state, const std::vector<std::
     const ArgSpec* before = words.size() > 1 ? argument_of(*command, words.back()) : nullptr;
     if (named != nullptr) {
       prefix = current.substr(0, equals + 1);
-      all = values(state, *named);
+      all = values(state, *named, current.substr(equals + 1));
     } else if (before != nullptr) {
-      all = values(state, *before);
+      all = values(state, *before, current);
     } else {
-      add_arguments(state, *command, words, all);
+      add_arguments(state, *command, words, current, all);
     }
   }
   std::vector<std::string> out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "editor/anchor.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -69,6 +70,19 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+bool takes_places(const CommandSpec& command) {
+  return std::any_of(command.arguments.begin(), command.arguments.end(), [](const ArgSpec& spec) {
+    return spec.kind == ArgKind::kPlace || spec.kind == ArgKind::kPlaces;
+  });
+}
+
+std::string place_help() {
+  return fmt::format(
+      "A place is X,Y[,Z], or @NAME.ANCHOR of a thing, with or without +DX,DY[,DZ]: @hall.ne, "
+      "@north.end+0.1,0. Anchors: {}.",
+      anchor_names());
+}
+
 }  // namespace
 
 std::string usage(const CommandSpec& command) {
@@ -82,6 +96,7 @@ std::string help_text(const CommandSpec& command) {
   if (!command.details.empty()) text += wrapped(command.details, "  ");
   for (const ArgSpec& spec : command.arguments)
     text += fmt::format("    {:<14} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
+  if (takes_places(command)) text += wrapped(place_help(), "  ");
   text += "  Example:\n";
   for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
   text.pop_back();
@@ -97,7 +112,8 @@ std::string help_overview() {
     });
   }
   return text +
-         "`help NAME` explains one. Arguments are `name value`, `name=value`, or values in their order.";
+         "`help NAME` explains one. Arguments are `name value`, `name=value`, or values in their order.\n" +
+         place_help();
 }
 
 std::string reference_markdown() {

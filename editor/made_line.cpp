@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "editor/commands/making.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 
@@ -146,6 +147,7 @@ std::string line_of(const CommandSpec& command, const Arguments& arguments) {
 }
 
 std::optional<std::size_t> maker_of(const State& state, const Thing& thing) {
+  if (is_fill(*state.entities[thing.entity])) return opening_of(state, thing.entity);
   if (state.entities[thing.entity]->head->find(kMadeKey) != nullptr) return thing.entity;
   for (const std::size_t group : groups_of(state, thing)) {
     if (state.entities[group]->head->find(kMadeKey) != nullptr) return group;
@@ -190,7 +192,10 @@ void name_host(State& state, std::size_t entity) {
 bool makes(const Edit& edit, const std::string& line, std::size_t entity) {
   const State& state = edit.state;
   std::vector<Part> wanted, made;
-  const auto members = with_members(state, {Thing{entity, {}}});
+  auto members = with_members(state, {Thing{entity, {}}});
+  if (is_opening(*state.entities[entity])) {
+    for (const std::size_t fill : fills_of(state, entity)) members.push_back({fill, {}});
+  }
   for (const Thing& thing : members) {
     if (thing.entity == entity || maker_of(state, thing) == entity)
       add_parts(*state.entities[thing.entity], 0, wanted);

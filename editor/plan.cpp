@@ -16,6 +16,7 @@
 #include "map/entities.hpp"
 #include "map/occupants.hpp"
 #include "map/path.hpp"
+#include "map/start_check.hpp"
 #include "map/world.hpp"
 
 namespace hallway::editor {
@@ -135,6 +136,8 @@ class PlanMaker {
   void add_start() {
     or_note("the robot's start", [&] {
       const auto start = map::find_robot_start(document_);
+      if (const auto off = map::start_off_all_paths(document_))
+        plan_.notes.push_back("warning: " + map::start_off_path_text(*off));
       if (!start || !is_seen(*columns_, start->T_world_body.t, plan_.height_m)) return;
       const Vec3 ahead = start->T_world_body.q * Vec3::UnitX();
       plan_.start = PlanStart{start->T_world_body.t.head<2>(), ahead.head<2>().normalized()};

@@ -79,13 +79,16 @@ struct History {
   void play(const Json& record) {
     if (record.contains("do")) {
       steps.resize(done);
-      Step step{record.at("do").get<std::string>(), {}, patch_from_json(record.at("patch"))};
+      Step step{record.at("do").get<std::string>(),
+                {},
+                patch_from_json(record.at("patch")),
+                record.value("lines", std::vector<std::string>{})};
       apply(state, step.patch);
       steps.push_back(std::move(step));
       ++done;
     } else if (record.contains("checkpoint")) {
       steps.resize(done);
-      steps.push_back({{}, record["checkpoint"].get<std::string>(), {}});
+      steps.push_back({{}, record["checkpoint"].get<std::string>(), {}, {}});
       ++done;
     } else if (record.contains("undo")) {
       for (auto n = whole_number(record["undo"]); n > 0 && done > 0; --n)
@@ -123,7 +126,7 @@ Session::Session(fs::path map) : file_(std::move(map)), journal_(journal_path(fi
     throw Error(ErrorCode::kBadInput, std::string("a record of the journal cannot be read: ") + fault.what(),
                 {journal_.path().string(), 0, {}});
   }
-  see_whether_unsaved();
+  update_unsaved();
 }
 
 /// The first state is written to the journal when the first step is.
@@ -225,7 +228,7 @@ void Session::take_outside_change(const std::string& text) {
     done_ = 0;
     return;
   }
-  commit("(changed by another program)", std::move(next));
+  commit(std::string(kOutsideChange), std::move(next));
   journal_.append({{"save", content_hash(text)}});
   journal_.append({{"saved", content_hash(text)}});
   saved_ = state_;
@@ -252,6 +255,7 @@ Report Session::run(const Call& call) {
 
 std::vector<Report> Session::run_script(const std::vector<ScriptLine>& lines, const std::string& name) {
   std::vector<Report> reports;
+  std::vector<std::string> run_lines;
   Edit edit{state_, file_.string(), {}, clipboard_};
   for (const ScriptLine& line : lines) {
     try {
@@ -264,26 +268,29 @@ std::vector<Report> Session::run_script(const std::vector<ScriptLine>& lines, co
                     "`" + std::string(call.command->name) + "` has no place in a script, which is one step");
       }
       (*run)(edit, call.arguments);
+      run_lines.push_back(call.line);
     } catch (const Error& error) {
       throw Error(error.code(), error.what(), {line.file, line.line, {}});
     }
     reports.push_back(std::move(edit.report));
   }
-  commit(name, std::move(edit.state));
+  commit(name, std::move(edit.state), std::move(run_lines));
   return reports;
 }
 
 /// What is in the journal has happened; what is not has not.
-void Session::commit(const std::string& line, State next) {
+void Session::commit(const std::string& line, State next, std::vector<std::string> lines) {
   Patch patch = difference(state_, next);
   if (patch.empty()) return;
   begin_journal();
-  journal_.append({{"do", line}, {"patch", to_json(patch)}});
+  Json record = {{"do", line}, {"patch", to_json(patch)}};
+  if (!lines.empty()) record["lines"] = lines;
+  journal_.append(record);
   steps_.resize(done_);
-  steps_.push_back({line, {}, std::move(patch)});
+  steps_.push_back({line, {}, std::move(patch), std::move(lines)});
   ++done_;
   state_ = std::move(next);
-  see_whether_unsaved();
+  update_unsaved();
 }
 
 void Session::begin_journal() {
@@ -307,7 +314,7 @@ std::vector<std::string> Session::undo(std::size_t count) {
   journal_.append({{"undo", count}});
   done_ -= count;
   state_ = std::move(next);
-  see_whether_unsaved();
+  update_unsaved();
   return lines;
 }
 
@@ -324,7 +331,7 @@ std::vector<std::string> Session::redo(std::size_t count) {
   journal_.append({{"redo", count}});
   done_ += count;
   state_ = std::move(next);
-  see_whether_unsaved();
+  update_unsaved();
   return lines;
 }
 
@@ -332,7 +339,7 @@ void Session::checkpoint(const std::string& name) {
   begin_journal();
   journal_.append({{"checkpoint", name}});
   steps_.resize(done_);
-  steps_.push_back({{}, name, {}});
+  steps_.push_back({{}, name, {}, {}});
   ++done_;
 }
 
@@ -349,10 +356,10 @@ void Session::save() {
   write_file_atomically(file_, text);
   journal_.append({{"saved", hash}});
   saved_ = state_;
-  see_whether_unsaved();
+  update_unsaved();
 }
 
-void Session::see_whether_unsaved() {
+void Session::update_unsaved() {
   unsaved_ = difference(saved_, state_).changes_map();
 }
 

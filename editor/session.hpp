@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "editor/command.hpp"
@@ -19,7 +20,11 @@ struct Step {
   std::string line{};        ///< the command as it would be typed
   std::string checkpoint{};  ///< its name, where it only marks a place
   Patch patch{};
+  std::vector<std::string> lines{};  ///< those of a script, which is one step; empty for a command
 };
+
+/// The line of a step that another program made.
+inline constexpr std::string_view kOutsideChange = "(changed by another program)";
 
 /// A line of a script, and where it stands.
 struct ScriptLine {
@@ -92,8 +97,8 @@ class Session {
   bool restore_from_file(const std::string& text, std::size_t record);
   void restore_from_journal();
   void take_outside_change(const std::string& text);
-  void commit(const std::string& line, State next);
-  void see_whether_unsaved();
+  void commit(const std::string& line, State next, std::vector<std::string> lines = {});
+  void update_unsaved();
 
   std::filesystem::path file_;
   Journal journal_;

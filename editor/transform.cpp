@@ -324,6 +324,8 @@ std::string moved_line(const std::string& line, const Transform& transform, cons
       call.arguments.set(name, std::move(places));
     } else if (spec.kind == ArgKind::kVector) {
       call.arguments.set(name, affine(transform.linear, call.arguments.place(name), Vec3::Zero()));
+    } else if (name == "open" && transform.kind == Kind::kMirror && transform.axis != 2) {
+      call.arguments.set(name, -call.arguments.number(name));  // a door's leaf opens to the other side
     } else if (spec.kind == ArgKind::kAngle && name == "heading") {
       call.arguments.set(name, heading_deg(call.arguments.number(name), transform) * kDegree);
     }

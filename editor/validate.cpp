@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "editor/shapes.hpp"
 #include "map/content.hpp"
 #include "map/entity_schema.hpp"
+#include "map/start_check.hpp"
 #include "run/map_findings.hpp"
 
 namespace hallway::editor {
@@ -145,9 +147,25 @@ class Validator {
       if (thing && thing->brush && finding.id == "bad-brush")
         fault.fix = fmt::format("delete #{}", fault.thing);
       if (thing && !thing->brush) fault.fix = entity_fix(state_, thing->entity, finding.id);
+      if (finding.id == "start-off-path") fault.fix = start_fix();
       if (finding.id == "no-worldspawn") fault.fix = "";
       faults_.push_back(std::move(fault));
     }
+  }
+
+  /// Puts the start where the path begins; of several paths none is the one.
+  std::string start_fix() const {
+    const auto paths = std::count_if(state_.entities.begin(), state_.entities.end(),
+                                     [](const auto& entity) { return entity->classname() == "hw_path"; });
+    const auto off = map::start_off_all_paths(document_of(state_, file_));
+    if (paths != 1 || !off) return {};
+    const auto fine = [](double x) { return format_double(std::round(x * 1e6) / 1e6 + 0.0); };
+    const Vec3 at = off->T_world_begin.t / units_.metres_per_unit;
+    const Vec3 ahead = off->T_world_begin.q * Vec3::UnitX();
+    const double heading = std::atan2(ahead.y(), ahead.x()) * 180.0 / std::numbers::pi;
+    const Id start = state_.entities[static_cast<std::size_t>(off->start.entity)]->id;
+    return key_command(start, {{"origin", fine(at.x()) + " " + fine(at.y()) + " " + fine(at.z())},
+                               {"angle", fine(heading)}});
   }
 
   void look_at_brush(const Thing& thing) {

@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array kIds{
     ArgSpec{.name = "id", .kind = ArgKind::kText, .help = "only faults of that id, such as `bad-brush`"}};
 constexpr std::array kPicture{ArgSpec{
-    .name = "picture", .kind = ArgKind::kFile, .help = "a PNG file to write: a plan with the way out"}};
+    .name = "picture", .kind = ArgKind::kFile, .help = "a PNG file to write: a plan with the leak path"}};
 constexpr std::array kRender{
     ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "a PNG file to write"},
     ArgSpec{.name = "view",
@@ -256,8 +256,9 @@ constexpr std::array kChecksCommands{
                 .run = &fix_map},
     CommandSpec{.name = "leak",
                 .topic = "checks and pictures",
-                .summary = "show the way on which something reaches the void outside",
-                .details = "Status 1 if the map leaks.",
+                .summary = "show the leak path on which something reaches the void outside",
+                .details = "Names the thing that reaches the void, and the hole by which it does: size and middle. "
+                           "Status 1 if the map leaks.",
                 .arguments = kPicture,
                 .example = "leak",
                 .run = &show_leak},

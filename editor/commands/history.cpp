@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/help.hpp"
+#include "editor/history_script.hpp"
 #include "editor/selection.hpp"
 #include "editor/session.hpp"
 
@@ -42,6 +43,13 @@ constexpr std::array kSince{
 constexpr std::array kScript{
     ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "commands, one a line"}};
 constexpr std::array kTo{ArgSpec{.name = "to", .kind = ArgKind::kFile, .help = "a new file [the map's]"}};
+constexpr std::array kHistory{
+    ArgSpec{.name = "action",
+            .kind = ArgKind::kChoice,
+            .required = true,
+            .help = "save: as a script",
+            .choices = "save"},
+    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "a new file"}};
 constexpr std::array kHelpOn{ArgSpec{.name = "command", .kind = ArgKind::kText, .help = "a command's name"}};
 
 void say_steps(const char* verb, const std::vector<std::string>& lines, Report& report) {
@@ -159,6 +167,17 @@ void save(Session& session, const Arguments&, Report& report) {
                                      : "the file is up to date");
 }
 
+void save_history(Session& session, const Arguments& arguments, Report& report) {
+  const std::string& file = arguments.text("file");
+  if (std::filesystem::exists(file))
+    throw Error(ErrorCode::kIo, "the file is there already", {printable(file), 0, {}});
+  const std::string script = history_script(session);
+  write_file_atomically(file, script);
+  const auto lines = std::count(script.begin(), script.end(), '\n');
+  report.data["file"] = file;
+  report.lines.push_back(fmt::format("wrote {} lines to {}", lines, printable(file)));
+}
+
 void source(Session& session, const Arguments& arguments, Report& report) {
   const std::string& file = arguments.text("file");
   const auto reports = session.run_script(read_script(file), "source " + quoted(file));
@@ -224,6 +243,17 @@ constexpr std::array kHistoryCommands{
                 .arguments = kLast,
                 .example = "log last=10",
                 .run = &log},
+    CommandSpec{.name = "history",
+                .topic = "history",
+                .summary = "save the steps that count as a script",
+                .details = "On an empty map, or on the map that the history began with, `hallway edit MAP -f "
+                           "FILE` then makes the same map, byte for byte. Steps that were undone are left "
+                           "out. Every line is tried first; a step that cannot be repeated, such as `paste`, "
+                           "is named and nothing is written.",
+                .arguments = kHistory,
+                .example = "history save steps.hwe",
+                .before = "wall from 0,0 to 6,0 name=north",
+                .run = &save_history},
     CommandSpec{.name = "checkpoint",
                 .topic = "history",
                 .summary = "name this place in the history, for `undo to=NAME`",

@@ -61,6 +61,19 @@ void set_part(State& state, const std::string& number, const char* classname, in
   if (!brushes.empty()) add_entity(state, part_entity(classname, order, number, std::move(brushes)));
 }
 
+std::string group_key(const EntityItem& entity) {
+  const std::string* group = entity.head->find("_tb_group");
+  return group != nullptr ? *group : std::string();
+}
+
+bool is_filled_by(const EntityItem& opening, const EntityItem& fill) {
+  if (group_key(opening) != group_key(fill)) return false;
+  return std::any_of(opening.brushes.begin(), opening.brushes.end(), [&](const BrushItem& cut) {
+    return std::any_of(fill.brushes.begin(), fill.brushes.end(),
+                       [&](const BrushItem& part) { return overlap(*part.brush, *cut.brush); });
+  });
+}
+
 }  // namespace
 
 std::string vector_text(const Vec3& vector) {
@@ -163,6 +176,26 @@ bool is_opening(const EntityItem& entity) {
          (made->starts_with("door ") || made->starts_with("window "));
 }
 
+bool is_fill(const EntityItem& entity) {
+  return entity.head->find("_hw_fill") != nullptr;
+}
+
+std::vector<std::size_t> fills_of(const State& state, std::size_t opening) {
+  std::vector<std::size_t> fills;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    if (is_fill(*state.entities[e]) && is_filled_by(*state.entities[opening], *state.entities[e]))
+      fills.push_back(e);
+  }
+  return fills;
+}
+
+std::optional<std::size_t> opening_of(const State& state, std::size_t fill) {
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    if (is_opening(*state.entities[e]) && is_filled_by(*state.entities[e], *state.entities[fill])) return e;
+  }
+  return std::nullopt;
+}
+
 std::vector<std::size_t> members_of(const State& state, const std::string& number) {
   std::vector<std::size_t> members;
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
@@ -204,7 +237,7 @@ int order_among_cuts(const State& state, const std::vector<map::Brush>& brushes,
   const Box all = bounds_of(brushes);
   int order = 0;
   for (const auto& entity : state.entities) {
-    if (entity->classname() != "hw_subtract" || is_opening(*entity) || order_of(*entity) < order) continue;
+    if (entity->classname() != "hw_subtract" || order_of(*entity) < order) continue;
     const std::string* group = entity->head->find("_tb_group");
     if (!but_of.empty() && group != nullptr && *group == but_of) continue;
     const bool stands_in = std::any_of(entity->brushes.begin(), entity->brushes.end(), [&](const auto& cut) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,8 @@ Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts
 void replace_shape(Edit& edit, Id group, Parts parts);
 
 /// The order in which bodies must be added so that nothing that is cut out already takes them away: 0 where they stand in no
-/// `hw_subtract`, else one more than the highest `order` of those. Doors and windows do not count, nor does what belongs to the group
-/// of the number `but_of`. O(brushes of hw_subtract).
+/// `hw_subtract`, else one more than the highest `order` of those. Rooms, doors and windows alike count, but not what belongs to the
+/// group of the number `but_of`. O(brushes of hw_subtract).
 int order_among_cuts(const State& state, const std::vector<map::Brush>& brushes,
                      const std::string& but_of = {});
 
@@ -58,6 +59,13 @@ bool overlap(const map::Brush& a, const map::Brush& b);
 
 /// Whether an entity is the cut of a door or window.
 bool is_opening(const EntityItem& entity);
+
+/// Whether an entity is the pane or leaf that a door or window was made with.
+bool is_fill(const EntityItem& entity);
+/// The panes or leaves of a door or window, and the door or window that one of those is in, by index in State::entities. They overlap, and
+/// belong to the same group or to none.
+std::vector<std::size_t> fills_of(const State& state, std::size_t opening);
+std::optional<std::size_t> opening_of(const State& state, std::size_t fill);
 
 /// The entities that carry the number of a group, by index.
 std::vector<std::size_t> members_of(const State& state, const std::string& number);

@@ -14,6 +14,7 @@
 #include "editor/commands/made.hpp"
 #include "editor/commands/shape_parts.hpp"
 #include "editor/refuse.hpp"
+#include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
@@ -100,7 +101,7 @@ std::vector<const map::Brush*> own_brushes(const State& state, const Thing& thin
   if (const auto number = group_number(entity)) {
     for (const std::size_t member : members_of(state, *number)) {
       const EntityItem& part = *state.entities[member];
-      if (is_opening(part)) continue;
+      if (is_opening(part) || is_fill(part)) continue;
       if (part.classname() == "hw_subtract") return {};
       for (const BrushItem& brush : part.brushes) brushes.push_back(brush.brush.get());
     }
@@ -149,6 +150,11 @@ Wall wall_of(const Edit& edit, const Thing& host, const Arguments& opening) {
   return std::move(*wall);
 }
 
+/// To a tenth of a millimetre.
+std::string length_text(double metres) {
+  return format_double(std::round(metres * 1e4) / 1e4 + 0.0);
+}
+
 /// Where an opening is in its wall, map units.
 struct Gap {
   double begin = 0.0;  ///< along the middle line
@@ -166,12 +172,12 @@ Gap gap_of(const Edit& edit, const Wall& wall, std::string_view command, const A
   const double length = wall.length() * scale, height = wall.height * scale;
   constexpr double kSlack_m = 1e-9;
   if (at - half < -kSlack_m || at + half > length + kSlack_m) {
-    refuse(fmt::format("{}: it reaches from {:.6g} m to {:.6g} m along a wall that is {:.6g} m long", command,
-                       at - half, at + half, length));
+    refuse(fmt::format("{}: it reaches from {} m to {} m along a wall that is {} m long", command,
+                       length_text(at - half), length_text(at + half), length_text(length)));
   }
   if (high > height + kSlack_m) {
-    refuse(
-        fmt::format("{}: it reaches {:.6g} m high in a wall that is {:.6g} m high", command, high, height));
+    refuse(fmt::format("{}: it reaches {} m high in a wall that is {} m high", command, length_text(high),
+                       length_text(height)));
   }
   return {(at - half) / scale, (at + half) / scale, low / scale, std::min(high / scale, wall.height)};
 }
@@ -202,6 +208,53 @@ std::vector<map::Brush> cut_brushes(const Wall& wall, const Gap& gap, const std:
   return brushes;
 }
 
+/// The place on the middle line of a wall, at its foot.
+Vec3 place_along(const Wall& wall, double along) {
+  double passed = 0.0;
+  for (const WallStretch& stretch : wall.stretches) {
+    const Vec3 way = stretch.to - stretch.from;
+    if (along <= passed + way.norm() + kTolerance) return stretch.from + (along - passed) * way.normalized();
+    passed += way.norm();
+  }
+  return wall.stretches.back().to;
+}
+
+/// The wall as thin as a pane, around its middle line.
+Wall thinned(Wall wall, double thickness) {
+  for (WallStretch& stretch : wall.stretches) {
+    const Vec3 across = Vec3::UnitZ().cross(stretch.to - stretch.from).normalized();
+    for (const double side : {0.5, -0.5})
+      stretch.outline = polygon_behind(stretch.outline, stretch.from + side * thickness * across,
+                                       side > 0.0 ? across : Vec3(-across));
+  }
+  return wall;
+}
+
+/// A leaf that hangs at the beginning of the gap, turned out of the wall.
+map::Brush leaf_brush(const Wall& wall, const Gap& gap, double thickness, double open_rad,
+                      const std::string& material) {
+  const Vec3 hinge = place_along(wall, gap.begin), end = place_along(wall, gap.end);
+  const Vec3 along = Eigen::AngleAxisd(open_rad, Vec3::UnitZ()) * (end - hinge);
+  const Vec3 half = 0.5 * thickness * Vec3::UnitZ().cross(along).normalized();
+  std::vector<Vec3> base{hinge - half, hinge + along - half, hinge + along + half, hinge + half};
+  for (Vec3& corner : base) corner = tidied(corner + gap.low * Vec3::UnitZ());
+  return extrusion(base, (gap.high - gap.low) * Vec3::UnitZ(), material);
+}
+
+/// The pane or leaf that the arguments ask for.
+std::vector<map::Brush> fill_brushes(const Edit& edit, const Wall& wall, const Gap& gap,
+                                     const Arguments& arguments) {
+  constexpr double kPane_m = 0.02, kLeaf_m = 0.04;
+  if (arguments.has("pane"))
+    return cut_brushes(thinned(wall, kPane_m / edit.metres_per_unit()), gap, arguments.text("pane"));
+  if (arguments.has("leaf")) {
+    const double open = arguments.has("open") ? arguments.number("open") : 0.0;
+    return {leaf_brush(wall, gap, kLeaf_m / edit.metres_per_unit(), open, arguments.text("leaf"))};
+  }
+  if (arguments.has("open")) refuse("open: the door has no leaf; `leaf` says of which material one is");
+  return {};
+}
+
 /// One more than the highest order of what makes the wall.
 int order_for(const State& state, const Thing& host) {
   const EntityItem& entity = *state.entities[host.entity];
@@ -209,7 +262,7 @@ int order_for(const State& state, const Thing& host) {
   if (const auto number = group_number(entity); number && !host.brush) {
     for (const std::size_t member : members_of(state, *number)) {
       const EntityItem& part = *state.entities[member];
-      if (part.classname().starts_with("hw_") && !part.brushes.empty() && !is_opening(part))
+      if (part.classname().starts_with("hw_") && !part.brushes.empty() && !is_opening(part) && !is_fill(part))
         order = std::max(order, order_of(part));
     }
   }
@@ -237,6 +290,31 @@ std::string group_of(const State& state, const Thing& host) {
   return number != nullptr ? *number : std::string();
 }
 
+/// Says what is gone altogether because it stood where the opening is.
+void say_vanished(Edit& edit, const std::vector<map::Brush>& cuts, const Thing& host) {
+  const Box bounds = bounds_of(cuts);
+  const int order = order_for(edit.state, host);
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
+    const EntityItem& entity = *edit.state.entities[e];
+    const bool adds = entity.classname() == "worldspawn" || entity.classname() == "func_group" ||
+                      entity.classname() == "hw_add" || entity.classname() == "hw_detail";
+    if (!adds || e == host.entity || order_of(entity) >= order) continue;
+    for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
+      const map::Brush& brush = *entity.brushes[b].brush;
+      if (!may_overlap(bounds, brush)) continue;
+      double left = volume_of(brush);
+      for (const map::Brush& cut : cuts) {
+        if (const auto common = intersection(brush, cut)) left -= volume_of(*common);
+      }
+      if (left < 1e-6 * volume_of(brush)) names.push_back(describe(edit.state, {e, b}));
+    }
+  }
+  if (!names.empty())
+    edit.report.lines.push_back(fmt::format("it cuts away all of {}; what is put into the opening now stays",
+                                            fmt::join(names, ", ")));
+}
+
 void set_floor(std::vector<map::Brush>& cuts, const std::string& material) {
   for (map::Brush& cut : cuts) {
     for (map::Face& face : cut.faces) {
@@ -246,12 +324,18 @@ void set_floor(std::vector<map::Brush>& cuts, const std::string& material) {
   }
 }
 
-/// An opening as an entity; its brushes and its place among the cuts.
-map::Entity opening_entity(const Edit& edit, std::string_view command, const Arguments& arguments,
-                           const Thing& host, Id but) {
+/// An opening: what is cut out, and what fills it. Both with their brushes and their place in the order.
+struct OpeningParts {
+  map::Entity cut{};
+  map::Entity fill{};  ///< without brushes where there is none
+};
+
+OpeningParts opening_entities(const Edit& edit, std::string_view command, const Arguments& arguments,
+                              const Thing& host, Id but) {
   const Wall wall = wall_of(edit, host, arguments);
   const Gap gap = gap_of(edit, wall, command, arguments);
-  map::Entity cut;
+  OpeningParts made;
+  map::Entity& cut = made.cut;
   cut.brushes =
       cut_brushes(wall, gap, arguments.has("material") ? arguments.text("material") : wall.material);
   if (command == "door" && !arguments.has("material") && !wall.floor.empty())
@@ -259,8 +343,26 @@ map::Entity opening_entity(const Edit& edit, std::string_view command, const Arg
   if (cut.brushes.empty()) refuse(fmt::format("{}: nothing of the wall is in it", command));
   check_free(edit.state, command, cut.brushes, but);
   cut.keys.push_back({{}, "classname", "hw_subtract", 0});
-  cut.keys.push_back({{}, "order", std::to_string(order_for(edit.state, host)), 0});
-  return cut;
+  const int order = order_for(edit.state, host);
+  cut.keys.push_back({{}, "order", std::to_string(order), 0});
+  made.fill.brushes = fill_brushes(edit, wall, gap, arguments);
+  const int among = order_among_cuts(edit.state, made.fill.brushes);
+  made.fill.keys = {{{}, "classname", "hw_add", 0},
+                    {{}, "order", std::to_string(std::max(order + 1, among)), 0},
+                    {{}, "_hw_fill", "1", 0}};
+  return made;
+}
+
+void add_fill(State& state, map::Entity fill, const std::string& group) {
+  if (fill.brushes.empty()) return;
+  if (!group.empty()) fill.keys.push_back({{}, "_tb_group", group, 0});
+  add_entity(state, std::move(fill));
+}
+
+void remove_fills(State& state, Id opening) {
+  std::vector<Thing> fills;
+  for (const std::size_t fill : fills_of(state, find(state, opening)->entity)) fills.push_back({fill, {}});
+  remove(state, fills);
 }
 
 Thing host_of(const State& state, const Thing& opening) {
@@ -278,21 +380,28 @@ Id cut_opening(Edit& edit, std::string_view command, const Arguments& arguments)
   const std::string name = arguments.text_or_empty("name");
   check_new_name(edit.state, name);
   const Thing host = resolve_one(edit.state, arguments.text("in"));
-  map::Entity cut = opening_entity(edit, command, arguments, host, 0);
+  const std::string group = group_of(edit.state, host);
+  OpeningParts made = opening_entities(edit, command, arguments, host, 0);
+  map::Entity& cut = made.cut;
   if (!name.empty()) cut.keys.push_back({{}, "targetname", name, 0});
-  if (const std::string group = group_of(edit.state, host); !group.empty())
-    cut.keys.push_back({{}, "_tb_group", group, 0});
+  if (!group.empty()) cut.keys.push_back({{}, "_tb_group", group, 0});
   cut.keys.push_back({{}, "_hw_made", made_line(edit, command, arguments), 0});
-  return add_entity(edit.state, std::move(cut));
+  say_vanished(edit, cut.brushes, host);
+  const Id id = add_entity(edit.state, std::move(cut));
+  add_fill(edit.state, std::move(made.fill), group);
+  return id;
 }
 
 void recut_opening(Edit& edit, Id opening, std::string_view command, const Arguments& arguments) {
+  remove_fills(edit.state, opening);
   const Thing thing = *find(edit.state, opening);
   const Thing host = host_of(edit.state, thing);
-  map::Entity cut = opening_entity(edit, command, arguments, host, opening);
+  OpeningParts made = opening_entities(edit, command, arguments, host, opening);
+  map::Entity& cut = made.cut;
   set_key(edit.state, thing.entity, "order", *cut.find("order"));
   set_key(edit.state, thing.entity, "_hw_made", made_line(edit, command, arguments));
   set_brushes(edit.state, thing.entity, std::move(cut.brushes));
+  add_fill(edit.state, std::move(made.fill), group_of(edit.state, host));
 }
 
 void recut_openings(Edit& edit, Id group) {
@@ -302,6 +411,7 @@ void recut_openings(Edit& edit, Id group) {
     if (is_opening(*edit.state.entities[member])) openings.push_back(edit.state.entities[member]->id);
   }
   // Each is checked against the others where they are to be: so they all leave before the first comes back.
+  for (const Id id : openings) remove_fills(edit.state, id);
   for (const Id id : openings) set_brushes(edit.state, find(edit.state, id)->entity, {});
   for (const Id id : openings) {
     const Thing thing = *find(edit.state, id);

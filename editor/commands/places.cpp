@@ -508,6 +508,9 @@ constexpr std::array kPlacesCommands{
     CommandSpec{.name = "start",
                 .topic = kPlacesTopic,
                 .summary = "put the robot's start somewhere; a map has one",
+                .details =
+                    "A robot that follows a path begins where the path does; `validate` warns where no "
+                    "path begins at the start.",
                 .arguments = kStart,
                 .example = "start at 1,1,0.2 heading 90",
                 .run = &start},

@@ -53,7 +53,7 @@ constexpr std::array kFind{ArgSpec{.name = "text",
 // ---- Texts ------------------------------------------------------------------------------------------------------
 
 Vec3 metres(const Edit& edit, const Vec3& place) {
-  constexpr double kFine = 1e6;
+  constexpr double kFine = 1e4;  // a tenth of a millimetre
   Vec3 result = place * edit.metres_per_unit();
   for (double& x : result) x = std::round(x * kFine) / kFine + 0.0;
   return result;
@@ -214,7 +214,7 @@ void info(Edit& edit, const Arguments& arguments) {
 void measure_places(Edit& edit, const Arguments& arguments) {
   const Vec3 way = arguments.place("to") - arguments.place("from");
   const double scale = edit.metres_per_unit();
-  const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9 + 0.0; };
+  const auto rounded = [](double x) { return std::round(x * 1e4) / 1e4 + 0.0; };  // a tenth of a millimetre
   const Vec3 along(rounded(way.x()), rounded(way.y()), rounded(way.z()));
   const double distance = rounded(way.norm()), level = rounded(way.head<2>().norm());
   edit.report.data = {{"distance_m", distance},

@@ -120,6 +120,7 @@ TEST_F(Edit, ALockedMapIsAConflict) {
     ASSERT_EQ(::write(terminal, line.data(), line.size()), static_cast<ssize_t>(line.size()));
   };
   ASSERT_TRUE(wait_for("map.map> ")) << shown;
+  EXPECT_NE(shown.find("`help` lists the commands"), std::string::npos) << shown;
   const Ended second = edit({"entity", "light", "at", "1,1,1"});
   EXPECT_EQ(second.status, 3);
   EXPECT_NE(second.err.find("another editor"), std::string::npos) << second.err;
@@ -134,6 +135,7 @@ TEST_F(Edit, ALockedMapIsAConflict) {
   EXPECT_TRUE(wait_for("map.map> ")) << shown;
   type("quit\r");
   int status = 0;
+  EXPECT_TRUE(wait_for("map.map is saved.")) << shown;
   char rest[4096];
   while (::read(terminal, rest, sizeof rest) > 0) continue;
   ::waitpid(child, &status, 0);

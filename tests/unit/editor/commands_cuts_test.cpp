@@ -174,6 +174,89 @@ TEST_F(CutCommands, AWallInARoomIsAddedAfterItAndItsDoorAfterThat) {
   EXPECT_TRUE(bsp::blocked(world.partition.tree, {1, 3, 1}, {5, 3, 1}));
 }
 
+TEST_F(CutCommands, WhatIsPutIntoAnOpeningIsThere) {
+  editing.run_all({"wall from 0,0 to 6,0 name=north", "door in north at 2 name=way",
+                   "window in north at 4.5 name=view",
+                   "box from 3.9,-0.01,0.9 to 5.1,0.01,2.1 material=glass",
+                   "box from 1.55,-0.02,0 to 1.6,0.02,2.1 material=wood name=leaf"});
+  EXPECT_TRUE(is_solid(editing, {4.5, 0, 1.5})) << "the pane";
+  EXPECT_TRUE(is_solid(editing, {1.57, 0, 1})) << "the leaf";
+  EXPECT_FALSE(is_solid(editing, {2.2, 0, 1})) << "the rest of the door stays open";
+  EXPECT_FALSE(is_solid(editing, {4.5, 0.05, 1.5}));
+  editing.run("remake leaf to=2.45,0.02,2.1");
+  EXPECT_TRUE(is_solid(editing, {2.2, 0, 1}));
+}
+
+TEST_F(CutCommands, AnOpeningSaysWhatItCutsAway) {
+  editing.run_all({"wall from 0,0 to 6,0 name=north", "box from 1.9,-0.02,0.5 to 2.1,0.02,1 name=shelf",
+                   "box from 4,-1,0.5 to 4.2,1,1 name=beam"});
+  const auto said = editing.run("door in north at 2").lines;
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_TRUE(mentions(said[0], "cuts away all of")) << said[0];
+  EXPECT_TRUE(mentions(said[0], "shelf") || mentions(said[0], "#")) << said[0];
+  EXPECT_EQ(editing.run("door in north at 4").lines.size(), 1u) << "of the beam something is left";
+}
+
+TEST_F(CutCommands, PanesAndLeaves) {
+  editing.run_all({"room from 0,0 to 5,4 name=kitchen wall=0.2", "entity hw_robot_start at=1,1,0.2"});
+  editing.run("window in kitchen side=east at 2 pane=glass name=view");
+  EXPECT_TRUE(compiled().sealed());
+  EXPECT_TRUE(is_solid(editing, {5.1, 2, 1.5}));
+  EXPECT_FALSE(is_solid(editing, {5.05, 2, 1.5}));
+  EXPECT_FALSE(is_solid(editing, {5.15, 2, 1.5}));
+  editing.run("remake view pane=");
+  EXPECT_FALSE(is_solid(editing, {5.1, 2, 1.5}));
+  EXPECT_FALSE(compiled().sealed());
+  editing.run("remake view pane=glass width=1.6");
+  EXPECT_TRUE(is_solid(editing, {5.1, 2.75, 1.5}));
+  EXPECT_TRUE(compiled().sealed());
+  editing.run("door in kitchen side=south at 2 width=1 leaf=wood name=way");
+  EXPECT_TRUE(compiled().sealed()) << "a closed leaf seals";
+  editing.run("remake way open=90");
+  EXPECT_FALSE(compiled().sealed());
+  // From the west jamb into the room.
+  EXPECT_TRUE(is_solid(editing, {1.5, 0.8, 1}));
+  EXPECT_FALSE(is_solid(editing, {2, -0.1, 1}));
+  EXPECT_FALSE(is_solid(editing, {1.6, 0.8, 1}));
+  editing.run("remake way open=-60");
+  EXPECT_TRUE(is_solid(editing, {1.5 + 0.6 * std::cos(M_PI / 3), -0.1 - 0.6 * std::sin(M_PI / 3), 1}));
+  // Both stay with their wall when that is remade or moved, and go with their opening.
+  editing.run("remake kitchen height=3");
+  EXPECT_TRUE(is_solid(editing, {5.1, 2.75, 1.5}));
+  editing.run("move kitchen by 0,1");
+  EXPECT_TRUE(is_solid(editing, {5.1, 3, 1.5}));
+  editing.run("remake view pane=");
+  EXPECT_FALSE(is_solid(editing, {5.1, 3, 1.5}));
+  editing.run("remake view pane=glass");
+  editing.run("delete view");
+  EXPECT_TRUE(is_solid(editing, {5.18, 3, 1.5})) << "the wall is whole again";
+  EXPECT_EQ(editing.run("find _hw_fill").lines.size(), 1u) << "the leaf alone is left";
+}
+
+TEST_F(CutCommands, PanesInAnArcFollowIt) {
+  editing.run_all({"arc centre=0,0 radius=3 from=0 to=90 segments=6 name=bay",
+                   "window in bay at 2.4 width=1.4 pane=glass name=view"});
+  const double step = std::numbers::pi / 12.0, chord = 6.0 * std::sin(step / 2.0);
+  for (int i = 1; i < 40; ++i) {
+    const double place = 1.7 + 1.4 * i / 40.0;
+    const auto segment = static_cast<int>(place / chord);
+    const double share = (place - segment * chord) / chord;
+    const Vec3 a(3.0 * std::cos(segment * step), 3.0 * std::sin(segment * step), 1.5);
+    const Vec3 b(3.0 * std::cos((segment + 1) * step), 3.0 * std::sin((segment + 1) * step), 1.5);
+    const Vec3 outward = Vec3(a.x() + b.x(), a.y() + b.y(), 0).normalized();
+    const Vec3 at = a + share * (b - a);
+    EXPECT_TRUE(is_solid(editing, at)) << place;
+    EXPECT_FALSE(is_solid(editing, at + 0.03 * outward)) << place;
+  }
+}
+
+TEST_F(CutCommands, PaneAndLeafRefusals) {
+  editing.run("wall from 0,0 to 6,0 name=north");
+  EXPECT_TRUE(mentions(refusal(editing, "door in north at 2 open=30"), "no leaf"));
+  EXPECT_TRUE(mentions(refusal(editing, "door in north at 2 leaf=wood open=170"), "135"));
+  EXPECT_TRUE(mentions(refusal(editing, "door in north at 2 pane=glass"), "no argument"));
+}
+
 TEST_F(CutCommands, OpeningRefusals) {
   editing.run_all({"wall from 0,0 to 6,0 name=north", "room from 0,5 to 4,8 name=kitchen",
                    "cylinder at 9,9 radius 1 height 2 name=post", "door in north at 2 name=way",
@@ -261,9 +344,7 @@ TEST_F(CutCommands, AddPutsShapesTogetherAfterTheCut) {
 TEST_F(CutCommands, DetailIsSolidAndDividesNothing) {
   editing.run_all(
       {"room from 0,0 to 5,4 name=r", "start at 0.5,0.5,0.1", "box from 2,0.1 to 2.2,3.9,2.5 name=screen"});
-  const auto clusters = [&] {
-    return compiled().partition.portals.clusters;
-  };
+  const auto clusters = [&] { return compiled().partition.portals.clusters; };
   const auto divided = clusters();
   editing.run("detail screen");
   EXPECT_EQ(named(editing, "screen").classname(), "hw_detail");

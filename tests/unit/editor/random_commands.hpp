@@ -63,7 +63,7 @@ class RandomCommands {
   static bool changes_things(const editor::CommandSpec& command) {
     for (const std::string_view name :
          {"new", "help", "source", "recover", "save", "render", "print", "export", "import", "leak",
-          "compile", "validate", "fix", "undo", "redo", "log", "diff", "checkpoint"}) {
+          "compile", "validate", "fix", "undo", "redo", "log", "diff", "checkpoint", "history"}) {
       if (command.name == name) return false;
     }
     return true;
@@ -75,6 +75,7 @@ class RandomCommands {
     if (command == "import") return "kitchen.map";
     if (command == "render" || command == "leak") return std::array{"a.png", "b.png"}[pick(2)];
     if (command == "print") return std::array{"plan.svg", "plan.pdf"}[pick(2)];
+    if (command == "history") return "history-" + std::to_string(pick(1000)) + ".hwe";
     if (command == "export") return std::array{"out.glb", "out.obj", "out.ply"}[pick(3)];
     if (command == "recover") return "recovered-" + std::to_string(pick(1000)) + ".map";
     return std::array{"heights.png", "model.obj"}[pick(2)];
