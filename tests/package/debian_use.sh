@@ -30,7 +30,7 @@ brought=$(installed | comm -13 /tmp/installed - | grep -vxE 'hallway-robot|libfm
 [ -z "$brought" ] || fail "hallway-robot has brought $brought"
 
 # An author's: all three, with what they recommend.
-apt-get install -y -qq "$packages"/*.deb
+apt-get install -y -qq --install-recommends "$packages"/*.deb
 user hallway doctor --picture picture.png || fail "hallway doctor"
 for scenario in figure_eight office; do
   user hallway run /usr/share/hallway/maps/$scenario.toml --steps 200 --out $scenario --quiet
