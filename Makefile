@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc)
 HALLWAY := build/release/bin/hallway
 
-.PHONY: demo install uninstall package test-package test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
+.PHONY: demo programs install uninstall package test-package test test-long check fuzz bench bench-peers renders format lint clean build-release deps deps-ros
 .DEFAULT_GOAL := demo
 
 ## deps-demo, deps-test, deps-check, …: the packages that a command needs

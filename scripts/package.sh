@@ -13,6 +13,6 @@ export SOURCE_DATE_EPOCH
 rm -rf "$out"
 umask 022
 mkdir -p "$out"
-cpack --config "$build/CPackConfig.cmake" -B "$out" > "$out/cpack.log" || { cat "$out/cpack.log" >&2; exit 3; }
+cpack --config "$build/CPackConfig.cmake" -B "$out" > "$out/cpack.log" 2>&1 || { cat "$out/cpack.log" >&2; exit 3; }
 rm -rf "$out/_CPack_Packages"
 ls -l "$out"/*.deb

@@ -6,7 +6,6 @@ packages=$(dirname "$0")
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 
 fail() { echo "package_debian: $*" >&2; exit 1; }
-say() { echo "package_debian: $*" >&2; }
 # Everything but what apt, dpkg and their caches keep of themselves.
 files() {
   find / -xdev \( -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /tmp -o -path /hallway-test -o -path /var/lib/apt -o -path /var/cache \
@@ -31,7 +30,7 @@ brought=$(installed | comm -13 /tmp/installed - | grep -vxE 'hallway-robot|libfm
 [ -z "$brought" ] || fail "hallway-robot has brought $brought"
 
 # An author's: all three, with what they recommend.
-apt-get install -y -qq "$packages"/*.deb
+apt-get install -y -qq --install-recommends "$packages"/*.deb
 user hallway doctor --picture picture.png || fail "hallway doctor"
 for scenario in figure_eight office; do
   user hallway run /usr/share/hallway/maps/$scenario.toml --steps 200 --out $scenario --quiet
@@ -65,8 +64,9 @@ done
 
 # The documents' links to what is packaged hold.
 for page in README.md docs/commands.md docs/install.md; do
+  [ -f "/usr/share/doc/hallway/$page" ] || fail "the document $page is not installed"
   folder=$(dirname "/usr/share/doc/hallway/$page")
-  grep -oE '\]\([^)#:]+' "/usr/share/doc/hallway/$page" | cut -c3- | while read -r link; do
+  grep -oE '\]\([^)#:]+' "/usr/share/doc/hallway/$page" | cut -c3- | grep -v '^http' | while read -r link; do
     [ -e "$folder/$link" ] || fail "$page leads to $link, which is not installed"
   done
 done
@@ -77,16 +77,12 @@ hallway compile /usr/share/hallway/maps/office.map > /dev/null
 
 apt-get purge -y -qq hallway hallway-robot hallway-dev
 files > /tmp/after
-comm -13 /tmp/before /tmp/after > /tmp/new
-# What is left belongs to the packages that ours need, which stay until autoremove, or was made by their scripts.
-left=$(while read -r file; do dpkg-query -S "$file" > /dev/null 2>&1 || echo "$file"; done < /tmp/new | grep -i hallway || true)
-[ -z "$left" ] || fail "left behind: $left"
-apt-get autoremove --purge -y -qq
+left=$(comm -13 /tmp/before /tmp/after | grep -i hallway || true)
+[ -z "$left" ] || fail "purging has left $left"
+# What ours have brought along, which autoremove would keep in part.
+installed | comm -13 /tmp/installed - | xargs apt-get purge -y -qq
 files > /tmp/after
-comm -13 /tmp/before /tmp/after > /tmp/new
-if [ -s /tmp/new ]; then
-  say "left behind by the packages that Hallway's need:"
-  cat /tmp/new >&2
-fi
+left=$(comm -13 /tmp/before /tmp/after)
+[ -z "$left" ] || fail "left behind: $left"
 lost=$(comm -23 /tmp/before /tmp/after)
 [ -z "$lost" ] || fail "lost: $lost"
