@@ -2,6 +2,7 @@
 //
 // Whether what Hallway needs is there and works, for the first minute on a new machine.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <memory>

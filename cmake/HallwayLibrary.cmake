@@ -22,6 +22,9 @@ function(hallway_precompile target kind)
     add_library(${target} OBJECT ${source})
   endif()
   target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen Threads::Threads)
+  if("<nlohmann/json.hpp>" IN_LIST ARGN)
+    target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)  # its users are compiled with the same definitions
+  endif()
   target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 

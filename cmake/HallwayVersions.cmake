@@ -11,6 +11,10 @@ macro(hallway_find_package package least)
 endmacro()
 
 hallway_find_package(Eigen3 3.4)
+if(Eigen3_VERSION VERSION_GREATER_EQUAL 4)
+  # Eigen 5 wants to be told in the type which singular vectors are asked for, which 3.4 does not know, and calls the way that both know deprecated.
+  target_compile_definitions(Eigen3::Eigen INTERFACE EIGEN_NO_DEPRECATED_WARNING)
+endif()
 hallway_find_package(assimp 5.2)
 hallway_find_package(embree 3.13)
 

@@ -2,6 +2,7 @@
 //
 // Shapes that are made by their measures, and made again with others.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 //
 // Choosing things and looking at them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 //
 // The map as a whole, and entities by their keys.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
