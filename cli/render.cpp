@@ -28,6 +28,7 @@ struct RenderOptions {
   std::string eye;
   std::string target;
   std::vector<std::string> show;
+  std::optional<double> error_scale;
   bool strict = false;
   bool json = false;
 };
@@ -88,7 +89,7 @@ std::string draw_run(const RenderOptions& options, const sim::PictureSpec& spec,
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
-  return run::draw_run_picture(record, spec, show.map);
+  return run::draw_run_picture(record, spec, show.map, options.error_scale);
 }
 
 int render(const RenderOptions& options) {
@@ -145,6 +146,12 @@ void add_render_command(CLI::App& app, Action& chosen) {
       ->type_name("LAYER,...")
       ->take_all()
       ->expected(1);
+  command
+      ->add_option(
+          "--error-scale", options->error_scale,
+          "Of a run: draw errors of landmarks longer by this factor [a power of ten that shows them]")
+      ->type_name("X")
+      ->check(CLI::Range(1e-6, 1e9));
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
