@@ -61,8 +61,9 @@ void add_path(Table& table, const Metrics& metrics) {
 }
 
 void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
-  // Plugins that give a path alone have nothing to be missed.
-  if (!metrics.landmarks_true || metrics.landmarks_mapped == 0) {
+  // Plugins that give a path alone, and associate nothing, have nothing to be missed.
+  const bool path_alone = metrics.landmarks_mapped == 0 && metrics.associations_none == metrics.observations;
+  if (!metrics.landmarks_true || path_alone) {
     table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
     return;
   }
