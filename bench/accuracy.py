@@ -49,7 +49,7 @@ def times(m):
 
 
 def simulated(hallway, root, out):
-    print("| run | seed | lost | landmarks | duplicated | wrong associations | landmarks online m | at the end m "
+    print("| run | seed | lost | landmarks | duplicated | misassociated | landmarks online m | at the end m "
           "| path (ATE) online m | re-fitted m | NEES landmarks, poses "
           "| mean µs | median µs | p99 µs | worst ms |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
@@ -62,7 +62,7 @@ def simulated(hallway, root, out):
 
 
 def recorded(hallway, data, out):
-    print("| log | iterations | lost | landmarks | duplicated | wrong associations | ML m | online m | at the end m | at the end / ML "
+    print("| log | iterations | lost | landmarks | duplicated | misassociated | ML m | online m | at the end m | at the end / ML "
           "| path (ATE): ML m | online m | re-fitted m | re-fitted / ML | NEES landmarks, poses | mean µs | median µs | p99 µs | worst ms |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for folder, steps, ml, ml_path in LOGS:

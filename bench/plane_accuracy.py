@@ -153,7 +153,7 @@ def main():
         for mode in modes:
             print(drift(arguments, mode), flush=True)
         return
-    print("| scenario | mode | noise | occlusion | whole | lost | wrong associations | corners m | ML m | corners / ML | positions re-fitted m | ML m "
+    print("| scenario | mode | noise | occlusion | whole | lost | misassociated | corners m | ML m | corners / ML | positions re-fitted m | ML m "
           "| re-fitted / ML | online m | online / ML | ML so far m | mean µs | worst ms |")
     print("|" + "---|" * 18)
     for scenario in arguments.scenarios:

@@ -147,7 +147,7 @@ def kitti(hallway, data, out):
 
 def demo(hallway, data, out):
     print("MRPT's kf-slam_6D_demo\n")
-    print("| association | without a pose | landmarks mapped | wrong associations | landmarks m | at the end m | path (ATE) m | mean µs |")
+    print("| association | without a pose | landmarks mapped | misassociated | landmarks m | at the end m | path (ATE) m | mean µs |")
     print("|---|---|---|---|---|---|---|---|")
     for name, arguments, options in DEMO_WAYS:
         m = replay(hallway, data / "kf-slam_6D_demo_obs.csv", out / "demo", options, arguments)

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "batch/redraw.hpp"
 #include "batch/table.hpp"
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "run/pictures.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
@@ -28,20 +31,45 @@ struct BatchOptions {
   bool quiet = false;
 };
 
+/// Draws errors longer by one power of ten in all pictures of a batch: the smallest of those that the runs would have each by itself.
+void share_error_scale(const batch::Plan& plan, const batch::RunnerSetup& setup,
+                       const std::vector<batch::Result>& results) {
+  if (plan.pictures.empty()) return;
+  std::optional<double> common;
+  bool alike = std::none_of(results.begin(), results.end(), [](const auto& result) { return result.reused; });
+  for (const batch::Result& result : results) {
+    const fs::path cell = setup.folder / "cells" / result.name;
+    if (!run::is_run_folder(cell)) continue;
+    const auto scale = run::error_scale_of(run::read_record(cell));
+    if (!scale) continue;
+    alike = alike && scale == common.value_or(*scale);
+    common = std::min(common.value_or(*scale), *scale);
+  }
+  if (alike || !common) return;
+  for (const std::string& name :
+       batch::redraw_pictures(plan, setup, {"--error-scale", format_double(*common)}))
+    print_warning("not drawn again with the errors' common scale: " + name);
+}
+
 int run_batch(const BatchOptions& options) {
   const batch::Plan plan = batch::read_plan(options.plan);
   const fs::path folder =
       options.out.empty() ? fs::path("out") / fs::path(options.plan).stem() : fs::path(options.out);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
-  const std::vector<batch::Result> results =
-      batch::run_cells(plan, {.program = fs::read_symlink("/proc/self/exe"),
-                              .folder = folder,
-                              .jobs = options.jobs,
-                              .resume = options.resume,
-                              .progress = [&](std::size_t done) { progress.update(done); },
-                              .stop = interrupted});
-  const std::vector<std::string> violations = batch::violations(results, plan.thresholds);
+  const batch::RunnerSetup setup{.program = fs::read_symlink("/proc/self/exe"),
+                                 .folder = folder,
+                                 .jobs = options.jobs,
+                                 .resume = options.resume,
+                                 .progress = [&](std::size_t done) { progress.update(done); },
+                                 .stop = interrupted};
+  const std::vector<batch::Result> results = batch::run_cells(plan, setup);
+  try {
+    if (results.size() == plan.cells.size()) share_error_scale(plan, setup, results);
+  } catch (const Error& error) {  // what the runs came to is worth more than their pictures
+    print_warning(std::string("the pictures have error scales of their own: ") + error.what());
+  }
+  const std::vector<std::string> violations = batch::violations(results, plan);
   Json document = batch::to_json(results);
   document["runs"] = plan.cells.size();
   document["violations"] = violations;

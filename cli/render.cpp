@@ -29,6 +29,7 @@ struct RenderOptions {
   std::string eye;
   std::string target;
   std::vector<std::string> show;
+  std::optional<double> error_scale;
   bool strict = false;
   bool json = false;
 };
@@ -89,7 +90,7 @@ std::string draw_run(const RenderOptions& options, const sim::PictureSpec& spec,
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
-  return run::draw_run_picture(record, spec, show.map);
+  return run::draw_run_picture(record, spec, show.map, options.error_scale);
 }
 
 int render(const RenderOptions& options) {
@@ -135,6 +136,11 @@ void add_render_command(Command& app) {
               "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
       .value("LAYER,...")
       .repeatable();
+  command
+      .option("--error-scale", &options->error_scale,
+              "Of a run: draw errors of landmarks longer by this factor [a power of ten that shows them]")
+      .value("X")
+      .range(1e-6, 1e9);
   add_shared(command, Shared::kStrict, &options->strict);
   add_shared(command, Shared::kJson, &options->json);
   command.footer(

@@ -62,8 +62,9 @@ void add_path(Table& table, const Metrics& metrics) {
 }
 
 void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
-  // Plugins that give a path alone have nothing to be missed.
-  if (!metrics.landmarks_true || metrics.landmarks_mapped == 0) {
+  // Plugins that give a path alone, and associate nothing, have nothing to be missed.
+  const bool path_alone = metrics.landmarks_mapped == 0 && metrics.associations_none == metrics.observations;
+  if (!metrics.landmarks_true || path_alone) {
     table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
     return;
   }
@@ -117,10 +118,16 @@ void add_planes(Table& table, const Metrics& metrics, std::uint64_t submaps) {
   table.row("heading error, re-fitted", errors_text(planes.heading_refitted_deg, "deg"));
 }
 
-void add_relative(Table& table, const char* label, const eval::PathError& error, const std::string& poses) {
-  if (!error.translation_m || !error.rotation_deg) return;
-  table.row(label, fmt::format("{:.4f} m, {:.4f} deg RMSE{}", error.translation_m->rmse,
-                               error.rotation_deg->rmse, poses));
+void add_relative(Table& table, const Metrics& metrics) {
+  const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
+  const auto add = [&](const char* label, const eval::PathError& error) {
+    if (!error.translation_m || !error.rotation_deg) return;
+    table.row(label, fmt::format("{:.4f} m, {:.4f} deg RMSE{}", error.translation_m->rmse,
+                                 error.rotation_deg->rmse, poses));
+  };
+  add("RPE, per frame", metrics.rpe_frame);
+  add("RPE, per metre", metrics.rpe_metre);
+  add("RPE, per second", metrics.rpe_second);
 }
 
 void add_errors(Table& table, const Metrics& metrics) {
@@ -142,9 +149,6 @@ void add_errors(Table& table, const Metrics& metrics) {
               fmt::format("{}, {} at the end{}", metres(metrics.position_rmse_m.first_pose),
                           metres(metrics.position_final_m), poses));
   }
-  add_relative(table, "RPE, per frame", metrics.rpe_frame, poses);
-  add_relative(table, "RPE, per metre", metrics.rpe_metre, poses);
-  add_relative(table, "RPE, per second", metrics.rpe_second, poses);
 }
 
 void add_times(Table& table, const char* label, const std::optional<eval::TimeSummary>& times) {
@@ -172,6 +176,7 @@ std::string table_of(const Outcome& outcome) {
     add_landmarks(table, metrics, result.submaps);
     add_errors(table, metrics);
   }
+  add_relative(table, metrics);
   add_times(table, "iteration, wall clock", metrics.iteration_ms);
   add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
   table.row("written to", printable(outcome.folder.string(), 4096));

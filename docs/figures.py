@@ -23,12 +23,12 @@ KEPT = {  # charts that the page shows
 }
 STUDIES = ["figure-eight", "density", "map-size", "straight", "stationary", "victoria-park", "dynamic", "forty-loops"]
 KINDS = {  # by study: which findings stand in the table; all where it is not here
-    "forty-loops": ["landmark RMSE aligned, at the end", "wrong associations", "landmark RMSE of one loop, falling as 1/sqrt(loops)",
+    "forty-loops": ["landmark RMSE aligned, at the end", "misassociated observations, share", "landmark RMSE of one loop, falling as 1/sqrt(loops)",
                     "floor of landmark RMSE", "change of mean x error over the last 20 loops",
                     "change of mean y error over the last 20 loops", "change of mean z error over the last 20 loops"],
     "dynamic": ["moving landmarks that are marked", "marked landmarks that move", "landmark RMSE over that where nothing moves",
-                "wrong associations", "iteration, mean"],
-    "density": ["landmark RMSE aligned, at the end", "wrong associations", "iteration, mean", "iteration, 99th percentile",
+                "misassociated observations, share", "iteration, mean"],
+    "density": ["landmark RMSE aligned, at the end", "misassociated observations, share", "iteration, mean", "iteration, 99th percentile",
                 "iteration, worst"],
 }
 

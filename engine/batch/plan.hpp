@@ -41,6 +41,7 @@ struct Plan {
   std::vector<Cell> cells{};
   std::vector<PictureRequest> pictures{};
   std::vector<Threshold> thresholds{};
+  std::string verdict{};  ///< that the path of every run has to have; empty for any
 };
 
 /// A plugin of a plan and the values of its parameters that are tried, each with each.

@@ -186,7 +186,14 @@ class PlanReader {
   void read_thresholds(Plan& plan) const {
     const TomlNode* node = find(root_, "threshold");
     if (node == nullptr) return;
-    for (const TomlEntry& entry : table_of(*node, "threshold")) add_threshold(plan, entry.key, entry.node);
+    for (const TomlEntry& entry : table_of(*node, "threshold")) {
+      if (entry.key == "verdict") {
+        plan.verdict = text(entry.node, "verdict");
+        if (plan.verdict != "ok") fail(entry.node.line, "`verdict` can only be \"ok\"");
+      } else {
+        add_threshold(plan, entry.key, entry.node);
+      }
+    }
   }
 
   void add_threshold(Plan& plan, const std::string& metric, const TomlNode& node) const {

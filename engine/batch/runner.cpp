@@ -85,10 +85,6 @@ bool is_working_folder(const std::string& name, const std::string& cell) {
   return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
 }
 
-std::string picture_name(const Cell& cell, const PictureRequest& picture) {
-  return cell.name + "." + picture.name + ".png";
-}
-
 /// A cell that is under way: its run, then its pictures, one process after the other.
 class Job {
  public:
@@ -334,6 +330,10 @@ class Runner {
 };
 
 }  // namespace
+
+std::string picture_name(const Cell& cell, const PictureRequest& picture) {
+  return cell.name + "." + picture.name + ".png";
+}
 
 std::vector<Result> run_cells(const Plan& plan, const RunnerSetup& setup) {
   return Runner(plan, setup).run();

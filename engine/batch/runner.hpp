@@ -34,6 +34,9 @@ inline constexpr const char* kDocumentFile = "results.json";
 /// leave runs behind that write into the folders of the next one.
 inline constexpr const char* kStartedBy = "HALLWAY_STARTED_BY";
 
+/// The file of a picture in the folder `cells`.
+std::string picture_name(const Cell& cell, const PictureRequest& picture);
+
 /// How a batch is run, and where.
 struct RunnerSetup {
   std::filesystem::path program{};  ///< `hallway`

@@ -107,11 +107,14 @@ Json to_json(const std::vector<Result>& results) {
   return {{"schema", "hallway.batch_results/1"}, {"cells", cells}};
 }
 
-std::vector<std::string> violations(const std::vector<Result>& results,
-                                    const std::vector<Threshold>& thresholds) {
+std::vector<std::string> violations(const std::vector<Result>& results, const Plan& plan) {
   std::vector<std::string> all;
   for (const Result& result : results) {
-    for (const Threshold& threshold : thresholds) {
+    const std::string verdict = path_verdict_of(result);
+    if (!plan.verdict.empty() && verdict != plan.verdict)
+      all.push_back(fmt::format("{}: verdict is {}, not {}", result.name,
+                                verdict.empty() ? "missing" : verdict, plan.verdict));
+    for (const Threshold& threshold : plan.thresholds) {
       const auto number = number_of(result.metrics, threshold.metric);
       const std::string subject = result.name + ": " + threshold.metric;
       if (!number) {

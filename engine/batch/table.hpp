@@ -27,8 +27,8 @@ std::string print_csv(const std::vector<Result>& results);
 /// The same as one JSON document of schema `hallway.batch_results/1`.
 nlohmann::ordered_json to_json(const std::vector<Result>& results);
 
-/// What is not as the thresholds want it, one sentence each: a number that is missing, too small or too large. Failed runs miss theirs.
-std::vector<std::string> violations(const std::vector<Result>& results,
-                                    const std::vector<Threshold>& thresholds);
+/// What is not as the plan's thresholds want it, one sentence each: a number that is missing, too small or too large, a verdict that is another one. Failed
+/// runs miss theirs.
+std::vector<std::string> violations(const std::vector<Result>& results, const Plan& plan);
 
 }  // namespace hallway::batch

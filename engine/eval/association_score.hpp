@@ -20,11 +20,11 @@ class AssociationScore {
  public:
   /// Adds a frame without identities: the associations alone.
   void add(std::span<const log::LandmarkId> associations);
-  /// Adds a frame: by observation, what the plugin took it for and what it is; both of the same length.
+  /// Adds a frame: by observation, what the plugin associated it with and what it is; both of the same length.
   void add(std::span<const log::LandmarkId> associations, std::span<const log::LandmarkId> identities);
 
   std::uint64_t observations() const { return observations_; }
-  /// Observations that were given to no landmark.
+  /// Unassociated observations: those that were associated with no landmark.
   std::uint64_t none() const { return none_; }
   /// Different true landmarks among the observations.
   std::size_t true_landmarks() const { return seen_.size(); }

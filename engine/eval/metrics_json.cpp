@@ -16,6 +16,11 @@ Json number(const std::optional<std::uint64_t>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+/// Of estimates so large that their errors overflow there is no number.
+Json finite(double value) {
+  return number(std::optional<double>(value));
+}
+
 Json aligned(const AlignedRmse& rmse) {
   return {{"first_pose", number(rmse.first_pose)}, {"aligned", number(rmse.aligned)}};
 }
@@ -40,8 +45,8 @@ Json parts(const MapParts& parts) {
 
 Json divergence(const Metrics& metrics) {
   if (!metrics.divergence) return nullptr;
-  return {{"position_limit_m", metrics.divergence->limit_m},
-          {"position_worst_m", metrics.divergence->worst_m},
+  return {{"position_limit_m", finite(metrics.divergence->limit_m)},
+          {"position_worst_m", finite(metrics.divergence->worst_m)},
           {"rotation_worst_deg", number(metrics.divergence->worst_deg)},
           {"iteration", number(metrics.diverged_at)}};
 }
@@ -51,10 +56,10 @@ Json divergence(const Metrics& metrics) {
 Json to_json(const std::optional<ErrorStatistics>& errors) {
   if (!errors) return nullptr;
   return {{"count", errors->count},
-          {"rmse", errors->rmse},
-          {"mean", errors->mean},
-          {"median", errors->median},
-          {"max", errors->max}};
+          {"rmse", finite(errors->rmse)},
+          {"mean", finite(errors->mean)},
+          {"median", finite(errors->median)},
+          {"max", finite(errors->max)}};
 }
 
 Json to_json(const PathError& error) {

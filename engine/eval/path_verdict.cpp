@@ -30,13 +30,15 @@ double extent_of(std::span<const PosePair> pairs) {
   return 2.0 * farthest;
 }
 
-std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged judged, Alignment alignment) {
+std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged judged, Alignment alignment,
+                                        double noise_m) {
   constexpr std::size_t kFewestPairs = 3;
   if (pairs.size() < kFewestPairs) return std::nullopt;
   const bool judge_rotation = judged == Judged::kAll;
   const PathFit fit = align(pairs, alignment);
   Divergence divergence;
-  divergence.limit_m = std::max(Divergence::kLeastLimit_m, Divergence::kShareOfExtent * extent_of(pairs));
+  divergence.limit_m = std::max({Divergence::kLeastLimit_m, Divergence::kNoises * noise_m,
+                                 Divergence::kShareOfExtent * extent_of(pairs)});
   Quat q_world_map = Quat::Identity();
   if (judge_rotation) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();

@@ -21,7 +21,7 @@ const char* name_of(PathVerdict verdict);
 
 /// How far an estimate is off at its worst, after the best fit of the positions, beside what counts as diverged.
 struct Divergence {
-  double limit_m = 0.0;  ///< a tenth of extent_of() the true path, 0.1 m at least
+  double limit_m = 0.0;  ///< a twentieth of extent_of() the true path, or more: see divergence_of()
   double worst_m = 0.0;  ///< largest error of a position
   std::optional<double>
       worst_deg;  ///< largest error of an orientation after the best single rotation; where it is judged
@@ -29,8 +29,9 @@ struct Divergence {
 
   bool diverged() const { return first.has_value(); }
 
-  static constexpr double kShareOfExtent = 0.1;
+  static constexpr double kShareOfExtent = 0.05;
   static constexpr double kLeastLimit_m = 0.1;
+  static constexpr double kNoises = 10.0;
   static constexpr double kLimit_deg = 30.0;
 };
 
@@ -41,10 +42,11 @@ double extent_of(std::span<const PosePair> pairs);
 /// by a turn that nobody states.
 enum class Judged { kPositions, kAll };
 
-/// @param fit  kRigid, or kSimilarity for an estimate without scale
+/// @param fit      kRigid, or kSimilarity for an estimate without scale
+/// @param noise_m  of the sensor, standard deviation; 0 where it is not known. Ten times as much is within the limit, for a robot at rest shakes
 /// @return empty for fewer than three pairs. O(n).
 std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged judged,
-                                        Alignment fit = Alignment::kRigid);
+                                        Alignment fit = Alignment::kRigid, double noise_m = 0.0);
 
 /// How many frames have a pose, and where.
 struct PoseCount {

@@ -61,6 +61,15 @@ render::View fixed_view(const render::Picture& panel, const Box& frame, render::
   return view;
 }
 
+/// Makes all of an image one colour.
+void fill(render::Image& image, render::Rgb colour) {
+  const auto pixels = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  image.bytes.clear();
+  image.bytes.reserve(3 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    image.bytes.insert(image.bytes.end(), {colour.r, colour.g, colour.b});
+}
+
 /// What all runs have in common: the smallest, so that none is drawn out of the picture.
 std::optional<double> common_error_scale(const std::vector<Compared>& runs) {
   std::optional<double> common;
@@ -77,9 +86,6 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
   const Grid grid = grid_of(runs.size(), spec);
   const std::optional<double> error_scale = common_error_scale(runs);
   render::Image image{grid.columns * grid.width_px, grid.rows * grid.height_px, {}};
-  image.bytes.assign(
-      std::size_t{3} * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px),
-      255);
   std::optional<Box> frame;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const render::Plan plan = picture_plan(runs[i].record, spec);
@@ -87,9 +93,10 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
     panel.title = printable(runs[i].name);
     if (!frame) frame = frame_of(runs[i].record, panel.surfaces);
     const render::View view = fixed_view(panel, *frame, view_of_plan(spec, plan), grid);
+    const render::Image drawn = render::draw(panel, view, grid.width_px, grid.height_px);
+    if (i == 0) fill(image, drawn.at(0, 0));
     const int at = static_cast<int>(i);
-    paste(render::draw(panel, view, grid.width_px, grid.height_px), at % grid.columns * grid.width_px,
-          at / grid.columns * grid.height_px, image);
+    paste(drawn, at % grid.columns * grid.width_px, at / grid.columns * grid.height_px, image);
   }
   return image;
 }

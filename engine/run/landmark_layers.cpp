@@ -104,7 +104,9 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
     estimates.positions.push_back(place->second);
   }
   std::unordered_set<log::LandmarkId> mapped_truths;
-  for (const log::IdPair& match : record.matches) mapped_truths.insert(match.second);
+  for (const log::IdPair& match : record.matches) {
+    if (mapped.contains(match.first)) mapped_truths.insert(match.second);
+  }
   render::Markers truth{.positions = {},
                         .shape = render::MarkerShape::kRing,
                         .colour = render::palette::kTruth,

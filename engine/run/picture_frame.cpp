@@ -15,10 +15,6 @@ namespace {
 /// Of the diagonal, on every side.
 constexpr double kMargin = 0.05;
 
-Vec3 vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 /// How far the sensor sees; empty where that is not known.
 std::optional<double> range_of(const Record& record) {
   const auto sensors = record.run.find("sensors");
@@ -78,15 +74,15 @@ void cut_line(const Box& frame, render::Polyline& line) {
 
 Box frame_of(const Record& record, const std::vector<render::Surface>& surfaces) {
   Box frame;
-  for (const log::StampedPose& pose : record.truth) frame.extend(vector_of(pose.position_m));
+  for (const log::StampedPose& pose : record.truth) frame.extend(Vec3(pose.position_m.data()));
   const bool path_alone = surfaces.empty() && record.true_landmarks.empty() && record.true_walls.empty();
   if (path_alone && !frame.isEmpty()) {
     const Vec3 around = Vec3::Constant(range_of(record).value_or(frame.diagonal().norm() + 1.0));
     frame = Box(frame.min() - around, frame.max() + around);
   }
-  for (const log::Landmark& landmark : record.true_landmarks) frame.extend(vector_of(landmark.position_m));
+  for (const log::Landmark& landmark : record.true_landmarks) frame.extend(Vec3(landmark.position_m.data()));
   for (const log::TrueWall& wall : record.true_walls) {
-    for (const auto& corner : wall.corners_m) frame.extend(vector_of(corner));
+    for (const auto& corner : wall.corners_m) frame.extend(Vec3(corner.data()));
   }
   if (frame.isEmpty()) return frame;
   for (const render::Surface& surface : surfaces) {

@@ -117,13 +117,13 @@ std::string walls_text(const nlohmann::ordered_json& metrics) {
   return text;
 }
 
-/// " (98 % of the frames)"; empty where metrics.json does not say so.
-std::string coverage_text(const nlohmann::ordered_json& metrics, const char* what, const char* of) {
+/// ", 98.0 % of the frames have a pose"; empty where metrics.json does not say so.
+std::string coverage_text(const nlohmann::ordered_json& metrics, const char* what, const char* text) {
   const auto coverage = metrics.find("coverage");
   if (coverage == metrics.end() || !coverage->is_object()) return {};
   const auto share = coverage->find(what);
   if (share == coverage->end() || !share->is_number()) return {};
-  return fmt::format(" ({:.1f} % of {})", 100.0 * share->get<double>(), of);
+  return fmt::format(", {:.1f} % {}", 100.0 * share->get<double>(), text);
 }
 
 /// What went wrong with the path; empty where nothing did.
@@ -135,23 +135,21 @@ std::string verdict_text(const nlohmann::ordered_json& metrics) {
 
 std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
-  std::string text = verdict_text(metrics) + fmt::format("{} iterations", metrics.value("iterations", 0));
+  std::string text = verdict_text(metrics) + fmt::format("{} iterations", metrics.value("iterations", 0)) +
+                     coverage_text(metrics, "poses", "with a pose");
+  const auto positions = metrics.find("position_rmse_m");
+  if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number())
+    text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
+  const std::string landmarks = coverage_text(metrics, "landmarks", "of landmarks mapped");
+  const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
+  text += landmarks;
+  if (landmarks.empty() && mapped.is_number() && mapped.get<std::uint64_t>() > 0)
+    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
   const auto rmse = metrics.find("landmark_rmse_m");
   if (rmse != metrics.end() && rmse->is_object() && rmse->contains("final_aligned") &&
-      (*rmse)["final_aligned"].is_number()) {
+      (*rmse)["final_aligned"].is_number())
     text += ", landmark RMSE " + number_text((*rmse)["final_aligned"], "{:.4f}") + " m";
-    text += coverage_text(metrics, "landmarks", "landmarks");
-  } else if (const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
-             mapped.is_number() && mapped.get<std::uint64_t>() > 0) {
-    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
-  }
-  text += walls_text(metrics);
-  const auto positions = metrics.find("position_rmse_m");
-  if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number()) {
-    text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
-    text += coverage_text(metrics, "poses", "frames");
-  }
-  return text;
+  return text + walls_text(metrics);
 }
 
 /// Where the poses stand in the world.

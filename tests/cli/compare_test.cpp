@@ -56,8 +56,8 @@ TEST(Compare, ATableIsPrintedForPeople) {
   const Ended ended =
       compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", fixture("minimal")});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  for (const char* part :
-       {"map RMSE m", "ms mean", "verdict", "+slam_point", "+minimal", "  ok", "comparison.png"})
+  for (const char* part : {"map RMSE m", "ms mean", "verdict", "+slam_point", "+minimal", "poses %",
+                           "mapped %", "  ok\n", "  lost\n", "comparison.png"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }
 

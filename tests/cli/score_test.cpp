@@ -2,6 +2,7 @@
 // `hallway score`: trajectories of other programs against a reference.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/batch_results.hpp"
@@ -120,6 +121,59 @@ TEST(Score, SaysOfARunWhatItsMetricsSay) {
         EXPECT_NEAR(ours.at(key).get<double>(), value.get<double>(), 1e-9) << names[i] << kind << key;
     }
   }
+}
+
+/// A run in small_world of a plugin that starts its map anew.
+Json run_that_starts_over(const SmallWorld& world, int at, const std::string& tells) {
+  const std::string plugin = binary_folder() / "tests/abi/fixtures/starts_over.so";
+  const Ended ended = world.run({"--plugin", plugin, "--set", "starts_over.at=" + std::to_string(at), "--set",
+                                 "starts_over.tells=" + tells, "--json", "--force"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  return Json::parse(ended.out).at("metrics");
+}
+
+TEST(RunVerdict, AMapThatIsStartedAnewIsNeverOk) {
+  const SmallWorld world;  // 60 frames
+  for (const int at : {6, 30, 54, 58}) {
+    EXPECT_EQ(run_that_starts_over(world, at, "nothing").at("verdict"), "diverged") << at;
+    const Json told = run_that_starts_over(world, at, "epoch");
+    EXPECT_EQ(told.at("verdict"), "lost") << at;
+    EXPECT_EQ(told.at("parts").at("restarts"), 1);
+    EXPECT_EQ(told.at("parts").at("scored_iterations"), std::max(at, 60 - at));
+    EXPECT_NEAR(told.at("coverage").at("poses").get<double>(), std::max(at, 60 - at) / 60.0, 1e-12);
+    EXPECT_LT(told.at("position_rmse_m").at("aligned").get<double>(), 1e-6) << "the part by itself is right";
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(world.out()) / "map_epochs.csv"));
+  }
+}
+
+TEST(RunVerdict, PartsThatTheReportJoinsAreOne) {
+  const SmallWorld world;
+  const Json metrics = run_that_starts_over(world, 30, "joined");
+  EXPECT_EQ(metrics.at("verdict"), "ok");
+  EXPECT_EQ(metrics.at("parts").at("count"), 1);
+  EXPECT_EQ(metrics.at("parts").at("restarts"), 1);
+  EXPECT_EQ(metrics.at("coverage").at("poses"), 1.0);
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(world.out()) / "map_epochs.csv"));
+}
+
+TEST(RunVerdict, StandsInTheTableWithTheCoverage) {
+  const SmallWorld world;
+  const std::string plugin = binary_folder() / "tests/abi/fixtures/starts_over.so";
+  const Ended ended =
+      world.run({"--plugin", plugin, "--set", "starts_over.at=30", "--set", "starts_over.tells=epoch"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  for (const char* part : {"verdict                      lost", "2 with 1 restarts", "30 of 60 iterations",
+                           "; 50.0 % of frames"})
+    EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
+}
+
+TEST(RunVerdict, PosesThatStandStillHaveDiverged) {
+  const SmallWorld world;
+  const std::string plugin = binary_folder() / "tests/abi/fixtures/starts_over.so";
+  const Ended ended = world.run({"--plugin", plugin, "--set", "starts_over.step_m=0"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("verdict                      diverged from iteration 0"), std::string::npos)
+      << ended.out;
 }
 
 TEST(Score, ATableIsPrintedForPeople) {

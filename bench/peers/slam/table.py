@@ -79,7 +79,7 @@ def row(name, result, ml, reference_ms):
 def compare(build, out, folder, steps, with_ekf):
     ml = output_of([build / "bin/batch_ml", folder, *(["--steps", str(steps)] if steps else [])])
     print(f"\n**{folder.name}**, {ml['iterations']} iterations, {ml['landmarks']} landmarks, {ml['observations']} observations\n")
-    print("| | lost | wrong associations | landmarks online m | at the end m | at the end / ML | path (ATE) m | mean µs | full map µs | worst ms | times slam_point |")
+    print("| | lost | misassociated | landmarks online m | at the end m | at the end / ML | path (ATE) m | mean µs | full map µs | worst ms | times slam_point |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     print(f"| batch ML, told | | | | {metres(ml['landmark_rmse_m']['aligned'])} | 1 | {metres(ml['position_rmse_m']['aligned'])} | | | "
           f"{1000 * ml['seconds']:.0f} in all | |", flush=True)

@@ -13,7 +13,7 @@ std::vector<Result> three_results() {
   results[0] = {.name = "a",
                 .labels = {{"seed", "1"}},
                 .status = 0,
-                .metrics = {{"lost", 0}, {"rmse", {{"aligned", 0.25}}}}};
+                .metrics = {{"verdict", "diverged"}, {"lost", 0}, {"rmse", {{"aligned", 0.25}}}}};
   results[1] = {.name = "b",
                 .labels = {{"seed", "2"}, {"p.x", "a,\"b\""}},
                 .status = 5,
@@ -34,20 +34,26 @@ TEST(Table, NumbersHaveNamesWithPoints) {
 
 TEST(Table, CsvHasALineForEachAndQuotesWhatNeedsIt) {
   EXPECT_EQ(print_csv(three_results()),
-            "name,seed,p.x,status,verdict,problem,wall_s,lost,rmse.aligned,more\r\n"
-            "a,1,,0,,,0,0,0.25,\r\n"
-            "b,2,\"a,\"\"b\"\"\",5,crash,crashed,0,,,\r\n"
-            "c,3,,0,,,0,3,,1e-07\r\n");
+            "name,seed,p.x,status,verdict,problem,wall_s,path_verdict,lost,rmse.aligned,more\r\n"
+            "a,1,,0,,,0,diverged,0,0.25,\r\n"
+            "b,2,\"a,\"\"b\"\"\",5,crash,crashed,0,,,,\r\n"
+            "c,3,,0,,,0,,3,,1e-07\r\n");
 }
 
 TEST(Table, ThresholdsNameEachThatMissesThem) {
   const std::vector<Threshold> thresholds{{"rmse.aligned", {}, 0.2}, {"lost", {}, 2.0}, {"lost", -1.0, {}}};
-  EXPECT_EQ(violations(three_results(), thresholds),
+  EXPECT_EQ(violations(three_results(), {.thresholds = thresholds}),
             (std::vector<std::string>{"a: rmse.aligned is 0.25, more than 0.2", "b: rmse.aligned is missing",
                                       "b: lost is missing", "b: lost is missing",
                                       "c: rmse.aligned is missing", "c: lost is 3, more than 2"}));
-  EXPECT_EQ(violations({three_results()[0]}, {{"lost", 1.0, {}}}),
+  EXPECT_EQ(violations({three_results()[0]}, {.thresholds = {{"lost", 1.0, {}}}}),
             std::vector<std::string>{"a: lost is 0, less than 1"});
+}
+
+TEST(Table, AVerdictIsAThresholdToo) {
+  EXPECT_EQ(violations(three_results(), {.verdict = "ok"}),
+            (std::vector<std::string>{"a: verdict is diverged, not ok", "b: verdict is missing, not ok",
+                                      "c: verdict is missing, not ok"}));
 }
 
 }  // namespace

@@ -14,6 +14,12 @@ Metrics full() {
   metrics.iterations = 3800;
   metrics.observations = 410484;
   metrics.lost_iterations = 1;
+  metrics.verdict = PathVerdict::kDiverged;
+  metrics.divergence = Divergence{.limit_m = 0.5, .worst_m = 2, .worst_deg = 8, .first = 3};
+  metrics.diverged_at = 12;
+  metrics.parts = {2, 1, 2850, 400, false};
+  metrics.associations_dropped = 9;
+  metrics.rpe_metre = {ErrorStatistics{7, 4, 3, 2, 5}, std::nullopt};
   metrics.landmarks_true = 1145;
   metrics.landmarks_mapped = 1146;
   metrics.landmarks_duplicated = 1;
@@ -57,8 +63,12 @@ Metrics full() {
 TEST(MetricsJson, IsTheDocumentedDocument) {
   EXPECT_EQ(
       to_json(full()).dump(),
-      R"({"schema":"hallway.metrics/1","iterations":3800,"lost_iterations":1,"observations":410484,)"
-      R"("associations_none":8,"association_errors":7,"landmarks_true":1145,"landmarks_mapped":1146,)"
+      R"({"schema":"hallway.metrics/1","iterations":3800,"lost_iterations":1,"verdict":"diverged",)"
+      R"("coverage":{"poses":0.75,"landmarks":1.0,"walls":1.0},)"
+      R"("parts":{"count":2,"restarts":1,"scored_iterations":2850,"other_iterations":400,"ends_in_scored":false},)"
+      R"("divergence":{"position_limit_m":0.5,"position_worst_m":2.0,"rotation_worst_deg":8.0,"iteration":12},)"
+      R"("observations":410484,"associations_none":8,"association_errors":7,"associations_dropped":9,)"
+      R"("landmarks_true":1145,"landmarks_mapped":1146,)"
       R"("landmarks_duplicated":1,"landmarks_missed":0,"landmarks_unmatched":2,)"
       R"("moving":{"moved":4,"moved_marked":3,"marked":2,"marked_moving":0,"recall":0.75,"precision":0.0},)"
       R"("landmark_pairs":1144,)"
@@ -66,6 +76,9 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
       R"("position_rmse_m":{"first_pose":0.75,"aligned":0.0625,"refitted_aligned":0.03125},)"
       R"("position_refitted_pairs":3797,"position_final_m":1.5,)"
       R"("rotation_rmse_deg":{"first_pose":2.5,"aligned":3.5},)"
+      R"("rpe":{"frame":{"translation_m":null,"rotation_deg":null},)"
+      R"("metre":{"translation_m":{"count":7,"rmse":4.0,"mean":3.0,"median":2.0,"max":5.0},"rotation_deg":null},)"
+      R"("second":{"translation_m":null,"rotation_deg":null}},)"
       R"("nees":{"landmarks":1.0000000000000002,"landmark_pairs":1,"poses":null,"pose_pairs":0},)"
       R"("planes":{"observations":90,"associations_none":5,"association_errors":6,"walls_true":12,)"
       R"("online":{"mapped":14,"walls_mapped":11,"walls_missing":1,"duplicated":2,"parts":4,"unmatched":3,)"
@@ -84,11 +97,12 @@ TEST(MetricsJson, IsTheDocumentedDocument) {
 TEST(MetricsJson, WhatIsUnknownIsNull) {
   const auto document = to_json(Metrics{});
   for (const std::string key :
-       {"association_errors", "landmarks_true", "landmarks_duplicated", "landmarks_missed",
-        "landmarks_unmatched", "moving", "position_final_m", "planes", "iteration_ms", "iteration_cpu_ms"}) {
+       {"verdict", "divergence", "association_errors", "associations_dropped", "landmarks_true",
+        "landmarks_duplicated", "landmarks_missed", "landmarks_unmatched", "moving", "position_final_m",
+        "planes", "iteration_ms", "iteration_cpu_ms"}) {
     EXPECT_TRUE(document.at(key).is_null()) << key;
   }
-  for (const std::string key : {"landmark_rmse_m", "position_rmse_m", "rotation_rmse_deg"}) {
+  for (const std::string key : {"coverage", "landmark_rmse_m", "position_rmse_m", "rotation_rmse_deg"}) {
     for (const auto& [frame, value] : document.at(key).items())
       EXPECT_TRUE(value.is_null()) << key << '.' << frame;
   }
@@ -98,7 +112,9 @@ TEST(MetricsJson, WhatOverflowedIsNull) {
   Metrics metrics;
   metrics.position_final_m = std::numeric_limits<double>::infinity();
   metrics.landmark_rmse_m.aligned = std::numeric_limits<double>::quiet_NaN();
+  metrics.rpe_frame.translation_m = ErrorStatistics{.count = 1, .rmse = metrics.position_final_m.value()};
   const auto document = to_json(metrics);
+  EXPECT_TRUE(document.at("rpe").at("frame").at("translation_m").at("rmse").is_null());
   EXPECT_TRUE(document.at("position_final_m").is_null());
   EXPECT_TRUE(document.at("landmark_rmse_m").at("aligned").is_null());
 }

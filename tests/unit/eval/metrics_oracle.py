@@ -7,7 +7,7 @@ RUN.json holds what the evaluator was given:
   iterations: [{truth, estimate: [x, y, z, qw, qx, qy, qz] or null, t_s, map_epoch: number or null, covariance: 6x6 or null,
     associations, identities: [id or -1], points: [[x, y, z]], wall_ms, cpu_ms}]
   joined: [[epoch, into]]
-  landmarks: {id: [x, y, z]} or null, has_identities: bool
+  landmarks: {id: [x, y, z]} or null, has_identities: bool, noise_m
   online, refined: [{id, position, observations, status, covariance: 3x3 or null}] (refined may be null)
 """
 import json
@@ -263,7 +263,7 @@ def score_parts(run, parts, result):
                       (n - 1 - scored[-1] if scored else n - 1) * 10 >= n)
     pairs = pairs_of(run, parts, parts["scored"])
     truth, estimate = poses_of(pairs, "truth"), poses_of(pairs, "estimate")
-    found = paths.divergence(truth, estimate, True)
+    found = paths.divergence(truth, estimate, True, noise_m=run["noise_m"])
     if found is None:
         result["verdict"] = "lost" if lost else None
     else:

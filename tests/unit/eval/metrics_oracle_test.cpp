@@ -56,6 +56,7 @@ class RunMaker {
     RandomRun run;
     landmarks_ = 1 + below(30);
     run.truth.has_identities = !chance(0.15);
+    if (chance(0.3)) run.truth.noise_m = 0.2 * next();
     if (!chance(0.15)) run.truth.landmarks = true_landmarks();
     const std::uint32_t iterations = below(40);  // 0 to 2 of them among others
     const bool starts_over = chance(0.4);
@@ -222,6 +223,7 @@ Json to_json(const RandomRun& run) {
   }
   document["online"] = to_json(run.online);
   document["refined"] = run.refined ? to_json(*run.refined) : Json(nullptr);
+  document["noise_m"] = run.truth.noise_m;
   document["joined"] = Json::array();
   for (const JoinedEpoch& row : run.joined) document["joined"].push_back({row.epoch, row.into});
   document["iterations"] = Json::array();

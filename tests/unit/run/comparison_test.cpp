@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Pictures of runs that went wrong, alone and beside others.
+#include "run/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "render/colour.hpp"
+#include "run/epoch_table.hpp"
+#include "run/picture_frame.hpp"
+#include "run/pictures.hpp"
+#include "support/temp_folder.hpp"
+
+namespace hallway::run {
+namespace {
+
+/// A path along x of 40 m among landmarks, and an estimate that flies off from half way on.
+Record record_of(double flight_m) {
+  Record record;
+  record.run = {{"name", "r"}};
+  record.metrics = {{"iterations", 40}};
+  for (int i = 0; i <= 40; ++i) {
+    const double away = i < 20 ? 0.0 : flight_m * (i - 20) / 20.0;
+    record.truth.push_back({.t_s = 1.0 * i, .position_m = {1.0 * i, std::sin(0.3 * i), 0}});
+    record.trajectory.push_back({.t_s = 1.0 * i, .position_m = {1.0 * i, std::sin(0.3 * i) + away, 0}});
+  }
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    const double x = 5.0 * static_cast<double>(i), y = i % 2 == 0 ? 6.0 : -6.0;
+    record.true_landmarks.push_back({.id = i, .position_m = {x, y, 0}});
+    record.landmarks.push_back(
+        {.id = i, .position_m = {x + 0.02, y + 0.03 * static_cast<double>(i % 3), 0}, .observations = 9});
+    record.matches.push_back({i, i});
+  }
+  return record;
+}
+
+sim::PictureSpec small() {
+  sim::PictureSpec spec;
+  spec.show = {sim::PictureLayer::kTruth, sim::PictureLayer::kEstimate, sim::PictureLayer::kLandmarks,
+               sim::PictureLayer::kErrors};
+  spec.width_px = 600;
+  spec.height_px = 400;
+  return spec;
+}
+
+Box extent_of_lines(const render::Picture& picture) {
+  Box box;
+  for (const render::Polyline& line : picture.polylines) {
+    for (const Vec3& point : line.points) {
+      if (point.allFinite()) box.extend(point);
+    }
+  }
+  return box;
+}
+
+TEST(RunPicture, ADivergedPathDoesNotShrinkTheMap) {
+  const Record good = record_of(0.0), bad = record_of(5000.0);
+  const Box frame = frame_of(bad, {});
+  const render::Picture picture = compose_picture(bad, small());
+  for (const render::Polyline& line : picture.polylines) {
+    for (const Vec3& point : line.points) {
+      if (!point.allFinite()) continue;
+      EXPECT_LT(frame.exteriorDistance(point), 1e-6);
+    }
+  }
+  EXPECT_LT(extent_of_lines(picture).diagonal().norm(),
+            1.5 * extent_of_lines(compose_picture(good, small())).diagonal().norm());
+  bool told = false;
+  for (const render::Polyline& line : picture.polylines)
+    told = told || line.label.find("poses outside the picture") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+TEST(RunPicture, AnErrorScaleIsTakenAsGiven) {
+  const render::Picture picture = compose_picture(record_of(0.0), small(), {}, render::Faces::kAll, 10.0);
+  bool found = false;
+  for (const render::Segments& segments : picture.segments)
+    found = found || segments.label == "landmark error × 10";
+  EXPECT_TRUE(found);
+}
+
+/// The pixels of a colour in a part of an image.
+std::size_t pixels_of(const render::Image& image, render::Rgb colour, int left, int right) {
+  std::size_t count = 0;
+  for (int y = 0; y < image.height_px; ++y) {
+    for (int x = left; x < right; ++x) {
+      const render::Rgb p = image.at(x, y);
+      count += p.r == colour.r && p.g == colour.g && p.b == colour.b ? 1u : 0u;
+    }
+  }
+  return count;
+}
+
+TEST(Comparison, EveryPanelShowsTheTruthAtOneScale) {
+  const Record good = record_of(0.0), bad = record_of(5000.0);
+  const render::Image image = draw_comparison({{"good", good}, {"bad", bad}}, small());
+  ASSERT_EQ(image.width_px, 1200);
+  ASSERT_EQ(image.height_px, 400);
+  const std::size_t left = pixels_of(image, render::palette::kTruth, 0, 600);
+  const std::size_t right = pixels_of(image, render::palette::kTruth, 600, 1200);
+  EXPECT_GT(left, 500u);
+  // The true path is as long in both; the estimate covers it in the first.
+  EXPECT_GT(static_cast<double>(right), 0.9 * static_cast<double>(left));
+}
+
+TEST(Comparison, ManyRunsHaveSmallerPanels) {
+  const Record record = record_of(0.0);
+  const std::vector<Compared> runs(7, Compared{"run", record});
+  const render::Image image = draw_comparison(runs, small());
+  EXPECT_EQ(image.width_px, 1200);
+  EXPECT_EQ(image.height_px, 3 * 266);
+}
+
+TEST(Comparison, MoreThanAPictureHoldsIsAnError) {
+  const Record record = record_of(0.0);
+  sim::PictureSpec spec = small();
+  spec.width_px = 12000;
+  spec.height_px = 8000;
+  EXPECT_THROW(draw_comparison({{"a", record}, {"b", record}}, spec), Error);
+}
+
+TEST(EpochTable, KeepsThePartWithTheMostPoses) {
+  const test::TempFolder folder;
+  folder.write("map_epochs.csv", "iteration,map_epoch\n0,0\n1,0\n2,4\n4,4\n5,4\n");
+  std::vector<log::StampedPose> trajectory(5);
+  for (std::size_t i = 0; i < 5; ++i) trajectory[i].t_s = static_cast<double>(i);
+  EXPECT_EQ(keep_scored_part(folder.path(), trajectory), 2u);
+  ASSERT_EQ(trajectory.size(), 3u);
+  EXPECT_EQ(trajectory.front().t_s, 2.0);
+  EXPECT_THROW(keep_scored_part(folder.path(), trajectory), Error) << "another trajectory";
+  const test::TempFolder without;
+  EXPECT_EQ(keep_scored_part(without.path(), trajectory), 0u);
+}
+
+}  // namespace
+}  // namespace hallway::run
