@@ -11,6 +11,7 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "renderer_option.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -22,12 +23,14 @@ struct BatchOptions {
   std::string plan;
   std::string out;
   unsigned jobs = 1;
+  std::optional<std::string> renderer;
   bool resume = false;
   bool json = false;
   bool quiet = false;
 };
 
 int run_batch(const BatchOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   const batch::Plan plan = batch::read_plan(options.plan);
   const fs::path folder =
       options.out.empty() ? fs::path("out") / fs::path(options.plan).stem() : fs::path(options.out);
@@ -38,6 +41,7 @@ int run_batch(const BatchOptions& options) {
                               .folder = folder,
                               .jobs = options.jobs,
                               .resume = options.resume,
+                              .environment = renderer_environment(renderer),
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   const std::vector<std::string> violations = batch::violations(results, plan.thresholds);
@@ -77,6 +81,7 @@ void add_batch_command(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
+  add_renderer_option(*command, options->renderer);
   command->add_flag(
       "--resume", options->resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");

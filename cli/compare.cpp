@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "plugin_sweep.hpp"
+#include "renderer_option.hpp"
 #include "run/pictures.hpp"
 
 namespace hallway::cli {
@@ -27,6 +28,7 @@ struct CompareOptions {
   std::optional<std::uint32_t> steps;
   std::string out;
   std::string view = "top";
+  std::optional<std::string> renderer;
   unsigned jobs = 1;
   bool json = false;
   bool quiet = false;
@@ -45,7 +47,7 @@ batch::Plan plan_of(const CompareOptions& options) {
 }
 
 /// The picture of all runs that left something. @return its file, empty where there was nothing to draw
-fs::path draw(const CompareOptions& options, const fs::path& folder,
+fs::path draw(const CompareOptions& options, render::Renderer renderer, const fs::path& folder,
               const std::vector<batch::Result>& results) {
   std::vector<std::unique_ptr<run::Record>> records;
   std::vector<run::Compared> runs;
@@ -61,11 +63,13 @@ fs::path draw(const CompareOptions& options, const fs::path& folder,
   spec.show = {sim::PictureLayer::kMap, sim::PictureLayer::kTruth, sim::PictureLayer::kEstimate,
                sim::PictureLayer::kLandmarks};
   const fs::path file = folder / "comparison.png";
-  write_file_atomically(file, run::draw_comparison(runs, spec));
+  write_file_atomically(file, run::draw_comparison(runs, spec, renderer));
   return file;
 }
 
 int compare(const CompareOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
+  render::demand(renderer);
   const batch::Plan plan = plan_of(options);
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / (fs::path(options.input).stem().string() + "-compared")
@@ -76,12 +80,13 @@ int compare(const CompareOptions& options) {
       batch::run_cells(plan, {.program = fs::read_symlink("/proc/self/exe"),
                               .folder = folder,
                               .jobs = options.jobs,
+                              .environment = renderer_environment(renderer),
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   if (results.size() < plan.cells.size()) return interrupt_status();
   fs::path picture;
   try {
-    picture = draw(options, folder, results);
+    picture = draw(options, renderer, folder, results);
   } catch (const Error& error) {  // what the runs came to is worth more than their picture
     print_warning(std::string("no picture: ") + error.what());
   }
@@ -131,6 +136,7 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   command->add_option("--view", options->view, "Of the picture")
       ->check(CLI::IsMember({"top", "perspective"}))
       ->capture_default_str();
+  add_renderer_option(*command, options->renderer);
   command->add_option("--jobs", options->jobs, "How many runs at a time; times are fair with 1")
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u))

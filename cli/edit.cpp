@@ -19,6 +19,7 @@
 #include "editor/complete.hpp"
 #include "editor/help.hpp"
 #include "editor/session.hpp"
+#include "renderer_option.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -33,6 +34,7 @@ struct EditOptions {
   std::string map;
   std::string script;
   std::vector<std::string> words;
+  std::optional<std::string> renderer;
   bool keep_going = false;
   bool candidates = false;
   bool json = false;
@@ -174,7 +176,9 @@ int edit(EditOptions options) {
   if (!options.words.empty() && options.words[0] == "recover") return recover_map(options);
   if (!fs::path(options.map).has_filename() || fs::is_directory(options.map))
     throw Error(ErrorCode::kUsage, "a map is a file", {printable(options.map), 0, {}});
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   Session session(options.map);
+  session.set_renderer(renderer);
   show_notes(session);
   if (!options.words.empty()) return run_one(session, options);
   if (!options.script.empty())
@@ -199,6 +203,7 @@ void add_edit_command(CLI::App& app, Action& chosen) {
       ->type_name("SCRIPT");
   command->add_flag("--keep-going", options->keep_going,
                     "With -f: each line counts for itself, and one that fails is passed over");
+  add_renderer_option(*command, options->renderer);
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--candidates", options->candidates, "Print what the last word may become (for shells)");
   command

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
+#include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 #include "show_list.hpp"
@@ -28,6 +29,7 @@ struct RenderOptions {
   std::string eye;
   std::string target;
   std::vector<std::string> show;
+  std::optional<std::string> renderer;
   bool strict = false;
   bool json = false;
 };
@@ -69,37 +71,44 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   return spec;
 }
 
-std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
+/// What is drawn, and how.
+struct Drawing {
+  sim::PictureSpec spec;
+  ShowList show;
+  render::Renderer renderer;
+};
+
+std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
   MapRequest request{.file = options.input, .strict = options.strict};
-  if (show.map.pvs_from_m) request.level = pvs::Level::kFull;
+  if (drawing.show.map.pvs_from_m) request.level = pvs::Level::kFull;
   CompiledMap compiled = compile_map(request);
   std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
   const run::MapSubject subject{
       .world = compiled.world, .title = fs::path(options.input).stem().string(), .meshes = std::move(meshes)};
-  return run::draw_map_picture(subject, spec, show.map);
+  return run::draw_map_picture(subject, drawing.spec, drawing.show.map, drawing.renderer);
 }
 
-std::string draw_run(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
+std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
   run::Record record = run::read_record(options.input);
-  if (show.map.anything() && !record.world) {
+  if (drawing.show.map.anything() && !record.world) {
     throw Error(ErrorCode::kBadInput, "has no map to show", {.file = printable(options.input, 4096)});
   }
-  if (show.map.pvs_from_m) {
+  if (drawing.show.map.pvs_from_m) {
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
-  return run::draw_run_picture(record, spec, show.map);
+  return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.renderer);
 }
 
 int render(const RenderOptions& options) {
-  const ShowList show = parse_show(options.show);
-  sim::PictureSpec spec = spec_of(options);
-  spec.show = show.run;
+  Drawing drawing{spec_of(options), parse_show(options.show), chosen_renderer(options.renderer)};
+  sim::PictureSpec& spec = drawing.spec;
+  spec.show = drawing.show.run;
   check_output_file(options.out);
   std::error_code code;
   const bool is_run = fs::is_directory(options.input, code);
   if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");
-  const std::string png = is_run ? draw_run(options, spec, show) : draw_map(options, spec, show);
+  const std::string png = is_run ? draw_run(options, drawing) : draw_map(options, drawing);
   write_file_atomically(options.out, png);
   if (options.json) {
     print_json({{"schema", "hallway.picture/1"},
@@ -145,6 +154,7 @@ void add_render_command(CLI::App& app, Action& chosen) {
       ->type_name("LAYER,...")
       ->take_all()
       ->expected(1);
+  add_renderer_option(*command, options->renderer);
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(

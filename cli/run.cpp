@@ -13,6 +13,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
+#include "renderer_option.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
@@ -35,6 +36,7 @@ struct RunOptions {
   std::vector<std::string> plugin_path;
   unsigned threads = hardware_threads();
   IsolationOptions isolation;
+  std::optional<std::string> renderer;
   bool strict = false;
   bool foxglove = false;
   bool force = false;
@@ -53,6 +55,7 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
 }
 
 int run_scenario(const RunOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   const sim::Scenario scenario = sim::load_scenario(options.scenario, overrides_of(options));
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
   const std::vector<std::string> warnings = take_warnings(simulator, options.strict);
@@ -84,6 +87,7 @@ int run_scenario(const RunOptions& options) {
                     .attachments = {{run::files::kScenario, facts.inputs[0].content},
                                     {run::files::kMap, facts.inputs[1].content}},
                     .pictures = scenario.pictures,
+                    .renderer = renderer,
                     .write_observations = true,
                     .lock_step = true,
                     .on_failure = scenario.limits.on_failure,
@@ -126,6 +130,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u));
   add_isolation_options(*command, options->isolation);
+  add_renderer_option(*command, options->renderer);
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--foxglove", options->foxglove,
                     "Add channels to run.mcap that show the run in Foxglove");
@@ -133,6 +138,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_flag("--json", options->json, "Print one JSON document");
   command->add_flag("--quiet", options->quiet, "Print no progress and no table");
   command->footer(
+      "Without a renderer everything is written but the pictures of maps, which a warning and the JSON "
+      "document "
+      "name; the status is that of the run. A renderer that is named has to be there.\n"
       "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.05 --out out/noisy");
   command->callback([&chosen, options] { chosen = [options] { return run_scenario(*options); }; });
 }

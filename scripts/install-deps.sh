@@ -24,7 +24,7 @@ packages=(
   # build
   cmake g++ clang libclang-rt-14-dev make ninja-build pkg-config
   # libraries
-  libassimp-dev libedit-dev libeigen3-dev libembree-dev libgmp-dev libmuparser-dev libosmesa6-dev libprotobuf-dev libtbb-dev libtinygltf-dev libcli11-dev libfmt-dev libtomlplusplus-dev
+  libassimp-dev libedit-dev libeigen3-dev libembree-dev libgmp-dev libmuparser-dev libegl-dev libosmesa6 libgl1-mesa-dri libprotobuf-dev libtbb-dev libtinygltf-dev libcli11-dev libfmt-dev libtomlplusplus-dev
   nlohmann-json3-dev libpng-dev libstb-dev libxxhash-dev libzstd-dev protobuf-compiler zlib1g-dev fonts-dejavu-core
   # tests and benchmarks
   libgtest-dev libbenchmark-dev python3 python3-numpy binutils

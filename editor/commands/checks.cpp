@@ -155,7 +155,7 @@ std::string picture_of(const Edit& edit, const sim::PictureSpec& spec, const run
       .world = world,
       .title = fs::path(edit.file).stem().string(),
       .meshes = run::model_faces(document, fs::path(edit.file).parent_path(), faults)};
-  return run::draw_map_picture(subject, spec, view);
+  return run::draw_map_picture(subject, spec, view, edit.renderer);
 }
 
 void show_leak(Edit& edit, const Arguments& arguments) {

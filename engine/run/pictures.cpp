@@ -112,7 +112,7 @@ std::string walls_text(const nlohmann::ordered_json& metrics) {
 
 std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
-  std::string text = fmt::format("{} iterations", metrics.value("iterations", 0));
+  std::string text = fmt::format("{} iterations", record.run.value("iterations", 0));
   const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
   if (mapped.is_number() && mapped.get<std::uint64_t>() > 0)
     text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
@@ -139,18 +139,19 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan) {
+render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer) {
   render::View view;
   view.kind =
       spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
   view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
+  view.renderer = renderer;
   return view;
 }
 
-std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan) {
-  return render::encode_png(render::draw(picture, view_of(spec, plan), spec.width_px, spec.height_px));
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::View& view) {
+  return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
 std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
@@ -262,23 +263,25 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   return picture;
 }
 
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
-  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
+                             render::Renderer renderer) {
+  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec, renderer));
   const render::Plan plan =
       record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan);
+  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, view_of(spec, plan, renderer));
 }
 
-std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec) {
+std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
+                            render::Renderer renderer) {
   const Record& first = runs.front().record;
   const render::Plan plan = first.world ? plan_for(*first.world, spec, {}) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_comparison(runs, spec, plan.faces), spec, plan);
+  return draw_png(compose_comparison(runs, spec, plan.faces), spec, view_of(spec, plan, renderer));
 }
 
-std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
-                             const MapView& map_view) {
+std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,
+                             render::Renderer renderer) {
   const render::Plan plan = plan_for(subject.world, spec, map_view);
-  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan);
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, view_of(spec, plan, renderer));
 }
 
 }  // namespace hallway::run

@@ -6,6 +6,7 @@
 
 #include "render/image.hpp"
 #include "render/picture.hpp"
+#include "render/renderer.hpp"
 #include "run/map_view.hpp"
 #include "run/record.hpp"
 #include "sim/scenario.hpp"
@@ -42,14 +43,17 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 
 /// Draws and encodes a picture of a run; opens closed buildings in a top view unless the picture's description says how.
 /// @return the bytes of a PNG file
-std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
-                             const MapView& map_view = {});
+/// Throws render::NoRenderer where there are faces to draw and this machine does not have the renderer.
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {},
+                             render::Renderer renderer = render::Renderer::kAuto);
 
 /// The same for several runs.
-std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec);
+std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
+                            render::Renderer renderer = render::Renderer::kAuto);
 
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
-                             const MapView& map_view = {});
+                             const MapView& map_view = {},
+                             render::Renderer renderer = render::Renderer::kAuto);
 
 }  // namespace hallway::run
