@@ -63,7 +63,7 @@ fs::path draw(const CompareOptions& options, render::Renderer renderer, const fs
   spec.show = {sim::PictureLayer::kMap, sim::PictureLayer::kTruth, sim::PictureLayer::kEstimate,
                sim::PictureLayer::kLandmarks};
   const fs::path file = folder / "comparison.png";
-  write_file_atomically(file, run::draw_comparison(runs, spec, renderer));
+  write_file_atomically(file, run::draw_comparison(runs, spec, {.renderer = renderer}));
   return file;
 }
 

@@ -36,9 +36,12 @@ void write_outputs(const LeakOptions& options, render::Renderer renderer, Compil
   }
   if (options.picture.empty()) return;
   std::vector<render::Surface> meshes = model_faces(compiled, false);
-  const run::MapSubject subject{
-      .world = world, .title = fs::path(options.map).stem().string(), .meshes = std::move(meshes)};
-  write_file_atomically(options.picture, run::draw_map_picture(subject, {}, {.leak = true}, renderer));
+  const run::MapSubject subject{.world = world,
+                                .title = fs::path(options.map).stem().string(),
+                                .meshes = std::move(meshes),
+                                .document = &compiled.document};
+  write_file_atomically(options.picture,
+                        run::draw_map_picture(subject, {}, {.leak = true}, {.renderer = renderer}));
 }
 
 std::string text_of(const LeakOptions& options, const world::CompiledWorld& world) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "base/error.hpp"
@@ -28,7 +30,10 @@ struct RenderOptions {
   std::optional<double> cut_z_m;
   std::string eye;
   std::string target;
+  std::string area;
+  std::optional<double> fov_deg;
   std::vector<std::string> show;
+  std::vector<std::string> hide;
   std::optional<std::string> renderer;
   bool strict = false;
   bool json = false;
@@ -71,11 +76,41 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   return spec;
 }
 
+/// X0,Y0,X1,Y1: two opposite corners.
+Eigen::AlignedBox2d parse_area(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string_view part : split(text, ',')) {
+    const auto number = parse_double(trim(part));
+    if (number && std::isfinite(*number)) numbers.push_back(*number);
+  }
+  Eigen::AlignedBox2d area;
+  if (numbers.size() == 4 && split(text, ',').size() == 4) {
+    area.extend(Vec2(numbers[0], numbers[1]));
+    area.extend(Vec2(numbers[2], numbers[3]));
+  }
+  if (area.isEmpty() || !(area.sizes().minCoeff() > 0.0))
+    refuse(fmt::format("--area takes X0,Y0,X1,Y1, two corners in metres, not \"{}\"", printable(text)));
+  return area;
+}
+
+run::DrawOptions draw_options_of(const RenderOptions& options) {
+  run::DrawOptions drawn{.renderer = chosen_renderer(options.renderer)};
+  if (!options.area.empty()) {
+    if (options.view != "top") refuse("--area belongs to --view top");
+    drawn.area = parse_area(options.area);
+  }
+  if (options.fov_deg) {
+    if (options.view != "perspective") refuse("--fov belongs to --view perspective");
+    drawn.vertical_fov = *options.fov_deg * std::numbers::pi / 180.0;
+  }
+  return drawn;
+}
+
 /// What is drawn, and how.
 struct Drawing {
   sim::PictureSpec spec;
   ShowList show;
-  render::Renderer renderer;
+  run::DrawOptions options;
 };
 
 std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
@@ -83,12 +118,17 @@ std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
   if (drawing.show.map.pvs_from_m) request.level = pvs::Level::kFull;
   CompiledMap compiled = compile_map(request);
   std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
-  const run::MapSubject subject{
-      .world = compiled.world, .title = fs::path(options.input).stem().string(), .meshes = std::move(meshes)};
-  return run::draw_map_picture(subject, drawing.spec, drawing.show.map, drawing.renderer);
+  const run::MapSubject subject{.world = compiled.world,
+                                .title = fs::path(options.input).stem().string(),
+                                .meshes = std::move(meshes),
+                                .document = &compiled.document,
+                                .things = drawing.show.things};
+  return run::draw_map_picture(subject, drawing.spec, drawing.show.map, drawing.options);
 }
 
 std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
+  if (!drawing.show.thing.empty())
+    refuse(fmt::format("--show {} is of a map, not of the folder of a run", drawing.show.thing));
   run::Record record = run::read_record(options.input);
   if (drawing.show.map.anything() && !record.world) {
     throw Error(ErrorCode::kBadInput, "has no map to show", {.file = printable(options.input, 4096)});
@@ -97,11 +137,11 @@ std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
-  return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.renderer);
+  return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.options);
 }
 
 int render(const RenderOptions& options) {
-  Drawing drawing{spec_of(options), parse_show(options.show), chosen_renderer(options.renderer)};
+  Drawing drawing{spec_of(options), parse_show(options.show, options.hide), draw_options_of(options)};
   sim::PictureSpec& spec = drawing.spec;
   spec.show = drawing.show.run;
   check_output_file(options.out);
@@ -148,9 +188,22 @@ void add_render_command(CLI::App& app, Action& chosen) {
       ->type_name("X,Y,Z");
   command->add_option("--target", options->target, "perspective: the place looked at")->type_name("X,Y,Z");
   command
-      ->add_option(
-          "--show", options->show,
-          "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
+      ->add_option("--fov", options->fov_deg,
+                   "perspective: angle from the lower to the upper edge, degrees [34.4]")
+      ->type_name("DEG")
+      ->check(CLI::Range(1.0, 170.0));
+  command
+      ->add_option("--area", options->area, "top: the ground to show, by two corners in metres [everything]")
+      ->type_name("X0,Y0,X1,Y1");
+  command
+      ->add_option("--show", options->show,
+                   "Show more. Of a run: " + run_layer_names() + " [all but submaps]. Of a map alone: " +
+                       thing_layer_names() + " [all]. Of the map of either: " + map_layer_names() + " [none]")
+      ->type_name("LAYER,...")
+      ->take_all()
+      ->expected(1);
+  command
+      ->add_option("--hide", options->hide, "Show less: layers as of --show, or all; --show counts after it")
       ->type_name("LAYER,...")
       ->take_all()
       ->expected(1);
@@ -158,7 +211,7 @@ void add_render_command(CLI::App& app, Action& chosen) {
   command->add_flag("--strict", options->strict, "Refuse a map with brushes that are no solids");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->footer(
-      "Examples: hallway render out/office --view perspective --out office.png --show map,truth,estimate\n"
+      "Examples: hallway render out/office --view perspective --out office.png --hide errors\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
   command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
 }

@@ -31,7 +31,7 @@ GlLibrary::GlLibrary(const GlLibraryNames& names) : names_(names) {
     }
     problems += other_problem(file);
   }
-  throw NoRenderer(fmt::format("{} is not installed: tried {} ({}){}", names_.renderer,
+  throw NoRenderer(fmt::format("{} is not available: tried {} ({}){}", names_.renderer,
                                fmt::join(names_.files, ", "), names_.packages, problems));
 }
 

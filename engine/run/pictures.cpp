@@ -139,18 +139,29 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer) {
+render::View view_of(const sim::PictureSpec& spec, const render::Plan& plan, const DrawOptions& options) {
   render::View view;
   view.kind =
       spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
   view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
-  view.renderer = renderer;
+  view.renderer = options.renderer;
+  if (options.vertical_fov) view.vertical_fov = *options.vertical_fov;
   return view;
 }
 
-std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::View& view) {
+/// Shows all of an area in the picture's map area, and more where the two differ in shape.
+render::Crop crop_to(const Eigen::AlignedBox2d& area, const render::PixelRect& pixels) {
+  const double shape = static_cast<double>(pixels.width()) / std::max(1, pixels.height());
+  return {area.center(), std::max(area.sizes().x(), area.sizes().y() * shape)};
+}
+
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan,
+                     const DrawOptions& options) {
+  render::View view = view_of(spec, plan, options);
+  if (options.area && view.kind == render::ViewKind::kTop)
+    view.crop = crop_to(*options.area, render::map_area(picture, spec.width_px, spec.height_px));
   return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
@@ -260,28 +271,30 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   if (!map_view.wireframe) {
     picture.surfaces.insert(picture.surfaces.end(), subject.meshes.begin(), subject.meshes.end());
   }
+  if (subject.document != nullptr) add_map_things(picture, *subject.document, subject.world, subject.things);
   return picture;
 }
 
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
-                             render::Renderer renderer) {
-  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec, renderer));
+                             const DrawOptions& options) {
+  if (spec.view == sim::PictureView::kPanels)
+    return render::encode_png(draw_panels(record, spec, options.renderer));
   const render::Plan plan =
       record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, view_of(spec, plan, renderer));
+  return draw_png(compose_picture(record, spec, map_view, plan.faces), spec, plan, options);
 }
 
 std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
-                            render::Renderer renderer) {
+                            const DrawOptions& options) {
   const Record& first = runs.front().record;
   const render::Plan plan = first.world ? plan_for(*first.world, spec, {}) : render::Plan{{}, spec.cut_z_m};
-  return draw_png(compose_comparison(runs, spec, plan.faces), spec, view_of(spec, plan, renderer));
+  return draw_png(compose_comparison(runs, spec, plan.faces), spec, plan, options);
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,
-                             render::Renderer renderer) {
+                             const DrawOptions& options) {
   const render::Plan plan = plan_for(subject.world, spec, map_view);
-  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, view_of(spec, plan, renderer));
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan, options);
 }
 
 }  // namespace hallway::run

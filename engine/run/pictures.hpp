@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/image.hpp"
 #include "render/picture.hpp"
 #include "render/renderer.hpp"
+#include "run/map_things.hpp"
 #include "run/map_view.hpp"
 #include "run/record.hpp"
 #include "sim/scenario.hpp"
@@ -34,8 +37,18 @@ render::Picture compose_comparison(const std::vector<Compared>& runs, const sim:
 /// A map alone, and what is drawn over it.
 struct MapSubject {
   const world::CompiledWorld& world;
-  std::string title{};                    ///< e.g. the map's name
-  std::vector<render::Surface> meshes{};  ///< drawn with the map's own faces
+  std::string title{};                      ///< e.g. the map's name
+  std::vector<render::Surface> meshes{};    ///< drawn with the map's own faces
+  const map::Document* document = nullptr;  ///< that was compiled; null: no `things` are shown
+  MapThings things{};
+};
+
+/// How a picture is drawn, beside what its description says.
+struct DrawOptions {
+  render::Renderer renderer = render::Renderer::kAuto;
+  std::optional<Eigen::AlignedBox2d>
+      area{};  ///< top view: this ground, metres, as large as fits; else all content
+  std::optional<double> vertical_fov{};  ///< perspective: full angle over the height of the map area, rad
 };
 
 /// A picture of a map.
@@ -45,15 +58,14 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 /// @return the bytes of a PNG file
 /// Throws render::NoRenderer where there are faces to draw and this machine does not have the renderer.
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {},
-                             render::Renderer renderer = render::Renderer::kAuto);
+                             const DrawOptions& options = {});
 
 /// The same for several runs.
 std::string draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
-                            render::Renderer renderer = render::Renderer::kAuto);
+                            const DrawOptions& options = {});
 
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
-                             const MapView& map_view = {},
-                             render::Renderer renderer = render::Renderer::kAuto);
+                             const MapView& map_view = {}, const DrawOptions& options = {});
 
 }  // namespace hallway::run

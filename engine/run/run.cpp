@@ -208,7 +208,7 @@ std::map<std::string, std::string> draw_pictures(const record::OutputFolder& out
   const Record record = read_record(output.working_path());
   for (const sim::PictureSpec& picture : plan.pictures) {
     try {
-      pictures[picture.file] = draw_run_picture(record, picture, {}, plan.renderer);
+      pictures[picture.file] = draw_run_picture(record, picture, {}, {.renderer = plan.renderer});
     } catch (const render::NoRenderer& missing) {
       result.missing_pictures.push_back({picture.file, missing.message()});
       continue;
