@@ -13,6 +13,7 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "shared_options.hpp"
 
@@ -26,6 +27,7 @@ struct BatchOptions {
   std::string plan;
   std::string out;
   unsigned jobs = 1;
+  std::optional<std::string> renderer;
   bool resume = false;
   bool json = false;
   bool quiet = false;
@@ -52,6 +54,7 @@ void share_error_scale(const batch::Plan& plan, const batch::RunnerSetup& setup,
 }
 
 int run_batch(const BatchOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   const batch::Plan plan = batch::read_plan(options.plan);
   const fs::path folder =
       options.out.empty() ? fs::path("out") / fs::path(options.plan).stem() : fs::path(options.out);
@@ -61,6 +64,7 @@ int run_batch(const BatchOptions& options) {
                                  .folder = folder,
                                  .jobs = options.jobs,
                                  .resume = options.resume,
+                                 .environment = renderer_environment(renderer),
                                  .progress = [&](std::size_t done) { progress.update(done); },
                                  .stop = interrupted};
   const std::vector<batch::Result> results = batch::run_cells(plan, setup);
@@ -100,6 +104,7 @@ void add_batch_command(Command& app) {
   command.argument("plan", &options->plan, "What to run (docs/formats.md, Batches)").required().value("PLAN");
   add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<plan>");
   add_shared(command, Shared::kJobs, &options->jobs).show_default();
+  add_renderer_option(command, options->renderer);
   command.flag(
       "--resume", &options->resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");

@@ -15,6 +15,7 @@
 #include "plugin_argument.hpp"
 #include "plugin_sweep.hpp"
 #include "render/png.hpp"
+#include "renderer_option.hpp"
 #include "run/comparison.hpp"
 #include "shared_options.hpp"
 
@@ -36,6 +37,7 @@ struct CompareOptions {
   std::optional<unsigned> threads;
   IsolationOptions isolation;
   bool force = false;
+  std::optional<std::string> renderer;
   unsigned jobs = 1;
   bool json = false;
   bool quiet = false;
@@ -99,7 +101,7 @@ void check_out(const fs::path& folder, bool force) {
 }
 
 /// The picture of all runs that left something. @return its file, empty where there was nothing to draw
-fs::path draw(const CompareOptions& options, const fs::path& folder,
+fs::path draw(const CompareOptions& options, render::Renderer renderer, const fs::path& folder,
               const std::vector<batch::Result>& results) {
   std::vector<std::unique_ptr<run::Record>> records;
   std::vector<run::Compared> runs;
@@ -117,11 +119,13 @@ fs::path draw(const CompareOptions& options, const fs::path& folder,
   spec.width_px = 960;
   spec.height_px = 640;
   const fs::path file = folder / "comparison.png";
-  write_file_atomically(file, render::encode_png(run::draw_comparison(runs, spec)));
+  write_file_atomically(file, render::encode_png(run::draw_comparison(runs, spec, renderer)));
   return file;
 }
 
 int compare(const CompareOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
+  render::demand(renderer);
   const batch::Plan plan = plan_of(options);
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / (fs::path(options.input).stem().string() + "-compared")
@@ -133,12 +137,13 @@ int compare(const CompareOptions& options) {
       batch::run_cells(plan, {.program = fs::read_symlink("/proc/self/exe"),
                               .folder = folder,
                               .jobs = options.jobs,
+                              .environment = renderer_environment(renderer),
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   if (results.size() < plan.cells.size()) return interrupt_status();
   fs::path picture;
   try {
-    picture = draw(options, folder, results);
+    picture = draw(options, renderer, folder, results);
   } catch (const Error& error) {  // what the runs came to is worth more than their picture
     print_warning(std::string("no picture: ") + error.what());
   }
@@ -179,6 +184,7 @@ void add_compare_command(Command& app) {
   add_plugin_path_option(command, options->plugin_path);
   add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
   add_isolation_options(command, options->isolation);
+  add_renderer_option(command, options->renderer);
   add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);
   add_shared(command, Shared::kQuiet, &options->quiet);

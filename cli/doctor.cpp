@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "base/child.hpp"
@@ -22,6 +23,7 @@
 #include "render/draw.hpp"
 #include "render/gl_context.hpp"
 #include "render/png.hpp"
+#include "renderer_option.hpp"
 #include "run/manifest.hpp"
 #include "shared_options.hpp"
 #include "trace/scene.hpp"
@@ -35,6 +37,7 @@ using Json = nlohmann::ordered_json;
 struct DoctorOptions {
   std::vector<std::string> plugin_path;
   std::string picture;
+  std::optional<std::string> renderer;
   bool json = false;
 };
 
@@ -80,12 +83,6 @@ std::string gl_text(const render::GlContext& context, unsigned name) {
   return text != nullptr ? printable(reinterpret_cast<const char*>(text)) : "unknown";
 }
 
-void look_at_renderer(Check& result) {
-  constexpr unsigned kRenderer = 0x1F01, kVersion = 0x1F02;  // GL_RENDERER, GL_VERSION
-  const auto context = render::make_offscreen_context();
-  result.text = gl_text(*context, kRenderer) + ", " + gl_text(*context, kVersion);
-}
-
 /// A red square in the middle of the picture, seen from above.
 render::Picture test_picture() {
   render::Picture picture;
@@ -98,26 +95,54 @@ render::Picture test_picture() {
   return picture;
 }
 
-void look_at_picture(Check& result, const std::string& file) {
+render::Image draw_test_picture(render::Renderer renderer) {
   constexpr int kWidth = 320, kHeight = 240;
   const render::Picture picture = test_picture();
-  const render::View view{.crop = render::Crop{{0.5, 0.5}, 2.0}};
-  const render::Image image = render::draw(picture, view, kWidth, kHeight);
+  const render::View view{.crop = render::Crop{{0.5, 0.5}, 2.0}, .renderer = renderer};
+  render::Image image = render::draw(picture, view, kWidth, kHeight);
   const render::PixelRect area = render::map_area(picture, kWidth, kHeight);
   const render::Rgb middle = image.at((area.left + area.right) / 2, (area.top + area.bottom) / 2);
   const render::Rgb corner = image.at(area.left + 4, area.top + 4);
   const bool red = middle.r > 100 && middle.r > 2 * middle.g && middle.r > 2 * middle.b;
   if (!red || corner.g < 100) {
-    result.health = Health::kBroken;
-    result.text = fmt::format("a red square came out as ({}, {}, {}) on ({}, {}, {})", middle.r, middle.g,
-                              middle.b, corner.r, corner.g, corner.b);
-    return;
+    throw Error(ErrorCode::kInternal,
+                fmt::format("a red square came out as ({}, {}, {}) on ({}, {}, {})", middle.r, middle.g,
+                            middle.b, corner.r, corner.g, corner.b));
   }
-  result.text =
-      fmt::format("a red square of {} x {} pixels is where it should be", area.width() / 2, area.width() / 2);
-  if (file.empty()) return;
-  write_file_atomically(file, render::encode_png(image));
-  result.text += ", " + printable(file, 4096);
+  return image;
+}
+
+/// One renderer, by what it calls itself and what it draws.
+void look_at_renderer(Check& result, render::Renderer renderer) {
+  constexpr unsigned kRenderer = 0x1F01, kVersion = 0x1F02;  // GL_RENDERER, GL_VERSION
+  try {
+    {
+      const auto context = render::make_offscreen_context(renderer);
+      result.text = gl_text(*context, kRenderer) + ", " + gl_text(*context, kVersion);
+    }
+    draw_test_picture(renderer);
+  } catch (const render::NoRenderer& missing) {
+    result.health = Health::kLacking;
+    result.text = missing.cause();
+  }
+}
+
+/// Everything but pictures works without a renderer; one that is asked for by name is broken if it is not there.
+void look_at_picture(Check& result, render::Renderer renderer, const std::string& file) {
+  try {
+    const render::Image image = draw_test_picture(renderer);
+    result.text = fmt::format("a red square is where it should be, drawn by {}",
+                              renderer == render::Renderer::kAuto
+                                  ? "the first renderer that is ok"
+                                  : render::kRendererNames[static_cast<std::size_t>(renderer)]);
+    if (file.empty()) return;
+    write_file_atomically(file, render::encode_png(image));
+    result.text += ", " + printable(file, 4096);
+  } catch (const render::NoRenderer&) {
+    if (renderer != render::Renderer::kAuto) throw;
+    result.health = Health::kLacking;
+    result.text = "maps are not drawn, everything else works: no renderer is there";
+  }
 }
 
 void look_at_helpers(Check& result) {
@@ -161,11 +186,13 @@ void look_at_isolation(Check& result, const std::vector<fs::path>& folders) {
 
 std::vector<Check> examine(const DoctorOptions& options) {
   const std::vector<fs::path> folders = plugin_folders(options.plugin_path);
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   return {
       check("machine", look_at_machine),
       check("rays", [](Check& result) { result.text = trace::backend_description(trace::Backend::kEmbree); }),
-      check("renderer", look_at_renderer),
-      check("picture", [&](Check& result) { look_at_picture(result, options.picture); }),
+      check("osmesa", [](Check& result) { look_at_renderer(result, render::Renderer::kOsmesa); }),
+      check("egl", [](Check& result) { look_at_renderer(result, render::Renderer::kEgl); }),
+      check("picture", [&](Check& result) { look_at_picture(result, renderer, options.picture); }),
       check("helpers", look_at_helpers),
       check("plugins", [&](Check& result) { look_at_plugins(result, folders); }),
       check("isolation", [&](Check& result) { look_at_isolation(result, folders); })};
@@ -201,11 +228,15 @@ void add_doctor_command(Command& app) {
   const auto options = std::make_shared<DoctorOptions>();
   add_plugin_path_option(command, options->plugin_path);
   add_shared(command, Shared::kPicture, &options->picture);
+  add_renderer_option(command, options->renderer);
   add_shared(command, Shared::kJson, &options->json);
   command.footer(
-      "Draws a small picture, starts a plugin in a process of its own, and says what the kernel does not "
+      "Draws a small picture with each renderer, starts a plugin in a process of its own, and says what the "
+      "kernel does not "
       "provide to confine it.\n"
-      "Exit status: 0 all works (what is lacking is said); 1 something is broken.\n"
+      "Exit status: 0 all works, or something is lacking that not everyone needs, such as a renderer; 1 "
+      "something is "
+      "broken.\n"
       "Example: hallway doctor --picture test.png");
   command.action([options] { return doctor(*options); });
 }

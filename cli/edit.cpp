@@ -19,6 +19,7 @@
 #include "editor/complete.hpp"
 #include "editor/help.hpp"
 #include "editor/session.hpp"
+#include "renderer_option.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
@@ -34,6 +35,7 @@ struct EditOptions {
   std::string map;
   std::string script;
   std::vector<std::string> words;
+  std::optional<std::string> renderer;
   bool keep_going = false;
   bool json = false;
 };
@@ -171,7 +173,9 @@ int edit(EditOptions options) {
   if (!options.words.empty() && options.words[0] == "recover") return recover_map(options);
   if (!fs::path(options.map).has_filename() || fs::is_directory(options.map))
     throw Error(ErrorCode::kUsage, "a map is a file", {printable(options.map), 0, {}});
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   Session session(options.map);
+  session.set_renderer(renderer);
   show_notes(session);
   if (!options.words.empty()) return run_one(session, options);
   if (!options.script.empty())
@@ -194,6 +198,7 @@ void add_edit_command(Command& app) {
       .value("SCRIPT");
   command.flag("--keep-going", &options->keep_going,
                "With -f: each line counts for itself, and one that fails is passed over");
+  add_renderer_option(command, options->renderer);
   add_shared(command, Shared::kJson, &options->json);
   command.flag("--reference", reference.get(),
                "Print the table of commands, as docs/edit.md has it; with --json as data");

@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "leak_report.hpp"
 #include "map_command.hpp"
+#include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "shared_options.hpp"
 
@@ -24,10 +25,11 @@ struct LeakOptions {
   std::string map;
   std::string picture;
   std::string points;
+  std::optional<std::string> renderer;
   bool json = false;
 };
 
-void write_outputs(const LeakOptions& options, CompiledMap& compiled) {
+void write_outputs(const LeakOptions& options, render::Renderer renderer, CompiledMap& compiled) {
   const world::CompiledWorld& world = compiled.world;
   const auto& leak = world.partition.enclosure.leak;
   if (!options.points.empty() && leak) {
@@ -35,9 +37,12 @@ void write_outputs(const LeakOptions& options, CompiledMap& compiled) {
   }
   if (options.picture.empty()) return;
   std::vector<render::Surface> meshes = model_faces(compiled, false);
-  const run::MapSubject subject{
-      .world = world, .title = fs::path(options.map).stem().string(), .meshes = std::move(meshes)};
-  write_file_atomically(options.picture, run::draw_map_picture(subject, {}, {.leak = true}));
+  const run::MapSubject subject{.world = world,
+                                .title = fs::path(options.map).stem().string(),
+                                .meshes = std::move(meshes),
+                                .document = &compiled.document};
+  write_file_atomically(options.picture,
+                        run::draw_map_picture(subject, {}, {.leak = true}, {.renderer = renderer}));
 }
 
 std::string text_of(const LeakOptions& options, const world::CompiledWorld& world) {
@@ -49,12 +54,13 @@ std::string text_of(const LeakOptions& options, const world::CompiledWorld& worl
 }
 
 int leak(const LeakOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   for (const std::string& file : {options.picture, options.points}) {
     if (!file.empty()) check_output_file(file);
   }
   CompiledMap compiled = compile_map({.file = options.map});
   const world::CompiledWorld& world = compiled.world;
-  write_outputs(options, compiled);
+  write_outputs(options, renderer, compiled);
   const int status = world.sealed() ? 0 : 1;
   if (options.json) {
     print_json({{"schema", "hallway.leak/1"},
@@ -79,6 +85,7 @@ void add_map_leak_command(Command& group) {
   command.option("--pts", &options->points, "File to write the leak path to, as Quake editors read it")
       .value("FILE");
   add_shared(command, Shared::kJson, &options->json);
+  add_renderer_option(command, options->renderer);
   command.footer(
       "Status 1 if the map leaks, 0 if it is sealed.\n"
       "Example: hallway map leak maps/office.map --picture leak.png");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "base/error.hpp"
@@ -10,6 +12,7 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
+#include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 #include "shared_options.hpp"
@@ -28,8 +31,12 @@ struct RenderOptions {
   std::optional<double> cut_z_m;
   std::string eye;
   std::string target;
+  std::string area;
+  std::optional<double> fov_deg;
   std::vector<std::string> show;
+  std::vector<std::string> hide;
   std::optional<double> error_scale;
+  std::optional<std::string> renderer;
   bool strict = false;
   bool json = false;
 };
@@ -71,37 +78,79 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   return spec;
 }
 
-std::string draw_map(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
-  MapRequest request{.file = options.input, .strict = options.strict};
-  if (show.map.pvs_from_m) request.level = pvs::Level::kFull;
-  CompiledMap compiled = compile_map(request);
-  std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
-  const run::MapSubject subject{
-      .world = compiled.world, .title = fs::path(options.input).stem().string(), .meshes = std::move(meshes)};
-  return run::draw_map_picture(subject, spec, show.map);
+/// X0,Y0,X1,Y1: two opposite corners.
+Eigen::AlignedBox2d parse_area(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string_view part : split(text, ',')) {
+    const auto number = parse_double(trim(part));
+    if (number && std::isfinite(*number)) numbers.push_back(*number);
+  }
+  Eigen::AlignedBox2d area;
+  if (numbers.size() == 4 && split(text, ',').size() == 4) {
+    area.extend(Vec2(numbers[0], numbers[1]));
+    area.extend(Vec2(numbers[2], numbers[3]));
+  }
+  if (area.isEmpty() || !(area.sizes().minCoeff() > 0.0))
+    refuse(fmt::format("--area takes X0,Y0,X1,Y1, two corners in metres, not \"{}\"", printable(text)));
+  return area;
 }
 
-std::string draw_run(const RenderOptions& options, const sim::PictureSpec& spec, const ShowList& show) {
+run::DrawOptions draw_options_of(const RenderOptions& options) {
+  run::DrawOptions drawn{.renderer = chosen_renderer(options.renderer), .error_scale = options.error_scale};
+  if (!options.area.empty()) {
+    if (options.view != "top") refuse("--area belongs to --view top");
+    drawn.area = parse_area(options.area);
+  }
+  if (options.fov_deg) {
+    if (options.view != "perspective") refuse("--fov belongs to --view perspective");
+    drawn.vertical_fov = *options.fov_deg * std::numbers::pi / 180.0;
+  }
+  return drawn;
+}
+
+/// What is drawn, and how.
+struct Drawing {
+  sim::PictureSpec spec;
+  ShowList show;
+  run::DrawOptions options;
+};
+
+std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
+  MapRequest request{.file = options.input, .strict = options.strict};
+  if (drawing.show.map.pvs_from_m) request.level = pvs::Level::kFull;
+  CompiledMap compiled = compile_map(request);
+  std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
+  const run::MapSubject subject{.world = compiled.world,
+                                .title = fs::path(options.input).stem().string(),
+                                .meshes = std::move(meshes),
+                                .document = &compiled.document,
+                                .things = drawing.show.things};
+  return run::draw_map_picture(subject, drawing.spec, drawing.show.map, drawing.options);
+}
+
+std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
+  if (!drawing.show.thing.empty())
+    refuse(fmt::format("--show {} is of a map, not of the folder of a run", drawing.show.thing));
   run::Record record = run::read_record(options.input);
-  if (show.map.anything() && !record.world) {
+  if (drawing.show.map.anything() && !record.world) {
     throw Error(ErrorCode::kBadInput, "has no map to show", {.file = printable(options.input, 4096)});
   }
-  if (show.map.pvs_from_m) {
+  if (drawing.show.map.pvs_from_m) {
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
-  return run::draw_run_picture(record, spec, show.map, options.error_scale);
+  return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.options);
 }
 
 int render(const RenderOptions& options) {
-  const ShowList show = parse_show(options.show);
-  sim::PictureSpec spec = spec_of(options);
-  spec.show = show.run;
+  Drawing drawing{spec_of(options), parse_show(options.show, options.hide), draw_options_of(options)};
+  sim::PictureSpec& spec = drawing.spec;
+  spec.show = drawing.show.run;
   check_output_file(options.out);
   std::error_code code;
   const bool is_run = fs::is_directory(options.input, code);
   if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");
-  const std::string png = is_run ? draw_run(options, spec, show) : draw_map(options, spec, show);
+  const std::string png = is_run ? draw_run(options, drawing) : draw_map(options, drawing);
   write_file_atomically(options.out, png);
   if (options.json) {
     print_json({{"schema", "hallway.picture/1"},
@@ -132,8 +181,19 @@ void add_render_command(Command& app) {
       .value("X,Y,Z");
   command.option("--target", &options->target, "perspective: the place looked at").value("X,Y,Z");
   command
+      .option("--fov", &options->fov_deg,
+              "perspective: angle from the lower to the upper edge, degrees [34.4]")
+      .value("DEG")
+      .range(1.0, 170.0);
+  command.option("--area", &options->area, "top: the ground to show, by two corners in metres [everything]")
+      .value("X0,Y0,X1,Y1");
+  command
       .option("--show", &options->show,
-              "What to show. Of a run [all]: " + run_layer_names() + ". Of the map: " + map_layer_names())
+              "Show more. Of a run: " + run_layer_names() + " [all but submaps]. Of a map alone: " +
+                  thing_layer_names() + " [all]. Of the map of either: " + map_layer_names() + " [none]")
+      .value("LAYER,...")
+      .repeatable();
+  command.option("--hide", &options->hide, "Show less: layers as of --show, or all; --show counts after it")
       .value("LAYER,...")
       .repeatable();
   command
@@ -141,10 +201,11 @@ void add_render_command(Command& app) {
               "Of a run: draw errors of landmarks longer by this factor [a power of ten that shows them]")
       .value("X")
       .range(1e-6, 1e9);
+  add_renderer_option(command, options->renderer);
   add_shared(command, Shared::kStrict, &options->strict);
   add_shared(command, Shared::kJson, &options->json);
   command.footer(
-      "Examples: hallway render out/office --view perspective --out office.png --show map,truth,estimate\n"
+      "Examples: hallway render out/office --view perspective --out office.png --hide errors\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
   command.action([options] { return render(*options); });
 }

@@ -181,6 +181,8 @@ std::string table_of(const Outcome& outcome) {
   add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
   table.row("written to", printable(outcome.folder.string(), 4096));
   for (const auto& picture : result.pictures) table.row("picture", printable(picture.string(), 4096));
+  if (!result.missing_pictures.empty())
+    table.row("pictures not drawn", fmt::to_string(result.missing_pictures.size()));
   if (result.failures.count != 0) {
     table.row("plugin failures",
               fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
@@ -210,12 +212,24 @@ nlohmann::ordered_json document_of(const Outcome& outcome) {
           {"plugins", outcome.plugins},
           {"folder", printable(outcome.folder.string(), 4096)},
           {"pictures", pictures},
+          {"missing_pictures", run::to_json(outcome.result.missing_pictures)},
           {"warnings", outcome.report.warnings},
           {"verdict", print_first(outcome.result.failures)},
           {"failures", outcome.result.failures.count},
           {"restarts", outcome.result.failures.restarts},
           {"submaps", outcome.result.submaps},
           {"metrics", eval::to_json(outcome.result.metrics)}};
+}
+
+/// One warning for the pictures of one cause, which is the same for all as a rule.
+void warn_of_missing(const std::vector<run::MissingPicture>& missing) {
+  std::string files;
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    files += (files.empty() ? "" : ", ") + printable(missing[i].file);
+    if (i + 1 < missing.size() && missing[i + 1].cause == missing[i].cause) continue;
+    print_warning(files + ": " + missing[i].cause);
+    files.clear();
+  }
 }
 
 }  // namespace
@@ -231,6 +245,7 @@ int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run:
                      {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
   print_failures(result.failures);
+  warn_of_missing(result.missing_pictures);
   const Outcome outcome{report, plugin_names(plan.manifest), plan.folder, result};
   if (style.json) {
     print_json(document_of(outcome));

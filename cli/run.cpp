@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "isolation_options.hpp"
 #include "plugin_argument.hpp"
+#include "renderer_option.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
@@ -37,6 +38,7 @@ struct RunOptions {
   std::vector<std::string> plugin_path;
   unsigned threads = hardware_threads();
   IsolationOptions isolation;
+  std::optional<std::string> renderer;
   bool strict = false;
   bool foxglove = false;
   bool force = false;
@@ -55,6 +57,7 @@ std::vector<sim::Override> overrides_of(const RunOptions& options) {
 }
 
 int run_scenario(const RunOptions& options) {
+  const render::Renderer renderer = chosen_renderer(options.renderer);
   const ScenarioInput read = read_scenario_input(options.scenario, overrides_of(options));
   const sim::Scenario& scenario = read.scenario;
   const sim::Simulator simulator(scenario, options.threads, trace::Backend::kEmbree);
@@ -87,6 +90,7 @@ int run_scenario(const RunOptions& options) {
                     .attachments = {{run::files::kScenario, facts.inputs[0].content},
                                     {run::files::kMap, facts.inputs[1].content}},
                     .pictures = scenario.pictures,
+                    .renderer = renderer,
                     .write_observations = true,
                     .lock_step = true,
                     .on_failure = scenario.limits.on_failure,
@@ -117,12 +121,15 @@ void add_run_command(Command& app) {
   add_plugin_path_option(command, options->plugin_path);
   add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
   add_isolation_options(command, options->isolation);
+  add_renderer_option(command, options->renderer);
   add_shared(command, Shared::kStrict, &options->strict);
   add_shared(command, Shared::kFoxglove, &options->foxglove);
   add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);
   add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(
+      "Without a renderer everything is written but the pictures of maps, which a warning and the JSON "
+      "document name; the status is that of the run. A renderer that is named has to be there.\n"
       "Example: hallway run maps/office.toml --seed 7 --set sensor.eyes.noise_m=0.02 --out out/noisy");
   command.action([options] { return run_scenario(*options); });
 }

@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "eval/metrics_json.hpp"
 #include "link/lossy_wire.hpp"
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
@@ -120,6 +121,13 @@ std::string end_text(const run::ServeResult& result, double give_up_s) {
   return "";
 }
 
+std::string rmse_text(const eval::Metrics& metrics) {
+  const auto& rmse = metrics.position_rmse_m.aligned;
+  const std::uint64_t posed = metrics.iterations - metrics.lost_iterations;
+  return fmt::format("{} over {} of {} frames with a pose", rmse ? fmt::format("{:.4f} m", *rmse) : "unknown",
+                     posed, metrics.iterations);
+}
+
 std::string table_of(const std::string& name, const ServeOptions& options, const run::ServeResult& result) {
   std::string text = fmt::format("{}{}\n", name, end_text(result, options.give_up_s));
   const auto row = [&](const char* label, const std::string& value) {
@@ -134,6 +142,7 @@ std::string table_of(const std::string& name, const ServeOptions& options, const
                                counters.resent, counters.malformed, counters.foreign));
   if (!options.lock_step) row("sent late", fmt::format("{} frames", result.sent_late));
   row("round trip", round_trip_text(result.round_trip_ms));
+  if (result.metrics) row("position RMSE, aligned", rmse_text(*result.metrics));
   if (!options.out.empty()) row("written to", printable(options.out, 4096));
   return text;
 }
@@ -180,6 +189,8 @@ int serve(const ServeOptions& options) {
     if (!options.out.empty()) document["folder"] = printable(options.out, 4096);
     document["warnings"] = input.facts.warnings;
     document["serving"] = run::print_serving(result);
+    document["metrics"] = nullptr;
+    if (result.metrics) document["metrics"] = eval::to_json(*result.metrics);
     print_json(document);
   } else if (!options.quiet) {
     print_result(table_of(input.facts.name, options, result));

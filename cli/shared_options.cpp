@@ -52,6 +52,8 @@ constexpr Row kRows[] = {
     {Shared::kJobs, "--jobs", "N", "Number of parallel runs; times are comparable with 1", 1, 1024},
     {Shared::kRepeat, "--repeat", "N", "Runs of the plugin; the time reported is the median", 1, 10'000},
     {Shared::kStrict, "--strict", "", "Refuse a map that has warnings"},
+    {Shared::kRenderer, "--renderer", "NAME",
+     "Software renderer that draws faces; auto is osmesa, or egl where that is not installed"},
     {Shared::kFoxglove, "--foxglove", "", "Add channels to the .mcap log that show it in Foxglove"},
     {Shared::kView, "--view", "VIEW", "View of the picture"},
     {Shared::kPicture, "--picture", "FILE", "PNG picture to write"},

@@ -29,6 +29,7 @@ enum class Shared {
   kJobs,
   kRepeat,
   kStrict,
+  kRenderer,  ///< through add_renderer_option()
   kFoxglove,
   kView,
   kPicture,

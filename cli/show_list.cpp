@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -21,29 +23,74 @@ const std::vector<std::string>& map_layers() {
   return kNames;
 }
 
-[[noreturn]] void refuse_name(std::string_view name) {
+/// Layers that are switched on and off, by name.
+template <typename Of>
+struct Switch {
+  const char* name;
+  bool Of::*member;
+};
+
+constexpr std::array<Switch<run::MapThings>, 5> kThings{{{"start", &run::MapThings::start},
+                                                         {"paths", &run::MapThings::paths},
+                                                         {"sensors", &run::MapThings::sensors},
+                                                         {"lights", &run::MapThings::lights},
+                                                         {"rooms", &run::MapThings::rooms}}};
+constexpr std::array<Switch<run::MapView>, 4> kViews{{{"portals", &run::MapView::portals},
+                                                      {"leak", &run::MapView::leak},
+                                                      {"bsp-depth", &run::MapView::bsp_depth},
+                                                      {"wireframe", &run::MapView::wireframe}}};
+
+std::vector<std::string> thing_names() {
+  std::vector<std::string> names;
+  for (const auto& thing : kThings) names.emplace_back(thing.name);
+  return names;
+}
+
+[[noreturn]] void refuse_name(const char* option, std::string_view name) {
   std::vector<std::string> names = sim::picture_layer_names();
-  names.insert(names.end(), map_layers().begin(), map_layers().end());
-  throw Error(ErrorCode::kUsage, fmt::format("--show knows no layer \"{}\"{}; there are: {}", printable(name),
-                                             suggestion(name, names), fmt::join(names, ", ")));
+  for (const auto& more : {thing_names(), map_layers()}) names.insert(names.end(), more.begin(), more.end());
+  throw Error(ErrorCode::kUsage,
+              fmt::format("{} knows no layer \"{}\"{}; there are: {}", option, printable(name),
+                          suggestion(name, names), fmt::join(names, ", ")));
+}
+
+/// The layer of a run of that name.
+std::optional<sim::PictureLayer> run_layer(std::string_view name) {
+  const std::vector<std::string>& names = sim::picture_layer_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<sim::PictureLayer>(found - names.begin());
+}
+
+/// Switches a layer that is one of `switches`. @return whether it is
+template <typename Of, std::size_t N>
+bool set(Of& layers, const std::array<Switch<Of>, N>& switches, std::string_view name, bool on) {
+  for (const Switch<Of>& one : switches) {
+    if (name != one.name) continue;
+    layers.*one.member = on;
+    return true;
+  }
+  return false;
 }
 
 void add_layer(ShowList& show, std::string_view name) {
-  const std::vector<std::string>& runs = sim::picture_layer_names();
-  const auto of_run = std::find(runs.begin(), runs.end(), name);
-  if (of_run != runs.end()) {
-    const auto layer = static_cast<sim::PictureLayer>(of_run - runs.begin());
-    if (std::find(show.run.begin(), show.run.end(), layer) == show.run.end()) show.run.push_back(layer);
-  } else if (name == "portals") {
-    show.map.portals = true;
-  } else if (name == "leak") {
-    show.map.leak = true;
-  } else if (name == "bsp-depth") {
-    show.map.bsp_depth = true;
-  } else if (name == "wireframe") {
-    show.map.wireframe = true;
-  } else {
-    refuse_name(name);
+  if (const auto layer = run_layer(name)) {
+    if (std::find(show.run.begin(), show.run.end(), *layer) == show.run.end()) show.run.push_back(*layer);
+  } else if (set(show.things, kThings, name, true)) {
+    if (show.thing.empty()) show.thing = name;
+  } else if (!set(show.map, kViews, name, true)) {
+    refuse_name("--show", name);
+  }
+}
+
+void hide_layer(ShowList& show, std::string_view name) {
+  if (name == "all") {
+    show.run.clear();
+    show.things = {.start = false, .paths = false, .sensors = false, .lights = false, .rooms = false};
+  } else if (const auto layer = run_layer(name)) {
+    std::erase(show.run, *layer);
+  } else if (!set(show.things, kThings, name, false) && !set(show.map, kViews, name, false)) {
+    refuse_name("--hide", name);
   }
 }
 
@@ -65,18 +112,21 @@ void add_value(ShowList& show, const std::string& value) {
 
 }  // namespace
 
-ShowList parse_show(const std::vector<std::string>& values) {
-  ShowList show;
-  for (const std::string& value : values) add_value(show, value);
-  if (show.map.bsp_depth && show.map.pvs_from_m) {
+ShowList parse_show(const std::vector<std::string>& show, const std::vector<std::string>& hide) {
+  ShowList list;
+  for (std::size_t i = 0; i < sim::picture_layer_names().size(); ++i) {
+    const auto layer = static_cast<sim::PictureLayer>(i);
+    // Lines from every submap to each of its landmarks cover all else.
+    if (layer != sim::PictureLayer::kSubmaps) list.run.push_back(layer);
+  }
+  for (const std::string& value : hide) {
+    for (const std::string_view name : split(value, ',')) hide_layer(list, trim(name));
+  }
+  for (const std::string& value : show) add_value(list, value);
+  if (list.map.bsp_depth && list.map.pvs_from_m) {
     throw Error(ErrorCode::kUsage, "--show colours the faces by bsp-depth or by pvs-from, not by both");
   }
-  if (values.empty()) {
-    for (std::size_t i = 0; i < sim::picture_layer_names().size(); ++i) {
-      show.run.push_back(static_cast<sim::PictureLayer>(i));
-    }
-  }
-  return show;
+  return list;
 }
 
 std::string run_layer_names() {
@@ -85,6 +135,10 @@ std::string run_layer_names() {
 
 std::string map_layer_names() {
   return fmt::format("{}=X,Y,Z", fmt::join(map_layers(), ", "));
+}
+
+std::string thing_layer_names() {
+  return fmt::format("{}", fmt::join(thing_names(), ", "));
 }
 
 }  // namespace hallway::cli

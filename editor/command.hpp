@@ -10,6 +10,7 @@
 
 #include "editor/arguments.hpp"
 #include "editor/state.hpp"
+#include "render/renderer.hpp"
 
 namespace hallway::editor {
 
@@ -31,6 +32,7 @@ struct Edit {
   std::string file;  ///< the map's path, for messages and for what commands look up beside it
   Report report{};
   std::string clipboard{};  ///< file that `copy` writes and `paste` reads; empty: there is none
+  render::Renderer renderer = render::Renderer::kAuto;  ///< of pictures
 
   double metres_per_unit() const;
   /// Places of points in the map, rounded to the grid if there is one; metres to map units.

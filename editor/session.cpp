@@ -247,7 +247,7 @@ Report Session::run(const Call& call) {
     (*about)(*this, call.arguments, report);
     return report;
   }
-  Edit edit{state_, file_.string(), {}, clipboard_};
+  Edit edit{state_, file_.string(), {}, clipboard_, renderer_};
   std::get<EditFunction>(call.command->run)(edit, call.arguments);
   commit(call.line, std::move(edit.state));
   return std::move(edit.report);
@@ -256,7 +256,7 @@ Report Session::run(const Call& call) {
 std::vector<Report> Session::run_script(const std::vector<ScriptLine>& lines, const std::string& name) {
   std::vector<Report> reports;
   std::vector<std::string> run_lines;
-  Edit edit{state_, file_.string(), {}, clipboard_};
+  Edit edit{state_, file_.string(), {}, clipboard_, renderer_};
   for (const ScriptLine& line : lines) {
     try {
       const Call call = parse_script_line(line.text, units_of(edit.state));

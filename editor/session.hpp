@@ -60,6 +60,9 @@ class Session {
   /// The file in which `copy` leaves things for `paste`, which may be another session's. Without one both refuse.
   void set_clipboard(std::string file) { clipboard_ = std::move(file); }
 
+  /// What draws the pictures that commands write. It is no part of the history.
+  void set_renderer(render::Renderer renderer) { renderer_ = renderer; }
+
   /// Runs a command and, if it changed anything, writes it to the journal. An exception means that nothing has changed.
   Report run(const Call& call);
   /// Runs lines as one step named `name`: all of them or, if one throws, none; the error then names the line. `save` counts for the
@@ -110,6 +113,7 @@ class Session {
   bool unsaved_ = false;
   std::vector<std::string> notes_;
   std::string clipboard_;
+  render::Renderer renderer_ = render::Renderer::kAuto;
 };
 
 /// Where the journal of a map stands.

@@ -11,11 +11,11 @@ for scenario in figure_eight office; do
   "$hallway" run "$here/../maps/$scenario.toml" --out "$work/$scenario" --quiet
 done
 "$hallway" render "$work/figure_eight" --view perspective --size 1120x480 --out "$here/figure_eight.png" \
-  --show map,truth,estimate,landmarks,errors
+  --hide all --show map,truth,estimate,landmarks,errors
 "$hallway" render "$work/office" --view top --size 1120x760 --out "$here/office.png" \
-  --show map,truth,estimate,landmarks,errors,frustum
-"$hallway" render "$here/../maps/office.map" --size 1120x640 --show portals --out "$here/portals.png"
-"$hallway" render "$here/../maps/office.map" --size 1120x640 --show pvs-from=4,1.6,1 --out "$here/visible.png"
+  --hide all --show map,truth,estimate,landmarks,errors,frustum
+"$hallway" render "$here/../maps/office.map" --size 1120x640 --hide all --show portals --out "$here/portals.png"
+"$hallway" render "$here/../maps/office.map" --size 1120x640 --hide all --show pvs-from=4,1.6,1 --out "$here/visible.png"
 
 # A leak made on purpose: a hole of 40 cm in the north wall of the hall.
 cp -r "$here/../maps/models" "$work/models"
@@ -38,11 +38,11 @@ cp "$work/planes"/*.png "$here/planes.png"
 noise=(--set sensor.eyes.noise_m=0.02 --set sensor.eyes.noise_angle_deg=0.3 --set sensor.eyes.noise_end_m=0.005)
 for scenario in four_planes hallway hallway_return key_points loop_corridor motion_model bad_pairs roll_back pseudo_merge many_planes; do
   "$hallway" run "$here/../maps/$scenario.toml" "${noise[@]}" --out "$work/$scenario" --quiet
-  "$hallway" render "$work/$scenario" --view top --cut 1.5 --size 760x520 --show map,truth,estimate,walls,submaps --out "$here/walls_$scenario.png"
+  "$hallway" render "$work/$scenario" --view top --cut 1.5 --size 760x520 --hide all --show map,truth,estimate,walls,submaps --out "$here/walls_$scenario.png"
 done
 # Faces as slam_plane maps them in six degrees of freedom, with their certain edges.
 "$hallway" run "$here/../maps/spatial_rooms.toml" "${noise[@]}" --out "$work/spatial_rooms" --quiet
-"$hallway" render "$work/spatial_rooms" --view perspective --size 1120x640 --show map,truth,estimate,walls --out "$here/walls_spatial_rooms.png"
+"$hallway" render "$work/spatial_rooms" --view perspective --size 1120x640 --hide all --show map,truth,estimate,walls --out "$here/walls_spatial_rooms.png"
 # Points, the planes that em finds in them, and the map of these planes (thesis chapter 5).
 for scenario in em_corridor em_floor; do
   "$hallway" run "$here/../maps/$scenario.toml" --out "$work/$scenario" --quiet

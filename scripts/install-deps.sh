@@ -25,9 +25,11 @@ set -euo pipefail
 
 build=(cmake g++ make ninja-build pkg-config protobuf-compiler fonts-dejavu-core
   # of these libraries only headers, the same on all machines
-  libcli11-dev libeigen3-dev libstb-dev nlohmann-json3-dev)
-libraries=(libassimp-dev libedit-dev libembree-dev libfmt-dev libgmp-dev libmuparser-dev libosmesa6-dev libpng-dev libprotobuf-dev
+  libcli11-dev libegl-dev libeigen3-dev libstb-dev nlohmann-json3-dev)
+libraries=(libassimp-dev libedit-dev libembree-dev libfmt-dev libgmp-dev libmuparser-dev libpng-dev libprotobuf-dev
   libtbb-dev libtinygltf-dev libtomlplusplus-dev libxxhash-dev libzstd-dev zlib1g-dev)
+# what pictures are drawn with, opened at run time: OSMesa where the release has it, and EGL with Mesa's software renderer
+renderers=('libosmesa6?' libegl1 libgl1-mesa-dri)
 tests=(libgtest-dev python3 python3-numpy binutils)
 clang=(clang 'libclang-rt-dev|libclang-rt-19-dev|libclang-rt-18-dev|libclang-rt-14-dev')
 ros=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev libdiagnostic-msgs-dev
@@ -54,13 +56,13 @@ for argument in "$@"; do
   esac
 done
 case ${word:-test} in
-  demo) wanted=("${build[@]}" "${libraries[@]}") ;;
-  test) wanted=("${build[@]}" "${libraries[@]}" "${tests[@]}") ;;
+  demo) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}") ;;
+  test) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}") ;;
   package) wanted=("${build[@]}" "${libraries[@]}" dpkg-dev file) ;;
-  check | fuzz) wanted=("${build[@]}" "${libraries[@]}" "${tests[@]}" "${clang[@]}" libbenchmark-dev) ;;
-  bench) wanted=("${build[@]}" "${libraries[@]}" "${tests[@]}" libbenchmark-dev) ;;
+  check | fuzz) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" "${clang[@]}" libbenchmark-dev) ;;
+  bench) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" libbenchmark-dev) ;;
   format) wanted=(clang-format) ;;
-  lint) wanted=("${build[@]}" "${libraries[@]}" "${tests[@]}" "${clang[@]}" clang-tidy) ;;
+  lint) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" "${clang[@]}" clang-tidy) ;;
   cross-arm64) wanted=("${build[@]}" "${libraries[@]/%/:arm64}" libc6-dev:arm64 g++-aarch64-linux-gnu 'qemu-user|qemu-user-static') ;;
   *)
     echo "install-deps: unknown word $word; there are demo, test, package, check, fuzz, bench, format, lint and cross-arm64" >&2

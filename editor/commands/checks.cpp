@@ -157,8 +157,9 @@ std::string picture_of(const Edit& edit, const sim::PictureSpec& spec, const run
   const run::MapSubject subject{
       .world = world,
       .title = fs::path(edit.file).stem().string(),
-      .meshes = run::model_faces(document, fs::path(edit.file).parent_path(), faults)};
-  return run::draw_map_picture(subject, spec, view);
+      .meshes = run::model_faces(document, fs::path(edit.file).parent_path(), faults),
+      .document = &document};
+  return run::draw_map_picture(subject, spec, view, {.renderer = edit.renderer});
 }
 
 /// The door or window whose cut an opening is in.

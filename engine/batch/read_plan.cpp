@@ -177,8 +177,10 @@ class PlanReader {
     for (const auto& [key, option] :
          {std::pair("view", "--view"), {"size", "--size"}, {"cut_z_m", "--cut"}, {"show", "--show"}}) {
       const auto all = values(table, key);
-      if (!all.empty())
-        request.arguments.insert(request.arguments.end(), {option, fmt::format("{}", fmt::join(all, ","))});
+      if (all.empty()) continue;
+      if (option == std::string_view("--show"))  // these alone
+        request.arguments.insert(request.arguments.end(), {"--hide", "all"});
+      request.arguments.insert(request.arguments.end(), {option, fmt::format("{}", fmt::join(all, ","))});
     }
     return request;
   }

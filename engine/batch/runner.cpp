@@ -161,7 +161,8 @@ class Job {
     ProcessSetup setup;
     setup.arguments = arguments;
     setup.descriptors = {-1, -1, log};
-    setup.environment = {std::string(kStartedBy) + "=" + std::to_string(::getpid())};
+    setup.environment = setup_.environment;
+    setup.environment.push_back(std::string(kStartedBy) + "=" + std::to_string(::getpid()));
     try {
       process_ = std::make_unique<ProcessGroup>(setup_.program, setup);
     } catch (...) {

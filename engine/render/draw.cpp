@@ -257,8 +257,8 @@ class Drawing {
       return;
     }
     const std::int64_t pixels = std::int64_t{layout_.map.width()} * layout_.map.height();
-    SurfaceLayer layer = render_surfaces(picture_.surfaces, camera_, layout_.map,
-                                         pixels <= kFinePixels ? 2 : 1, view_.cut_z_m);
+    SurfaceLayer layer =
+        render_surfaces(picture_.surfaces, camera_, layout_.map, pixels <= kFinePixels ? 2 : 1, view_);
     const unsigned threads = hardware_threads();
     darken_corners(layer, camera_, threads);
     outline_faces(layer, threads);

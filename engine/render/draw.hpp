@@ -11,8 +11,8 @@ namespace hallway::render {
 /// Draws a picture: the content in the map area, the title above it, legend and scale bar below it. The same input gives
 /// the same bytes on one machine, whatever the number of threads.
 ///
-/// Throws Error{kBadInput} for a size that check_image_size() refuses or a view that make_camera() refuses, and Error{kIo}
-/// if the fonts are missing or, where there are surfaces to draw, no off-screen context can be made.
+/// Throws Error{kBadInput} for a size that check_image_size() refuses or a view that make_camera() refuses, Error{kIo} if the
+/// fonts are missing, and NoRenderer where there are surfaces to draw and this machine does not have the view's renderer.
 /// O(pixels + content).
 Image draw(const Picture& picture, const View& view, int width_px, int height_px);
 

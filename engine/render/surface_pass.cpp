@@ -239,8 +239,9 @@ struct VertexArray {
 /// GL objects of one drawing; all die with it.
 class SurfacePainter {
  public:
-  SurfacePainter(const VertexArray& array, const std::vector<const Texture*>& textures, const Camera& camera)
-      : context_(make_offscreen_context()),
+  SurfacePainter(const VertexArray& array, const std::vector<const Texture*>& textures, const Camera& camera,
+                 Renderer renderer)
+      : context_(make_offscreen_context(renderer)),
         gl_(*context_),
         camera_(camera),
         range_(depth_range(array.vertices, camera)),
@@ -555,7 +556,8 @@ SurfaceLayer empty_layer(const PixelRect& area, int factor) {
 }  // namespace
 
 SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera& camera,
-                             const PixelRect& area, int factor, std::optional<double> cut_z_m) {
+                             const PixelRect& area, int factor, const View& view) {
+  const std::optional<double> cut_z_m = view.cut_z_m;
   SurfaceLayer layer = empty_layer(area, factor);
   VertexArray array;
   const TextureTable textures(surfaces);
@@ -570,7 +572,7 @@ SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera&
   if (cut_z_m && (camera.kind() == ViewKind::kTop || camera.eye().z() > *cut_z_m)) {
     array.section = array.add(make_section(surfaces, camera, *cut_z_m));
   }
-  SurfacePainter painter(array, textures.textures(), camera);
+  SurfacePainter painter(array, textures.textures(), camera, view.renderer);
   for (int top = 0; top < layer.height; top += kTileSide) {
     for (int left = 0; left < layer.width; left += kTileSide) painter.draw_tile(layer, left, top);
   }

@@ -8,6 +8,7 @@
 #include "render/camera.hpp"
 #include "render/image.hpp"
 #include "render/picture.hpp"
+#include "render/view.hpp"
 
 namespace hallway::render {
 
@@ -29,9 +30,9 @@ struct SurfaceLayer {
 };
 
 /// Draws the faces, textured where they have a picture, lit by a sky and a sun, with 4-fold multisampling at `factor` times the resolution of the picture.
-/// With `cut_z_m` what lies above is left out and the insides of cut solids are filled with palette::kCut. Throws
-/// Error{kIo} if there is no off-screen context.
+/// What lies above `view.cut_z_m` is left out, and the insides of cut solids are filled with palette::kCut. Throws NoRenderer if this
+/// machine does not have `view.renderer`.
 SurfaceLayer render_surfaces(const std::vector<Surface>& surfaces, const Camera& camera,
-                             const PixelRect& area, int factor, std::optional<double> cut_z_m);
+                             const PixelRect& area, int factor, const View& view);
 
 }  // namespace hallway::render

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "geom/pose.hpp"
+#include "render/renderer.hpp"
 
 namespace hallway::render {
 
@@ -18,7 +19,7 @@ struct Crop {
   double width_m = 10.0;       ///< across the map area of the picture
 };
 
-/// From where a picture is seen. Whatever is not given is chosen so that all content fits.
+/// From where a picture is seen, and what draws it. Whatever is not given is chosen so that all content fits.
 struct View {
   ViewKind kind = ViewKind::kTop;
   /// Surfaces and patches above this height are cut away, and solids cut by it show a dark section, as in a plan.
@@ -32,6 +33,7 @@ struct View {
   double azimuth = -1.9;
   /// Perspective without `eye`: angle above the horizon, rad.
   double elevation = 0.62;
+  Renderer renderer = Renderer::kAuto;  ///< of the faces; a picture without any needs none
 };
 
 }  // namespace hallway::render

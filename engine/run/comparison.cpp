@@ -82,7 +82,8 @@ std::optional<double> common_error_scale(const std::vector<Compared>& runs) {
 
 }  // namespace
 
-render::Image draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec) {
+render::Image draw_comparison(const std::vector<Compared>& runs, const sim::PictureSpec& spec,
+                              render::Renderer renderer) {
   const Grid grid = grid_of(runs.size(), spec);
   const std::optional<double> error_scale = common_error_scale(runs);
   render::Image image{grid.columns * grid.width_px, grid.rows * grid.height_px, {}};
@@ -92,7 +93,7 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
     render::Picture panel = compose_picture(runs[i].record, spec, {}, plan.faces, error_scale);
     panel.title = printable(runs[i].name);
     if (!frame) frame = frame_of(runs[i].record, panel.surfaces);
-    const render::View view = fixed_view(panel, *frame, view_of_plan(spec, plan), grid);
+    const render::View view = fixed_view(panel, *frame, view_of_plan(spec, plan, renderer), grid);
     const render::Image drawn = render::draw(panel, view, grid.width_px, grid.height_px);
     if (i == 0) fill(image, drawn.at(0, 0));
     const int at = static_cast<int>(i);

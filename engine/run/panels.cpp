@@ -131,7 +131,7 @@ render::Picture planes_panel(const Record& record, const Moment& moment) {
 
 }  // namespace
 
-render::Image draw_panels(const Record& record, const sim::PictureSpec& spec) {
+render::Image draw_panels(const Record& record, const sim::PictureSpec& spec, render::Renderer renderer) {
   const Moment moment = read_moment(record);
   sim::PictureSpec plain = layers({PictureLayer::kTruth, PictureLayer::kEstimate, PictureLayer::kWalls});
   render::Picture truth_and_map = compose_picture(record, plain);
@@ -145,7 +145,7 @@ render::Image draw_panels(const Record& record, const sim::PictureSpec& spec) {
   render::Image image{2 * width, 2 * height, {}};
   image.bytes.resize(std::size_t{12} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (int i = 0; i < 4; ++i) {
-    const render::View view;
+    const render::View view{.renderer = renderer};
     paste(render::draw(panels[i], view, width, height), (i % 2) * width, (i / 2) * height, image);
   }
   return image;

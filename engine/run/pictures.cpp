@@ -135,7 +135,7 @@ std::string verdict_text(const nlohmann::ordered_json& metrics) {
 
 std::string subtitle_of(const Record& record) {
   const auto& metrics = record.metrics;
-  std::string text = verdict_text(metrics) + fmt::format("{} iterations", metrics.value("iterations", 0)) +
+  std::string text = verdict_text(metrics) + fmt::format("{} iterations", record.run.value("iterations", 0)) +
                      coverage_text(metrics, "poses", "with a pose");
   const auto positions = metrics.find("position_rmse_m");
   if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number())
@@ -173,8 +173,19 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan) {
-  return render::encode_png(render::draw(picture, view_of_plan(spec, plan), spec.width_px, spec.height_px));
+/// Shows all of an area in the picture's map area, and more where the two differ in shape.
+render::Crop crop_to(const Eigen::AlignedBox2d& area, const render::PixelRect& pixels) {
+  const double shape = static_cast<double>(pixels.width()) / std::max(1, pixels.height());
+  return {area.center(), std::max(area.sizes().x(), area.sizes().y() * shape)};
+}
+
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan,
+                     const DrawOptions& options) {
+  render::View view = view_of_plan(spec, plan, options.renderer);
+  if (options.vertical_fov) view.vertical_fov = *options.vertical_fov;
+  if (options.area && view.kind == render::ViewKind::kTop)
+    view.crop = crop_to(*options.area, render::map_area(picture, spec.width_px, spec.height_px));
+  return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
 std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
@@ -194,13 +205,14 @@ std::string map_subtitle(const world::CompiledWorld& world, const MapView& view)
 
 }  // namespace
 
-render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan) {
+render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer) {
   render::View view;
   view.kind =
       spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
   view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
+  view.renderer = renderer;
   return view;
 }
 
@@ -236,6 +248,7 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   if (!map_view.wireframe) {
     picture.surfaces.insert(picture.surfaces.end(), subject.meshes.begin(), subject.meshes.end());
   }
+  if (subject.document != nullptr) add_map_things(picture, *subject.document, subject.world, subject.things);
   return picture;
 }
 
@@ -244,16 +257,18 @@ std::optional<double> error_scale_of(const Record& record) {
 }
 
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
-                             std::optional<double> error_scale) {
-  if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
+                             const DrawOptions& options) {
+  if (spec.view == sim::PictureView::kPanels)
+    return render::encode_png(draw_panels(record, spec, options.renderer));
   const render::Plan plan = picture_plan(record, spec, map_view);
-  return draw_png(compose_picture(record, spec, map_view, plan.faces, error_scale), spec, plan);
+  return draw_png(compose_picture(record, spec, map_view, plan.faces, options.error_scale), spec, plan,
+                  options);
 }
 
-std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
-                             const MapView& map_view) {
+std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,
+                             const DrawOptions& options) {
   const render::Plan plan = plan_for(subject.world, spec, map_view);
-  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan);
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan, options);
 }
 
 }  // namespace hallway::run

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,9 @@
 #include "render/image.hpp"
 #include "render/map_surfaces.hpp"
 #include "render/picture.hpp"
+#include "render/renderer.hpp"
 #include "render/view.hpp"
+#include "run/map_things.hpp"
 #include "run/map_view.hpp"
 #include "run/record.hpp"
 #include "sim/scenario.hpp"
@@ -31,14 +34,25 @@ std::optional<double> error_scale_of(const Record& record);
 /// How the map of a run is opened in a picture: as its description says, else as the building suggests.
 render::Plan picture_plan(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {});
 
-/// From where a picture is seen.
-render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan);
+/// From where a picture is seen, and what draws it.
+render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer);
 
 /// A map alone, and what is drawn over it.
 struct MapSubject {
   const world::CompiledWorld& world;
-  std::string title{};                    ///< e.g. the map's name
-  std::vector<render::Surface> meshes{};  ///< drawn with the map's own faces
+  std::string title{};                      ///< e.g. the map's name
+  std::vector<render::Surface> meshes{};    ///< drawn with the map's own faces
+  const map::Document* document = nullptr;  ///< that was compiled; null: no `things` are shown
+  MapThings things{};
+};
+
+/// How a picture is drawn, beside what its description says.
+struct DrawOptions {
+  render::Renderer renderer = render::Renderer::kAuto;
+  std::optional<Eigen::AlignedBox2d>
+      area{};  ///< top view: this ground, metres, as large as fits; else all content
+  std::optional<double> vertical_fov{};  ///< perspective: full angle over the height of the map area, rad
+  std::optional<double> error_scale{};   ///< of a run: as of compose_picture()
 };
 
 /// A picture of a map.
@@ -46,11 +60,12 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
 
 /// Draws and encodes a picture of a run; opens closed buildings in a top view unless the picture's description says how.
 /// @return the bytes of a PNG file
+/// Throws render::NoRenderer where there are faces to draw and this machine does not have the renderer.
 std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view = {},
-                             std::optional<double> error_scale = std::nullopt);
+                             const DrawOptions& options = {});
 
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
-                             const MapView& map_view = {});
+                             const MapView& map_view = {}, const DrawOptions& options = {});
 
 }  // namespace hallway::run

@@ -48,6 +48,18 @@ Pose pose_of(const log::StampedPose& pose) {
   return {Quat(q[0], q[1], q[2], q[3]).normalized(), vector_of(pose.position_m)};
 }
 
+/// What every folder of the command that wrote it has must be there: a robot program knows no truth to score by, and who serves one gets no map of it.
+void read_answers(const fs::path& folder, Record& record) {
+  const std::string command = record.run.value("command", "");
+  const bool serves = command == "serve", scores = !serves && command != "robot";
+  record.metrics = nlohmann::ordered_json::object();
+  if (scores || fs::exists(folder / files::kMetrics)) record.metrics = read_json(folder / files::kMetrics);
+  if (!serves || fs::exists(folder / files::kTrajectory))
+    record.trajectory = log::read_tum(folder / files::kTrajectory);
+  record.poses_in_other_parts = keep_scored_part(folder, record.trajectory);
+  if (!serves) record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
+}
+
 }  // namespace
 
 bool is_run_folder(const fs::path& folder) {
@@ -69,10 +81,7 @@ Record read_record(const fs::path& folder) {
   Record record;
   record.folder = folder;
   record.run = read_manifest(folder);
-  record.metrics = read_json(folder / files::kMetrics);
-  record.trajectory = log::read_tum(folder / files::kTrajectory);
-  record.poses_in_other_parts = keep_scored_part(folder, record.trajectory);
-  record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
+  read_answers(folder, record);
   record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
   record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);
   record.true_walls = read_if_there(folder / files::kTrueWalls, log::read_true_walls);

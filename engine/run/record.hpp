@@ -27,7 +27,7 @@ namespace files = record::files;
 struct Record {
   std::filesystem::path folder{};             ///< for what is not here: observations and planes
   nlohmann::ordered_json run;                 ///< run.json
-  nlohmann::ordered_json metrics;             ///< metrics.json
+  nlohmann::ordered_json metrics;             ///< metrics.json; an empty object where there is none
   std::optional<world::CompiledWorld> world;  ///< of map.map, without visible sets
   std::vector<render::Surface> models;        ///< that stand in it, as far as the folder has them
   std::vector<log::StampedPose> truth;        ///< T_world_body
@@ -48,7 +48,7 @@ bool is_run_folder(const std::filesystem::path& folder);
 /// Reads run.json of a run folder. Throws Error{kBadInput} if it is not one of ours, Error{kIo} if it cannot be read.
 nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
 
-/// Reads a run folder back. Throws Error{kBadInput, kIo} naming the file that is wrong or missing.
+/// Reads the folder of a run, of a replay, of `hallway-robot` or of `hallway serve` back. Throws Error{kBadInput, kIo} naming the file that is wrong or missing.
 Record read_record(const std::filesystem::path& folder);
 
 /// T_world_map by the best rigid fit of the mapped landmarks to their true counterparts; empty if fewer than three pairs

@@ -18,6 +18,7 @@
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
+#include "render/renderer.hpp"
 #include "run/abi_pose.hpp"
 #include "run/epoch_table.hpp"
 #include "run/found_table.hpp"
@@ -206,14 +207,21 @@ class EventView {
   std::size_t shown_ = 0;  ///< failures
 };
 
-/// The pictures that the plan wants, by name.
-std::map<std::string, std::string> draw_pictures(const fs::path& folder, const RunPlan& plan) {
+/// Draws the pictures that the plan wants. @return their content, by name; `result` gets what was drawn and what could not be
+std::map<std::string, std::string> draw_pictures(const record::OutputFolder& output, const RunPlan& plan,
+                                                 RunResult& result) {
   std::map<std::string, std::string> pictures;
   if (plan.pictures.empty()) return pictures;
-  const Record record = read_record(folder);
+  const Record record = read_record(output.working_path());
   for (const sim::PictureSpec& picture : plan.pictures) {
-    pictures[picture.file] = draw_run_picture(record, picture);
-    write_file_atomically(folder / picture.file, pictures[picture.file]);
+    try {
+      pictures[picture.file] = draw_run_picture(record, picture, {}, {.renderer = plan.renderer});
+    } catch (const render::NoRenderer& missing) {
+      result.missing_pictures.push_back({picture.file, missing.message()});
+      continue;
+    }
+    write_file_atomically(output.working_path() / picture.file, pictures[picture.file]);
+    result.pictures.push_back(output.path() / picture.file);
   }
   return pictures;
 }
@@ -226,7 +234,15 @@ bool maps_planes(const host::Pipeline& pipeline) {
   return std::find(outputs.begin(), outputs.end(), HW_OUTPUT_MAPPED_PLANES) != outputs.end();
 }
 
+nlohmann::ordered_json to_json(const std::vector<MissingPicture>& missing) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MissingPicture& picture : missing)
+    list.push_back({{"file", picture.file}, {"cause", picture.cause}});
+  return list;
+}
+
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
+  if (!plan.pictures.empty()) render::demand(plan.renderer);
   record::OutputFolder output(plan.folder, plan.replace);
   const fs::path& folder = output.working_path();
   log::FileOutput log_file(folder / files::kLog);
@@ -285,10 +301,13 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   record::write_map(folder, refined);
   write_matches(folder, tally.evaluator());
   record::write_json(folder / files::kMetrics, eval::to_json(result.metrics));
-  record::write_json(folder / files::kRun, complete_manifest(plan, source, result, feed.done()));
-  events.add_pictures(draw_pictures(folder, plan));
-  for (const sim::PictureSpec& picture : plan.pictures)
-    result.pictures.push_back(output.path() / picture.file);
+  nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
+  record::write_json(folder / files::kRun, manifest);
+  events.add_pictures(draw_pictures(output, plan, result));
+  if (!result.missing_pictures.empty()) {
+    manifest["missing_pictures"] = to_json(result.missing_pictures);
+    record::write_json(folder / files::kRun, manifest);
+  }
   recorder.finish();
   output.commit();
   return result;

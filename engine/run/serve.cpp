@@ -19,6 +19,7 @@
 #include "run/log_recorder.hpp"
 #include "run/record.hpp"
 #include "run/run_files.hpp"
+#include "run/served_path.hpp"
 #include "run/truth_tables.hpp"
 
 namespace hallway::run {
@@ -45,10 +46,12 @@ class Folder {
   void add_frame(std::uint32_t iteration, const hw_frame_t& given, const SourceFrame& frame) {
     recorder_.record_input(given, frame);
     truth_.add(iteration, frame);
+    path_.add_frame(frame);
   }
 
   /// @param t_ns  of the frame
   void add_answer(const link::Answer& answer, std::int64_t t_ns) {
+    path_.add_answer(answer);
     const log::FrameStamp stamp{static_cast<std::uint32_t>(answer.sequence), t_ns};
     if (answer.pose) {
       const bool valid = answer.pose->valid;
@@ -61,11 +64,12 @@ class Folder {
       recorder_.writer().add_command(stamp, {answer.command->linear_m_s, answer.command->angular_rad_s});
   }
 
-  void finish(const ServeResult& result, const std::vector<log::IterationCommand>& commands) {
+  void finish(ServeResult& result, const std::vector<log::IterationCommand>& commands) {
     recorder_.finish();
     const std::filesystem::path& folder = output_.working_path();
     write_attachments(folder, plan_.attachments);
     truth_.write(folder, source_);
+    result.metrics = path_.write(folder, source_);
     if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));
     nlohmann::ordered_json manifest = plan_.manifest;
     manifest["sensors"] = nlohmann::ordered_json::array({record::print_sensor(source_.sensor())});
@@ -84,6 +88,7 @@ class Folder {
   log::FileOutput log_file_;
   LogRecorder recorder_;
   TruthTables truth_;
+  ServedPath path_;
 };
 
 /// One serving.

@@ -38,6 +38,7 @@ struct ServeResult {
   std::uint64_t sent_late = 0;  ///< real time: frames sent a period or more after their time
   std::optional<eval::TimeSummary> round_trip_ms{};  ///< from a frame's first datagram to its first answer
   link::RobotCounters counters{};
+  std::optional<eval::Metrics> metrics{};  ///< of the path that came back, where a folder was written
 };
 
 /// What a robot says of itself that gives the frames of `source`.

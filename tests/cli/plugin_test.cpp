@@ -389,7 +389,7 @@ TEST(Doctor, FindsAllThatTheTestsRunWith) {
   EXPECT_TRUE(read_file(folder / "a.png").starts_with("\x89PNG"));
   const auto json = nlohmann::json::parse(hallway({"doctor", "--json"}).out);
   EXPECT_EQ(json["good"], true);
-  EXPECT_EQ(json["checks"].size(), 7u);
+  EXPECT_EQ(json["checks"].size(), 8u);
 }
 
 TEST(Doctor, SaysWhatIsNotThere) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/small_world.hpp"
@@ -41,7 +46,7 @@ TEST(Render, RunFromItsFolderIsThePictureTheRunMade) {
                                          "\n[[picture]]\nfile = \"top.png\"\nview = \"top\"\n"
                                          "width_px = 320\nheight_px = 200\n");
   ASSERT_EQ(world.run({"--quiet"}).status, 0);
-  const Ended ended = render(world, world.out(), {"--view", "top", "--size", "320x200"});
+  const Ended ended = render(world, world.out(), {"--view", "top", "--size", "320x200", "--show", "submaps"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(read_file(world.folder() / "picture.png"), read_file(fs::path(world.out()) / "top.png"));
 }
@@ -90,6 +95,81 @@ TEST(Render, EmptyFileIsNoMap) {
   EXPECT_EQ(ended.status, 3);
   EXPECT_NE(ended.err.find("worldspawn"), std::string::npos) << ended.err;
   EXPECT_FALSE(fs::exists(world.folder() / "picture.png"));
+}
+
+/// How many pixels of a picture have the colour that is the most frequent one after the background's.
+double block_pixels(const fs::path& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&image, file.c_str()) == 0) return 0.0;
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
+  png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
+  std::map<int, int> count;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) ++count[rgb[i] << 16 | rgb[i + 1] << 8 | rgb[i + 2]];
+  std::vector<int> counts;
+  for (const auto& entry : count) counts.push_back(entry.second);
+  std::sort(counts.rbegin(), counts.rend());
+  return counts.size() < 2 ? 0.0 : counts[1];
+}
+
+TEST(Render, AreaFramesATopView) {
+  const SmallWorld world;  // with a block of 1 m x 2 m around (0.5, 6)
+  const auto pixels = [&](const std::string& area) {
+    const Ended ended =
+        render(world, world.folder() / "small.map", {"--size", "640x480", "--hide", "all", "--area=" + area});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return block_pixels(world.folder() / "picture.png");
+  };
+  const double near = pixels("-1,4.5,2,7.5");
+  EXPECT_GT(near, 5000.0);
+  EXPECT_NEAR(pixels("-2.5,3,3.5,9") / near, 0.25, 0.02) << "twice as wide and as high";
+  EXPECT_EQ(pixels("2,7.5,-1,4.5"), near) << "either corner may come first";
+}
+
+TEST(Render, FovWidensAPerspective) {
+  const SmallWorld world;
+  const auto pixels = [&](const char* fov) {
+    const Ended ended = render(world, world.folder() / "small.map",
+                               {"--size", "640x480", "--hide", "all", "--view", "perspective",
+                                "--eye=0.5,-4,0.5", "--target=0.5,6,0.5", "--fov", fov});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return block_pixels(world.folder() / "picture.png");
+  };
+  const double narrow = pixels("20");
+  EXPECT_GT(narrow, 2000.0);
+  const double ratio = std::tan(10.0 * M_PI / 180.0) / std::tan(20.0 * M_PI / 180.0);
+  EXPECT_NEAR(pixels("40") / narrow, ratio * ratio, 0.03);
+}
+
+TEST(Render, FramesThatFitNoViewAreUsage) {
+  const SmallWorld world;
+  const std::string map = world.folder() / "small.map";
+  for (const char* area : {"1,2,3", "1,2,3,x", "0,0,0,5", "0,0,nan,5", "1,2,3,4,5", ","})
+    EXPECT_EQ(render(world, map, {std::string("--area=") + area}).status, 2) << area;
+  EXPECT_EQ(render(world, map, {"--area=0,0,1,1", "--view", "perspective"}).status, 2);
+  EXPECT_EQ(render(world, map, {"--fov", "40"}).status, 2);
+  EXPECT_EQ(render(world, map, {"--fov", "0", "--view", "perspective"}).status, 2);
+}
+
+TEST(Render, ShowAddsToTheDefaultAndHideTakesAway) {
+  const SmallWorld world;
+  ASSERT_EQ(world.run({"--quiet"}).status, 0);
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--size", "320x200"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = render(world, world.out(), arguments);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return read_file(world.folder() / "picture.png");
+  };
+  const std::string usual = picture({});
+  EXPECT_EQ(picture({"--hide", "submaps"}), usual) << "lines from submaps to landmarks cover all else";
+  EXPECT_EQ(picture({"--show", "truth"}), usual);
+  EXPECT_NE(picture({"--show", "submaps"}), usual);
+  EXPECT_NE(picture({"--hide", "truth"}), usual);
+  EXPECT_EQ(picture({"--hide", "all", "--show", "map,truth,estimate,landmarks,errors,frustum,walls"}), usual);
+  EXPECT_EQ(render(world, world.out(), {"--show", "rooms"}).status, 2) << "a layer of a map alone";
+  EXPECT_EQ(render(world, world.out(), {"--hide", "ghosts"}).status, 2);
 }
 
 TEST(Render, UnknownLayerIsUsage) {

@@ -207,6 +207,27 @@ TEST_P(Hosts, ARobotAtTheOtherEndOfANetwork) {
   EXPECT_EQ(content(out("run") / "truth.tum"), content(out("far_served") / "truth.tum"));
 }
 
+/// What came back is scored where it is served: the path as a run that saw the same.
+TEST_P(Hosts, ServingScoresThePathThatCameBack) {
+  rehearse("far", 0.0);
+  if (HasFatalFailure()) return;
+  EXPECT_EQ(content(out("run") / "trajectory.tum"), content(out("far_served") / "trajectory.tum"));
+  const Json here = Json::parse(read_file(out("run") / "metrics.json"));
+  const Json there = Json::parse(read_file(out("far_served") / "metrics.json"));
+  for (const char* member : {"iterations", "lost_iterations", "position_final_m"})
+    EXPECT_EQ(here.at(member), there.at(member)) << member;
+  EXPECT_EQ(here.at("position_rmse_m").at("first_pose").is_number(), GetParam() != "em")
+      << "which has no pose";
+  EXPECT_EQ(here.at("position_rmse_m").at("first_pose"), there.at("position_rmse_m").at("first_pose"));
+  if (GetParam() != "slam_point") return;
+  for (const char* folder : {"far", "far_served"}) {
+    const Ended drawn = hallway({"render", out(folder), "--out", out("picture.png")});
+    EXPECT_EQ(drawn.status, 0) << folder << ": " << drawn.err;
+    EXPECT_GT(content(out("picture.png")).size(), 10'000u) << folder;
+    fs::remove(out("picture.png"));
+  }
+}
+
 TEST_P(Hosts, ANetworkThatLosesOneInAHundred) {
   rehearse("lossy", 0.01);
   expect_same_answers(out("run"), out("lossy"));

@@ -43,7 +43,8 @@ TEST(ReadPlan, HasAllThatStandsInIt) {
                                                       {"slam_point.mode", "thesis"}}));
   EXPECT_EQ(plan.cells[2].labels.back().value, (folder / "build/my.so").string());
   ASSERT_EQ(plan.pictures.size(), 1u);
-  EXPECT_EQ(plan.pictures[0].arguments, (std::vector<std::string>{"--view", "top", "--show", "map,truth"}));
+  EXPECT_EQ(plan.pictures[0].arguments,
+            (std::vector<std::string>{"--view", "top", "--hide", "all", "--show", "map,truth"}));
   ASSERT_EQ(plan.thresholds.size(), 2u);
   EXPECT_EQ(plan.thresholds[0].metric, "landmark_rmse_m.aligned");
   EXPECT_EQ(plan.thresholds[0].most, 0.05);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "run/served_path.hpp"
+
+#include "eval/evaluator.hpp"
+#include "eval/metrics_json.hpp"
+#include "log/tum.hpp"
+#include "record/files.hpp"
+#include "record/manifest.hpp"
+#include "run/abi_pose.hpp"
+#include "run/truth_of.hpp"
+
+namespace hallway::run {
+namespace {
+
+log::StampedPose stamped(std::int64_t t_ns, const hw_pose_t& pose) {
+  const auto& t = pose.position;
+  const auto& q = pose.orientation;
+  return {.t_s = static_cast<double>(t_ns) / 1e9,
+          .position_m = {t[0], t[1], t[2]},
+          .orientation = {q[0], q[1], q[2], q[3]}};
+}
+
+/// What is true of the path; there is no map to be scored.
+eval::Truth path_truth(const Source& source) {
+  eval::Truth truth = truth_of(source);
+  truth.has_identities = false;
+  truth.landmarks.reset();
+  truth.walls.reset();
+  return truth;
+}
+
+}  // namespace
+
+void ServedPath::add_frame(const SourceFrame& frame) {
+  frames_.push_back({frame.t_ns, frame.T_world_body, frame.orientation_known});
+}
+
+void ServedPath::add_answer(const link::Answer& answer) {
+  if (!answer.pose) return;
+  if (answer.pose->valid) {
+    poses_[answer.sequence] = answer.pose->T_map_body;
+  } else {
+    poses_.erase(answer.sequence);
+  }
+}
+
+eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Source& source) const {
+  eval::Evaluator evaluator(path_truth(source));
+  std::vector<log::StampedPose> trajectory;
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const Frame& frame = frames_[k];
+    eval::Iteration iteration{};
+    iteration.T_world_body = frame.T_world_body;
+    iteration.orientation_known = frame.orientation_known;
+    if (const auto pose = poses_.find(k); pose != poses_.end()) {
+      iteration.T_map_body = pose_of(pose->second);
+      trajectory.push_back(stamped(frame.t_ns, pose->second));
+    }
+    evaluator.add(iteration);
+  }
+  log::write_tum(folder / record::files::kTrajectory, trajectory);
+  eval::Metrics metrics = evaluator.metrics({}, std::nullopt);
+  record::write_json(folder / record::files::kMetrics, eval::to_json(metrics));
+  return metrics;
+}
+
+}  // namespace hallway::run
