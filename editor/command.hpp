@@ -30,7 +30,8 @@ struct Edit {
   State state;
   std::string file;  ///< the map's path, for messages and for what commands look up beside it
   Report report{};
-  std::string clipboard{};  ///< file that `copy` writes and `paste` reads; empty: there is none
+  std::string clipboard{};                ///< file that `copy` writes and `paste` reads; empty: there is none
+  std::string* held_clipboard = nullptr;  ///< instead of the file, where commands are only tried; not owned
 
   double metres_per_unit() const;
   /// Places of points in the map, rounded to the grid if there is one; metres to map units.

@@ -257,8 +257,9 @@ constexpr std::array kChecksCommands{
     CommandSpec{.name = "leak",
                 .topic = "checks and pictures",
                 .summary = "show the leak path on which something reaches the void outside",
-                .details = "Names the thing that reaches the void, and the hole by which it does: size and middle. "
-                           "Status 1 if the map leaks.",
+                .details =
+                    "Names the thing that reaches the void, and the hole by which it does: size and middle. "
+                    "Status 1 if the map leaks.",
                 .arguments = kPicture,
                 .example = "leak",
                 .run = &show_leak},

@@ -390,7 +390,8 @@ void copy_to_clipboard(Edit& edit, const Arguments& arguments) {
 }
 
 void cut_to_clipboard(Edit& edit, const Arguments& arguments) {
-  const auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
+  auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
+  add_fills(edit.state, things);
   for (const Thing& thing : things) {
     if (!thing.brush && edit.state.entities[thing.entity]->classname() == "worldspawn")
       throw Error(ErrorCode::kUsage, "cut: worldspawn stays; `cut all` takes its brushes");

@@ -106,18 +106,6 @@ void set_keys(Edit& edit, const Arguments& arguments) {
   say_changed(edit, things);
 }
 
-/// With doors and windows go their leaves and panes.
-void add_fills(const State& state, std::vector<Thing>& things) {
-  std::vector<Thing> fills;
-  for (const Thing& thing : things) {
-    if (thing.brush || !is_opening(*state.entities[thing.entity])) continue;
-    for (const std::size_t fill : fills_of(state, thing.entity)) fills.push_back({fill, {}});
-  }
-  things.insert(things.end(), fills.begin(), fills.end());
-  std::sort(things.begin(), things.end());
-  things.erase(std::unique(things.begin(), things.end()), things.end());
-}
-
 void remove_things(Edit& edit, const Arguments& arguments) {
   auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
   add_fills(edit.state, things);
