@@ -471,7 +471,7 @@ constexpr std::array kMovesCommands{
     CommandSpec{.name = "array",
                 .topic = kMovesTopic,
                 .summary = "repeat things in a row or in a circle",
-                .details = "All round, the copies are spread evenly; through less, the last stands at the "
+                .details = "All round, the copies are spread evenly; through less, the last is at the "
                            "end. Copies are turned with the circle.",
                 .arguments = kArray,
                 .example = "array table linear 4 by 2.5,0",

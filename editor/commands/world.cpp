@@ -30,7 +30,7 @@ constexpr std::array kNew{ArgSpec{.name = "scale",
                                   .high = 1e6}};
 constexpr std::array kEntity{
     ArgSpec{.name = "class", .kind = ArgKind::kText, .required = true, .help = "its class, such as `light`"},
-    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .help = "where it stands"},
+    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .help = "where it is"},
     ArgSpec{.name = "keys", .kind = ArgKind::kKeys, .help = "other keys, to the end of the line"}};
 constexpr std::array kKey{
     ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "entities"},
