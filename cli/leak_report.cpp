@@ -58,8 +58,8 @@ std::string leak_text(const world::CompiledWorld& world, const std::string& way_
                                              enclosure.leaking.size(), world.occupants.size()));
   const map::Occupant& occupant = world.occupants[leak.occupant];
   text += row("from", run::occupant_text(occupant) + " at " + run::place_text(occupant.position_m));
-  text += row("way out", fmt::format("{}, to {}", render::measure_text(leak.length_m),
-                                     run::place_text(leak.way.back())));
+  text += row("leak path", fmt::format("{}, to {}", render::measure_text(leak.length_m),
+                                       run::place_text(leak.way.back())));
   text += row("through", run::opening_text(leak.narrowest));
   if (!way_file.empty()) text += row("points", printable(way_file, 4096));
   return text;

@@ -268,15 +268,20 @@ std::string clipboard_text(const Edit& edit, const std::vector<Thing>& meant) {
 }
 
 void write_clipboard(const Edit& edit, const std::string& text) {
+  if (edit.held_clipboard != nullptr) {
+    *edit.held_clipboard = text;
+    return;
+  }
   write_file_atomically(clipboard_of(edit), text);
 }
 
 State read_clipboard(const Edit& edit) {
-  const std::string& file = clipboard_of(edit);
+  const bool held = edit.held_clipboard != nullptr;
+  const std::string file = held ? std::string() : clipboard_of(edit);
   std::error_code none;
-  if (!std::filesystem::exists(file, none))
+  if (!held && !std::filesystem::exists(file, none))
     throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
-  State state = state_of(map::parse(read_file(file, map::kMaxMapBytes), file));
+  State state = state_of(map::parse(held ? *edit.held_clipboard : read_file(file, map::kMaxMapBytes), file));
   if (all_things(state).empty())
     throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
   return state;

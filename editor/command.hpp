@@ -33,6 +33,7 @@ struct Edit {
   Report report{};
   std::string clipboard{};  ///< file that `copy` writes and `paste` reads; empty: there is none
   render::Renderer renderer = render::Renderer::kAuto;  ///< of pictures
+  std::string* held_clipboard = nullptr;  ///< instead of the file, where commands are only tried; not owned
 
   double metres_per_unit() const;
   /// Places of points in the map, rounded to the grid if there is one; metres to map units.

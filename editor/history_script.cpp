@@ -73,6 +73,7 @@ class Writer {
   Writer(const State& before, const std::string& file) : history_(before) {
     replay_.state = state_of(document_of(before, file));
     replay_.file = file;
+    replay_.held_clipboard = &clipboard_;
     pair_up(history_, replay_.state, numbers_);
   }
 
@@ -91,9 +92,7 @@ class Writer {
   const std::string& text() const { return text_; }
 
  private:
-  void run(std::string line) {
-    // What goes into the clipboard is another matter than what goes out of the map.
-    if (line.starts_with("cut ")) line.replace(0, 3, "delete");
+  void run(const std::string& line) {
     Call call = parse_script_line(line, units_of(replay_.state));
     if (call.command == nullptr || call.command->name == "save") return;
     const auto* edit = std::get_if<EditFunction>(&call.command->run);
@@ -106,6 +105,7 @@ class Writer {
 
   State history_;
   Edit replay_;
+  std::string clipboard_;  ///< what `cut` leaves for `paste`; the user's stays as it is
   Numbers numbers_;
   std::string text_;
 };

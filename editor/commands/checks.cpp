@@ -46,7 +46,7 @@ constexpr std::array kRender{
     ArgSpec{.name = "target", .kind = ArgKind::kPlace, .help = "perspective: the place looked at"},
     ArgSpec{.name = "cut",
             .kind = ArgKind::kLength,
-            .help = "cut away what stands above this height [what opens a building]"},
+            .help = "cut away what is above this height [what opens a building]"},
     ArgSpec{.name = "width",
             .kind = ArgKind::kWhole,
             .fallback = "1280",
@@ -119,7 +119,7 @@ void fix_map(Edit& edit, const Arguments& arguments) {
   const auto left = faults_of(edit, arguments).size();
   edit.report.data["left"] = left;
   edit.report.lines.push_back(
-      fmt::format("{} mended, {} left for you", edit.report.data["fixed"].size(), left));
+      fmt::format("{} fixed, {} left for you", edit.report.data["fixed"].size(), left));
 }
 
 world::CompiledWorld compiled(const Edit& edit, map::Document& document) {
@@ -244,7 +244,7 @@ void render_map(Edit& edit, const Arguments& arguments) {
 constexpr std::array kChecksCommands{
     CommandSpec{.name = "validate",
                 .topic = "checks and pictures",
-                .summary = "list what is wrong, and the command that mends it",
+                .summary = "list faults, and the commands that fix them",
                 .details = "Status 1 if there is an error.",
                 .arguments = kIds,
                 .example = "validate",
@@ -258,8 +258,9 @@ constexpr std::array kChecksCommands{
     CommandSpec{.name = "leak",
                 .topic = "checks and pictures",
                 .summary = "show the leak path on which something reaches the void outside",
-                .details = "Names the thing that reaches the void, and the hole by which it does: size and middle. "
-                           "Status 1 if the map leaks.",
+                .details =
+                    "Names the thing that reaches the void, and the hole by which it does: size and middle. "
+                    "Status 1 if the map leaks.",
                 .arguments = kPicture,
                 .example = "leak",
                 .run = &show_leak},

@@ -91,7 +91,7 @@ constexpr std::array kSubtract{kWhat,
 constexpr std::array kAdded{kWhat,
                             ArgSpec{.name = "order",
                                     .kind = ArgKind::kWhole,
-                                    .help = "when it is added [after all cuts that it stands in]",
+                                    .help = "when it is added [after all cuts that it is in]",
                                     .low = -1e6,
                                     .high = 1e6},
                             kName};
@@ -117,7 +117,7 @@ constexpr std::array kClip{
     kWhat,
     ArgSpec{.name = "axis",
             .kind = ArgKind::kChoice,
-            .help = "with `at`: across which axis the plane stands",
+            .help = "with `at`: across which axis the plane is",
             .choices = "x y z"},
     ArgSpec{.name = "at",
             .kind = ArgKind::kLength,
@@ -484,17 +484,17 @@ constexpr std::array kCutsCommands{
                 .example = "subtract niche",
                 .before = "box from 0,0 to 4,4,3\nbox from 1,1,1 to 2,4,2 name=niche",
                 .run = &subtract},
-    CommandSpec{
-        .name = "add",
-        .topic = "cuts",
-        .summary = "put solid brushes together, to be added after cuts",
-        .details = "Shapes that stand in a room are added after it without this; `add` makes several one "
-                   "thing with one order.",
-        .arguments = kAdded,
-        .example = "add pillar+pillar-2 name=pillars",
-        .before = "room from 0,0 to 5,4 name=kitchen\ncylinder at 1,1 radius 0.2 height 2.7 name=pillar\n"
-                  "duplicate pillar by 2,0",
-        .run = &make_solid},
+    CommandSpec{.name = "add",
+                .topic = "cuts",
+                .summary = "put solid brushes together, to be added after cuts",
+                .details = "Shapes in a room are added after it without this; `add` makes several one "
+                           "thing with one order.",
+                .arguments = kAdded,
+                .example = "add pillar+pillar-2 name=pillars",
+                .before =
+                    "room from 0,0 to 5,4 name=kitchen\ncylinder at 1,1 radius 0.2 height 2.7 name=pillar\n"
+                    "duplicate pillar by 2,0",
+                .run = &make_solid},
     CommandSpec{.name = "detail",
                 .topic = "cuts",
                 .summary = "make solid brushes detail, which does not divide the map",

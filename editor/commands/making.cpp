@@ -196,6 +196,17 @@ std::optional<std::size_t> opening_of(const State& state, std::size_t fill) {
   return std::nullopt;
 }
 
+void add_fills(const State& state, std::vector<Thing>& things) {
+  std::vector<Thing> fills;
+  for (const Thing& thing : things) {
+    if (thing.brush || !is_opening(*state.entities[thing.entity])) continue;
+    for (const std::size_t fill : fills_of(state, thing.entity)) fills.push_back({fill, {}});
+  }
+  things.insert(things.end(), fills.begin(), fills.end());
+  std::sort(things.begin(), things.end());
+  things.erase(std::unique(things.begin(), things.end()), things.end());
+}
+
 std::vector<std::size_t> members_of(const State& state, const std::string& number) {
   std::vector<std::size_t> members;
   for (std::size_t e = 0; e < state.entities.size(); ++e) {

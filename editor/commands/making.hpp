@@ -66,6 +66,8 @@ bool is_fill(const EntityItem& entity);
 /// belong to the same group or to none.
 std::vector<std::size_t> fills_of(const State& state, std::size_t opening);
 std::optional<std::size_t> opening_of(const State& state, std::size_t fill);
+/// Adds to things the panes and leaves of the doors and windows among them. The things are then sorted, none twice.
+void add_fills(const State& state, std::vector<Thing>& things);
 
 /// The entities that carry the number of a group, by index.
 std::vector<std::size_t> members_of(const State& state, const std::string& number);

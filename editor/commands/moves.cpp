@@ -390,7 +390,8 @@ void copy_to_clipboard(Edit& edit, const Arguments& arguments) {
 }
 
 void cut_to_clipboard(Edit& edit, const Arguments& arguments) {
-  const auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
+  auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
+  add_fills(edit.state, things);
   for (const Thing& thing : things) {
     if (!thing.brush && edit.state.entities[thing.entity]->classname() == "worldspawn")
       throw Error(ErrorCode::kUsage, "cut: worldspawn stays; `cut all` takes its brushes");
@@ -470,7 +471,7 @@ constexpr std::array kMovesCommands{
     CommandSpec{.name = "array",
                 .topic = kMovesTopic,
                 .summary = "repeat things in a row or in a circle",
-                .details = "All round, the copies are spread evenly; through less, the last stands at the "
+                .details = "All round, the copies are spread evenly; through less, the last is at the "
                            "end. Copies are turned with the circle.",
                 .arguments = kArray,
                 .example = "array table linear 4 by 2.5,0",

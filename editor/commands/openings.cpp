@@ -422,7 +422,7 @@ void recut_openings(Edit& edit, Id group) {
     try {
       recut_opening(edit, id, call->command->name, call->arguments);
     } catch (const Error& error) {
-      refuse(fmt::format("{}, which stands in it: {}", describe(edit.state, thing), error.what()));
+      refuse(fmt::format("{}, which is in it: {}", describe(edit.state, thing), error.what()));
     }
   }
 }

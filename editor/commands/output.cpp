@@ -312,7 +312,7 @@ constexpr std::array kOutputCommands{
         .details =
             "They keep their size in metres. Brushes of the other map's world become a group; names that are "
             "taken get a number behind. Keys of its world are not taken over, and of its robot's start only "
-            "where this map has none. What it subtracts is subtracted from whatever stands there.",
+            "where this map has none. What it subtracts is subtracted from whatever is there.",
         .arguments = kImport,
         .example = "import kitchen.map at 4,0",
         .run = &import_map},

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ArgSpec kAt{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "where it stands"};
+constexpr ArgSpec kAt{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "where it is"};
 constexpr ArgSpec kHeading{.name = "heading",
                            .kind = ArgKind::kAngle,
                            .fallback = "0",

@@ -398,9 +398,9 @@ constexpr std::array kShapesCommands{
     CommandSpec{.name = kBoxName,
                 .topic = "shapes",
                 .summary = "a block, by two corners or by its middle and size",
-                .details = "A shape that stands in a room, or in anything else that is cut out, is added "
-                           "after that cut, so that it is "
-                           "there.",
+                .details =
+                    "A shape in a room, a door, a window or anything else that is cut out is added after "
+                    "that cut, so that it is there.",
                 .arguments = kBox,
                 .example = "box from 0,0 to 1,2,0.5 material=wood name=table",
                 .run = &make<kBoxName>},

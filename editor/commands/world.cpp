@@ -31,7 +31,7 @@ constexpr std::array kNew{ArgSpec{.name = "scale",
                                   .high = 1e6}};
 constexpr std::array kEntity{
     ArgSpec{.name = "class", .kind = ArgKind::kText, .required = true, .help = "its class, such as `light`"},
-    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .help = "where it stands"},
+    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .help = "where it is"},
     ArgSpec{.name = "keys", .kind = ArgKind::kKeys, .help = "other keys, to the end of the line"}};
 constexpr std::array kKey{
     ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "entities"},
@@ -105,18 +105,6 @@ void set_keys(Edit& edit, const Arguments& arguments) {
     }
   }
   say_changed(edit, things);
-}
-
-/// With doors and windows go their leaves and panes.
-void add_fills(const State& state, std::vector<Thing>& things) {
-  std::vector<Thing> fills;
-  for (const Thing& thing : things) {
-    if (thing.brush || !is_opening(*state.entities[thing.entity])) continue;
-    for (const std::size_t fill : fills_of(state, thing.entity)) fills.push_back({fill, {}});
-  }
-  things.insert(things.end(), fills.begin(), fills.end());
-  std::sort(things.begin(), things.end());
-  things.erase(std::unique(things.begin(), things.end()), things.end());
 }
 
 void remove_things(Edit& edit, const Arguments& arguments) {

@@ -70,6 +70,18 @@ TEST(HistoryScript, BeginsWithTheMapThatWasThere) {
   EXPECT_EQ(made_by(script, begin), editing.text());
 }
 
+TEST(HistoryScript, WhatIsCutCanBePasted) {
+  Editing editing;
+  editing.session->set_clipboard(editing.folder / "clipboard.map");
+  editing.run_all({"new", "wall from 0,0 to 6,0 name=north", "door in north at 2 leaf=wood name=way",
+                   "cut way", "light at 1,1,1 name=lamp", "cut lamp"});
+  const std::string held = read_file(editing.folder / "clipboard.map");
+  EXPECT_EQ(editing.text().find("_hw_fill"), std::string::npos) << "the leaf goes with its door";
+  editing.run("paste by 1,0");
+  EXPECT_EQ(made_by(editor::history_script(*editing.session)), editing.text());
+  EXPECT_EQ(read_file(editing.folder / "clipboard.map"), held) << "trying steps leaves the clipboard alone";
+}
+
 TEST(HistoryScript, NamesTheStepThatCannotBeRepeated) {
   Editing editing;
   editing.session->set_clipboard(editing.folder / "clipboard.map");
@@ -96,7 +108,7 @@ TEST(HistoryScript, MakesTheSameMapOfRandomCommands) {
     const Random random(round, stream_id("history.undo"));
     test::RandomCommands commands(7000 + round);
     editing.run("new");
-    for (std::uint32_t i = 0; i < 60; ++i) {
+    for (std::uint32_t i = 0; i < 120; ++i) {
       const std::string line = commands.next(editing.session->state());
       if (line.starts_with("paste")) continue;  // the clipboard is no part of the history
       try {
