@@ -37,7 +37,7 @@ set -eu
 touch "$work/begun"
 mkdir "\$1/hallway-test"
 cp "$packages"/*.deb "$here/debian_use.sh" "\$1/hallway-test"
-chroot "\$1" sh /hallway-test/debian_use.sh
+chroot "\$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root sh /hallway-test/debian_use.sh
 touch "$work/done"
 END
 chmod +x "$work/hook"
