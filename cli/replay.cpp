@@ -48,11 +48,17 @@ struct ReplayOptions {
   bool quiet = false;
 };
 
+/// A parameter that names a file or folder in the log's run.
+struct PathLeftOut {
+  std::string plugin;
+  std::string parameter;
+};
+
 /// Stages to build, with where their parameters come from.
 struct Stages {
   std::vector<host::StageSpec> specs;
   std::vector<run::ParameterOrigin> origins;
-  std::vector<std::string> warnings{};
+  std::vector<PathLeftOut> paths_left_out{};
 };
 
 /// Of a plugin that a log names only the id counts: a log must not make this program load a file of its choice.
@@ -85,9 +91,7 @@ void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const 
       if (origin == "default" || origin == "sensor") continue;  // the log has what the sensor told
       const std::string name = parameter.at("name").get<std::string>();
       if (names_path(parameter)) {
-        stages.warnings.push_back(fmt::format(
-            "the log names a file or folder for {}.{}, which is not taken from it: give it by --set",
-            printable(id), printable(name)));
+        stages.paths_left_out.push_back({id, name});
         continue;
       }
       spec.parameters.push_back({name, parameter.at("value").get<std::string>(), {.file = run::files::kRun}});
@@ -122,6 +126,21 @@ Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
   return stages;
 }
 
+/// Of each path that was left out and not given by --set.
+std::vector<std::string> warnings_of(const Stages& stages) {
+  std::vector<std::string> warnings;
+  for (const PathLeftOut& path : stages.paths_left_out) {
+    const bool is_given = std::ranges::any_of(stages.origins, [&](const run::ParameterOrigin& origin) {
+      return origin.plugin == path.plugin && origin.name == path.parameter;
+    });
+    if (is_given) continue;
+    warnings.push_back(fmt::format(
+        "{}.{} named a file or folder in the run that wrote the log; it is not taken: give it by --set",
+        printable(path.plugin), printable(path.parameter)));
+  }
+  return warnings;
+}
+
 /// A log of our own, or a recording of other programs read as `hallway log convert` reads it.
 OpenedLog open_input(const ReplayOptions& options) {
   const LogChoice choice{.log = options.observations,
@@ -149,7 +168,10 @@ int replay(const ReplayOptions& options) {
   }
   run::Source& source = paced ? *paced : *input.source;
   Stages stages = stages_of(options, input);
-  for (std::string& warning : stages.warnings) input.warnings.push_back(std::move(warning));
+  for (const std::string& warning : warnings_of(stages)) {
+    print_warning(warning);
+    input.warnings.push_back(warning);
+  }
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;

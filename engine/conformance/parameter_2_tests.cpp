@@ -73,6 +73,7 @@ void texts_are_kept(const Subject& subject, Remains&) {
 void texts_stand_while_active(const Subject& subject, Remains&) {
   TextFixture fixture(subject);
   fixture.plugin.activate();
+  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
   for (const std::uint32_t i : fixture.texts) {
     const std::string before = fixture.parameters.get_text(i);
     const Ended ended = fixture.parameters.set_text(i, "/other");
@@ -128,9 +129,10 @@ hw_sensor_info_t odd_sensor() {
   return sensor;
 }
 
-void activate(Fixture& fixture) {
-  if (!fixture.plugin.activate({odd_sensor()}).good())
-    fixture.plugin.activate();  // skips where it needs more
+/// Activates the plugin and feeds one frame. Throws Skipped where it needs other samples than points.
+void use(Fixture& fixture, const Subject& subject) {
+  if (!fixture.plugin.activate({odd_sensor()}).good()) fixture.plugin.activate();
+  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
 }
 
 std::vector<hw_param_value_t> values_of(const Parameters& parameters) {
@@ -144,7 +146,7 @@ void set_values_stand(const Subject& subject, Remains&) {
   const Parameters& parameters = fixture.parameters;
   for (const std::uint32_t i : parameters.known()) parameters.set_and_check(i, parameters.get(i));
   const std::vector<hw_param_value_t> before = values_of(parameters);
-  activate(fixture);
+  use(fixture, subject);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const std::uint32_t i = parameters.known()[k];
     demand(same(parameters.get(i), before[k]) && parameters.origin(i) == HW_PARAM_FROM_HOST,
@@ -164,7 +166,7 @@ void sensor_values_are_given_back(const Subject& subject, Remains&) {
   const Parameters& parameters = fixture.parameters;
   const std::vector<std::uint32_t> known = parameters.known();
   const std::vector<hw_param_value_t> before = values_of(parameters);
-  activate(fixture);
+  use(fixture, subject);
   for (std::size_t k = 0; k < known.size(); ++k) {
     const hw_param_value_t now = parameters.get(known[k]);
     const bool from_sensor = parameters.origin(known[k]) == HW_PARAM_FROM_SENSOR;

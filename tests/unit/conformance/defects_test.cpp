@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every test of the suite finds what it is there to find, and nothing else: a plugin with one defect fails the tests of that defect alone.
 #include <gtest/gtest.h>
+#include <hallway/ext/params.h>
 
 #include <algorithm>
 #include <ostream>

@@ -50,8 +50,9 @@ class SensorValues : public testing::TestWithParam<bool> {
                                     std::vector<ParameterSetting> settings = {}) {
     std::optional<Isolation> isolation;
     if (GetParam()) isolation.emplace();
-    const Pipeline pipeline({{.plugin = std::string(PLUGINS) + "/" + plugin + ".so", .parameters = settings}},
-                            {}, sensors, {}, isolation);
+    const Pipeline pipeline(
+        {{.plugin = std::string(PLUGINS) + "/" + plugin + ".so:" + plugin, .parameters = settings}}, {},
+        sensors, {}, isolation);
     return noise_of(pipeline.facts()[0]);
   }
 };
@@ -64,7 +65,7 @@ TEST_P(SensorValues, TheLargestKnownNoiseIsTaken) {
 }
 
 TEST_P(SensorValues, TheRangeOfTheParameterBoundsIt) {
-  EXPECT_EQ(taken("slam_point", sensor(0, 0, 0)), (Noise{"0.0001", true}));
+  EXPECT_EQ(taken("slam_point", sensor(0, 0, 0)), (Noise{"1e-04", true}));
   EXPECT_EQ(taken("slam_point", sensor(99, 0, 0)), (Noise{"10", true}));
 }
 
