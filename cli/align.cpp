@@ -97,7 +97,7 @@ void add_numbers(Command& command, icp::AlignOptions& options) {
       .value("M");
   command
       .option("--reach", &options.reach_m,
-              "Farthest that a matching point is looked for at first [a fifth of the size of A]")
+              "Largest distance of a matching point at first [a fifth of the size of A]")
       .range(kLeast_m, kMost_m)
       .value("M");
   command

@@ -194,7 +194,7 @@ std::string keep_way_file(const std::string& map, CompiledMap& compiled) {
     write_file_atomically(file, way_points(*leak, compiled.world.brushes.metres_per_unit));
     return file.string();
   } catch (const Error& error) {
-    compiled.warnings.push_back(fmt::format("the way out is not kept: {}", error.what()));
+    compiled.warnings.push_back(fmt::format("the leak path is not kept: {}", error.what()));
     print_warning(compiled.warnings.back());
     return {};
   }

@@ -44,7 +44,7 @@ std::vector<Error> problems_of(const MapRequest& request, const world::CompiledW
   for (const std::size_t index : world.partition.enclosure.in_solid) {
     const map::Occupant& occupant = world.occupants[index];
     problems.emplace_back(ErrorCode::kBadInput,
-                          fmt::format("{} stands in solid, at {}", run::occupant_text(occupant),
+                          fmt::format("{} is in solid, at {}", run::occupant_text(occupant),
                                       run::place_text(occupant.position_m)),
                           Where{.file = printable(request.file, 4096),
                                 .line = occupant.line,

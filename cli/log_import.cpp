@@ -154,7 +154,7 @@ void add_import_options(Command& command, ImportChoice& choice) {
       .numbers(4);
   command
       .option("--truth-within", &choice.truth_within_s,
-              "Seconds from a frame to the true poses that are taken for it [tum 0.02, bag 0.1, "
+              "Largest time in seconds from a frame to its true pose [tum 0.02, bag 0.1, "
               "victoria-park 0.2]")
       .value("S")
       .range(0.0, 1e6);

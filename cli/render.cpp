@@ -175,7 +175,7 @@ void add_render_command(Command& app) {
   command.option("--size", &options->size, "Width and height in pixels").value("WxH").show_default();
   command
       .option("--cut", &options->cut_z_m,
-              "Cut away what stands above this height (metres) [what opens a closed building]")
+              "Cut away everything above this height (metres) [what opens a closed building]")
       .value("Z");
   command.option("--eye", &options->eye, "perspective: viewpoint in metres [what shows everything]")
       .value("X,Y,Z");

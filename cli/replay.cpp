@@ -116,8 +116,7 @@ Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
                 {.file = run::files::kRun, .element = "plugins"});
   }
   if (stages.specs.empty() && wanted.plugin.empty()) {
-    throw Error(ErrorCode::kUsage,
-                "--plugin is needed: the log does not stand in a run folder that names one");
+    throw Error(ErrorCode::kUsage, "--plugin is needed: the log is not in a run folder that names one");
   }
   if (stages.specs.empty()) stages.specs.push_back({.plugin = wanted.plugin, .parameters = {}});
   for (const host::ParameterSetting& parameter : wanted.parameters)
@@ -158,7 +157,7 @@ int replay(const ReplayOptions& options) {
   OpenedLog input = open_input(options);
   if (options.ids_as_tracks) {
     input.source = std::make_unique<run::TrackedSource>(std::move(input.source));
-    input.warnings.push_back("the plugins were told which landmark each point is (--ids-as-tracks)");
+    input.warnings.push_back("the plugins were given the landmark of each point (--ids-as-tracks)");
     print_warning(input.warnings.back());
   }
   std::optional<run::PacedSource> paced;
@@ -225,7 +224,7 @@ void add_replay_command(Command& app) {
   add_shared(command, Shared::kRate, &options->rate).fallback("as fast as the plugin answers");
   command.flag("--ids-as-tracks", &options->ids_as_tracks,
                "Give plugins the true landmark of each point as the sensor's track of it, for those "
-               "that need to be told");
+               "that need it");
   add_shared(command, Shared::kOutFolder, &options->out).fallback("out/replay-<name>");
   add_plugin_path_option(command, options->plugin_path);
   add_isolation_options(command, options->isolation);

@@ -181,7 +181,7 @@ void add_study_command(Command& app) {
         fmt::format("Full size: {}. Corresponds to the thesis's figures {}.\n"
                     "Writes findings.csv, runs.csv, curves.csv, charts as SVG and PNG, and all of it as "
                     "study.json; facts "
-                    "of the clock stand in times*.csv.\n"
+                    "of the clock are in times*.csv.\n"
                     "Exit status: 0 done; 5 a plugin failed in a run, the others count.\n"
                     "Example: hallway study {} --seeds 3 --out out/{}",
                     study.size, study.figures, study.name, study.name));

@@ -140,7 +140,7 @@ void Journal::read(const std::string& text) {
   records_ = std::move(reading.records);
   base_ = std::move(reading.base);
   if (bytes_dropped_ > 0 && writable() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
-    fail(path_, "the journal's end cannot be mended", errno);
+    fail(path_, "the journal's end cannot be repaired", errno);
   }
 }
 

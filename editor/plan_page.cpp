@@ -173,12 +173,11 @@ class PlanDrawer {
   void draw_grid() {
     const double cell = paper_.grid_m;
     if (cell * mm_per_m_ < 1.0) {
-      throw Error(
-          ErrorCode::kUsage,
-          fmt::format("grid: lines {} m apart are {:.2f} mm apart at 1:{}; from {} m on they can be told "
-                      "apart",
-                      sheet_number(cell), cell * mm_per_m_, sheet_number(paper_.scale),
-                      sheet_number(paper_.scale / 1000.0)));
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("grid: lines {} m apart are {:.2f} mm apart at 1:{}; from {} m on they can be "
+                              "distinguished",
+                              sheet_number(cell), cell * mm_per_m_, sheet_number(paper_.scale),
+                              sheet_number(paper_.scale / 1000.0)));
     }
     begin("grid");
     for (Eigen::Index axis = 0; axis < 2; ++axis) {

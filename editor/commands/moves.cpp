@@ -76,7 +76,7 @@ constexpr std::array kAlign{
             .help = "the same side of these things, or a place"},
     ArgSpec{.name = "edge",
             .kind = ArgKind::kChoice,
-            .help = "another side of them, such as `top` to stand on [the same]",
+            .help = "another side of them, such as `top` to put on [the same]",
             .choices = "left right front back bottom top centre"}};
 constexpr std::array kSnap{kThings, ArgSpec{.name = "size",
                                             .kind = ArgKind::kLength,

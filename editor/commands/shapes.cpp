@@ -383,13 +383,13 @@ void remake(Edit& edit, const Arguments& arguments) {
   if (entity.head->find(kMadeKey) == nullptr)
     refuse("does not know what made it: it was made by hand, or changed in another way since");
   const auto call = made_call(edit.state, entity);
-  if (!call) refuse("cannot be made again: its key _hw_made is no command");
+  if (!call) refuse("cannot be remade: its key _hw_made is no command");
   if (is_opening(entity)) {
     remake_opening(edit, id, *call, arguments);
   } else if (maker_of(call->command->name) != nullptr && group_number(entity)) {
     remake_shape(edit, id, *call, arguments);
   } else {
-    refuse("cannot be made again: its key _hw_made is no command that makes a shape");
+    refuse("cannot be remade: its key _hw_made is no command that makes a shape");
   }
   say_changed(edit, {*find(edit.state, id)});
 }
@@ -471,9 +471,8 @@ constexpr std::array kShapesCommands{
     CommandSpec{.name = "remake",
                 .topic = "shapes",
                 .summary = "make a shape, door or window again with other measures",
-                .details = "It keeps its number and name, and the doors and windows that stand in it are cut "
-                           "again where they were "
-                           "along it.",
+                .details = "It keeps its number and name, and its doors and windows are cut again "
+                           "where they were along it.",
                 .arguments = kRemake,
                 .example = "remake north height=3 thickness=0.2",
                 .before = "wall from 0,0 to 6,0 name=north\ndoor in north at 2",

@@ -229,7 +229,7 @@ TEST_F(LogImport, IdsAreTracksOnDemandAlone) {
   EXPECT_FALSE(frames_of(path("run/run.mcap")).has_tracks());
   const Ended told = replay("named.csv", true);
   ASSERT_EQ(told.status, 0) << told.err;
-  EXPECT_NE(told.err.find("the plugins were told which landmark each point is"), std::string::npos)
+  EXPECT_NE(told.err.find("the plugins were given the landmark of each point"), std::string::npos)
       << told.err;
   EXPECT_EQ(frames_of(path("run/run.mcap")).frame(1)[0].track, 3u);
   folder_.write("nameless.csv", "iteration,x,y,z\n0,5,0,0\n");
