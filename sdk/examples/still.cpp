@@ -11,11 +11,11 @@ class Still final : public hallway::sdk::Plugin {
   }
   explicit Still(const hw_host_t* host) : Plugin(host) {}
 
-  // Once per frame. frame.samples: what the sensors saw, in metres, x forward, y left, z up.
-  void process(const hw_frame_t& frame) override {
-    host().put_pose({{0, 0, 0}, {1, 0, 0, 0}});  // where the robot is on your map: position, quaternion w x y z
+  // Once per frame. frame.samples holds what the sensors saw, in metres: x forward, y left, z up.
+  void process(const hw_frame_t&) override {
+    host().put_pose({{0, 0, 0}, {1, 0, 0, 0}});  // where the robot is: position, quaternion w x y z
   }
-  void report(bool) override {}  // when somebody wants the map
+  void report(bool) override {}  // when the host wants the map
   void reset() override {}       // forget the map
 };
 HALLWAY_PLUGINS(Still);
