@@ -21,6 +21,9 @@ constexpr const char* kModeNames[] = {"relative", "thesis"};
 enum class Dof : int { three = 0, six = 1 };
 constexpr const char* kDofNames[] = {"3", "6"};
 
+/// What is reckoned with at least where the noise is a sensor's own: a sensor without noise makes no map without errors while loops are open.
+constexpr double kLeastNoise_m = 0.01;
+
 /// The mapper behind the plugin ABI, and in its place, with mode=thesis, the thesis's own algorithm. Walls have ids where landmarks have them.
 class SlamPlane final : public sdk::Plugin {
  public:
@@ -45,7 +48,7 @@ class SlamPlane final : public sdk::Plugin {
       if (mode_ == static_cast<int>(Mode::thesis))
         throw sdk::Failure(HW_ERROR_ARGUMENT, "dof=6 goes with mode=relative alone: mode=thesis is 2 1/2-D");
       spatial_adapter_.activate(activation);
-      parameters().take_from_sensor("noise_m", spatial_adapter_.noise_m());
+      take_noise(spatial_adapter_.noise_m());
       spatial_adapter_.view().range_bounds_sides = range_bounds_sides_ != 0;
       spatial_.emplace(options_);
       return;
@@ -55,7 +58,7 @@ class SlamPlane final : public sdk::Plugin {
     if (mode_ == static_cast<int>(Mode::thesis)) {
       thesis_.emplace(thesis_options_);  // knows no noise
     } else {
-      parameters().take_from_sensor("noise_m", adapter_.noise_m());
+      take_noise(adapter_.noise_m());
       mapper_.emplace(options_);
     }
   }
@@ -120,6 +123,12 @@ class SlamPlane final : public sdk::Plugin {
   }
 
  private:
+  /// Takes the sensor's noise where none was set.
+  void take_noise(double noise_m) {
+    const bool from_sensor = parameters().take_from_sensor("noise_m", noise_m);
+    options_.least_noise_m = from_sensor ? kLeastNoise_m : 0.0;
+  }
+
   template <typename AnyMapper>
   static Map map_of(AnyMapper& mapper, bool refine) {
     return refine ? mapper.refined_map() : mapper.map();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <span>
 #include <string_view>
@@ -33,9 +34,12 @@ struct Options {
   int max_submap_frames = 100;  ///< and after this many frames
   int min_observations = 5;     ///< of a wall that is mapped
   double smoothing = 0.3;       ///< share of the newest motion in the predicted one
+  /// Noise::normal is at least this [m]: a map that grows is never as exact as a sensor may be. No parameter.
+  double least_noise_m = 0.0;
 
   Noise noise() const {
-    return {noise_m, noise_angle_deg * std::numbers::pi / 180.0, noise_end_m, noise_along_m};
+    return {std::max(noise_m, least_noise_m), noise_angle_deg * std::numbers::pi / 180.0, noise_end_m,
+            noise_along_m};
   }
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.

@@ -59,5 +59,19 @@ TEST(Options, BoundsThatAreZeroFollowTheNoise) {
   EXPECT_DOUBLE_EQ(options.map_bound(), 3.0);
 }
 
+TEST(Options, BoundsDeriveFromNoLessThanTheirLeastNoise) {
+  Options options;
+  options.noise_m = 1e-4;
+  EXPECT_DOUBLE_EQ(options.match_bound(), 12e-4);
+  options.least_bound_noise_m = 0.01;
+  EXPECT_DOUBLE_EQ(options.match_bound(), 0.12);
+  EXPECT_DOUBLE_EQ(options.map_bound(), 0.16);
+  EXPECT_DOUBLE_EQ(options.separation(), 0.05);
+  options.noise_m = 0.02;
+  EXPECT_DOUBLE_EQ(options.match_bound(), 0.24) << "a larger noise counts";
+  options.match_bound_m = 0.003;
+  EXPECT_DOUBLE_EQ(options.match_bound(), 0.003) << "what is set stands";
+}
+
 }  // namespace
 }  // namespace hallway::slam_point
