@@ -30,7 +30,7 @@ Ended stop_long_run(const SmallWorld& world, int signal) {
 TEST(Interrupt, CtrlCKeepsWhatWasDone) {
   const SmallWorld world;
   EXPECT_EQ(stop_long_run(world, SIGINT).status, 130);
-  const auto manifest = nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("stopped_early"), true);
   EXPECT_GT(manifest.at("iterations").get<int>(), 0);
 }

@@ -79,7 +79,8 @@ TEST(Serve, CtrlCEndsItWhileItWaits) {
     EXPECT_NE(address_of(process), "");
     ::kill(process.pid(), signal);
     EXPECT_EQ(process.wait().status, 128 + signal);
-    EXPECT_EQ(nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json")).at("iterations"), 0);
+    EXPECT_EQ(nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json")).at("iterations"),
+              0);
   }
 }
 
@@ -91,7 +92,7 @@ TEST(Serve, CtrlCEndsItWhileItWaitsForAnAnswer) {
   say_hello(wire, address_of(process));
   ::kill(process.pid(), SIGINT);
   EXPECT_EQ(process.wait().status, 130);
-  const auto manifest = nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("iterations"), 1);
   EXPECT_EQ(manifest.at("stopped_early"), true);
   EXPECT_FALSE(fs::exists(fs::path(world.out()) / "commands.csv")) << "there was none";

@@ -54,7 +54,9 @@ class RobotWorld {
     return hallway_robot(all);
   }
 
-  nlohmann::json manifest() const { return nlohmann::json::parse(read_file(folder_ / "out/run.json")); }
+  nlohmann::ordered_json manifest() const {
+    return nlohmann::ordered_json::parse(read_file(folder_ / "out/run.json"));
+  }
 
   std::vector<Note> notes() const {
     std::vector<Note> notes;

@@ -19,7 +19,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 

@@ -180,7 +180,7 @@ TEST(Pacing, ASlowPluginMissesDeadlinesAndFramesAreDropped) {
 }
 
 /// Frames of a robot whose plugin takes 100 ms for one of them, ten times as long as the next one needs to come.
-nlohmann::json frames_with_one_slow(const std::string& backlog) {
+nlohmann::ordered_json frames_with_one_slow(const std::string& backlog) {
   const RobotWorld world("frames = 60\nperiod_ms = 10",
                          drives("slow_from = 20, slow_frames = 1, slow_ms = 100"),
                          "[robot]\nwatchdog_ms = 20000\n" + backlog);
