@@ -31,7 +31,7 @@ function(hallway_add_fuzz_corpus)
   hallway_compile_plainly(fuzz_corpus)
   foreach(name ${arg_TARGETS})
     add_test(NAME fuzz_corpus_${name} COMMAND fuzz_corpus ${name} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
-    set_tests_properties(fuzz_corpus_${name} PROPERTIES LABELS "fuzz" TIMEOUT 900 ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT}")
+    set_tests_properties(fuzz_corpus_${name} PROPERTIES LABELS "fuzz" TIMEOUT ${HALLWAY_TEST_SECONDS} ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT}")
   endforeach()
 endfunction()
 

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 /// Starts `hallway serve` and waits until it listens. @return its address, empty if it ended before
 std::string address_of(const Process& process) {
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 12000; ++i) {
     std::this_thread::sleep_for(milliseconds(10));
     const std::string printed = process.err_so_far();
     const std::size_t at = printed.find(" on 127.0.0.1:");

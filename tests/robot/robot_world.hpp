@@ -76,10 +76,10 @@ class RobotWorld {
     return notes;
   }
 
-  /// Waits until a note fulfils `wanted`. False if none does within 30 s.
+  /// Waits until a note fulfils `wanted`. False if none does within two minutes.
   template <typename Wanted>
   bool wait_for_note(Wanted wanted) const {
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 12000; ++i) {
       for (const Note& note : notes()) {
         if (wanted(note)) return true;
       }

@@ -70,7 +70,7 @@ TEST(Watchdog, ASlowPluginStopsTheRobotUntilItIsInTimeAgain) {
 }
 
 TEST(Watchdog, AHangingPluginStopsTheRobotBeforeItIsKilled) {
-  const RobotWorld world("frames = 0", breaks("deadlock", 5), kWatchdog + "[limits]\ncall_timeout_s = 0.8\n");
+  const RobotWorld world("frames = 0", breaks("deadlock", 5), kWatchdog + "[limits]\ncall_timeout_s = 3\n");
   EXPECT_EQ(world.run().status, 5);
   const auto notes = world.notes();
   expect_safe(notes);
@@ -152,7 +152,7 @@ TEST(Interrupt, StopsTheRobotFirstAndClosesTheLogProperly) {
 TEST(Interrupt, StopsTheRobotWhileThePluginHangs) {
   // In lock-step, where the watchdog does not look at the clock: only the signal can stop it.
   const RobotWorld world("frames = 0\nlock_step = true", breaks("deadlock", 3),
-                         "[limits]\ncall_timeout_s = 2\n");
+                         "[limits]\ncall_timeout_s = 5\n");
   std::vector<std::string> arguments = world.arguments();
   arguments.insert(arguments.begin(), robot_program());
   Process process(arguments);
