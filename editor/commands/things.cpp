@@ -3,6 +3,7 @@
 // Choosing things and looking at them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
