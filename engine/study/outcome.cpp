@@ -42,16 +42,18 @@ void add_columns(const std::vector<std::vector<std::pair<std::string, double>>>&
   }
 }
 
-/// A row for each run: its labels and failure, then its numbers by name.
+/// A row for each run: its labels, failure and verdict, then its numbers by name.
 Table numbers_table(const std::vector<StudyRun>& runs,
                     const std::vector<std::vector<std::pair<std::string, double>>>& numbers) {
   Table table{.columns = label_columns(runs)};
-  table.columns.push_back("failure");
+  table.columns.insert(table.columns.end(), {"failure", "verdict"});
   const std::size_t first = table.columns.size();
   add_columns(numbers, table);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::vector<Field> row = label_fields(runs[i].spec);
     row.emplace_back(runs[i].trace.failure.empty() ? Field() : Field(runs[i].trace.failure));
+    const auto& verdict = runs[i].trace.metrics.verdict;
+    row.emplace_back(verdict ? Field(eval::name_of(*verdict)) : Field());
     row.resize(table.columns.size());
     for (const auto& [name, value] : numbers[i]) {
       const auto at =
