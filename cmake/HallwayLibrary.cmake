@@ -31,7 +31,8 @@ endfunction()
 # hallway_reuse_precompiled(<target> <owner>): the target reads the owner's precompiled header, if there is one.
 function(hallway_reuse_precompiled target owner)
   if(TARGET ${owner})
-    target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen Threads::Threads)
+    get_target_property(links ${owner} LINK_LIBRARIES)  # so that both are compiled with the same definitions
+    target_link_libraries(${target} PRIVATE ${links})
     target_precompile_headers(${target} REUSE_FROM ${owner})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # g++ 12 forgets that precompiled code is a system's, and reports reads in the inlined string class that do not happen.
