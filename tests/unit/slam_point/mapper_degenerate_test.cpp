@@ -30,7 +30,6 @@ TEST(MapperDegenerate, NoPointsBeforeTheMapStarts) {
   const Answer& answer = mapper.process(cloud(10, 1));
   EXPECT_TRUE(answer.has_pose);
   EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
-  EXPECT_EQ(answer.epoch, 1u) << "the pose is in another map";
 }
 
 TEST(MapperDegenerate, OneTwoOrCollinearPointsStartNoMap) {
@@ -142,6 +141,7 @@ TEST(MapperDegenerate, AFalseFirstFrameIsReplaced) {
   const Answer answer = mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0)));
   EXPECT_TRUE(answer.has_pose);
   EXPECT_EQ(answer.T_map_sensor.t, Vec3(0.0, 0.0, 0.0));
+  EXPECT_EQ(answer.epoch, 1u) << "the pose is in another map";
   for (const LandmarkId id : answer.associations) EXPECT_GE(id, 5u);  // names are not used twice
   EXPECT_EQ(mapper.map().landmarks.size(), 20u);
   EXPECT_TRUE(mapper.process(cloud(20, 7, Vec3(300.0, 0.0, 0.0))).has_pose);
