@@ -2,6 +2,7 @@
 #include "editor/help.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "robot/robot_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/table_reader.hpp"

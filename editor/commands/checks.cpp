@@ -2,6 +2,7 @@
 //
 // What is wrong with the map, and what it looks like.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

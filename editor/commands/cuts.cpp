@@ -2,6 +2,7 @@
 //
 // What is taken away from what is there.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 //
 // Commands about the session: what has been done, and what of it counts.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

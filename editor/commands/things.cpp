@@ -2,6 +2,7 @@
 //
 // Choosing things and looking at them.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "batch/content.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"

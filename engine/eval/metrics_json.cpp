@@ -2,6 +2,7 @@
 #include "eval/metrics_json.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace hallway::eval {
 namespace {

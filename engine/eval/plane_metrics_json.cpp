@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/metrics_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace hallway::eval {
 namespace {
 

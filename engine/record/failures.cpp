@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/failures.hpp"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.hpp"

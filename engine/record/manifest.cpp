@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <ctime>
 #include <fstream>
@@ -56,11 +57,10 @@ Json make_manifest(const ManifestFacts& facts) {
   for (const Setting& setting : facts.settings) {
     settings.push_back({{"key", setting.key}, {"value", setting.value}, {"origin", setting.origin}});
   }
-  return {{"schema", "hallway.run/1"},  {"hallway", version()},
-          {"command", facts.command},   {"name", facts.name},
-          {"inputs", inputs},           {"period_ns", facts.period_ns},
-          {"settings", settings},       {"plugins", Json::array()},
-          {"warnings", facts.warnings}, {"host", describe_host()}};
+  return {{"schema", "hallway.run/1"}, {"hallway", version()},     {"command", facts.command},
+          {"name", facts.name},        {"inputs", inputs},         {"period_ns", facts.period_ns},
+          {"settings", settings},      {"plugins", Json::array()}, {"warnings", facts.warnings},
+          {"host", describe_host()}};
 }
 
 Json make_manifest(const ManifestFacts& facts, const host::Pipeline& pipeline) {

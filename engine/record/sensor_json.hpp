@@ -3,7 +3,7 @@
 
 #include <hallway/pose.h>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "host/stage.hpp"
 

@@ -2,6 +2,7 @@
 #include "run/foxglove_copy.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>

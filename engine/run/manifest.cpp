@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "run/manifest.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace hallway::run {
 
 namespace {

@@ -2,6 +2,7 @@
 #include "run/pictures.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 
 #include <hallway/ext/log.h>
 #include <hallway/output.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #include "batch/table.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace hallway::batch {
 namespace {

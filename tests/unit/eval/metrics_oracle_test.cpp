@@ -2,6 +2,7 @@
 // Random runs, scored here and by metrics_oracle.py (numpy, written from the definitions alone).
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

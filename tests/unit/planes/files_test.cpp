@@ -2,6 +2,7 @@
 #include "planes/files.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "import/ply.hpp"
 #include "planes/scene_files.hpp"

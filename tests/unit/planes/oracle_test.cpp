@@ -2,6 +2,7 @@
 #include "planes/oracle.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

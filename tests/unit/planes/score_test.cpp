@@ -2,6 +2,7 @@
 #include "planes/score.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
