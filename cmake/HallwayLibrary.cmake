@@ -57,14 +57,14 @@ function(hallway_compile_plainly target)
   endif()
 endfunction()
 
-# hallway_compile_together(<target> [APART a.cpp …]): up to eight sources are read as one, so that the templates that they share are made once. It is no
+# hallway_compile_together(<target> [APART a.cpp …]): up to twelve sources are read as one, so that the templates that they share are made once. It is no
 # substitute for includes either: the clang preset compiles each by itself. APART names sources that stand alone, because they define names of their own that
 # others define too.
 option(HALLWAY_TOGETHER "Compile several sources of a target at once" ON)
 function(hallway_compile_together target)
   cmake_parse_arguments(arg "" "" "APART" ${ARGN})
   if(HALLWAY_TOGETHER AND TARGET ${target})
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
     if(arg_APART)
       set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
