@@ -135,10 +135,10 @@ TEST(EntitySchema, TheGameConfigurationFitsTheFormats) {
   EXPECT_EQ(config.at("name"), "Hallway");
   EXPECT_EQ(config.at("softMapBounds"), "-100000 -100000 -100000 100000 100000 100000");
   std::set<std::string> formats;
-  for (const auto& format : config.at("fileformats")) formats.insert(format.at("format"));
+  for (const auto& format : config.at("fileformats")) formats.insert(format.at("format").get<std::string>());
   EXPECT_EQ(formats, (std::set<std::string>{"Valve", "Standard"}));
-  for (const std::string file : config.at("entities").at("definitions"))
-    EXPECT_FALSE(text_of("maps/trenchbroom/" + file).empty());
+  for (const auto& file : config.at("entities").at("definitions"))
+    EXPECT_FALSE(text_of("maps/trenchbroom/" + file.get<std::string>()).empty());
 }
 
 TEST(EntitySchema, VariantsFollowTheSelector) {
