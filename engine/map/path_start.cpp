@@ -16,6 +16,14 @@ std::string place_text(const Vec3& place) {
   return "(" + rounded(place.x()) + ", " + rounded(place.y()) + ", " + rounded(place.z()) + ")";
 }
 
+/// Some put the start on the floor and the path at the height of the sensors.
+bool is_at(const Vec3& start, const Vec3& begin) {
+  constexpr double kNear_m = 0.05;
+  constexpr double kSameFloor_m = 1.0;
+  const Vec3 apart = begin - start;
+  return apart.head<2>().norm() <= kNear_m && std::abs(apart.z()) <= kSameFloor_m;
+}
+
 /// The place of the first waypoint, which is not on a closed path whose corners are rounded; empty for a path without waypoints.
 std::optional<Vec3> first_waypoint(const Document& document, std::string_view path) {
   std::optional<Vec3> first;
@@ -41,14 +49,12 @@ std::vector<std::string> path_names(const Document& document) {
 }
 
 std::optional<Error> start_off_path(const Document& document, std::string_view path) {
-  constexpr double kNear_m = 0.05;
   const std::optional<RobotStart> start = find_robot_start(document);
   if (!start) return std::nullopt;
   const Vec3 place = start->T_world_body.t;
   const Vec3 begin = find_path(document, path).at(0.0).t;
-  if ((begin - place).norm() <= kNear_m) return std::nullopt;
   const std::optional<Vec3> waypoint = first_waypoint(document, path);
-  if (waypoint && (*waypoint - place).norm() <= kNear_m) return std::nullopt;
+  if (is_at(place, begin) || (waypoint && is_at(place, *waypoint))) return std::nullopt;
   const Entity& entity = document.entities[static_cast<std::size_t>(start->entity)];
   return EntityKeys(document, entity)
       .error("the robot start is at " + place_text(place) + ", and the path `" + printable(path, 60) +
