@@ -13,7 +13,12 @@
 namespace hallway::map {
 namespace {
 
-constexpr double kSamePlace_m = 0.01;
+/// Some maps have the start on the floor and the path at the height of the sensors.
+bool is_same_place(const Vec3& a, const Vec3& b) {
+  constexpr double kNear_m = 0.01;
+  constexpr double kSameFloor_m = 1.0;
+  return (a - b).head<2>().norm() <= kNear_m && std::abs(a.z() - b.z()) <= kSameFloor_m;
+}
 
 /// The waypoint of a path with the lowest index; none for a path of another shape.
 std::optional<Vec3> first_waypoint(const Document& document, std::string_view path) {
@@ -35,10 +40,10 @@ std::optional<StartOffPath> compare(const Document& document, const RobotStart& 
   const Vec3& at = start.T_world_body.t;
   StartOffPath found{start, std::string(name), path.at(0.0), 0.0};
   found.distance_m = (found.T_world_begin.t - at).norm();
-  if (found.distance_m <= kSamePlace_m) return std::nullopt;
+  if (is_same_place(found.T_world_begin.t, at)) return std::nullopt;
   if (path.closed()) {
     const auto corner = first_waypoint(document, name);
-    if (corner && (*corner - at).norm() <= kSamePlace_m) return std::nullopt;
+    if (corner && is_same_place(*corner, at)) return std::nullopt;
   }
   return found;
 }

@@ -18,7 +18,8 @@ struct StartOffPath {
   double distance_m = 0;  ///< between the two
 };
 
-/// Compares the map's robot start with the beginning of one path; empty where they agree within a centimetre, or the map has no start. A
+/// Compares the map's robot start with the beginning of one path; empty where they agree within a centimetre on the ground and a metre in
+/// height, or the map has no start. A
 /// closed path with a rounded corner at its first waypoint agrees with a start at that waypoint too. Headings are not compared.
 /// Throws Error{kBadInput} as find_robot_start() and find_path() do.
 std::optional<StartOffPath> start_off_path(const Document& document, std::string_view path);

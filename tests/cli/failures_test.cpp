@@ -38,7 +38,7 @@ TEST(Usage, NumberThatIsNone) {
 
 TEST(Usage, SettingWithoutValue) {
   const SmallWorld world;
-  expect_failure(world.run({"--set", "seed"}), 2, {"key=value"});
+  expect_failure(world.run({"--set", "seed"}), 2, {"KEY=VALUE"});
 }
 
 TEST(Usage, UnknownSetting) {

@@ -52,7 +52,7 @@ Json finding(const Json& document, const std::string& id) {
 
 TEST(MapCheck, GoodMapHasNothing) {
   const TempFolder folder;
-  const fs::path map = folder.write("rooms.map", two_rooms({}, path_along_x(100, 300)));
+  const fs::path map = folder.write("rooms.map", two_rooms({}, path_along_x(200, 300)));
   const Ended ended = map_command("check", map, {"--strict"});
   EXPECT_EQ(ended.status, 0) << ended.out;
   EXPECT_EQ(ended.out, "0 errors, 0 warnings\n");

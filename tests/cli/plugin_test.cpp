@@ -350,7 +350,7 @@ TEST(PluginValidate, RefusesWhatItCannotTest) {
   EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--test", "none"}).status, 2);
   EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--set", "noise_m"}).status, 2);
   EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--set", "noise_m=-1"}).status, 3);
-  EXPECT_EQ(hallway({"plugin", "validate", good_plugin(), "--plugin", "other"}).status, 4);
+  EXPECT_EQ(hallway({"plugin", "validate", good_plugin() + ":other"}).status, 4);
   EXPECT_EQ(hallway({"plugin", "validate", folder / "none.so"}).status, 4);
   EXPECT_EQ(hallway({"plugin", "validate", fixture("other_abi_major")}).status, 4);
   const Ended text = hallway({"plugin", "validate", folder.write("a.so", "text"), "--json"});

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hallway::test {
@@ -51,7 +52,7 @@ class Terminal {
 
   /// Waits until it has shown `text` since the last call that found one. @return false if it does not come, or the program ends
   bool shows(const std::string& text) {
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (shown_.find(text) == std::string::npos) {
       pollfd ready{.fd = fd_, .events = POLLIN, .revents = 0};
       if (std::chrono::steady_clock::now() > give_up) return false;
@@ -59,8 +60,11 @@ class Terminal {
       char block[4096];
       const ssize_t n = ::read(fd_, block, sizeof block);
       if (n <= 0) return false;
-      shown_.append(block, static_cast<std::size_t>(n));
-      all_.append(block, static_cast<std::size_t>(n));
+      for (const char c : std::string_view(block, static_cast<std::size_t>(n))) {
+        if (c == '\a') continue;  // a bell between letters
+        shown_ += c;
+        all_ += c;
+      }
     }
     shown_.erase(0, shown_.find(text) + text.size());
     return true;

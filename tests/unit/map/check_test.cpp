@@ -90,7 +90,8 @@ TEST(Check, RobotStartOffEveryPath) {
   expect_message(off,
                  "the robot start is at (1, 1, 0.3), but path `way` begins at (2, 2, 0.3), 1.4142 m away: a "
                  "robot on the path begins there");
-  EXPECT_EQ(findings_of(kWorld + start("200 200 0") + way), "5 start-off-path\n") << "heights count";
+  EXPECT_EQ(findings_of(kWorld + start("200 200 0") + way), "") << "the floor below the path";
+  EXPECT_EQ(findings_of(kWorld + start("200 200 -80") + way), "5 start-off-path\n") << "another floor";
   EXPECT_EQ(findings_of(off + path_text("other", "0", "100 100 30")), "") << "one path is enough";
   expect_message(off + path_text("near", "0", "110 100 30"), "path `near` begins at (1.1, 1, 0.3)");
   // A closed path begins behind the corner at its first waypoint; a start at that waypoint is as good.
