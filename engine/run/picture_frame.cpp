@@ -13,7 +13,7 @@ namespace hallway::run {
 namespace {
 
 /// Of the diagonal, on every side.
-constexpr double kMargin = 0.05;
+constexpr double kMargin = 0.02;
 
 /// How far the sensor sees; empty where that is not known.
 std::optional<double> range_of(const Record& record) {
@@ -90,6 +90,12 @@ Box frame_of(const Record& record, const std::vector<render::Surface>& surfaces)
   }
   const Vec3 margin = Vec3::Constant(kMargin * frame.diagonal().norm() + 0.1);
   return {frame.min() - margin, frame.max() + margin};
+}
+
+render::Crop crop_of(const Box& frame, const render::PixelRect& area) {
+  const Vec3 extent = frame.diagonal();
+  const double aspect = static_cast<double>(area.width()) / area.height();
+  return {frame.center().head<2>(), std::max(extent.x(), extent.y() * aspect)};
 }
 
 void cut_to(const Box& frame, render::Picture& picture) {

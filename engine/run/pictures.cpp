@@ -247,7 +247,12 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
                              std::optional<double> error_scale) {
   if (spec.view == sim::PictureView::kPanels) return render::encode_png(draw_panels(record, spec));
   const render::Plan plan = picture_plan(record, spec, map_view);
-  return draw_png(compose_picture(record, spec, map_view, plan.faces, error_scale), spec, plan);
+  const render::Picture picture = compose_picture(record, spec, map_view, plan.faces, error_scale);
+  render::View view = view_of_plan(spec, plan);
+  const Box frame = frame_of(record, picture.surfaces);
+  if (view.kind == render::ViewKind::kTop && !view.crop && !frame.isEmpty())
+    view.crop = crop_of(frame, render::map_area(picture, spec.width_px, spec.height_px));
+  return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
