@@ -49,9 +49,7 @@ render::View fixed_view(const render::Picture& panel, const Box& frame, render::
   if (frame.isEmpty()) return view;
   const render::PixelRect area = render::map_area(panel, grid.width_px, grid.height_px);
   if (view.kind == render::ViewKind::kTop) {
-    const Vec3 extent = frame.diagonal();
-    const double aspect = static_cast<double>(area.width()) / area.height();
-    view.crop = render::Crop{frame.center().head<2>(), std::max(extent.x(), extent.y() * aspect)};
+    view.crop = crop_of(frame, area);
     return view;
   }
   if (view.eye) return view;

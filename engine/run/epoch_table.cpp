@@ -8,7 +8,6 @@
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
 #include "record/files.hpp"
-#include "run/map_epoch.hpp"
 
 namespace hallway::run {
 namespace {
@@ -20,7 +19,7 @@ constexpr std::uint64_t kMostEpoch = std::uint64_t{1} << 53;
 void EpochTable::add(std::uint32_t iteration, const host::Outputs& outputs) {
   if (!outputs.pose() || !outputs.pose()->valid) return;
   const std::uint64_t before = rows_.empty() ? 0 : rows_.back().epoch;
-  rows_.push_back({iteration, map_epoch_of(outputs).value_or(before)});
+  rows_.push_back({iteration, outputs.map_epoch().value_or(before)});
 }
 
 void EpochTable::write(const std::filesystem::path& folder, std::span<const eval::JoinedEpoch> joined) const {

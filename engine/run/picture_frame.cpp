@@ -12,8 +12,9 @@
 namespace hallway::run {
 namespace {
 
-/// Of the diagonal, on every side.
-constexpr double kMargin = 0.05;
+/// Of the diagonal, on every side; more above and below, where a flat world has no extent of its own.
+constexpr double kMargin = 0.02;
+constexpr double kUprightMargin = 0.1;
 
 /// How far the sensor sees; empty where that is not known.
 std::optional<double> range_of(const Record& record) {
@@ -88,8 +89,16 @@ Box frame_of(const Record& record, const std::vector<render::Surface>& surfaces)
   for (const render::Surface& surface : surfaces) {
     for (const Vec3& corner : surface.polygon.vertices) frame.extend(corner);
   }
-  const Vec3 margin = Vec3::Constant(kMargin * frame.diagonal().norm() + 0.1);
+  const double diagonal = frame.diagonal().norm();
+  const double level = kMargin * diagonal + 0.1;
+  const Vec3 margin(level, level, std::max(level, kUprightMargin * diagonal));
   return {frame.min() - margin, frame.max() + margin};
+}
+
+render::Crop crop_of(const Box& frame, const render::PixelRect& area) {
+  const Vec3 extent = frame.diagonal();
+  const double aspect = static_cast<double>(area.width()) / area.height();
+  return {frame.center().head<2>(), std::max(extent.x(), extent.y() * aspect)};
 }
 
 void cut_to(const Box& frame, render::Picture& picture) {

@@ -174,18 +174,15 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-/// Shows all of an area in the picture's map area, and more where the two differ in shape.
-render::Crop crop_to(const Eigen::AlignedBox2d& area, const render::PixelRect& pixels) {
-  const double shape = static_cast<double>(pixels.width()) / std::max(1, pixels.height());
-  return {area.center(), std::max(area.sizes().x(), area.sizes().y() * shape)};
-}
-
 std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan,
                      const DrawOptions& options) {
   render::View view = view_of_plan(spec, plan, options.renderer);
   if (options.vertical_fov) view.vertical_fov = *options.vertical_fov;
-  if (options.area && view.kind == render::ViewKind::kTop)
-    view.crop = crop_to(*options.area, render::map_area(picture, spec.width_px, spec.height_px));
+  if (options.area && view.kind == render::ViewKind::kTop) {
+    const Box ground(Vec3(options.area->min().x(), options.area->min().y(), 0.0),
+                     Vec3(options.area->max().x(), options.area->max().y(), 0.0));
+    view.crop = crop_of(ground, render::map_area(picture, spec.width_px, spec.height_px));
+  }
   return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
@@ -262,8 +259,12 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
   if (spec.view == sim::PictureView::kPanels)
     return render::encode_png(draw_panels(record, spec, options.renderer));
   const render::Plan plan = picture_plan(record, spec, map_view);
-  return draw_png(compose_picture(record, spec, map_view, plan.faces, options.error_scale), spec, plan,
-                  options);
+  const render::Picture picture = compose_picture(record, spec, map_view, plan.faces, options.error_scale);
+  const Box frame = frame_of(record, picture.surfaces);
+  DrawOptions framed = options;
+  if (!framed.area && !frame.isEmpty())
+    framed.area = Eigen::AlignedBox2d(frame.min().head<2>(), frame.max().head<2>());
+  return draw_png(picture, spec, plan, framed);
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,

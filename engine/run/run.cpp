@@ -109,7 +109,7 @@ class Tally {
     iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
     iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
-    iteration.map_epoch = map_epoch_of(*answer.outputs);
+    iteration.map_epoch = answer.outputs->map_epoch();
     if (iteration.T_map_body && answer.outputs->pose()->covariance) {
       using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
       iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());

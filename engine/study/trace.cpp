@@ -102,7 +102,7 @@ class Tracer {
                     .orientation_known = frame.orientation_known,
                     .T_map_body = estimate,
                     .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-                    .map_epoch = run::map_epoch_of(outputs),
+                    .map_epoch = outputs.map_epoch(),
                     .pose_covariance = std::nullopt,
                     .associations = associations,
                     .identities = identities_,
