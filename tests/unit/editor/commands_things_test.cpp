@@ -74,7 +74,7 @@ TEST(ThingsCommands, InfoHasKeysBoundsVolumeMaterials) {
   EXPECT_EQ(map.run("info lamp").data["things"][0]["keys"]["targetname"], "lamp");
   map.run("wall from 0,5 to 4,5 name=north");
   one = map.run("info north").data["things"][0];
-  EXPECT_TRUE(mentions(one["made_by"], "wall ")) << one.dump();
+  EXPECT_TRUE(mentions(one["made_by"].get<std::string>(), "wall ")) << one.dump();
   EXPECT_TRUE(mentions(refusal(map, "info 77"), "77"));
 }
 
