@@ -7,15 +7,12 @@
 
 #include "cli/batch_results.hpp"
 #include "cli/small_world.hpp"
+#include "support/fixture.hpp"
 
 namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string fixture(const std::string& name) {
-  return binary_folder() / "tests/abi/fixtures" / (name + ".so");
-}
 
 Ended compare(const SmallWorld& world, const std::string& input, std::vector<std::string> more,
               const std::string& out = "compared") {

@@ -62,7 +62,7 @@ TEST(Compile, SealedMapHasItsRoomsAndNoLeak) {
   EXPECT_GT(document.at("memory_peak_bytes").get<std::int64_t>(), 1 << 20);
   std::vector<std::string> stages;
   for (const Json& stage : document.at("stages")) {
-    stages.push_back(stage.at("name"));
+    stages.push_back(stage.at("name").get<std::string>());
     EXPECT_GE(stage.at("seconds").get<double>(), 0.0);
   }
   EXPECT_EQ(stages, (std::vector<std::string>{"brushes", "cache", "partition", "visibility", "cache"}));

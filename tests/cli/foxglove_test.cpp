@@ -8,6 +8,7 @@
 
 #include "cli/small_world.hpp"
 #include "log/mcap_reader.hpp"
+#include "support/fixture.hpp"
 
 namespace hallway::test {
 namespace {
@@ -45,10 +46,6 @@ std::vector<std::string> topics_of(const Topics& messages) {
 void expect_same_files(const fs::path& a, const fs::path& b, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     EXPECT_TRUE(read_file(a / name) == read_file(b / name)) << name << " differs";
-}
-
-std::string fixture(const std::string& name) {
-  return (binary_folder() / "tests" / "abi" / "fixtures" / (name + ".so")).string();
 }
 
 /// The same run with and without a view, made once for all tests; both draw a picture.

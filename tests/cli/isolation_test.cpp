@@ -10,17 +10,16 @@
 #include <set>
 
 #include "cli/small_world.hpp"
+#include "support/fixture.hpp"
 #include "support/marked_processes.hpp"
 
 namespace hallway {
 namespace {
 
+using test::fixture;
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string fixture(const std::string& name) {
-  return (test::binary_folder() / "tests" / "abi" / "fixtures" / (name + ".so")).string();
-}
 
 Json read_json(const fs::path& path) {
   return Json::parse(read_file(path));

@@ -66,7 +66,7 @@ TEST(MapCheck, PathThroughTheWallSaysWhereAlongIt) {
   EXPECT_EQ(ended.status, 1);
   const Json found = finding(Json::parse(ended.out), "path-through-wall");
   EXPECT_EQ(found.at("severity"), "error");
-  const std::string message = found.at("message");
+  const auto message = found.at("message").get<std::string>();
   EXPECT_NE(message.find("from 3.00 m to 5.0"), std::string::npos) << message;
   EXPECT_NE(message.find("(4.00, 1.50, 0.50)"), std::string::npos) << message;
   EXPECT_EQ(message.find("more times"), std::string::npos) << message;
@@ -79,7 +79,8 @@ TEST(MapCheck, WaypointInAClosetWithoutADoorIsUnreachable) {
     const Json document = Json::parse(map_command("check", map, {"--json"}).out);
     std::vector<std::string> messages;
     for (const Json& found : document.at("findings")) {
-      if (found.at("id") == "unreachable-waypoint") messages.push_back(found.at("message"));
+      if (found.at("id") == "unreachable-waypoint")
+        messages.push_back(found.at("message").get<std::string>());
     }
     return messages;
   };

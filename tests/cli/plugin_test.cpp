@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/small_world.hpp"
+#include "support/fixture.hpp"
 
 namespace hallway::test {
 namespace {
@@ -34,10 +35,6 @@ TEST(PluginOption, FileThatIsNotElf) {
 }
 
 /// A plugin of tests/abi/fixtures.
-std::string fixture(const std::string& name) {
-  return binary_folder() / "tests/abi/fixtures" / (name + ".so");
-}
-
 TEST(PluginOption, FileOfAnotherAbiMajor) {
   const SmallWorld world;
   const Ended ended = world.run({"--plugin", fixture("other_abi_major")});

@@ -48,7 +48,7 @@ Ended without(const std::string& libraries, const std::vector<std::string>& argu
 std::array<std::string, 2> examined(const Ended& doctor, const std::string& name) {
   const json document = json::parse(doctor.out);
   for (const json& check : document["checks"]) {
-    if (check["name"] == name) return {check["health"], check["text"]};
+    if (check["name"] == name) return {check["health"].get<std::string>(), check["text"].get<std::string>()};
   }
   throw std::runtime_error("doctor does not look at " + name);
 }

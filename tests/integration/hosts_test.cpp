@@ -56,7 +56,7 @@ Json manifest_of(const fs::path& folder) {
 std::map<std::string, std::string> parameters_of(const fs::path& folder) {
   std::map<std::string, std::string> values;
   for (const Json& parameter : manifest_of(folder).at("plugins").at(0).at("parameters"))
-    values[parameter.at("name")] = parameter.at("value");
+    values[parameter.at("name").get<std::string>()] = parameter.at("value").get<std::string>();
   return values;
 }
 

@@ -167,7 +167,7 @@ TEST(Drivers, AreListedWithTheirSettings) {
   for (const auto& file : document.at("files")) {
     for (const auto& driver : file.at("drivers")) {
       if (driver.at("id") != "replay") continue;
-      for (const auto& setting : driver.at("settings")) keys.insert(setting.at("key"));
+      for (const auto& setting : driver.at("settings")) keys.insert(setting.at("key").get<std::string>());
     }
   }
   EXPECT_EQ(keys, (std::set<std::string>{"log", "pace", "rate_hz", "loop", "steps"}));
