@@ -56,7 +56,7 @@ _@FUNCTION@() {
     case $word in
       '') ;;
       :folders) _files -/ ;;
-      :files) if [[ -n $about ]]; then _files -g "*.(${about// /|})"; else _files; fi ;;
+      :files) if [[ -n $about ]]; then _files -g "*.(${about// /|})(-.)"; else _files; fi ;;
       *=|*@*.) open+=("$word") ;;
       *) found+=("${word//:/\\:}${about:+:$about}") ;;
     esac

@@ -102,7 +102,8 @@ TEST(Compare, AnEarlierComparisonIsReplaced) {
   const SmallWorld world;
   ASSERT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--quiet"}).status, 0);
   ASSERT_EQ(
-      compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", "nobody", "--quiet"}).status,
+      compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", "nobody", "--quiet", "--force"})
+          .status,
       4);
   EXPECT_EQ(read_json(fs::path(world.out("compared")) / "results.json").at("cells").size(), 2u);
 }
