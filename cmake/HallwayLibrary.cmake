@@ -8,11 +8,15 @@
 # without.
 option(HALLWAY_PRECOMPILE "Precompile Eigen and the common standard headers" ON)
 
-# hallway_precompile(<target> LIBRARY|EXECUTABLE …headers): the headers as one precompiled header that other targets of that kind may reuse (the two
-# differ in how they address code).
+# hallway_precompile(<target> LIBRARY|EXECUTABLE …headers [LINKS …]): the headers as one precompiled header that other targets of that kind may reuse (the
+# two differ in how they address code). LINKS: the libraries that it and those targets link; by default what nearly all link.
 function(hallway_precompile target kind)
   if(NOT HALLWAY_PRECOMPILE OR HALLWAY_SANITIZE)
     return()
+  endif()
+  cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
+  if(NOT arg_LINKS)
+    set(arg_LINKS fmt::fmt Eigen3::Eigen Threads::Threads)
   endif()
   set(source ${CMAKE_BINARY_DIR}/precompiled/${target}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "int main() {\n  return 0;\n}\n")
@@ -21,17 +25,18 @@ function(hallway_precompile target kind)
   else()
     add_library(${target} OBJECT ${source})
   endif()
-  target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen Threads::Threads)
-  if("<nlohmann/json.hpp>" IN_LIST ARGN)
-    target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)  # its users are compiled with the same definitions
+  if("<nlohmann/json.hpp>" IN_LIST arg_UNPARSED_ARGUMENTS)
+    list(APPEND arg_LINKS nlohmann_json::nlohmann_json)  # its users are compiled with the same definitions
   endif()
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_link_libraries(${target} PRIVATE ${arg_LINKS})
+  set_target_properties(${target} PROPERTIES HALLWAY_LINKS "${arg_LINKS}")
+  target_precompile_headers(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS})
 endfunction()
 
 # hallway_reuse_precompiled(<target> <owner>): the target reads the owner's precompiled header, if there is one.
 function(hallway_reuse_precompiled target owner)
   if(TARGET ${owner})
-    get_target_property(links ${owner} LINK_LIBRARIES)  # so that both are compiled with the same definitions
+    get_target_property(links ${owner} HALLWAY_LINKS)
     target_link_libraries(${target} PRIVATE ${links})
     target_precompile_headers(${target} REUSE_FROM ${owner})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -61,14 +66,14 @@ function(hallway_compile_plainly target)
   endif()
 endfunction()
 
-# hallway_compile_together(<target> [APART a.cpp …]): up to twelve sources are read as one, so that the templates that they share are made once. It is no
+# hallway_compile_together(<target> [APART a.cpp …]): up to eight sources are read as one, so that the templates that they share are made once. It is no
 # substitute for includes either: the clang preset compiles each by itself. APART names sources that stand alone, because they define names of their own that
 # others define too.
 option(HALLWAY_TOGETHER "Compile several sources of a target at once" ON)
 function(hallway_compile_together target)
   cmake_parse_arguments(arg "" "" "APART" ${ARGN})
   if(HALLWAY_TOGETHER AND TARGET ${target})
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     if(arg_APART)
       set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
