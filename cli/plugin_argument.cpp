@@ -26,7 +26,7 @@ std::size_t end_of_name(const std::string& text) {
     return text.ends_with(".so") ? text.size() : std::min(text.find(':'), text.size());
   const std::size_t end = file + kEnding.size() - 1;
   const std::size_t next = std::min(text.find(':', end + 1), text.size());
-  const bool is_id = text.find('=', end) >= next;  // FILE.so:ID
+  const bool is_id = next > end + 1 && text.find('=', end) >= next;  // FILE.so:ID
   return is_id ? next : end;
 }
 
