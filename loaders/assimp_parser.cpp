@@ -9,6 +9,7 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -289,6 +290,15 @@ double fbx_unit(const aiMetadata& from) {
   return centimetres > 0.0 ? centimetres / 100.0 : 0.01;
 }
 
+/// Undoes what assimp did about the axes of FBX. The root of its tree is nothing of the file: up to 5.3 it is the identity, later ones turn the whole by it, and
+/// whether the unit is in it, too, depends on the version.
+Eigen::Matrix3d fbx_root_undone(const aiNode& root) {
+  const aiMatrix4x4& m = root.mTransformation;
+  Eigen::Matrix3d turned;
+  turned << m.a1, m.a2, m.a3, m.b1, m.b2, m.b3, m.c1, m.c2, m.c3;
+  return std::abs(turned.determinant()) > 1e-12 ? turned.inverse().eval() : Eigen::Matrix3d::Identity();
+}
+
 /// Sets axes and units by what the format says about itself.
 void set_frame(Scene& scene, const std::string& extension, const aiScene& from, const std::string& bytes) {
   static const std::set<std::string> kAsTheyStand{"obj", "stl", "ply", "off"};
@@ -296,7 +306,7 @@ void set_frame(Scene& scene, const std::string& extension, const aiScene& from, 
   if (extension == "dae") scene.metres_per_unit = collada_unit(bytes).value_or(1.0);
   if (extension != "fbx" || from.mMetaData == nullptr) return;
   scene.metres_per_unit = fbx_unit(*from.mMetaData);
-  scene.to_world = scene.metres_per_unit * fbx_axes(*from.mMetaData);
+  scene.to_world = scene.metres_per_unit * fbx_axes(*from.mMetaData) * fbx_root_undone(*from.mRootNode);
 }
 
 }  // namespace
