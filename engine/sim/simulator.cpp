@@ -141,7 +141,8 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
   check_robot_start(document_, world_);
-  if (!scenario.robot.path.empty()) {
+  // A start at which another path of the map begins belongs to that path.
+  if (!scenario.robot.path.empty() && map::start_off_all_paths(document_)) {
     if (const auto off = map::start_off_path(document_, scenario.robot.path)) {
       problems_.emplace_back(ErrorCode::kBadInput, map::start_off_path_text(*off),
                              Where{file_of(document_), off->start.line, "hw_robot_start"});

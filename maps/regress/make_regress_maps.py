@@ -201,7 +201,7 @@ def sealed_empty_room_open():
 
 @regress
 def sealed_by_func_group():
-    """a wall that stands in a func_group"""
+    """a wall in a func_group"""
     return world(walls(without=("east",)), of_class("func_group", [block((400, 416), (-16, 316), Z, "east")]), start())
 
 
@@ -417,7 +417,7 @@ def rotated_room():
 
 @regress
 def decimal_coordinates():
-    """a closed room whose walls stand at tenths of a unit, which no binary number is"""
+    """a closed room whose walls are at tenths of a unit, which are not binary numbers"""
     return world(walls((0.1, 400.3), (0.7, 300.9), (0.2, 250.6), 16.1), start())
 
 

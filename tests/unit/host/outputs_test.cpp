@@ -108,7 +108,7 @@ TEST(Outputs, JoinedEpochsAreSorted) {
   put_counter(collector, "map_epoch_3", 0);
   put_counter(collector, "map_epoch_", 0);
   put_counter(collector, "map_epoch_x", 0);
-  put_counter(collector, "map_epoch_-2", 0);
+  put_counter(collector, "map_epoch_2x", 0);
   put_counter(collector, "map_epoch_5", 0.5);
   EXPECT_EQ(collector.finish(), "");
   EXPECT_EQ(collector.outputs().joined_epochs(), (std::vector<JoinedEpoch>{{3, 0}, {12, 4}}));
