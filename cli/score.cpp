@@ -15,6 +15,7 @@
 #include "eval/path_error.hpp"
 #include "eval/path_verdict.hpp"
 #include "import/trajectory_file.hpp"
+#include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -123,7 +124,8 @@ std::vector<eval::Match> match(const Input& reference, const Input& estimate, co
   std::vector<double> theirs = estimate.times();
   if (!reference.has_times || !estimate.has_times) {
     if (reference.has_times != estimate.has_times)
-      throw Error(ErrorCode::kUsage, "a KITTI file has no times, and the other file has: --times gives them");
+      throw Error(ErrorCode::kUsage,
+                  "a KITTI file has no times, and the other file has: --pose-times gives them");
     if (reference.trajectory.poses.size() != estimate.trajectory.poses.size())
       throw Error(ErrorCode::kBadInput,
                   fmt::format("{} poses, and {} has {}: KITTI files are paired line by line",
@@ -331,7 +333,7 @@ void add_score_command(Command& app) {
   command.option("--reference-format", &options->reference_format, "Format of the reference")
       .choices(formats);
   command.option("--estimate-format", &options->estimate_format, "Format of the estimate").choices(formats);
-  command.option("--times", &options->times, "Times of KITTI poses: a line of seconds for each [none]")
+  command.option("--pose-times", &options->times, "Times of KITTI poses: a line of seconds for each [none]")
       .value("FILE");
   command
       .option("--max-difference", &options->max_difference_s,
@@ -352,7 +354,7 @@ void add_score_command(Command& app) {
               "Lengths of the relative errors: frames (f), metres (m), seconds (s)")
       .value("LENGTH,...")
       .show_default();
-  command.flag("--json", &options->json, "Print one JSON document");
+  add_shared(command, Shared::kJson, &options->json);
   command.footer(
       "Reads TUM (t x y z qx qy qz qw), KITTI (12 numbers a line) and EuRoC ground truth (CSV with a "
       "header).\n"

@@ -224,7 +224,8 @@ TEST(Renderer, UnknownNameIsRefused) {
       arguments.insert(arguments.begin() + (command[0] == "map" ? 2 : 1), {"--renderer", name});
       const Ended ended = hallway(arguments, world.folder().path(), environment());
       EXPECT_EQ(ended.status, 2) << command[0] << ended.err;
-      EXPECT_NE(ended.err.find("there are: auto, osmesa, egl"), std::string::npos) << ended.err;
+      for (const char* known : {"auto", "osmesa", "egl"})
+        EXPECT_NE(ended.err.find(known), std::string::npos) << ended.err;
     }
     const Ended ended = hallway(command, world.folder().path(), environment({"HALLWAY_RENDERER=vulkan"}));
     EXPECT_EQ(ended.status, 2) << command[0] << ended.err;

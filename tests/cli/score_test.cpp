@@ -209,7 +209,7 @@ TEST(Score, WhatCannotBePairedIsAnError) {
   expect_failure({reference, folder.write("late.tum", "100 0 0 0 0 0 0 1\n")}, 3, "no pose is within");
   const std::string row = "1 0 0 0 0 1 0 0 0 0 1 0\n";
   const auto kitti = folder.write("k.txt", row + row + row);
-  expect_failure({reference, kitti}, 2, "--times");
+  expect_failure({reference, kitti}, 2, "--pose-times");
   expect_failure({kitti, folder.write("k2.txt", row)}, 3, "line by line");
   expect_failure({reference, folder.write("two.tum", straight(2))}, 3, "needs 3 pairs");
   expect_failure({reference, folder.write("rest.tum", "0 1 1 1 0 0 0 1\n1 1 1 1 0 0 0 1\n2 1 1 1 0 0 0 1\n"),
@@ -226,7 +226,7 @@ TEST(Score, KittiPosesTakeTimesFromAFile) {
   }
   const auto kitti = folder.write("k.txt", poses);
   const auto file = folder.write("times.txt", times);
-  const Json document = score(folder.write("r.tum", straight(12)), kitti, {"--times", file});
+  const Json document = score(folder.write("r.tum", straight(12)), kitti, {"--pose-times", file});
   EXPECT_EQ(document.at("pairs"), 12);
   EXPECT_NEAR(document.at("ate").at("translation_m").at("max").get<double>(), 0.0, 1e-9);
   EXPECT_TRUE(score(kitti, kitti, {"--delta", "1s"}).at("rpe").at(0).at("translation_m").is_null());

@@ -144,7 +144,7 @@ class Hosts : public testing::TestWithParam<std::string> {
     std::string params;
     const Json manifest = manifest_of(out("run"));
     for (const Json& parameter : manifest.at("plugins").at(0).at("parameters")) {
-      if (parameter.at("origin") == "default") continue;
+      if (parameter.at("origin") == "default" || parameter.at("origin") == "sensor") continue;
       params += (params.empty() ? "" : ", ") + parameter.at("name").get<std::string>() + " = " +
                 parameter.at("value").get<std::string>();
     }
