@@ -17,6 +17,7 @@ awk -v wanted="$2" '
   }
   /^## / { put(item); item = ""; inside = ($2 == wanted); next }
   !inside { next }
+  /^### / { put(item); item = ""; printf "\n  [ %s ]\n", substr($0, 5); next }
   /^- / { put(item); item = substr($0, 3); next }
   { sub(/^[ \t]+/, ""); if ($0 != "" && item != "") item = item " " $0 }
   END { put(item); if (!lines) { print "changelog: CHANGELOG.md does not tell of " wanted > "/dev/stderr"; exit 1 } }

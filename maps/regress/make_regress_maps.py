@@ -97,7 +97,7 @@ def leak_gap_1mm():
 
 @regress
 def leak_diagonal_corner():
-    """two walls whose corners stand 1 mm apart along x and along y"""
+    """two walls whose corners are 1 mm apart along x and along y"""
     brushes = walls(without=("east", "north", "floor", "ceiling"))
     brushes += [block((400.1, 416), (-16, 300), Z, "east"), block((-16, 400), (300.1, 316), Z, "north")]
     brushes += [block((-40, 440), (-40, 340), (-16, 0), "floor"), block((-40, 440), (-40, 340), (250, 266), "ceiling")]
@@ -133,7 +133,7 @@ def leak_under_a_door():
 
 @regress
 def leak_behind_detail():
-    """a wall that is detail: it stops robots, but does not close the map"""
+    """a wall of detail stops robots, but does not seal the map"""
     return world(walls(without=("east",)), of_class("hw_detail", [block((400, 416), (-16, 316), Z, "east")]), start())
 
 
@@ -145,7 +145,7 @@ def leak_subtracted_hole():
 
 @regress
 def leak_func_door():
-    """a doorway closed by a func_door: doors move and have no part in the world"""
+    """a doorway closed by a func_door: doors move, so they are not part of the world"""
     return world(walls(without=("east",)) + east_with_hole((105, 195), (0, 200)),
                  of_class("func_door", [block((400, 416), (105, 195), (0, 200), "door")]), start())
 
@@ -158,7 +158,7 @@ def leak_light_outside():
 
 @regress
 def leak_one_room_of_two():
-    """two rooms with a wall between; only the one in which the light stands is open"""
+    """two rooms with a wall between; the one with the light is open"""
     return world(walls(without=("east",)) + [block((190, 210), Y, Z, "between")] + east_with_hole((105, 195), (0, 200)),
                  start((100, 150, 80)), entity({"classname": "light", "origin": "300 150 80"}))
 
@@ -181,7 +181,7 @@ def sealed_touching_edges():
 
 @regress
 def sealed_crack_tenth_mm():
-    """a gap of 0.1 mm, as rounded coordinates leave it, counts as closed"""
+    """a gap of 0.1 mm, as left by rounded coordinates, counts as closed"""
     return world(walls(without=("east",)) + east_with_hole((150, 150.01), Z), start())
 
 
@@ -194,7 +194,7 @@ def sealed_by_sky():
 
 @regress
 def sealed_empty_room_open():
-    """a hole in a room in which nobody stands, beside a closed one"""
+    """an open room without an occupant, beside a closed one"""
     return world(walls(without=("east",)) + [block((190, 210), Y, Z, "between")] + east_with_hole((105, 195), (0, 200)),
                  start((100, 150, 80)))
 
@@ -209,13 +209,13 @@ def sealed_by_func_group():
 
 @regress
 def coplanar_later_owns():
-    """two slabs whose tops coincide where they overlap: the later one has the common part"""
+    """two slabs whose tops coincide where they overlap: the later one owns the common part"""
     return world([block((0, 200), (0, 100), (0, 50), "first"), block((100, 300), (0, 100), (0, 50), "second")])
 
 
 @regress
 def coplanar_same_material():
-    """two slabs side by side, of one material: no face is left between them"""
+    """two slabs side by side, of one material: no face remains between them"""
     return world([block((0, 100), (0, 100), (0, 50), "stone"), block((100, 200), (0, 100), (0, 50), "stone")])
 
 
@@ -233,7 +233,7 @@ def overlapping_brushes():
 
 @regress
 def brush_inside_brush():
-    """a block within a block is not seen"""
+    """a block within a block is not visible"""
     return world([block((0, 90), (0, 90), (0, 90), "outer"), block((30, 60), (30, 60), (30, 60), "inner")])
 
 
@@ -257,7 +257,7 @@ def subtract_through():
 
 @regress
 def subtract_crossing():
-    """three tunnels through a block that meet in its middle"""
+    """three tunnels through a block, which meet in its middle"""
     return world([block((0, 90), (0, 90), (0, 90), "rock")],
                  subtract(block((-10, 100), (30, 60), (30, 60), "bore"), block((30, 60), (-10, 100), (30, 60), "bore"),
                           block((30, 60), (30, 60), (-10, 100), "bore")))
@@ -265,7 +265,7 @@ def subtract_crossing():
 
 @regress
 def subtract_order():
-    """a post added after the cut stands, one added before it is cut off"""
+    """a post added after the cut remains, a post added before is cut off"""
     return world([block((0, 100), (0, 100), (0, 100), "rock")],
                  add(block((60, 80), (60, 80), (0, 200), "late"), order=3),
                  subtract(block((0, 100), (0, 100), (50, 250), "cut"), order=2),
@@ -274,7 +274,7 @@ def subtract_order():
 
 @regress
 def subtract_ties():
-    """of equal `order` the file's decides"""
+    """brushes of equal `order` apply in the order of the file"""
     return world([], add(block((0, 50), (0, 50), (0, 50), "gone"), order=1),
                  subtract(block((0, 100), (0, 50), (0, 50), "cut"), order=1),
                  add(block((60, 90), (0, 50), (0, 50), "stays"), order=1))
@@ -282,7 +282,7 @@ def subtract_ties():
 
 @regress
 def subtract_misses():
-    """an hw_subtract that touches a block from outside takes nothing away; the common face is its own, as it is the later one"""
+    """an hw_subtract that touches a block from outside removes nothing; as the later brush it owns the common face"""
     return world([block((0, 50), (0, 50), (0, 50), "rock")], subtract(block((50, 90), (0, 50), (0, 50), "cut")))
 
 
@@ -297,7 +297,7 @@ def nested_rooms():
 
 @regress
 def room_in_a_block():
-    """a room that is cut out of solid"""
+    """a room cut out of a solid block"""
     return world([block((-16, 416), (-16, 316), (-16, 266), "rock")], subtract(block(X, Y, Z, "plaster")), start())
 
 
@@ -305,7 +305,7 @@ def room_in_a_block():
 
 @regress
 def t_junction_floor():
-    """small tiles along one large one: their corners lie on its edge"""
+    """small tiles along a large one: their corners are on its edge"""
     brushes = [block((0, 400), (0, 100), (-10, 0), "large")]
     brushes += [block((x, x + 100), (100, 150), (-10, 0), "small") for x in range(0, 400, 100)]
     return world(brushes)
@@ -313,14 +313,14 @@ def t_junction_floor():
 
 @regress
 def sliver_1e6():
-    """a film of 0.000001 units is too thin to be a brush, a foil of 0.001 units is one"""
+    """a film of 0.000001 units is too thin to be a brush, a foil of 0.001 units is a brush"""
     return world([block((0, 100), (0, 100), (0, 50), "left"), block((0, 100), (0, 100), (50, 50.000001), "film"),
                   block((200, 300), (0, 100), (0, 0.001), "foil")])
 
 
 @regress
 def slanted_columns():
-    """hilly ground of columns between sides that are one plane but for the rounding of their corners"""
+    """hilly ground of columns whose sides are one plane except for the rounding of their corners"""
     cells, at = 6, lambda i: round(X[0] + i * (X[1] - X[0]) / 7.3, 6)
     height = lambda i, j: round(40 + 20 * math.sin(1.7 * i) * math.cos(1.3 * j), 6)
     corner = lambda i, j: (at(i), at(j) * 0.6, height(i, j))
@@ -430,7 +430,7 @@ def far_from_origin():
 
 @regress
 def huge_coordinates():
-    """a closed box with walls at the largest coordinates there are"""
+    """a closed box with walls at the largest coordinates allowed"""
     edge = 16777216
     a, b = (-edge, edge), (-edge + 1000, edge - 1000)
     return world([block(a, a, (-edge, b[0]), "floor"), block(a, a, (b[1], edge), "ceiling"),
@@ -488,7 +488,7 @@ def beyond_coordinates():
 
 @regress
 def redundant_plane():
-    """a face that only touches its brush in an edge is no fault and has no polygon"""
+    """a face that only touches its brush in an edge is no error and has no polygon"""
     brush = block((0, 100), (0, 100), (0, 100), "cube")
     brush.insert(-1, face([(100, 0, 100), (0, 0, 200), (100, 100, 100)], "extra", (1, 0, 0), (0, -1, 0)))
     return world([brush])
@@ -513,7 +513,7 @@ def standard_format():
 
 @regress
 def mixed_formats():
-    """a closed room of which every second face is in the Standard format"""
+    """a closed room with every second face in the Standard format"""
     brushes = [[standard(line) if i % 2 else line for i, line in enumerate(brush)] for brush in walls()]
     return world(brushes, start())
 
@@ -553,13 +553,13 @@ def cut_short():
 
 @regress
 def liquid():
-    """a pool: water has no part in the world"""
+    """a pool: water is not part of the world"""
     return world(walls() + [block(X, Y, (0, 50), "*water1")], start())
 
 
 @regress
 def clip():
-    """a clip brush stops players of a game only"""
+    """a clip brush stops only the players of a game"""
     return world(walls() + [block((100, 200), (100, 200), (0, 100), "clip")], start())
 
 
@@ -583,21 +583,21 @@ def func_detail():
 
 @regress
 def detail_pillar():
-    """a pillar that is detail hides nothing from the visible sets"""
+    """a pillar of detail occludes nothing in the visible sets"""
     return world(walls(), of_class("hw_detail", [block((180, 220), (130, 170), Z, "pillar")]), start((100, 150, 80)),
                  entity({"classname": "light", "origin": "300 150 80"}))
 
 
 @regress
 def structure_pillar():
-    """the same pillar as structure"""
+    """the pillar of `detail_pillar.map` as structure"""
     return world(walls() + [block((180, 220), (130, 170), Z, "pillar")], start((100, 150, 80)),
                  entity({"classname": "light", "origin": "300 150 80"}))
 
 
 @regress
 def hint_split():
-    """a hint across an empty room makes two clusters of it"""
+    """a hint across an empty room divides it into two clusters"""
     return world(walls() + [block((-8, 200), (-8, 308), (-8, 258), "hint")], start((100, 150, 80)))
 
 
@@ -644,7 +644,7 @@ def labyrinth_corner():
 
 @regress
 def start_in_solid():
-    """the robot starts within the wall"""
+    """the robot starts inside a wall"""
     return world(walls(), start((408, 150, 80)))
 
 
@@ -672,9 +672,9 @@ def text_of(made):
 
 def readme():
     lines = ["# Regression maps", "",
-             "One small map for each behaviour of the compiler. Written by `make_regress_maps.py` (a test compares with `--check`);",
-             "`tests/integration/regress_maps_test.cpp` asks every one of them what is solid, closed, seen and reported.", "",
-             "| map | what it is |", "|---|---|"]
+             "One small map for each behaviour of the compiler. `make_regress_maps.py` writes the maps and this page; a test compares them (`--check`).",
+             "`tests/integration/regress_maps_test.cpp` checks for every map which points are solid, whether it is sealed, what is visible and what is reported.", "",
+             "| map | content |", "|---|---|"]
     return lines + [f"| `{name}.map` | {function.__doc__} |" for name, function in sorted(MAPS.items())]
 
 
