@@ -221,7 +221,7 @@ int bench_em(const BenchOptions& options) {
   {
     Progress progress("scenes", scenes.count(), options.quiet || options.json);
     for (std::uint32_t i = 0; i < scenes.count(); ++i) {
-      if (interrupted()) return interrupt_status();
+      if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
       const planes::LabelledCloud scene = scenes.get(i);
       const std::optional<planes::Score> best = score_knowing(scene);
       if (best) known.push_back(*best);

@@ -140,7 +140,7 @@ int compare(const CompareOptions& options) {
                               .environment = renderer_environment(renderer),
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
-  if (results.size() < plan.cells.size()) return interrupt_status();
+  if (results.size() < plan.cells.size()) throw Error(ErrorCode::kInterrupted, "interrupted");
   fs::path picture;
   try {
     picture = draw(options, renderer, folder, results);
@@ -148,7 +148,8 @@ int compare(const CompareOptions& options) {
     print_warning(std::string("no picture: ") + error.what());
   }
   Json document = batch::to_json(results);
-  document["picture"] = printable(picture.string(), 4096);
+  document["picture"] = nullptr;
+  if (!picture.empty()) document["picture"] = printable(picture.string(), 4096);
   write_file_atomically(folder / "results.csv", batch::print_csv(results));
   write_file_atomically(folder / "results.json", document.dump(1) + "\n");
   if (options.json) {

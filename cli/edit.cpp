@@ -126,8 +126,8 @@ int run_one(Session& session, const EditOptions& options) {
   return report.status;
 }
 
-/// Needs no readable map, and no whole journal.
-int recover_map(const EditOptions& options) {
+/// Needs no readable map, and no whole journal. @return what it came to, in words
+std::string recover_map(const EditOptions& options) {
   const editor::Call call = editor::parse_words(options.words, {});
   const std::string to = call.arguments.text_or_empty("to");
   if (to.empty() && fs::exists(options.map)) {
@@ -135,16 +135,14 @@ int recover_map(const EditOptions& options) {
     show_notes(session);
     const bool unsaved = session.unsaved();
     session.save();
-    print_result(unsaved ? fmt::format("{} has what its journal holds\n", printable(options.map))
-                         : "there is nothing to recover\n");
-    return 0;
+    return unsaved ? fmt::format("{} has what its journal holds", printable(options.map))
+                   : "there is nothing to recover";
   }
   const std::string& file = to.empty() ? options.map : to;
   check_output_file(file);
   if (!to.empty() && fs::exists(to)) throw Error(ErrorCode::kIo, "the file is there already", {to, 0, {}});
   write_file_atomically(file, editor::recover(options.map));
-  print_result(fmt::format("{} has what the journal holds\n", printable(file)));
-  return 0;
+  return fmt::format("{} has what the journal holds", printable(file));
 }
 
 /// What the last word may become; the first is the map.
@@ -170,7 +168,12 @@ int edit(EditOptions options) {
   }
   if (!options.words.empty() && !options.script.empty())
     throw Error(ErrorCode::kUsage, "either a command or a script (-f), not both");
-  if (!options.words.empty() && options.words[0] == "recover") return recover_map(options);
+  if (!options.words.empty() && options.words[0] == "recover") {
+    const Report report{.lines = {recover_map(options)}};
+    show(report, options.json);
+    finish_json(options, report.status, Json::array({json_of(report)}));
+    return report.status;
+  }
   if (!fs::path(options.map).has_filename() || fs::is_directory(options.map))
     throw Error(ErrorCode::kUsage, "a map is a file", {printable(options.map), 0, {}});
   const render::Renderer renderer = chosen_renderer(options.renderer);
@@ -214,7 +217,7 @@ void add_edit_command(Command& app) {
   command.action([options, reference] {
     if (*reference) {
       if (options->json)
-        print_json({{"schema", "hallway.edit-commands/1"}, {"commands", editor::reference_json()}});
+        print_json({{"schema", "hallway.edit_commands/1"}, {"commands", editor::reference_json()}});
       else
         print_result(editor::reference_markdown());
       return 0;

@@ -133,7 +133,7 @@ int run_study(const study::Study& study, const StudyOptions& options) {
                                .log = print_plugin_log,
                                .progress = [&](std::uint64_t done) { progress.update(done); },
                                .stop = interrupted});
-  if (interrupted()) return interrupt_status();
+  if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
   study::Outcome outcome = study.conclude(runs, request);
   for (study::Table& table : study::common_tables(runs)) outcome.tables.push_back(std::move(table));
   nlohmann::ordered_json document = study::write_outcome(study, request, outcome, folder);

@@ -101,7 +101,7 @@ Json document_of(const Findings& findings, int status) {
           {{"id", sensor.id}, {"name", sensor.name}, {"kind", host::sample_kind_name(sensor.kind)}});
     }
   }
-  return {{"schema", "hallway.robot-check/1"},
+  return {{"schema", "hallway.robot_check/1"},
           {"status", status},
           {"driver", findings.driver},
           {"robot", findings.robot ? Json(findings.robot->name) : Json()},

@@ -79,7 +79,7 @@ std::string table_of(const SessionResult& result, const std::string& name, const
 }
 
 Json document_of(const SessionResult& result, const std::string& name, const fs::path& folder) {
-  Json document{{"schema", "hallway.robot-result/1"},
+  Json document{{"schema", "hallway.robot_result/1"},
                 {"status", status_of(result)},
                 {"name", name},
                 {"plugins", result.plugins},

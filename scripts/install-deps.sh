@@ -30,7 +30,7 @@ libraries=(libassimp-dev libedit-dev libembree-dev libfmt-dev libgmp-dev libmupa
   libtbb-dev libtinygltf-dev libtomlplusplus-dev libxxhash-dev libzstd-dev zlib1g-dev)
 # what pictures are drawn with, opened at run time: OSMesa where the release has it, and EGL with Mesa's software renderer
 renderers=('libosmesa6?' libegl1 libgl1-mesa-dri)
-tests=(libgtest-dev python3 python3-numpy binutils)
+tests=(libgtest-dev python3 python3-jsonschema python3-numpy binutils)
 clang=(clang 'libclang-rt-dev|libclang-rt-19-dev|libclang-rt-18-dev|libclang-rt-14-dev')
 ros=(librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libroscpp-dev libdiagnostic-msgs-dev
   libtf2-msgs-dev python3-rosmaster)
