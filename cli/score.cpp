@@ -53,7 +53,7 @@ Alignment alignment_of(const std::string& name) {
 }
 
 /// A file that is scored.
-struct Input {
+struct ScoredFile {
   std::string file;
   ForeignTrajectory trajectory;
   bool has_times = true;
@@ -65,10 +65,10 @@ struct Input {
   }
 };
 
-Input read_input(const std::string& file, const std::string& format, const ScoreOptions& options) {
-  Input input{.file = file,
-              .trajectory = import::read_trajectory(
-                  file, import::trajectory_format(format.empty() ? options.format : format))};
+ScoredFile read_input(const std::string& file, const std::string& format, const ScoreOptions& options) {
+  ScoredFile input{.file = file,
+                   .trajectory = import::read_trajectory(
+                       file, import::trajectory_format(format.empty() ? options.format : format))};
   if (input.trajectory.cut_off)
     print_warning(printable(file, 4096) + ": the last line has no line end: the file may be cut off");
   input.has_times = input.trajectory.format != TrajectoryFormat::kKitti;
@@ -120,7 +120,8 @@ const char* unit_of(const eval::Delta& delta) {
   return "";
 }
 
-std::vector<eval::Match> match(const Input& reference, const Input& estimate, const ScoreOptions& options) {
+std::vector<eval::Match> match(const ScoredFile& reference, const ScoredFile& estimate,
+                               const ScoreOptions& options) {
   std::vector<double> theirs = estimate.times();
   if (!reference.has_times || !estimate.has_times) {
     if (reference.has_times != estimate.has_times)
@@ -153,7 +154,7 @@ Pose pose_of(const log::StampedPose& pose) {
   return {Quat(q[0], q[1], q[2], q[3]).normalized(), Vec3(pose.position_m.data())};
 }
 
-std::vector<PosePair> pair_up(const Input& reference, const Input& estimate,
+std::vector<PosePair> pair_up(const ScoredFile& reference, const ScoredFile& estimate,
                               const std::vector<eval::Match>& matches) {
   const auto& truth = reference.trajectory.poses;
   std::vector<double> travelled_m{0.0};
@@ -168,7 +169,7 @@ std::vector<PosePair> pair_up(const Input& reference, const Input& estimate,
 }
 
 /// Share of the reference's time that lies between successive pairs, gaps left out: what is longer than five times the median.
-double covered_share(const std::vector<PosePair>& pairs, const Input& reference) {
+double covered_share(const std::vector<PosePair>& pairs, const ScoredFile& reference) {
   constexpr double kGap = 5.0;
   const auto& truth = reference.trajectory.poses;
   const double whole = truth.back().t_s - truth.front().t_s;
@@ -183,8 +184,8 @@ double covered_share(const std::vector<PosePair>& pairs, const Input& reference)
 
 /// All that is said of two trajectories.
 struct Score {
-  const Input& reference;
-  const Input& estimate;
+  const ScoredFile& reference;
+  const ScoredFile& estimate;
   std::vector<PosePair> pairs{};
   double coverage = 0.0;  ///< of the reference's time
   eval::PathFit fit{};
@@ -203,7 +204,7 @@ std::optional<eval::PathVerdict> judge(const Score& score) {
   return eval::PathVerdict::kOk;
 }
 
-Score score_of(const Input& reference, const Input& estimate, const ScoreOptions& options) {
+Score score_of(const ScoredFile& reference, const ScoredFile& estimate, const ScoreOptions& options) {
   Score score{.reference = reference, .estimate = estimate};
   const Alignment alignment = alignment_of(options.align);
   score.pairs = pair_up(reference, estimate, match(reference, estimate, options));
@@ -226,7 +227,7 @@ Score score_of(const Input& reference, const Input& estimate, const ScoreOptions
   return score;
 }
 
-Json describe(const Input& input) {
+Json describe(const ScoredFile& input) {
   return {{"file", printable(input.file, 4096)},
           {"format", import::name_of(input.trajectory.format)},
           {"poses", input.trajectory.poses.size()}};
@@ -268,7 +269,7 @@ std::string errors_text(const std::optional<eval::ErrorStatistics>& errors, cons
                      errors->median, errors->max, unit);
 }
 
-std::string input_text(const Input& input) {
+std::string input_text(const ScoredFile& input) {
   return fmt::format("{}, {} poses ({})", printable(input.file, 4096), input.trajectory.poses.size(),
                      import::name_of(input.trajectory.format));
 }
@@ -307,8 +308,8 @@ std::string table_of(const Score& score, const ScoreOptions& options) {
 
 int score(const ScoreOptions& options) {
   for (const std::string_view text : split(options.delta, ',')) parse_delta(trim(text));
-  const Input reference = read_input(options.reference, options.reference_format, options);
-  const Input estimate = read_input(options.estimate, options.estimate_format, options);
+  const ScoredFile reference = read_input(options.reference, options.reference_format, options);
+  const ScoredFile estimate = read_input(options.estimate, options.estimate_format, options);
   const Score result = score_of(reference, estimate, options);
   if (options.json) {
     print_json(document_of(result, options));

@@ -135,7 +135,7 @@ Box bounds_needed(const State& state, const std::vector<Thing>& things, const ch
   return box;
 }
 
-std::vector<Thing> things_of(const State& state, const std::vector<Id>& ids) {
+std::vector<Thing> things_with(const State& state, const std::vector<Id>& ids) {
   std::vector<Thing> things;
   const std::set<Id> wanted(ids.begin(), ids.end());
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
@@ -320,7 +320,7 @@ void say_copies(Edit& edit, const Copies& copies) {
   // A group stands for its members.
   std::vector<Id> ids;
   std::set<Thing> members;
-  const auto made = things_of(edit.state, copies.ids);
+  const auto made = things_with(edit.state, copies.ids);
   for (const Thing& thing : made) {
     if (thing.brush) continue;
     for (const Thing& member : with_members(edit.state, {thing})) {
@@ -337,7 +337,8 @@ void duplicate(Edit& edit, const Arguments& arguments) {
   const auto things = resolve(edit.state, arguments.text("what"));
   bounds_needed(edit.state, things, "duplicate");
   const Copies copies = add_copies(edit, edit.state, things);
-  transform_things(edit, things_of(edit.state, copies.ids), move_by(way_units(edit, arguments.place("by"))));
+  transform_things(edit, things_with(edit.state, copies.ids),
+                   move_by(way_units(edit, arguments.place("by"))));
   say_copies(edit, copies);
 }
 
@@ -373,8 +374,8 @@ void array(Edit& edit, const Arguments& arguments) {
   for (const Thing& thing : things) originals.push_back(id_of(edit.state, thing));
   Copies all;
   for (std::int64_t step = 1; step < count; ++step) {
-    const Copies copies = add_copies(edit, edit.state, things_of(edit.state, originals));
-    transform_things(edit, things_of(edit.state, copies.ids), step_of(edit, arguments, step));
+    const Copies copies = add_copies(edit, edit.state, things_with(edit.state, originals));
+    transform_things(edit, things_with(edit.state, copies.ids), step_of(edit, arguments, step));
     all.ids.insert(all.ids.end(), copies.ids.begin(), copies.ids.end());
     all.notes = copies.notes;
   }
@@ -407,7 +408,7 @@ void paste(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
   const Copies copies = add_copies(edit, source, all_things(source));
   const double from = units_of(source).metres_per_unit, to = edit.metres_per_unit();
-  const auto made = things_of(edit.state, copies.ids);
+  const auto made = things_with(edit.state, copies.ids);
   if (from != to) transform_things(edit, made, change_units(from, to));
   transform_things(edit, made, move_by(way_of(edit, arguments, made, "paste")));
   say_copies(edit, copies);

@@ -14,30 +14,30 @@ namespace {
 constexpr std::uint64_t kFooterRecord = kMcapRecordHead + kMcapFooterBytes;
 constexpr std::uint64_t kTail = kFooterRecord + kMcapMagic.size();
 
-[[noreturn]] void bad(std::string cause) {
+[[noreturn]] void bad_index(std::string cause) {
   throw Error(ErrorCode::kBadInput, std::move(cause));
 }
 
 /// The summary with the footer behind it, without the footer's last field.
 std::string read_summary(const ByteInput& input) {
   std::string tail;
-  if (input.size() < kTail + kMcapMagic.size()) bad("is too short for a log with an index");
+  if (input.size() < kTail + kMcapMagic.size()) bad_index("is too short for a log with an index");
   input.read(input.size() - kTail, kTail, tail);
   const McapRecordHead head = parse_record_head(std::string_view(tail).substr(0, kMcapRecordHead));
   if (!tail.ends_with(kMcapMagic) || static_cast<McapOp>(head.op) != McapOp::kFooter ||
       head.length != kMcapFooterBytes) {
-    bad("does not end as a log does: it has no index");
+    bad_index("does not end as a log does: it has no index");
   }
   McapFooter footer;
   parse_record(std::string_view(tail).substr(kMcapRecordHead, kMcapFooterBytes), footer);
   const std::uint64_t footer_at = input.size() - kTail;
-  if (footer.summary_start < kMcapMagic.size() || footer.summary_start > footer_at) bad("has no index");
+  if (footer.summary_start < kMcapMagic.size() || footer.summary_start > footer_at) bad_index("has no index");
   const std::uint64_t size = footer_at - footer.summary_start;
-  if (size > kMaxMcapRecordBytes) bad(fmt::format("has an index of {} bytes", size));
+  if (size > kMaxMcapRecordBytes) bad_index(fmt::format("has an index of {} bytes", size));
   std::string summary;
   input.read(footer.summary_start, size + kFooterRecord - sizeof footer.summary_crc, summary);
   if (footer.summary_crc != 0 && footer.summary_crc != crc32(summary))
-    bad("has an index whose check sum is wrong");
+    bad_index("has an index whose check sum is wrong");
   summary.resize(size);
   return summary;
 }
@@ -85,16 +85,16 @@ McapIndex read_mcap_index(const ByteInput& input) {
   McapIndex index;
   std::string_view rest = summary;
   while (!rest.empty()) {
-    if (rest.size() < kMcapRecordHead) bad("has an index that ends within a record");
+    if (rest.size() < kMcapRecordHead) bad_index("has an index that ends within a record");
     const McapRecordHead head = parse_record_head(rest.substr(0, kMcapRecordHead));
     rest.remove_prefix(kMcapRecordHead);
-    if (head.length > rest.size()) bad("has an index that ends within a record");
+    if (head.length > rest.size()) bad_index("has an index that ends within a record");
     take(static_cast<McapOp>(head.op), rest.substr(0, head.length), index);
     rest.remove_prefix(head.length);
   }
   for (const auto& [id, channel] : index.channels) {
     if (channel.schema_id == 0 || index.schemas.contains(channel.schema_id)) continue;
-    bad(fmt::format("has an index in which schema {} of channel {} is missing", channel.schema_id, id));
+    bad_index(fmt::format("has an index in which schema {} of channel {} is missing", channel.schema_id, id));
   }
   return index;
 }
@@ -103,13 +103,13 @@ std::string read_indexed_record(const ByteInput& input, McapOp op, std::uint64_t
                                 std::uint64_t length) {
   const bool there = offset <= input.size() && length <= input.size() - offset;
   if (!there || length < kMcapRecordHead || length - kMcapRecordHead > kMaxMcapRecordBytes) {
-    bad(fmt::format("an index of a record of {} bytes at byte {}", length, offset));
+    bad_index(fmt::format("an index of a record of {} bytes at byte {}", length, offset));
   }
   std::string record;
   input.read(offset, length, record);
   const McapRecordHead head = parse_record_head(std::string_view(record).substr(0, kMcapRecordHead));
   if (static_cast<McapOp>(head.op) != op || head.length != length - kMcapRecordHead) {
-    bad(fmt::format("at byte {} stands another record than the index says", offset));
+    bad_index(fmt::format("at byte {} stands another record than the index says", offset));
   }
   return record.substr(kMcapRecordHead);
 }

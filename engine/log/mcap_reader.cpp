@@ -10,12 +10,12 @@
 namespace hallway::log {
 namespace {
 
-[[noreturn]] void bad(std::string cause) {
+[[noreturn]] void bad_log(std::string cause) {
   throw Error(ErrorCode::kBadInput, std::move(cause));
 }
 
 void demand(bool condition, const char* cause) {
-  if (!condition) bad(cause);
+  if (!condition) bad_log(cause);
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ bool McapReader::read_from_file() {
   input_.read(at_, kMcapRecordHead, head_);
   const McapRecordHead head = parse_record_head(head_);
   if (head.length > left - kMcapRecordHead) {
-    bad(fmt::format("a record of kind {} and {} bytes, of which {} are there", head.op, head.length,
-                    left - kMcapRecordHead));
+    bad_log(fmt::format("a record of kind {} and {} bytes, of which {} are there", head.op, head.length,
+                        left - kMcapRecordHead));
   }
   if (head.length > kMaxMcapRecordBytes) {
-    bad(fmt::format("a record of {} bytes; at most {} are read", head.length, kMaxMcapRecordBytes));
+    bad_log(fmt::format("a record of {} bytes; at most {} are read", head.length, kMaxMcapRecordBytes));
   }
   input_.read(at_ + kMcapRecordHead, head.length, content_);
   at_ += kMcapRecordHead + head.length;
@@ -82,7 +82,7 @@ bool McapReader::take_data(std::uint8_t op) {
     return false;
   }
   after_chunk_ = static_cast<McapOp>(op) == McapOp::kChunk;
-  if (static_cast<McapOp>(op) == McapOp::kMessage && chunks_ > 0) bad("a message outside of the chunks");
+  if (static_cast<McapOp>(op) == McapOp::kMessage && chunks_ > 0) bad_log("a message outside of the chunks");
   if (after_chunk_) {
     open_chunk();
     return false;
@@ -108,43 +108,43 @@ bool McapReader::take_content(std::uint8_t op, std::string_view content) {
       ++attachments_;
       return true;
     case McapOp::kMetadata:
-      if (content.size() > kMaxMcapFactBytes) bad(fmt::format("metadata of {} bytes", content.size()));
+      if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("metadata of {} bytes", content.size()));
       parse_record(content, item_.emplace<McapMetadata>());
       ++metadata_;
       return true;
     default:
-      bad(fmt::format("a record of kind {} among the data", op));
+      bad_log(fmt::format("a record of kind {} among the data", op));
   }
 }
 
 void McapReader::count_facts(std::string_view content) {
   fact_bytes_ += content.size();
   if (fact_bytes_ > kMaxMcapFactBytes) {
-    bad(fmt::format("more than {} bytes of schemas and channels", kMaxMcapFactBytes));
+    bad_log(fmt::format("more than {} bytes of schemas and channels", kMaxMcapFactBytes));
   }
 }
 
 bool McapReader::add_schema(std::string_view content) {
-  if (content.size() > kMaxMcapFactBytes) bad(fmt::format("a schema of {} bytes", content.size()));
+  if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("a schema of {} bytes", content.size()));
   auto& schema = item_.emplace<McapSchema>();
   parse_record(content, schema);
   if (schema.id == 0) return false;  // to be ignored, says the format
   const auto [known, is_new] = schemas_.emplace(schema.id, schema);
   if (is_new) count_facts(content);
-  if (known->second != schema) bad(fmt::format("schema {} a second time, and another one", schema.id));
+  if (known->second != schema) bad_log(fmt::format("schema {} a second time, and another one", schema.id));
   return is_new;
 }
 
 bool McapReader::add_channel(std::string_view content) {
-  if (content.size() > kMaxMcapFactBytes) bad(fmt::format("a channel of {} bytes", content.size()));
+  if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("a channel of {} bytes", content.size()));
   auto& channel = item_.emplace<McapChannel>();
   parse_record(content, channel);
   if (channel.schema_id != 0 && !schemas_.contains(channel.schema_id)) {
-    bad(fmt::format("channel {} with schema {}, which is not known", channel.id, channel.schema_id));
+    bad_log(fmt::format("channel {} with schema {}, which is not known", channel.id, channel.schema_id));
   }
   const auto [known, is_new] = channels_.emplace(channel.id, channel);
   if (is_new) count_facts(content);
-  if (known->second != channel) bad(fmt::format("channel {} a second time, and another one", channel.id));
+  if (known->second != channel) bad_log(fmt::format("channel {} a second time, and another one", channel.id));
   counts_.emplace(channel.id, 0);
   return is_new;
 }
@@ -154,7 +154,7 @@ void McapReader::add_message(std::string_view content) {
   parse_record(content, message);
   const auto count = counts_.find(message.channel_id);
   if (count == counts_.end())
-    bad(fmt::format("a message of channel {}, which is not known", message.channel_id));
+    bad_log(fmt::format("a message of channel {}, which is not known", message.channel_id));
   ++count->second;
   ++chunk_counts_[message.channel_id];
 }
@@ -167,8 +167,8 @@ void McapReader::check_message_index() const {
   const auto count = chunk_counts_.find(index.channel_id);
   const std::uint64_t there = count == chunk_counts_.end() ? 0 : count->second;
   if (index.entries.size() != there) {
-    bad(fmt::format("an index of {} messages of channel {}; its chunk has {}", index.entries.size(),
-                    index.channel_id, there));
+    bad_log(fmt::format("an index of {} messages of channel {}; its chunk has {}", index.entries.size(),
+                        index.channel_id, there));
   }
 }
 
@@ -209,7 +209,7 @@ void McapReader::take_summary(std::uint8_t op) {
     case McapOp::kSummaryOffset:
       return;
     default:
-      if (!is_foreign(op)) bad(fmt::format("a record of kind {} in the summary", op));
+      if (!is_foreign(op)) bad_log(fmt::format("a record of kind {} in the summary", op));
   }
 }
 
@@ -224,7 +224,7 @@ void McapReader::check_statistics(std::string_view content) const {
   parse_record(content, said);
   const auto compare = [](const char* what, std::uint64_t claimed, std::uint64_t there) {
     if (claimed != there)
-      bad(fmt::format("the statistics speak of {} {}; there are {}", claimed, what, there));
+      bad_log(fmt::format("the statistics speak of {} {}; there are {}", claimed, what, there));
   };
   compare("messages", said.messages, messages());
   compare("chunks", said.chunks, chunks_);
@@ -241,7 +241,7 @@ void McapReader::check_footer(std::string_view head) {
   demand(footer.summary_crc == 0 || footer.summary_crc == crc_, "the check sum of the summary is wrong");
   const std::uint64_t start = record_ == summary_start_ ? 0 : summary_start_;
   if (footer.summary_start != start && footer.summary_start != summary_start_) {
-    bad(fmt::format("the footer says that the summary begins at byte {}", footer.summary_start));
+    bad_log(fmt::format("the footer says that the summary begins at byte {}", footer.summary_start));
   }
   record_ = at_;
   const std::uint64_t left = input_.size() - at_;

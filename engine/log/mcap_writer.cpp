@@ -11,7 +11,7 @@
 namespace hallway::log {
 namespace {
 
-void demand(bool condition, const char* text) {
+void require(bool condition, const char* text) {
   if (!condition) throw Error(ErrorCode::kInternal, text);
 }
 
@@ -45,22 +45,22 @@ void McapWriter::write(std::string_view bytes) {
 }
 
 void McapWriter::add(const McapSchema& schema) {
-  demand(schema.id != 0 && !schemas_.contains(schema.id), "a schema whose id cannot be used");
+  require(schema.id != 0 && !schemas_.contains(schema.id), "a schema whose id cannot be used");
   append_record(chunk_.records, schema);
   schemas_.emplace(schema.id, schema);
 }
 
 void McapWriter::add(const McapChannel& channel) {
-  demand(!channels_.contains(channel.id), "a channel whose id is in use");
-  demand(channel.schema_id == 0 || schemas_.contains(channel.schema_id),
-         "a channel whose schema is not known");
+  require(!channels_.contains(channel.id), "a channel whose id is in use");
+  require(channel.schema_id == 0 || schemas_.contains(channel.schema_id),
+          "a channel whose schema is not known");
   append_record(chunk_.records, channel);
   channels_.emplace(channel.id, channel);
   channel_messages_.emplace(channel.id, 0);
 }
 
 void McapWriter::add(const McapMessage& message) {
-  demand(channels_.contains(message.channel_id), "a message whose channel is not known");
+  require(channels_.contains(message.channel_id), "a message whose channel is not known");
   demand_size(message.data.size(), "a message");
   if (ends_before(message)) end_chunk();
   count(message);

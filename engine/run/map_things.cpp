@@ -41,9 +41,9 @@ std::string name_of(const map::Entity& entity, const char* key) {
 
 /// The points of a path, 0.1 m apart where that is not too many.
 std::vector<Vec3> points_of(const map::Path& path) {
-  constexpr double kStep_m = 0.1, kMostPoints = 20'000;
+  constexpr double kPieceLength_m = 0.1, kMostPoints = 20'000;
   const double length = path.length_m();
-  const double pieces = std::clamp(std::ceil(length / kStep_m), 1.0, kMostPoints);
+  const double pieces = std::clamp(std::ceil(length / kPieceLength_m), 1.0, kMostPoints);
   std::vector<Vec3> points;
   for (double i = 0; i <= pieces; ++i) points.push_back(path.at(length * i / pieces).t);
   return points;
