@@ -8,11 +8,15 @@
 # without.
 option(HALLWAY_PRECOMPILE "Precompile Eigen and the common standard headers" ON)
 
-# hallway_precompile(<target> LIBRARY|EXECUTABLE …headers): the headers as one precompiled header that other targets of that kind may reuse (the two
-# differ in how they address code).
+# hallway_precompile(<target> LIBRARY|EXECUTABLE …headers [LINKS …]): the headers as one precompiled header that other targets of that kind may reuse (the
+# two differ in how they address code). LINKS: the libraries that it and those targets link; by default what nearly all link.
 function(hallway_precompile target kind)
   if(NOT HALLWAY_PRECOMPILE OR HALLWAY_SANITIZE)
     return()
+  endif()
+  cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
+  if(NOT arg_LINKS)
+    set(arg_LINKS fmt::fmt Eigen3::Eigen Threads::Threads)
   endif()
   set(source ${CMAKE_BINARY_DIR}/precompiled/${target}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "int main() {\n  return 0;\n}\n")
@@ -21,14 +25,16 @@ function(hallway_precompile target kind)
   else()
     add_library(${target} OBJECT ${source})
   endif()
-  target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen Threads::Threads)
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_link_libraries(${target} PRIVATE ${arg_LINKS})
+  set_target_properties(${target} PROPERTIES HALLWAY_LINKS "${arg_LINKS}")
+  target_precompile_headers(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS})
 endfunction()
 
 # hallway_reuse_precompiled(<target> <owner>): the target reads the owner's precompiled header, if there is one.
 function(hallway_reuse_precompiled target owner)
   if(TARGET ${owner})
-    target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen Threads::Threads)
+    get_target_property(links ${owner} HALLWAY_LINKS)
+    target_link_libraries(${target} PRIVATE ${links})
     target_precompile_headers(${target} REUSE_FROM ${owner})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # g++ 12 forgets that precompiled code is a system's, and reports reads in the inlined string class that do not happen.

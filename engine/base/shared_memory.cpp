@@ -23,7 +23,7 @@
 namespace hallway {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void fail_with(const std::string& what) {
   throw Error(ErrorCode::kIo, what + ": " + std::generic_category().message(errno));
 }
 
@@ -31,14 +31,14 @@ namespace {
 
 SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Writers writers) : size_(bytes) {
   fd_ = ::memfd_create(name.c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING);
-  if (fd_ < 0 || !move_above_standard(fd_)) fail("cannot make shared memory");
+  if (fd_ < 0 || !move_above_standard(fd_)) fail_with("cannot make shared memory");
   try {
-    if (::ftruncate(fd_, static_cast<off_t>(bytes)) != 0) fail("cannot make shared memory");
+    if (::ftruncate(fd_, static_cast<off_t>(bytes)) != 0) fail_with("cannot make shared memory");
     map(true);
     // Before 5.1 the kernel does not know how to keep the others from writing; the size is sealed in any case.
     if (writers == Writers::kCreator) ::fcntl(fd_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE);
     if (::fcntl(fd_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
-      fail("cannot seal shared memory");
+      fail_with("cannot seal shared memory");
     }
   } catch (...) {
     if (data_ != nullptr) ::munmap(data_, size_);
@@ -50,7 +50,7 @@ SharedMemory::SharedMemory(const std::string& name, std::size_t bytes, Writers w
 SharedMemory::SharedMemory(int fd, bool writable) : fd_(fd) {
   try {
     struct stat facts {};
-    if (::fstat(fd_, &facts) != 0) fail("cannot see shared memory");
+    if (::fstat(fd_, &facts) != 0) fail_with("cannot see shared memory");
     size_ = static_cast<std::size_t>(facts.st_size);
     map(writable);
   } catch (...) {
@@ -61,7 +61,7 @@ SharedMemory::SharedMemory(int fd, bool writable) : fd_(fd) {
 
 void SharedMemory::map(bool writable) {
   void* at = ::mmap(nullptr, size_, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, fd_, 0);
-  if (at == MAP_FAILED) fail("cannot map shared memory");
+  if (at == MAP_FAILED) fail_with("cannot map shared memory");
   data_ = static_cast<std::byte*>(at);
 }
 

@@ -97,7 +97,7 @@ void takes_any_mount(const Subject& subject, Remains&) {
   look(plugin, subject, {0});
 }
 
-constexpr Test kTests[] = {
+constexpr Test kActivationTests[] = {
     {"activate-no-sensors", "Without sensors activate() fails with a reason, or the plugin works.",
      survives_no_sensors},
     {"activate-unknown-kind", "Sensors of a kind that the plugin does not know are skipped.",
@@ -114,7 +114,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> activation_tests() {
-  return kTests;
+  return kActivationTests;
 }
 
 }  // namespace hallway::conformance

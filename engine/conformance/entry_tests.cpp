@@ -75,7 +75,7 @@ void describes_no_more(const Subject& subject, Remains&) {
 }
 
 /// All that a description says, as text.
-std::string text_of(const hw_plugin_info_t& info) {
+std::string text_of_info(const hw_plugin_info_t& info) {
   std::string text;
   for (const char* part : {info.id, info.name, info.version, info.vendor, info.description}) {
     text += std::string(part ? part : "(null)") + "\n";
@@ -88,10 +88,11 @@ std::string text_of(const hw_plugin_info_t& info) {
 void describes_the_same(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   const hw_plugin_info_t& info = library.info(subject.plugin);
-  const std::string before = text_of(info);
+  const std::string before = text_of_info(info);
   Instance(library, subject).parameters();
-  demand(text_of(info) == before, "a description has changed after a plugin was made");
-  demand(text_of(library.info(subject.plugin)) == before, "a plugin was described otherwise the next time");
+  demand(text_of_info(info) == before, "a description has changed after a plugin was made");
+  demand(text_of_info(library.info(subject.plugin)) == before,
+         "a plugin was described otherwise the next time");
 }
 
 void has_good_ids(const Subject& subject, Remains&) {
@@ -172,7 +173,7 @@ void knows_no_other_extension(const Subject& subject, Remains&) {
   }
 }
 
-constexpr Test kTests[] = {
+constexpr Test kEntryTests[] = {
     {"entry-alone", "The library exports hw_entry and no other symbol.", shows_entry_alone},
     {"factory-unknown", "get_factory() gives null for an id that it does not know.", knows_no_other_factory},
     {"factory-count", "count() gives the same number as long as the library is loaded.", counts_the_same},
@@ -191,7 +192,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> entry_tests() {
-  return kTests;
+  return kEntryTests;
 }
 
 }  // namespace hallway::conformance

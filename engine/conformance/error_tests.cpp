@@ -108,7 +108,7 @@ void takes_a_larger_error(const Subject& subject, Remains&) {
   });
 }
 
-constexpr Test kTests[] = {
+constexpr Test kErrorTests[] = {
     {"errors-reasons",
      "A failure fills hw_error_t with the status that is returned and a reason: UTF-8, ended by 0, no line "
      "end behind it.",
@@ -121,7 +121,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> error_tests() {
-  return kTests;
+  return kErrorTests;
 }
 
 }  // namespace hallway::conformance

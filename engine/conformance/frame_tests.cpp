@@ -220,7 +220,7 @@ void survives_two_readings(const Subject& subject, Remains&) {
   try_frame(subject, frame, true);
 }
 
-constexpr Test kTests[] = {
+constexpr Test kFrameTests[] = {
     {"frame-no-samples", "A frame without samples is a valid one.", takes_no_samples},
     {"frame-no-points", "A sample without points is a valid one.", takes_no_points},
     {"frame-one-point", "A sample of one point is a valid one.", takes_one_point},
@@ -249,7 +249,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> frame_tests() {
-  return kTests;
+  return kFrameTests;
 }
 
 }  // namespace hallway::conformance

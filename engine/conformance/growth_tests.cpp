@@ -9,7 +9,7 @@ namespace hallway::conformance {
 namespace {
 
 constexpr std::uint32_t kGrowth = 48;
-constexpr std::uint64_t kFrames = 4;
+constexpr std::uint64_t kGrowthFrames = 4;
 constexpr std::uint32_t kUnknownFlag = 1u << 31;
 
 /// What is put for a few frames by a new plugin of a host that is as the shapes say.
@@ -20,7 +20,7 @@ std::string put_by(const LoadedLibrary& library, const Subject& subject, const I
   if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
   ended.demand_good();
   std::string bytes;
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kGrowthFrames; ++step) {
     Frame frame = walk_frame(subject.seed, step);
     frame.readings.front().flags = sample_flags;
     const Answer answer = plugin.process(frame, shape);
@@ -73,7 +73,7 @@ void compare_reports(const Subject& subject, const std::string& what, std::uint3
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
   plugin.activate();
-  walk(plugin, subject, 0, kFrames);
+  walk(plugin, subject, 0, kGrowthFrames);
   const Answer plain = plugin.report(0);
   const Answer unusual = plugin.report(flags, growth);
   plain.demand_good();
@@ -88,7 +88,7 @@ void ignores_unknown_requests(const Subject& subject, Remains&) {
   compare_reports(subject, "an unknown flag of a request changes the report", kUnknownFlag, 0);
 }
 
-constexpr Test kTests[] = {
+constexpr Test kGrowthTests[] = {
     {"grown-frame", "A hw_frame_t of a later version, which is larger, is read as today's.",
      takes_a_larger_frame},
     {"grown-sample", "A hw_sample_t of a later version, which is larger, is read as today's.",
@@ -114,7 +114,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> growth_tests() {
-  return kTests;
+  return kGrowthTests;
 }
 
 }  // namespace hallway::conformance

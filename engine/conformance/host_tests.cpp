@@ -9,17 +9,17 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 4;
+constexpr std::uint64_t kHostFrames = 4;
 
-std::string run(const LoadedLibrary& library, const Subject& subject, const HostShape& host) {
+std::string answers_with(const LoadedLibrary& library, const Subject& subject, const HostShape& host) {
   Instance plugin(library, subject, host);
   plugin.activate();
-  return walk(plugin, subject, 0, kFrames);
+  return walk(plugin, subject, 0, kHostFrames);
 }
 
 void needs_no_extensions(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  demand_same(run(library, subject, {.extensions = false}), run(library, subject, {}),
+  demand_same(answers_with(library, subject, {.extensions = false}), answers_with(library, subject, {}),
               "without extensions of the host, it answers otherwise");
 }
 
@@ -36,7 +36,7 @@ void survives_refusals(const Subject& subject, Remains&) {
   }
 }
 
-constexpr Test kTests[] = {
+constexpr Test kHostTests[] = {
     {"host-no-extensions", "A host without extensions (no log) gets the same answers.", needs_no_extensions},
     {"host-refuses", "When put() fails, the plugin ends the call in good order, and a failure has a reason.",
      survives_refusals},
@@ -45,7 +45,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> host_tests() {
-  return kTests;
+  return kHostTests;
 }
 
 }  // namespace hallway::conformance

@@ -11,14 +11,14 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 5;
+constexpr std::uint64_t kInputFrames = 5;
 
 void does_not_keep_frames(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
   plugin.activate();
-  std::vector<InputMemory> memories(kFrames);
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  std::vector<InputMemory> memories(kInputFrames);
+  for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     const hw_frame_t& frame = memories[step].put_frame(walk_frame(subject.seed, step));
     plugin.process(frame, {0}).demand_good();
     memories[step].protect(PROT_NONE);
@@ -33,9 +33,9 @@ void does_not_keep_the_activation(const Subject& subject, Remains&) {
   Instance plugin(library, subject);
   plugin.activate();
   plugin.poison_activation();
-  walk(plugin, subject, 0, kFrames);
+  walk(plugin, subject, 0, kInputFrames);
   plugin.must_reset();
-  walk(plugin, subject, kFrames, kFrames + 1);
+  walk(plugin, subject, kInputFrames, kInputFrames + 1);
   plugin.close();
 }
 
@@ -43,7 +43,7 @@ void does_not_write(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   Instance plugin(library, subject);
   plugin.activate();
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     InputMemory memory;
     const hw_frame_t& frame = memory.put_frame(walk_frame(subject.seed, step));
     memory.protect(PROT_READ);
@@ -57,14 +57,14 @@ void does_not_read_on(const Subject& subject, Remains&) {
   const InputShape tight{.tight = true};
   const Ended ended = plugin.activate({ordinary_sensor()}, tight);
   if (!ended.good()) plugin.activate();
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     Frame frame = walk_frame(subject.seed, step);
     if (step == 1) frame.readings.front().points.clear();
     plugin.process(frame, tight).demand_good();
   }
 }
 
-constexpr Test kTests[] = {
+constexpr Test kInputTests[] = {
     {"input-not-kept", "A frame is not looked at after process() has returned.", does_not_keep_frames},
     {"activation-not-kept", "The activation is not looked at after activate() has returned.",
      does_not_keep_the_activation},
@@ -75,7 +75,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> input_tests() {
-  return kTests;
+  return kInputTests;
 }
 
 }  // namespace hallway::conformance

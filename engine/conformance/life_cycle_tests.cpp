@@ -11,7 +11,7 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 6;
+constexpr std::uint64_t kLifeCycleFrames = 6;
 constexpr int kLoads = 40;
 constexpr int kWarmUp = 200;
 constexpr int kCreations = 1000;
@@ -49,13 +49,14 @@ void deactivation_forgets(const Subject& subject, Remains&) {
   Instance used(library, subject);
   for (std::uint64_t round = 0; round < 2; ++round) {
     used.activate();
-    walk(used, subject, round * kFrames, (round + 1) * kFrames);
+    walk(used, subject, round * kLifeCycleFrames, (round + 1) * kLifeCycleFrames);
     used.deactivate();
   }
   used.activate();
   Instance fresh(library, subject);
   fresh.activate();
-  demand_same(walk(used, subject, 2 * kFrames, 3 * kFrames), walk(fresh, subject, 2 * kFrames, 3 * kFrames),
+  demand_same(walk(used, subject, 2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
+              walk(fresh, subject, 2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
               "a plugin that was active before answers otherwise than a new one");
 }
 
@@ -72,11 +73,12 @@ void reset_forgets(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   Instance used(library, subject);
   used.activate();
-  walk(used, subject, 0, kFrames);
+  walk(used, subject, 0, kLifeCycleFrames);
   used.must_reset();
   Instance fresh(library, subject);
   fresh.activate();
-  demand_same(walk(used, subject, kFrames, 3 * kFrames), walk(fresh, subject, kFrames, 3 * kFrames),
+  demand_same(walk(used, subject, kLifeCycleFrames, 3 * kLifeCycleFrames),
+              walk(fresh, subject, kLifeCycleFrames, 3 * kLifeCycleFrames),
               "a plugin that was reset answers otherwise than a newly activated one");
 }
 
@@ -84,7 +86,7 @@ void reset_forgets(const Subject& subject, Remains&) {
 std::string alone(const LoadedLibrary& library, const Subject& subject) {
   Instance plugin(library, subject);
   plugin.activate();
-  return walk(plugin, subject, 0, kFrames);
+  return walk(plugin, subject, 0, kLifeCycleFrames);
 }
 
 void instances_are_independent(const Subject& subject, Remains&) {
@@ -97,7 +99,7 @@ void instances_are_independent(const Subject& subject, Remains&) {
   first.activate();
   second.activate();
   std::string bytes;
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kLifeCycleFrames; ++step) {
     const Answer answer = first.process(walk_frame(subject.seed, step));
     answer.demand_good();
     bytes += answer.put.bytes;
@@ -175,7 +177,7 @@ void loads_again_and_again(const Subject& subject, Remains&) {
   }
 }
 
-constexpr Test kTests[] = {
+constexpr Test kLifeCycleTests[] = {
     {"create-destroy", "A plugin can be destroyed without having been activated or asked anything.",
      is_destroyed_at_once},
     {"activate-deactivate", "A plugin can be deactivated and destroyed without having been given a frame.",
@@ -202,7 +204,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> life_cycle_tests() {
-  return kTests;
+  return kLifeCycleTests;
 }
 
 }  // namespace hallway::conformance

@@ -17,7 +17,7 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 4;
+constexpr std::uint64_t kMannersFrames = 4;
 
 /// A whole life of a plugin, from loading to unloading.
 void live(const Subject& subject) {
@@ -25,10 +25,10 @@ void live(const Subject& subject) {
   Instance plugin(library, subject);
   plugin.parameters();
   plugin.activate();
-  walk(plugin, subject, 0, kFrames);
+  walk(plugin, subject, 0, kMannersFrames);
   plugin.report(HW_REPORT_REFINE).demand_good();
   plugin.must_reset();
-  walk(plugin, subject, kFrames, kFrames + 1);
+  walk(plugin, subject, kMannersFrames, kMannersFrames + 1);
   plugin.close();
   library.unload();
 }
@@ -41,7 +41,7 @@ void demand_unchanged(const Subject& subject, const char* what, Look&& look) {
     const LoadedLibrary library(subject.file);
     Instance plugin(library, subject);
     plugin.activate();
-    walk(plugin, subject, 0, kFrames);
+    walk(plugin, subject, 0, kMannersFrames);
     demand(look() == before, std::string(what) + " changed while the plugin was active");
   }
   demand(look() == before, std::string(what) + " changed by the end of the plugin");
@@ -111,7 +111,7 @@ void keeps_file_mask(const Subject& subject, Remains&) {
   demand_unchanged(subject, "the file mode mask", file_mask);
 }
 
-constexpr Test kTests[] = {
+constexpr Test kMannersTests[] = {
     {"silent", "Nothing is written to standard output or standard error.", is_silent},
     {"descriptors", "Every descriptor that is opened is closed by the end, and no other one.",
      closes_what_it_opens},
@@ -129,7 +129,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> manners_tests() {
-  return kTests;
+  return kMannersTests;
 }
 
 }  // namespace hallway::conformance

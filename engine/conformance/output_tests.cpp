@@ -63,7 +63,7 @@ void puts_in_turn(const Subject& subject, Remains&) {
   demand(plugin.host().out_of_turn() == 0, "it called put() outside of process() and report()");
 }
 
-constexpr Test kTests[] = {
+constexpr Test kOutputTests[] = {
     {"outputs-valid",
      "What process() puts is as output.h and planes.h say: finite, unit quaternions and normals, distinct "
      "ids, counts that match.",
@@ -76,7 +76,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> output_tests() {
-  return kTests;
+  return kOutputTests;
 }
 
 }  // namespace hallway::conformance

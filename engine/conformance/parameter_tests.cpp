@@ -16,7 +16,7 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// An instance and its parameters.
@@ -172,7 +172,7 @@ void are_finite(const Subject& subject, Remains&) {
   for (const std::uint32_t i : fixture.parameters.known()) {
     if (fixture.parameters.info(i).type != HW_PARAM_DOUBLE) continue;
     any = true;
-    for (const double number : {kNan, kInfinity, -kInfinity}) {
+    for (const double number : {kNotANumber, kInfinity, -kInfinity}) {
       fixture.parameters.demand_refused(i, real(number), {HW_ERROR_RANGE, HW_ERROR_ARGUMENT, HW_ERROR_DATA});
     }
   }
@@ -251,7 +251,7 @@ void survives_extremes(const Subject& subject, Remains&) {
   }
 }
 
-constexpr Test kTests[] = {
+constexpr Test kParameterTests[] = {
     {"params-described",
      "Every parameter has a distinct snake_case name, texts, a range, and a default within it.",
      are_described},
@@ -284,7 +284,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> parameter_tests() {
-  return kTests;
+  return kParameterTests;
 }
 
 }  // namespace hallway::conformance

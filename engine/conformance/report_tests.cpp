@@ -8,7 +8,7 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 12;
+constexpr std::uint64_t kReportFrames = 12;
 
 struct Walked {
   explicit Walked(const Subject& subject, std::uint64_t frames)
@@ -23,11 +23,11 @@ struct Walked {
 };
 
 void reports_a_valid_map(const Subject& subject, Remains&) {
-  Walked(subject, kFrames).plugin.report(0).demand_valid();
+  Walked(subject, kReportFrames).plugin.report(0).demand_valid();
 }
 
 void reports_a_valid_refined_map(const Subject& subject, Remains&) {
-  Walked(subject, kFrames).plugin.report(HW_REPORT_REFINE).demand_valid();
+  Walked(subject, kReportFrames).plugin.report(HW_REPORT_REFINE).demand_valid();
 }
 
 void reports_before_frames(const Subject& subject, Remains&) {
@@ -39,7 +39,7 @@ void reports_before_frames(const Subject& subject, Remains&) {
 
 void reports_the_same_twice(const Subject& subject, Remains&) {
   for (const std::uint32_t flags : {0u, HW_REPORT_REFINE}) {
-    Walked walked(subject, kFrames);
+    Walked walked(subject, kReportFrames);
     const Answer first = walked.plugin.report(flags);
     const Answer second = walked.plugin.report(flags);
     first.demand_good();
@@ -53,7 +53,7 @@ void reports_the_same_twice(const Subject& subject, Remains&) {
 std::string answers(const Subject& subject, bool reports) {
   Walked walked(subject, 0);
   std::string bytes;
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kReportFrames; ++step) {
     const Answer answer = walked.plugin.process(walk_frame(subject.seed, step));
     answer.demand_good();
     bytes += answer.put.bytes;
@@ -67,7 +67,7 @@ void reporting_changes_nothing(const Subject& subject, Remains&) {
               "frames are answered otherwise after report()");
 }
 
-constexpr Test kTests[] = {
+constexpr Test kReportTests[] = {
     {"report-valid",
      "The map that report() puts is as output.h and mapped_planes.h say, without associations and planes.",
      reports_a_valid_map},
@@ -83,7 +83,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> report_tests() {
-  return kTests;
+  return kReportTests;
 }
 
 }  // namespace hallway::conformance

@@ -18,13 +18,13 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kFrames = 8;
+constexpr std::uint64_t kResultFrames = 8;
 constexpr std::size_t kThreads = 4;
 
-std::string run(const LoadedLibrary& library, const Subject& subject, const HostShape& host = {}) {
+std::string answers_of(const LoadedLibrary& library, const Subject& subject, const HostShape& host = {}) {
   Instance plugin(library, subject, host);
   plugin.activate();
-  return walk(plugin, subject, 0, kFrames);
+  return walk(plugin, subject, 0, kResultFrames);
 }
 
 /// Runs `work` on another thread, and throws here what it throws there.
@@ -42,24 +42,24 @@ void on_another_thread(const std::function<void()>& work) {
 
 void new_ones_answer_the_same(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  const std::string first = run(library, subject);
+  const std::string first = answers_of(library, subject);
   for (int i = 0; i < 2; ++i) {
-    demand_same(run(library, subject), first, "another new plugin answers the same frames otherwise");
+    demand_same(answers_of(library, subject), first, "another new plugin answers the same frames otherwise");
   }
 }
 
 void processes_answer_the_same(const Subject& subject, Remains& remains) {
   const LoadedLibrary library(subject.file);
-  remains.digest = content_hash(run(library, subject));
+  remains.digest = content_hash(answers_of(library, subject));
 }
 
 void threads_in_turn_answer_the_same(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  const std::string expected = run(library, subject);
+  const std::string expected = answers_of(library, subject);
   Instance plugin(library, subject);
   plugin.activate();
   std::string bytes;
-  for (std::uint64_t step = 0; step < kFrames; ++step) {
+  for (std::uint64_t step = 0; step < kResultFrames; ++step) {
     on_another_thread([&] {
       const Answer answer = plugin.process(walk_frame(subject.seed, step));
       answer.demand_good();
@@ -77,7 +77,7 @@ void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
   std::vector<std::unique_ptr<Instance>> plugins;
   for (std::size_t i = 0; i < kThreads; ++i) {
     subjects[i].seed += i / 2;
-    expected.push_back(run(library, subjects[i]));
+    expected.push_back(answers_of(library, subjects[i]));
   }
   for (std::size_t i = 0; i < kThreads; ++i) {
     plugins.push_back(std::make_unique<Instance>(library, subjects[i]));
@@ -89,7 +89,7 @@ void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
   for (std::size_t i = 0; i < kThreads; ++i) {
     threads.emplace_back([&, i] {
       try {
-        bytes[i] = walk(*plugins[i], subjects[i], 0, kFrames);
+        bytes[i] = walk(*plugins[i], subjects[i], 0, kResultFrames);
       } catch (...) {
         problems[i] = std::current_exception();
       }
@@ -104,35 +104,36 @@ void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
 
 void locale_does_not_matter(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  const std::string expected = run(library, subject);
+  const std::string expected = answers_of(library, subject);
   if (!set_comma_locale(subject.scratch)) throw Skipped("no locale with a decimal comma could be made");
-  demand_same(run(library, subject), expected, "where the decimal point is a comma, it answers otherwise");
+  demand_same(answers_of(library, subject), expected,
+              "where the decimal point is a comma, it answers otherwise");
 }
 
 void folder_does_not_matter(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  const std::string expected = run(library, subject);
+  const std::string expected = answers_of(library, subject);
   if (::chdir("/") != 0) throw Skipped("the working folder cannot be changed");
-  demand_same(run(library, subject), expected, "in another working folder, it answers otherwise");
+  demand_same(answers_of(library, subject), expected, "in another working folder, it answers otherwise");
 }
 
 void environment_does_not_matter(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
   ::setenv("HOME", "/root", 1);
-  const std::string expected = run(library, subject);
+  const std::string expected = answers_of(library, subject);
   ::clearenv();
   ::setenv("OMP_NUM_THREADS", "3", 1);
   ::setenv("TZ", "Asia/Tokyo", 1);
-  demand_same(run(library, subject), expected, "with another environment, it answers otherwise");
+  demand_same(answers_of(library, subject), expected, "with another environment, it answers otherwise");
 }
 
 void host_name_does_not_matter(const Subject& subject, Remains&) {
   const LoadedLibrary library(subject.file);
-  demand_same(run(library, subject, {.name = "another_host", .version = "99.1.2"}), run(library, subject),
-              "with a host of another name, it answers otherwise");
+  demand_same(answers_of(library, subject, {.name = "another_host", .version = "99.1.2"}),
+              answers_of(library, subject), "with a host of another name, it answers otherwise");
 }
 
-constexpr Test kTests[] = {
+constexpr Test kResultTests[] = {
     {"same-again", "New plugins answer the same frames the same, one after the other.",
      new_ones_answer_the_same},
     {"same-processes",
@@ -154,7 +155,7 @@ constexpr Test kTests[] = {
 }  // namespace
 
 std::span<const Test> result_tests() {
-  return kTests;
+  return kResultTests;
 }
 
 }  // namespace hallway::conformance

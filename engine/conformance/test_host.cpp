@@ -11,7 +11,7 @@
 namespace hallway::conformance {
 namespace {
 
-constexpr std::uint64_t kRubbish = 0xa5a5a5a5a5a5a5a5u;
+constexpr std::uint64_t kRubbishWord = 0xa5a5a5a5a5a5a5a5u;
 
 void write_log(void*, std::uint32_t, const char*) {}
 
@@ -29,7 +29,7 @@ std::string bytes_of(const host::Outputs& outputs, std::uint32_t n_samples) {
 TestHost::TestHost(const HostShape& shape)
     : shape_(shape),
       vtable_{&TestHost::put, &TestHost::get_extension},
-      memory_((sizeof(hw_host_t) + shape.growth + 7) / 8, kRubbish) {
+      memory_((sizeof(hw_host_t) + shape.growth + 7) / 8, kRubbishWord) {
   hw_host_t host{};
   host.size = static_cast<std::uint32_t>(sizeof host) + shape.growth;
   host.reserved = shape.reserved;

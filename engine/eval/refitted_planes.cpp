@@ -18,7 +18,7 @@ using Vec6 =
     Eigen::Matrix<double, 6, 1>;  // a small motion: step [m], then turn about the body's origin [rad]
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kSteps = 5;            // of Gauss and Newton, at most, in each stage of a fit
+constexpr int kRefitSteps = 5;            // of Gauss and Newton, at most, in each stage of a fit
 constexpr double kLeastStep = 1e-7;  // [m, rad]
 constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;
@@ -145,7 +145,7 @@ Mat6 information(const std::vector<Match>& matches, const Pose& T, const Sigmas&
 /// Moves a pose to where the planes lie best; not in directions that they leave open.
 void fit(const std::vector<Match>& matches, const Sigmas& sigmas, Stage stage, Pose& T) {
   const double least = 1.0 / (RefittedPlanes::kUndetermined_m * RefittedPlanes::kUndetermined_m);
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kRefitSteps; ++i) {
     Vec6 gradient;
     const Spectrum<6> free = spectrum<6>(information(matches, T, sigmas, stage, gradient));
     Vec6 x = Vec6::Zero();

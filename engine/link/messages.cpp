@@ -9,7 +9,7 @@
 namespace hallway::link {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;
+constexpr double kQuaternionTolerance = 1e-6;
 
 enum AnswerFlag : std::uint32_t { kHasCommand = 1, kHasPose = 2, kPoseValid = 4 };
 
@@ -32,7 +32,7 @@ bool sound_pose(const AnswerBytes& bytes) {
   for (const double q : bytes.orientation) squared += q * q;
   const bool placed =
       std::all_of(bytes.position.begin(), bytes.position.end(), [](double x) { return std::isfinite(x); });
-  return placed && std::isfinite(squared) && std::abs(std::sqrt(squared) - 1.0) <= kUnitTolerance;
+  return placed && std::isfinite(squared) && std::abs(std::sqrt(squared) - 1.0) <= kQuaternionTolerance;
 }
 
 }  // namespace

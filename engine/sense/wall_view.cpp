@@ -39,7 +39,7 @@ struct WallLine {
 namespace {
 
 using std::numbers::pi;
-constexpr double kAngleRounding = 1e-9;    ///< radians
+constexpr double kViewAngleRounding = 1e-9;    ///< radians
 constexpr double kLeastDistance_m = 1e-6;  ///< from the plane of a wall, to see it at all
 constexpr double kOnWall_m =
     1e-7;  ///< what does not stand out of a wall's plane farther than this hides nothing of it
@@ -91,7 +91,7 @@ double distance_of(const Obstacle& obstacle) {
 WallView::WallView(const WallViewSpec& spec, const WallPlan& plan)
     : spec_(spec),
       plan_(plan),
-      wide_(spec.horizontal_fov >= pi - kAngleRounding),
+      wide_(spec.horizontal_fov >= pi - kViewAngleRounding),
       round_(spec.bounded_sides || wide_) {
   const double half = std::min(0.5 * spec.horizontal_fov, pi);
   reach_m_ = round_ ? spec.max_range_m : spec.max_range_m / std::cos(half);
@@ -127,7 +127,7 @@ Interval WallView::in_view(const WallLine& line) const {
 /// The parts of a wall that are out of view within it: too near, or behind a sensor that sees all but that.
 void WallView::add_out_of_view(const WallLine& line, std::vector<Interval>& taken) const {
   if (round_) taken.push_back(within(line, spec_.min_range_m));
-  if (!wide_ || spec_.horizontal_fov >= 2.0 * pi - kAngleRounding) return;
+  if (!wide_ || spec_.horizontal_fov >= 2.0 * pi - kViewAngleRounding) return;
   Interval behind{-kInfinity, kInfinity};
   for (const Vec2& inward : {left_inward_, right_inward_})
     keep_where_positive(behind, -inward.dot(line.left), -inward.dot(line.along));

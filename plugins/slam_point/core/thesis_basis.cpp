@@ -2,7 +2,8 @@
 #include "slam_point/core/thesis_basis.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
+
+#include "algebra/singular.hpp"
 
 namespace hallway::slam_point::thesis {
 namespace {
@@ -58,10 +59,10 @@ bool rigid_fit(std::span<const Vec3> a, std::span<const Vec3> b, Pose& T_a_b) {
   const Vec3 mean_b = mean_of(b);
   Mat3 cross = Mat3::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) cross += (a[i] - mean_a) * (b[i] - mean_b).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(svd.singularValues()(1) > kLeastSingularShare * svd.singularValues()(0))) return false;
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Mat3 r = svd.matrixU() * Vec3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  const algebra::Singular svd = algebra::singular(cross);
+  if (!(svd.values(1) > kLeastSingularShare * svd.values(0))) return false;
+  const double sign = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  const Mat3 r = svd.left * Vec3(1.0, 1.0, sign).asDiagonal() * svd.right.transpose();
   T_a_b.q = Eigen::Quaterniond(r).normalized();
   T_a_b.t = mean_a - T_a_b.q * mean_b;
   return true;
