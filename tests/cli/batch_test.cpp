@@ -198,7 +198,7 @@ TEST_F(Batch, OneThatWasKilledAndResumedIsLikeOneThatWasNot) {
     // After one more result.
     const fs::path next =
         fs::path(world_.out("batch")) / "cells" / ("small+seed=" + std::to_string(kills + 1) + ".json");
-    for (int i = 0; i < 3000 && !fs::exists(next); ++i)
+    for (int i = 0; i < 12000 && !fs::exists(next); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_TRUE(fs::exists(next));
     ::kill(process.pid(), SIGKILL);
@@ -221,7 +221,7 @@ TEST_F(Batch, WhenItIsKilledItsRunsEnd) {
   all.insert(all.begin(), hallway_program());
   all.insert(all.end(), {"--jobs", "2"});
   Process process(all);
-  for (int i = 0; i < 3000 && marked_processes().size() < 5; ++i)  // the batch, two runs, a plugin of each
+  for (int i = 0; i < 12000 && marked_processes().size() < 5; ++i)  // the batch, two runs, a plugin of each
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GE(marked_processes().size(), 5u);
   ::kill(process.pid(), SIGKILL);
@@ -261,12 +261,12 @@ TEST_F(Batch, AFullDiskIsAResultLikeAnyOther) {
 }
 
 TEST_F(Batch, TwoAtOnceInOneFolderAreAClearError) {
-  const std::string file = plan("steps = 2000\nseeds = [1, 2, 3]\n");
+  const std::string file = plan("steps = 10000000\nseeds = [1, 2, 3]\n");
   std::vector<std::string> all = arguments(file);
   all.insert(all.begin(), hallway_program());
   Process first(all);
   const fs::path log = fs::path(world_.out("batch")) / "cells" / "small+seed=1.log";
-  for (int i = 0; i < 3000 && !fs::exists(log); ++i)
+  for (int i = 0; i < 12000 && !fs::exists(log); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const Ended second = batch(file);
   EXPECT_EQ(second.status, 3);

@@ -104,7 +104,7 @@ TEST_F(Edit, ALockedMapIsAConflict) {
   }
   std::string shown;
   const auto wait_for = [&](const std::string& part) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (shown.find(part) == std::string::npos && std::chrono::steady_clock::now() < end) {
       pollfd poll{terminal, POLLIN, 0};
       if (::poll(&poll, 1, 100) <= 0) continue;

@@ -14,15 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Starts a run far too long for the test, waits until it is under way, and sends it a signal.
+/// Starts a run far too long for the test, waits until it has written some of its log, and sends it a signal.
 Ended stop_long_run(const SmallWorld& world, int signal) {
   Process process(
       {hallway_program(), "run", world.scenario(), "--out", world.out(), "--steps", "10000000", "--quiet"});
-  const fs::path working = world.out() + ".part-" + std::to_string(process.pid());
-  for (int i = 0; i < 3000 && !fs::exists(working); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(fs::exists(working)) << "the run did not begin within 30 s";
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const fs::path log = world.out() + ".part-" + std::to_string(process.pid()) + "/run.mcap";
+  const auto is_written = [&log] {
+    std::error_code none;
+    const std::uintmax_t size = fs::file_size(log, none);
+    return !none && size > 100'000;
+  };
+  for (int i = 0; i < 12'000 && !is_written(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(is_written()) << "the run wrote nothing within two minutes";
   ::kill(process.pid(), signal);
   return process.wait();
 }
@@ -30,7 +33,7 @@ Ended stop_long_run(const SmallWorld& world, int signal) {
 TEST(Interrupt, CtrlCKeepsWhatWasDone) {
   const SmallWorld world;
   EXPECT_EQ(stop_long_run(world, SIGINT).status, 130);
-  const auto manifest = nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("stopped_early"), true);
   EXPECT_GT(manifest.at("iterations").get<int>(), 0);
 }

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 /// Starts `hallway serve` and waits until it listens. @return its address, empty if it ended before
 std::string address_of(const Process& process) {
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 12000; ++i) {
     std::this_thread::sleep_for(milliseconds(10));
     const std::string printed = process.err_so_far();
     const std::size_t at = printed.find(" on 127.0.0.1:");
@@ -79,7 +79,8 @@ TEST(Serve, CtrlCEndsItWhileItWaits) {
     EXPECT_NE(address_of(process), "");
     ::kill(process.pid(), signal);
     EXPECT_EQ(process.wait().status, 128 + signal);
-    EXPECT_EQ(nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json")).at("iterations"), 0);
+    EXPECT_EQ(nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json")).at("iterations"),
+              0);
   }
 }
 
@@ -91,7 +92,7 @@ TEST(Serve, CtrlCEndsItWhileItWaitsForAnAnswer) {
   say_hello(wire, address_of(process));
   ::kill(process.pid(), SIGINT);
   EXPECT_EQ(process.wait().status, 130);
-  const auto manifest = nlohmann::json::parse(read_file(fs::path(world.out()) / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(fs::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("iterations"), 1);
   EXPECT_EQ(manifest.at("stopped_early"), true);
   EXPECT_FALSE(fs::exists(fs::path(world.out()) / "commands.csv")) << "there was none";

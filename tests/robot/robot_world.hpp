@@ -54,7 +54,9 @@ class RobotWorld {
     return hallway_robot(all);
   }
 
-  nlohmann::json manifest() const { return nlohmann::json::parse(read_file(folder_ / "out/run.json")); }
+  nlohmann::ordered_json manifest() const {
+    return nlohmann::ordered_json::parse(read_file(folder_ / "out/run.json"));
+  }
 
   std::vector<Note> notes() const {
     std::vector<Note> notes;
@@ -74,10 +76,10 @@ class RobotWorld {
     return notes;
   }
 
-  /// Waits until a note fulfils `wanted`. False if none does within 30 s.
+  /// Waits until a note fulfils `wanted`. False if none does within two minutes.
   template <typename Wanted>
   bool wait_for_note(Wanted wanted) const {
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 12000; ++i) {
       for (const Note& note : notes()) {
         if (wanted(note)) return true;
       }

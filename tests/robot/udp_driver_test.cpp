@@ -19,7 +19,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -49,14 +49,14 @@ class Serve {
  public:
   Serve(const std::string& input, std::vector<std::string> more)
       : process_(arguments(input, std::move(more))) {
-    for (int i = 0; i < 3000 && address_.empty(); ++i) {
+    for (int i = 0; i < 12000 && address_.empty(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       const std::string printed = process_.err_so_far();
       const std::size_t at = printed.find(" on 127.0.0.1:");
       if (at == std::string::npos || printed.find('\n', at) == std::string::npos) continue;
       address_ = printed.substr(at + 4, printed.find('\n', at) - at - 4);
     }
-    EXPECT_NE(address_, "") << "it did not begin to listen within 30 s";
+    EXPECT_NE(address_, "") << "it did not begin to listen within two minutes";
   }
   ~Serve() {
     if (!waited_) {
@@ -103,7 +103,7 @@ void answer(Driver& driver, const hw_frame_t& frame) {
 /// Answers every frame until the end, `limit` at most. @return their bytes
 std::vector<std::string> drive(Driver& driver, std::size_t limit = SIZE_MAX) {
   std::vector<std::string> frames;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(600);
   while (frames.size() < limit && std::chrono::steady_clock::now() < end) {
     const hw_frame_t* frame = nullptr;
     const std::uint32_t found = driver.read(kSecond / 10, &frame);

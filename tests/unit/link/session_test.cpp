@@ -19,7 +19,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kGiveUp{20'000};
+constexpr milliseconds kGiveUp{120'000};
 constexpr std::uint32_t kSession = 7;
 
 RobotEnd::Clock::time_point soon() {

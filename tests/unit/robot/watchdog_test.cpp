@@ -22,7 +22,7 @@ class Statuses {
   }
   bool wait_for(std::uint32_t status) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+    return changed_.wait_for(lock, std::chrono::seconds(120), [&] {
       return std::find(statuses_.begin(), statuses_.end(), status) != statuses_.end();
     });
   }
