@@ -14,7 +14,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Points of a floor, two walls and a box with some millimetres of noise, placed so that `x` and `yaw` bring them back.
 std::string corner_csv(double x, double yaw, double from) {

@@ -17,7 +17,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kHeader = "x,y,z\n";
 

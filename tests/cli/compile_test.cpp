@@ -21,7 +21,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 Ended compile(const fs::path& map, const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{"compile", map};
@@ -30,8 +30,8 @@ Ended compile(const fs::path& map, const std::vector<std::string>& more = {}) {
 }
 
 /// The document without what differs from run to run.
-json facts(const Ended& ended) {
-  json document = json::parse(ended.out);
+Json facts(const Ended& ended) {
+  Json document = Json::parse(ended.out);
   for (const char* key : {"stages", "memory_peak_bytes", "from_cache", "warnings"}) document.erase(key);
   return document;
 }
@@ -48,7 +48,7 @@ TEST(Compile, SealedMapHasItsRoomsAndNoLeak) {
   const Ended ended = compile(folder.write("rooms.map", two_rooms()), {"--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.err, "");
-  const json document = json::parse(ended.out);
+  const Json document = Json::parse(ended.out);
   EXPECT_EQ(document.at("schema"), "hallway.compile/1");
   EXPECT_EQ(document.at("sealed"), true);
   EXPECT_EQ(document.at("brushes").at("used"), 6);
@@ -61,7 +61,7 @@ TEST(Compile, SealedMapHasItsRoomsAndNoLeak) {
   EXPECT_EQ(document.at("visible").at("level"), "full");
   EXPECT_GT(document.at("memory_peak_bytes").get<std::int64_t>(), 1 << 20);
   std::vector<std::string> stages;
-  for (const json& stage : document.at("stages")) {
+  for (const Json& stage : document.at("stages")) {
     stages.push_back(stage.at("name"));
     EXPECT_GE(stage.at("seconds").get<double>(), 0.0);
   }
@@ -84,16 +84,16 @@ TEST(Compile, LeakIsStatusOneWithOccupantWayAndOpening) {
   const fs::path map = folder.write("rooms.map", two_rooms(hole()));
   const Ended ended = compile(map, {"--json"});
   EXPECT_EQ(ended.status, 1);
-  const json document = json::parse(ended.out);
+  const Json document = Json::parse(ended.out);
   EXPECT_EQ(document.at("status"), 1);
   EXPECT_EQ(document.at("sealed"), false);
   EXPECT_EQ(document.at("visible"), nullptr);
-  const json& leak = document.at("leak");
+  const Json& leak = document.at("leak");
   EXPECT_EQ(leak.at("occupant").at("classname"), "hw_robot_start");
   EXPECT_GT(leak.at("occupant").at("line").get<int>(), 0);
   EXPECT_NEAR(leak.at("opening").at("width_m").get<double>(), 0.5, 1e-6);
   EXPECT_NEAR(leak.at("opening").at("height_m").get<double>(), 2.0, 1e-6);
-  const json& at = leak.at("opening").at("at_m");
+  const Json& at = leak.at("opening").at("at_m");
   EXPECT_LE(std::abs(at[0].get<double>() + 0.5), 0.5 + 1e-9);
   EXPECT_LE(std::abs(at[1].get<double>() - 1.25), 0.25 + 1e-9);
   // From the robot through the hole it is 3 m at least, and no detour.
@@ -144,12 +144,12 @@ TEST(Compile, SecondTimeComesFromTheCacheAndSaysTheSame) {
   const Ended first = compile(map, {"--json"});
   ASSERT_EQ(cached_files(folder).size(), 1u);
   const Ended second = compile(map, {"--json"});
-  EXPECT_EQ(json::parse(first.out).at("from_cache"), false);
-  EXPECT_EQ(json::parse(second.out).at("from_cache"), true);
+  EXPECT_EQ(Json::parse(first.out).at("from_cache"), false);
+  EXPECT_EQ(Json::parse(second.out).at("from_cache"), true);
   EXPECT_EQ(facts(first), facts(second));
   // A full result serves who asks for a fast one, and says what it is.
   const Ended fast = compile(map, {"--json", "--level", "fast"});
-  EXPECT_EQ(json::parse(fast.out).at("visible").at("level"), "full");
+  EXPECT_EQ(Json::parse(fast.out).at("visible").at("level"), "full");
 }
 
 TEST(Compile, NoCacheWritesNone) {
@@ -170,7 +170,7 @@ TEST(Compile, DamagedCacheIsComputedAnew) {
     write_file_atomically(file, bad);
     const Ended again = compile(map, {"--json"});
     EXPECT_EQ(again.status, 0) << again.err;
-    EXPECT_EQ(json::parse(again.out).at("from_cache"), false);
+    EXPECT_EQ(Json::parse(again.out).at("from_cache"), false);
     EXPECT_EQ(facts(first), facts(again));
     EXPECT_EQ(read_file(file), good);
   }
@@ -182,18 +182,18 @@ TEST(Compile, CacheThatCannotBeWrittenIsOneWarning) {
   folder.write(".hallway", "in the way");
   const Ended ended = compile(map, {"--json"});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(json::parse(ended.out).at("warnings").size(), 1u);
+  EXPECT_EQ(Json::parse(ended.out).at("warnings").size(), 1u);
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
   EXPECT_NE(ended.err.find("cache"), std::string::npos) << ended.err;
 }
 
 TEST(Compile, ThreadsChangeNoByteOfTheResult) {
   std::vector<std::string> bytes;
-  std::vector<json> documents;
+  std::vector<Json> documents;
   for (const char* threads : {"1", "2", "8"}) {
     const TempFolder folder;
     const fs::path map = folder.write("rooms.map", two_rooms());
-    json document = facts(compile(map, {"--json", "--threads", threads}));
+    Json document = facts(compile(map, {"--json", "--threads", threads}));
     document.erase("map");
     documents.push_back(document);
     bytes.push_back(read_file(cached_files(folder).at(0)));
@@ -218,8 +218,8 @@ TEST(Compile, WarnsOfBadBrushesAndOccupantsInSolidOrRefusesThem) {
                                                            point_entity("light", {500, 100, 100})));
   const Ended ended = compile(map, {"--json"});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(json::parse(ended.out).at("brushes").at("no_solids"), 1);
-  EXPECT_EQ(json::parse(ended.out).at("warnings").size(), 2u);
+  EXPECT_EQ(Json::parse(ended.out).at("brushes").at("no_solids"), 1);
+  EXPECT_EQ(Json::parse(ended.out).at("warnings").size(), 2u);
   EXPECT_NE(ended.err.find("light"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("rooms.map:"), std::string::npos) << ended.err;
   EXPECT_EQ(compile(map, {"--strict"}).status, 3);

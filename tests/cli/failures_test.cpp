@@ -96,7 +96,8 @@ TEST(Map, BrushThatIsNoSolidIsReportedAndLeftOut) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.err.find("small.map:7"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("warning"), std::string::npos) << ended.err;
-  const auto manifest = nlohmann::json::parse(read_file(std::filesystem::path(world.out()) / "run.json"));
+  const auto manifest =
+      nlohmann::ordered_json::parse(read_file(std::filesystem::path(world.out()) / "run.json"));
   EXPECT_EQ(manifest.at("warnings").size(), 1u);
 }
 
@@ -112,7 +113,7 @@ TEST(Json, FailureIsOneDocument) {
   world.folder().write("small.toml", replaced(small_scenario(), "noise_m", "nois_m"));
   const Ended ended = world.run({"--json"});
   EXPECT_EQ(ended.status, 3);
-  const auto document = nlohmann::json::parse(ended.out);
+  const auto document = nlohmann::ordered_json::parse(ended.out);
   EXPECT_EQ(document.at("status"), 3);
   EXPECT_EQ(document.at("error").at("kind"), "bad_input");
   EXPECT_EQ(document.at("error").at("line"), 15);
@@ -121,7 +122,7 @@ TEST(Json, FailureIsOneDocument) {
 TEST(Json, UsageFailureIsOneDocumentToo) {
   const Ended ended = hallway({"run", "--json"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_EQ(nlohmann::json::parse(ended.out).at("status"), 2);
+  EXPECT_EQ(nlohmann::ordered_json::parse(ended.out).at("status"), 2);
 }
 
 TEST(Replay, NeedsAPlugin) {

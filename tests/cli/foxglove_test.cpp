@@ -113,7 +113,7 @@ TEST_F(FoxgloveLog, ConvertingALogGivesTheViewThatItsRunWouldHaveWritten) {
   const Ended file =
       hallway({"log", "convert", plain() / "run.mcap", "--foxglove", "--out", path("b.mcap"), "--json"});
   ASSERT_EQ(file.status, 0) << file.err;
-  EXPECT_EQ(nlohmann::json::parse(file.out).at("frames"), 60);
+  EXPECT_EQ(nlohmann::ordered_json::parse(file.out).at("frames"), 60);
   EXPECT_TRUE(read_file(path("b.mcap")) == read_file(path("a.mcap")));
   // Elsewhere it has no pictures beside it.
   fs::copy_file(plain() / "run.mcap", path("run.mcap"));
@@ -164,7 +164,7 @@ TEST_F(FoxgloveLog, ADamagedLogIsShownUpToTheDamage) {
   const Ended ended = hallway({"log", "convert", cut, "--foxglove", "--out", path("shown.mcap"), "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.err.find("warning"), std::string::npos) << ended.err;
-  const auto document = nlohmann::json::parse(ended.out);
+  const auto document = nlohmann::ordered_json::parse(ended.out);
   EXPECT_EQ(document.at("warnings").size(), 1u);
   EXPECT_EQ(document.at("frames"), messages(path("shown.mcap"), "/foxglove/").at("/foxglove/points").size());
 }

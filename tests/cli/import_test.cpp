@@ -39,7 +39,7 @@ TEST(Import, ModelElsewhereNeedsACopy) {
   EXPECT_TRUE(fs::is_empty(to.path()));
   const Ended ended = hallway({"import", from / "model.gltf", "--out", to / "a.map", "--copy", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  const auto report = nlohmann::json::parse(ended.out);
+  const auto report = nlohmann::ordered_json::parse(ended.out);
   EXPECT_EQ(report.at("schema"), "hallway.import/1");
   EXPECT_EQ(report.at("triangles"), 1);
   EXPECT_EQ(report.at("model"), "model.gltf");
@@ -51,7 +51,7 @@ TEST(Import, FailuresAreDocumentsToo) {
   folder.write("bad.glb", "glTF");
   const Ended ended = hallway({"import", folder / "bad.glb", "--out", folder / "a.map", "--json"});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_NE(nlohmann::json::parse(ended.out).dump().find("bad.glb"), std::string::npos);
+  EXPECT_NE(nlohmann::ordered_json::parse(ended.out).dump().find("bad.glb"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "a.map"));
   EXPECT_EQ(hallway({"import", folder / "bad.glb"}).status, 2);
   EXPECT_EQ(hallway({"import", folder / "bad.glb", "--out", folder / "a.map", "--units", "-1"}).status, 2);
@@ -65,7 +65,7 @@ TEST(Import, BuildingWithTheTexturesBesideIt) {
   const Ended ended = hallway({"import", building / "meshes/willowgarage_visual.dae", "--out",
                                folder / "garage.map", "--copy", "--root", building, "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(nlohmann::json::parse(ended.out).at("images"), 7);
+  EXPECT_EQ(nlohmann::ordered_json::parse(ended.out).at("images"), 7);
   EXPECT_TRUE(fs::exists(folder / "meshes/willowgarage_visual.dae"));
   EXPECT_TRUE(fs::exists(folder / "materials/textures/Wood_Cherry_Original_.png"));
 }

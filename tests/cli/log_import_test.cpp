@@ -22,7 +22,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Points that a mapper can follow: a cloud around a sensor that moves a little from frame to frame.
 Points scene_points(std::uint32_t frame) {

@@ -12,7 +12,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// A run of the small world, made once for all tests.
 class Log : public testing::Test {

@@ -15,7 +15,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 Ended map_command(const std::string& command, const fs::path& map,
                   const std::vector<std::string>& more = {}) {
@@ -33,19 +33,19 @@ std::string path_along_x(int from, int to) {
   return point_entity("hw_path", {from, 150, 50}, "\"name\" \"way\"\n") + waypoint(0, from) + waypoint(1, to);
 }
 
-bool has_finding(const json& document, const std::string& id) {
-  for (const json& finding : document.at("findings")) {
+bool has_finding(const Json& document, const std::string& id) {
+  for (const Json& finding : document.at("findings")) {
     if (finding.at("id") == id) return true;
   }
   return false;
 }
 
-json finding(const json& document, const std::string& id) {
-  for (const json& found : document.at("findings")) {
+Json finding(const Json& document, const std::string& id) {
+  for (const Json& found : document.at("findings")) {
     if (found.at("id") == id) return found;
   }
   ADD_FAILURE() << "no finding " << id << " in " << document.dump(1);
-  return json::object();
+  return Json::object();
 }
 
 // ---- check ----------------------------------------------------------------------------------------------------------
@@ -64,7 +64,7 @@ TEST(MapCheck, PathThroughTheWallSaysWhereAlongIt) {
   const fs::path map = folder.write("rooms.map", two_rooms({}, path_along_x(100, 900)));
   const Ended ended = map_command("check", map, {"--json"});
   EXPECT_EQ(ended.status, 1);
-  const json found = finding(json::parse(ended.out), "path-through-wall");
+  const Json found = finding(Json::parse(ended.out), "path-through-wall");
   EXPECT_EQ(found.at("severity"), "error");
   const std::string message = found.at("message");
   EXPECT_NE(message.find("from 3.00 m to 5.0"), std::string::npos) << message;
@@ -76,9 +76,9 @@ TEST(MapCheck, WaypointInAClosetWithoutADoorIsUnreachable) {
   const TempFolder folder;
   const auto unreachable = [&](const std::string& cuts, int to_x) {
     const fs::path map = folder.write("rooms.map", two_rooms(cuts, path_along_x(100, to_x)));
-    const json document = json::parse(map_command("check", map, {"--json"}).out);
+    const Json document = Json::parse(map_command("check", map, {"--json"}).out);
     std::vector<std::string> messages;
-    for (const json& found : document.at("findings")) {
+    for (const Json& found : document.at("findings")) {
       if (found.at("id") == "unreachable-waypoint") messages.push_back(found.at("message"));
     }
     return messages;
@@ -100,7 +100,7 @@ TEST(MapCheck, PathThatTouchesTheFloorIsFree) {
     path.replace(at, 7, " 150 0");
   }
   const Ended ended = map_command("check", folder.write("rooms.map", two_rooms({}, path)), {"--json"});
-  EXPECT_FALSE(has_finding(json::parse(ended.out), "path-through-wall")) << ended.out;
+  EXPECT_FALSE(has_finding(Json::parse(ended.out), "path-through-wall")) << ended.out;
 }
 
 TEST(MapCheck, RobotInSolidIsAnErrorAndALampOnlyAWarning) {
@@ -112,11 +112,11 @@ TEST(MapCheck, RobotInSolidIsAnErrorAndALampOnlyAWarning) {
       folder.write("robot.map", text.replace(text.find(start), start.size(), "\"origin\" \"500 100 100\""));
   const Ended with_lamp = map_command("check", lamp, {"--json"});
   EXPECT_EQ(with_lamp.status, 0);
-  EXPECT_EQ(finding(json::parse(with_lamp.out), "occupant-in-solid").at("severity"), "warning");
+  EXPECT_EQ(finding(Json::parse(with_lamp.out), "occupant-in-solid").at("severity"), "warning");
   EXPECT_EQ(map_command("check", lamp, {"--strict"}).status, 1);
   const Ended with_robot = map_command("check", robot, {"--json"});
   EXPECT_EQ(with_robot.status, 1);
-  EXPECT_EQ(finding(json::parse(with_robot.out), "occupant-in-solid").at("severity"), "error");
+  EXPECT_EQ(finding(Json::parse(with_robot.out), "occupant-in-solid").at("severity"), "error");
 }
 
 TEST(MapCheck, LeakIsAWarningWithItsOpening) {
@@ -135,7 +135,7 @@ TEST(MapCheck, TwoRobotStartsAreAnErrorBesideTheOthers) {
       "check", folder.write("rooms.map", two_rooms(hole(), point_entity("hw_robot_start", {100, 100, 20}))),
       {"--json"});
   EXPECT_EQ(ended.status, 1);
-  const json document = json::parse(ended.out);
+  const Json document = Json::parse(ended.out);
   EXPECT_TRUE(has_finding(document, "two-robot-starts")) << ended.out;
   EXPECT_TRUE(has_finding(document, "leak")) << ended.out;
   EXPECT_EQ(document.at("errors").get<std::size_t>() + document.at("warnings").get<std::size_t>(),
@@ -160,7 +160,7 @@ TEST(MapInfo, CountsWhatIsThere) {
                                                                    point_entity("light", {100, 200, 100})));
   const Ended ended = map_command("info", map, {"--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  const json document = json::parse(ended.out);
+  const Json document = Json::parse(ended.out);
   EXPECT_EQ(document.at("entities").at("light"), 2);
   EXPECT_EQ(document.at("brushes").at("roles").at("add"), 1);
   EXPECT_EQ(document.at("brushes").at("roles").at("subtract"), 5);
@@ -190,7 +190,7 @@ TEST(MapLeak, TextJsonPointsAndPicture) {
   const Ended ended =
       map_command("leak", map, {"--json", "--pts", folder / "way.pts", "--picture", folder / "leak.png"});
   EXPECT_EQ(ended.status, 1) << ended.err;
-  EXPECT_NEAR(json::parse(ended.out).at("leak").at("opening").at("width_m").get<double>(), 0.5, 1e-6);
+  EXPECT_NEAR(Json::parse(ended.out).at("leak").at("opening").at("width_m").get<double>(), 0.5, 1e-6);
   EXPECT_TRUE(read_file(folder / "leak.png").starts_with("\x89PNG"));
   EXPECT_TRUE(read_file(folder / "way.pts").starts_with("200 150 20\n")) << read_file(folder / "way.pts");
   EXPECT_FALSE(fs::exists(folder / "rooms.pts"));
@@ -218,13 +218,13 @@ TEST(MapPvs, OtherRoomIsHiddenAndOwnRoomVisible) {
   const fs::path map = folder.write("rooms.map", two_rooms());
   const Ended own = map_command("pvs", map, {"1,1,1", "3.5,2.5,2", "--json"});
   EXPECT_EQ(own.status, 0) << own.err;
-  EXPECT_EQ(json::parse(own.out).at("visible"), true);
-  EXPECT_EQ(json::parse(own.out).at("ray_free"), true);
+  EXPECT_EQ(Json::parse(own.out).at("visible"), true);
+  EXPECT_EQ(Json::parse(own.out).at("ray_free"), true);
   const Ended other = map_command("pvs", map, {"1,1,1", "8,1,1", "--json"});
   EXPECT_EQ(other.status, 1);
-  EXPECT_EQ(json::parse(other.out).at("visible"), false);
-  EXPECT_EQ(json::parse(other.out).at("ray_free"), false);
-  EXPECT_NEAR(json::parse(other.out).at("ray_hit_m")[0].get<double>(), 4.0, 1e-6);
+  EXPECT_EQ(Json::parse(other.out).at("visible"), false);
+  EXPECT_EQ(Json::parse(other.out).at("ray_free"), false);
+  EXPECT_NEAR(Json::parse(other.out).at("ray_hit_m")[0].get<double>(), 4.0, 1e-6);
   const Ended text = map_command("pvs", map, {"1,1,1", "8,1,1"});
   EXPECT_TRUE(text.out.starts_with("hidden")) << text.out;
   EXPECT_NE(text.out.find("blocked at (4.00, 1.00, 1.00)"), std::string::npos) << text.out;
@@ -247,7 +247,7 @@ TEST(MapRay, FirstFaceWithItsBrushAndMaterial) {
   const fs::path map = folder.write("rooms.map", two_rooms());
   const Ended ended = map_command("ray", map, {"1,1,1", "8,1,1", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  const json hit = json::parse(ended.out).at("hit");
+  const Json hit = Json::parse(ended.out).at("hit");
   EXPECT_NEAR(hit.at("distance_m").get<double>(), 3.0, 1e-9);
   EXPECT_NEAR(hit.at("at_m")[0].get<double>(), 4.0, 1e-9);
   EXPECT_NEAR(hit.at("normal")[0].get<double>(), -1.0, 1e-12);
@@ -265,13 +265,13 @@ TEST(MapRay, ModelsAreMetAsBrushesAre) {
   const std::string office = test::source_folder() / "maps" / "office.map";
   // From above the sculpture in the hall straight down onto it, and past it.
   const auto met =
-      json::parse(hallway({"map", "ray", office, "33.447,7.879,3", "33.447,7.879,0.31", "--json"}).out)
+      Json::parse(hallway({"map", "ray", office, "33.447,7.879,3", "33.447,7.879,0.31", "--json"}).out)
           .at("hit");
   EXPECT_EQ(met.at("model"), "models/knot.glb");
   EXPECT_LT(met.at("distance_m").get<double>(), 2.5);
   EXPECT_GT(met.at("normal")[2].get<double>(), 0.0);
   const auto beside =
-      json::parse(hallway({"map", "ray", office, "32.5,8,3", "32.5,8,-2", "--json"}).out).at("hit");
+      Json::parse(hallway({"map", "ray", office, "32.5,8,3", "32.5,8,-2", "--json"}).out).at("hit");
   EXPECT_EQ(beside.at("material"), "floor_stone");
 }
 
@@ -301,7 +301,7 @@ TEST(MapExport, WritesEveryFormat) {
   for (const char* name : {"rooms.glb", "rooms.obj", "rooms.PLY"}) {
     const Ended ended = map_command("export", map, {"--out", folder / name, "--json"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_GT(json::parse(ended.out).at("triangles").get<int>(), 20) << name;
+    EXPECT_GT(Json::parse(ended.out).at("triangles").get<int>(), 20) << name;
     EXPECT_GT(fs::file_size(folder / name), 100u);
   }
   EXPECT_TRUE(read_file(folder / "rooms.glb").starts_with("glTF"));
@@ -359,10 +359,10 @@ TEST(MapExport, ModelsAndTheirPictures) {
   const auto exported = [&](const fs::path& file, const char* name) {
     const Ended ended = map_command("export", file, {"--out", folder / name, "--json"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    return json::parse(ended.out);
+    return Json::parse(ended.out);
   };
-  const json bare = exported(folder.write("bare.map", two_rooms()), "bare.obj");
-  const json obj = exported(map, "rooms.obj");
+  const Json bare = exported(folder.write("bare.map", two_rooms()), "bare.obj");
+  const Json obj = exported(map, "rooms.obj");
   EXPECT_EQ(obj.at("triangles").get<int>(), bare.at("triangles").get<int>() + 2);
   ASSERT_EQ(obj.at("warnings").size(), 1u);
   EXPECT_NE(obj.at("warnings")[0].get<std::string>().find("missing.obj"), std::string::npos);
@@ -384,7 +384,7 @@ TEST(MapExport, PointsOfTheFaces) {
       "rooms.map", text.replace(text.find(scale), scale.size(), scale + "\"_points_per_m2\" \"2\"\n"));
   const Ended ended = map_command("export", map, {"--out", folder / "points.ply", "--points", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_GT(json::parse(ended.out).at("points").get<int>(), 50);
+  EXPECT_GT(Json::parse(ended.out).at("points").get<int>(), 50);
   const Ended none =
       map_command("export", folder.write("bare.map", two_rooms()), {"--out", folder / "p.ply", "--points"});
   EXPECT_EQ(none.status, 3);
@@ -428,7 +428,7 @@ TEST(MapCommands, MisspeltOneIsSuggested) {
 TEST(MapCommands, FailureInJsonIsADocument) {
   const Ended ended = hallway({"map", "ray", "missing.map", "1,1,1", "2,2,2", "--json"});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_EQ(json::parse(ended.out).at("schema"), "hallway.error/1");
+  EXPECT_EQ(Json::parse(ended.out).at("schema"), "hallway.error/1");
 }
 
 TEST(MapCommands, HelpHasAnExampleEach) {

@@ -86,9 +86,9 @@ TEST_F(PlaneRuns, RecordWhatIsFed) {
   EXPECT_EQ(columns(first() / "observed_planes.csv", "nx", 19), columns(first() / "planes.csv", "nx", 19));
   EXPECT_FALSE(fs::exists(first() / "observations.csv"));
   EXPECT_FALSE(fs::exists(first() / "truth_landmarks.csv"));
-  const auto manifest = nlohmann::json::parse(read_file(first() / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(first() / "run.json"));
   EXPECT_EQ(manifest.at("sensors").at(0).at("kind"), "planes");
-  EXPECT_EQ(manifest.at("sensors").at(0).at("noise_m"), nlohmann::json({0.02, 0.02, 0.0}));
+  EXPECT_EQ(manifest.at("sensors").at(0).at("noise_m"), nlohmann::ordered_json({0.02, 0.02, 0.0}));
   // The walls that were seen are true ones.
   const std::string walls = read_file(first() / "true_walls.csv");
   std::istringstream ids(columns(first() / "observed_planes.csv", "wall_id", 1));

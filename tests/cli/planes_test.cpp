@@ -13,7 +13,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 std::string levels() {
   return binary_folder() / "tests/abi/fixtures/levels.so";

@@ -81,7 +81,8 @@ TEST(PluginParameter, OutOfRangeIsRefused) {
 TEST(PluginParameter, IsRecordedWithItsOrigin) {
   const SmallWorld world;
   ASSERT_EQ(world.run({"--quiet", "--set", "slam_point.noise_m=0.06"}).status, 0);
-  const auto manifest = nlohmann::json::parse(read_file(std::filesystem::path(world.out()) / "run.json"));
+  const auto manifest =
+      nlohmann::ordered_json::parse(read_file(std::filesystem::path(world.out()) / "run.json"));
   bool found = false;
   for (const auto& parameter : manifest.at("plugins").at(0).at("parameters")) {
     if (parameter.at("name") != "noise_m") continue;
@@ -99,14 +100,14 @@ TEST(PluginList, NamesEachWithItsFile) {
 }
 
 TEST(PluginList, AsJson) {
-  const auto document = nlohmann::json::parse(hallway({"plugin", "list", "--json"}).out);
+  const auto document = nlohmann::ordered_json::parse(hallway({"plugin", "list", "--json"}).out);
   EXPECT_EQ(document.at("schema"), "hallway.plugins/1");
   bool found = false;
   for (const auto& file : document.at("files")) {
     for (const auto& plugin : file.at("plugins")) {
       if (plugin.at("id") != "slam_point") continue;
       found = true;
-      EXPECT_EQ(plugin.at("inputs"), nlohmann::json::array({"points"}));
+      EXPECT_EQ(plugin.at("inputs"), nlohmann::ordered_json::array({"points"}));
     }
   }
   EXPECT_TRUE(found);
@@ -134,7 +135,7 @@ TEST(PluginList, ALibraryThatCrashesIsALineAndTheOthersAreListed) {
   EXPECT_NE(ended.out.find("\n(not loadable) "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("slam_point"), std::string::npos) << ended.out;
   const auto files =
-      nlohmann::json::parse(hallway({"plugin", "list", "--plugin-path", folder.path(), "--json"}).out)
+      nlohmann::ordered_json::parse(hallway({"plugin", "list", "--plugin-path", folder.path(), "--json"}).out)
           .at("files");
   EXPECT_EQ(files.at(0).at("verdict").at("what"), "crash");
   EXPECT_EQ(files.at(0).at("verdict").at("call"), "close");
@@ -173,7 +174,7 @@ TEST(PluginCheck, SaysThatAPluginLoadsHereAndWhatItNeeds) {
   for (const char* part : {"libc.so.6", "hw_entry", "GLIBC_", "it will load on"}) {
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
   }
-  const auto json = nlohmann::json::parse(hallway({"plugin", "check", file, "--json"}).out);
+  const auto json = nlohmann::ordered_json::parse(hallway({"plugin", "check", file, "--json"}).out);
   EXPECT_EQ(json["schema"], "hallway.plugin_check/1");
   EXPECT_EQ(json["loads"], true);
 }
@@ -210,9 +211,9 @@ TEST(PluginInfo, ListsParametersWithUnitsAndRanges) {
   for (const char* part : {"takes     points", "gives     pose", "noise_m = "}) {
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
   }
-  const auto json = nlohmann::json::parse(hallway({"plugin", "info", "slam_point", "--json"}).out);
+  const auto json = nlohmann::ordered_json::parse(hallway({"plugin", "info", "slam_point", "--json"}).out);
   EXPECT_EQ(json["id"], "slam_point");
-  EXPECT_EQ(json["inputs"], nlohmann::json::array({"points"}));
+  EXPECT_EQ(json["inputs"], nlohmann::ordered_json::array({"points"}));
   EXPECT_EQ(hallway({"plugin", "info", "slam_poin"}).status, 4);
 }
 
@@ -224,7 +225,7 @@ TEST(PluginValidate, ListsWhatEachTestDemands) {
   const Ended ended = hallway({"plugin", "validate", "--list"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("reset-forgets "), std::string::npos) << ended.out;
-  const auto json = nlohmann::json::parse(hallway({"plugin", "validate", "--list", "--json"}).out);
+  const auto json = nlohmann::ordered_json::parse(hallway({"plugin", "validate", "--list", "--json"}).out);
   EXPECT_EQ(json["schema"], "hallway.plugin_tests/1");
   EXPECT_GE(json["tests"].size(), 40u);
 }
@@ -252,7 +253,7 @@ TEST(PluginValidate, SaysWhatFailedAndHowToSeeItAgain) {
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
   }
   const auto json =
-      nlohmann::json::parse(hallway({"plugin", "validate", file, "--test", "silent", "--json"}).out);
+      nlohmann::ordered_json::parse(hallway({"plugin", "validate", file, "--test", "silent", "--json"}).out);
   EXPECT_EQ(json["schema"], "hallway.plugin_validate/1");
   EXPECT_EQ(json["good"], false);
   EXPECT_EQ(json["plugin"], "defective");
@@ -271,7 +272,7 @@ TEST(PluginValidate, RefusesWhatItCannotTest) {
   EXPECT_EQ(hallway({"plugin", "validate", fixture("other_abi_major")}).status, 4);
   const Ended text = hallway({"plugin", "validate", folder.write("a.so", "text"), "--json"});
   EXPECT_EQ(text.status, 4);
-  EXPECT_EQ(nlohmann::json::parse(text.out)["status"], 4);
+  EXPECT_EQ(nlohmann::ordered_json::parse(text.out)["status"], 4);
 }
 
 TEST(PluginValidate, APluginThatCrashesWhenItIsLoadedIsAtFault) {
@@ -304,7 +305,7 @@ TEST(Doctor, FindsAllThatTheTestsRunWith) {
   EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
   EXPECT_EQ(ended.out.find("BROKEN"), std::string::npos) << ended.out;
   EXPECT_TRUE(read_file(folder / "a.png").starts_with("\x89PNG"));
-  const auto json = nlohmann::json::parse(hallway({"doctor", "--json"}).out);
+  const auto json = nlohmann::ordered_json::parse(hallway({"doctor", "--json"}).out);
   EXPECT_EQ(json["good"], true);
   EXPECT_EQ(json["checks"].size(), 7u);
 }

@@ -52,7 +52,7 @@ TEST(Render, PerspectiveFromAViewpoint) {
       render(world, world.folder() / "small.map",
              {"--view", "perspective", "--eye=-5,0,3", "--target=0,5,0", "--size", "200x120", "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(nlohmann::json::parse(ended.out).at("width_px"), 200);
+  EXPECT_EQ(nlohmann::ordered_json::parse(ended.out).at("width_px"), 200);
 }
 
 TEST(Render, SizeThatIsNoneIsUsage) {

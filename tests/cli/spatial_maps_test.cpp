@@ -17,11 +17,11 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Strings = std::vector<std::string>;
 
-const Strings kNoise{"--set", "sensor.eyes.noise_m=0.02",     "--set", "sensor.eyes.noise_angle_deg=0.3",
-                     "--set", "sensor.eyes.noise_end_m=0.005"};
+const Strings kFaceNoise{"--set", "sensor.eyes.noise_m=0.02",     "--set", "sensor.eyes.noise_angle_deg=0.3",
+                         "--set", "sensor.eyes.noise_end_m=0.005"};
 
 class SpatialMaps : public testing::Test {
  protected:
@@ -35,7 +35,7 @@ class SpatialMaps : public testing::Test {
   }
 
   Json run_with_noise(int seed) const {
-    Strings more = kNoise;
+    Strings more = kFaceNoise;
     more.insert(more.end(), {"--seed", std::to_string(seed), "--force", "--in-process"});
     const Ended ended = run(out("run"), more);
     EXPECT_EQ(ended.status, 0) << ended.err;
@@ -93,7 +93,7 @@ TEST_F(SpatialMaps, AreWholeForEverySeed) {
 }
 
 TEST_F(SpatialMaps, AreTheSameIsolatedInThisProcessAndReplayed) {
-  Strings more = kNoise;
+  Strings more = kFaceNoise;
   more.insert(more.end(), {"--steps", "200"});
   ASSERT_EQ(run(out("isolated"), more).status, 0);
   more.emplace_back("--in-process");

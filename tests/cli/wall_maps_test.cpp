@@ -21,11 +21,11 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Strings = std::vector<std::string>;
 
-const Strings kNoise{"--set", "sensor.eyes.noise_m=0.02",     "--set", "sensor.eyes.noise_angle_deg=0.3",
-                     "--set", "sensor.eyes.noise_end_m=0.005"};
+const Strings kWallNoise{"--set", "sensor.eyes.noise_m=0.02",     "--set", "sensor.eyes.noise_angle_deg=0.3",
+                         "--set", "sensor.eyes.noise_end_m=0.005"};
 
 class WallMaps : public testing::Test {
  protected:
@@ -60,7 +60,7 @@ class WallMaps : public testing::Test {
 };
 
 TEST_F(WallMaps, AreTheSameIsolatedInThisProcessAndReplayed) {
-  Strings more = kNoise;
+  Strings more = kWallNoise;
   more.insert(more.end(), {"--steps", "250"});
   run("hallway", out("isolated"), more);
   more.emplace_back("--in-process");
@@ -75,7 +75,7 @@ TEST_F(WallMaps, AreTheSameIsolatedInThisProcessAndReplayed) {
 }
 
 TEST_F(WallMaps, AreScored) {
-  Strings more = kNoise;
+  Strings more = kWallNoise;
   more.insert(more.end(), {"--steps", "250", "--in-process"});
   run("hallway", out("run"), more);
   const Json found = planes(out("run"));
@@ -116,7 +116,7 @@ std::pair<double, double> change_of(const std::vector<double>& values) {
 
 TEST_F(WallMaps, DoNotDrift) {
   for (const char* mode : {"relative", "thesis"}) {
-    Strings more = kNoise;
+    Strings more = kWallNoise;
     more.insert(more.end(), {"--steps", std::to_string(sized(3000, 20000)), "--in-process", "--force",
                              "--set", std::string("slam_plane.mode=") + mode});
     run("four_planes", out("run"), more);

@@ -13,15 +13,15 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-json metrics_of(const Ended& ended) {
+Json metrics_of(const Ended& ended) {
   EXPECT_EQ(ended.status, 0) << ended.err;
-  return json::parse(ended.out).at("metrics");
+  return Json::parse(ended.out).at("metrics");
 }
 
 /// What holds for every log with truth: a pose in each iteration, closed loops, hardly a wrong association.
-void expect_sound(const json& metrics) {
+void expect_sound(const Json& metrics) {
   EXPECT_EQ(metrics.at("lost_iterations"), 0);
   EXPECT_LT(metrics.at("landmarks_duplicated").get<double>(),
             0.02 * metrics.at("landmarks_true").get<double>());
@@ -33,7 +33,7 @@ TEST(FigureEight, LoopClosesAndTheMapIsRight) {
   const std::string scenario = source_folder() / "maps" / "figure_eight.toml";
   for (int seed = 1; seed <= sized(1, 3); ++seed) {
     const TempFolder folder;
-    const json metrics = metrics_of(
+    const Json metrics = metrics_of(
         hallway({"run", scenario, "--json", "--seed", std::to_string(seed), "--out", folder / "run"}));
     SCOPED_TRACE("seed " + std::to_string(seed));
     EXPECT_EQ(metrics.at("iterations"), 3800);
@@ -50,7 +50,7 @@ struct Moving {
 };
 
 /// The figure eight at 25 landmarks per 100 m, some of which move.
-json moving_run(const Moving& moving, int seed, int steps, const std::string& folder) {
+Json moving_run(const Moving& moving, int seed, int steps, const std::string& folder) {
   const std::string cloud = "cloud.around_the_path.";
   return metrics_of(hallway({"run", source_folder() / "maps" / "figure_eight.toml", "--json", "--seed",
                              std::to_string(seed), "--steps", std::to_string(steps), "--set",
@@ -59,9 +59,9 @@ json moving_run(const Moving& moving, int seed, int steps, const std::string& fo
                              cloud + "motion=" + moving.motion, "--out", folder}));
 }
 
-void expect_told_apart(const json& metrics) {
+void expect_told_apart(const Json& metrics) {
   EXPECT_EQ(metrics.at("lost_iterations"), 0);
-  const json& moving = metrics.at("moving");
+  const Json& moving = metrics.at("moving");
   EXPECT_GE(moving.at("moved"), 5);
   EXPECT_GE(moving.at("recall"), 0.97);
   EXPECT_GE(moving.at("precision"), 0.97);
@@ -90,7 +90,7 @@ TEST(FigureEight, EveryShareOfMovingLandmarksIsToldFromTheRest) {
 
 TEST(Office, IsMappedWithoutABreak) {
   const TempFolder folder;
-  const json metrics = metrics_of(
+  const Json metrics = metrics_of(
       hallway({"run", source_folder() / "maps" / "office.toml", "--json", "--out", folder / "run"}));
   expect_sound(metrics);
 }
@@ -119,7 +119,7 @@ TEST_P(Logs, AreMappedNearlyAsWellAsTheyAllow) {
                                      "--out",
                                      folder / "run"};
   if (log.steps > 0) arguments.insert(arguments.end(), {"--steps", std::to_string(log.steps)});
-  const json metrics = metrics_of(hallway(arguments));
+  const Json metrics = metrics_of(hallway(arguments));
   expect_sound(metrics);
   EXPECT_LE(metrics.at("landmark_rmse_m").at("final_aligned").get<double>(), 1.2 * log.ml_aligned_m);
 }

@@ -88,7 +88,7 @@ TEST_P(Maps, ReplayOfABareLogWithTheSameParametersGivesTheSameMap) {
   fs::copy(fs::path(out("a")) / "observations.csv", out("moved.csv"));
   std::vector<std::string> arguments{"replay",  out("moved.csv"), "--plugin",  "slam_point",
                                      "--quiet", "--out",          out("again")};
-  const auto manifest = nlohmann::json::parse(read_file(fs::path(out("a")) / "run.json"));
+  const auto manifest = nlohmann::ordered_json::parse(read_file(fs::path(out("a")) / "run.json"));
   for (const auto& parameter : manifest.at("plugins").at(0).at("parameters")) {
     if (parameter.at("origin") == "default") continue;
     arguments.insert(arguments.end(), {"--set", parameter.at("name").get<std::string>() + "=" +

@@ -21,7 +21,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// What plugins answer, as tables; those that a pipeline does not fill are in no folder.
 constexpr const char* kTables[] = {"trajectory.tum",   "landmarks.csv", "landmarks.ply", "submaps.csv",

@@ -18,7 +18,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kFrames = 60;
 

@@ -87,7 +87,7 @@ TEST_P(MappingRobot, WritesNoTableOfCommands) {
 TEST_P(MappingRobot, ALoopedLogGoesOnInTimeAndNumber) {
   const fs::path once = robot("once");
   const fs::path twice = robot("twice", {"--set", "driver.loop=true", "--set", "driver.steps=120"});
-  const auto frames = nlohmann::json::parse(read_file(twice / "run.json")).at("robot").at("frames");
+  const auto frames = nlohmann::ordered_json::parse(read_file(twice / "run.json")).at("robot").at("frames");
   EXPECT_EQ(frames.at("given"), 120);
   EXPECT_EQ(frames.at("lost"), 0);
   // The robot drives the first round again as if the hall went on; the first half is what it was.

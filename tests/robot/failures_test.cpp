@@ -162,7 +162,7 @@ TEST(Check, AReplayWantsALog) {
 TEST(Drivers, AreListedWithTheirSettings) {
   const Ended ended = hallway_robot({"drivers", "--json"});
   EXPECT_EQ(ended.status, 0);
-  const auto document = nlohmann::json::parse(ended.out);
+  const auto document = nlohmann::ordered_json::parse(ended.out);
   std::set<std::string> keys;
   for (const auto& file : document.at("files")) {
     for (const auto& driver : file.at("drivers")) {

@@ -2,10 +2,12 @@
 #include "support/dense.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+
+#include "algebra/rigid_motion.hpp"
+#include "algebra/singular.hpp"
+#include "algebra/spectrum.hpp"
 
 namespace hallway::dense {
 
@@ -22,12 +24,12 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::Vect
 }
 
 Spectrum2 eigen_of(const Eigen::Matrix2d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(matrix);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  const auto found = algebra::spectrum<2>(matrix);
+  return {found.values, found.vectors};
 }
 
 Eigen::Vector3d eigenvalues_of(const Eigen::Matrix3d& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix).eigenvalues();
+  return algebra::spectrum<3>(matrix).values;
 }
 
 Singular singular_of(const Eigen::MatrixXd& matrix) {
@@ -36,13 +38,13 @@ Singular singular_of(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& cross) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  const algebra::Singular svd = algebra::singular(cross);
+  const double sign = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.left * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.right.transpose();
 }
 
 Eigen::Matrix4d rigid_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  return Eigen::umeyama(from, to, false);
+  return algebra::rigid_motion(from, to);
 }
 
 }  // namespace hallway::dense

@@ -9,12 +9,12 @@
 
 #include "support/long_mode.hpp"
 #include "trace/scene.hpp"
+#include "unit/trace/backend_under_test.hpp"
 #include "unit/trace/shapes.hpp"
 
 namespace hallway::trace {
 namespace {
 
-constexpr Backend kBackend = Backend::HALLWAY_TEST_BACKEND;
 using Real = long double;
 using RealVec = Eigen::Matrix<Real, 3, 1>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a scene answers, one rule at a time, on the backend that the build names.
+// What a scene answers, one rule at a time, on the backend that HALLWAY_TEST_BACKEND names.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -9,6 +9,7 @@
 
 #include "support/errors.hpp"
 #include "trace/scene.hpp"
+#include "unit/trace/backend_under_test.hpp"
 #include "unit/trace/shapes.hpp"
 
 namespace hallway::trace {
@@ -16,7 +17,6 @@ namespace {
 
 using test::error_of;
 
-constexpr Backend kBackend = Backend::HALLWAY_TEST_BACKEND;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
