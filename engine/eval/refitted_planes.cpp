@@ -18,7 +18,7 @@ using Vec6 =
     Eigen::Matrix<double, 6, 1>;  // a small motion: step [m], then turn about the body's origin [rad]
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kRefitSteps = 5;            // of Gauss and Newton, at most, in each stage of a fit
+constexpr int kRefitSteps = 5;       // of Gauss and Newton, at most, in each stage of a fit
 constexpr double kLeastStep = 1e-7;  // [m, rad]
 constexpr int kRounds = 2;           // of weighing
 constexpr double kGateSigmas = 4.0;

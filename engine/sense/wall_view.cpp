@@ -39,8 +39,8 @@ struct WallLine {
 namespace {
 
 using std::numbers::pi;
-constexpr double kViewAngleRounding = 1e-9;    ///< radians
-constexpr double kLeastDistance_m = 1e-6;  ///< from the plane of a wall, to see it at all
+constexpr double kViewAngleRounding = 1e-9;  ///< radians
+constexpr double kLeastDistance_m = 1e-6;    ///< from the plane of a wall, to see it at all
 constexpr double kOnWall_m =
     1e-7;  ///< what does not stand out of a wall's plane farther than this hides nothing of it
 constexpr double kSameEnd_m = 1e-9;  ///< a piece that ends this near to the wall's end ends there
