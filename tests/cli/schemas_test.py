@@ -76,11 +76,18 @@ class Schemas:
 
     def __init__(self, folder):
         self.folder = folder
-        self.by_file = {path.name: json.loads(path.read_text()) for path in sorted(folder.glob("*.json"))}
+        self.by_file = {path.name: self.read(path) for path in sorted(folder.glob("*.json"))}
         self.uris = {name: (folder / name).resolve().as_uri() for name in self.by_file}
         # Taken out, for it would choose a class of validators that does not note what it sees.
         self.dialects = {name: schema.pop("$schema", None) for name, schema in self.by_file.items()}
         self.seen = set()  # (the object "properties" of a schema, a member that a document had)
+
+    @staticmethod
+    def read(path):
+        try:
+            return parse(path.read_text())
+        except ValueError as error:
+            sys.exit(f"docs/schemas/{path.name}: {error}")
 
     def names(self):
         return {re.sub(r"-(\d+)\.schema\.json$", r"/\1", name) for name in self.by_file if name != SHARED}
