@@ -10,6 +10,7 @@ Exit status: 0 all is well, 1 it is not.
 import argparse
 import json
 import re
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -256,10 +257,10 @@ def run_commands(table, promises, checks, only):
             continue
         try:
             promises.prepare(entry.get("needs", []))
-        except RuntimeError as error:
+            ran = promises.shell(command)
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
             checks.problems.append(f"`{command}`: {error}")
             continue
-        ran = promises.shell(command)
         label, before = f"`{command}`", len(checks.problems)
         if ran.returncode != wanted_status:
             checks.problems.append(f"{label}: it ended with {ran.returncode} instead of {wanted_status}: {ran.stderr.strip()[-400:]}")
