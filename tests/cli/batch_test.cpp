@@ -247,8 +247,8 @@ TEST_F(Batch, ACellThatCannotBeWrittenStopsNoOther) {
 TEST_F(Batch, AFullDiskIsAResultLikeAnyOther) {
   const std::string file = plan("steps = 400\nseeds = [1, 2]\n");
   // No file larger than this: what a disk that is full says of each write beyond.
-  const std::string command = "ulimit -f 40; exec " + hallway_program() + " batch " + file +
-                              " --quiet --out " + world_.out("batch");
+  const std::string command =
+      "ulimit -f 40; exec " + hallway_program() + " batch " + file + " --quiet --out " + world_.out("batch");
   const Ended ended = Process({"/bin/sh", "-c", command}).wait();
   EXPECT_EQ(ended.status, 1) << ended.err;
   const Json table = results();

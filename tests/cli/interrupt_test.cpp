@@ -24,7 +24,8 @@ Ended stop_long_run(const SmallWorld& world, int signal) {
     const std::uintmax_t size = fs::file_size(log, none);
     return !none && size > 100'000;
   };
-  for (int i = 0; i < 12'000 && !is_written(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 12'000 && !is_written(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(is_written()) << "the run wrote nothing within two minutes";
   ::kill(process.pid(), signal);
   return process.wait();
