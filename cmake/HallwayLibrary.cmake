@@ -51,6 +51,10 @@ endfunction()
 function(hallway_compile_quickly target)
   if(TARGET ${target})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13 AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+      # What -O2 sets of this machine's options, and -O1 does not: newer g++ read a precompiled header only where these agree.
+      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-munroll-only-small-loops> $<$<CONFIG:Release>:-mvzeroupper>)
+    endif()
   endif()
 endfunction()
 

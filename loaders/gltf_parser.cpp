@@ -43,8 +43,8 @@ bool read_file(std::vector<unsigned char>* out, std::string* message, const std:
   }
 }
 
-/// What FileAccess reads it limits itself.
-bool file_size_unknown(std::size_t* size, std::string*, const std::string&, void*) {
+/// What FileAccess reads it limits itself. Before tinygltf 2.9 nothing asks.
+[[maybe_unused]] bool file_size_unknown(std::size_t* size, std::string*, const std::string&, void*) {
   *size = 0;
   return true;
 }

@@ -9,17 +9,14 @@
 #include "record/plane_answers.hpp"
 
 namespace hallway::record {
-namespace {
 
-log::StampedPose stamped(std::int64_t t_ns, const hw_pose_t& pose) {
+log::StampedPose stamped_pose(std::int64_t t_ns, const hw_pose_t& pose) {
   const auto& t = pose.position;
   const auto& q = pose.orientation;
   return {.t_s = static_cast<double>(t_ns) / 1e9,
           .position_m = {t[0], t[1], t[2]},
           .orientation = {q[0], q[1], q[2], q[3]}};
 }
-
-}  // namespace
 
 AnswerTables::AnswerTables(const std::filesystem::path& folder)
     : folder_(folder),
@@ -42,7 +39,7 @@ void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::O
 }
 
 void AnswerTables::add_pose(std::uint32_t iteration, std::int64_t t_ns, const host::PoseOutput& pose) {
-  log::add_row(trajectory_.next_row(), stamped(t_ns, pose.T_map_body));
+  log::add_row(trajectory_.next_row(), stamped_pose(t_ns, pose.T_map_body));
   if (!pose.covariance) return;
   if (!covariances_)
     covariances_.emplace(folder_ / files::kPoseCovariances, ',', log::kPoseCovarianceColumns);

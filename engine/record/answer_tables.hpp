@@ -8,8 +8,12 @@
 #include "host/outputs.hpp"
 #include "host/stage.hpp"
 #include "log/row_file.hpp"
+#include "log/tum.hpp"
 
 namespace hallway::record {
+
+/// A pose of the ABI as a row of trajectory.tum.
+log::StampedPose stamped_pose(std::int64_t t_ns, const hw_pose_t& pose);
 
 /// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first covariance,
 /// the first command and the first planes on, pose_covariances.csv, commands.csv and planes.csv. Memory does not grow with the run. All functions throw Error{kIo}.

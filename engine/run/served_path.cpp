@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "run/served_path.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
 #include "log/tum.hpp"
+#include "record/answer_tables.hpp"
 #include "record/files.hpp"
 #include "record/manifest.hpp"
 #include "run/abi_pose.hpp"
@@ -11,14 +14,6 @@
 
 namespace hallway::run {
 namespace {
-
-log::StampedPose stamped(std::int64_t t_ns, const hw_pose_t& pose) {
-  const auto& t = pose.position;
-  const auto& q = pose.orientation;
-  return {.t_s = static_cast<double>(t_ns) / 1e9,
-          .position_m = {t[0], t[1], t[2]},
-          .orientation = {q[0], q[1], q[2], q[3]}};
-}
 
 /// What is true of the path; there is no map to be scored.
 eval::Truth path_truth(const Source& source) {
@@ -54,7 +49,7 @@ eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Sourc
     iteration.orientation_known = frame.orientation_known;
     if (const auto pose = poses_.find(k); pose != poses_.end()) {
       iteration.T_map_body = pose_of(pose->second);
-      trajectory.push_back(stamped(frame.t_ns, pose->second));
+      trajectory.push_back(record::stamped_pose(frame.t_ns, pose->second));
     }
     evaluator.add(iteration);
   }
