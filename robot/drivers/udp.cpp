@@ -4,6 +4,7 @@
 #include <hallway/driver.hpp>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <random>
 #include <vector>
@@ -203,7 +204,7 @@ class Udp final : public sdk::Driver {
                                                      ? "the robot works in lock-step, and lockstep = false"
                                                      : "the robot works in real time, and lockstep = true");
       }
-      robot_.emplace(description);
+      robot_ = std::make_unique<RobotInfo>(description);
     }
     return robot_->info();
   }
@@ -235,7 +236,7 @@ class Udp final : public sdk::Driver {
   std::optional<link_::UdpWire> socket_;
   std::optional<link_::LossyWire> lossy_;
   std::optional<link_::HostEnd> end_;
-  std::optional<RobotInfo> robot_;
+  std::unique_ptr<RobotInfo> robot_;
   Counters counters_;
 };
 
