@@ -73,7 +73,7 @@ TEST_F(Batch, RunsAllCombinationsAndSaysWhatSingleRunsSay) {
   ASSERT_EQ(rows.size(), 5u);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].size(), rows[0].size());
-    EXPECT_EQ(rows[i].front(), all.at("cells").at(i - 1).at("name"));
+    EXPECT_EQ(rows[i].front(), all.at("cells").at(i - 1).at("name").get<std::string>());
   }
   EXPECT_EQ(rows[0][1], "input");
 }
