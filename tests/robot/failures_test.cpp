@@ -183,17 +183,17 @@ TEST(Profile, IsWhatPluginCheckReads) {
   EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
 }
 
-/// Nothing of maps, rays or pictures.
+/// Nothing of maps, rays or pictures, whatever the version.
 TEST(Program, NeedsFewLibraries) {
   const std::set<std::string> allowed{
-      "libfmt.so.9", "libzstd.so.1",  "libz.so.1", "libpng16.so.16",       "libstdc++.so.6",
-      "libm.so.6",   "libgcc_s.so.1", "libc.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"};
+      "libfmt",          "libzstd",         "libz", "libstdc++", "libm", "libgcc_s", "libc",
+      "ld-linux-x86-64", "ld-linux-aarch64"};
   const auto facts = host::read_library_facts(robot_program());
   EXPECT_FALSE(facts.needed.empty());
   for (const std::string& library : facts.needed) {
     const bool sanitizer =
         library.starts_with("libasan") || library.starts_with("libubsan") || library.starts_with("libtsan");
-    EXPECT_TRUE(sanitizer || allowed.contains(library)) << library;
+    EXPECT_TRUE(sanitizer || allowed.contains(library.substr(0, library.find(".so")))) << library;
   }
 }
 
