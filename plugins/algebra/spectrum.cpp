@@ -15,4 +15,10 @@ template Spectrum<2> spectrum(const Eigen::Matrix<double, 2, 2>&);
 template Spectrum<3> spectrum(const Eigen::Matrix<double, 3, 3>&);
 template Spectrum<6> spectrum(const Eigen::Matrix<double, 6, 6>&);
 
+double least_eigenvalue(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(0);
+}
+
 }  // namespace hallway::algebra

@@ -17,4 +17,7 @@ struct Spectrum {
 template <int N>
 Spectrum<N> spectrum(const Eigen::Matrix<double, N, N>& matrix);
 
+/// The smallest eigenvalue of a symmetric matrix of 3 rows, in closed form: faster than spectrum(), to some 1e-8 of the largest.
+double least_eigenvalue(const Eigen::Matrix3d& matrix);
+
 }  // namespace hallway::algebra

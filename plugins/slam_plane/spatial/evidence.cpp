@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/spatial/evidence.hpp"
 
-#include <Eigen/Cholesky>
-
+#include "algebra/cholesky.hpp"
 #include "algebra/spectrum.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
@@ -76,7 +75,7 @@ Feature fit_plane(const Mat4& evidence, const Vec3& towards) {
   }
   feature.tangent(3, 2) = 1.0;
   const Mat3 information = feature.tangent.transpose() * evidence * feature.tangent;
-  feature.covariance = information.llt().solve(Mat3::Identity());
+  feature.covariance = algebra::inverse_of_positive<3>(information).matrix;
   return feature;
 }
 
@@ -95,7 +94,7 @@ Feature fit_edge(const Mat4& evidence, const Vec3& normal, const Vec3& towards) 
   feature.tangent(3, 1) = 1.0;
   const Eigen::Matrix<double, 4, 2> free = feature.tangent.leftCols<2>();
   const Mat2 information = free.transpose() * evidence * free;
-  feature.covariance.topLeftCorner<2, 2>() = information.llt().solve(Mat2::Identity());
+  feature.covariance.topLeftCorner<2, 2>() = algebra::inverse_of_positive<2>(information).matrix;
   return feature;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/alignment.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "algebra/spectrum.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -19,9 +20,7 @@ bool is_spread(const Mat3& curvature, double least) {
   const double trace = curvature.trace();
   const double determinant = curvature.determinant();
   if (determinant > 0.0 && 3.99 * determinant >= least * trace * trace) return true;
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(curvature, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()(0) >= least;
+  return algebra::least_eigenvalue(curvature) >= least;
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/directional_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
 
+#include "algebra/cholesky.hpp"
+#include "algebra/spectrum.hpp"
 #include "slam_point/core/alignment.hpp"
 
 namespace hallway::slam_point {
@@ -91,13 +91,11 @@ void DirectionalFitter::sum(double inlier_m) {
 bool DirectionalFitter::is_determined() const {
   const Mat3 travel = normal_.topLeftCorner<3, 3>();
   const Mat3 cross = normal_.bottomLeftCorner<3, 3>();
-  const Eigen::LDLT<Mat3> solver(travel);
-  if (!(solver.vectorD().minCoeff() > 0.0)) return false;
-  const Mat3 turn = normal_.bottomRightCorner<3, 3>() - cross * solver.solve(Mat3(cross.transpose()));
+  const algebra::Ldlt<3> factors(travel);
+  if (!(factors.least_pivot() > 0.0)) return false;
+  const Mat3 turn = normal_.bottomRightCorner<3, 3>() - cross * factors.solve_all(cross.transpose());
   if (rules_.planar) return turn(2, 2) >= rules_.min_spread_m2;
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(turn, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()(0) >= rules_.min_spread_m2;
+  return algebra::least_eigenvalue(turn) >= rules_.min_spread_m2;
 }
 
 bool DirectionalFitter::fit() {
@@ -111,9 +109,9 @@ bool DirectionalFitter::fit() {
     }
     const bool first = pass < kFirstInliers.size();
     sum(first ? kFirstInliers[pass] * rules_.inlier_m : rules_.inlier_m);
-    const Eigen::LDLT<Mat6> solver(normal_);
-    if (!(solver.vectorD().minCoeff() > 0.0)) return false;
-    const StepVector step = -solver.solve(gradient_);
+    const algebra::Ldlt<6> factors(normal_);
+    if (!(factors.least_pivot() > 0.0)) return false;
+    const StepVector step = -factors.solve(gradient_);
     if (!step.allFinite()) return false;
     T_.q = (rotation_exp(step.tail<3>()) * T_.q).normalized();
     T_.t += step.head<3>();

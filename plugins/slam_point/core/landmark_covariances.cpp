@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/landmark_covariances.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <limits>
 #include <numeric>
 
+#include "algebra/cholesky.hpp"
 #include "slam_point/core/block_cholesky.hpp"
 #include "slam_point/core/reduced_system.hpp"
 
@@ -136,9 +136,9 @@ bool LandmarkCovariances::fit_gauge() {
     spread_ += motion.transpose() * noise(l) * motion;
     for (const Lever& lever : levers(l)) load[lever.slot] += lever.motion.transpose() * motion;
   }
-  const Eigen::LDLT<Mat6> inverse(normal);
-  if (!(inverse.vectorD().minCoeff() > 1e-9 * inverse.vectorD().maxCoeff())) return false;
-  fit_ = inverse.solve(Mat6::Identity());
+  const algebra::Ldlt<6> factors(normal);
+  if (!(factors.least_pivot() > 1e-9 * factors.largest_pivot())) return false;
+  fit_ = factors.solve_all(Mat6::Identity());
   response_.assign(6, std::vector<BlockCholesky::Vec6>(slots));
   for (Eigen::Index column = 0; column < 6; ++column) {
     std::vector<BlockCholesky::Vec6>& response = response_[static_cast<std::size_t>(column)];

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/pose_information.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+
+#include "algebra/cholesky.hpp"
 
 namespace hallway::slam_point {
 
@@ -52,9 +53,9 @@ std::optional<Mat6> PoseInformation::covariance_by_matrices(bool planar) const {
     information.block<6, 3>(0, 2).setZero();
     information.diagonal().segment<3>(2).setOnes();
   }
-  const Eigen::LLT<Mat6> factor(information);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  Mat6 covariance = factor.solve(Mat6::Identity());
+  const algebra::Inverse<6> inverse = algebra::inverse_of_positive<6>(information);
+  if (!inverse.is_positive) return std::nullopt;
+  Mat6 covariance = inverse.matrix;
   if (planar) covariance.diagonal().segment<3>(2).setZero();
   if (!covariance.allFinite()) return std::nullopt;
   return Mat6(0.5 * (covariance + covariance.transpose()));

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "algebra/cholesky.hpp"
+
+namespace hallway::algebra {
+
+template <int N>
+Inverse<N> inverse_of_positive(const Eigen::Matrix<double, N, N>& matrix) {
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(matrix);
+  return {factor.solve(Eigen::Matrix<double, N, N>::Identity()), factor.info() == Eigen::Success};
+}
+
+template Inverse<2> inverse_of_positive(const Eigen::Matrix<double, 2, 2>&);
+template Inverse<3> inverse_of_positive(const Eigen::Matrix<double, 3, 3>&);
+template Inverse<6> inverse_of_positive(const Eigen::Matrix<double, 6, 6>&);
+
+template <int N>
+Ldlt<N>::Ldlt(const Square& matrix) : factors_(matrix) {}
+
+template <int N>
+typename Ldlt<N>::Column Ldlt<N>::solve(const Column& right) const {
+  return factors_.solve(right);
+}
+
+template <int N>
+typename Ldlt<N>::Square Ldlt<N>::solve_all(const Square& right) const {
+  return factors_.solve(right);
+}
+
+template <int N>
+double Ldlt<N>::least_pivot() const {
+  return factors_.vectorD().minCoeff();
+}
+
+template <int N>
+double Ldlt<N>::largest_pivot() const {
+  return factors_.vectorD().maxCoeff();
+}
+
+template class Ldlt<3>;
+template class Ldlt<6>;
+template class Ldlt<Eigen::Dynamic>;
+
+}  // namespace hallway::algebra
