@@ -14,13 +14,14 @@ constexpr double kGapStep_m = 0.01;  // and what is added each frame
 
 bool OpenGaps::watch(const Frame& frame, const Pose2& motion, double fastest) {
   const bool tied = frame.in_map.determined();
-  const bool opens = was_tied_ && !tied;
+  const bool any = frame.in_map.heading;
+  // What is mapped after a blind time is tied by the prediction alone, also where some walls were in view before it.
+  const bool opens = !tied && (was_tied_ || (!any && !gaps_.back().is_blind));
   was_tied_ = tied;
   if (tied) return false;
   if (opens) {
     ++epoch_;
     // Where no wall is known, the way ahead is what is known least.
-    const bool any = frame.in_map.heading;
     if (!any) parts_.push_back({epoch_, part()});
     gaps_.push_back({epoch_, any ? frame.in_map.direction : frame.T_map_robot.r,
                      any ? 0.0 : kBridgeFrames * fastest, !any});

@@ -55,6 +55,20 @@ TEST(OpenGaps, GroundThatNothingTiesIsAPartUntilItIsTied) {
   EXPECT_EQ(joined(gaps), (Pairs{{1, 0}}));
 }
 
+TEST(OpenGaps, ABlindTimeBeginsAPartAlsoWhereItBeganAlongAWall) {
+  OpenGaps gaps;
+  see(gaps, kTied);
+  see(gaps, kAlongAWall);
+  for (int i = 0; i < 50; ++i) see(gaps, kBlind);
+  see(gaps, kAlongAWall);
+  EXPECT_EQ(gaps.epoch(), 2u) << "one for the wall, one for the blind time";
+  see(gaps, kTied);
+  EXPECT_EQ(gaps.part(), 2u);
+  gaps.erase(Gap(gaps.last()));
+  EXPECT_EQ(gaps.part(), 0u);
+  EXPECT_EQ(joined(gaps), (Pairs{{2, 0}}));
+}
+
 TEST(OpenGaps, PartsThatAreJoinedInTurnBelongToTheOldest) {
   OpenGaps gaps;
   for (int i = 0; i < 3; ++i) {
