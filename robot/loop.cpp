@@ -91,6 +91,7 @@ void Loop::answer_frame() {
   if (alive_) failure = record::catch_failure([&] { outputs = &parts_.pipeline.process(frame); });
   const Clock::time_point now = Clock::now();
   current_.answered = outputs != nullptr;
+  current_.restarts = failures_.restarts;
   if (outputs != nullptr) {
     hand_on(*outputs, now);
     current_.outputs = *outputs;

@@ -15,7 +15,7 @@ constexpr std::size_t kQueuedFrames = 128;
 
 Recorder::Recorder(const std::filesystem::path& folder, const std::optional<record::LogFacts>& log,
                    bool may_wait)
-    : may_wait_(may_wait), tables_(folder), queue_(kQueuedFrames) {
+    : folder_(folder), may_wait_(may_wait), tables_(folder), queue_(kQueuedFrames) {
   if (log) {
     log_file_.emplace(folder / record::files::kLog);
     log_.emplace(*log_file_, *log);
@@ -68,9 +68,12 @@ void Recorder::run() {
 
 void Recorder::write(const FrameRecord& frame) {
   if (log_) log_->record_frame({.iteration = frame.iteration, .t_ns = frame.t_ns}, frame.bytes);
+  if (frame.restarts != restarts_) epochs_.restart();
+  restarts_ = frame.restarts;
   if (!frame.answered) return;
   if (log_) log_->record_answer(frame.outputs);
   tables_.add(frame.iteration, frame.t_ns, frame.outputs, frame.time);
+  epochs_.add(frame.iteration, frame.outputs);
 }
 
 void Recorder::stop() {
@@ -90,6 +93,7 @@ void Recorder::finish(const record::FinalMap& map) {
     log_->finish();
   }
   tables_.close();
+  epochs_.write(folder_, map.joined_epochs);
 }
 
 }  // namespace hallway::robot

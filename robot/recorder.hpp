@@ -15,6 +15,7 @@
 #include "host/stage.hpp"
 #include "record/answer_recorder.hpp"
 #include "record/answer_tables.hpp"
+#include "record/epoch_table.hpp"
 #include "record/final_map.hpp"
 
 namespace hallway::robot {
@@ -23,7 +24,8 @@ namespace hallway::robot {
 struct FrameRecord {
   std::uint32_t iteration = 0;
   std::int64_t t_ns = 0;
-  std::string bytes;  ///< host/frame_bytes.hpp
+  std::string bytes;           ///< host/frame_bytes.hpp
+  std::uint64_t restarts = 0;  ///< of the plugins, before it
   bool answered = false;
   host::Outputs outputs;  ///< of the last frame that was answered
   host::CallTime time{};
@@ -53,8 +55,11 @@ class Recorder {
   void write(const FrameRecord& frame);
   void stop();
 
+  std::filesystem::path folder_;
   bool may_wait_;
   record::AnswerTables tables_;
+  record::EpochTable epochs_;
+  std::uint64_t restarts_ = 0;  ///< before the last frame that was written
   std::optional<log::FileOutput> log_file_;
   std::optional<record::AnswerRecorder> log_;
   std::uint64_t unrecorded_ = 0;

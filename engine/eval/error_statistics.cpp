@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace hallway::eval {
 
 std::optional<ErrorStatistics> statistics_of(std::vector<double> errors) {
   if (errors.empty()) return std::nullopt;
+  // Of an estimate that is beyond all measure: nothing is known but that it is wrong.
+  std::replace_if(
+      errors.begin(), errors.end(), [](double error) { return std::isnan(error); },
+      std::numeric_limits<double>::infinity());
   std::sort(errors.begin(), errors.end());
   double sum = 0.0;
   double squares = 0.0;

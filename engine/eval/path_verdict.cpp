@@ -2,12 +2,23 @@
 #include "eval/path_verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 #include "geom/rigid_fit.hpp"
 
 namespace hallway::eval {
+
+namespace {
+
+/// The larger error. One that is no number, as of a position whose square is none, is as large as can be.
+double worse_of(double worst, double error) {
+  return std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
+}
+
+}  // namespace
 
 const char* name_of(PathVerdict verdict) {
   switch (verdict) {
@@ -49,13 +60,13 @@ std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged 
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double error_m = (fit * pairs[i].T_map_body.t - pairs[i].T_world_body.t).norm();
-    divergence.worst_m = std::max(divergence.worst_m, error_m);
-    bool over = error_m > divergence.limit_m;
+    divergence.worst_m = worse_of(divergence.worst_m, error_m);
+    bool over = !(error_m <= divergence.limit_m);
     if (judge_rotation) {
       const double error_deg = 180.0 / std::numbers::pi *
                                angle_between(pairs[i].T_world_body.q, q_world_map * pairs[i].T_map_body.q);
-      divergence.worst_deg = std::max(*divergence.worst_deg, error_deg);
-      over = over || error_deg > Divergence::kLimit_deg;
+      divergence.worst_deg = worse_of(*divergence.worst_deg, error_deg);
+      over = over || !(error_deg <= Divergence::kLimit_deg);
     }
     if (over && !divergence.first) divergence.first = i;
   }

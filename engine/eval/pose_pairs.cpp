@@ -29,12 +29,15 @@ PathFit fit_positions(std::span<const PosePair> pairs, bool with_scale) {
   fit.q = rigid_fit(from, to)->q;
   fit.rotation_known = determine_a_pose(from) && determine_a_pose(to);
   if (!with_scale) return fit;
-  double common = 0.0, spread = 0.0;
+  double common = 0.0, spread = 0.0, reference_spread = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     common += to[i].dot(fit.q * from[i]);
     spread += from[i].squaredNorm();
+    reference_spread += to[i].squaredNorm();
   }
-  if (!(spread > 0.0) || !(common > 0.0))
+  constexpr double kRest = 1e-18;  // of the other's spread: a billionth of its way
+  const bool both_move = spread > kRest * reference_spread && reference_spread > kRest * spread;
+  if (!both_move || !(common > 0.0))
     throw Error(ErrorCode::kBadInput, "the estimate does not move as the reference does: it has no scale");
   fit.scale = common / spread;
   return fit;

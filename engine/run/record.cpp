@@ -12,7 +12,7 @@
 #include "eval/plane_score.hpp"
 #include "geom/rigid_fit.hpp"
 #include "map/reader.hpp"
-#include "run/epoch_table.hpp"
+#include "record/epoch_table.hpp"
 #include "run/map_view.hpp"
 
 namespace hallway::run {
@@ -57,7 +57,7 @@ void read_answers(const fs::path& folder, Record& record) {
   if (scores || fs::exists(folder / files::kMetrics)) record.metrics = read_json(folder / files::kMetrics);
   if (!serves || fs::exists(folder / files::kTrajectory))
     record.trajectory = log::read_tum(folder / files::kTrajectory);
-  record.poses_in_other_parts = keep_scored_part(folder, record.trajectory);
+  record.poses_in_other_parts = record::keep_scored_part(folder, record.trajectory);
   if (!serves) record.landmarks = log::read_map_landmarks(folder / files::kLandmarks);
 }
 

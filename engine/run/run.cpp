@@ -15,13 +15,13 @@
 #include "eval/metrics_json.hpp"
 #include "host/frame_builder.hpp"
 #include "record/answer_tables.hpp"
+#include "record/epoch_table.hpp"
 #include "record/final_map.hpp"
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "render/renderer.hpp"
 #include "run/abi_pose.hpp"
-#include "run/epoch_table.hpp"
 #include "run/found_table.hpp"
 #include "run/frame_feed.hpp"
 #include "run/log_recorder.hpp"
@@ -63,7 +63,8 @@ class Tally {
     if (evaluator_.planes() != nullptr) wall_sight_.emplace(source);
   }
 
-  void add(const FrameAnswer& answer) {
+  /// @param map_epoch  the part of the map that the answer's pose is in
+  void add(const FrameAnswer& answer, std::optional<std::uint64_t> map_epoch) {
     const SourceFrame& frame = answer.frame;
     identities_.clear();
     if (source_.has_identities()) frame.identities(identities_);
@@ -74,7 +75,7 @@ class Tally {
                               .orientation_known = frame.orientation_known,
                               .T_map_body = {},
                               .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-                              .map_epoch = {},
+                              .map_epoch = map_epoch,
                               .pose_covariance = {},
                               .associations = associations(answer),
                               .identities = identities_,
@@ -109,7 +110,6 @@ class Tally {
     iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
     iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
     iteration.T_map_body = estimate_of(*answer.outputs);
-    iteration.map_epoch = answer.outputs->map_epoch();
     if (iteration.T_map_body && answer.outputs->pose()->covariance) {
       using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
       iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
@@ -249,7 +249,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
   record::AnswerTables tables(folder);
-  EpochTable epochs;
+  record::EpochTable epochs;
   FoundTable found(folder);
   host::FrameBuilder builder;
   Tally tally(source, plan.write_observations, maps_planes(pipeline));
@@ -265,27 +265,30 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
     const auto take = [&](const FrameAnswer& answer) {
       if (!feed.one_at_a_time())
         recorder.record_input(build_frame(builder, answer.iteration, answer.frame), answer.frame);
+      std::optional<std::uint64_t> epoch;
       if (answer.outputs != nullptr) {
         recorder.record_answer(*answer.outputs);
         tables.add(answer.iteration, answer.frame.t_ns, *answer.outputs, answer.time);
-        epochs.add(answer.iteration, *answer.outputs);
+        epoch = epochs.add(answer.iteration, *answer.outputs);
       }
       found.add(answer);
-      tally.add(answer);
+      tally.add(answer, epoch);
     };
+    const std::uint64_t restarts = feed.failures().restarts;
     feed.next(result.stopped, give, take);
+    if (feed.failures().restarts != restarts) epochs.restart();
     events.update();
     if (hooks.progress) hooks.progress(feed.done());
     result.stopped = result.stopped || (hooks.stop && hooks.stop());
   }
   const host::Outputs* online_outputs = feed.report(false);
   const record::FinalMap online = record::copy_map(online_outputs);
-  const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs);
+  const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs, epochs.first());
   const host::Outputs* refined_outputs = feed.report(true);
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
   recorder.record_map(refined);
   tables.close();
-  epochs.write(folder, joined);
+  epochs.write(folder, online.joined_epochs);
   found.close();
   feed.close();
   result.failures = feed.failures();

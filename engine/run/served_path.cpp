@@ -46,6 +46,7 @@ eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Sourc
     const Frame& frame = frames_[k];
     eval::Iteration iteration{};
     iteration.T_world_body = frame.T_world_body;
+    iteration.t_s = static_cast<double>(frame.t_ns) * 1e-9;
     iteration.orientation_known = frame.orientation_known;
     if (const auto pose = poses_.find(k); pose != poses_.end()) {
       iteration.T_map_body = pose_of(pose->second);

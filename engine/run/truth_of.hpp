@@ -2,21 +2,24 @@
 #pragma once
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 
 #include "eval/evaluator.hpp"
 #include "run/source.hpp"
 
 namespace hallway::run {
 
-/// What an evaluator is told of a source.
+/// What an evaluator is told of a source. Of the noise the largest that is known; 0 where none is.
 inline eval::Truth truth_of(const Source& source) {
   const host::SensorInfo& sensor = source.sensor();
-  const double largest = *std::max_element(std::begin(sensor.noise_m), std::end(sensor.noise_m));
+  double largest = 0.0;
+  for (const double noise_m : sensor.noise_m) {
+    if (std::isfinite(noise_m)) largest = std::max(largest, noise_m);
+  }
   return {.has_identities = source.has_identities(),
           .landmarks = source.true_landmarks(),
           .walls = source.true_walls(),
-          .noise_m = largest > 0.0 ? largest : 0.0};  // not a number where it is not known
+          .noise_m = largest};
 }
 
 }  // namespace hallway::run

@@ -152,6 +152,11 @@ TEST_F(Isolation, RestartGoesOnWithANewInstance) {
   EXPECT_EQ(run.at("failures"), 1);
   EXPECT_EQ(run.at("restarts"), 1);
   EXPECT_EQ(lines_of(fs::path(world.out()) / "trajectory.tum"), 59u);
+  // A new instance knows nothing of the old one's frame of reference, and need not say so.
+  const Json metrics = read_json(fs::path(world.out()) / "metrics.json");
+  EXPECT_EQ(metrics.at("parts").at("count"), 2);
+  EXPECT_EQ(metrics.at("parts").at("scored_iterations"), 39);
+  EXPECT_EQ(lines_of(fs::path(world.out()) / "map_epochs.csv"), 60u);
 }
 
 TEST_F(Isolation, AFaultHasTheSameVerdictInBothPlaces) {

@@ -214,7 +214,7 @@ TEST_P(Hosts, ServingScoresThePathThatCameBack) {
   EXPECT_EQ(content(out("run") / "trajectory.tum"), content(out("far_served") / "trajectory.tum"));
   const Json here = Json::parse(read_file(out("run") / "metrics.json"));
   const Json there = Json::parse(read_file(out("far_served") / "metrics.json"));
-  for (const char* member : {"iterations", "lost_iterations", "position_final_m"})
+  for (const char* member : {"iterations", "lost_iterations", "position_final_m", "rpe"})
     EXPECT_EQ(here.at(member), there.at(member)) << member;
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose").is_number(), GetParam() != "em")
       << "which has no pose";
