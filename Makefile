@@ -31,8 +31,10 @@ test: build-release
 
 ## the programs, the plugins, the SDK, maps and documents, into $(DESTDIR)$(PREFIX); what is installed is built, and no test
 PREFIX ?= /usr/local
+# zsh leaves `PREFIX=~/.local` as it is written.
+override PREFIX := $(patsubst ~/%,$(HOME)/%,$(PREFIX))
 install: programs
-	DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX)
+	DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
 
 programs: deps-package
 	cmake --preset release
@@ -40,7 +42,7 @@ programs: deps-package
 
 ## takes away what `make install` with the same DESTDIR and PREFIX left
 uninstall:
-	@scripts/uninstall.sh $(DESTDIR)$(PREFIX)
+	@scripts/uninstall.sh "$(DESTDIR)$(PREFIX)"
 
 ## Debian packages into build/package: hallway, hallway-robot, hallway-dev
 package: programs

@@ -14,6 +14,7 @@
 #include "cloud_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "output_file.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
@@ -66,7 +67,19 @@ std::size_t index_of(const char* const (&names)[N], const std::string& name) {
   return static_cast<std::size_t>(std::find(names, names + N, name) - names);
 }
 
+/// What is written replaces no cloud that is read.
+void check_outputs(const AlignCommand& command) {
+  if (!command.picture.empty()) check_picture_file(command.picture);
+  if (command.out.empty()) return;
+  check_output_file(command.out);
+  check_replaces_no_input(command.out, std::array{command.a, command.b});
+  if (!command.out.ends_with(".ply"))
+    throw Error(ErrorCode::kUsage,
+                fmt::format("--out writes a file that ends in .ply, not \"{}\"", printable(command.out)));
+}
+
 int align_clouds(AlignCommand command) {
+  check_outputs(command);
   const icp::Pose guess = parse_guess(command.guess);
   command.options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
   command.options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));

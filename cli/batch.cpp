@@ -88,6 +88,8 @@ int run_batch(const BatchOptions& options) {
     print_result(results_table(results) + failures_text(results, violations) +
                  fmt::format("{} of {} runs, {} of them taken over, in {}\n", results.size(),
                              plan.cells.size(), reused, printable(folder.string(), 4096)));
+  } else if (const std::string failures = failures_text(results, violations); !failures.empty()) {
+    print_notice(failures);
   }
   if (results.size() < plan.cells.size()) return interrupt_status();
   const bool good = violations.empty() && std::all_of(results.begin(), results.end(),

@@ -89,12 +89,16 @@ batch::Plan plan_of(const CompareOptions& options) {
   dimensions.inputs = {options.input};
   for (const std::string& plugin : options.plugins) dimensions.plugins.push_back(parse_plugin_sweep(plugin));
   dimensions.more = common_arguments(options);
+  for (const std::string& plugin : options.plugins) refuse_second_values(plugin, options.settings);
   add_settings(options, dimensions);
   return {.cells = batch::combine(dimensions)};
 }
 
 void check_out(const fs::path& folder, bool force) {
   std::error_code none;
+  if (run::is_run_folder(folder))
+    throw Error(ErrorCode::kIo, "is the folder of a run; a comparison needs one of its own",
+                {.file = printable(folder.string(), 4096)});
   if (force || !fs::exists(folder / batch::kDocumentFile, none)) return;
   throw Error(ErrorCode::kIo, "an earlier comparison is there; --force replaces it",
               {.file = printable(folder.string(), 4096)});
@@ -130,6 +134,8 @@ int compare(const CompareOptions& options) {
   const fs::path folder = options.out.empty()
                               ? fs::path("out") / (fs::path(options.input).stem().string() + "-compared")
                               : fs::path(options.out);
+  if (std::error_code none; !fs::exists(options.input, none))
+    throw Error(ErrorCode::kBadInput, "is not there", {.file = printable(options.input, 4096)});
   check_out(folder, options.force);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
@@ -141,6 +147,19 @@ int compare(const CompareOptions& options) {
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   if (results.size() < plan.cells.size()) throw Error(ErrorCode::kInterrupted, "interrupted");
+  const bool any_ran = std::ranges::any_of(results, [&](const batch::Result& result) {
+    return run::is_run_folder(folder / "cells" / result.name);
+  });
+  if (!any_ran) {  // an earlier comparison stays, and this one may be asked for again
+    if (options.json) {
+      Json document = batch::to_json(results);
+      document["picture"] = nullptr;
+      print_json(document);
+    } else {
+      print_notice(failures_text(results, {}));
+    }
+    return results.front().status;
+  }
   fs::path picture;
   try {
     picture = draw(options, renderer, folder, results);
@@ -157,6 +176,8 @@ int compare(const CompareOptions& options) {
   } else if (!options.quiet) {
     print_result(results_table(results) + failures_text(results, {}) +
                  (picture.empty() ? "" : printable(picture.string(), 4096) + "\n"));
+  } else if (const std::string failures = failures_text(results, {}); !failures.empty()) {
+    print_notice(failures);
   }
   // The first failure's own status says most: a plugin that is not there, or that misbehaved.
   for (const batch::Result& result : results) {

@@ -112,11 +112,4 @@ Vec3 parse_place(const std::string& what, const std::string& text) {
   return place;
 }
 
-void check_output_file(const std::string& file) {
-  std::error_code code;
-  if (fs::exists(file, code) && !fs::is_regular_file(file, code)) {
-    throw Error(ErrorCode::kIo, "is not a file that can be replaced", {.file = printable(file, 4096)});
-  }
-}
-
 }  // namespace hallway::cli

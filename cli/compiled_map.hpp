@@ -43,7 +43,4 @@ std::vector<render::Surface> model_faces(CompiledMap& compiled, bool strict);
 /// `X,Y,Z` in metres. Throws Error{kUsage} naming `what` for anything else.
 Vec3 parse_place(const std::string& what, const std::string& text);
 
-/// Throws Error{kIo} where an output file could not be replaced: a folder, a pipe or a device.
-void check_output_file(const std::string& file);
-
 }  // namespace hallway::cli

@@ -19,6 +19,7 @@
 #include "host/isolated_plugin.hpp"
 #include "host/machine_profile.hpp"
 #include "isolation_options.hpp"
+#include "output_file.hpp"
 #include "record/version.hpp"
 #include "render/draw.hpp"
 #include "render/gl_context.hpp"
@@ -199,6 +200,7 @@ std::vector<Check> examine(const DoctorOptions& options) {
 }
 
 int doctor(const DoctorOptions& options) {
+  if (!options.picture.empty()) check_picture_file(options.picture);
   const std::vector<Check> checks = examine(options);
   bool good = true;
   std::string text =

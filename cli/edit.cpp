@@ -7,6 +7,7 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -19,6 +20,7 @@
 #include "editor/complete.hpp"
 #include "editor/help.hpp"
 #include "editor/session.hpp"
+#include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "shared_options.hpp"
 
@@ -131,7 +133,15 @@ std::string recover_map(const EditOptions& options) {
   const editor::Call call = editor::parse_words(options.words, {});
   const std::string to = call.arguments.text_or_empty("to");
   if (to.empty() && fs::exists(options.map)) {
-    Session session(options.map);  // says why, where the two do not belong together
+    std::optional<Session> opened;
+    try {
+      opened.emplace(options.map);  // says why, where the two do not belong together
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::kBadInput || !error.where().line) throw;
+      throw Error(error.code(), error.message() + "; `recover to=FILE` writes what the journal holds",
+                  error.where());
+    }
+    Session& session = *opened;
     show_notes(session);
     const bool unsaved = session.unsaved();
     session.save();

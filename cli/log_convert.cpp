@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 
 #include "base/error.hpp"
@@ -16,6 +17,7 @@
 #include "log_import.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
+#include "output_file.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
@@ -93,6 +95,7 @@ void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::
 }
 
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
+  check_replaces_no_input(options.out, std::array{options.choice.log});
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
   log::ObservationLog observations(source.has_identities(), source.has_tracks());

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "log_command.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
+#include "output_file.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
@@ -124,6 +126,7 @@ using CopyBytes = std::function<log::McapCopy(const log::ByteInput&, log::ByteOu
 
 int copy(const CopyOptions& options, const fs::path& out, const CopyBytes& copy_bytes) {
   const fs::path path = mcap_file(options.log);
+  check_replaces_no_input(out.string(), std::array{path.string()});
   const log::UnfinishedInput input(path);
   NewFile file(out, options.force);
   log::McapCopy copied;

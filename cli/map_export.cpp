@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "map_command.hpp"
 #include "mesh/export.hpp"
+#include "output_file.hpp"
 #include "run/map_export.hpp"
 #include "sense/landmarks.hpp"
 #include "shared_options.hpp"

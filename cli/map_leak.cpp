@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "leak_report.hpp"
 #include "map_command.hpp"
+#include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "shared_options.hpp"
@@ -55,9 +56,8 @@ std::string text_of(const LeakOptions& options, const world::CompiledWorld& worl
 
 int leak(const LeakOptions& options) {
   const render::Renderer renderer = chosen_renderer(options.renderer);
-  for (const std::string& file : {options.picture, options.points}) {
-    if (!file.empty()) check_output_file(file);
-  }
+  if (!options.picture.empty()) check_picture_file(options.picture);
+  if (!options.points.empty()) check_output_file(options.points);
   CompiledMap compiled = compile_map({.file = options.map});
   const world::CompiledWorld& world = compiled.world;
   write_outputs(options, renderer, compiled);

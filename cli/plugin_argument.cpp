@@ -18,6 +18,11 @@ namespace {
               fmt::format("--plugin {}: {}; it takes NAME|FILE[:KEY=VALUE,...]", printable(text), why));
 }
 
+[[noreturn]] void refuse_second_value(const std::string& name) {
+  throw Error(ErrorCode::kUsage,
+              fmt::format("{} has a value by --plugin and by --set: leave out one", printable(name)));
+}
+
 /// Where the plugin's name ends: before the ":" of its parameters, if it has any.
 std::size_t end_of_name(const std::string& text) {
   constexpr std::string_view kEnding = ".so:";
@@ -83,6 +88,17 @@ Override parse_setting(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+void refuse_second_values(const std::string& plugin, const std::vector<std::string>& settings) {
+  const PluginArgument wanted = parse_plugin_argument(plugin);
+  const std::string prefix = host::short_plugin_name(wanted.plugin) + ".";
+  for (const std::string& text : settings) {
+    const std::string key = parse_setting(text).key;
+    const std::string name = key.starts_with(prefix) ? key.substr(prefix.size()) : key;
+    if (std::ranges::find(wanted.parameters, name, &PluginArgument::Values::name) != wanted.parameters.end())
+      refuse_second_value(name);
+  }
+}
+
 std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::StageSpec> stages,
                                                              const std::string& text) {
   const Override setting = parse_setting(text);
@@ -103,6 +119,9 @@ std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::Sta
     throw Error(ErrorCode::kUsage,
                 fmt::format("--set {}: no plugin \"{}\" runs{}; there is: {}", printable(text),
                             printable(wanted), suggestion(wanted, names), fmt::join(names, ", ")));
+  for (const host::ParameterSetting& parameter : stage->parameters) {
+    if (parameter.name == name && parameter.where.file == "--plugin") refuse_second_value(name);
+  }
   std::erase_if(stage->parameters, [&](const auto& parameter) { return parameter.name == name; });
   stage->parameters.push_back({name, setting.value, {.file = "--set"}});
   return {stage, name};

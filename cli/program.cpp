@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <type_traits>
@@ -55,7 +56,21 @@ struct Scalar<std::vector<T>> {
 template <typename T>
 CLI::Validator range_of(std::pair<double, double> limits) {
   if constexpr (std::is_arithmetic_v<T>) {
-    return CLI::Range(static_cast<T>(limits.first), static_cast<T>(limits.second));
+    const CLI::Range usual(static_cast<T>(limits.first), static_cast<T>(limits.second));
+    if constexpr (std::is_floating_point_v<T>) {
+      // CLI11 refuses what lies outside, which nan does not.
+      const std::string described = usual.get_description();
+      return CLI::Validator(
+          [usual, described](std::string& text) {
+            T value{};
+            if (CLI::detail::lexical_cast(text, value) && std::isnan(value))
+              return "Value " + text + " not in range " + described.substr(described.find('['));
+            return usual(text);
+          },
+          described);
+    } else {
+      return usual;
+    }
   } else {
     throw Error(ErrorCode::kInternal, "a range belongs to a number");
   }

@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
+#include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
@@ -146,7 +147,7 @@ int render(const RenderOptions& options) {
   Drawing drawing{spec_of(options), parse_show(options.show, options.hide), draw_options_of(options)};
   sim::PictureSpec& spec = drawing.spec;
   spec.show = drawing.show.run;
-  check_output_file(options.out);
+  check_picture_file(options.out);
   std::error_code code;
   const bool is_run = fs::is_directory(options.input, code);
   if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");

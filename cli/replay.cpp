@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -14,6 +15,7 @@
 #include "log/observations.hpp"
 #include "log_import.hpp"
 #include "log_input.hpp"
+#include "output_file.hpp"
 #include "plugin_argument.hpp"
 #include "report.hpp"
 #include "run/manifest.hpp"
@@ -94,7 +96,11 @@ void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const 
         stages.paths_left_out.push_back({id, name});
         continue;
       }
-      spec.parameters.push_back({name, parameter.at("value").get<std::string>(), {.file = run::files::kRun}});
+      // The log may also be wrong about the type.
+      spec.parameters.push_back({.name = name,
+                                 .value = parameter.at("value").get<std::string>(),
+                                 .where = {.file = run::files::kRun},
+                                 .may_name_path = false});
       stages.origins.push_back({id, name, run::files::kRun});
     }
     stages.specs.push_back(std::move(spec));
@@ -108,6 +114,7 @@ void add_setting(Stages& stages, const std::string& text) {
 
 Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
   const host::StageSpec wanted = options.plugin.empty() ? host::StageSpec{} : parse_plugin(options.plugin);
+  if (!options.plugin.empty()) refuse_second_values(options.plugin, options.settings);
   Stages stages;
   try {
     if (input.manifest) add_recorded(stages, *input.manifest, wanted.plugin);
@@ -154,6 +161,7 @@ OpenedLog open_input(const ReplayOptions& options) {
 }
 
 int replay(const ReplayOptions& options) {
+  check_replaces_no_input(options.out, std::array{options.observations});
   OpenedLog input = open_input(options);
   if (options.ids_as_tracks) {
     input.source = std::make_unique<run::TrackedSource>(std::move(input.source));

@@ -48,7 +48,10 @@ struct RunOptions {
 
 std::vector<sim::Override> overrides_of(const RunOptions& options) {
   std::vector<sim::Override> overrides;
-  if (!options.plugin.empty()) overrides = plugin_overrides(options.plugin);
+  if (!options.plugin.empty()) {
+    refuse_second_values(options.plugin, options.settings);
+    overrides = plugin_overrides(options.plugin);
+  }
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
   if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
   if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});

@@ -28,11 +28,9 @@ struct ScenarioOptions {
 /// The map as a scenario in that folder names it.
 std::string name_from(const fs::path& folder, const fs::path& map) {
   std::error_code none;
-  const fs::path from = fs::absolute(folder, none);
-  return fs::absolute(map, none)
-      .lexically_normal()
-      .lexically_relative(from.lexically_normal())
-      .generic_string();
+  // As they are reached: `..` behind a symbolic link is another folder than its name says.
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder, none), none);
+  return fs::weakly_canonical(fs::absolute(map, none), none).lexically_relative(from).generic_string();
 }
 
 int write_scenario(const ScenarioOptions& options) {
@@ -46,13 +44,15 @@ int write_scenario(const ScenarioOptions& options) {
   const sim::DefaultScenario made =
       sim::default_scenario(map::load(options.map), name_from(folder, options.map));
   write_file_atomically(file, made.text);
+  std::vector<std::string> assumed;
+  for (const sim::Assumption& one : made.assumed) assumed.push_back(one.text);
   if (options.json) {
     print_json(
-        {{"schema", "hallway.scenario_new/1"}, {"status", 0}, {"written", shown}, {"assumed", made.assumed}});
+        {{"schema", "hallway.scenario_new/1"}, {"status", 0}, {"written", shown}, {"assumed", assumed}});
     return 0;
   }
   std::string text = "wrote " + shown + "\n";
-  for (const std::string& sentence : made.assumed) text += "  " + sentence + "\n";
+  for (const std::string& sentence : assumed) text += "  " + sentence + "\n";
   print_result(text);
   return 0;
 }

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -25,13 +28,20 @@ ScenarioInput read_scenario_input(const std::string& file, std::span<const Overr
     return input;
   }
   sim::DefaultScenario made = sim::default_scenario(map::load(path), path.filename().string());
-  for (const std::string& sentence : made.assumed) print_notice(sentence);
+  std::vector<std::string> assumed;
+  for (const sim::Assumption& one : made.assumed) {
+    const bool is_untrue = std::ranges::any_of(one.unless, [&](const std::string& key) {
+      return std::ranges::find(overrides, key, &Override::key) != overrides.end();
+    });
+    if (!is_untrue) assumed.push_back(one.text);
+  }
+  for (const std::string& sentence : assumed) print_notice(sentence);
   print_notice(fmt::format("`hallway scenario new {}` writes this scenario", printable(file, 4096)));
   fs::path as_file = path;
   as_file.replace_extension(".toml");
   return {.scenario = sim::parse_scenario(made.text, as_file, overrides),
           .text = std::move(made.text),
-          .assumed = std::move(made.assumed)};
+          .assumed = std::move(assumed)};
 }
 
 std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict) {

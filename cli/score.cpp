@@ -310,6 +310,13 @@ int score(const ScoreOptions& options) {
   for (const std::string_view text : split(options.delta, ',')) parse_delta(trim(text));
   const ScoredFile reference = read_input(options.reference, options.reference_format, options);
   const ScoredFile estimate = read_input(options.estimate, options.estimate_format, options);
+  const bool any_kitti = reference.trajectory.format == TrajectoryFormat::kKitti ||
+                         estimate.trajectory.format == TrajectoryFormat::kKitti;
+  if (!options.times.empty() && !any_kitti)
+    throw Error(ErrorCode::kUsage,
+                "--pose-times gives a KITTI file its times, and both files have their own");
+  if (!std::isfinite(options.time_offset_s))
+    throw Error(ErrorCode::kUsage, "--time-offset takes a number of seconds");
   const Score result = score_of(reference, estimate, options);
   if (options.json) {
     print_json(document_of(result, options));

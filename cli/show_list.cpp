@@ -114,11 +114,7 @@ void add_value(ShowList& show, const std::string& value) {
 
 ShowList parse_show(const std::vector<std::string>& show, const std::vector<std::string>& hide) {
   ShowList list;
-  for (std::size_t i = 0; i < sim::picture_layer_names().size(); ++i) {
-    const auto layer = static_cast<sim::PictureLayer>(i);
-    // Lines from every submap to each of its landmarks cover all else.
-    if (layer != sim::PictureLayer::kSubmaps) list.run.push_back(layer);
-  }
+  list.run = sim::default_picture_layers();
   for (const std::string& value : hide) {
     for (const std::string_view name : split(value, ',')) hide_layer(list, trim(name));
   }

@@ -202,6 +202,7 @@ void say_leak(Edit& edit, const map::Occupant& occupant, const bsp::Leak& leak) 
 }
 
 void show_leak(Edit& edit, const Arguments& arguments) {
+  if (arguments.has("picture")) run::check_picture_name(arguments.text("picture"));
   map::Document document;
   const world::CompiledWorld world = compiled(edit, document);
   const auto& leak = world.partition.enclosure.leak;
@@ -218,6 +219,7 @@ void show_leak(Edit& edit, const Arguments& arguments) {
 }
 
 void render_map(Edit& edit, const Arguments& arguments) {
+  run::check_picture_name(arguments.text("file"));
   sim::PictureSpec spec;
   spec.file = arguments.text("file");
   spec.view = arguments.text("view") == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;

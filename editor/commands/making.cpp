@@ -180,6 +180,16 @@ bool is_fill(const EntityItem& entity) {
   return entity.head->find("_hw_fill") != nullptr;
 }
 
+namespace {
+
+/// Also one that was moved, which no command has made as it is.
+bool is_filled(const EntityItem& entity) {
+  return is_opening(entity) ||
+         (entity.classname() == "hw_subtract" && entity.head->find("_hw_opening") != nullptr);
+}
+
+}  // namespace
+
 std::vector<std::size_t> fills_of(const State& state, std::size_t opening) {
   std::vector<std::size_t> fills;
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
@@ -191,7 +201,7 @@ std::vector<std::size_t> fills_of(const State& state, std::size_t opening) {
 
 std::optional<std::size_t> opening_of(const State& state, std::size_t fill) {
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    if (is_opening(*state.entities[e]) && is_filled_by(*state.entities[e], *state.entities[fill])) return e;
+    if (is_filled(*state.entities[e]) && is_filled_by(*state.entities[e], *state.entities[fill])) return e;
   }
   return std::nullopt;
 }
@@ -199,7 +209,7 @@ std::optional<std::size_t> opening_of(const State& state, std::size_t fill) {
 void add_fills(const State& state, std::vector<Thing>& things) {
   std::vector<Thing> fills;
   for (const Thing& thing : things) {
-    if (thing.brush || !is_opening(*state.entities[thing.entity])) continue;
+    if (thing.brush || !is_filled(*state.entities[thing.entity])) continue;
     for (const std::size_t fill : fills_of(state, thing.entity)) fills.push_back({fill, {}});
   }
   things.insert(things.end(), fills.begin(), fills.end());

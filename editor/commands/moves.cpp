@@ -118,6 +118,13 @@ double degrees(double angle) {
   return std::round(angle * 180.0 / std::numbers::pi * 1e9) / 1e9;
 }
 
+/// The things, and the panes and leaves of the openings among them, which stay with their openings.
+std::vector<Thing> resolve_with_fills(const State& state, const std::string& what) {
+  std::vector<Thing> things = resolve(state, what);
+  add_fills(state, things);
+  return things;
+}
+
 /// What things occupy with all that belongs to them.
 Box bounds_together(const State& state, const std::vector<Thing>& things) {
   Box box;
@@ -159,7 +166,7 @@ Vec3 way_of(const Edit& edit, const Arguments& arguments, const std::vector<Thin
 }
 
 void move(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   if (!arguments.has("by") && !arguments.has("to"))
     throw Error(ErrorCode::kUsage, "move: `by` (how far) or `to` (a place) is missing");
   bounds_needed(edit.state, things, "move");
@@ -168,7 +175,7 @@ void move(Edit& edit, const Arguments& arguments) {
 }
 
 void rotate(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   const Box box = bounds_needed(edit.state, things, "rotate");
   const Vec3 centre = arguments.has("about") ? edit.units(arguments.place("about")) : Vec3(box.center());
   transform_things(edit, things,
@@ -177,7 +184,7 @@ void rotate(Edit& edit, const Arguments& arguments) {
 }
 
 void scale(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   const Box box = bounds_needed(edit.state, things, "scale");
   Vec3 centre = box.center();
   centre.z() = box.min().z();
@@ -187,7 +194,7 @@ void scale(Edit& edit, const Arguments& arguments) {
 }
 
 void mirror(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   const Box box = bounds_needed(edit.state, things, "mirror");
   const int axis = axis_of(arguments.text("axis"));
   double at = box.center()[axis];
@@ -233,9 +240,12 @@ void align(Edit& edit, const Arguments& arguments) {
   } else {
     target = bounds_needed(edit.state, resolve(edit.state, to), "align");
   }
-  for (const Thing& thing : things)
-    transform_things(edit, {thing},
-                     move_by(way_between(bounds_needed(edit.state, {thing}, "align"), side, target, edge)));
+  for (const Thing& thing : things) {
+    const Box bounds = bounds_needed(edit.state, {thing}, "align");
+    std::vector<Thing> moved{thing};
+    add_fills(edit.state, moved);
+    transform_things(edit, moved, move_by(way_between(bounds, side, target, edge)));
+  }
   say_changed(edit, things);
 }
 
@@ -334,7 +344,7 @@ void say_copies(Edit& edit, const Copies& copies) {
 }
 
 void duplicate(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   bounds_needed(edit.state, things, "duplicate");
   const Copies copies = add_copies(edit, edit.state, things);
   transform_things(edit, things_with(edit.state, copies.ids),
@@ -365,7 +375,7 @@ void check_array(const Arguments& arguments) {
 void array(Edit& edit, const Arguments& arguments) {
   constexpr std::size_t kMostMade = 1'000'000;
   check_array(arguments);
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   bounds_needed(edit.state, things, "array");
   const auto count = arguments.whole("count");
   if (with_members(edit.state, things).size() * static_cast<std::size_t>(count) > kMostMade)
@@ -383,7 +393,7 @@ void array(Edit& edit, const Arguments& arguments) {
 }
 
 void copy_to_clipboard(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve(edit.state, arguments.text("what"));
+  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   write_clipboard(edit, clipboard_text(edit, things));
   edit.report.data["copied"] = things.size();
   edit.report.lines.push_back(

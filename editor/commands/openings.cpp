@@ -346,6 +346,7 @@ OpeningParts opening_entities(const Edit& edit, std::string_view command, const 
   const int order = order_for(edit.state, host);
   cut.keys.push_back({{}, "order", std::to_string(order), 0});
   made.fill.brushes = fill_brushes(edit, wall, gap, arguments);
+  if (!made.fill.brushes.empty()) cut.keys.push_back({{}, "_hw_opening", "1", 0});
   const int among = order_among_cuts(edit.state, made.fill.brushes);
   made.fill.keys = {{{}, "classname", "hw_add", 0},
                     {{}, "order", std::to_string(std::max(order + 1, among)), 0},

@@ -18,7 +18,8 @@ bool run(const RunnerSetup& setup, const std::vector<std::string>& arguments) {
   ProcessSetup process;
   process.arguments = arguments;
   process.descriptors = {-1, -1, -1};
-  process.environment = {std::string(kStartedBy) + "=" + std::to_string(::getpid())};
+  process.environment = setup.environment;
+  process.environment.push_back(std::string(kStartedBy) + "=" + std::to_string(::getpid()));
   ProcessGroup group(setup.program, process);
   constexpr auto kLook = std::chrono::milliseconds(20);
   while (!group.ended_by(Clock::now() + kLook)) {

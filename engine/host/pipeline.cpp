@@ -3,13 +3,23 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "base/text.hpp"
 #include "host/isolated_plugin.hpp"
 #include "host/pipeline_kinds.hpp"
 #include "host/plugin.hpp"
 
 namespace hallway::host {
+namespace {
+
+bool is_kept_out(const ParameterSetting& setting, std::span<const Parameter> parameters) {
+  const auto found = std::ranges::find(parameters, setting.name, &Parameter::name);
+  return !setting.may_name_path && found != parameters.end() && found->is_path();
+}
+
+}  // namespace
 
 Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
                    std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
@@ -64,7 +74,13 @@ void Pipeline::prepare_stages() {
     const auto parameters = plugin.parameters();
     facts_.push_back({plugin.info(), plugin.file(), {parameters.begin(), parameters.end()}, {}, {}});
     for (const ParameterSetting& setting : spec.parameters) {
-      plugin.set_parameter(setting.name, setting.value, setting.where);
+      if (is_kept_out(setting, parameters)) {
+        if (log_)
+          log_(plugin.info().id, HW_LOG_WARNING,
+               "the value of `" + printable(setting.name) + "`, a file or folder, is not taken from a log");
+      } else {
+        plugin.set_parameter(setting.name, setting.value, setting.where);
+      }
     }
     note_values(stages_.size() - 1);
   }
@@ -86,7 +102,7 @@ void Pipeline::note_values(std::size_t stage) {
     facts.from_sensor.push_back(stages_[stage]->parameter_is_from_sensor(i));
     if (!facts.parameters[i].is_path()) continue;
     for (const ParameterSetting& setting : specs_[stage].parameters) {
-      if (setting.name == facts.parameters[i].name) values.back() = setting.value;
+      if (setting.name == facts.parameters[i].name && setting.may_name_path) values.back() = setting.value;
     }
   }
   facts.values = std::move(values);

@@ -19,6 +19,8 @@ struct ParameterSetting {
   std::string name;
   std::string value;
   Where where;
+  bool may_name_path =
+      true;  ///< false: a parameter that names a file or folder is not set; a log must not choose what a plugin reads and writes
 };
 
 /// One plugin of a pipeline.

@@ -123,11 +123,14 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   }
   if (spec.shows(sim::PictureLayer::kSubmaps)) add_submaps(picture, record, mapped);
   if (spec.shows(sim::PictureLayer::kErrors) && !extent.isEmpty()) {
-    render::Segments errors{.pairs = error_lines(record, mapped),
-                            .colour = render::palette::kError,
-                            .width_px = 1.4,
-                            .opacity = 0.9,
-                            .label = {}};
+    const bool is_diverged = record.metrics.value("verdict", nlohmann::ordered_json()) == "diverged";
+    // Such lines say no more than the verdict, and would cover everything.
+    render::Segments errors{
+        .pairs = is_diverged ? decltype(render::Segments::pairs){} : error_lines(record, mapped),
+        .colour = render::palette::kError,
+        .width_px = 1.4,
+        .opacity = 0.9,
+        .label = {}};
     const double scale = error_scale ? *error_scale : scale_for(errors.pairs, extent.diagonal().norm());
     for (auto& line : errors.pairs) line[1] = line[0] + scale * (line[1] - line[0]);
     errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";

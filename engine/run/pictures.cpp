@@ -250,6 +250,12 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   return picture;
 }
 
+void check_picture_name(const std::string& file) {
+  if (file.ends_with(".png")) return;
+  throw Error(ErrorCode::kUsage,
+              fmt::format("a picture is a file that ends in .png, not \"{}\"", printable(file)));
+}
+
 std::optional<double> error_scale_of(const Record& record) {
   return error_scale_of(record, map_place(record));
 }

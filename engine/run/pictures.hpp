@@ -46,6 +46,9 @@ struct MapSubject {
   MapThings things{};
 };
 
+/// Throws Error{kUsage} unless the name of a picture to write ends in .png: so no map, journal or log is replaced by one.
+void check_picture_name(const std::string& file);
+
 /// How a picture is drawn, beside what its description says.
 struct DrawOptions {
   render::Renderer renderer = render::Renderer::kAuto;

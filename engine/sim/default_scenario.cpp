@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "map/entities.hpp"
-#include "map/path.hpp"
 #include "map/path.hpp"
 #include "map/sensors.hpp"
 
@@ -57,9 +57,10 @@ class Writer {
   }
 
  private:
-  void assume(std::string sentence) {
+  /// @param unless  settings that make it untrue
+  void assume(std::string sentence, std::vector<std::string> unless = {}) {
     made_.text += "# " + sentence + "\n";
-    made_.assumed.push_back(std::move(sentence));
+    made_.assumed.push_back({std::move(sentence), std::move(unless)});
   }
 
   std::uint32_t steps() const {
@@ -84,14 +85,15 @@ class Writer {
   void write_robot() {
     made_.text += "\n[robot]\n";
     if (paths_.empty()) {
-      assume("The map has no path: the robot stays at its hw_robot_start for " +
-             std::to_string(kStepsWithoutPath) + " frames.");
+      assume("The map has no path: the robot stays at its hw_robot_start.", {"robot.path"});
+      assume("The run has " + std::to_string(kStepsWithoutPath) + " frames.", {"robot.path", "steps"});
       return;
     }
-    assume((paths_.size() == 1
-                ? "The robot follows the map's path `" + printable(paths_.front(), 60) + "`"
-                : "The map has the paths " + joined(paths_) + ": the robot follows the first") +
-           " once, at " + format_double(kDefaultSpeed_m_s) + " m/s.");
+    assume(
+        (paths_.size() == 1 ? "The robot follows the map's path `" + printable(paths_.front(), 60) + "`"
+                            : "The map has the paths " + joined(paths_) + ": the robot follows the first") +
+            " once, at " + format_double(kDefaultSpeed_m_s) + " m/s.",
+        {"robot.path", "robot.speed_m_s", "robot.loop_steps"});
     made_.text +=
         "path = " + toml_text(paths_.front()) + "\nspeed_m_s = " + format_double(kDefaultSpeed_m_s) + "\n";
   }
@@ -129,7 +131,7 @@ class Writer {
   void write_plugin() {
     const std::string plugin = planes_alone_ ? "slam_plane" : "slam_point";
     made_.text += "\n";
-    assume("The plugin is `" + plugin + "`; `--plugin NAME` runs another one.");
+    assume("The plugin is `" + plugin + "`; `--plugin NAME` runs another one.", {"plugin"});
     made_.text += "[[plugin]]\nname = " + toml_text(plugin) + "\n";
   }
 
@@ -143,6 +145,11 @@ class Writer {
 }  // namespace
 
 DefaultScenario default_scenario(const map::Document& document, const std::string& map_file) {
+  constexpr std::size_t kLongest = 8192;
+  if (printable(map_file, kLongest) != map_file) {
+    throw Error(ErrorCode::kBadInput, "a scenario cannot name this map: its name is no printable UTF-8",
+                {.file = printable(document.file)});
+  }
   return Writer(document, map_file).write();
 }
 

@@ -11,10 +11,16 @@
 
 namespace hallway::sim {
 
+/// What a map does not say, and a scenario for it says.
+struct Assumption {
+  std::string text{};                 ///< a sentence
+  std::vector<std::string> unless{};  ///< settings that make it untrue
+};
+
 /// A scenario for a map that has none.
 struct DefaultScenario {
-  std::string text{};                  ///< TOML, whose comments say why each value is what it is
-  std::vector<std::string> assumed{};  ///< what the map does not say, one sentence each
+  std::string text{};  ///< TOML, whose comments say why each value is what it is
+  std::vector<Assumption> assumed{};
 };
 
 /// Makes one: the robot follows the map's path once, or stays at its start where it has no path; with the map's sensors, or one of points; the

@@ -54,6 +54,10 @@ std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wan
 
 [[noreturn]] void refuse(TomlTable& scenario, const std::string& key) {
   std::string hint = suggestion(key, settable_keys(scenario, key));
+  if (key.starts_with("sensor.") && sensor_names(scenario).empty())
+    hint =
+        "; its sensors are the map's, which `hallway edit MAP key` changes; a `[sensor.NAME]` of the "
+        "scenario replaces them all";
   if (hint.empty() && key.find('.') == std::string::npos)
     hint = "; a parameter of one of the plugins is PLUGIN.KEY";
   throw Error(ErrorCode::kUsage, "the scenario has no such setting" + hint,

@@ -28,6 +28,8 @@ constexpr std::size_t kMaxPictures = 1000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
 constexpr std::size_t kMaxFileNameBytes = 200;
+constexpr const char* kCopyOfScenario = "scenario.toml";  // in the folder of a run
+constexpr const char* kCopyOfMap = "map.map";
 
 constexpr Range kWorld_m{-1e7, 1e7};
 constexpr Range kSpeed_m_s{0.0, 1e3};
@@ -49,7 +51,7 @@ class ScenarioReader {
   Scenario read() {
     TableReader top = reader("", root_, 1, kTopKeys);
     if (top.has("schema")) read_schema(top);
-    scenario_.map_file = host::beside(path_, top.text("map"), top.line("map"));
+    scenario_.map_file = map_of(host::beside(path_, top.text("map"), top.line("map")));
     scenario_.seed =
         static_cast<std::uint64_t>(top.whole("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
     scenario_.steps = static_cast<std::uint32_t>(top.whole("steps", 1, kMaxSteps));
@@ -65,6 +67,13 @@ class ScenarioReader {
   }
 
  private:
+  /// The folder of a run has the scenario as it was, and its map under another name.
+  std::filesystem::path map_of(const std::filesystem::path& named) const {
+    const std::filesystem::path copy = path_.parent_path() / kCopyOfMap;
+    const bool in_run = path_.filename() == kCopyOfScenario && !std::filesystem::exists(named);
+    return in_run && std::filesystem::exists(copy) ? copy : named;
+  }
+
   TableReader reader(const std::string& prefix, const TomlTable& table, int line,
                      const std::vector<std::string>& known) {
     return TableReader(scenario_.file, prefix, table, line, known, scenario_.settings);
@@ -184,8 +193,11 @@ class ScenarioReader {
       spec.target_m = picture.vector("target_m", kWorld_m);
       if (*spec.eye_m == *spec.target_m) throw picture.error("target_m", "is the same point as `eye_m`");
     }
-    for (const std::size_t layer : picture.choices("show", kLayers)) {
-      spec.show.push_back(static_cast<PictureLayer>(layer));
+    if (picture.has("show")) {
+      for (const std::size_t layer : picture.choices("show", kLayers))
+        spec.show.push_back(static_cast<PictureLayer>(layer));
+    } else {
+      spec.show = default_picture_layers();
     }
     scenario_.pictures.push_back(std::move(spec));
   }
@@ -217,6 +229,15 @@ class ScenarioReader {
 
 const std::vector<std::string>& picture_layer_names() {
   return kLayers;
+}
+
+std::vector<PictureLayer> default_picture_layers() {
+  std::vector<PictureLayer> layers;
+  for (std::size_t i = 0; i < kLayers.size(); ++i) {
+    const auto layer = static_cast<PictureLayer>(i);
+    if (layer != PictureLayer::kSubmaps) layers.push_back(layer);
+  }
+  return layers;
 }
 
 bool PictureSpec::shows(PictureLayer layer) const {

@@ -23,7 +23,7 @@ namespace hallway::sim {
 
 /// How the robot moves: along a path of the map, where exactly one of `speed_m_s` and `loop_steps` is set; or not at all.
 struct RobotSpec {
-  std::string path;                   ///< name of an `hw_path` entity; empty: it stays at the map's `hw_robot_start`
+  std::string path;  ///< name of an `hw_path` entity; empty: it stays at the map's `hw_robot_start`
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
       loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one
@@ -41,6 +41,9 @@ enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps
 
 /// The names of the layers, in the order of PictureLayer.
 const std::vector<std::string>& picture_layer_names();
+
+/// What a picture shows where nothing else is said: all but the submaps, whose lines to each of their landmarks cover all else.
+std::vector<PictureLayer> default_picture_layers();
 
 /// A picture that is wanted of a run.
 struct PictureSpec {
@@ -70,8 +73,9 @@ struct CloudSpec {
 /// What is to be run: a map, a robot in it with its sensors, and the plugins that get what it senses. A value; where each
 /// part of it came from stands in `settings`.
 struct Scenario {
-  std::string file;                ///< path as the user gave it
-  std::filesystem::path map_file;  ///< usable from the current folder
+  std::string file;  ///< path as the user gave it
+  std::filesystem::path
+      map_file;  ///< usable from the current folder; in the folder of a run, its copy of the map
   std::uint64_t seed = 1;
   std::uint32_t steps = 1;               ///< number of frames
   std::int64_t period_ns = 100'000'000;  ///< from frame to frame

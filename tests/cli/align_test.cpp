@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "base/file.hpp"
 #include "support/data.hpp"
 #include "support/process.hpp"
+#include "support/temp_folder.hpp"
 
 namespace hallway::test {
 namespace {
@@ -147,6 +150,20 @@ TEST(Align, RoomScansAgreeWithAPeer) {
     EXPECT_NEAR(T.at("position_m").at(i).get<double>(), expected_m[i], 0.02) << i;
     EXPECT_NEAR(T.at("yaw_pitch_roll_deg").at(i).get<double>(), expected_deg[i], 0.2) << i;
   }
+}
+
+TEST(Align, WhatIsWrittenReplacesNoInput) {
+  const TempFolder folder;
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 200; ++i)
+    points += std::to_string(i % 7) + "," + std::to_string(i % 11) + "," + std::to_string(i % 13) + "\n";
+  const std::string a = folder.write("a.csv", points), b = folder.write("b.csv", points);
+  for (const std::string& out : std::vector<std::string>{a, b, folder / "c.txt"}) {
+    EXPECT_EQ(hallway({"align", a, b, "--out", out}).status, 2) << out;
+    EXPECT_EQ(read_file(a), points);
+    EXPECT_EQ(read_file(b), points);
+  }
+  EXPECT_EQ(hallway({"align", a, b, "--picture", a}).status, 2);
 }
 
 }  // namespace

@@ -108,6 +108,44 @@ TEST(Compare, AnEarlierComparisonIsReplaced) {
   EXPECT_EQ(read_json(fs::path(world.out("compared")) / "results.json").at("cells").size(), 2u);
 }
 
+TEST(Compare, WhatCannotRunLeavesAnEarlierComparisonAsItIs) {
+  const SmallWorld world;
+  ASSERT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--steps", "5"}).status, 0);
+  const std::string before = read_file(fs::path(world.out("compared")) / "results.csv");
+  EXPECT_EQ(compare(world, world.folder() / "no.toml", {"--plugin", "slam_point", "--force"}).status, 3);
+  const Ended unknown = compare(world, world.scenario(), {"--plugin", "slam_pint", "--force", "--quiet"});
+  EXPECT_NE(unknown.status, 0);
+  EXPECT_NE(unknown.err.find("slam_pint"), std::string::npos) << "--quiet hides no failure";
+  EXPECT_EQ(read_file(fs::path(world.out("compared")) / "results.csv"), before);
+  const Ended fresh = compare(world, world.scenario(), {"--plugin", "slam_point:noise_m="}, "fresh");
+  EXPECT_NE(fresh.status, 0);
+  EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--steps", "5"}, "fresh").status, 0)
+      << "a failed one is no earlier comparison";
+  ASSERT_EQ(world.run({"--steps", "5"}, "run").status, 0);
+  EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--force"}, "run").status, 3);
+}
+
+TEST(Settings, AParameterHasOneValue) {
+  const SmallWorld world;
+  const std::string csv = world.folder().write("log.csv", "iteration,x,y,z\n0,1,2,3\n1,1,2,3\n");
+  for (const char* set : {"noise_m=0.3", "slam_point.noise_m=0.3"}) {
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"run", world.scenario()},
+                                                    {"compare", world.scenario()},
+                                                    {"replay", csv}}) {
+      std::vector<std::string> all = command;
+      all.insert(all.end(),
+                 {"--plugin", "slam_point:noise_m=0.01", "--set", set, "--out", world.out("twice")});
+      const Ended ended = hallway(all);
+      EXPECT_EQ(ended.status, 2) << command[0] << " " << set;
+      EXPECT_NE(ended.err.find("by --plugin and by --set"), std::string::npos) << ended.err;
+    }
+  }
+  const Ended bench =
+      hallway({"bench-em", "--scenes", "1", "--plugin", "em:noise=0.01", "--set", "em.noise=0.3"});
+  EXPECT_EQ(bench.status, 2);
+  EXPECT_NE(bench.err.find("by --plugin and by --set"), std::string::npos) << bench.err;
+}
+
 TEST(Compare, WrongUse) {
   const SmallWorld world;
   EXPECT_EQ(compare(world, world.scenario(), {}).status, 2);

@@ -263,5 +263,19 @@ TEST_F(Log, TheFrameThatKilledARunInItsOwnProcessIsTheLastOneInItsLog) {
   }
 }
 
+TEST_F(Log, NoCommandReplacesWhatItReads) {
+  const std::string before = read_file(run_folder() / "metrics.json"), bytes = read_file(log());
+  const std::string folder = run_folder().string();
+  EXPECT_EQ(hallway({"log", "convert", log(), "--out", folder, "--force"}).status, 2);
+  EXPECT_EQ(hallway({"replay", log(), "--steps", "2", "--out", folder, "--force"}).status, 2);
+  EXPECT_EQ(hallway({"replay", folder, "--steps", "2", "--out",
+                     folder + "/../" + run_folder().filename().string(), "--force"})
+                .status,
+            2);
+  EXPECT_EQ(hallway({"log", "cut", log(), "--from", "1", "--to", "2", "--out", log(), "--force"}).status, 2);
+  EXPECT_EQ(read_file(run_folder() / "metrics.json"), before);
+  EXPECT_TRUE(read_file(log()) == bytes);
+}
+
 }  // namespace
 }  // namespace hallway::test

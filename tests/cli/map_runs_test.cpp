@@ -57,6 +57,47 @@ TEST(MapRun, IsThatOfTheScenarioThatIsWritten) {
   EXPECT_EQ(hallway({"scenario", "new", map, "--force"}).status, 0);
 }
 
+TEST(MapRun, ASensorOfTheMapIsNamedAsSuch) {
+  const TempFolder folder;
+  const std::string map = folder.write(
+      "home.map", replaced(map_without_path(), "\"classname\" \"hw_robot_start\"",
+                           "\"classname\" \"hw_sensor\"\n\"name\" \"eyes\"\n\"kind\" \"points\"\n}\n{\n"
+                           "\"classname\" \"hw_robot_start\""));
+  const Ended ended = hallway({"run", map, "--out", folder / "run", "--set", "sensor.eyes.noise_m=0.05"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(says(ended.err, "its sensors are the map's")) << ended.err;
+}
+
+TEST(MapRun, SaysNothingAssumedThatWasSet) {
+  const TempFolder folder;
+  const std::string map = folder.write("home.map", map_without_path());
+  const Ended ended =
+      hallway({"run", map, "--out", folder / "run", "--steps", "3", "--quiet", "--plugin", "em"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_FALSE(says(ended.err, "100 frames")) << ended.err;
+  EXPECT_TRUE(says(ended.err, "stays at its")) << ended.err;
+  EXPECT_FALSE(says(ended.err, "`slam_point`")) << ended.err;
+}
+
+TEST(ScenarioNew, FindsTheMapFromBehindALink) {
+  const TempFolder folder;
+  const std::string map = folder.write("home.map", map_without_path());
+  fs::create_directories(folder.path() / "real" / "deep");
+  fs::create_directory_symlink(folder.path() / "real" / "deep", folder.path() / "link");
+  const std::string scenario = folder / "link/home.toml";
+  ASSERT_EQ(hallway({"scenario", "new", map, "--out", scenario}).status, 0);
+  const Ended ended = hallway({"run", scenario, "--out", folder / "run", "--steps", "3", "--quiet"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+}
+
+TEST(MapRun, AMapThatNoScenarioCanNameIsNamed) {
+  const TempFolder folder;
+  const std::string map = folder.write("a\xff.map", map_without_path());
+  const Ended ended = hallway({"run", map, "--out", folder / "run"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_TRUE(says(ended.err, ".map: a scenario cannot name this map")) << ended.err;
+}
+
 TEST(MapRun, WithoutAPathTheRobotStaysAtItsStart) {
   const TempFolder folder;
   const std::string map = folder.write("home.map", map_without_path());

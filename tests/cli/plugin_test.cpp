@@ -163,6 +163,23 @@ TEST(PluginParameter, PathsAreRelativeToTheFileThatHasThem) {
   EXPECT_NE(replayed.err.find("reads_paths.model"), std::string::npos) << replayed.err;
   EXPECT_EQ(parameter_of(world.out("replayed"), "model").at("value"), "");
   EXPECT_EQ(parameter_of(world.out("replayed"), "label").at("value"), "a text");
+
+  // Nor by telling a wrong type.
+  const std::filesystem::path manifest = std::filesystem::path(world.out()) / "run.json";
+  std::string forged = read_file(manifest);
+  for (const char* type : {"\"type\": \"file\"", "\"type\": \"folder\""}) {
+    ASSERT_NE(forged.find(type), std::string::npos) << forged;
+    forged = replaced(forged, type, "\"type\": \"text\"");
+  }
+  write_file_atomically(manifest, forged);
+  std::filesystem::remove_all(world.folder().path() / "sub/made");
+  const Ended again = hallway({"replay", world.out() + "/observations.csv", "--plugin",
+                               fixture("reads_paths"), "--out", world.out("again")});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.err.find("`model`"), std::string::npos) << again.err;
+  EXPECT_EQ(parameter_of(world.out("again"), "model").at("value"), "");
+  EXPECT_EQ(parameter_of(world.out("again"), "store").at("value"), "");
+  EXPECT_FALSE(std::filesystem::exists(world.folder().path() / "sub/made"));
 }
 
 TEST(PluginInfo, ShowsKindsOfPaths) {

@@ -40,13 +40,25 @@ TEST(Render, MapInTheSizeAskedFor) {
   EXPECT_EQ(png_size(png), std::make_pair(320u, 200u));
 }
 
+TEST(Render, APictureReplacesNothingElse) {
+  const SmallWorld world;
+  const std::string map = world.folder() / "small.map";
+  const std::string before = read_file(map);
+  EXPECT_EQ(hallway({"render", map, "--out", map}).status, 2);
+  EXPECT_EQ(hallway({"map", "leak", map, "--picture", map}).status, 2);
+  EXPECT_EQ(hallway({"doctor", "--picture", map}).status, 2);
+  EXPECT_EQ(hallway({"edit", map, "render", map}).status, 2);
+  EXPECT_EQ(hallway({"edit", map, "leak", "picture=" + map}).status, 2);
+  EXPECT_EQ(read_file(map), before);
+}
+
 TEST(Render, RunFromItsFolderIsThePictureTheRunMade) {
   const SmallWorld world;
   world.folder().write("small.toml", small_scenario() +
                                          "\n[[picture]]\nfile = \"top.png\"\nview = \"top\"\n"
                                          "width_px = 320\nheight_px = 200\n");
   ASSERT_EQ(world.run({"--quiet"}).status, 0);
-  const Ended ended = render(world, world.out(), {"--view", "top", "--size", "320x200", "--show", "submaps"});
+  const Ended ended = render(world, world.out(), {"--view", "top", "--size", "320x200"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(read_file(world.folder() / "picture.png"), read_file(fs::path(world.out()) / "top.png"));
 }

@@ -215,6 +215,28 @@ TEST(Score, WhatCannotBePairedIsAnError) {
   expect_failure({reference, folder.write("rest.tum", "0 1 1 1 0 0 0 1\n1 1 1 1 0 0 0 1\n2 1 1 1 0 0 0 1\n"),
                   "--align", "sim3"},
                  3, "no scale");
+  std::string rest, circle;
+  for (int i = 0; i < 12; ++i) {
+    rest += std::to_string(i) + " 0.1 0.2 0.3 0 0 0 1\n";
+    circle += std::to_string(i) + " " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) +
+              " 0 0 0 0 1\n";
+  }
+  expect_failure({folder.write("still.tum", rest), folder.write("circle.tum", circle), "--align", "sim3"}, 3,
+                 "no scale");
+}
+
+TEST(Score, PosesBeyondAllMeasureHaveDiverged) {
+  const TempFolder folder;
+  const auto reference = folder.write("r.tum", straight(12));
+  for (const char* far : {"1e308", "-1e200", "1e160"}) {
+    std::string text = straight(11);
+    text += std::string("11 ") + far + " 0 0 0 0 0 1\n";
+    const Json document = score(reference, folder.write("e.tum", text));
+    EXPECT_EQ(document.at("verdict"), "diverged") << far;
+    EXPECT_FALSE(document.at("ate").at("translation_m").at("max").is_number() &&
+                 document.at("ate").at("translation_m").at("max").get<double>() < 1e100)
+        << far;
+  }
 }
 
 TEST(Score, KittiPosesTakeTimesFromAFile) {
@@ -250,6 +272,9 @@ TEST(Score, WrongUse) {
     expect_failure({file, file, "--delta", delta}, 2, "--delta");
   expect_failure({file, file, "--align", "best"}, 2, "--align");
   expect_failure({file, file, "--format", "csv"}, 2, "--format");
+  expect_failure({file, file, "--pose-times", file}, 2, "have their own");
+  expect_failure({file, file, "--time-offset", "nan"}, 2, "--time-offset");
+  expect_failure({file, file, "--max-difference", "nan"}, 2, "not in range");
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ def literals(text):
     return found
 
 
+# Not `out/home/…`, which is a folder of the project's own; `/home/me` and `/home/you` are nobody's.
+FOLDER_OF_A_MACHINE = re.compile(rb"(?<![\w.\-})])/(?:home/(?!me\b|you\b)|Users/|work/)[A-Za-z][\w.-]*")
+
+
 def sentences(lines):
     """(line, sentence) of prose. A table's cell, a heading and an item of a list end a sentence."""
     found, words, began = [], [], 1
@@ -137,6 +141,10 @@ def main():
                 findings.append(f"{where}: '{match.group(0)}': {advice}")
 
     for name in tracked(arguments.source):
+        # Recordings and pictures too: what was made on some machine must not say where.
+        folder = FOLDER_OF_A_MACHINE.search((arguments.source / name).read_bytes())
+        if folder:
+            findings.append(f"{name}: names a folder of the machine that made it: {folder.group(0).decode()}")
         source_file = name.startswith(SOURCE_FOLDERS) and name.endswith((".cpp", ".hpp", ".h"))
         if not (source_file or name.endswith(".md")) or name == CHANGELOG or name.startswith("third_party/"):
             continue

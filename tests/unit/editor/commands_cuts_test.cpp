@@ -233,6 +233,23 @@ TEST_F(CutCommands, PanesAndLeaves) {
   EXPECT_EQ(editing.run("find _hw_fill").lines.size(), 1u) << "the leaf alone is left";
 }
 
+TEST_F(CutCommands, APaneGoesWithItsWindow) {
+  editing.run_all({"room from 0,0 to 5,6 name=kitchen wall=0.2", "entity hw_robot_start at=1,1,0.2",
+                   "window in kitchen side=east at 1 width=0.6 pane=glass name=view"});
+  editing.run("move view by 0,0.5");
+  EXPECT_TRUE(is_solid(editing, {5.1, 1.75, 1.5}));
+  EXPECT_FALSE(is_solid(editing, {5.05, 1.75, 1.5}));
+  EXPECT_TRUE(compiled().sealed());
+  editing.run("duplicate view by 0,1.2");
+  EXPECT_TRUE(is_solid(editing, {5.1, 2.95, 1.5}));
+  EXPECT_FALSE(is_solid(editing, {5.05, 2.95, 1.5}));
+  EXPECT_TRUE(compiled().sealed());
+  editing.run("align view to=0,4.7,0 side=front");
+  EXPECT_FALSE(is_solid(editing, {5.05, 5, 1.5}));
+  EXPECT_TRUE(is_solid(editing, {5.05, 1.5, 1.5})) << "the wall is whole there";
+  EXPECT_TRUE(compiled().sealed());
+}
+
 TEST_F(CutCommands, PanesInAnArcFollowIt) {
   editing.run_all({"arc centre=0,0 radius=3 from=0 to=90 segments=6 name=bay",
                    "window in bay at 2.4 width=1.4 pane=glass name=view"});

@@ -241,6 +241,19 @@ TEST(Plan, WhatCannotBeDrawnIsNoted) {
   EXPECT_TRUE(test::mentions(plan.notes[0], "\"lost\"")) << plan.notes[0];
 }
 
+TEST(Plan, AStartThatNoPathBeginsAtIsNotedWithBothPlaces) {
+  Editing editing;
+  editing.run_all({"new", "room from 0,0 to 8,6", "start at 1,1,0.5", "path round 3,1,0.5;6,1,0.5;6,4,0.5"});
+  FloorPlan plan = plan_of(editing);
+  ASSERT_EQ(plan.notes.size(), 1u);
+  for (const char* part :
+       {"warning", "(1, 1, 0.5)", "`round` begins at (3, 1, 0.5)", "the start has no effect"})
+    EXPECT_TRUE(test::mentions(plan.notes[0], part)) << part << "\n" << plan.notes[0];
+  editing.run("path other 1,1,0.5;6,1,0.5;6,4,0.5");
+  plan = plan_of(editing);
+  EXPECT_TRUE(plan.notes.empty()) << plan.notes[0];
+}
+
 TEST(Plan, AHeightAtWhichNothingIsSolidIsRefused) {
   Editing editing;
   editing.run("new");

@@ -53,6 +53,15 @@ TEST(RunPicture, LargeErrorsAreDrawnAsTheyAre) {
   for (const auto& line : errors_of(picture)->pairs) EXPECT_NEAR((line[1] - line[0]).norm(), 5.0, 1e-9);
 }
 
+TEST(RunPicture, OfADivergedRunHasNoErrors) {
+  Record record = square_record(5.0);
+  record.metrics["verdict"] = "ok";
+  EXPECT_NE(errors_of(compose_picture(record, everything())), nullptr);
+  record.metrics["verdict"] = "diverged";
+  EXPECT_EQ(errors_of(compose_picture(record, everything())), nullptr);
+  EXPECT_NE(markers_of(compose_picture(record, everything()), "mapped landmarks"), nullptr);
+}
+
 TEST(RunPicture, SmallErrorsAreDrawnLongerByWhatTheLegendSays) {
   const render::Picture picture = compose_picture(square_record(0.005), everything());
   ASSERT_NE(errors_of(picture), nullptr);

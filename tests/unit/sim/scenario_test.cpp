@@ -56,6 +56,17 @@ TEST(LoadScenario, LooksForTheMapBesideTheScenario) {
   EXPECT_EQ(load_scenario(file).file, file.string());
 }
 
+TEST(LoadScenario, InTheFolderOfARunTheMapIsItsCopy) {
+  const test::TempFolder folder;
+  const auto file = folder.write("scenario.toml", test::scenario_text());
+  EXPECT_EQ(load_scenario(file).map_file, folder / "small.map") << "there is no copy";
+  folder.write("map.map", "");
+  EXPECT_EQ(load_scenario(file).map_file, folder / "map.map");
+  EXPECT_EQ(load_scenario(folder.write("s.toml", test::scenario_text())).map_file, folder / "small.map");
+  folder.write("small.map", "");
+  EXPECT_EQ(load_scenario(file).map_file, folder / "small.map") << "the map that is named comes first";
+}
+
 TEST(LoadScenario, TakesDefaults) {
   const Scenario scenario =
       load("map = 'a'\nsteps = 3\n[robot]\npath = 'p'\nspeed_m_s = 2\n[sensor.eyes]\nkind = 'points'\n");
@@ -150,11 +161,12 @@ TEST(LoadScenario, ReadsAPicture) {
   EXPECT_FALSE(picture.shows(PictureLayer::kErrors));
 }
 
-TEST(LoadScenario, APictureShowsEverythingUnlessToldOtherwise) {
+TEST(LoadScenario, APictureShowsAllButTheSubmapsUnlessToldOtherwise) {
   const PictureSpec picture = load(test::scenario_text("[[picture]]\nfile = 'a.png'\n")).pictures.at(0);
   EXPECT_EQ(picture.view, PictureView::kTop);
-  EXPECT_EQ(picture.show.size(), 8u);
+  EXPECT_EQ(picture.show.size(), 7u);
   EXPECT_TRUE(picture.shows(PictureLayer::kFrustum));
+  EXPECT_FALSE(picture.shows(PictureLayer::kSubmaps));
 }
 
 TEST(LoadScenario, TakesItsSchema) {
