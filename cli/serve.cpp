@@ -222,8 +222,9 @@ void add_serve_command(Command& app) {
       .range(0.0, 1.0);
   command.option("--loss-seed", &options->loss_seed, "Seed of what is lost on purpose [1]").value("N");
   command
-      .option("--give-up", &options->give_up_s,
-              "Seconds without a datagram from the robot program after which to stop; 0: never [10]")
+      .option(
+          "--give-up", &options->give_up_s,
+          "Seconds without a datagram, once the robot program has come, after which to stop; 0: never [10]")
       .value("S")
       .range(0.0, 1e6);
   add_shared(command, Shared::kSteps, &options->steps).fallback("the input's");

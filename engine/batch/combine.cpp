@@ -75,6 +75,14 @@ std::vector<Cell> with_plugins(const std::vector<Cell>& cells, const std::vector
       std::vector<Cell> some{std::move(next)};
       for (const auto& parameter : plugin.parameters) {
         const std::string key = short_name(plugin.plugin) + "." + parameter.name;
+        // Only one of the two would count, under the label of both.
+        const bool is_set = std::ranges::any_of(cell.labels, [&](const Label& label) {
+          return label.name == key || label.name == parameter.name;
+        });
+        if (is_set)
+          throw Error(
+              ErrorCode::kBadInput,
+              fmt::format("{} has values as a setting and as a parameter of the plugin: leave out one", key));
         some = swept(some, key, "--set", parameter.values, key + "=");
       }
       all.insert(all.end(), some.begin(), some.end());

@@ -41,13 +41,19 @@ class PlanReader {
       if (!parse_uint(seed))
         fail(find(root_, "seeds")->line, fmt::format("`seeds`: \"{}\" is no whole number", printable(seed)));
     }
-    if (const auto steps = values(root_, "steps"); !steps.empty())
-      dimensions.more = {"--steps", steps.front()};
+    const auto steps = values(root_, "steps");
+    if (steps.size() > 1 || (!steps.empty() && !parse_uint(steps.front())))
+      fail(find(root_, "steps")->line, "`steps` is one whole number");
+    if (!steps.empty()) dimensions.more = {"--steps", steps.front()};
     read_settings(dimensions);
     for_each("plugin",
              [&](const TomlTable& table, int line) { dimensions.plugins.push_back(plugin(table, line)); });
     Plan plan;
-    plan.cells = combine(dimensions);
+    try {
+      plan.cells = combine(dimensions);
+    } catch (const Error& error) {
+      fail(0, error.message());
+    }
     for_each("picture",
              [&](const TomlTable& table, int line) { plan.pictures.push_back(picture(table, line)); });
     read_thresholds(plan);

@@ -38,6 +38,8 @@ double Ldlt<N>::largest_pivot() const {
 
 template class Ldlt<3>;
 template class Ldlt<6>;
-template class Ldlt<Eigen::Dynamic>;
+// No more than is used: products of matrices of any size would take as long to compile as all the rest.
+template Ldlt<Eigen::Dynamic>::Ldlt(const Square&);
+template Ldlt<Eigen::Dynamic>::Column Ldlt<Eigen::Dynamic>::solve(const Column&) const;
 
 }  // namespace hallway::algebra

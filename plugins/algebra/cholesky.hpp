@@ -27,6 +27,7 @@ class Ldlt {
   explicit Ldlt(const Square& matrix);
 
   Column solve(const Column& right) const;
+  /// The same for as many columns as rows; of a fixed number of rows only, as are the pivots.
   Square solve_all(const Square& right) const;
 
   /// Of the diagonal D. Both are positive exactly where the matrix is positive definite.

@@ -69,6 +69,7 @@ TEST(ReadPlan, RefusesWhatIsWrongWithItsLine) {
         Wrong{"lost_iterations.most = 0", "lost_iterations.most = \"none\"", "not a number"},
         Wrong{"lost_iterations.most = 0", "lost_iterations = 0", "not a table"},
         Wrong{"lost_iterations.most = 0", "lost_iterations = {}", "neither"},
+        Wrong{"steps = 100", "steps = \"ten\"", "`steps`"}, Wrong{"steps = 100", "steps = [1, 2]", "`steps`"},
         Wrong{"steps = 100", "steps = = 100", ""}}) {
     SCOPED_TRACE(wrong.by);
     const test::TempFolder folder;
@@ -84,6 +85,22 @@ TEST(ReadPlan, RefusesWhatIsWrongWithItsLine) {
     if (wrong.says != "hallway.batch/1" && wrong.says != "neither") {
       EXPECT_NEAR(error->where().line, static_cast<int>(line), 1) << error->what();
     }
+  }
+}
+
+/// Both would be in the label, and one of them would run.
+TEST(ReadPlan, AParameterHasItsValuesInOnePlace) {
+  const test::TempFolder folder;
+  for (const char* key : {"noise_m", "\"slam_point.noise_m\""}) {
+    const auto error = test::error_of([&] {
+      read_plan(folder.write("plan.toml",
+                             fmt::format("schema = \"hallway.batch/1\"\nscenarios = [\"office.toml\"]\n"
+                                         "[set]\n{} = [0.3]\n[[plugin]]\nname = \"slam_point\"\n"
+                                         "params = {{ noise_m = [0.01, 0.02] }}\n",
+                                         key)));
+    });
+    ASSERT_TRUE(error) << key;
+    EXPECT_NE(error->message().find("leave out one"), std::string::npos) << error->message();
   }
 }
 
