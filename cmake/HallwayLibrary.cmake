@@ -11,7 +11,7 @@ option(HALLWAY_PRECOMPILE "Precompile Eigen and the common standard headers" ON)
 # hallway_precompile(<target> LIBRARY|EXECUTABLE …headers [LINKS …]): the headers as one precompiled header that other targets of that kind may reuse (the
 # two differ in how they address code). LINKS: the libraries that it and those targets link; by default what nearly all link.
 function(hallway_precompile target kind)
-  if(NOT HALLWAY_PRECOMPILE OR HALLWAY_SANITIZE)
+  if(NOT HALLWAY_PRECOMPILE OR HALLWAY_FUZZ)
     return()
   endif()
   cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})

@@ -5,7 +5,7 @@
 # tests run.
 #
 # One GoogleTest program for each library, registered with ctest under the library's name. hallway_add_test_part() registers some of its tests by themselves.
-# The label `threads` marks what runs under the thread sanitizer. A test at the size that only `make test-long` runs is registered with
+# The label `threads` marks what runs under the thread sanitizer; the target thread_tests builds what that takes. A test at the size that only `make test-long` runs is registered with
 # hallway_add_long_test.
 set(HALLWAY_TEST_ENVIRONMENT
     "HALLWAY_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
@@ -21,6 +21,8 @@ set(HALLWAY_TEST_SECONDS 3600)
 # Test programs are many: gold, which comes with GNU's other linker, took a quarter to a third of its time for the two that were tried.
 find_program(HALLWAY_GOLD ld.gold)
 mark_as_advanced(HALLWAY_GOLD)
+
+add_custom_target(thread_tests)
 
 function(hallway_add_test name)
   cmake_parse_arguments(arg "FAST" "" "SOURCES;APART;LIBS;DEPENDS;LABELS" ${ARGN})
@@ -62,6 +64,9 @@ endfunction()
 
 # A filter that chooses nothing fails.
 function(hallway_register_test name program filter labels)
+  if("threads" IN_LIST labels)
+    add_dependencies(thread_tests test_${program})
+  endif()
   add_test(NAME ${name} COMMAND test_${program} --gtest_filter=${filter})
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${HALLWAY_TEST_SECONDS} FAIL_REGULAR_EXPRESSION "Running 0 tests"
                        ENVIRONMENT "${HALLWAY_TEST_ENVIRONMENT}")
