@@ -221,7 +221,10 @@ Score score_of(const ScoredFile& reference, const ScoredFile& estimate, const Sc
     score.relative.emplace_back(
         delta, without_times ? eval::PathError{} : eval::relative_error(score.pairs, delta, score.fit.scale));
   }
-  score.divergence = eval::divergence_of(score.pairs, eval::Judged::kPositions,
+  std::vector<Vec3> true_path;
+  for (const log::StampedPose& pose : reference.trajectory.poses)
+    true_path.emplace_back(pose.position_m.data());
+  score.divergence = eval::divergence_of(score.pairs, eval::extent_of(true_path), eval::Judged::kPositions,
                                          alignment == Alignment::kSimilarity ? alignment : Alignment::kRigid);
   score.verdict = judge(score);
   return score;
@@ -274,12 +277,12 @@ std::string input_text(const ScoredFile& input) {
                      import::name_of(input.trajectory.format));
 }
 
-std::string verdict_text(const Score& score) {
+std::string verdict_text(const Score& score, const char* alignment) {
   if (!score.verdict) return "unknown: too few pairs";
   std::string text = eval::name_of(*score.verdict);
   if (score.divergence)
-    text += fmt::format("; worst position error {:.4f} m, limit {:.4f} m", score.divergence->worst_m,
-                        score.divergence->limit_m);
+    text += fmt::format("; worst position error after {} alignment {:.4f} m, limit {:.4f} m", alignment,
+                        score.divergence->worst_m, score.divergence->limit_m);
   return text;
 }
 
@@ -291,7 +294,7 @@ std::string table_of(const Score& score, const ScoreOptions& options) {
   text += "score\n";
   row("reference", input_text(score.reference));
   row("estimate", input_text(score.estimate));
-  row("verdict", verdict_text(score));
+  row("verdict", verdict_text(score, options.align == "sim3" ? "sim3" : "se3"));
   row("coverage",
       fmt::format("{} pairs, {:.1f} % of the reference's time", score.pairs.size(), 100.0 * score.coverage));
   row("alignment",
@@ -299,7 +302,9 @@ std::string table_of(const Score& score, const ScoreOptions& options) {
   row("ATE, translation", errors_text(score.absolute.translation_m, "m"));
   row("ATE, rotation", errors_text(score.absolute.rotation_deg, "deg"));
   for (const auto& [delta, error] : score.relative) {
-    const std::string name = fmt::format("RPE, {} {}", format_double(delta.value), unit_of(delta));
+    const std::string unit = unit_of(delta);  // of several
+    const std::string name = fmt::format("RPE, {} {}", format_double(delta.value),
+                                         delta.value == 1.0 ? unit.substr(0, unit.size() - 1) : unit);
     row(name + ", translation", errors_text(error.translation_m, "m"));
     row(name + ", rotation", errors_text(error.rotation_deg, "deg"));
   }

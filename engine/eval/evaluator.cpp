@@ -189,9 +189,9 @@ void Evaluator::score_path(const PathParts::Summary& summary, const PartPath& pa
                    .scored_iterations = summary.poses.scored,
                    .other_iterations = summary.poses.other_parts,
                    .ends_in_scored = summary.poses.ends_in_scored};
-  metrics.divergence =
-      divergence_of(path.pairs, path_.orientations_known() ? Judged::kAll : Judged::kPositions,
-                    Alignment::kRigid, truth_.noise_m);
+  metrics.divergence = divergence_of(path.pairs, extent_of(path_.true_path()),
+                                     path_.orientations_known() ? Judged::kAll : Judged::kPositions,
+                                     Alignment::kRigid, truth_.noise_m);
   if (metrics.divergence && metrics.divergence->first)
     metrics.diverged_at = path.pair_frames[*metrics.divergence->first];
   metrics.verdict = judge(summary.poses, metrics.divergence);

@@ -14,8 +14,8 @@ std::uint64_t final_epoch(std::uint64_t epoch, std::span<const JoinedEpoch> join
 void PathParts::add(const PathFrame& frame) {
   const std::uint64_t number = frames_++;
   if (frame.T_world_body) {
-    if (last_truth_) travelled_m_ += (frame.T_world_body->t - *last_truth_).norm();
-    last_truth_ = frame.T_world_body->t;
+    if (!true_path_.empty()) travelled_m_ += (frame.T_world_body->t - true_path_.back()).norm();
+    true_path_.push_back(frame.T_world_body->t);
   }
   if (!frame.T_map_body) return;
   epoch_ = frame.map_epoch.value_or(epoch_);

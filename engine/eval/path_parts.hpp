@@ -62,6 +62,8 @@ class PathParts {
   PartPath path_of(std::uint64_t part, std::span<const JoinedEpoch> joined) const;
   /// The frames with both poses in the part that the last pose is in, in order: those in the frame of reference of the map at the end.
   std::vector<std::uint64_t> frames_of_map(std::span<const JoinedEpoch> joined) const;
+  /// The true positions of all frames, with and without an estimate.
+  std::span<const Vec3> true_path() const { return true_path_; }
   /// Whether orientations are known of all true poses that stand beside an estimate.
   bool orientations_known() const { return orientations_known_; }
 
@@ -86,7 +88,7 @@ class PathParts {
   std::uint64_t frames_ = 0;
   std::uint64_t epoch_ = 0;  ///< of the last frame with a pose
   double travelled_m_ = 0.0;
-  std::optional<Vec3> last_truth_;
+  std::vector<Vec3> true_path_;
   bool orientations_known_ = true;
 };
 

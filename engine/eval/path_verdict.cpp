@@ -32,24 +32,23 @@ const char* name_of(PathVerdict verdict) {
   return "";
 }
 
-double extent_of(std::span<const PosePair> pairs) {
-  if (pairs.empty()) return 0.0;
+double extent_of(std::span<const Vec3> path) {
   Vec3 mean = Vec3::Zero();
-  for (const PosePair& pair : pairs) mean += pair.T_world_body.t / static_cast<double>(pairs.size());
+  for (const Vec3& position : path) mean += position / static_cast<double>(path.size());
   double farthest = 0.0;
-  for (const PosePair& pair : pairs) farthest = std::max(farthest, (pair.T_world_body.t - mean).norm());
+  for (const Vec3& position : path) farthest = std::max(farthest, (position - mean).norm());
   return 2.0 * farthest;
 }
 
-std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, Judged judged, Alignment alignment,
-                                        double noise_m) {
+std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, double extent_m, Judged judged,
+                                        Alignment alignment, double noise_m) {
   constexpr std::size_t kFewestPairs = 3;
   if (pairs.size() < kFewestPairs) return std::nullopt;
   const bool judge_rotation = judged == Judged::kAll;
   const PathFit fit = align(pairs, alignment);
   Divergence divergence;
-  divergence.limit_m = std::max({Divergence::kLeastLimit_m, Divergence::kNoises * noise_m,
-                                 Divergence::kShareOfExtent * extent_of(pairs)});
+  divergence.limit_m = std::max(
+      {Divergence::kLeastLimit_m, Divergence::kNoises * noise_m, Divergence::kShareOfExtent * extent_m});
   Quat q_world_map = Quat::Identity();
   if (judge_rotation) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();

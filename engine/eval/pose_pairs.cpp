@@ -38,7 +38,9 @@ PathFit fit_positions(std::span<const PosePair> pairs, bool with_scale) {
   constexpr double kRest = 1e-18;  // of the other's spread: a billionth of its way
   const bool both_move = spread > kRest * reference_spread && reference_spread > kRest * spread;
   if (!both_move || !(common > 0.0))
-    throw Error(ErrorCode::kBadInput, "the estimate does not move as the reference does: it has no scale");
+    throw Error(ErrorCode::kBadInput,
+                "the estimate does not move as the reference does (or by less than a billionth of it): it "
+                "has no scale");
   fit.scale = common / spread;
   return fit;
 }

@@ -31,6 +31,10 @@ double number_of(std::string_view word, const log::LineReader& lines) {
   return *number;
 }
 
+std::string_view without_comment(std::string_view line) {
+  return line.substr(0, line.find('#'));
+}
+
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   while (!line.empty()) {
@@ -81,7 +85,7 @@ class Reader {
   }
 
   std::vector<double> numbers(std::size_t count, const char* what) const {
-    const auto words = words_of(lines_.line());
+    const auto words = words_of(without_comment(lines_.line()));
     if (words.size() != count)
       throw lines_.error(fmt::format("{} numbers where {} need {}", words.size(), what, count));
     std::vector<double> values;
@@ -150,7 +154,7 @@ TrajectoryFormat tell_format(std::string_view text, const std::string& file) {
   while (lines.next()) {
     if (lines.line().starts_with('#')) continue;
     if (lines.line().find(',') != std::string_view::npos) return TrajectoryFormat::kEuroc;
-    const std::size_t words = words_of(lines.line()).size();
+    const std::size_t words = words_of(without_comment(lines.line())).size();
     if (words == kTumNumbers) return TrajectoryFormat::kTum;
     if (words == kKittiNumbers) return TrajectoryFormat::kKitti;
     throw lines.error(

@@ -130,7 +130,7 @@ def expected(reference, estimate, options):
         for entry in rpe:
             if entry["unit"] == "seconds":
                 entry["translation_m"] = entry["rotation_deg"] = None
-    limit, worst, _, first = paths.divergence(truth, found, False, "sim3" if options["align"] == "sim3" else "se3")
+    limit, worst, _, first = paths.divergence(truth, found, [p[:3, 3] for p in rp], False, "sim3" if options["align"] == "sim3" else "se3")
     coverage = covered([rt[i] for i, _ in pairs], rt)
     return {"pairs": len(pairs), "coverage": coverage, "scale": motion[0],
             "verdict": "diverged" if first is not None else "lost" if coverage < 0.5 else "ok",

@@ -62,6 +62,24 @@ TEST(Score, EqualTrajectoriesHaveNoErrors) {
   }
 }
 
+/// As of runs: an estimate of a part is judged by the limit of the whole reference.
+TEST(Score, TheLimitIsOfTheWholeReference) {
+  const TempFolder folder;
+  const auto reference = folder.write("r.tum", straight(1000));
+  const Json whole = score(reference, reference),
+             part = score(reference, folder.write("e.tum", straight(300)));
+  EXPECT_EQ(part.at("divergence").at("position_limit_m"), whole.at("divergence").at("position_limit_m"));
+  EXPECT_EQ(part.at("verdict"), "lost");
+}
+
+TEST(Score, ACommentMayEndALine) {
+  const TempFolder folder;
+  std::string text = straight(20), commented;
+  for (const char c : text) commented += c == '\n' ? std::string(" # a note\n") : std::string(1, c);
+  const auto file = folder.write("a.tum", text);
+  EXPECT_EQ(score(file, folder.write("b.tum", "# t x y z\n" + commented)).at("pairs"), 20);
+}
+
 TEST(Score, KnownDriftPerFrameMetreAndSecond) {
   const TempFolder folder;
   std::string reference, estimate;
@@ -162,7 +180,7 @@ TEST(RunVerdict, StandsInTheTableWithTheCoverage) {
   const Ended ended =
       world.run({"--plugin", plugin, "--set", "starts_over.at=30", "--set", "starts_over.tells=epoch"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  for (const char* part : {"verdict                      lost", "2 with 1 restarts", "30 of 60 iterations",
+  for (const char* part : {"verdict                      lost", "2 with 1 restart;", "30 of 60 iterations",
                            "; 50.0 % of frames"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }
@@ -172,7 +190,7 @@ TEST(RunVerdict, PosesThatStandStillHaveDiverged) {
   const std::string plugin = binary_folder() / "tests/abi/fixtures/starts_over.so";
   const Ended ended = world.run({"--plugin", plugin, "--set", "starts_over.step_m=0"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.out.find("verdict                      diverged from iteration 0"), std::string::npos)
+  EXPECT_NE(ended.out.find("verdict                      diverged, first at iteration 0"), std::string::npos)
       << ended.out;
 }
 
@@ -182,7 +200,7 @@ TEST(Score, ATableIsPrintedForPeople) {
   const Ended ended = hallway({"score", file, file});
   EXPECT_EQ(ended.status, 0) << ended.err;
   for (const char* part :
-       {"verdict", "  ok", "coverage", "100.0 %", "ATE, translation", "RPE, 1 metres, rotation"})
+       {"verdict", "  ok", "coverage", "100.0 %", "ATE, translation", "RPE, 1 metre, rotation"})
     EXPECT_NE(ended.out.find(part), std::string::npos) << part << "\n" << ended.out;
 }
 

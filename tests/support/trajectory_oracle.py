@@ -110,12 +110,13 @@ def travelled(positions):
         if len(positions) > 1 else np.zeros(len(positions))
 
 
-def divergence(truth, estimate, judge_rotation, kind="se3", noise_m=0.0):
-    """@return limit, worst position error, worst rotation error or None, index of the first pair over a limit or None"""
+def divergence(truth, estimate, path, judge_rotation, kind="se3", noise_m=0.0):
+    """@param path  the true positions of the whole path, also without an estimate
+    @return limit, worst position error, worst rotation error or None, index of the first pair over a limit or None"""
     if len(truth) < 3:
         return None
     scale, r, start, to, _ = fit(truth, estimate, kind)
-    y = np.array([p[:3, 3] for p in truth])
+    y = np.array(path)
     limit = max(0.1, 10 * noise_m, 0.05 * 2 * np.linalg.norm(y - y.mean(axis=0), axis=1).max())
     distances = [np.linalg.norm(to + scale * (r @ (e[:3, 3] - start)) - t[:3, 3]) for t, e in zip(truth, estimate)]
     over = [d > limit for d in distances]

@@ -263,7 +263,7 @@ def score_parts(run, parts, result):
                       (n - 1 - scored[-1] if scored else n - 1) * 10 >= n)
     pairs = pairs_of(run, parts, parts["scored"])
     truth, estimate = poses_of(pairs, "truth"), poses_of(pairs, "estimate")
-    found = paths.divergence(truth, estimate, True, noise_m=run["noise_m"])
+    found = paths.divergence(truth, estimate, [i["truth"][:3] for i in run["iterations"] if i["truth"]], True, noise_m=run["noise_m"])
     if found is None:
         result["verdict"] = "lost" if lost else None
     else:

@@ -67,6 +67,18 @@ TEST(PathVerdict, TheIdentityForEverythingHasDiverged) {
   EXPECT_GT(metrics.divergence->worst_m, metrics.divergence->limit_m);
 }
 
+/// Estimates of one path are judged by one limit, whatever share of it they have: that of the whole path.
+TEST(PathVerdict, TheLimitIsOfTheWholeTruePath) {
+  const double whole = score([](int i) { return Answer{noisy(i), {}}; }).divergence->limit_m;
+  EXPECT_NEAR(whole, 0.05 * 2.0 * 30.0, 0.35);
+  for (const int last : {10, 100, 700}) {
+    const Metrics some = score([&](int i) { return i < last ? Answer{noisy(i), {}} : Answer{}; });
+    EXPECT_EQ(some.divergence->limit_m, whole) << last;
+    const Metrics parts = score([&](int i) { return Answer{restarted(i, last), i < last ? 1u : 2u}; });
+    EXPECT_EQ(parts.divergence->limit_m, whole) << last;
+  }
+}
+
 TEST(PathVerdict, NoPosesAreLost) {
   const Metrics metrics = score([](int) { return Answer{}; });
   EXPECT_EQ(metrics.verdict, PathVerdict::kLost);
