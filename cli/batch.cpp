@@ -13,6 +13,7 @@
 #include "batch_table.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "run/pictures.hpp"
 #include "shared_options.hpp"
@@ -29,6 +30,7 @@ struct BatchOptions {
   unsigned jobs = 1;
   std::optional<std::string> renderer;
   bool resume = false;
+  bool force = false;
   bool json = false;
   bool quiet = false;
 };
@@ -58,12 +60,14 @@ int run_batch(const BatchOptions& options) {
   const batch::Plan plan = batch::read_plan(options.plan);
   const fs::path folder =
       options.out.empty() ? fs::path("out") / fs::path(options.plan).stem() : fs::path(options.out);
+  check_output_folder(folder, batch::kDocumentFile, options.force || options.resume);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
   const batch::RunnerSetup setup{.program = fs::read_symlink("/proc/self/exe"),
                                  .folder = folder,
                                  .jobs = options.jobs,
                                  .resume = options.resume,
+                                 .replace = options.force && !options.resume,
                                  .environment = renderer_environment(renderer),
                                  .progress = [&](std::size_t done) { progress.update(done); },
                                  .stop = interrupted};
@@ -86,8 +90,8 @@ int run_batch(const BatchOptions& options) {
     print_json(document);
   } else if (!options.quiet) {
     print_result(results_table(results) + failures_text(results, violations) +
-                 fmt::format("{} of {} runs, {} of them taken over, in {}\n", results.size(),
-                             plan.cells.size(), reused, printable(folder.string(), 4096)));
+                 fmt::format("{} of {} runs, {} of them reused, in {}\n", results.size(), plan.cells.size(),
+                             reused, printable(folder.string(), 4096)));
   } else if (const std::string failures = failures_text(results, violations); !failures.empty()) {
     print_notice(failures);
   }
@@ -110,6 +114,7 @@ void add_batch_command(Command& app) {
   command.flag(
       "--resume", &options->resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");
+  add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);
   add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(

@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
+#include "output_file.hpp"
 #include "plane_view.hpp"
 #include "planes/files.hpp"
 #include "planes/finder.hpp"
@@ -28,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kDocumentFile = "results.json";
 
 struct BenchOptions {
   std::vector<std::string> plugins;
@@ -47,6 +50,7 @@ struct BenchOptions {
   std::string view = "perspective";
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
+  bool force = false;
   bool json = false;
   bool quiet = false;
 };
@@ -215,7 +219,10 @@ int bench_em(const BenchOptions& options) {
     throw Error(ErrorCode::kUsage, "--write-scenes writes generated scenes to the folder of --out");
   const Scenes scenes(options);
   std::vector<Contender> plugins = contenders(options);
-  if (!options.out.empty()) make_folder(options.out);
+  if (!options.out.empty()) {
+    check_output_folder(options.out, kDocumentFile, options.force);
+    make_folder(options.out);
+  }
   catch_interrupts();
   std::vector<planes::Score> known;  // of all scenes, or none
   {
@@ -236,7 +243,7 @@ int bench_em(const BenchOptions& options) {
   const Json document = document_of(options, scenes, results, known);
   if (!options.out.empty()) {
     for (Contender& contender : plugins) draw_worst(options, scenes, contender);
-    write_file_atomically(fs::path(options.out) / "results.json", document.dump(1) + "\n");
+    write_file_atomically(fs::path(options.out) / kDocumentFile, document.dump(1) + "\n");
   }
   if (options.json) {
     print_json(document);
@@ -289,6 +296,7 @@ void add_bench_em_command(Command& app) {
   add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
   add_plugin_path_option(command, options->plugin_path);
   add_limit_options(command, options->isolation);
+  add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);
   add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
 #include <memory>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -12,18 +15,23 @@
 #include "console.hpp"
 #include "host/plugin_table.hpp"
 #include "isolation_options.hpp"
+#include "output_file.hpp"
 #include "plugin_argument.hpp"
 #include "plugin_sweep.hpp"
 #include "render/png.hpp"
 #include "renderer_option.hpp"
 #include "run/comparison.hpp"
 #include "shared_options.hpp"
+#include "sim/schema.hpp"
 
 namespace hallway::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kPictureFile = "comparison.png";
+constexpr const char* kRunsFolder = "cells";
 
 struct CompareOptions {
   std::string input;
@@ -69,6 +77,15 @@ std::vector<std::string> common_arguments(const CompareOptions& options) {
   return arguments;
 }
 
+/// What is no value of a scenario is a parameter, and of several plugins it is not known whose.
+void refuse_bare_parameter(const Override& setting, const std::vector<batch::PluginSweep>& plugins) {
+  if (setting.key.find('.') != std::string::npos) return;
+  if (std::ranges::find(sim::kTopOverrideKeys, setting.key) != sim::kTopOverrideKeys.end()) return;
+  std::set<std::string> names;
+  for (const batch::PluginSweep& plugin : plugins) names.insert(host::short_plugin_name(plugin.plugin));
+  if (names.size() > 1) refuse_whose(setting, {names.begin(), names.end()});
+}
+
 /// What is set of one of the plugins is set where that runs; everything else in every run.
 void add_settings(const CompareOptions& options, batch::Dimensions& dimensions) {
   for (const std::string& text : options.settings) {
@@ -80,6 +97,7 @@ void add_settings(const CompareOptions& options, batch::Dimensions& dimensions) 
       plugin.parameters.push_back({setting.key.substr(prefix.size()), {setting.value}});
       of_plugin = true;
     }
+    if (!of_plugin) refuse_bare_parameter(setting, dimensions.plugins);
     if (!of_plugin) dimensions.more.insert(dimensions.more.end(), {"--set", text});
   }
 }
@@ -94,38 +112,60 @@ batch::Plan plan_of(const CompareOptions& options) {
   return {.cells = batch::combine(dimensions)};
 }
 
-void check_out(const fs::path& folder, bool force) {
-  std::error_code none;
-  if (run::is_run_folder(folder))
-    throw Error(ErrorCode::kIo, "is the folder of a run; a comparison needs one of its own",
-                {.file = printable(folder.string(), 4096)});
-  if (force || !fs::exists(folder / batch::kDocumentFile, none)) return;
-  throw Error(ErrorCode::kIo, "an earlier comparison is there; --force replaces it",
-              {.file = printable(folder.string(), 4096)});
-}
-
-/// The picture of all runs that left something. @return its file, empty where there was nothing to draw
-fs::path draw(const CompareOptions& options, render::Renderer renderer, const fs::path& folder,
-              const std::vector<batch::Result>& results) {
+/// The picture of all runs that left something. @return whether there was something to draw
+bool draw(const CompareOptions& options, render::Renderer renderer, const fs::path& folder,
+          const std::vector<batch::Result>& results) {
   std::vector<std::unique_ptr<run::Record>> records;
   std::vector<run::Compared> runs;
   for (const batch::Result& result : results) {
-    const fs::path cell = folder / "cells" / result.name;
+    const fs::path cell = folder / kRunsFolder / result.name;
     if (!run::is_run_folder(cell)) continue;
     records.push_back(std::make_unique<run::Record>(run::read_record(cell)));
     runs.push_back({result.name, *records.back()});
   }
-  if (runs.empty()) return {};
+  if (runs.empty()) return false;
   sim::PictureSpec spec;
   spec.view = options.view == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
   spec.show = {sim::PictureLayer::kMap,       sim::PictureLayer::kTruth,  sim::PictureLayer::kEstimate,
                sim::PictureLayer::kLandmarks, sim::PictureLayer::kErrors, sim::PictureLayer::kWalls};
   spec.width_px = 960;
   spec.height_px = 640;
-  const fs::path file = folder / "comparison.png";
-  write_file_atomically(file, render::encode_png(run::draw_comparison(runs, spec, renderer)));
-  return file;
+  write_file_atomically(folder / kPictureFile,
+                        render::encode_png(run::draw_comparison(runs, spec, renderer)));
+  return true;
 }
+
+/// Where the runs are made. What an earlier comparison left stays until this one has something to put in its place.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const fs::path& folder)
+      : folder_(folder), path_(folder.has_filename() ? folder : folder.parent_path()) {
+    path_ += ".part-" + std::to_string(::getpid());
+  }
+  ~WorkingFolder() {
+    std::error_code none;
+    fs::remove_all(path_, none);
+  }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  /// Throws Error{kIo}.
+  void commit() const try {
+    make_folder(folder_);
+    for (const char* name : {kRunsFolder, batch::kTableFile, batch::kDocumentFile, kPictureFile}) {
+      fs::remove_all(folder_ / name);
+      if (fs::exists(path_ / name)) fs::rename(path_ / name, folder_ / name);
+    }
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(ErrorCode::kIo, failure.code().message(), {.file = printable(folder_.string(), 4096)});
+  }
+
+ private:
+  fs::path folder_;
+  fs::path path_;
+};
 
 int compare(const CompareOptions& options) {
   const render::Renderer renderer = chosen_renderer(options.renderer);
@@ -136,19 +176,21 @@ int compare(const CompareOptions& options) {
                               : fs::path(options.out);
   if (std::error_code none; !fs::exists(options.input, none))
     throw Error(ErrorCode::kBadInput, "is not there", {.file = printable(options.input, 4096)});
-  check_out(folder, options.force);
+  check_output_folder(folder, batch::kDocumentFile, options.force);
+  check_replaces_no_input((folder / kRunsFolder).string(), std::array{options.input});
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
+  const WorkingFolder working(folder);
   const std::vector<batch::Result> results =
       batch::run_cells(plan, {.program = fs::read_symlink("/proc/self/exe"),
-                              .folder = folder,
+                              .folder = working.path(),
                               .jobs = options.jobs,
                               .environment = renderer_environment(renderer),
                               .progress = [&](std::size_t done) { progress.update(done); },
                               .stop = interrupted});
   if (results.size() < plan.cells.size()) throw Error(ErrorCode::kInterrupted, "interrupted");
   const bool any_ran = std::ranges::any_of(results, [&](const batch::Result& result) {
-    return run::is_run_folder(folder / "cells" / result.name);
+    return run::is_run_folder(working.path() / kRunsFolder / result.name);
   });
   if (!any_ran) {  // an earlier comparison stays, and this one may be asked for again
     if (options.json) {
@@ -162,15 +204,16 @@ int compare(const CompareOptions& options) {
   }
   fs::path picture;
   try {
-    picture = draw(options, renderer, folder, results);
+    if (draw(options, renderer, working.path(), results)) picture = folder / kPictureFile;
   } catch (const Error& error) {  // what the runs came to is worth more than their picture
     print_warning(std::string("no picture: ") + error.what());
   }
   Json document = batch::to_json(results);
   document["picture"] = nullptr;
   if (!picture.empty()) document["picture"] = printable(picture.string(), 4096);
-  write_file_atomically(folder / "results.csv", batch::print_csv(results));
-  write_file_atomically(folder / "results.json", document.dump(1) + "\n");
+  write_file_atomically(working.path() / batch::kTableFile, batch::print_csv(results));
+  write_file_atomically(working.path() / batch::kDocumentFile, document.dump(1) + "\n");
+  working.commit();
   if (options.json) {
     print_json(document);
   } else if (!options.quiet) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
@@ -180,12 +181,44 @@ Json document_of(const CompiledMap& compiled, const std::string& way_file, int s
           {"warnings", compiled.warnings}};
 }
 
+/// Whether a file holds points, a line each, and nothing else: what Quake's compilers, and this one, write as the way out of a leak.
+bool is_way_file(const fs::path& file) {
+  constexpr std::uint64_t kMostBytes = 64u << 20;
+  try {
+    const std::string text = read_file(file, kMostBytes);
+    std::string_view rest = text;
+    while (!rest.empty()) {
+      std::string_view line = trim(rest.substr(0, rest.find('\n')));
+      rest = rest.substr(std::min(
+          rest.size(), rest.find('\n') == std::string_view::npos ? rest.size() : rest.find('\n') + 1));
+      std::size_t numbers = 0;
+      for (; !line.empty(); ++numbers) {
+        const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+        if (!parse_double(word)) return false;
+        line = trim(line.substr(word.size()));
+      }
+      if (numbers != 0 && numbers != 3) return false;
+    }
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// Writes the way out beside the map, or takes away that of an earlier leak, as Quake's compilers do.
 /// @return the file that was written, if any
 std::string keep_way_file(const std::string& map, CompiledMap& compiled) {
   const fs::path file = fs::path(map).replace_extension(".pts");
   const auto& leak = compiled.world.partition.enclosure.leak;
   std::error_code code;
+  if (fs::exists(file, code) && !is_way_file(file)) {
+    if (leak) {
+      compiled.warnings.push_back(
+          fmt::format("the leak path is not kept: {} holds something else", printable(file.string(), 4096)));
+      print_warning(compiled.warnings.back());
+    }
+    return {};
+  }
   if (!leak) {
     if (fs::is_regular_file(file, code)) fs::remove(file, code);
     return {};

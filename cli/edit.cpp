@@ -121,7 +121,11 @@ int run_line_by_line(Session& session, const EditOptions& options) {
 }
 
 int run_one(Session& session, const EditOptions& options) {
-  const Report report = session.run(editor::parse_words(options.words, session.units()));
+  const editor::Call call = editor::parse_words(options.words, session.units());
+  const bool from_nothing = session.steps().empty() && !fs::exists(options.map);
+  const Report report = session.run(call);
+  if (from_nothing && session.steps().empty() && call.command->name != "help")
+    print_warning(fmt::format("{} is not there: this is an empty map", printable(options.map, 4096)));
   session.save();
   show(report, options.json);
   finish_json(options, report.status, Json::array({json_of(report)}));

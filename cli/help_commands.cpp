@@ -44,11 +44,11 @@ const Command& find_command(const Command& program, const std::vector<std::strin
 }
 
 int print_help(const Command& program, const std::vector<std::string>& words, bool json) {
+  find_command(program, words);
   if (json) {
     print_json(commands_json(program));
     return 0;
   }
-  find_command(program, words);
   std::vector<std::string> arguments{program.name()};
   arguments.insert(arguments.end(), words.begin(), words.end());
   arguments.emplace_back("--help");

@@ -12,15 +12,27 @@
 
 namespace hallway::cli {
 
-void add_limit_options(Command& command, IsolationOptions& options) {
+namespace {
+
+void add_limits(Command& command, IsolationOptions& options, const std::string& source) {
+  const host::PluginLimits defaults;
   add_shared(command, Shared::kInProcess, &options.in_process);
-  add_shared(command, Shared::kCallTimeout, &options.call_timeout_s).fallback("the scenario's, else 60");
-  add_shared(command, Shared::kMemoryLimit, &options.memory_limit_mib).fallback("the scenario's, else 4096");
+  add_shared(command, Shared::kCallTimeout, &options.call_timeout_s)
+      .fallback(source + format_double(defaults.call_timeout_s));
+  add_shared(command, Shared::kMemoryLimit, &options.memory_limit_mib)
+      .fallback(source + fmt::to_string(defaults.memory_mib));
 }
 
-void add_isolation_options(Command& command, IsolationOptions& options) {
-  add_limit_options(command, options);
-  add_shared(command, Shared::kOnFailure, &options.on_failure).fallback("the scenario's, else stop");
+}  // namespace
+
+void add_limit_options(Command& command, IsolationOptions& options) {
+  add_limits(command, options, "");
+}
+
+void add_isolation_options(Command& command, IsolationOptions& options, bool from_scenario) {
+  const std::string source = from_scenario ? "the scenario's, else " : "";
+  add_limits(command, options, source);
+  add_shared(command, Shared::kOnFailure, &options.on_failure).fallback(source + "stop");
 }
 
 host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits) {

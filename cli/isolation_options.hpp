@@ -19,11 +19,12 @@ struct IsolationOptions {
   std::optional<std::string> on_failure;
 };
 
-/// Adds --in-process, --call-timeout and --memory-limit.
+/// Adds --in-process, --call-timeout and --memory-limit, for commands without a scenario: what is not given is host::PluginLimits' own.
 void add_limit_options(Command& command, IsolationOptions& options);
 
 /// The same and --on-failure.
-void add_isolation_options(Command& command, IsolationOptions& options);
+/// @param from_scenario  whether a scenario may have the limits that are not given
+void add_isolation_options(Command& command, IsolationOptions& options, bool from_scenario = true);
 
 /// `limits` with what the command line says above them.
 host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits limits);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 #include "base/error.hpp"
@@ -61,6 +60,15 @@ void stop_if_interrupted() {
   if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
 }
 
+/// The log and the tables of truth.
+std::vector<std::string> inputs_of(const ConvertOptions& options) {
+  std::vector<std::string> inputs{options.choice.log};
+  for (const std::string& table : {options.choice.true_poses, options.choice.true_landmarks}) {
+    if (!table.empty()) inputs.push_back(table);
+  }
+  return inputs;
+}
+
 void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
   NewFile file(options.out, options.force);
   run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
@@ -95,7 +103,6 @@ void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::
 }
 
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
-  check_replaces_no_input(options.out, std::array{options.choice.log});
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
   log::ObservationLog observations(source.has_identities(), source.has_tracks());
@@ -168,6 +175,7 @@ void add_missing(OpenedLog& opened) {
 Converted convert_input(const ConvertOptions& options) {
   const bool to_mcap = fs::path(options.out).extension() == ".mcap";
   if (options.foxglove && !to_mcap) throw Error(ErrorCode::kUsage, "--foxglove is for an .mcap file");
+  check_replaces_no_input(options.out, inputs_of(options));
   if (options.foxglove && !kind_of(options)) {
     if (const auto log = recorded_log(options.choice.log)) return copy_with_view(options, *log);
   }

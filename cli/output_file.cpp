@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "output_file.hpp"
 
-#include <filesystem>
-
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "run/pictures.hpp"
+#include "run/record.hpp"
 
 namespace hallway::cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether a canonical path is `folder`, or below it.
+bool lies_in(fs::path path, const fs::path& folder) {
+  for (; path.has_relative_path(); path = path.parent_path()) {
+    if (path == folder) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 void check_output_file(const std::string& file) {
   std::error_code code;
@@ -28,12 +39,20 @@ void check_replaces_no_input(const std::string& out, std::span<const std::string
   const fs::path place = fs::canonical(out, none);
   if (none) return;
   for (const std::string& input : inputs) {
-    for (fs::path part = fs::canonical(input, none); !none && part.has_relative_path();
-         part = part.parent_path()) {
-      if (part == place)
-        throw Error(ErrorCode::kUsage, "--out would replace what is read", {.file = printable(out, 4096)});
-    }
+    const fs::path read = fs::canonical(input, none);
+    if (!none && (lies_in(read, place) || lies_in(place, read)))
+      throw Error(ErrorCode::kUsage, "--out would replace what is read", {.file = printable(out, 4096)});
   }
+}
+
+void check_output_folder(const fs::path& folder, const char* document, bool replace) {
+  const Where where{.file = printable(folder.string(), 4096)};
+  if (run::is_run_folder(folder))
+    throw Error(ErrorCode::kIo, "is the folder of a run; --out names another one", where);
+  std::error_code none;
+  if (replace || !fs::exists(folder / document, none)) return;
+  throw Error(ErrorCode::kIo, std::string("has earlier results (") + document + "); --force replaces them",
+              where);
 }
 
 }  // namespace hallway::cli

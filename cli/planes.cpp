@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "isolation_options.hpp"
+#include "output_file.hpp"
 #include "plane_view.hpp"
 #include "planes/files.hpp"
 #include "planes/finder.hpp"
@@ -26,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kDocumentFile = "planes.json";
+
 struct PlanesOptions {
   std::string cloud;
   std::string plugin;
@@ -38,6 +41,7 @@ struct PlanesOptions {
   std::string view = "perspective";
   std::vector<std::string> plugin_path;
   IsolationOptions isolation;
+  bool force = false;
   bool json = false;
   bool quiet = false;
 };
@@ -97,7 +101,7 @@ std::string draw(const PlanesOptions& options, const Found& found) {
 void write_files(const PlanesOptions& options, const Found& found, const Json& document) {
   const fs::path folder = options.out;
   make_folder(folder);
-  write_file_atomically(folder / "planes.json", document.dump(1) + "\n");
+  write_file_atomically(folder / kDocumentFile, document.dump(1) + "\n");
   write_file_atomically(folder / "planes.ply", planes::print_ply(found.cloud, found.answer.planes));
   write_file_atomically(folder / "planes.png", draw(options, found));
 }
@@ -131,6 +135,7 @@ std::string table(const Found& found) {
 }
 
 int planes_of(const PlanesOptions& options) {
+  if (!options.out.empty()) check_output_folder(options.out, kDocumentFile, options.force);
   const Found found = find(options);
   const Json document = document_of(options, found);
   if (!options.out.empty()) write_files(options, found, document);
@@ -176,6 +181,7 @@ void add_planes_command(Command& app) {
   add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
   add_plugin_path_option(command, options->plugin_path);
   add_limit_options(command, options->isolation);
+  add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);
   add_shared(command, Shared::kQuiet, &options->quiet);
   command.footer(

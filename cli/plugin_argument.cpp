@@ -99,6 +99,13 @@ void refuse_second_values(const std::string& plugin, const std::vector<std::stri
   }
 }
 
+void refuse_whose(const Override& setting, const std::vector<std::string>& plugins) {
+  throw Error(ErrorCode::kUsage,
+              fmt::format("--set {}={}: which plugin's? Several run: {}; write PLUGIN.{}=VALUE",
+                          printable(setting.key), printable(setting.value), fmt::join(plugins, ", "),
+                          printable(setting.key)));
+}
+
 std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::StageSpec> stages,
                                                              const std::string& text) {
   const Override setting = parse_setting(text);
@@ -111,10 +118,7 @@ std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::Sta
     names.push_back(host::short_plugin_name(candidate.plugin));
     if (names.back() == wanted) stage = &candidate;
   }
-  if (stage == nullptr && wanted.empty())
-    throw Error(ErrorCode::kUsage,
-                fmt::format("--set {}: which plugin's? Several run: {}; write PLUGIN.{}=VALUE",
-                            printable(text), fmt::join(names, ", "), printable(name)));
+  if (stage == nullptr && wanted.empty()) refuse_whose(setting, names);
   if (stage == nullptr)
     throw Error(ErrorCode::kUsage,
                 fmt::format("--set {}: no plugin \"{}\" runs{}; there is: {}", printable(text),

@@ -36,6 +36,9 @@ Override parse_setting(const std::string& text);
 /// Throws Error{kUsage} where one of the `--set` values is of a parameter that `--plugin` gives a value too: neither would be the one that was meant.
 void refuse_second_values(const std::string& plugin, const std::vector<std::string>& settings);
 
+/// Throws Error{kUsage}: the setting is of a parameter, and several plugins run.
+[[noreturn]] void refuse_whose(const Override& setting, const std::vector<std::string>& plugins);
+
 /// Does what `--set PLUGIN.key=value` asks for, or `--set key=value` where there is one stage. @return the stage and the name of the parameter.
 /// Throws Error{kUsage} for a plugin that is none of the stages, with the nearest name, and for a parameter that `--plugin` gives a value.
 std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::StageSpec> stages,

@@ -131,11 +131,19 @@ Json document(const std::vector<Result>& results, const SuiteSetup& setup, const
           {"tests", tests}};
 }
 
+/// The name of the plugin. Its settings are those of the command line: one that does not suit is wrong usage.
+std::string inspect(const SuiteSetup& setup) try {
+  return conformance::inspect_plugin(setup);
+} catch (const Error& error) {
+  if (error.code() != ErrorCode::kBadInput) throw;
+  throw Error(ErrorCode::kUsage, error.message(), error.where());
+}
+
 int validate(const ValidateOptions& options) {
   if (options.list) return list_tests(options.json);
   if (options.file.empty()) throw Error(ErrorCode::kUsage, "which FILE is to be validated?");
   SuiteSetup setup = setup_of(options);
-  const std::string plugin = conformance::inspect_plugin(setup);
+  const std::string plugin = inspect(setup);
   std::vector<Result> results;
   {
     const std::size_t total = setup.only.empty() ? conformance::all_tests().size() : setup.only.size();

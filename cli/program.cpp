@@ -76,6 +76,20 @@ CLI::Validator range_of(std::pair<double, double> limits) {
   }
 }
 
+/// `--out ''` is a mistake, such as a shell variable without a value, and not the same as no --out.
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "the value is empty" : ""; }, "");
+}
+
+bool takes_text(const Option& option) {
+  return std::visit(
+      [](auto* target) {
+        using T = std::remove_pointer_t<decltype(target)>;
+        return std::is_same_v<typename Scalar<T>::Type, std::string>;
+      },
+      option.target());
+}
+
 /// The parser of one command line: CLI11's commands, made from ours.
 class Parser {
  public:
@@ -89,6 +103,8 @@ class Parser {
   const Command* chosen() const { return chosen_; }
   /// Prints what a parse ended with that is no failure: help, the version.
   void print(const CLI::ParseError& stop) const { app_.exit(stop); }
+  /// The words that no command and no option takes, in their order.
+  std::vector<std::string> unexpected() const { return app_.remaining(true); }
   /// The command in whose arguments the parse stopped.
   const Command& last() const {
     const CLI::App* app = &app_;
@@ -116,6 +132,7 @@ class Parser {
     CLI::Option* added =
         std::visit([&](auto* target) { return add_to(app, option, target); }, option.target());
     if (!option.value_name().empty()) added->type_name(option.value_name());
+    if (takes_text(option)) added->check(not_empty());
     if (!option.words().empty()) added->check(CLI::IsMember(option.words()));
     if (option.shows_default()) added->capture_default_str();
     if (option.is_required()) added->required();
@@ -164,9 +181,13 @@ std::string correction(const Command& command, int argc, char** argv) {
 }
 
 /// An argument that is wrong, and where to read what is right.
-int report_parse(const Command& command, const CLI::ParseError& stop, int argc, char** argv) {
+int report_parse(const Parser& parser, const CLI::ParseError& stop, int argc, char** argv) {
+  const Command& command = parser.last();
   std::string message = stop.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&stop) != nullptr) message += correction(command, argc, argv);
+  if (dynamic_cast<const CLI::ExtrasError*>(&stop) != nullptr)
+    message = fmt::format("not expected: {}{}",
+                          printable(fmt::format("{}", fmt::join(parser.unexpected(), " ")), 500),
+                          correction(command, argc, argv));
   const int status = report_failure(Error(ErrorCode::kUsage, message), asks_for_json(argc, argv));
   fmt::print(stderr, "Try `{} --help`.\n", command.path());
   return status;
@@ -200,7 +221,7 @@ int run_program(const Command& program, int argc, char** argv) {
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
-    if (stop.get_exit_code() != 0) return report_parse(parser.last(), stop, argc, argv);
+    if (stop.get_exit_code() != 0) return report_parse(parser, stop, argc, argv);
     parser.print(stop);
     return 0;
   }

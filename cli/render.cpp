@@ -151,6 +151,11 @@ int render(const RenderOptions& options) {
   std::error_code code;
   const bool is_run = fs::is_directory(options.input, code);
   if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");
+  const std::string ending = fs::path(options.input).extension().string();
+  if (!is_run && (ending == ".toml" || ending == ".mcap" || ending == ".csv"))
+    throw Error(ErrorCode::kBadInput,
+                "is neither a map nor the folder of a run; `hallway run` makes such a folder",
+                {.file = printable(options.input, 4096)});
   const std::string png = is_run ? draw_run(options, drawing) : draw_map(options, drawing);
   write_file_atomically(options.out, png);
   if (options.json) {

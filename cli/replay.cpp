@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
@@ -109,7 +110,7 @@ void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const 
 
 void add_setting(Stages& stages, const std::string& text) {
   const auto [stage, name] = set_parameter(stages.specs, text);
-  stages.origins.push_back({sim::short_plugin_name(stage->plugin), name, "command line"});
+  stages.origins.push_back({sim::short_plugin_name(stage->plugin), name, kCommandLine});
 }
 
 Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
@@ -235,7 +236,7 @@ void add_replay_command(Command& app) {
                "that need it");
   add_shared(command, Shared::kOutFolder, &options->out).fallback("out/replay-<name>");
   add_plugin_path_option(command, options->plugin_path);
-  add_isolation_options(command, options->isolation);
+  add_isolation_options(command, options->isolation, false);
   add_shared(command, Shared::kFoxglove, &options->foxglove);
   add_shared(command, Shared::kForce, &options->force);
   add_shared(command, Shared::kJson, &options->json);

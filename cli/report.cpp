@@ -29,6 +29,11 @@ class Table {
   std::string text_;
 };
 
+/// "1 submap", "2 submaps".
+std::string counted(std::uint64_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f} m", *value) : std::string("unknown");
 }
@@ -42,7 +47,7 @@ std::string verdict_text(const Metrics& metrics) {
   if (!metrics.verdict) return "unknown: too few true poses";
   std::string text = eval::name_of(*metrics.verdict);
   if (metrics.diverged_at)
-    text += fmt::format(" from iteration {} on: position error up to {:.4f} m, limit {:.4f} m",
+    text += fmt::format(", first at iteration {}: position error up to {:.4f} m, limit {:.4f} m",
                         *metrics.diverged_at, metrics.divergence->worst_m, metrics.divergence->limit_m);
   if (metrics.diverged_at && metrics.divergence->worst_deg)
     text += fmt::format("; rotation error up to {:.1f} deg, limit {:.0f} deg", *metrics.divergence->worst_deg,
@@ -55,9 +60,9 @@ void add_path(Table& table, const Metrics& metrics) {
   table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
   if (metrics.parts.count > 1 || metrics.parts.restarts > 0)
     table.row("parts of the map",
-              fmt::format("{} with {} restarts; scored is the one with most poses, {} of {} iterations{}",
-                          metrics.parts.count, metrics.parts.restarts, metrics.parts.scored_iterations,
-                          metrics.iterations,
+              fmt::format("{} with {}; scored is the one with most poses, {} of {} iterations{}",
+                          metrics.parts.count, counted(metrics.parts.restarts, "restart"),
+                          metrics.parts.scored_iterations, metrics.iterations,
                           metrics.parts.ends_in_scored ? "" : "; the map at the end is another one"));
 }
 
@@ -65,13 +70,16 @@ void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) 
   // Plugins that give a path alone, and associate nothing, have nothing to be missed.
   const bool path_alone = metrics.landmarks_mapped == 0 && metrics.associations_none == metrics.observations;
   if (!metrics.landmarks_true || path_alone) {
-    table.row("landmarks mapped", fmt::format("{} in {} submaps", metrics.landmarks_mapped, submaps));
+    table.row("landmarks mapped",
+              fmt::format("{} in {}", metrics.landmarks_mapped, counted(submaps, "submap")));
     return;
   }
-  table.row("landmarks mapped",
-            fmt::format("{} of {} in {} submaps; {} duplicated, {} missed", metrics.landmarks_mapped,
-                        *metrics.landmarks_true, submaps, metrics.landmarks_duplicated.value_or(0),
-                        metrics.landmarks_missed.value_or(0)));
+  table.row(
+      "landmarks mapped",
+      fmt::format("{} of {} seen, in {}; {} duplicated, {} missed, {} that are none",
+                  *metrics.landmarks_true - metrics.landmarks_missed.value_or(0), *metrics.landmarks_true,
+                  counted(submaps, "submap"), metrics.landmarks_duplicated.value_or(0),
+                  metrics.landmarks_missed.value_or(0), metrics.landmarks_unmatched.value_or(0)));
 }
 
 void add_associations(Table& table, const Metrics& metrics) {
@@ -101,10 +109,9 @@ void add_planes(Table& table, const Metrics& metrics, std::uint64_t submaps) {
   const eval::PlaneMapMetrics& map = planes.refined;
   table.row("planes seen", fmt::format("{}, {} unassociated, {} misassociated", planes.observations,
                                        planes.associations_none, planes.association_errors));
-  table.row(
-      "walls mapped",
-      fmt::format("{} of {} in {} submaps; {} duplicated, {} in parts, {} that are none", map.walls_mapped,
-                  planes.walls_true, submaps, map.duplicated, map.parts, map.unmatched));
+  table.row("walls mapped", fmt::format("{} of {} in {}; {} duplicated, {} in parts, {} that are none",
+                                        map.walls_mapped, planes.walls_true, counted(submaps, "submap"),
+                                        map.duplicated, map.parts, map.unmatched));
   if (map.corner_m) table.row("certain corners", fmt::format("{}", map.corner_m->count));
   table.row("corner error", errors_text(map.corner_m, "m") + walls);
   table.row("wall error, across it", errors_text(map.offset_m, "m") + walls);

@@ -19,6 +19,9 @@ struct Row {
   double most = 0.0;
 };
 
+/// The largest double below 2^63: seeds of files are TOML's integers, which end there.
+constexpr double kMostSeed = 9223372036854774784.0;
+
 constexpr Row kRows[] = {
     {Shared::kPlugin, "--plugin", "NAME|FILE[:KEY=VALUE,...]",
      "Plugin to run, an id or a .so file, and values of its parameters"},
@@ -46,7 +49,7 @@ constexpr Row kRows[] = {
     {Shared::kOutFile, "--out", "FILE", "File to write"},
     {Shared::kOutLog, "--out", "FILE|DIR", "File to write if it ends in .mcap, else a folder for CSV files"},
     {Shared::kForce, "--force", "", "Replace earlier output"},
-    {Shared::kSeed, "--seed", "N", "Seed of all random numbers"},
+    {Shared::kSeed, "--seed", "N", "Seed of all random numbers", 0, kMostSeed},
     {Shared::kSteps, "--steps", "N", "Number of frames", 1, 99'999'999},
     {Shared::kThreads, "--threads", "N", "Number of threads; results do not depend on it", 1, 1024},
     {Shared::kJobs, "--jobs", "N", "Number of parallel runs; times are comparable with 1", 1, 1024},

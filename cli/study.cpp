@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -13,7 +14,10 @@
 #include "bin_points.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "host/plugin_table.hpp"
 #include "isolation_options.hpp"
+#include "output_file.hpp"
+#include "plugin_argument.hpp"
 #include "plugin_report.hpp"
 #include "plugin_sweep.hpp"
 #include "shared_options.hpp"
@@ -25,6 +29,7 @@ namespace fs = std::filesystem;
 
 struct StudyOptions {
   std::vector<std::string> plugins;
+  std::vector<std::string> settings;
   std::vector<std::string> plugin_path;
   std::uint32_t seeds = 5;
   std::uint32_t steps = 0;
@@ -55,6 +60,29 @@ std::vector<study::PluginChoice> choices_of(const batch::PluginSweep& sweep) {
   return choices;
 }
 
+/// Gives the parameters of --set to the plugins that they are of.
+void set_parameters(const StudyOptions& options, std::vector<study::PluginChoice>& choices) {
+  for (const std::string& plugin : options.plugins) refuse_second_values(plugin, options.settings);
+  for (const std::string& text : options.settings) {
+    const Override setting = parse_setting(text);
+    const std::size_t dot = setting.key.rfind('.');
+    const std::string wanted = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+    std::set<std::string> names;
+    for (const study::PluginChoice& choice : choices) names.insert(host::short_plugin_name(choice.plugin));
+    if (wanted.empty() && names.size() > 1) refuse_whose(setting, {names.begin(), names.end()});
+    bool found = false;
+    for (study::PluginChoice& choice : choices) {
+      if (!wanted.empty() && host::short_plugin_name(choice.plugin) != wanted) continue;
+      choice.parameters.emplace_back(setting.key.substr(dot + 1), setting.value);
+      found = true;
+    }
+    if (!found)
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("--set {}: no plugin \"{}\" runs{}", printable(text), printable(wanted),
+                              suggestion(wanted, {names.begin(), names.end()})));
+  }
+}
+
 study::Request request_of(const study::Study& study, const StudyOptions& options) {
   study::Request request{.seeds = options.quick ? std::min(options.seeds, 2u) : options.seeds,
                          .quick = options.quick,
@@ -65,6 +93,7 @@ study::Request request_of(const study::Study& study, const StudyOptions& options
       request.plugins.push_back(std::move(choice));
   }
   if (request.plugins.empty()) request.plugins = study::default_plugins(study);
+  set_parameters(options, request.plugins);
   return request;
 }
 
@@ -78,13 +107,6 @@ fs::path data_folder(const StudyOptions& options) {
   if (!options.data.empty()) return options.data;
   const char* named = std::getenv("HALLWAY_DATA");
   return named != nullptr ? fs::path(named) : maps_folder(options).parent_path() / "data";
-}
-
-void check_out(const fs::path& folder, bool force) {
-  std::error_code none;
-  if (force || !fs::exists(folder / "study.json", none)) return;
-  throw Error(ErrorCode::kIo, "an earlier study is there; --force replaces it",
-              {printable(folder.string(), 4096), 0, {}});
 }
 
 std::uint64_t iterations_of(const std::vector<study::RunSpec>& specs) {
@@ -119,7 +141,7 @@ bool report_plugin_failures(const std::vector<study::StudyRun>& runs) {
 int run_study(const study::Study& study, const StudyOptions& options) {
   const fs::path folder =
       options.out.empty() ? fs::path("out") / ("study-" + std::string(study.name)) : fs::path(options.out);
-  check_out(folder, options.force);
+  check_output_folder(folder, "study.json", options.force);
   const study::Request request = request_of(study, options);
   const std::vector<study::RunSpec> specs = study.plan(request);
   catch_interrupts();
@@ -148,6 +170,7 @@ int run_study(const study::Study& study, const StudyOptions& options) {
 
 void add_options(Command& command, StudyOptions& options) {
   add_shared(command, Shared::kPlugin, &options.plugins).repeatable().fallback("slam_point");
+  add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
   add_plugin_path_option(command, options.plugin_path);
   command
       .option("--seeds", &options.seeds,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/origin.hpp"
 #include "base/table_reader.hpp"
 #include "base/text.hpp"
 #include "base/toml_reader.hpp"
@@ -127,7 +128,7 @@ void apply(TomlTable& root, const Override& setting) {
   throw Error(
       ErrorCode::kUsage,
       "the configuration has no such setting" + suggestion(setting.key, settable_keys(root, setting.key)),
-      {.file = "command line", .element = "key `" + printable(setting.key) + "`"});
+      {.file = kCommandLine, .element = "key `" + printable(setting.key) + "`"});
 }
 
 void apply_overrides(TomlTable& root, std::span<const Override> overrides) {

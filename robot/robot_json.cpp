@@ -5,7 +5,7 @@
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
-#include "base/table_reader.hpp"
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "record/sensor_json.hpp"
 

@@ -55,7 +55,8 @@ std::string table_of(const SessionResult& result, const std::string& name, const
       text, "frames",
       fmt::format("{} given, {} answered; {} lost, {} dropped, {} refused, {} unrecorded", count("given"),
                   count("answered"), count("lost"), count("dropped"), count("refused"), count("unrecorded")));
-  add_row(text, "landmarks mapped", fmt::format("{} in {} submaps", result.landmarks, result.submaps));
+  add_row(text, "landmarks mapped",
+          fmt::format("{} in {} submap{}", result.landmarks, result.submaps, result.submaps == 1 ? "" : "s"));
   if (result.planes > 0) add_row(text, "planes mapped", fmt::to_string(result.planes));
   if (const Json& latency = timing.at("latency_ms"); !latency.is_null()) {
     add_row(text, "latency",

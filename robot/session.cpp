@@ -108,7 +108,8 @@ class Session {
     }
     loop.close();
     result_.failures = loop.failures();
-    result_.landmarks = map.landmarks.size();
+    result_.landmarks = static_cast<std::uint64_t>(
+        std::ranges::count(map.landmarks, log::LandmarkStatus::kMapped, &log::MapLandmark::status));
     result_.planes = map.planes.size();
     result_.submaps = map.submaps.size();
     record::write_map(output_.working_path(), map);

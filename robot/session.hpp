@@ -57,8 +57,8 @@ struct SessionResult {
   std::vector<std::string> plugins;  ///< "slam_point 0.1.0"
   nlohmann::ordered_json manifest;   ///< run.json
   record::Failures failures;
-  std::uint64_t landmarks = 0;
-  std::uint64_t planes = 0;  ///< of the map
+  std::uint64_t landmarks = 0;  ///< with the status mapped
+  std::uint64_t planes = 0;     ///< of the map
   std::uint64_t submaps = 0;
   LoopEnd end = LoopEnd::kDriver;
   std::optional<Error> driver_failure;  ///< the driver's, which ended the run

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/origin.hpp"
 #include "base/text.hpp"
 
 namespace hallway {
@@ -25,12 +26,6 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 }  // namespace
-
-std::string origin_of(const std::string& file, int line) {
-  if (line == 0) return "command line";
-  // The name alone: a run's record must not depend on the folder from which the run was started.
-  return printable(std::filesystem::path(file).filename().string()) + ":" + std::to_string(line);
-}
 
 std::string format_numbers(const Numbers3& numbers) {
   return "[" + format_double(numbers[0]) + ", " + format_double(numbers[1]) + ", " +
@@ -65,7 +60,7 @@ Error TableReader::error(std::string_view key, const std::string& message) const
   const TomlNode* node = find(table_, key);
   const bool from_command_line = node != nullptr && node->line == 0;
   Where where{.element = "key `" + printable(full_key(key)) + "`"};
-  where.file = from_command_line ? "command line" : printable(file_);
+  where.file = from_command_line ? kCommandLine : printable(file_);
   where.line = line(key);
   return Error(from_command_line ? ErrorCode::kUsage : ErrorCode::kBadInput, message, where);
 }

@@ -90,9 +90,6 @@ class TableReader {
 void for_each_table(const TableReader& top, const TomlTable& root, const std::string& key, std::size_t most,
                     const std::function<void(const TomlTable& table, int line)>& read_one);
 
-/// "office.toml:12" for a line of a file, "command line" for line 0.
-std::string origin_of(const std::string& file, int line);
-
 /// "[1, 2.5, 3]".
 std::string format_numbers(const Numbers3& numbers);
 

@@ -206,7 +206,9 @@ class PlanReader {
 
   void add_threshold(Plan& plan, const std::string& metric, const TomlNode& node) const {
     const TomlTable& table = table_of(node, metric);
-    const bool limits = find(table, "least") != nullptr || find(table, "most") != nullptr;
+    const bool holds_tables = std::ranges::all_of(
+        table, [](const TomlEntry& entry) { return std::holds_alternative<TomlTable>(entry.node.value); });
+    const bool limits = !holds_tables || find(table, "least") != nullptr || find(table, "most") != nullptr;
     if (!limits && table.empty()) fail(node.line, fmt::format("`{}` has neither `least` nor `most`", metric));
     if (!limits) {  // metrics with points may be written as tables in tables
       for (const TomlEntry& entry : table) add_threshold(plan, metric + "." + entry.key, entry.node);

@@ -198,6 +198,7 @@ class Runner {
     make_folder(setup_.folder / "cells");
     const FolderLock lock(setup_.folder);
     remove_unfinished();
+    if (setup_.replace) remove_earlier();
     if (setup_.resume) take_over_results();
     while (!stopped() && (start_jobs() || !jobs_.empty())) {
       if (!step_jobs()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -238,6 +239,14 @@ class Runner {
       if (folder || files.contains(unfinished_file_of(name))) left.push_back(entry.path());
     }
     for (const fs::path& path : left) fs::remove_all(path, none);
+  }
+
+  void remove_earlier() const {
+    std::error_code none;
+    if (!fs::exists(setup_.folder / kDocumentFile, none)) return;
+    for (const char* file : {kDocumentFile, kTableFile}) fs::remove(setup_.folder / file, none);
+    for (const auto& entry : fs::directory_iterator(setup_.folder / "cells", none))
+      fs::remove_all(entry.path(), none);
   }
 
   void take_over_results() {

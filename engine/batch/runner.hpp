@@ -43,6 +43,8 @@ struct RunnerSetup {
   std::filesystem::path folder{};   ///< of the batch: a folder for each run is in its `cells`
   unsigned jobs = 1;                ///< how many runs at a time
   bool resume = false;              ///< keep results whose program, arguments and files are the same as now
+  bool replace =
+      false;  ///< remove all runs and tables of an earlier batch first, also those that are not in the plan
   std::vector<std::string> environment{};  ///< "NAME=value"s that each process is given beside ours
   std::function<void(std::size_t done)> progress{};
   std::function<bool()> stop{};  ///< true: ends what runs and returns what there is

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "host/error_text.hpp"
 
@@ -129,7 +130,7 @@ void Driver::check_settings(std::span<const DriverSetting> settings) const {
     std::string names;
     for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
     throw Error(
-        ErrorCode::kBadInput,
+        wrong_value_at(setting.where),
         fmt::format("driver `{}` has no setting `{}`{}; it has: {}", info().id, printable(setting.key),
                     suggestion(setting.key, known), names.empty() ? "none" : names),
         setting.where);

@@ -46,7 +46,7 @@ class Driver {
   const DriverInfo& info() const { return *found_.info; }
   const std::filesystem::path& file() const { return found_.library->file(); }
 
-  /// Throws Error{kBadInput} where a key is none of info().settings, with a suggestion.
+  /// Throws Error{wrong_value_at(its place)} where a key is none of info().settings, with a suggestion.
   void check_settings(std::span<const DriverSetting> settings) const;
   /// Opens the robot.
   /// @param folder  that relative file names in settings are relative to

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "host/c_sensor.hpp"
 #include "host/error_text.hpp"
@@ -196,7 +197,7 @@ void Plugin::set_parameter(std::string_view name, std::string_view value, const 
   if (found == parameters_.end()) {
     std::vector<std::string> names;
     for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
-    throw Error(ErrorCode::kBadInput,
+    throw Error(wrong_value_at(where),
                 fmt::format("plugin `{}` has no parameter `{}`{}; it has: {}", info().id, printable(name),
                             suggestion(name, names),
                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))),
@@ -211,7 +212,8 @@ void Plugin::set_parameter(std::string_view name, std::string_view value, const 
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kBadInput && error.code() != ErrorCode::kIo) throw;
-    throw Error(error.code(), fmt::format("plugin `{}`: {}", info().id, error.message()), where);
+    throw Error(error.code() == ErrorCode::kIo ? ErrorCode::kIo : wrong_value_at(where),
+                fmt::format("plugin `{}`: {}", info().id, error.message()), where);
   }
 }
 

@@ -73,8 +73,8 @@ Parameter read_parameter(ByteReader& reader) {
 
 /// What a plugin's process may say of what went wrong.
 ErrorCode code_of(std::uint32_t number) {
-  for (const ErrorCode code :
-       {ErrorCode::kBadInput, ErrorCode::kIo, ErrorCode::kPluginLoad, ErrorCode::kPluginFault}) {
+  for (const ErrorCode code : {ErrorCode::kUsage, ErrorCode::kBadInput, ErrorCode::kIo,
+                               ErrorCode::kPluginLoad, ErrorCode::kPluginFault}) {
     if (number == static_cast<std::uint32_t>(code)) return code;
   }
   throw BadBytes{"an error of an unknown kind"};

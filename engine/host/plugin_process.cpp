@@ -148,6 +148,10 @@ HostChannel::Answer PluginProcess::await(Request request) {
   }
 }
 
+std::chrono::milliseconds PluginProcess::limit_of(Request request) const {
+  return request == Request::kReport ? isolation_.report_time() : isolation_.call_time;
+}
+
 void PluginProcess::supervise(Request request) {
   read_log();
   read_output();
@@ -157,7 +161,7 @@ void PluginProcess::supervise(Request request) {
     return;  // it answered before it ended
   }
   if (now >= next_check_) check_use(request);
-  if (now - call_begin_ >= isolation_.call_time) fail_timeout(request);
+  if (now - call_begin_ >= limit_of(request)) fail_timeout(request);
 }
 
 void PluginProcess::check_use(Request request) {
@@ -197,7 +201,7 @@ void PluginProcess::fail_timeout(Request request) {
   while (channel_.crash().complete == 0 && Clock::now() < end) std::this_thread::sleep_for(1ms);
   fail(request, {.what = Misdeed::kTimeout},
        fmt::format("did not return within {} s",
-                   format_double(std::chrono::duration<double>(isolation_.call_time).count())));
+                   format_double(std::chrono::duration<double>(limit_of(request)).count())));
 }
 
 void PluginProcess::fail_protocol(Request request, const std::string& what) {

@@ -67,6 +67,7 @@ class PluginProcess {
 
   void read_output();
   void read_log();
+  std::chrono::milliseconds limit_of(Request request) const;
   void supervise(Request request);
   void check_use(Request request);
   [[noreturn]] void fail_ended(Request request);

@@ -66,7 +66,7 @@ class Stage {
   virtual std::string parameter_text(std::size_t index) = 0;
   /// Whether the plugin has taken the present value of parameter `index` from a sensor's description; false without hw.params/2.
   virtual bool parameter_is_from_sensor(std::size_t index) = 0;
-  /// Sets a parameter; only before activate(). Throws Error{kBadInput} at `where`: unknown name (with a
+  /// Sets a parameter; only before activate(). Throws Error{wrong_value_at(where)} at `where`: unknown name (with a
   /// suggestion), not a value of its type, outside of its range, a path that text_parameter_value() refuses, or refused by the plugin.
   virtual void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) = 0;
 

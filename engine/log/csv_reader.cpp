@@ -66,12 +66,14 @@ void CsvReader::refuse_misspelt(std::string_view name) const {
 }
 
 std::string CsvReader::column_names() const {
-  std::string names;
+  std::string needed;
+  std::string optional;
   for (const CsvColumn& column : columns_) {
+    std::string& names = column.required ? needed : optional;
     if (!names.empty()) names += ',';
     names += column.name;
   }
-  return names;
+  return optional.empty() ? needed : needed + " (optional: " + optional + ")";
 }
 
 bool CsvReader::next() {

@@ -110,7 +110,7 @@ void add_blocked_paths(std::vector<Finding>& findings, const map::Document& docu
       std::string text =
           fmt::format("path \"{}\" passes through a wall from {:.2f} m to {:.2f} m along it, at {}",
                       printable(*name), first->from_m, first->to_m, place_text(first->at));
-      if (count > 1) text += fmt::format(", and {} more times", count - 1);
+      if (count > 1) text += count == 2 ? ", and once more" : fmt::format(", and {} more times", count - 1);
       findings.push_back({Severity::kError, where_of(document, static_cast<int>(i), entity.line), text,
                           "path-through-wall"});
     } catch (const Error&) {
@@ -169,6 +169,51 @@ void add_unreachable_waypoints(std::vector<Finding>& findings, const map::Docume
   }
 }
 
+/// Whether there is room before a face of an opening: in front of a part of it, for furniture may stand there too.
+bool is_free_before(const bsp::Tree& tree, const map::SolidFace& face) {
+  constexpr double kBefore_m = 0.01;
+  const auto& corners = face.polygon.vertices;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& corner : corners) middle += corner / static_cast<double>(corners.size());
+  const Vec3 before = kBefore_m * face.polygon.plane.normal;
+  const auto is_empty = [&](const Vec3& point) {
+    return tree.leaves[bsp::leaf_at(tree, point)].content == bsp::Content::kEmpty;
+  };
+  if (is_empty(middle + before)) return true;
+  return std::ranges::any_of(corners,
+                             [&](const Vec3& corner) { return is_empty((middle + corner) / 2.0 + before); });
+}
+
+/// Doors and windows of the editor that end in solid, such as where another wall stands behind the one that they are in. They lead
+/// through if there is room before two faces that look away from each other.
+void add_blocked_openings(std::vector<Finding>& findings, const map::Document& document,
+                          const world::CompiledWorld& world) {
+  constexpr double kUpright = 1e-6;
+  for (const map::Solid& solid : world.brushes.solids) {
+    const map::Entity& entity = document.entities[static_cast<std::size_t>(solid.entity)];
+    const std::string* made = entity.find("_hw_made");
+    if (entity.classname() != "hw_subtract" || made == nullptr) continue;
+    const std::string kind = made->substr(0, made->find(' '));
+    if (kind != "door" && kind != "window") continue;
+    std::vector<const map::SolidFace*> open;
+    for (const map::SolidFace& face : solid.faces) {
+      const bool upright = std::abs(face.polygon.plane.normal.z()) < kUpright;
+      if (upright && is_free_before(world.partition.tree, face)) open.push_back(&face);
+    }
+    const bool leads_through = std::ranges::any_of(open, [&](const auto* one) {
+      return std::ranges::any_of(open, [&](const auto* other) {
+        return one->polygon.plane.normal.dot(other->polygon.plane.normal) < 0.0;
+      });
+    });
+    if (leads_through) continue;
+    const Vec3 middle = (solid.box.min() + solid.box.max()) / 2.0;
+    findings.push_back(
+        {Severity::kWarning, where_of(document, solid.entity, entity.line),
+         fmt::format("the {} at {} leads nowhere: there is solid behind it", kind, place_text(middle)),
+         "blocked-opening"});
+  }
+}
+
 /// Compiles the map, if its entities let it, and adds what shows then.
 void add_world_findings(std::vector<Finding>& findings, const map::Document& document) {
   world::Settings settings;
@@ -186,6 +231,7 @@ void add_world_findings(std::vector<Finding>& findings, const map::Document& doc
   add_occupants_in_solid(findings, document, world);
   add_blocked_paths(findings, document, world);
   add_unreachable_waypoints(findings, document, world);
+  add_blocked_openings(findings, document, world);
   add_leak(findings, document, world);
 }
 

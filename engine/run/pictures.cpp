@@ -68,8 +68,10 @@ void add_paths(render::Picture& picture, const Record& record, const sim::Pictur
                                  .width_px = 1.8,
                                  .dashed = false,
                                  .label = path_label(record)});
-    picture.labels.push_back(
-        {.position = T_world_map * vector_of(record.trajectory.front().position_m), .text = "start"});
+    // Where the estimate has diverged it does not begin where the robot did.
+    const Vec3 start = record.truth.empty() ? T_world_map * vector_of(record.trajectory.front().position_m)
+                                            : vector_of(record.truth.front().position_m);
+    picture.labels.push_back({.position = start, .text = "start"});
   }
 }
 
@@ -141,7 +143,7 @@ std::string subtitle_of(const Record& record) {
   const auto positions = metrics.find("position_rmse_m");
   if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number())
     text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
-  const std::string landmarks = coverage_text(metrics, "landmarks", "of landmarks mapped");
+  const std::string landmarks = coverage_text(metrics, "landmarks", "of the seen landmarks mapped");
   const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
   text += landmarks;
   if (landmarks.empty() && mapped.is_number() && mapped.get<std::uint64_t>() > 0)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "base/toml_reader.hpp"
 #include "host/plugin_table.hpp"
@@ -61,7 +62,7 @@ std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wan
   if (hint.empty() && key.find('.') == std::string::npos)
     hint = "; a parameter of one of the plugins is PLUGIN.KEY";
   throw Error(ErrorCode::kUsage, "the scenario has no such setting" + hint,
-              {.file = "command line", .element = "key `" + printable(key) + "`"});
+              {.file = kCommandLine, .element = "key `" + printable(key) + "`"});
 }
 
 void set_robot(TomlTable& scenario, const std::string& key, TomlNode value) {

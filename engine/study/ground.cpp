@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/origin.hpp"
 #include "base/text.hpp"
 #include "host/plugin_table.hpp"
 #include "import/victoria_park.hpp"
@@ -132,7 +133,7 @@ class ParkGround : public Ground {
   std::vector<host::StageSpec> stages(const PluginChoice& plugin) const override {
     host::StageSpec stage{plugin.plugin, {}};
     for (const auto& [name, value] : plugin.parameters)
-      stage.parameters.push_back({name, value, {.file = "command line"}});
+      stage.parameters.push_back({name, value, {.file = kCommandLine}});
     return {stage};
   }
 

@@ -32,7 +32,7 @@ class Batch : public testing::Test {
     return world_.folder().write(name, "schema = \"hallway.batch/1\"\nscenarios = [\"small.toml\"]\n" + text);
   }
   std::vector<std::string> arguments(const std::string& plan, const std::string& out = "batch") const {
-    return {"batch", plan, "--quiet", "--out", world_.out(out)};
+    return {"batch", plan, "--quiet", "--force", "--out", world_.out(out)};
   }
   Ended batch(const std::string& plan, const std::vector<std::string>& more = {},
               const std::string& out = "batch") const {

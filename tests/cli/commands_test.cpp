@@ -117,10 +117,34 @@ TEST(Commands, HelpIsWhatTheOptionPrints) {
   EXPECT_NE(wrong.err.find("did you mean \"ray\"?"), std::string::npos) << wrong.err;
 }
 
+TEST(Commands, HelpOfAnUnknownCommandIsWrongAsDataToo) {
+  const Ended wrong = hallway({"help", "nope", "--json"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(Json::parse(wrong.out).at("schema"), "hallway.error/1") << wrong.out;
+}
+
+/// `--out "$UNSET"` is a mistake, not a run without --out.
+TEST(Commands, AnEmptyValueIsWrongUse) {
+  for (const char* option : {"--out", "--plugin", "--set", "--plugin-path"}) {
+    const Ended ended = hallway({"run", "maps/office.toml", option, ""});
+    EXPECT_EQ(ended.status, 2) << option;
+    EXPECT_NE(ended.err.find("empty"), std::string::npos) << ended.err;
+  }
+}
+
+TEST(Commands, ASeedOutOfRangeIsToldAsSuch) {
+  for (const char* seed : {"-1", "9223372036854775808", "18446744073709551616"}) {
+    const Ended ended = hallway({"run", "maps/office.toml", "--seed", seed});
+    EXPECT_EQ(ended.status, 2) << seed;
+    EXPECT_NE(ended.err.find("not in range"), std::string::npos) << ended.err;
+  }
+}
+
 TEST(Commands, MisspeltOptionsAreCorrected) {
   const Ended ended = hallway({"run", "maps/office.toml", "--plugn", "x"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_NE(ended.err.find("did you mean \"--plugin\"?"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("not expected: --plugn x (did you mean \"--plugin\"?)"), std::string::npos)
+      << ended.err;
 }
 
 // ---- one syntax -----------------------------------------------------------------------------------------------------

@@ -117,12 +117,36 @@ TEST(Compare, WhatCannotRunLeavesAnEarlierComparisonAsItIs) {
   EXPECT_NE(unknown.status, 0);
   EXPECT_NE(unknown.err.find("slam_pint"), std::string::npos) << "--quiet hides no failure";
   EXPECT_EQ(read_file(fs::path(world.out("compared")) / "results.csv"), before);
+  EXPECT_TRUE(fs::exists(fs::path(world.out("compared")) / "cells" / "small" / "run.json")) << "its runs";
+  for (const auto& entry : fs::directory_iterator(fs::path(world.out()).parent_path()))
+    EXPECT_EQ(entry.path().string().find(".part-"), std::string::npos) << entry.path();
   const Ended fresh = compare(world, world.scenario(), {"--plugin", "slam_point:noise_m="}, "fresh");
   EXPECT_NE(fresh.status, 0);
   EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--steps", "5"}, "fresh").status, 0)
       << "a failed one is no earlier comparison";
   ASSERT_EQ(world.run({"--steps", "5"}, "run").status, 0);
   EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--force"}, "run").status, 3);
+  const std::string cell = world.out("compared") + "/cells/small";
+  EXPECT_EQ(compare(world, cell, {"--plugin", "slam_point", "--force"}).status, 2) << "what it reads would go";
+}
+
+/// In each run one plugin is alone, and yet it is not known whose parameter was meant.
+TEST(Settings, AParameterOfOneOfSeveralPluginsNamesIt) {
+  const SmallWorld world;
+  const Ended bare =
+      compare(world, world.scenario(), {"--plugin", "slam_point", "--plugin", "icp", "--set", "noise_m=0.1"});
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_NE(bare.err.find("which plugin's"), std::string::npos) << bare.err;
+  EXPECT_EQ(hallway({"study", "straight", "--quick", "--plugin", "slam_point", "--plugin", "icp", "--set",
+                     "noise_m=0.1", "--out", world.out("study")})
+                .status,
+            2);
+  EXPECT_EQ(compare(world, world.scenario(),
+                    {"--plugin", "slam_point", "--plugin", "slam_point:mode=thesis", "--steps", "5", "--set",
+                     "noise_m=0.1"})
+                .status,
+            0)
+      << "one plugin, twice";
 }
 
 TEST(Settings, AParameterHasOneValue) {

@@ -102,6 +102,19 @@ TEST(Compile, LeakIsStatusOneWithOccupantWayAndOpening) {
   EXPECT_EQ(document.at("points_file"), (folder.path() / "rooms.pts").string());
 }
 
+/// A name beside the map may be of something else.
+TEST(Compile, AFileThatIsNoLeakPathStays) {
+  const TempFolder folder;
+  const std::string text = "1,2,3 my survey points\n";
+  for (const std::string& map : {two_rooms(), two_rooms(hole())}) {
+    const fs::path points = folder.write("rooms.pts", text);
+    const Ended ended = compile(folder.write("rooms.map", map), {"--json"});
+    EXPECT_EQ(read_file(points), text);
+    EXPECT_EQ(Json::parse(ended.out).at("points_file"), nullptr);
+    EXPECT_EQ(ended.err.find("holds something else") != std::string::npos, ended.status == 1) << ended.err;
+  }
+}
+
 TEST(Compile, LeakTextSaysTheSame) {
   const TempFolder folder;
   const Ended ended = compile(folder.write("rooms.map", two_rooms(hole())));

@@ -45,6 +45,14 @@ TEST_F(Edit, OneCommandAShell) {
   EXPECT_NE(text(), empty);
 }
 
+/// A misspelt name would look like a map in which nothing is wrong.
+TEST_F(Edit, LookingAtAMapThatIsNotThereSaysSo) {
+  EXPECT_NE(edit({"validate"}).err.find("is not there"), std::string::npos);
+  EXPECT_EQ(edit({"help"}).err, "");
+  EXPECT_EQ(edit({"new"}).err, "");
+  EXPECT_EQ(edit({"validate"}).err.find("is not there"), std::string::npos);
+}
+
 TEST_F(Edit, ARefusalIsStatus2AndSaysWhatWouldBeRight) {
   edit({"new"});
   edit({"entity", "light", "at", "1,2,2.5", "targetname=lamp"});

@@ -153,8 +153,28 @@ TEST(Replay, UnknownParameterIsNamedWithTheNearest) {
   const SmallWorld world;
   const auto log = world.folder().write("obs.csv", "iteration,x,y,z\n0,1,2,3\n");
   expect_failure(
-      hallway({"replay", log, "--plugin", "slam_point", "--set", "noize_m=1", "--out", world.out()}), 3,
+      hallway({"replay", log, "--plugin", "slam_point", "--set", "noize_m=1", "--out", world.out()}), 2,
       {"noize_m", "noise_m"});
+}
+
+/// Of the same value, a file is bad input and the command line is wrong usage; isolated plugins and those in the process agree.
+TEST(Parameter, WrongValueOfTheCommandLineIsAUsageError) {
+  const SmallWorld world;
+  const auto log = world.folder().write("obs.csv", "iteration,x,y,z\n0,1,2,3\n");
+  for (const char* value : {"noise_m=-5", "noise_m=many", "mode=thesys", "no_such=1"}) {
+    SCOPED_TRACE(value);
+    const std::string of_plugin = std::string("slam_point.") + value;
+    const std::string argument = std::string("slam_point:") + value;
+    EXPECT_EQ(world.run({"--set", of_plugin}).status, 2);
+    EXPECT_EQ(world.run({"--set", of_plugin, "--in-process"}).status, 2);
+    EXPECT_EQ(world.run({"--plugin", argument}).status, 2);
+    EXPECT_EQ(hallway({"replay", log, "--plugin", argument, "--out", world.out()}).status, 2);
+    EXPECT_EQ(hallway({"replay", log, "--plugin", "slam_point", "--set", value, "--out", world.out()}).status,
+              2);
+  }
+  world.folder().write("small.toml",
+                       replaced(small_scenario(), "[[plugin]]", "[[plugin]]\nparams = { noise_m = -5 }"));
+  expect_failure(world.run(), 3, {"small.toml:", "noise_m"});
 }
 
 TEST(Text, EscapesFromFilesAreNotEchoed) {

@@ -57,6 +57,49 @@ TEST(OutputFolder, EarlierRunStaysWithoutForce) {
   EXPECT_EQ(read_file(fs::path(world.out()) / "run.json"), before);
 }
 
+/// What the commands that write several files leave, without the facts of the clock.
+TEST(OutputFolder, EarlierResultsStayWithoutForce) {
+  const SmallWorld world;
+  const std::string cloud = world.folder().write("cloud.csv", "x,y,z\n0,0,1\n1,0,1\n0,1,1\n");
+  const std::string plan = world.folder().write(
+      "plan.toml", "schema = \"hallway.batch/1\"\nscenarios = [\"small.toml\"]\nsteps = 5\n");
+  ASSERT_EQ(world.run({"--quiet", "--steps", "5"}, "a_run").status, 0);
+  struct Writer {
+    std::vector<std::string> command;
+    std::string document;
+  };
+  for (const Writer& writer :
+       {Writer{{"batch", plan}, "results.json"},
+        Writer{{"compare", world.scenario(), "--plugin", "slam_point", "--steps", "5"}, "results.json"},
+        Writer{{"planes", cloud, "--plugin", "em"}, "planes.json"},
+        Writer{{"bench-em", "--plugin", "em", "--scenes", "1", "--points", "300..300", "--planes", "3..3",
+                "--pictures", "0"},
+               "results.json"}}) {
+    SCOPED_TRACE(writer.command.front());
+    const auto with = [&](const std::string& out, std::vector<std::string> more) {
+      std::vector<std::string> all = writer.command;
+      all.insert(all.end(), {"--quiet", "--out", world.out(out)});
+      all.insert(all.end(), more.begin(), more.end());
+      return hallway(all);
+    };
+    const std::string out = writer.command.front();
+    ASSERT_EQ(with(out, {}).status, 0);
+    const fs::path document = fs::path(world.out(out)) / writer.document;
+    const std::string before = read_file(document);
+    const Ended again = with(out, {});
+    EXPECT_EQ(again.status, 3);
+    EXPECT_NE(again.err.find("--force"), std::string::npos) << again.err;
+    EXPECT_EQ(read_file(document), before);
+    EXPECT_EQ(with(out, {"--force"}).status, 0);
+
+    const std::set<std::string> run = names_in(world.out("a_run"));
+    const Ended into_run = with("a_run", {"--force"});
+    EXPECT_EQ(into_run.status, 3);
+    EXPECT_NE(into_run.err.find("folder of a run"), std::string::npos) << into_run.err;
+    EXPECT_EQ(names_in(world.out("a_run")), run);
+  }
+}
+
 TEST(OutputFolder, ForceReplacesAnEarlierRunWhole) {
   const SmallWorld world;
   ASSERT_EQ(world.run({"--quiet"}).status, 0);

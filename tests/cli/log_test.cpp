@@ -267,6 +267,17 @@ TEST_F(Log, NoCommandReplacesWhatItReads) {
   const std::string before = read_file(run_folder() / "metrics.json"), bytes = read_file(log());
   const std::string folder = run_folder().string();
   EXPECT_EQ(hallway({"log", "convert", log(), "--out", folder, "--force"}).status, 2);
+  for (const std::string& input : {log(), folder, folder + "/observations.csv"}) {
+    EXPECT_EQ(hallway({"log", "convert", input, "--out", log(), "--force"}).status,
+              input.ends_with(".csv") ? 0 : 2)
+        << input;
+    if (input.ends_with(".csv")) write_file_atomically(log(), bytes);  // that one is not read
+  }
+  EXPECT_EQ(hallway({"log", "convert", log(), "--foxglove", "--out", log(), "--force"}).status, 2);
+  EXPECT_EQ(hallway({"log", "convert", folder + "/observations.csv", "--truth-poses",
+                     folder + "/truth_poses.csv", "--out", folder + "/truth_poses.csv", "--force"})
+                .status,
+            2);
   EXPECT_EQ(hallway({"replay", log(), "--steps", "2", "--out", folder, "--force"}).status, 2);
   EXPECT_EQ(hallway({"replay", folder, "--steps", "2", "--out",
                      folder + "/../" + run_folder().filename().string(), "--force"})

@@ -145,7 +145,7 @@ TEST(Planes, WhatCannotBeDoneIsSaidByTheStatus) {
   EXPECT_EQ(status(cloud, "slam_point"), 3) << "finds no planes";
   EXPECT_EQ(status(cloud, "no_such_plugin"), 4);
   EXPECT_EQ(status(cloud, levels() + ":fault=throws"), 5);
-  EXPECT_EQ(status(cloud, levels() + ":no_such=1"), 3);
+  EXPECT_EQ(status(cloud, levels() + ":no_such=1"), 2);
   EXPECT_EQ(status(cloud, levels() + ":"), 2);
   EXPECT_EQ(status(folder.write("empty.csv", "x,y,z\n"), levels()), 0);
   const Ended ended = hallway({"planes", folder / "none.csv", "--plugin", levels(), "--json"});

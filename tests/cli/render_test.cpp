@@ -101,6 +101,14 @@ TEST(Render, FolderThatIsNoRun) {
   EXPECT_NE(ended.err.find("run.json"), std::string::npos) << ended.err;
 }
 
+/// What a newcomer gives first is told as what it is, not as a defective map.
+TEST(Render, AScenarioIsNoMap) {
+  const SmallWorld world;
+  const Ended ended = render(world, world.scenario());
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("neither a map nor the folder of a run"), std::string::npos) << ended.err;
+}
+
 TEST(Render, EmptyFileIsNoMap) {
   const SmallWorld world;
   const Ended ended = render(world, world.folder().write("empty.map", ""));

@@ -224,6 +224,7 @@ TEST(Renderer, UnknownNameIsRefused) {
       arguments.insert(arguments.begin() + (command[0] == "map" ? 2 : 1), {"--renderer", name});
       const Ended ended = hallway(arguments, world.folder().path(), environment());
       EXPECT_EQ(ended.status, 2) << command[0] << ended.err;
+      if (*name == '\0') continue;  // "the value is empty"
       for (const char* known : {"auto", "osmesa", "egl"})
         EXPECT_NE(ended.err.find(known), std::string::npos) << ended.err;
     }

@@ -102,10 +102,23 @@ TEST(Study, RefusesWhatItCannotDo) {
   EXPECT_EQ(hallway({"study", "figure-nine"}).status, 2);
   EXPECT_EQ(tiny("straight", out, {"--seeds", "0"}).status, 2);
   EXPECT_EQ(tiny("straight", out, {"--plugin", "slam_point:noise_m=1:x"}).status, 2);
-  EXPECT_EQ(tiny("straight", out, {"--plugin", "slam_point:nois_m=1"}).status, 3);
+  EXPECT_EQ(tiny("straight", out, {"--plugin", "slam_point:nois_m=1"}).status, 2);
+  EXPECT_EQ(tiny("straight", out, {"--set", "nois_m=1"}).status, 2);
+  EXPECT_EQ(tiny("straight", out, {"--set", "slam_plane.noise_m=1"}).status, 2);
   EXPECT_EQ(tiny("straight", out, {"--plugin", "no_such_plugin"}).status, 4);
   EXPECT_EQ(tiny("straight", out, {"--maps", folder.path() / "nowhere"}).status, 3);
   EXPECT_EQ(tiny("victoria-park", out, {"--data", folder.path() / "nowhere"}).status, 3);
+}
+
+TEST(Study, ASettingIsAParameterOfEveryPluginThatItNames) {
+  const TempFolder folder;
+  ASSERT_EQ(tiny("stationary", folder.path() / "a", {"--plugin", "slam_point:noise_m=0.2"}).status, 0);
+  ASSERT_EQ(
+      tiny("stationary", folder.path() / "b", {"--plugin", "slam_point", "--set", "slam_point.noise_m=0.2"})
+          .status,
+      0);
+  Json a = read_json(folder.path() / "a/study.json"), b = read_json(folder.path() / "b/study.json");
+  EXPECT_EQ(a.at("tables").at("findings"), b.at("tables").at("findings"));
 }
 
 TEST(Study, ReplacesAnEarlierOneOnlyWhenItIsTold) {

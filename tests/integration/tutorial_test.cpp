@@ -41,6 +41,7 @@ std::vector<std::string> commands_of(const std::string& page) {
 std::string indented_after(const std::string& page, const std::string& words) {
   std::string text;
   for (const std::string_view line : split(std::string_view(page).substr(page.find(words)), '\n')) {
+    if (!line.empty() && !line.starts_with("    ") && !text.empty()) break;
     if (line.starts_with("    ")) text += std::string(line.substr(4)) + "\n";
     if (line.empty() && !text.empty()) text += "\n";
   }
@@ -124,7 +125,8 @@ TEST_F(Tutorial, LooksAsThePageShowsIt) {
 }
 
 TEST_F(Tutorial, ARobotDrivesThroughIt) {
-  const fs::path scenario = folder->write("flat.toml", indented_after(page, "A robot drives the path"));
+  const fs::path scenario =
+      folder->write("flat.toml", indented_after(page, "A scenario makes a robot drive the path"));
   const auto run = test::hallway({"run", scenario, "--out", *folder / "run"}, folder->path());
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err.find("stopped"), std::string::npos) << run.err;

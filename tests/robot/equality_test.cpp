@@ -2,6 +2,7 @@
 // The same frames give the same bytes in every host.
 #include <gtest/gtest.h>
 
+#include "cli/batch_results.hpp"
 #include "cli/small_world.hpp"
 #include "log/commands.hpp"
 #include "robot/robot_world.hpp"
@@ -54,6 +55,16 @@ TEST_P(RecordedRobot, WritesWhatRunAndReplayWrite) {
             0);
   expect_same_tables(on_robot, world_.out("again"));
   EXPECT_GT(fs::file_size(on_robot / "trajectory.tum"), 0u);
+}
+
+/// "mapped" is the same in every program: landmarks that are still temporary, or that move, are not.
+TEST_P(RecordedRobot, CountsTheLandmarksThatAreMapped) {
+  const Ended ended = hallway_robot({"run", config_, "--out", world_.out("counted"), "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  int mapped = 0;
+  for (const auto& row : read_csv(fs::path(world_.out("counted")) / "landmarks.csv"))
+    mapped += row.at(5) == "mapped" ? 1 : 0;
+  EXPECT_EQ(Json::parse(ended.out).at("landmarks"), mapped);
 }
 
 TEST_P(RecordedRobot, IsTheSameInThisProcess) {

@@ -68,6 +68,7 @@ TEST(ReadPlan, RefusesWhatIsWrongWithItsLine) {
         Wrong{"name = \"top\"", "name = \"../top\"", "other letters"},
         Wrong{"lost_iterations.most = 0", "lost_iterations.most = \"none\"", "not a number"},
         Wrong{"lost_iterations.most = 0", "lost_iterations = 0", "not a table"},
+        Wrong{"lost_iterations.most = 0", "lost_iterations.mots = 0", "did you mean \"most\""},
         Wrong{"lost_iterations.most = 0", "lost_iterations = {}", "neither"},
         Wrong{"steps = 100", "steps = \"ten\"", "`steps`"}, Wrong{"steps = 100", "steps = [1, 2]", "`steps`"},
         Wrong{"steps = 100", "steps = = 100", ""}}) {

@@ -134,6 +134,19 @@ TEST_F(RunnerTest, WhatAnEarlierBatchLeftIsNotTakenForAResult) {
   for (const std::string& name : foreign) EXPECT_TRUE(fs::exists(folder_ / "batch" / "cells" / name)) << name;
 }
 
+TEST_F(RunnerTest, ReplacingRemovesTheRunsOfAnotherPlan) {
+  run_cells(plan_of({"a", "b"}), setup());
+  folder_.write("batch/results.json", "{}");
+  folder_.write("batch/notes.txt", "mine");
+  RunnerSetup replacing = setup();
+  replacing.replace = true;
+  run_cells(plan_of({"c"}), replacing);
+  EXPECT_FALSE(fs::exists(folder_ / "batch" / "cells" / "cell_a.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "batch" / "cells" / "cell_c.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "batch" / "results.json")) << "the table of another plan";
+  EXPECT_TRUE(fs::exists(folder_ / "batch" / "notes.txt"));
+}
+
 TEST_F(RunnerTest, IsStoppedWithWhatIsDone) {
   RunnerSetup stopping = setup(1);
   std::size_t done = 0;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/random.hpp"
 #include "bsp/point_location.hpp"
@@ -37,6 +38,28 @@ class CutCommands : public testing::Test {
 
   Editing editing;
 };
+
+/// Two rooms with a wall each leave a niche, of which nothing else says that it is none.
+TEST_F(CutCommands, AnOpeningThatLeadsNowhereIsFound) {
+  const auto blocked = [&] {
+    const std::string text = fmt::format("{}", fmt::join(editing.run("validate").lines, "\n"));
+    std::size_t count = 0;
+    for (std::size_t at = text.find("leads nowhere"); at != std::string::npos;
+         at = text.find("leads nowhere", at + 1))
+      ++count;
+    return count;
+  };
+  editing.run_all({"room from 0,0 to 6,4 name=kitchen", "room from 6.3,0 to 10,4 name=hall",
+                   "room from 0,4.15 to 6,8 name=store", "window in kitchen side=west at 2 pane=glass",
+                   "door in kitchen side=north at 2 leaf=oak open=30", "door in kitchen side=south at 2",
+                   "arc centre=20,0 radius=3 from=0 to=90 name=bow", "door in bow at 2",
+                   "wall from 12,1 to 15,5 name=slanted", "door in slanted at 2 width 0.9"});
+  EXPECT_EQ(blocked(), 0u) << "to the outside, to a room behind one wall, in walls of any direction";
+  editing.run("door in kitchen side=east at 2");
+  EXPECT_EQ(blocked(), 1u);
+  editing.run("door in hall side=west at 2");
+  EXPECT_EQ(blocked(), 0u) << "both walls are open";
+}
 
 TEST_F(CutCommands, ADoorIsWhereItIsSaidToBe) {
   editing.run_all(

@@ -76,6 +76,16 @@ void expect_same(const Outputs& a, const Outputs& b) {
   }
 }
 
+TEST(IsolatedPlugin, AReportMayTakeTenCallsAndAMinuteAtMost) {
+  const auto report_s = [](int call_s) {
+    return Isolation{.call_time = std::chrono::seconds(call_s)}.report_time().count() / 1000;
+  };
+  EXPECT_EQ(report_s(2), 20);
+  EXPECT_EQ(report_s(10), 60);
+  EXPECT_EQ(report_s(60), 60);
+  EXPECT_EQ(report_s(600), 600);
+}
+
 TEST(IsolatedPlugin, GivesTheSameBitsAsInThisProcess) {
   const auto here = in_process(kSlamPoint);
   const auto there = isolated(kSlamPoint);

@@ -60,14 +60,14 @@ TEST(CsvReader, CountsBlankLinesInErrors) {
 }
 
 TEST(CsvReader, RefusesAnEmptyFileSayingWhatIsNeeded) {
-  const std::string expected = "the file is empty; a header is needed: first,second";
+  const std::string expected = "the file is empty; a header is needed: first (optional: second)";
   EXPECT_NE(failure("").find(expected), std::string::npos) << failure("");
   EXPECT_NE(failure(" \n\r\n").find(expected), std::string::npos) << failure(" \n\r\n");
 }
 
 TEST(CsvReader, RefusesAMissingColumn) {
   EXPECT_EQ(failure("second\n1\n"),
-            "t.csv:1: the header has no column \"first\"; needed: first,second; it is: second");
+            "t.csv:1: the header has no column \"first\"; needed: first (optional: second); it is: second");
 }
 
 TEST(CsvReader, RefusesARepeatedColumn) {

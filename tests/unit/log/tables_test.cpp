@@ -332,7 +332,8 @@ INSTANTIATE_TEST_SUITE_P(
     Tables, BadTables,
     testing::Values(
         BadTable{"pose_missing_column", poses, "iteration,x,y\n",
-                 "t.csv:1: the header has no column \"z\"; needed: iteration,x,y,z,qw,qx,qy,qz; it is: "
+                 "t.csv:1: the header has no column \"z\"; needed: iteration,x,y,z (optional: "
+                 "qw,qx,qy,qz); it is: "
                  "iteration,x,y"},
         BadTable{"pose_part_of_quaternion", poses, "iteration,x,y,z,qw,qx,qy\n",
                  "t.csv:1: the header has a part of the columns qw,qx,qy,qz; give all or none"},
@@ -359,10 +360,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"landmark_moving_twice", landmarks, "landmark_id,x,y,z,moving\n4,0,0,0,2\n",
                  "t.csv:2: column moving: a whole number from 0 to 1 is needed, \"2\" found"},
         BadTable{"landmark_cut_off", landmarks, kLandmarks + "5,1,1,1", kCutOff},
-        BadTable{
-            "map_given_as_truth", landmarks, kMap,
-            "t.csv:1: the header has no column \"landmark_id\"; needed: landmark_id,x,y,z,moving; it is: "
-            "id,x,y,z,observations,status"},
+        BadTable{"map_given_as_truth", landmarks, kMap,
+                 "t.csv:1: the header has no column \"landmark_id\"; needed: landmark_id,x,y,z (optional: "
+                 "moving); it is: "
+                 "id,x,y,z,observations,status"},
         BadTable{"map_twice", map_landmarks, kMap + "4,1,1,1,1,mapped\n",
                  "t.csv:3: landmark 4 stands here for the second time"},
         BadTable{
