@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -174,6 +175,15 @@ std::vector<std::string> candidates(const std::vector<std::string>& map_and_word
   return editor::completions(state, words, current);
 }
 
+/// One for all maps and shells of a user; empty where the environment does not say where files of a user are kept.
+std::string clipboard_file() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && fs::path(cache).is_absolute())
+    return fs::path(cache) / "hallway" / "clipboard.map";
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || !fs::path(home).is_absolute()) return {};
+  return fs::path(home) / ".cache" / "hallway" / "clipboard.map";
+}
+
 int edit(EditOptions options) {
   const auto json = std::find(options.words.begin(), options.words.end(), "--json");
   if (json != options.words.end()) {
@@ -193,6 +203,7 @@ int edit(EditOptions options) {
   const render::Renderer renderer = chosen_renderer(options.renderer);
   Session session(options.map);
   session.set_renderer(renderer);
+  session.set_clipboard(clipboard_file());
   show_notes(session);
   if (!options.words.empty()) return run_one(session, options);
   if (!options.script.empty())

@@ -76,6 +76,7 @@ int export_map(const ExportOptions& options) {
   check_format(options);
   check_output_file(options.out);
   CompiledMap compiled = compile_map({.file = options.map});
+  run::check_replaces_no_model(options.out, compiled.document, fs::absolute(options.map).parent_path());
   Written written;
   if (options.points) {
     written = write_points(options, compiled.document, compiled.world.brushes);

@@ -208,6 +208,9 @@ const Command& command_below(const Command& group, const std::string& name) {
   for (const auto& known : group.commands()) names.push_back(known->name());
   const std::string path = group.path();
   const std::size_t space = path.find(' ');
+  if (names.empty())
+    throw Error(ErrorCode::kUsage, fmt::format("`{}` has no command \"{}\"; `{} --help` says what it takes",
+                                               path, printable(name), path));
   throw Error(ErrorCode::kUsage,
               fmt::format("there is no command \"{}{}\"{}; there are: {}",
                           space == std::string::npos ? "" : path.substr(space + 1) + " ", printable(name),

@@ -116,10 +116,21 @@ struct Drawing {
   run::DrawOptions options;
 };
 
+/// An empty picture would look like an empty map.
+void warn_of_area(const Drawing& drawing, const world::CompiledWorld& world) {
+  const Box& bounds = world.partition.tree.bounds;
+  if (!drawing.options.area || bounds.isEmpty()) return;
+  const Eigen::AlignedBox2d ground(bounds.min().head<2>(), bounds.max().head<2>());
+  if (ground.intersects(*drawing.options.area)) return;
+  print_warning(fmt::format("--area shows no brush: they are between {:.1f},{:.1f} and {:.1f},{:.1f}",
+                            ground.min().x(), ground.min().y(), ground.max().x(), ground.max().y()));
+}
+
 std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
   MapRequest request{.file = options.input, .strict = options.strict};
   if (drawing.show.map.pvs_from_m) request.level = pvs::Level::kFull;
   CompiledMap compiled = compile_map(request);
+  warn_of_area(drawing, compiled.world);
   std::vector<render::Surface> meshes = model_faces(compiled, options.strict);
   const run::MapSubject subject{.world = compiled.world,
                                 .title = fs::path(options.input).stem().string(),
@@ -140,6 +151,7 @@ std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
+  if (record.world) warn_of_area(drawing, *record.world);
   return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.options);
 }
 

@@ -27,8 +27,7 @@ constexpr Row kRows[] = {
      "Plugin to run, an id or a .so file, and values of its parameters"},
     {Shared::kSet, "--set", "KEY=VALUE",
      "Set a plugin's parameter (slam_point.noise_m=0.1, or noise_m=0.1 where one plugin runs) or another "
-     "value of the "
-     "input file (sensor.eyes.noise_m=0.1)"},
+     "value of the input file (TABLE.KEY=VALUE)"},
     {Shared::kSetPlugin, "--set", "KEY=VALUE",
      "Set a plugin's parameter (slam_point.noise_m=0.1, or noise_m=0.1 where one plugin runs)"},
     {Shared::kSetScenario, "--set", "KEY=VALUE", "Set a value of the input file (sensor.eyes.noise_m=0.1)"},

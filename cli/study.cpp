@@ -2,6 +2,7 @@
 #include "study/study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -168,8 +169,18 @@ int run_study(const study::Study& study, const StudyOptions& options) {
   return report_plugin_failures(runs) ? exit_status(ErrorCode::kPluginFault) : 0;
 }
 
-void add_options(Command& command, StudyOptions& options) {
-  add_shared(command, Shared::kPlugin, &options.plugins).repeatable().fallback("slam_point");
+/// What runs without --plugin, for help.
+std::string default_plugins_text(const study::Study& study) {
+  std::vector<std::string> labels;
+  for (const study::PluginChoice& choice : study::default_plugins(study)) {
+    if (choice.parameters.size() > 1) return "slam_point, with parameters for these data";
+    labels.push_back(choice.label());
+  }
+  return fmt::format("{}", fmt::join(labels, ", and "));
+}
+
+void add_options(const study::Study& study, Command& command, StudyOptions& options) {
+  add_shared(command, Shared::kPlugin, &options.plugins).repeatable().fallback(default_plugins_text(study));
   add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
   add_plugin_path_option(command, options.plugin_path);
   command
@@ -199,7 +210,7 @@ void add_study_command(Command& app) {
   for (const study::Study& study : study::studies()) {
     Command& command = group.command(std::string(study.name), std::string(study.about));
     const auto options = std::make_shared<StudyOptions>();
-    add_options(command, *options);
+    add_options(study, command, *options);
     command.footer(
         fmt::format("Full size: {}. Corresponds to the thesis's figures {}.\n"
                     "Writes findings.csv, runs.csv, curves.csv, charts as SVG and PNG, and all of it as "

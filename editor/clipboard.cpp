@@ -213,7 +213,8 @@ class Copier {
 
 const std::string& clipboard_of(const Edit& edit) {
   if (edit.clipboard.empty())
-    throw Error(ErrorCode::kUsage, "there is no clipboard here: nothing says which file it is");
+    throw Error(ErrorCode::kUsage,
+                "there is no clipboard: neither XDG_CACHE_HOME nor HOME names a folder for its file");
   return edit.clipboard;
 }
 
@@ -272,7 +273,9 @@ void write_clipboard(const Edit& edit, const std::string& text) {
     *edit.held_clipboard = text;
     return;
   }
-  write_file_atomically(clipboard_of(edit), text);
+  const std::filesystem::path file = clipboard_of(edit);
+  if (file.has_parent_path()) make_folder(file.parent_path());
+  write_file_atomically(file, text);
 }
 
 State read_clipboard(const Edit& edit) {

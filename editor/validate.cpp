@@ -77,7 +77,8 @@ std::string unused_name(const State& state, const std::string& name) {
 }
 
 /// The command that mends what map::check() found in an entity.
-std::string entity_fix(const State& state, std::size_t e, const std::string& id) {
+std::string entity_fix(const State& state, std::size_t e, const map::Finding& finding) {
+  const std::string& id = finding.id;
   const EntityItem& entity = *state.entities[e];
   const map::EntitySpec* spec = map::find_entity_spec(entity.classname());
   if (id == "two-robot-starts" || id == "no-brushes" || id == "two-worldspawns")
@@ -105,6 +106,8 @@ std::string entity_fix(const State& state, std::size_t e, const std::string& id)
     for (const map::KeyValue& pair : entity.head->keys) {
       if (pair.key.starts_with('_') || std::find(known.begin(), known.end(), pair.key) != known.end())
         continue;
+      const bool is_meant = finding.message.starts_with("unknown key `" + printable(pair.key, 60) + "`");
+      if (!is_meant) continue;
       const auto name = nearest_name(pair.key, known);
       if (name && entity.head->find(*name) == nullptr)
         return key_command(entity.id, {{pair.key, ""}, {*name, pair.value}});
@@ -146,7 +149,7 @@ class Validator {
                   finding.where.line, finding.message,  {}};
       if (thing && thing->brush && finding.id == "bad-brush")
         fault.fix = fmt::format("delete #{}", fault.thing);
-      if (thing && !thing->brush) fault.fix = entity_fix(state_, thing->entity, finding.id);
+      if (thing && !thing->brush) fault.fix = entity_fix(state_, thing->entity, finding);
       if (finding.id == "start-off-path") fault.fix = start_fix();
       if (finding.id == "no-worldspawn") fault.fix = "";
       faults_.push_back(std::move(fault));
@@ -196,7 +199,9 @@ class Validator {
     const auto [first, is_new] = equal_.emplace(shape_of(entity, brush), thing);
     if (!is_new) {
       add(thing, "equal-brushes", Severity::kWarning,
-          fmt::format("it fills the same space as {}", describe(state_, first->second)), remove);
+          fmt::format("it fills the same space as {}, and hides it", describe(state_, first->second)),
+          fmt::format("delete #{}", id_of(state_, first->second)));
+      first->second = thing;
     }
   }
 
@@ -279,6 +284,14 @@ class Validator {
 };
 
 }  // namespace
+
+std::vector<std::string> fault_ids() {
+  std::vector<std::string> ids{"out-of-bounds", "sliver",         "no-material",  "equal-brushes",
+                               "missing-file",  "unknown-target", "unknown-group"};
+  for (const auto& more : {map::finding_ids(), run::world_finding_ids()})
+    ids.insert(ids.end(), more.begin(), more.end());
+  return ids;
+}
 
 std::vector<Fault> validate(const State& state, const std::string& file) {
   return Validator(state, file).run();

@@ -19,6 +19,9 @@ struct Fault {
   std::string fix{};  ///< a command as it would be typed; empty where only the author can know
 };
 
+/// Names of all faults that validate() can find.
+std::vector<std::string> fault_ids();
+
 /// Everything that is wrong: what `hallway map check` finds, and what an editor can see besides. Ordered by thing, id and message. A fix
 /// is made for the state as it is: apply one, and ask again. Throws nothing for what a map holds.
 std::vector<Fault> validate(const State& state, const std::string& file);

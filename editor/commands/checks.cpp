@@ -15,6 +15,7 @@
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
+#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 #include "editor/shown.hpp"
@@ -75,6 +76,11 @@ std::string line_of(const State& state, const Fault& fault) {
 
 std::vector<Fault> faults_of(const Edit& edit, const Arguments& arguments) {
   auto faults = validate(edit.state, edit.file);
+  if (arguments.has("id")) {
+    const std::vector<std::string> ids = fault_ids();
+    if (const std::string& id = arguments.text("id"); std::ranges::find(ids, id) == ids.end())
+      refuse(fmt::format("id: there is no finding \"{}\"{}", printable(id), suggestion(id, ids)));
+  }
   if (arguments.has("id"))
     std::erase_if(faults, [&](const Fault& fault) { return fault.id != arguments.text("id"); });
   return faults;

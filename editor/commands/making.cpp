@@ -246,6 +246,17 @@ bool may_overlap(const Box& box, const map::Brush& brush) {
   });
 }
 
+bool lies_within(const map::Brush& brush, const map::Brush& other) {
+  constexpr double kTouching = 1e-6;  // map units
+  const auto body = body_of(brush);
+  return body && std::ranges::all_of(other.faces, [&](const map::Face& face) {
+           const auto plane = plane_of(face);
+           return plane && std::ranges::all_of(body->vertices, [&](const Vec3& corner) {
+                    return plane->distance(corner) <= kTouching;
+                  });
+         });
+}
+
 bool overlap(const map::Brush& a, const map::Brush& b) {
   if (!may_overlap(bounds_of(a), b)) return false;
   constexpr double kThin = 1e-3;  // map units cubed; what rounding leaves between neighbours is no overlap

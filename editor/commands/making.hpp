@@ -56,6 +56,8 @@ bool may_overlap(const Box& box, const map::Brush& brush);
 
 /// Whether two brushes have a volume in common.
 bool overlap(const map::Brush& a, const map::Brush& b);
+/// Whether all of a brush lies in another one, or on its faces.
+bool lies_within(const map::Brush& brush, const map::Brush& other);
 
 /// Whether an entity is the cut of a door or window.
 bool is_opening(const EntityItem& entity);

@@ -500,7 +500,9 @@ constexpr std::array kMovesCommands{
     CommandSpec{.name = "copy",
                 .topic = kMovesTopic,
                 .summary = "put copies of things into the clipboard",
-                .details = "The clipboard is a file in the map format, for all maps and shells of a user.",
+                .details = "The clipboard is a file in the map format, for all maps and shells of a user: "
+                           "`hallway/clipboard.map` in $XDG_CACHE_HOME, or else in "
+                           "~/.cache.",
                 .arguments = kWhat,
                 .example = "copy table",
                 .before = kTable,

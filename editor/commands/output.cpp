@@ -128,6 +128,7 @@ void export_model(Edit& edit, const Arguments& arguments) {
         fmt::format("file: a model is a file that ends in .glb, .obj or .ply, not \"{}\"", printable(file)));
   }
   const map::Document document = document_of(edit.state, edit.file);
+  run::check_replaces_no_model(file, document, fs::absolute(edit.file).parent_path());
   world::Settings settings;
   settings.level.reset();
   mesh::Model model = run::surface_model(world::compile(document, settings), arguments.text("all") == "on");

@@ -164,6 +164,8 @@ Parts box_parts(const Edit& edit, const Arguments& arguments) {
   const std::string& material = arguments.text("material");
   if (corners) {
     const Box box = box_of(edit, arguments);
+    if (box.sizes().z() <= kTolerance)
+      refuse("box: `from` and `to` are at one height; give `to` three numbers, X,Y,Z, such as to 1,1,2.5");
     return {.added = {box_brush(box.min(), box.max(), material)}};
   }
   const Vec3& size = arguments.place("size");

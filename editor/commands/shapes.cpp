@@ -222,10 +222,26 @@ const Maker* maker_of(std::string_view command) {
   return found == kMakers.end() ? nullptr : &*found;
 }
 
-/// The parts of a shape with their place among the cuts. A room is a cut itself: its block comes first.
+/// Whether all of a room lies inside of one other room: then it would be cut away whole.
+bool is_inside_a_room(const State& state, const std::vector<map::Brush>& inside, const std::string& but_of) {
+  return std::ranges::any_of(state.entities, [&](const auto& entity) {
+    const std::string* group = entity->head->find("_tb_group");
+    if (entity->classname() != "hw_subtract" || is_opening(*entity)) return false;
+    if (!but_of.empty() && group != nullptr && *group == but_of) return false;
+    return std::ranges::any_of(entity->brushes, [&](const BrushItem& cut) {
+      return std::ranges::all_of(inside,
+                                 [&](const map::Brush& brush) { return lies_within(brush, *cut.brush); });
+    });
+  });
+}
+
+/// The parts of a shape with their place among the cuts. A room is a cut itself: its block comes first, but in another room.
 Parts parts_of(const Edit& edit, const Maker& maker, const Arguments& arguments, const std::string& group) {
   Parts parts = maker.make(edit, arguments);
-  if (parts.subtracted.empty()) parts.added_order = order_among_cuts(edit.state, parts.added, group);
+  const bool is_room = !parts.subtracted.empty();
+  if (!is_room || is_inside_a_room(edit.state, parts.subtracted, group))
+    parts.added_order = order_among_cuts(edit.state, parts.added, group);
+  if (is_room && parts.added_order != 0) parts.order = parts.added_order + 1;
   return parts;
 }
 
@@ -267,7 +283,7 @@ void make(Edit& edit, const Arguments& arguments) {
   Parts parts = parts_of(edit, *maker_of(kCommand), arguments, {});
   const int order = parts.added_order;
   const auto cuts = parts.subtracted;
-  if (!cuts.empty()) say_cut_away(edit, cuts, parts.order);
+  if (!cuts.empty() && order == 0) say_cut_away(edit, cuts, parts.order);
   const Id id = add_shape(edit, arguments.text_or_empty("name"), made_line(edit, kCommand, arguments),
                           std::move(parts));
   say_made(edit, {id});
@@ -442,7 +458,7 @@ constexpr std::array kShapesCommands{
                 .topic = "shapes",
                 .summary = "a room: floor, walls and ceiling around an inside",
                 .details = "It is a block and an `hw_subtract` of the inside. Rooms whose distance is the "
-                           "thickness of a wall share it. "
+                           "thickness of a wall share it; a room inside of another one keeps its walls. "
                            "What stood there before is cut away; shapes that are made in it afterwards stay.",
                 .arguments = kRoom,
                 .example = "room from 0,0 to 5,4 height=2.5 wall=0.2 floor_material=wood name=kitchen",

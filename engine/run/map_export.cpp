@@ -94,6 +94,15 @@ void add_models(mesh::Model& model, const map::Document& document, const fs::pat
   }
 }
 
+void check_replaces_no_model(const std::string& file, const map::Document& document, const fs::path& folder) {
+  std::error_code none;
+  for (const mesh::Placement& placement : mesh::placements(document)) {
+    if (fs::equivalent(mesh::model_path(placement, folder), file, none))
+      throw Error(ErrorCode::kUsage, "is a model of the map, which is not replaced by the map",
+                  {.file = printable(file, 4096)});
+  }
+}
+
 std::vector<std::string> write_model(const std::string& file, const mesh::Model& model) {
   const auto ending = model_ending(file);
   if (!ending) throw Error(ErrorCode::kInternal, "no ending of a model file");

@@ -26,6 +26,10 @@ mesh::Model surface_model(const world::CompiledWorld& world, bool all);
 void add_models(mesh::Model& model, const map::Document& document, const std::filesystem::path& folder,
                 std::vector<Error>& faults);
 
+/// Throws Error{kUsage} where the file is a model of the map: it would be replaced by the map.
+void check_replaces_no_model(const std::string& file, const map::Document& document,
+                             const std::filesystem::path& folder);
+
 /// Writes a model in the format that the ending says; of an OBJ also its material library and images, beside it. Returns the files, the
 /// one that was asked for first. Throws Error{kIo} where one cannot be written, Error{kInternal} for another ending.
 std::vector<std::string> write_model(const std::string& file, const mesh::Model& model);

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -89,7 +91,10 @@ std::pair<std::optional<Stretch>, std::size_t> blocked_stretches(const bsp::Tree
       const double begin = length * (i - 1.0 + hit->fraction) / steps;
       first = Stretch{begin, begin, hit->point};
     }
-    if (hit && count == 1) first->to_m = length * i / steps;
+    if (hit && count == 1) {  // the end is looked for from the other side
+      const auto back = bsp::first_solid(tree, to, from);
+      first->to_m = length * (i - (back ? back->fraction : 0.0)) / steps;
+    }
     inside = hit.has_value();
     from = to;
   }
@@ -169,47 +174,81 @@ void add_unreachable_waypoints(std::vector<Finding>& findings, const map::Docume
   }
 }
 
-/// Whether there is room before a face of an opening: in front of a part of it, for furniture may stand there too.
-bool is_free_before(const bsp::Tree& tree, const map::SolidFace& face) {
-  constexpr double kBefore_m = 0.01;
-  const auto& corners = face.polygon.vertices;
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& corner : corners) middle += corner / static_cast<double>(corners.size());
-  const Vec3 before = kBefore_m * face.polygon.plane.normal;
-  const auto is_empty = [&](const Vec3& point) {
-    return tree.leaves[bsp::leaf_at(tree, point)].content == bsp::Content::kEmpty;
-  };
-  if (is_empty(middle + before)) return true;
-  return std::ranges::any_of(corners,
-                             [&](const Vec3& corner) { return is_empty((middle + corner) / 2.0 + before); });
-}
+/// Where the openings of a map lead.
+class Openings {
+ public:
+  explicit Openings(const map::World& brushes) : brushes_(brushes) {}
 
-/// Doors and windows of the editor that end in solid, such as where another wall stands behind the one that they are in. They lead
-/// through if there is room before two faces that look away from each other.
+  /// Whether there is room before two faces of the opening that look away from each other. Between the brushes of one opening there is none.
+  bool leads_through(std::span<const map::Solid* const> opening) const {
+    constexpr double kUpright = 1e-6;
+    std::vector<Vec3> free;  // normals
+    for (const map::Solid* solid : opening) {
+      for (const map::SolidFace& face : solid->faces) {
+        const Vec3& normal = face.polygon.plane.normal;
+        if (std::abs(normal.z()) < kUpright && is_free_before(*solid, face, opening)) free.push_back(normal);
+      }
+    }
+    return std::ranges::any_of(free, [&](const Vec3& one) {
+      return std::ranges::any_of(free, [&](const Vec3& other) { return one.dot(other) < 0.0; });
+    });
+  }
+
+ private:
+  bool is_solid(const Vec3& point) const {
+    bool solid = false;
+    for (const map::Solid& each : brushes_.solids) {
+      if (each.box.contains(point) && each.contains(point)) solid = each.role != map::BrushRole::kSubtract;
+    }
+    return solid;
+  }
+
+  /// In front of any part of a face of `own`, but not in another brush of the opening: furniture may stand there too.
+  bool is_free_before(const map::Solid& own, const map::SolidFace& face,
+                      std::span<const map::Solid* const> opening) const {
+    constexpr double kBefore_m = 0.01;
+    constexpr double kSeam_m = 0.001;
+    constexpr int kParts = 12;
+    const auto& corners = face.polygon.vertices;
+    const Vec3 before = kBefore_m * face.polygon.plane.normal;
+    for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+      for (int i = 1; i < kParts; ++i) {
+        for (int j = 1; i + j < kParts; ++j) {
+          const Vec3 point = corners[0] + (corners[c] - corners[0]) * i / kParts +
+                             (corners[c + 1] - corners[0]) * j / kParts + before;
+          const bool is_of_another = std::ranges::any_of(
+              opening, [&](const map::Solid* one) { return one != &own && one->contains(point, -kSeam_m); });
+          if (!is_of_another && !is_solid(point)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  const map::World& brushes_;
+};
+
+/// Doors and windows of the editor that end in solid, such as where another wall stands behind the one that they are in.
 void add_blocked_openings(std::vector<Finding>& findings, const map::Document& document,
                           const world::CompiledWorld& world) {
-  constexpr double kUpright = 1e-6;
+  std::map<int, std::vector<const map::Solid*>> openings;  // by entity
   for (const map::Solid& solid : world.brushes.solids) {
     const map::Entity& entity = document.entities[static_cast<std::size_t>(solid.entity)];
     const std::string* made = entity.find("_hw_made");
     if (entity.classname() != "hw_subtract" || made == nullptr) continue;
-    const std::string kind = made->substr(0, made->find(' '));
-    if (kind != "door" && kind != "window") continue;
-    std::vector<const map::SolidFace*> open;
-    for (const map::SolidFace& face : solid.faces) {
-      const bool upright = std::abs(face.polygon.plane.normal.z()) < kUpright;
-      if (upright && is_free_before(world.partition.tree, face)) open.push_back(&face);
-    }
-    const bool leads_through = std::ranges::any_of(open, [&](const auto* one) {
-      return std::ranges::any_of(open, [&](const auto* other) {
-        return one->polygon.plane.normal.dot(other->polygon.plane.normal) < 0.0;
-      });
-    });
-    if (leads_through) continue;
-    const Vec3 middle = (solid.box.min() + solid.box.max()) / 2.0;
+    if (made->starts_with("door ") || made->starts_with("window ")) openings[solid.entity].push_back(&solid);
+  }
+  const Openings places(world.brushes);
+  for (const auto& [index, solids] : openings) {
+    if (places.leads_through(solids)) continue;
+    const map::Entity& entity = document.entities[static_cast<std::size_t>(index)];
+    const std::string& made = *entity.find("_hw_made");
+    Box box;
+    for (const map::Solid* solid : solids) box.extend(solid->box);
     findings.push_back(
-        {Severity::kWarning, where_of(document, solid.entity, entity.line),
-         fmt::format("the {} at {} leads nowhere: there is solid behind it", kind, place_text(middle)),
+        {Severity::kWarning, where_of(document, index, entity.line),
+         fmt::format("the {} at {} leads nowhere: there is solid behind it", made.substr(0, made.find(' ')),
+                     place_text((box.min() + box.max()) / 2.0)),
          "blocked-opening"});
   }
 }
@@ -236,6 +275,13 @@ void add_world_findings(std::vector<Finding>& findings, const map::Document& doc
 }
 
 }  // namespace
+
+const std::vector<std::string>& world_finding_ids() {
+  static const std::vector<std::string> ids{"blocked-opening",   "leak",
+                                            "not-compilable",    "occupant-in-solid",
+                                            "path-through-wall", "unreachable-waypoint"};
+  return ids;
+}
 
 std::vector<Finding> find_faults(const map::Document& document) {
   std::vector<Finding> findings = map::check(document);

@@ -53,6 +53,37 @@ TEST_F(Edit, LookingAtAMapThatIsNotThereSaysSo) {
   EXPECT_EQ(edit({"validate"}).err.find("is not there"), std::string::npos);
 }
 
+/// The clipboard is of the user, not of a map or a process.
+TEST_F(Edit, WhatIsCopiedIsPastedInAnotherMap) {
+  ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
+  edit({"new"});
+  edit({"box", "from", "1,1", "to", "2,2,1", "name=crate"});
+  const Ended copied = edit({"copy", "crate"});
+  EXPECT_EQ(copied.status, 0) << copied.err;
+  const std::string other = folder_ / "other.map";
+  EXPECT_EQ(hallway({"edit", other, "new"}).status, 0);
+  const Ended pasted = hallway({"edit", other, "paste", "to", "5,5"});
+  EXPECT_EQ(pasted.status, 0) << pasted.err;
+  EXPECT_NE(read_file(other).find("crate"), std::string::npos);
+  ::setenv("XDG_CACHE_HOME", (folder_ / "empty").c_str(), 1);
+  EXPECT_NE(hallway({"edit", other, "paste", "to", "5,5"}).err.find("the clipboard is empty"),
+            std::string::npos);
+  ::unsetenv("XDG_CACHE_HOME");
+}
+
+/// What the map shows is not replaced by the map.
+TEST_F(Edit, ExportReplacesNoModelOfTheMap) {
+  edit({"new"});
+  edit({"box", "from", "1,1", "to", "2,2,1"});
+  EXPECT_EQ(edit({"export", folder_ / "chair.obj"}).status, 0);
+  edit({"mesh", "chair.obj", "at", "5,5"});
+  const std::string before = read_file(folder_ / "chair.obj");
+  EXPECT_EQ(edit({"export", folder_ / "chair.obj"}).status, 2);
+  EXPECT_EQ(hallway({"map", "export", map(), "--out", folder_ / "chair.obj"}).status, 2);
+  EXPECT_EQ(read_file(folder_ / "chair.obj"), before);
+  EXPECT_EQ(edit({"export", folder_ / "all.obj"}).status, 0);
+}
+
 TEST_F(Edit, ARefusalIsStatus2AndSaysWhatWouldBeRight) {
   edit({"new"});
   edit({"entity", "light", "at", "1,2,2.5", "targetname=lamp"});

@@ -67,9 +67,18 @@ TEST(MapCheck, PathThroughTheWallSaysWhereAlongIt) {
   const Json found = finding(Json::parse(ended.out), "path-through-wall");
   EXPECT_EQ(found.at("severity"), "error");
   const auto message = found.at("message").get<std::string>();
-  EXPECT_NE(message.find("from 3.00 m to 5.0"), std::string::npos) << message;
+  EXPECT_NE(message.find("from 3.00 m to 5.00 m"), std::string::npos) << message;
   EXPECT_NE(message.find("(4.00, 1.50, 0.50)"), std::string::npos) << message;
   EXPECT_EQ(message.find("more times"), std::string::npos) << message;
+}
+
+/// Neither end is rounded to the steps in which the path is looked at.
+TEST(MapCheck, PathThroughTheWallEndsWhereTheWallDoes) {
+  const TempFolder folder;
+  const fs::path map = folder.write("rooms.map", two_rooms({}, path_along_x(103, 903)));
+  const Json found = finding(Json::parse(map_command("check", map, {"--json"}).out), "path-through-wall");
+  const auto message = found.at("message").get<std::string>();
+  EXPECT_NE(message.find("from 2.97 m to 4.97 m"), std::string::npos) << message;
 }
 
 TEST(MapCheck, WaypointInAClosetWithoutADoorIsUnreachable) {

@@ -147,6 +147,13 @@ TEST(Render, AreaFramesATopView) {
   EXPECT_EQ(pixels("2,7.5,-1,4.5"), near) << "either corner may come first";
 }
 
+TEST(Render, AnAreaWithoutBrushesIsToldAsSuch) {
+  const SmallWorld world;
+  const Ended ended = render(world, world.folder() / "small.map", {"--area", "1000,1000,1010,1010"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("--area shows no brush"), std::string::npos) << ended.err;
+}
+
 TEST(Render, FovWidensAPerspective) {
   const SmallWorld world;
   const auto pixels = [&](const char* fov) {

@@ -61,6 +61,29 @@ TEST_F(CutCommands, AnOpeningThatLeadsNowhereIsFound) {
   EXPECT_EQ(blocked(), 0u) << "both walls are open";
 }
 
+/// What fills an opening, what stands before a part of it, and the void around a sealed house do not block it.
+TEST_F(CutCommands, AnOpeningThatLeadsOnIsNotBlocked) {
+  const auto text = [&] { return fmt::format("{}", fmt::join(editing.run("validate").lines, "\n")); };
+  editing.run_all({"room from 0,0 to 5,4 name=kitchen", "window in kitchen side=east at 2 pane=glass",
+                   "door in kitchen side=west at 2 leaf=wood", "start 1,1,0.3"});
+  ASSERT_EQ(text(), "nothing is wrong") << "a house that is sealed";
+  editing.run_all(
+      {"wall from 11,3 to 19,3 name=w", "door in w at 4 width=4", "box from 13.95,3.075 to 19,4,2.5"});
+  EXPECT_EQ(text(), "nothing is wrong") << "a cupboard before one half of a wide door";
+}
+
+/// The pieces of a door in an arc are one opening: what separates them is no way out, and it is reported once.
+TEST_F(CutCommands, ADoorInAnArcIsOneOpening) {
+  editing.run_all(
+      {"arc centre=6,6 radius=3 from=0 to=360 segments=24 name=bow", "door in bow at 5 width=2.5"});
+  EXPECT_EQ(editing.run("validate").lines, std::vector<std::string>{"nothing is wrong"});
+  editing.run("cylinder at 6,6 radius=3 height=2.7 sides=24");
+  int blocked = 0;
+  for (const std::string& line : editing.run("validate").lines)
+    blocked += mentions(line, "leads nowhere") ? 1 : 0;
+  EXPECT_EQ(blocked, 1);
+}
+
 TEST_F(CutCommands, ADoorIsWhereItIsSaidToBe) {
   editing.run_all(
       {"wall from 1,1 to 4,5 name=slanted", "door in slanted at 2 width 0.9 height 2.1 name=way"});

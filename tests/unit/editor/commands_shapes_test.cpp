@@ -59,12 +59,30 @@ TEST_F(ShapeCommands, ABoxWithoutANameIsAPlainBrush) {
 TEST_F(ShapeCommands, BoxRefusals) {
   EXPECT_TRUE(mentions(refusal(editing, "box from 0,0"), "two opposite corners"));
   EXPECT_TRUE(mentions(refusal(editing, "box from 0,0 to 1,1,1 size 1,1,1"), "either"));
-  EXPECT_TRUE(mentions(refusal(editing, "box from 0,0 to 1,1"), "no volume"));
+  EXPECT_TRUE(mentions(refusal(editing, "box from 0,0 to 1,1"), "X,Y,Z"));
   EXPECT_TRUE(mentions(refusal(editing, "box at 0,0 size 1,1"), "three lengths"));
   EXPECT_TRUE(mentions(refusal(editing, "box from 0,0kg to 1,1,1"), "no place"));
   EXPECT_TRUE(mentions(refusal(editing, "box from=0,0 to=1,1,1 materiel=wood"), "material"));
   editing.run("box 0,0 1,1,1 name=crate");
   EXPECT_TRUE(mentions(refusal(editing, "box 0,0 1,1,1 name=crate"), "has that name already"));
+}
+
+/// A cabin in a hall, free-standing or in its corner, has walls and a door; remade, it still has.
+TEST_F(ShapeCommands, ARoomInARoomHasWalls) {
+  editing.run_all({"room from 0,0 to 10,8 height=3 name=hall", "room from 3,3 to 6,6 height=2.5 name=inner",
+                   "room from 0,0 to 2,2 height=2.5 name=corner", "door in inner side=west at 1"});
+  for (const double wall : {0.1, 0.2}) {
+    SCOPED_TRACE(wall);
+    EXPECT_TRUE(is_solid(editing, {3.0 - wall / 2, 5.5, 1}));
+    EXPECT_TRUE(is_solid(editing, {4.5, 6.0 + wall / 2, 1}));
+    EXPECT_FALSE(is_solid(editing, {4.5, 4.5, 1})) << "its inside";
+    EXPECT_FALSE(is_solid(editing, {3.0 - wall / 2, 4.0, 1})) << "its door";
+    EXPECT_TRUE(is_solid(editing, {2.05, 1, 1})) << "the room in the corner";
+    EXPECT_FALSE(is_solid(editing, {1, 1, 1}));
+    EXPECT_FALSE(is_solid(editing, {8, 4, 1})) << "the hall";
+    editing.run(fmt::format("remake inner wall={}", 0.2));
+  }
+  EXPECT_EQ(editing.run("validate").lines, std::vector<std::string>{"nothing is wrong"});
 }
 
 TEST_F(ShapeCommands, AWedgeIsHighOnItsSide) {

@@ -16,6 +16,32 @@ using test::Editing;
 using test::mentions;
 using test::refusal;
 
+/// The one of two brushes that is seen stays.
+TEST(Faults, TheFixOfEqualBrushesTakesTheHiddenOne) {
+  Editing map;
+  map.run_all({"new", "box from 8,1 to 9,2,1 material=glass name=C",
+               "box from 8,1 to 9,2,1 material=wood name=D", "fix"});
+  EXPECT_EQ(test::named(map, "D").brushes.size(), 1u);
+  EXPECT_EQ(test::named(map, "C").brushes.size(), 0u);
+}
+
+TEST(Faults, EachMisspeltKeyHasItsOwnFix) {
+  Editing map;
+  map.run_all({"new", "entity hw_sensor name=s knid=points horizontal_fov=90"});
+  const auto faults = map.run("validate").data.at("faults");
+  std::set<std::string> fixes;
+  for (const auto& fault : faults) fixes.insert(fault.at("fix").get<std::string>());
+  EXPECT_EQ(fixes.size(), faults.size()) << faults.dump(1);
+}
+
+TEST(Faults, AFindingThatDoesNotExistIsRefused) {
+  Editing map;
+  map.run("new");
+  EXPECT_TRUE(mentions(refusal(map, "validate slivr"), "did you mean \"sliver\"?"));
+  EXPECT_TRUE(mentions(refusal(map, "fix nosuch"), "there is no finding"));
+  EXPECT_EQ(map.run("validate blocked-opening").lines, std::vector<std::string>{"nothing is wrong"});
+}
+
 /// Brush 2 in the world, lamps 3 and 4.
 struct Things : Editing {
   Things() {
