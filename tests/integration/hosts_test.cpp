@@ -55,7 +55,8 @@ Json manifest_of(const fs::path& folder) {
 /// Names and values in effect of a plugin's parameters.
 std::map<std::string, std::string> parameters_of(const fs::path& folder) {
   std::map<std::string, std::string> values;
-  for (const Json& parameter : manifest_of(folder).at("plugins").at(0).at("parameters"))
+  const Json manifest = manifest_of(folder);
+  for (const Json& parameter : manifest.at("plugins").at(0).at("parameters"))
     values[parameter.at("name").get<std::string>()] = parameter.at("value").get<std::string>();
   return values;
 }
