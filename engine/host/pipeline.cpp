@@ -74,7 +74,8 @@ void Pipeline::prepare_stages() {
     const auto parameters = plugin.parameters();
     facts_.push_back({plugin.info(), plugin.file(), {parameters.begin(), parameters.end()}, {}, {}});
     for (const ParameterSetting& setting : spec.parameters) {
-      if (is_kept_out(setting, parameters)) {
+      // Asked for each time: setting a value may start an isolated plugin anew, with a new list.
+      if (is_kept_out(setting, plugin.parameters())) {
         if (log_)
           log_(plugin.info().id, HW_LOG_WARNING,
                "the value of `" + printable(setting.name) + "`, a file or folder, is not taken from a log");
