@@ -47,15 +47,23 @@ function(hallway_reuse_precompiled target owner)
 endfunction()
 
 # hallway_compile_quickly(<target>): less optimization for code whose speed does not matter: the command line, the editor, and tests of code that is
-# itself fast. What headers define is linked once, perhaps as compiled here: so such code is never left without any.
+# itself fast. What headers define is linked once, perhaps as compiled here: so such code is never left without any. Newer g++ read a precompiled header
+# only where the machine's options agree, some of which -O2 sets and -O1 does not: they are set here for x86-64, and elsewhere -O2 stays.
 function(hallway_compile_quickly target)
-  if(TARGET ${target})
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13 AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-      # What -O2 sets of this machine's options, and -O1 does not: newer g++ read a precompiled header only where these agree.
-      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-munroll-only-small-loops> $<$<CONFIG:Release>:-mvzeroupper>)
+  if(NOT TARGET ${target})
+    return()
+  endif()
+  set(optimization -O1)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+      list(APPEND optimization -munroll-only-small-loops -mvzeroupper)
+    else()
+      return()
     endif()
   endif()
+  foreach(option IN LISTS optimization)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${option}>)
+  endforeach()
 endfunction()
 
 # hallway_compile_fast(<target>): more optimization, for algorithms whose time is measured.
