@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "../tests/unit/slam_point/scenes.hpp"
+#include "slam_point/core/index/point_index.hpp"
 #include "slam_point/core/mapper.hpp"
-#include "slam_point/core/point_index.hpp"
-#include "slam_point/core/thesis_mapper.hpp"
+#include "slam_point/core/thesis/mapper.hpp"
 
 namespace {
 

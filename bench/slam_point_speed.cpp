@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "../tests/unit/slam_point/scenes.hpp"
+#include "slam_point/core/index/point_index.hpp"
 #include "slam_point/core/mapper.hpp"
-#include "slam_point/core/point_index.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bin_points.hpp"
 
-#include "slam_point/core/motion_binning.hpp"
+#include "slam_point/core/moving/motion_binning.hpp"
 
 namespace hallway::cli {
 

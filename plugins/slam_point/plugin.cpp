@@ -6,9 +6,9 @@
 
 #include "adapter/option_rows.hpp"
 #include "adapter/point_adapter.hpp"
+#include "slam_point/core/index/point_index.hpp"
 #include "slam_point/core/mapper.hpp"
-#include "slam_point/core/point_index.hpp"
-#include "slam_point/core/thesis_mapper.hpp"
+#include "slam_point/core/thesis/mapper.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "slam_point/core/map_refiner.hpp"
+#include "slam_point/core/solver/map_refiner.hpp"
 
 namespace hallway::slam_point {
 namespace {

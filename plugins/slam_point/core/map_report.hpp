@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "slam_point/core/map_parts.hpp"
-#include "slam_point/core/motion_tracks.hpp"
-#include "slam_point/core/segment_store.hpp"
-#include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/moving/motion_tracks.hpp"
+#include "slam_point/core/places/map_parts.hpp"
+#include "slam_point/core/submaps/segment_store.hpp"
+#include "slam_point/core/submaps/submap_graph.hpp"
 #include "slam_point/core/types.hpp"
 
 namespace hallway::slam_point {

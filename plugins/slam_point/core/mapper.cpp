@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <vector>
 
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/frame_intake.hpp"
-#include "slam_point/core/frame_matcher.hpp"
-#include "slam_point/core/frame_placer.hpp"
-#include "slam_point/core/map_parts.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/frame/frame_intake.hpp"
+#include "slam_point/core/frame/frame_matcher.hpp"
+#include "slam_point/core/frame/frame_placer.hpp"
+#include "slam_point/core/frame/pose_report.hpp"
+#include "slam_point/core/frame/track_book.hpp"
 #include "slam_point/core/map_report.hpp"
-#include "slam_point/core/motion_filter.hpp"
-#include "slam_point/core/part_watch.hpp"
-#include "slam_point/core/place_recogniser.hpp"
-#include "slam_point/core/pose_report.hpp"
-#include "slam_point/core/submap_graph.hpp"
-#include "slam_point/core/submap_sequence.hpp"
-#include "slam_point/core/track_book.hpp"
+#include "slam_point/core/moving/motion_filter.hpp"
+#include "slam_point/core/places/map_parts.hpp"
+#include "slam_point/core/places/part_watch.hpp"
+#include "slam_point/core/places/place_recogniser.hpp"
+#include "slam_point/core/submaps/submap_graph.hpp"
+#include "slam_point/core/submaps/submap_sequence.hpp"
 
 namespace hallway::slam_point {
 namespace {

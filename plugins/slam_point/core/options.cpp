@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "slam_point/core/point_index.hpp"
+#include "slam_point/core/index/point_index.hpp"
 
 namespace hallway::slam_point {
 namespace {

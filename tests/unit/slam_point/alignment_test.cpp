@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/robust_fit.hpp"
+#include "slam_point/core/fit/robust_fit.hpp"
 #include "support/dense.hpp"
 
 namespace hallway::slam_point {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/block_cholesky.hpp"
+#include "slam_point/core/solver/block_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

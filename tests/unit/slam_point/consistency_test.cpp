@@ -8,7 +8,7 @@
 #include <set>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "slam_point/core/mapper.hpp"
 #include "support/dense.hpp"
 #include "support/long_mode.hpp"

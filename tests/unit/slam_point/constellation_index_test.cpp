@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/constellation_index.hpp"
+#include "slam_point/core/places/constellation_index.hpp"
 
 #include <gtest/gtest.h>
 

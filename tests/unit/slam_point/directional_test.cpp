@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/directional_fit.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/fit/directional_fit.hpp"
 #include "slam_point/core/mapper.hpp"
 #include "support/dense.hpp"
 

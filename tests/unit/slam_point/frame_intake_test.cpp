@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/frame_intake.hpp"
+#include "slam_point/core/frame/frame_intake.hpp"
 
 #include <gtest/gtest.h>
 

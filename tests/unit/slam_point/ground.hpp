@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/submaps/submap_graph.hpp"
 
 namespace hallway::slam_point {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/landmark_covariances.hpp"
+#include "slam_point/core/solver/landmark_covariances.hpp"
 
 #include <gtest/gtest.h>
 
 #include "rings.hpp"
-#include "slam_point/core/submap_solver.hpp"
+#include "slam_point/core/solver/submap_solver.hpp"
 #include "support/dense.hpp"
 
 namespace hallway::slam_point {

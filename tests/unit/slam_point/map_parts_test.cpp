@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/map_parts.hpp"
+#include "slam_point/core/places/map_parts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/map_step.hpp"
+#include "slam_point/core/solver/map_step.hpp"
 
 #include <gtest/gtest.h>
 

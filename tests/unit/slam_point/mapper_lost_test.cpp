@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "slam_point/core/mapper.hpp"
 #include "support/long_mode.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/motion_binning.hpp"
+#include "slam_point/core/moving/motion_binning.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "slam_point/core/mapper.hpp"
 
 namespace hallway::slam_point {

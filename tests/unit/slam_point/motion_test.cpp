@@ -8,11 +8,11 @@
 #include <set>
 
 #include "scenes.hpp"
-#include "slam_point/core/active_submap.hpp"
-#include "slam_point/core/motion_tracks.hpp"
-#include "slam_point/core/motion_verdict.hpp"
-#include "slam_point/core/motion_watch.hpp"
-#include "slam_point/core/sighting_history.hpp"
+#include "slam_point/core/moving/motion_tracks.hpp"
+#include "slam_point/core/moving/motion_verdict.hpp"
+#include "slam_point/core/moving/motion_watch.hpp"
+#include "slam_point/core/moving/sighting_history.hpp"
+#include "slam_point/core/submaps/active_submap.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/part_watch.hpp"
+#include "slam_point/core/places/part_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "ground.hpp"
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/place_recogniser.hpp"
+#include "slam_point/core/places/place_recogniser.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "ground.hpp"
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {

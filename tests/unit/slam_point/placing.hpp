@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/frame_placer.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/frame/frame_placer.hpp"
 
 /// A sensor in a small map, for the tests of what places its frames.
 namespace hallway::slam_point::placing {

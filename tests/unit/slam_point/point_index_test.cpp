@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/point_index.hpp"
+#include "slam_point/core/index/point_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/pose_information.hpp"
+#include "slam_point/core/frame/pose_information.hpp"
 
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "support/dense.hpp"
 
 namespace hallway::slam_point {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/pose_report.hpp"
+#include "slam_point/core/frame/pose_report.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "slam_point/core/map_report.hpp"
 
 namespace hallway::slam_point {

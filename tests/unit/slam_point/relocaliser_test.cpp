@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/relocaliser.hpp"
+#include "slam_point/core/places/relocaliser.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/frame_matcher.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/frame/frame_matcher.hpp"
 
 namespace hallway::slam_point {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/submap_graph.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/submaps/submap_graph.hpp"
 
 /// Graphs of submaps made up for the tests of what places them.
 namespace hallway::slam_point::rings {

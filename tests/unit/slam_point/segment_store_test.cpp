@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/segment_store.hpp"
+#include "slam_point/core/submaps/segment_store.hpp"
 
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 namespace {

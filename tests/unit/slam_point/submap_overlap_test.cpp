@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Grouping: which submap a frame belongs to.
-#include "slam_point/core/submap_overlap.hpp"
+#include "slam_point/core/submaps/submap_overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/submap_solver.hpp"
+#include "slam_point/core/solver/submap_solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "rings.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 #include "support/dense.hpp"
 
 namespace hallway::slam_point {

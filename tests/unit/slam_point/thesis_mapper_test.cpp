@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/thesis_basis.hpp"
-#include "slam_point/core/thesis_grouping.hpp"
-#include "slam_point/core/thesis_mapper.hpp"
+#include "slam_point/core/thesis/basis.hpp"
+#include "slam_point/core/thesis/grouping.hpp"
+#include "slam_point/core/thesis/mapper.hpp"
 
 namespace hallway::slam_point::thesis {
 namespace {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
-#include "slam_point/core/thesis_basis.hpp"
-#include "slam_point/core/thesis_group.hpp"
-#include "slam_point/core/thesis_history.hpp"
-#include "slam_point/core/thesis_selection.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/thesis/basis.hpp"
+#include "slam_point/core/thesis/group.hpp"
+#include "slam_point/core/thesis/history.hpp"
+#include "slam_point/core/thesis/selection.hpp"
 
 namespace hallway::slam_point::thesis {
 namespace {

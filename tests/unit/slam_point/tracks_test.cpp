@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "slam_point/core/alignment.hpp"
+#include "slam_point/core/fit/alignment.hpp"
+#include "slam_point/core/fit/robust_fit.hpp"
+#include "slam_point/core/frame/track_book.hpp"
 #include "slam_point/core/mapper.hpp"
-#include "slam_point/core/robust_fit.hpp"
-#include "slam_point/core/track_book.hpp"
 
 namespace hallway::slam_point {
 namespace {

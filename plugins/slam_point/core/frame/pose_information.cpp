@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "slam_point/core/frame/pose_information.hpp"
+
+#include <Eigen/LU>
+
+#include "algebra/cholesky.hpp"
+
+namespace hallway::slam_point {
+
+std::optional<Mat6> PoseInformation::covariance(bool planar) const {
+  return is_directional_ ? covariance_by_matrices(planar) : covariance_by_weights(planar);
+}
+
+/// With weights alone the position's part of the information is a multiple of the identity, so that the rotation's covariance is the inverse of
+/// the points' inertia about their centre, and the rest follows from it.
+std::optional<Mat6> PoseInformation::covariance_by_weights(bool planar) const {
+  if (!(weight_ > 0.0)) return std::nullopt;
+  const Vec3 centre = sum_ / weight_;
+  Mat3 inertia = sum_ * centre.transpose() - outer_;
+  inertia.diagonal().array() += outer_.trace() - sum_.dot(centre);
+  Mat3 turn = Mat3::Zero();
+  if (planar) {
+    // z, roll and pitch are decoupled from the rest there, and known.
+    if (!(inertia(2, 2) > 0.0)) return std::nullopt;
+    turn(2, 2) = 1.0 / inertia(2, 2);
+  } else {
+    const double minor = inertia(0, 0) * inertia(1, 1) - inertia(0, 1) * inertia(0, 1);
+    if (!(inertia(0, 0) > 0.0 && minor > 0.0 && inertia.determinant() > 0.0)) return std::nullopt;
+    turn = inertia.inverse();
+    turn = (0.5 * (turn + turn.transpose())).eval();
+  }
+  const Mat3 arm = skew(centre);
+  const Mat3 travel_turn = arm * turn;
+  Mat3 travel = -(travel_turn * arm);
+  travel.diagonal().array() += 1.0 / weight_;
+  if (planar) travel(2, 2) = 0.0;
+  Mat6 covariance;
+  covariance << 0.5 * (travel + travel.transpose()), travel_turn, travel_turn.transpose(), turn;
+  if (!covariance.allFinite()) return std::nullopt;
+  return covariance;
+}
+
+std::optional<Mat6> PoseInformation::covariance_by_matrices(bool planar) const {
+  // Of x = exp(r) lever + t the derivative by (t, r) is [I, -[lever]x].
+  Mat3 cross;
+  cross << 0.0, -sum_.z(), sum_.y(), sum_.z(), 0.0, -sum_.x(), -sum_.y(), sum_.x(), 0.0;
+  Mat6 information;
+  information << weight_ * Mat3::Identity(), -cross, cross, outer_.trace() * Mat3::Identity() - outer_;
+  information += directional_;
+  if (planar) {
+    // z, roll and pitch are decoupled from the rest there, and known.
+    information.block<3, 6>(2, 0).setZero();
+    information.block<6, 3>(0, 2).setZero();
+    information.diagonal().segment<3>(2).setOnes();
+  }
+  const algebra::Inverse<6> inverse = algebra::inverse_of_positive<6>(information);
+  if (!inverse.is_positive) return std::nullopt;
+  Mat6 covariance = inverse.matrix;
+  if (planar) covariance.diagonal().segment<3>(2).setZero();
+  if (!covariance.allFinite()) return std::nullopt;
+  return Mat6(0.5 * (covariance + covariance.transpose()));
+}
+
+}  // namespace hallway::slam_point
