@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/file.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::bench {
 

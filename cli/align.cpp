@@ -42,7 +42,7 @@ AlignedCloud read_cloud(const std::string& file, const CloudInput& input) {
 }
 
 /// "x y z yaw pitch roll", in metres and degrees; commas may part them too.
-icp::Pose parse_guess(const std::string& text) {
+Pose parse_guess(const std::string& text) {
   std::array<double, 6> values{};
   std::size_t count = 0;
   std::string spaced = text;
@@ -80,7 +80,7 @@ void check_outputs(const AlignCommand& command) {
 
 int align_clouds(AlignCommand command) {
   check_outputs(command);
-  const icp::Pose guess = parse_guess(command.guess);
+  const Pose guess = parse_guess(command.guess);
   command.options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
   command.options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));
   const AlignedCloud a = read_cloud(command.a, command.input), b = read_cloud(command.b, command.input);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/row_writer.hpp"
 #include "render/draw.hpp"
 #include "render/png.hpp"
@@ -22,8 +22,8 @@ std::string values_text(const std::array<double, 6>& v) {
   return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}", v[0], v[1], v[2], v[3], v[4], v[5]);
 }
 
-std::string matrix_text(const icp::Pose& pose) {
-  const icp::Mat3 r = pose.q.toRotationMatrix();
+std::string matrix_text(const Pose& pose) {
+  const Mat3 r = pose.q.toRotationMatrix();
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
     text +=
@@ -32,8 +32,8 @@ std::string matrix_text(const icp::Pose& pose) {
   return text + fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:14.6f}\n", 0.0, 0.0, 0.0, 1.0);
 }
 
-nlohmann::ordered_json matrix_json(const icp::Pose& pose) {
-  const icp::Mat3 r = pose.q.toRotationMatrix();
+nlohmann::ordered_json matrix_json(const Pose& pose) {
+  const Mat3 r = pose.q.toRotationMatrix();
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (Eigen::Index row = 0; row < 3; ++row) rows.push_back({r(row, 0), r(row, 1), r(row, 2), pose.t[row]});
   rows.push_back({0.0, 0.0, 0.0, 1.0});
@@ -49,12 +49,12 @@ nlohmann::ordered_json cloud_json(const AlignedCloud& cloud, std::size_t used) {
 
 }  // namespace
 
-icp::Pose pose_of(const std::array<double, 6>& v) {
+Pose pose_of(const std::array<double, 6>& v) {
   return {from_yaw_pitch_roll(v[3] / kDegrees, v[4] / kDegrees, v[5] / kDegrees), {v[0], v[1], v[2]}};
 }
 
-std::array<double, 6> values_of(const icp::Pose& pose) {
-  const icp::Mat3 r = pose.q.toRotationMatrix();
+std::array<double, 6> values_of(const Pose& pose) {
+  const Mat3 r = pose.q.toRotationMatrix();
   const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
   // Looking straight up or down, yaw and roll turn about one axis; all of it is called yaw.
   const bool level = std::hypot(r(2, 1), r(2, 2)) > 1e-9;
@@ -81,7 +81,7 @@ std::string alignment_text(const AlignedCloud& a, const AlignedCloud& b, const i
 nlohmann::ordered_json to_json(const AlignedCloud& a, const AlignedCloud& b, const icp::Alignment& found,
                                const std::string& method, const std::string& weights) {
   const icp::Registration& result = found.registration;
-  const icp::Pose& T = result.T_target_source;
+  const Pose& T = result.T_target_source;
   const std::array<double, 6> v = values_of(T);
   return {{"schema", "hallway.align/1"},
           {"a", cloud_json(a, found.used_a)},
@@ -111,8 +111,8 @@ std::string print_moved_ply(const AlignedCloud& b, const icp::Alignment& found) 
   for (const char* property : {"double x", "double y", "double z"})
     out.word("property").word(property).end_row();
   out.word("end_header").end_row();
-  for (const icp::Vec3& point : b.points) {
-    const icp::Vec3 p = found.registration.T_target_source * point;
+  for (const Vec3& point : b.points) {
+    const Vec3 p = found.registration.T_target_source * point;
     out.numbers(std::array<double, 3>{p.x(), p.y(), p.z()}).end_row();
   }
   return out.take();
@@ -123,7 +123,7 @@ std::string draw_alignment(const AlignedCloud& a, const AlignedCloud& b, const i
   constexpr double kDot_px = 1.6;
   render::Markers still{a.points, render::MarkerShape::kDot, render::palette::kTruth, kDot_px, a.file};
   render::Markers moved{{}, render::MarkerShape::kDot, render::palette::kEstimate, kDot_px, b.file};
-  for (const icp::Vec3& p : b.points) moved.positions.push_back(found.registration.T_target_source * p);
+  for (const Vec3& p : b.points) moved.positions.push_back(found.registration.T_target_source * p);
   render::Picture picture;
   picture.title = "hallway align";
   picture.subtitle = fmt::format("residual {:.4g} m, overlap {:.1f} %", found.registration.residual_m,

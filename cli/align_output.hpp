@@ -17,9 +17,9 @@ struct AlignedCloud {
 };
 
 /// The pose of x, y, z in metres and yaw, pitch, roll in degrees (turns about z, then the new y, then the new x).
-icp::Pose pose_of(const std::array<double, 6>& values);
+Pose pose_of(const std::array<double, 6>& values);
 /// The inverse of pose_of(); pitch in [-90, 90].
-std::array<double, 6> values_of(const icp::Pose& pose);
+std::array<double, 6> values_of(const Pose& pose);
 
 /// What `hallway align` prints.
 std::string alignment_text(const AlignedCloud& a, const AlignedCloud& b, const icp::Alignment& found);

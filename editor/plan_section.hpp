@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "csg/surface.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::editor {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::editor {
 

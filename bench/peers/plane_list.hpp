@@ -10,8 +10,6 @@
 
 namespace hallway::peers {
 
-using em::Vec3;
-
 /// Points of one plane: places in the cloud, in any order, each once.
 using Members = std::vector<std::uint32_t>;
 

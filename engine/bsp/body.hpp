@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::bsp {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::csg {
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::csg {
 

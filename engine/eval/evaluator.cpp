@@ -10,7 +10,7 @@
 
 #include "eval/point_error.hpp"
 #include "eval/time_summary.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {

@@ -12,7 +12,7 @@
 #include "eval/path_parts.hpp"
 #include "eval/plane_score.hpp"
 #include "eval/refitted_path.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
 

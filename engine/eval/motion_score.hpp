@@ -10,7 +10,7 @@
 
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
 

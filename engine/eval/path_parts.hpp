@@ -10,7 +10,7 @@
 #include "eval/path_verdict.hpp"
 #include "eval/pose_pairs.hpp"
 #include "eval/trajectory_score.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::eval {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 

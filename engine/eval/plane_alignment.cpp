@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/plane_alignment.hpp"
 
-#include "geom/symmetric.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -32,7 +32,7 @@ std::optional<Pose> align_to_planes(std::span<const PointOnPlane> points, const 
     }
     const Vec6 values = spectrum<6>(h).values;
     if (!(values(0) > kLeastShare * values(5))) return std::nullopt;
-    const Vec6 move = symmetric_inverse<6>(h) * g;
+    const Vec6 move = Ldlt<6>(h).inverse() * g;
     const Vec3 turn = move.tail<3>();
     Quat q = Quat::Identity();
     if (turn.norm() > 0.0) q = Quat(Eigen::AngleAxisd(turn.norm(), turn.normalized()));

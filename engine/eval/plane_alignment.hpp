@@ -5,7 +5,7 @@
 #include <span>
 
 #include "geom/plane.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::eval {
 

@@ -11,7 +11,7 @@
 
 #include "eval/plane_alignment.hpp"
 #include "eval/point_error.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {

@@ -11,7 +11,7 @@
 #include "eval/association_score.hpp"
 #include "eval/plane_metrics.hpp"
 #include "eval/refitted_planes.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/mapped_planes.hpp"
 #include "log/pose_errors.hpp"
 #include "log/true_walls.hpp"

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "base/error.hpp"
-#include "geom/rigid_fit.hpp"
-#include "geom/symmetric.hpp"
+#include "geometry/rigid_fit.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::eval {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "eval/point_error.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {

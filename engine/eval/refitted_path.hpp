@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/map_landmarks.hpp"
 
 namespace hallway::eval {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "geom/symmetric.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -172,7 +172,7 @@ bool tells_position(const Mat6& h, bool level) {
   Eigen::Matrix3d turns = h.bottomRightCorner<3, 3>();
   turns.diagonal().array() += kHold;
   const Eigen::Matrix3d position = h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() *
-                                                                 symmetric_inverse<3>(turns) *
+                                                                 Ldlt<3>(turns).inverse() *
                                                                  h.bottomLeftCorner<3, 3>();
   const double worst =
       level ? spectrum<2>(position.topLeftCorner<2, 2>()).values(0) : spectrum<3>(position).values(0);
@@ -202,7 +202,7 @@ void visit_errors(const std::vector<Match>& matches, const Pose& T, const Sigmas
   Vec6 gradient;
   Mat6 h = information(matches, T, sigmas, Stage::gated, gradient);
   h.diagonal().array() += kHold;
-  const Mat6 covariance = symmetric_inverse<6>(h);
+  const Mat6 covariance = Ldlt<6>(h).inverse();
   for (const Match& match : matches) {
     compare(match, T, [&](Kind kind, double residual, const Vec6& row) {
       if (weight_of(kind, residual, sigmas, Stage::gated) == 0.0) return;

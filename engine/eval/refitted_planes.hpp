@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/mapped_planes.hpp"
 
 namespace hallway::eval {

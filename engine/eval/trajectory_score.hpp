@@ -7,7 +7,7 @@
 
 #include "eval/consistency.hpp"
 #include "eval/metrics.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::eval {
 

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
-#include "geom/pose.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
+#include "geometry/se3.hpp"
 #include "log/line_reader.hpp"
 #include "log/unit_quaternion.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::import {
 

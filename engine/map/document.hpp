@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::map {
 

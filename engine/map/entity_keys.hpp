@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 #include "map/entity_schema.hpp"
 

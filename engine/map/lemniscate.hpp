@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/arc_length.hpp"
 
 namespace hallway::map {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 
 namespace hallway::map {

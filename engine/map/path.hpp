@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 #include "map/lemniscate.hpp"
 #include "map/rounded_polyline.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::map {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::map {
 

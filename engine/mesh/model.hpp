@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geom/box.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::mesh {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "planes/fit.hpp"
 
-#include "geom/symmetric.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::planes {
 
@@ -10,7 +10,7 @@ Plane least_squares_plane(std::span<const Vec3> points) {
   for (const Vec3& point : points) centroid += point / static_cast<double>(points.size());
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const Vec3& point : points) moments += (point - centroid) * (point - centroid).transpose();
-  const Vec3 normal = spectrum<3>(moments).vectors.col(0);
+  const Vec3 normal = spectrum<Eigen::Dynamic>(moments).vectors.col(0);
   return {normal, normal.dot(centroid)};
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "render/view.hpp"
 
 namespace hallway::render {

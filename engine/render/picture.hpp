@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geom/polygon.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "render/colour.hpp"
 #include "render/texture.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <hallway/pose.h>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::run {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/landmarks.hpp"
 #include "render/picture.hpp"
 #include "run/record.hpp"

@@ -10,7 +10,7 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "eval/plane_score.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "map/reader.hpp"
 #include "record/epoch_table.hpp"
 #include "run/map_view.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "host/plugin.hpp"
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::sense {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/face_plan.hpp"
 
 namespace hallway::sense {

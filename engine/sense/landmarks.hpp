@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "csg/surface.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 #include "map/world.hpp"
 #include "sense/face_landmarks.hpp"

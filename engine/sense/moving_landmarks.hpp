@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 #include "sense/smooth_motion.hpp"
 

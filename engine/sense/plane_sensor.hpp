@@ -9,7 +9,7 @@
 
 #include "base/random.hpp"
 #include "geom/plane.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/wall_plan.hpp"
 #include "sense/wall_view.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/moving_landmarks.hpp"
 #include "sense/point_visibility.hpp"
 #include "trace/scene.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/random.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::sense {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "csg/surface.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "trace/triangle_mesh.hpp"
 
 namespace hallway::sense {

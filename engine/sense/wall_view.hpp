@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/intervals.hpp"
 #include "sense/wall_plan.hpp"
 

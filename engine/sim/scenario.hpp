@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "bsp/body.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "host/plugin_limits.hpp"
 #include "host/plugin_table.hpp"
 #include "map/document.hpp"

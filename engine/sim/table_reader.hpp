@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/table_reader.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::sim {
 

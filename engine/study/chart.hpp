@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "render/colour.hpp"
 
 namespace hallway::study {

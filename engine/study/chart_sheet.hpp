@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "render/colour.hpp"
 #include "study/chart.hpp"
 #include "study/ticks.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "eval/metrics.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "host/pipeline.hpp"
 #include "log/map_landmarks.hpp"
 #include "run/source.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "study/parts.hpp"
 
 namespace hallway::study {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "trace/triangle_mesh.hpp"
 
 namespace hallway::trace {

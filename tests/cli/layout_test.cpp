@@ -19,58 +19,60 @@ namespace fs = std::filesystem;
 
 /// What each folder may include besides itself and the standard library.
 const std::map<std::string, std::set<std::string>> kAllowed{
+    {"geometry", {}},
     {"engine/base", {}},
     {"engine/image", {"base"}},
-    {"engine/geom", {"base"}},
-    {"engine/map", {"base", "geom"}},
-    {"engine/csg", {"base", "geom", "map"}},
-    {"engine/bsp", {"base", "geom", "map", "csg"}},
-    {"engine/pvs", {"base", "geom", "bsp"}},
-    {"engine/trace", {"base", "geom"}},
-    {"engine/mesh", {"base", "image", "geom", "map"}},
-    {"engine/world", {"base", "geom", "map", "csg", "bsp", "pvs", "mesh"}},
-    {"engine/sense", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world"}},
+    {"engine/geom", {"geometry", "base"}},
+    {"engine/map", {"base", "geometry", "geom"}},
+    {"engine/csg", {"base", "geometry", "geom", "map"}},
+    {"engine/bsp", {"base", "geometry", "geom", "map", "csg"}},
+    {"engine/pvs", {"base", "geometry", "geom", "bsp"}},
+    {"engine/trace", {"base", "geometry", "geom"}},
+    {"engine/mesh", {"base", "image", "geometry", "geom", "map"}},
+    {"engine/world", {"base", "geometry", "geom", "map", "csg", "bsp", "pvs", "mesh"}},
+    {"engine/sense", {"base", "geometry", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world"}},
     {"engine/host", {"base", "hallway"}},
     {"engine/conformance", {"base", "host", "hallway"}},
-    {"engine/sim", {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "host"}},
+    {"engine/sim",
+     {"base", "geometry", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "host"}},
     {"engine/log", {"base"}},
     {"engine/record", {"base", "host", "log", "hallway"}},
     {"engine/link", {"base", "host", "hallway"}},
-    {"engine/foxglove", {"base", "geom", "host", "log", "hallway"}},
-    {"engine/import", {"base", "image", "geom", "host", "log", "hallway"}},
-    {"engine/eval", {"base", "geom", "log"}},
-    {"engine/render", {"base", "image", "geom", "map", "csg", "bsp", "mesh", "world"}},
-    {"engine/planes", {"base", "image", "geom", "host", "log", "import", "render", "hallway"}},
+    {"engine/foxglove", {"base", "geometry", "geom", "host", "log", "hallway"}},
+    {"engine/import", {"base", "image", "geometry", "geom", "host", "log", "hallway"}},
+    {"engine/eval", {"base", "geometry", "geom", "log"}},
+    {"engine/render", {"base", "image", "geometry", "geom", "map", "csg", "bsp", "mesh", "world"}},
+    {"engine/planes", {"base", "image", "geometry", "geom", "host", "log", "import", "render", "hallway"}},
     {"engine/run",
-     {"base", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "host", "log",
-      "record", "link", "foxglove", "eval", "render", "hallway"}},
+     {"base",  "geometry", "geom", "map", "csg",    "bsp",  "pvs",      "trace", "mesh",   "world",
+      "sense", "sim",      "host", "log", "record", "link", "foxglove", "eval",  "render", "hallway"}},
     {"engine/batch", {"base"}},
     {"engine/study",
-     {"base", "geom", "map",    "csg",  "bsp",    "pvs",  "trace",  "mesh", "world", "sense",  "sim",
-      "host", "log",  "record", "link", "import", "eval", "render", "run",  "batch", "hallway"}},
+     {"base", "geometry", "geom", "map",    "csg",  "bsp",    "pvs",  "trace",  "mesh", "world", "sense",
+      "sim",  "host",     "log",  "record", "link", "import", "eval", "render", "run",  "batch", "hallway"}},
     {"editor",
-     {"base", "image", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense", "sim", "eval",
-      "render", "run"}},
+     {"base", "image", "geometry", "geom", "map", "csg", "bsp", "pvs", "trace", "mesh", "world", "sense",
+      "sim", "eval", "render", "run"}},
     {"robot", {"base", "host", "log", "record", "link", "hallway"}},
-    {"loaders", {"base", "geom", "mesh", "import"}},
-    {"plugins/algebra", {"algebra"}},
-    {"plugins/em/core", {"em"}},
-    {"plugins/slam_point/core", {"algebra", "slam_point"}},
-    {"plugins/slam_plane/core", {"algebra", "slam_plane"}},
-    {"plugins/slam_plane/thesis", {"algebra", "slam_plane"}},
-    {"plugins/slam_plane/spatial", {"algebra", "slam_plane"}},
-    {"plugins/icp/core", {"algebra", "icp"}},
+    {"loaders", {"base", "geometry", "geom", "mesh", "import"}},
+    {"plugins/em/core", {"geometry", "em"}},
+    {"plugins/slam_point/core", {"geometry", "slam_point"}},
+    {"plugins/slam_plane/core", {"geometry", "slam_plane"}},
+    {"plugins/slam_plane/thesis", {"geometry", "slam_plane"}},
+    {"plugins/slam_plane/spatial", {"geometry", "slam_plane"}},
+    {"plugins/icp/core", {"geometry", "icp"}},
     // Of plugins, the algorithm that a command has too; never what makes a plugin of it.
-    {"cli", {"base",   "geom",   "map",  "csg",         "bsp",   "pvs",    "trace", "mesh",       "world",
-             "sense",  "sim",    "host", "conformance", "log",   "record", "link",  "import",     "eval",
-             "render", "planes", "run",  "batch",       "study", "editor", "icp",   "slam_point", "hallway"}},
+    {"cli", {"base",  "geometry", "geom",  "map",    "csg",  "bsp",        "pvs",
+             "trace", "mesh",     "world", "sense",  "sim",  "host",       "conformance",
+             "log",   "record",   "link",  "import", "eval", "render",     "planes",
+             "run",   "batch",    "study", "editor", "icp",  "slam_point", "hallway"}},
 };
 
 const std::set<std::string> kLibraries{
     "base",        "image", "geom",   "map",   "csg",    "bsp",     "pvs",    "trace",      "mesh",
     "world",       "sense", "sim",    "host",  "log",    "planes",  "record", "link",       "foxglove",
     "import",      "eval",  "render", "run",   "editor", "hallway", "robot",  "slam_point", "slam_plane",
-    "conformance", "em",    "icp",    "batch", "study",  "algebra"};
+    "conformance", "em",    "icp",    "batch", "study",  "geometry"};
 
 struct Include {
   fs::path file;
@@ -109,7 +111,7 @@ TEST(Layout, NoFolderIncludesWhatStandsToItsRight) {
 
 TEST(Layout, EachHeavyLibraryIsIncludedByOneFile) {
   std::map<std::string, std::set<std::string>> users;
-  for (const char* folder : {"engine", "editor", "loaders", "cli", "robot", "plugins", "sdk"}) {
+  for (const char* folder : {"geometry", "engine", "editor", "loaders", "cli", "robot", "plugins", "sdk"}) {
     for (const Include& include : includes_of(test::source_folder() / folder)) {
       if (include.target.starts_with("embree")) users["Embree"].insert(include.file.string());
       if (include.target.starts_with("CLI/")) users["CLI11"].insert(include.file.string());
@@ -154,7 +156,8 @@ TEST(Layout, EveryLibraryHasAShortReadme) {
 }
 
 TEST(Layout, EverySourceFileNamesItsLicence) {
-  for (const char* folder : {"engine", "loaders", "cli", "robot", "plugins", "sdk", "tests", "bench"}) {
+  for (const char* folder :
+       {"geometry", "engine", "loaders", "cli", "robot", "plugins", "sdk", "tests", "bench"}) {
     for (const auto& entry : fs::recursive_directory_iterator(test::source_folder() / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".hpp" && extension != ".cpp" && extension != ".h" && extension != ".c") continue;

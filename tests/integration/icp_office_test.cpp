@@ -25,7 +25,7 @@ class IcpOffice : public testing::Test {
 
   Seen seen(std::uint32_t step) const { return simulator_.step(step).readings.front().observations; }
   /// Where the sensor is, seen from where it was at first.
-  icp::Pose truth(std::uint32_t step) const {
+  Pose truth(std::uint32_t step) const {
     const Pose& mount = std::get<sense::PointSensorSpec>(scenario_.sensors.front()).T_body_sensor;
     const Pose T = (simulator_.pose_at(0) * mount).inverse() * simulator_.pose_at(step) * mount;
     return {T.q, T.t};
@@ -65,7 +65,7 @@ icp::Points common(const Seen& seen, const Seen& other) {
 
 TEST_F(IcpOffice, LeastSquaresFollowsALoopWithoutPointsThatComeAndGo) {
   const icp::Rules rules{.kernel = icp::Kernel::none, .reach_m = 1.5, .max_distance_m = 1.5};
-  icp::Pose T_map_sensor, motion;
+  Pose T_map_sensor, motion;
   Seen last = seen(0);
   double worst_m = 0.0;
   for (std::uint32_t step = 1; step <= loop(); ++step) {

@@ -5,9 +5,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "algebra/rigid_motion.hpp"
-#include "algebra/singular.hpp"
-#include "algebra/spectrum.hpp"
+#include "geometry/rigid_fit.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::dense {
 
@@ -24,12 +23,12 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::Vect
 }
 
 Spectrum2 eigen_of(const Eigen::Matrix2d& matrix) {
-  const auto found = algebra::spectrum<2>(matrix);
+  const auto found = hallway::spectrum<2>(matrix);
   return {found.values, found.vectors};
 }
 
 Eigen::Vector3d eigenvalues_of(const Eigen::Matrix3d& matrix) {
-  return algebra::spectrum<3>(matrix).values;
+  return spectrum<3>(matrix).values;
 }
 
 Singular singular_of(const Eigen::MatrixXd& matrix) {
@@ -38,13 +37,13 @@ Singular singular_of(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& cross) {
-  const algebra::Singular svd = algebra::singular(cross);
+  const hallway::Singular svd = singular(cross);
   const double sign = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   return svd.left * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.right.transpose();
 }
 
 Eigen::Matrix4d rigid_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  return algebra::rigid_motion(from, to);
+  return hallway::rigid_motion(from, to);
 }
 
 }  // namespace hallway::dense

@@ -18,7 +18,7 @@
 
 #include "base/error.hpp"
 #include "eval/point_error.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"
 #include "log/poses.hpp"

@@ -17,7 +17,7 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "plane_run.hpp"
 
 namespace hallway::peers {

@@ -8,47 +8,6 @@
 namespace hallway::em {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-bool before(const Vec2& a, const Vec2& b) {
-  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-}
-
-// Appends a point to a chain that turns left at every corner.
-void extend(std::vector<Vec2>& chain, std::size_t first, const Vec2& p) {
-  while (chain.size() >= first + 2 &&
-         cross(chain.back() - chain[chain.size() - 2], p - chain[chain.size() - 2]) <= 0.0) {
-    chain.pop_back();
-  }
-  chain.push_back(p);
-}
-
-// Drops most of what is no corner before it is sorted: what lies within the polygon of the points outermost in eight directions (Akl and
-// Toussaint 1978).
-void drop_inner(std::vector<Vec2>& points) {
-  constexpr std::array<std::array<double, 2>, 8> kDirections{
-      {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-  if (points.size() < 4 * kDirections.size()) return;
-  std::array<Vec2, 8> outer;
-  for (std::size_t i = 0; i < outer.size(); ++i) {
-    const Vec2 direction(kDirections[i][0], kDirections[i][1]);
-    outer[i] = *std::max_element(points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) {
-      return direction.dot(a) < direction.dot(b);
-    });
-  }
-  if (outer[0] == outer[4] && outer[2] == outer[6]) return;  // all are the same
-  std::erase_if(points, [&](const Vec2& p) {
-    for (std::size_t i = 0; i < outer.size(); ++i) {
-      const Vec2& a = outer[i];
-      const Vec2& b = outer[(i + 1) % outer.size()];
-      if (a != b && cross(b - a, p - a) <= 0.0) return false;
-    }
-    return true;
-  });
-}
-
 // The corner that lies farthest in a direction, searched onwards from `from`: the directions asked for turn with the edges.
 std::size_t farthest(std::span<const Vec2> hull, const Vec2& direction, std::size_t from) {
   for (std::size_t steps = 0; steps < hull.size(); ++steps) {
@@ -103,27 +62,6 @@ FlatFrame flat_frame(const Vec3& normal, const Vec3& origin) {
   frame.u = Vec3(1.0 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
   frame.v = Vec3(b, sign + normal.y() * normal.y() * a, -normal.y());
   return frame;
-}
-
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  drop_inner(points);
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Vec2> hull;
-  for (const Vec2& p : points) extend(hull, 0, p);
-  const std::size_t upper = hull.size() - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) extend(hull, upper, points[i]);
-  hull.pop_back();
-  return hull;
-}
-
-double polygon_area(std::span<const Vec2> polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
-  }
-  return 0.5 * twice;
 }
 
 bool Rectangle::contains(const Vec2& p, double margin) const {

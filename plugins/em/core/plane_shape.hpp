@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "em/core/types.hpp"
+#include "geometry/convex2.hpp"
 
 namespace hallway::em {
 
@@ -27,13 +28,6 @@ struct FlatFrame {
 
 /// A frame on the plane through `origin`; its axes are a function of the unit normal alone.
 FlatFrame flat_frame(const Vec3& normal, const Vec3& origin);
-
-/// The corners of the smallest convex polygon that holds the points, counter-clockwise from the one with the least (x, y); no three on
-/// a line. Equal points give one, collinear ones two. Coordinates are finite. O(n log n).
-std::vector<Vec2> convex_hull(std::vector<Vec2> points);
-
-/// Area within a polygon, positive for counter-clockwise ones.
-double polygon_area(std::span<const Vec2> polygon);
 
 /// A rectangle at any angle.
 struct Rectangle {

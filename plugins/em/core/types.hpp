@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace hallway::em {
+#include "geometry/se3.hpp"
 
-using Vec2 = Eigen::Vector2d;
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
+namespace hallway::em {
 
 /// Index of a point of the cloud, in the order given.
 using PointIndex = std::uint32_t;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "icp/core/fit.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
-#include "algebra/singular.hpp"
-#include "algebra/spectrum.hpp"
+#include "geometry/rigid_fit.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::icp {
 namespace {
@@ -34,12 +33,6 @@ Means means_of(const std::vector<Pair>& pairs) {
   return means;
 }
 
-Eigen::Quaterniond rotation_by(const Vec3& turn) {
-  const double angle = turn.norm();
-  if (angle == 0.0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
-}
-
 }  // namespace
 
 std::optional<Pose> fit_points(const std::vector<Pair>& pairs) {
@@ -48,15 +41,9 @@ std::optional<Pose> fit_points(const std::vector<Pair>& pairs) {
   Mat3 cross = Mat3::Zero();  // sum w (target - mean) (moved - mean)^T
   for (const Pair& pair : pairs)
     cross += pair.weight * (pair.target - means.target) * (pair.moved - means.moved).transpose();
-  const algebra::Singular svd = algebra::singular(cross);
-  // Two directions fix a rotation; the third follows from a right-handed frame.
-  if (!(svd.values(1) > kOpenAcross * svd.values(0))) return std::nullopt;
-  Mat3 proper = Mat3::Identity();
-  proper(2, 2) = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  Pose motion;
-  motion.q = Eigen::Quaterniond(Mat3(svd.left * proper * svd.right.transpose())).normalized();
-  motion.t = means.target - motion.q * means.moved;
-  return motion;
+  const std::optional<Quat> rotation = determined_rotation(cross, kOpenAcross);
+  if (!rotation) return std::nullopt;
+  return Pose{*rotation, means.target - *rotation * means.moved};
 }
 
 std::optional<Pose> fit_planes(const std::vector<Pair>& pairs) {
@@ -77,7 +64,7 @@ std::optional<Pose> fit_planes(const std::vector<Pair>& pairs) {
     curvature += pair.weight * row * row.transpose();
     gradient += pair.weight * pair.normal.dot(pair.target - pair.moved) * row;
   }
-  const algebra::Spectrum<6> eigen = algebra::spectrum(curvature);
+  const Spectrum<6> eigen = spectrum(curvature);
   if (!(eigen.values(0) > kOpenPlanes * eigen.values(5))) return std::nullopt;
   const Vec6 step = eigen.vectors * (eigen.vectors.transpose() * gradient).cwiseQuotient(eigen.values);
   Pose motion;

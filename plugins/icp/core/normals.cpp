@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "icp/core/normals.hpp"
 
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::icp {
 namespace {
@@ -19,7 +19,7 @@ Vec3 normal_of(const Points& points, const std::vector<Neighbour>& near) {
     const Vec3 d = points[each.index] - mean;
     scatter += d * d.transpose();
   }
-  const algebra::Spectrum<3> eigen = algebra::spectrum(scatter);
+  const Spectrum<3> eigen = spectrum(scatter);
   if (!(eigen.values(1) > kLine * eigen.values(2))) return Vec3::Zero();
   return eigen.vectors.col(0);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::slam_plane {
 namespace {
@@ -87,7 +87,7 @@ void FrameFit::step(Pose2& T, Ends ends, PoseInformation& information) const {
         kHoldOpen * (information.open == 2 ? Mat2(Mat2::Identity()) : Mat2(u * u.transpose()));
   }
   if (!information.heading) h(2, 2) += kHoldOpen;
-  const Vec3 x = algebra::Ldlt<3>(h).solve(g);
+  const Vec3 x = Ldlt<3>(h).solve(g);
   if (x.allFinite()) T = T.moved(x.head<2>(), x(2));
 }
 

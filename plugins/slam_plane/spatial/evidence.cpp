@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam_plane/spatial/evidence.hpp"
 
-#include "algebra/cholesky.hpp"
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -63,7 +62,7 @@ double Feature::variance_along(const Vec3& direction) const {
 
 Feature fit_plane(const Mat4& evidence, const Vec3& towards) {
   Feature feature;
-  const auto spread = algebra::spectrum<3>(spread_of(evidence));
+  const auto spread = spectrum<3>(spread_of(evidence));
   Vec3 n = spread.vectors.col(0);
   if (n.dot(towards) < 0.0) n = -n;
   feature.plane.head<3>() = n;
@@ -75,7 +74,7 @@ Feature fit_plane(const Mat4& evidence, const Vec3& towards) {
   }
   feature.tangent(3, 2) = 1.0;
   const Mat3 information = feature.tangent.transpose() * evidence * feature.tangent;
-  feature.covariance = algebra::inverse_of_positive<3>(information).matrix;
+  feature.covariance = inverse_of_positive<3>(information).matrix;
   return feature;
 }
 
@@ -84,7 +83,7 @@ Feature fit_edge(const Mat4& evidence, const Vec3& normal, const Vec3& towards) 
   const PlaneAxes axes(normal);
   Eigen::Matrix<double, 3, 2> basis;
   basis << axes.u, axes.v;
-  const auto flat = algebra::spectrum<2>(basis.transpose() * spread_of(evidence) * basis);
+  const auto flat = spectrum<2>(basis.transpose() * spread_of(evidence) * basis);
   Vec3 m = basis * flat.vectors.col(0);
   if (m.dot(towards) < 0.0) m = -m;
   feature.plane.head<3>() = m;
@@ -94,7 +93,7 @@ Feature fit_edge(const Mat4& evidence, const Vec3& normal, const Vec3& towards) 
   feature.tangent(3, 1) = 1.0;
   const Eigen::Matrix<double, 4, 2> free = feature.tangent.leftCols<2>();
   const Mat2 information = free.transpose() * evidence * free;
-  feature.covariance.topLeftCorner<2, 2>() = algebra::inverse_of_positive<2>(information).matrix;
+  feature.covariance.topLeftCorner<2, 2>() = inverse_of_positive<2>(information).matrix;
   return feature;
 }
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "algebra/singular.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -120,7 +120,7 @@ void FrameSearch::try_place(const FaceMap& map, const std::vector<Sighting>& fra
     normals.row(i) = map.faces[known[at]].plane.normal().transpose();
     sum += map.faces[known[at]].plane.normal() * frame[seen[at]].normal.transpose();
   }
-  const algebra::Singular svd = algebra::singular(sum);
+  const Singular svd = singular(sum);
   Mat3 right = Mat3::Identity();
   right(2, 2) = (svd.left * svd.right.transpose()).determinant();
   Pose3 T;

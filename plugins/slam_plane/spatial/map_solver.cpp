@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "algebra/cholesky.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -60,7 +60,7 @@ class Problem {
       coupled.emplace_back(slot_[term.submap], turn.transpose() * q * tangent);
     }
     if (observed.is_edge) own(2, 2) = 1.0;  // an edge has two directions
-    const Mat3 inverse = algebra::inverse_of_positive<3>(own).matrix;
+    const Mat3 inverse = inverse_of_positive<3>(own).matrix;
     if (!inverse.allFinite()) return;
     for (const auto& [i, a] : coupled) {
       const Mat63 share = a * inverse;
@@ -75,7 +75,7 @@ class Problem {
   Eigen::VectorXd step() const {
     Eigen::MatrixXd h = h_;
     h.diagonal() *= 1.0 + kDamping;
-    return algebra::Ldlt<Eigen::Dynamic>(h).solve(-g_);
+    return Ldlt<Eigen::Dynamic>(h).solve(-g_);
   }
 
   static double weight(const Mat4& evidence, const Vec4& plane, bool is_edge) {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 #include "slam_plane/spatial/polygon.hpp"
 
 namespace hallway::slam_plane::spatial {
@@ -143,7 +143,7 @@ void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound_m, bool g
 void PoseFit::judge(PoseInformation& information) const {
   Vec6 scale;
   scale << Vec3::Constant(undetermined_m_), Vec3::Constant(kWorstTurn_rad);
-  const auto spectrum = algebra::spectrum<6>(scale.asDiagonal() * information.matrix * scale.asDiagonal());
+  const auto spectrum = hallway::spectrum<6>(scale.asDiagonal() * information.matrix * scale.asDiagonal());
   information.open = static_cast<int>((spectrum.values.array() < 1.0).count());
   information.directions = spectrum.vectors;
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -25,7 +25,7 @@ void place_by_lines(std::span<const PlanePair> pairs, const Pose2& guess, Alignm
     information += n * n.transpose();
     pull += n * n.dot(pair.point[1] - result.T_to_from.rotate(pair.point[0]) - guess.t);
   }
-  const algebra::Spectrum<2> eigen = algebra::spectrum(information);
+  const Spectrum<2> eigen = spectrum(information);
   result.T_to_from.t = guess.t;
   result.determined = eigen.values[0] > kLeastCrossing * static_cast<double>(pairs.size());
   for (int k = result.determined ? 0 : 1; k < 2; ++k) {

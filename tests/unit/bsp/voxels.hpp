@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 namespace hallway::test {
 

@@ -11,7 +11,7 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "import/depth_camera.hpp"
 #include "support/gray_png.hpp"
 

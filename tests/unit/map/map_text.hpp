@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/document.hpp"
 
 namespace hallway::map::test {

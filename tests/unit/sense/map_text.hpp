@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "map/reader.hpp"
 
 namespace hallway::test {

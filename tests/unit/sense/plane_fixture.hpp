@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/plane_sensor.hpp"
 
 namespace hallway::test {

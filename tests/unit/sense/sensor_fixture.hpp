@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/point_sensor.hpp"
 #include "trace/scene.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "sense/face_sensor.hpp"
 
 namespace hallway::slam_plane::spatial::test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "sense/face_plan.hpp"
 #include "slam_plane/spatial/mapper.hpp"
 

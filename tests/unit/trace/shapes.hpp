@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 #include "trace/triangle_mesh.hpp"
 
 namespace hallway::test {

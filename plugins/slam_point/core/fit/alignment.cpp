@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -20,7 +20,7 @@ bool is_spread(const Mat3& curvature, double least) {
   const double trace = curvature.trace();
   const double determinant = curvature.determinant();
   if (determinant > 0.0 && 3.99 * determinant >= least * trace * trace) return true;
-  return algebra::least_eigenvalue(curvature) >= least;
+  return least_eigenvalue(curvature) >= least;
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "algebra/cholesky.hpp"
-#include "algebra/spectrum.hpp"
+#include "geometry/symmetric.hpp"
 #include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
@@ -91,11 +90,11 @@ void DirectionalFitter::sum(double inlier_m) {
 bool DirectionalFitter::is_determined() const {
   const Mat3 travel = normal_.topLeftCorner<3, 3>();
   const Mat3 cross = normal_.bottomLeftCorner<3, 3>();
-  const algebra::Ldlt<3> factors(travel);
+  const Ldlt<3> factors(travel);
   if (!(factors.least_pivot() > 0.0)) return false;
   const Mat3 turn = normal_.bottomRightCorner<3, 3>() - cross * factors.solve_all(cross.transpose());
   if (rules_.planar) return turn(2, 2) >= rules_.min_spread_m2;
-  return algebra::least_eigenvalue(turn) >= rules_.min_spread_m2;
+  return least_eigenvalue(turn) >= rules_.min_spread_m2;
 }
 
 bool DirectionalFitter::fit() {
@@ -109,7 +108,7 @@ bool DirectionalFitter::fit() {
     }
     const bool first = pass < kFirstInliers.size();
     sum(first ? kFirstInliers[pass] * rules_.inlier_m : rules_.inlier_m);
-    const algebra::Ldlt<6> factors(normal_);
+    const Ldlt<6> factors(normal_);
     if (!(factors.least_pivot() > 0.0)) return false;
     const StepVector step = -factors.solve(gradient_);
     if (!step.allFinite()) return false;

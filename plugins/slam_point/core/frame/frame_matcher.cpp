@@ -7,7 +7,7 @@
 #include <limits>
 #include <tuple>
 
-#include "algebra/rigid_motion.hpp"
+#include "geometry/rigid_fit.hpp"
 #include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
@@ -216,7 +216,7 @@ bool FrameMatcher::locate_by_tracks(const SubmapGraph& graph, bool planar,
     to.col(static_cast<Eigen::Index>(i)) = pairs_[i].reference;
   }
   // No guess is near, as the fit needs one: a closed form gives it.
-  const Eigen::Matrix4d T = algebra::rigid_motion(from, to);
+  const Eigen::Matrix4d T = rigid_motion(from, to);
   Pose located{Eigen::Quaterniond(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>()};
   if (!robust_fit(pairs_, rules(planar), located)) return false;
   T_map_sensor = located;

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "algebra/cholesky.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::slam_point {
 
@@ -53,7 +53,7 @@ std::optional<Mat6> PoseInformation::covariance_by_matrices(bool planar) const {
     information.block<6, 3>(0, 2).setZero();
     information.diagonal().segment<3>(2).setOnes();
   }
-  const algebra::Inverse<6> inverse = algebra::inverse_of_positive<6>(information);
+  const Inverse<6> inverse = inverse_of_positive<6>(information);
   if (!inverse.is_positive) return std::nullopt;
   Mat6 covariance = inverse.matrix;
   if (planar) covariance.diagonal().segment<3>(2).setZero();

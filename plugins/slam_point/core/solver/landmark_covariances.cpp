@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "algebra/cholesky.hpp"
+#include "geometry/symmetric.hpp"
 #include "slam_point/core/solver/block_cholesky.hpp"
 #include "slam_point/core/solver/reduced_system.hpp"
 
@@ -136,7 +136,7 @@ bool LandmarkCovariances::fit_gauge() {
     spread_ += motion.transpose() * noise(l) * motion;
     for (const Lever& lever : levers(l)) load[lever.slot] += lever.motion.transpose() * motion;
   }
-  const algebra::Ldlt<6> factors(normal);
+  const Ldlt<6> factors(normal);
   if (!(factors.least_pivot() > 1e-9 * factors.largest_pivot())) return false;
   fit_ = factors.solve_all(Mat6::Identity());
   response_.assign(6, std::vector<BlockCholesky::Vec6>(slots));

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "algebra/singular.hpp"
+#include "geometry/rigid_fit.hpp"
 
 namespace hallway::slam_point::thesis {
 namespace {
@@ -59,7 +59,7 @@ bool rigid_fit(std::span<const Vec3> a, std::span<const Vec3> b, Pose& T_a_b) {
   const Vec3 mean_b = mean_of(b);
   Mat3 cross = Mat3::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) cross += (a[i] - mean_a) * (b[i] - mean_b).transpose();
-  const algebra::Singular svd = algebra::singular(cross);
+  const Singular svd = singular(cross);
   if (!(svd.values(1) > kLeastSingularShare * svd.values(0))) return false;
   const double sign = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   const Mat3 r = svd.left * Vec3(1.0, 1.0, sign).asDiagonal() * svd.right.transpose();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 #include <Eigen/SVD>
-
-#include "base/error.hpp"
+#include <stdexcept>
 
 namespace hallway {
 namespace {
@@ -11,7 +10,7 @@ namespace {
 /// `weight_of(i)` is the weight of pair i.
 template <typename WeightOf>
 std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec3> to, WeightOf weight_of) {
-  if (from.size() != to.size()) throw Error(ErrorCode::kInternal, "rigid_fit: the spans differ in length");
+  if (from.size() != to.size()) throw std::invalid_argument("rigid_fit: the spans differ in length");
   double weight = 0.0;
   for (std::size_t i = 0; i < from.size(); ++i) weight += weight_of(i);
   if (!(weight > 0.0)) return std::nullopt;
@@ -24,7 +23,7 @@ std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec
   }
   from_mean *= scale;
   to_mean *= scale;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Mat3 covariance = Mat3::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
     covariance += weight_of(i) * (to[i] - to_mean) * (from[i] - from_mean).transpose();
   }
@@ -32,6 +31,13 @@ std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec
   fit.q = nearest_rotation(covariance);
   fit.t = to_mean - fit.q * from_mean;
   return fit;
+}
+
+Quat rotation_of(const Singular& svd) {
+  Vec3 signs = Vec3::Ones();
+  if ((svd.left * svd.right.transpose()).determinant() < 0.0) signs.z() = -1.0;  // no reflection
+  const Mat3 rotation = svd.left * signs.asDiagonal() * svd.right.transpose();
+  return Quat(rotation).normalized();
 }
 
 }  // namespace
@@ -43,16 +49,27 @@ std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> 
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,
                               std::span<const double> weights) {
   if (from.size() != weights.size())
-    throw Error(ErrorCode::kInternal, "rigid_fit: the weights differ in number from the points");
+    throw std::invalid_argument("rigid_fit: the weights differ in number from the points");
   return weighted_fit(from, to, [weights](std::size_t i) { return weights[i]; });
 }
 
-Quat nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs = Vec3::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;  // no reflection
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return Quat(rotation).normalized();
+Eigen::Matrix4d rigid_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  return Eigen::umeyama(from, to, false);
+}
+
+Quat nearest_rotation(const Mat3& matrix) {
+  return rotation_of(singular(matrix));
+}
+
+std::optional<Quat> determined_rotation(const Mat3& matrix, double least_share) {
+  const Singular svd = singular(matrix);
+  if (!(svd.values(1) > least_share * svd.values(0))) return std::nullopt;
+  return rotation_of(svd);
+}
+
+Singular singular(const Mat3& matrix) {
+  const Eigen::JacobiSVD<Mat3> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
 }  // namespace hallway

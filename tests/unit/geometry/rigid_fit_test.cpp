@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geom/rigid_fit.hpp"
+#include "geometry/rigid_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "support/errors.hpp"
-#include "unit/geom/random_geometry.hpp"
+#include "unit/geometry/random_geometry.hpp"
 
 namespace hallway {
 namespace {

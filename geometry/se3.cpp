@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 #include <cmath>
 
 namespace hallway {
-
-Pose Pose::operator*(const Pose& other) const {
-  return {(q * other.q).normalized(), q * other.t + t};
-}
-
-Pose Pose::inverse() const {
-  const Quat back = q.conjugate();
-  return {back, -(back * t)};
-}
 
 Pose look_along(const Vec3& position, const Vec3& forward) {
   const Vec3 x = forward.normalized();
@@ -21,7 +12,7 @@ Pose look_along(const Vec3& position, const Vec3& forward) {
       1e-9;  // sine of the angle to the vertical below which the heading is lost in rounding
   if (y.norm() < kVertical) y = Vec3::UnitY();
   y.normalize();
-  Eigen::Matrix3d rotation;
+  Mat3 rotation;
   rotation << x, y, x.cross(y);
   return {Quat(rotation).normalized(), position};
 }
@@ -31,9 +22,23 @@ Quat from_yaw_pitch_roll(double yaw, double pitch, double roll) {
               Eigen::AngleAxisd(roll, Vec3::UnitX()));
 }
 
+Quat rotation_by(const Vec3& vector) {
+  const double angle = vector.norm();
+  if (angle < 1e-12) return Quat(1.0, 0.5 * vector.x(), 0.5 * vector.y(), 0.5 * vector.z()).normalized();
+  return Quat(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+Vec3 rotation_vector(const Quat& q) {
+  const Eigen::AngleAxisd turn(q.w() < 0.0 ? Quat(-q.w(), -q.x(), -q.y(), -q.z()) : q);
+  return turn.angle() * turn.axis();
+}
+
+double angle_of(const Quat& q) {
+  return 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
+}
+
 double angle_between(const Quat& a, const Quat& b) {
-  const Quat difference = a.conjugate() * b;
-  return 2.0 * std::atan2(difference.vec().norm(), std::abs(difference.w()));
+  return angle_of(a.conjugate() * b);
 }
 
 }  // namespace hallway

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "geom/symmetric.hpp"
+#include "geometry/symmetric.hpp"
 
 #include <gtest/gtest.h>
 
-#include "unit/geom/random_geometry.hpp"
+#include "unit/geometry/random_geometry.hpp"
 
 namespace hallway {
 namespace {
@@ -52,15 +52,15 @@ TEST(Symmetric, OnlyTheLowerTriangleIsRead) {
 TEST(Symmetric, TheInverseTimesTheMatrixIsOne) {
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     const Mat6 matrix = random_matrix(seed, 12);
-    EXPECT_LT((symmetric_inverse<6>(matrix) * matrix - Mat6::Identity()).norm(), 1e-6);
+    EXPECT_LT((Ldlt<6>(matrix).inverse() * matrix - Mat6::Identity()).norm(), 1e-6);
     const Eigen::Matrix3d part = matrix.topLeftCorner<3, 3>();
-    EXPECT_LT((symmetric_inverse<3>(part) * part - Eigen::Matrix3d::Identity()).norm(), 1e-6);
+    EXPECT_LT((Ldlt<3>(part).inverse() * part - Eigen::Matrix3d::Identity()).norm(), 1e-6);
   }
 }
 
 TEST(Symmetric, WhatIsOpenIsNotMoved) {
   const Mat6 none = Mat6::Zero();
-  EXPECT_EQ(symmetric_inverse<6>(none), none);
+  EXPECT_EQ(Ldlt<6>(none).inverse(), none);
 }
 
 }  // namespace

@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "algebra/cholesky.hpp"
+#include "geometry/symmetric.hpp"
 
-namespace hallway::algebra {
+#include <Eigen/Eigenvalues>
+
+namespace hallway {
+
+template <int N>
+Spectrum<N> spectrum(const Eigen::Matrix<double, N, N>& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+template Spectrum<2> spectrum(const Eigen::Matrix<double, 2, 2>&);
+template Spectrum<3> spectrum(const Eigen::Matrix<double, 3, 3>&);
+template Spectrum<6> spectrum(const Eigen::Matrix<double, 6, 6>&);
+template Spectrum<Eigen::Dynamic> spectrum(const Eigen::MatrixXd&);
+
+double least_eigenvalue(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(0);
+}
 
 template <int N>
 Inverse<N> inverse_of_positive(const Eigen::Matrix<double, N, N>& matrix) {
@@ -42,4 +61,4 @@ template class Ldlt<6>;
 template Ldlt<Eigen::Dynamic>::Ldlt(const Square&);
 template Ldlt<Eigen::Dynamic>::Column Ldlt<Eigen::Dynamic>::solve(const Column&) const;
 
-}  // namespace hallway::algebra
+}  // namespace hallway

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "geom/pose.hpp"
+#include "geometry/se3.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "unit/geom/random_geometry.hpp"
+#include "unit/geometry/random_geometry.hpp"
 
 namespace hallway {
 namespace {

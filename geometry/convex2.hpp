@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/se3.hpp"
+
+namespace hallway {
+
+/// A convex polygon in a plane, counter-clockwise, metres. Fewer than three corners: nothing.
+using Convex = std::vector<Vec2>;
+
+/// The third component of a x b: positive where b is to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// The corners of the smallest convex polygon that holds the points, counter-clockwise from the one with the least (x, y); no three on
+/// a line. Equal points give one, collinear ones two. Coordinates are finite. O(n log n).
+Convex convex_hull(std::vector<Vec2> points);
+
+/// Area within a polygon, positive for counter-clockwise ones; square metres.
+double polygon_area(std::span<const Vec2> polygon);
+
+/// The least distance between two parallel lines that hold the polygon between them, metres. O(n^2).
+double width(const Convex& polygon);
+
+/// What of a polygon lies where normal . x <= offset.
+Convex clip(const Convex& polygon, const Vec2& normal, double offset);
+
+}  // namespace hallway
