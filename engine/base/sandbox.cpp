@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "base/helper.hpp"
-#include "base/syscall_filter.hpp"
 
 // Of later kernels than the headers may be of.
 #ifndef LANDLOCK_ACCESS_FS_REFER

@@ -24,4 +24,16 @@ struct Confinement {
 /// @return what this kernel does not provide, as one sentence each; empty where all of it stands
 std::vector<std::string> confine(const Confinement& confinement);
 
+/// Which files a filter of system calls leaves writable.
+enum class FileWrites {
+  kAllowed,  ///< something else restrains them
+  kNone,     ///< no file is opened for writing, made, renamed or removed
+};
+
+/// The part of confine() that refuses system calls, from now on, for this thread and those it makes (seccomp): sockets but pairs, other programs
+/// and processes, signals to, tracing and memory of other processes, higher limits, and what administers a machine. A refused call fails with
+/// EPERM. Needs no_new_privs.
+/// @return false if the kernel has no such filter
+bool filter_system_calls(FileWrites writes);
+
 }  // namespace hallway

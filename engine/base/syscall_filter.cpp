@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/syscall_filter.hpp"
+#include "base/sandbox.hpp"
 
 #include <fcntl.h>
 #include <linux/audit.h>

@@ -27,9 +27,8 @@ void look(Instance& plugin, const Subject& subject, const std::vector<std::uint3
   }
 }
 
-void survives_no_sensors(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void survives_no_sensors(const Subject& subject) {
+  Instance plugin(subject);
   const Ended ended = plugin.activate({});
   ended.demand_reason();
   if (!ended.good()) return;
@@ -37,9 +36,8 @@ void survives_no_sensors(const Subject& subject, Remains&) {
   plugin.report(0).demand_valid();
 }
 
-void skips_unknown_sensors(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void skips_unknown_sensors(const Subject& subject) {
+  Instance plugin(subject);
   hw_sensor_info_t unknown = ordinary_sensor(1);
   unknown.kind = 4711;
   hw_sensor_info_t last = ordinary_sensor(2);
@@ -50,9 +48,8 @@ void skips_unknown_sensors(const Subject& subject, Remains&) {
   look(plugin, subject, {0});
 }
 
-void takes_unknown_facts(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void takes_unknown_facts(const Subject& subject) {
+  Instance plugin(subject);
   hw_sensor_info_t sensor = ordinary_sensor();
   sensor.horizontal_fov = sensor.vertical_fov = sensor.min_range_m = sensor.max_range_m = kNan;
   for (double& noise : sensor.noise_m) noise = kNan;
@@ -63,9 +60,8 @@ void takes_unknown_facts(const Subject& subject, Remains&) {
   look(plugin, subject, {0});
 }
 
-void survives_two_sensors(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void survives_two_sensors(const Subject& subject) {
+  Instance plugin(subject);
   const Ended ended = plugin.activate({ordinary_sensor(0), ordinary_sensor(1)});
   ended.demand_reason();
   if (!ended.good()) throw Skipped("the plugin refuses a second sensor, with a reason: " + ended.text());
@@ -73,7 +69,7 @@ void survives_two_sensors(const Subject& subject, Remains&) {
   look(plugin, subject, {1});
 }
 
-void takes_any_id(const Subject& subject, Remains&) {
+void takes_any_id(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const std::uint32_t id : {0x7fffffffu, 0x80000000u, UINT32_MAX}) {
     Instance plugin(library, subject);
@@ -84,9 +80,8 @@ void takes_any_id(const Subject& subject, Remains&) {
   }
 }
 
-void takes_any_mount(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void takes_any_mount(const Subject& subject) {
+  Instance plugin(subject);
   hw_sensor_info_t sensor = ordinary_sensor();
   sensor.name = "hinter der Tür";
   const double half = std::sqrt(0.5);

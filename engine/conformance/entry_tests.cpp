@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kUnknownIds[] = {"", "hw.plugin-factory/4711", "hw.nothing/1", "HW.PLUGIN-FACTORY/1"};
 constexpr std::size_t kMaxIdBytes = 64;
 
-void shows_entry_alone(const Subject& subject, Remains&) {
+void shows_entry_alone(const Subject& subject) {
   const host::LibraryFacts facts = host::read_library_facts(subject.file);
   if (!facts.symbols_known) throw Skipped("the file has no section headers to read its symbols by");
   for (const std::string& name : facts.exports) {
@@ -28,7 +28,7 @@ void shows_entry_alone(const Subject& subject, Remains&) {
   }
 }
 
-void knows_no_other_factory(const Subject& subject, Remains&) {
+void knows_no_other_factory(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const char* id : kUnknownIds) {
     const void* factory = marked("get_factory", [&] { return library.entry().get_factory(id); });
@@ -58,14 +58,14 @@ std::vector<const hw_plugin_info_t*> descriptions(const LoadedLibrary& library) 
   return all;
 }
 
-void counts_the_same(const Subject& subject, Remains&) {
+void counts_the_same(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::uint32_t first = count_of(library);
   Instance(library, subject).parameters();
   for (int i = 0; i < 3; ++i) demand(count_of(library) == first, "count() has changed");
 }
 
-void describes_no_more(const Subject& subject, Remains&) {
+void describes_no_more(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::uint32_t count = count_of(library);
   for (const std::uint32_t index : {count, count + 1, UINT32_MAX}) {
@@ -85,7 +85,7 @@ std::string text_of_info(const hw_plugin_info_t& info) {
   return text;
 }
 
-void describes_the_same(const Subject& subject, Remains&) {
+void describes_the_same(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const hw_plugin_info_t& info = library.info(subject.plugin);
   const std::string before = text_of_info(info);
@@ -95,7 +95,7 @@ void describes_the_same(const Subject& subject, Remains&) {
          "a plugin was described otherwise the next time");
 }
 
-void has_good_ids(const Subject& subject, Remains&) {
+void has_good_ids(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   std::set<std::string> ids;
   for (const hw_plugin_info_t* info : descriptions(library)) {
@@ -111,7 +111,7 @@ void has_good_ids(const Subject& subject, Remains&) {
   }
 }
 
-void has_good_texts(const Subject& subject, Remains&) {
+void has_good_texts(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const hw_plugin_info_t* info : descriptions(library)) {
     demand_text(info->name, "the name");
@@ -131,7 +131,7 @@ void demand_kinds(const std::uint32_t* kinds, std::uint32_t count, const std::st
   }
 }
 
-void has_good_kinds(const Subject& subject, Remains&) {
+void has_good_kinds(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const hw_plugin_info_t* info : descriptions(library)) {
     demand_kinds(info->inputs, info->n_inputs, "inputs");
@@ -140,23 +140,22 @@ void has_good_kinds(const Subject& subject, Remains&) {
   }
 }
 
-void creates_no_other(const Subject& subject, Remains&) {
+void creates_no_other(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   TestHost host({});
   for (const char* id : {"", "no_plugin_has_this_id", "\xff"}) {
     hw_plugin_t plugin{};
-    Ended ended{.call = "create", .error = host::empty_error()};
-    ended.status =
-        marked("create", [&] { return library.factory().create(&host.host(), id, &plugin, &ended.error); });
+    const Ended ended = ended_by("create", [&](hw_error_t* error) {
+      return library.factory().create(&host.host(), id, &plugin, error);
+    });
     demand(ended.status == HW_ERROR_NOT_FOUND,
            "create() of an unknown id gave " + std::string(hw_status_name(ended.status)));
     ended.demand_reason();
   }
 }
 
-void has_all_functions(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void has_all_functions(const Subject& subject) {
+  Instance plugin(subject);
   const hw_plugin_vtable_t& v = *plugin.raw().vtable;
   demand(v.activate && v.deactivate && v.reset && v.process && v.report && v.get_extension && v.destroy,
          "a function of the vtable is null");
@@ -164,9 +163,8 @@ void has_all_functions(const Subject& subject, Remains&) {
   plugin.parameters_2();
 }
 
-void knows_no_other_extension(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  const Instance plugin(library, subject);
+void knows_no_other_extension(const Subject& subject) {
+  const Instance plugin(subject);
   const hw_plugin_t& raw = plugin.raw();
   for (const char* id : {"", "hw.nothing/1", "hw.params/4711", "HW.PARAMS/1", "hw.params"}) {
     const void* extension = marked("get_extension", [&] { return raw.vtable->get_extension(raw.self, id); });

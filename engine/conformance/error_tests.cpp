@@ -20,9 +20,7 @@ using Attempt = std::function<hw_status_t(hw_error_t*)>;
 class Failures {
  public:
   explicit Failures(const Subject& subject)
-      : library_(subject.file),
-        host_({}),
-        plugin_(library_, {.file = subject.file, .plugin = subject.plugin}) {}
+      : library_(subject.file), host_({}), plugin_(library_, subject.plain()) {}
 
   /// Calls `look` with each: its name, and how to make it.
   void each(const std::function<void(const char* name, const Attempt&)>& look) {
@@ -62,7 +60,7 @@ class Failures {
   Instance plugin_;
 };
 
-void gives_good_reasons(const Subject& subject, Remains&) {
+void gives_good_reasons(const Subject& subject) {
   Failures(subject).each([](const char* name, const Attempt& attempt) {
     hw_error_t error = host::empty_error();
     std::memset(error.message + 1, 'x',
@@ -79,18 +77,17 @@ void gives_good_reasons(const Subject& subject, Remains&) {
   });
 }
 
-void needs_no_error(const Subject& subject, Remains&) {
+void needs_no_error(const Subject& subject) {
   Failures(subject).each([](const char*, const Attempt& attempt) { attempt(nullptr); });
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+  Instance plugin(subject);
   plugin.give_no_errors();
   plugin.activate();
-  walk(plugin, subject, 0, 3);
+  plugin.walk(0, 3);
   plugin.must_reset();
-  walk(plugin, subject, 3, 4);
+  plugin.walk(3, 4);
 }
 
-void takes_a_larger_error(const Subject& subject, Remains&) {
+void takes_a_larger_error(const Subject& subject) {
   struct Grown {
     hw_error_t error;
     unsigned char more[48];

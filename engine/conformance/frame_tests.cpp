@@ -17,34 +17,25 @@ constexpr std::uint64_t kBefore = 3;  ///< ordinary frames before the one that a
 constexpr std::size_t kManyPoints = 100'000;
 constexpr double kSpread = 1e-3;  ///< times up to 10 m
 
-/// An active plugin of a library.
-struct Fed {
-  explicit Fed(const Subject& subject) : library(subject.file), plugin(library, subject) {
-    plugin.activate();
-  }
-  LoadedLibrary library;
-  Instance plugin;
-};
-
 /// Gives `frame` (of step 0) to a new plugin first, and to another one at step kBefore of the walk, which then goes on. The answers are valid; with
 /// `may_fail` they may be failures with a reason.
 void try_frame(const Subject& subject, Frame frame, bool may_fail = false) {
   for (const std::uint64_t before : {std::uint64_t{0}, kBefore}) {
-    Fed fed(subject);
+    Active plugin(subject);
     for (std::uint64_t step = 0; step < before; ++step) {
-      fed.plugin.process(walk_frame(subject.seed, step)).demand_valid();
+      plugin.step(step).demand_valid();
     }
     frame.sequence = before;
     frame.t_ns = walk_frame(subject.seed, before).t_ns;
     for (Reading& reading : frame.readings) reading.sequence = before;
-    const Answer answer = fed.plugin.process(frame);
+    const Answer answer = plugin.process(frame);
     if (may_fail) answer.demand_survived();
     if (!answer.good() && may_fail) continue;
     answer.demand_valid();
     for (std::uint64_t step = before + 1; step < before + 3; ++step) {
-      fed.plugin.process(walk_frame(subject.seed, step)).demand_valid();
+      plugin.step(step).demand_valid();
     }
-    fed.plugin.report(0).demand_valid();
+    plugin.report(0).demand_valid();
   }
 }
 
@@ -52,15 +43,15 @@ void try_points(const Subject& subject, Points points, bool may_fail = false) {
   try_frame(subject, frame_of(0, std::move(points)), may_fail);
 }
 
-void takes_no_samples(const Subject& subject, Remains&) {
+void takes_no_samples(const Subject& subject) {
   try_frame(subject, {});
 }
 
-void takes_no_points(const Subject& subject, Remains&) {
+void takes_no_points(const Subject& subject) {
   try_points(subject, {});
 }
 
-void takes_one_point(const Subject& subject, Remains&) {
+void takes_one_point(const Subject& subject) {
   try_points(subject, {{1.0, 2.0, 0.5}});
 }
 
@@ -76,41 +67,41 @@ Points many_points(const Subject& subject) {
   return points;
 }
 
-void takes_many_points(const Subject& subject, Remains&) {
-  Fed fed(subject);
-  fed.plugin.process(walk_frame(subject.seed, 0)).demand_valid();
-  fed.plugin.process(frame_of(1, many_points(subject))).demand_valid();
-  fed.plugin.process(walk_frame(subject.seed, 2)).demand_valid();
-  fed.plugin.report(0).demand_valid();
+void takes_many_points(const Subject& subject) {
+  Active plugin(subject);
+  plugin.step(0).demand_valid();
+  plugin.process(frame_of(1, many_points(subject))).demand_valid();
+  plugin.step(2).demand_valid();
+  plugin.report(0).demand_valid();
 }
 
-void survives_equal_points(const Subject& subject, Remains&) {
+void survives_equal_points(const Subject& subject) {
   try_points(subject, Points(10, {1.0, 2.0, 0.5}), true);
   Points twice = walk_points(subject.seed, 0);
   twice.insert(twice.end(), twice.begin(), twice.end());
   try_points(subject, twice, true);
 }
 
-void takes_far_points(const Subject& subject, Remains&) {
+void takes_far_points(const Subject& subject) {
   Points far = random_points(subject.seed, stream_id("conformance.far"), 20);
   for (hw_point3_t& point : far) point = {1e5 * point.x, 1e5 * point.y, 1e5 * point.z};  // up to 1e6 m
   far.push_back({1e6, -1e6, 1e6});
   try_points(subject, far);
 }
 
-void takes_points_in_a_line(const Subject& subject, Remains&) {
+void takes_points_in_a_line(const Subject& subject) {
   Points line;
   for (int i = 0; i < 20; ++i) line.push_back({1.0 + 0.25 * i, 0.0, 0.0});
   try_points(subject, line);
 }
 
-void takes_points_in_a_plane(const Subject& subject, Remains&) {
+void takes_points_in_a_plane(const Subject& subject) {
   Points plane = walk_points(subject.seed, 0);
   for (hw_point3_t& point : plane) point.z = 0.0;
   try_points(subject, plane);
 }
 
-void survives_points_that_are_not_finite(const Subject& subject, Remains&) {
+void survives_points_that_are_not_finite(const Subject& subject) {
   Points points = walk_points(subject.seed, 0);
   points[1].x = std::numeric_limits<double>::quiet_NaN();
   points[2].y = std::numeric_limits<double>::infinity();
@@ -121,8 +112,7 @@ void survives_points_that_are_not_finite(const Subject& subject, Remains&) {
 /// What is put for three frames where each has `extra` at `place`, counted as if it had not.
 std::string with_extra(const LoadedLibrary& library, const Subject& subject, const Reading* extra,
                        std::size_t place) {
-  Instance plugin(library, subject, {.counters = false});
-  plugin.activate();
+  Active plugin(library, subject, {.counters = false});
   std::string bytes;
   for (std::uint64_t step = 0; step < 3; ++step) {
     Frame frame = walk_frame(subject.seed, step);
@@ -137,7 +127,7 @@ std::string with_extra(const LoadedLibrary& library, const Subject& subject, con
   return bytes;
 }
 
-void skips_unknown_kinds(const Subject& subject, Remains&) {
+void skips_unknown_kinds(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::string expected = with_extra(library, subject, nullptr, 0);
   for (const std::uint32_t kind : {0u, 4711u, UINT32_MAX}) {
@@ -153,19 +143,19 @@ void skips_unknown_kinds(const Subject& subject, Remains&) {
 /// Frames of the walk, each changed by `change`.
 template <typename Change>
 void try_walk(const Subject& subject, bool may_fail, Change&& change) {
-  Fed fed(subject);
+  Active plugin(subject);
   for (std::uint64_t step = 0; step < 6; ++step) {
     Frame frame = walk_frame(subject.seed, step);
     change(frame);
-    const Answer answer = fed.plugin.process(frame);
+    const Answer answer = plugin.process(frame);
     if (!may_fail) answer.demand_valid();
     answer.demand_survived();
     if (!answer.good()) return;
   }
-  fed.plugin.report(0).demand_valid();
+  plugin.report(0).demand_valid();
 }
 
-void takes_tracks(const Subject& subject, Remains&) {
+void takes_tracks(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) {
     Reading& reading = frame.readings.front();
     for (std::size_t i = 0; i < reading.points.size(); ++i) {
@@ -174,7 +164,7 @@ void takes_tracks(const Subject& subject, Remains&) {
   });
 }
 
-void takes_pixels(const Subject& subject, Remains&) {
+void takes_pixels(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) {
     Reading& reading = frame.readings.front();
     // Rows of seven, the last points first, with a pixel without a point before every point.
@@ -186,11 +176,11 @@ void takes_pixels(const Subject& subject, Remains&) {
   });
 }
 
-void takes_equal_times(const Subject& subject, Remains&) {
+void takes_equal_times(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) { frame.t_ns = 1'000'000'000; });
 }
 
-void takes_any_time(const Subject& subject, Remains&) {
+void takes_any_time(const Subject& subject) {
   try_walk(subject, false,
            [](Frame& frame) { frame.t_ns = -1'000'000'000 + static_cast<std::int64_t>(frame.sequence); });
   try_walk(subject, false, [](Frame& frame) {
@@ -198,7 +188,7 @@ void takes_any_time(const Subject& subject, Remains&) {
   });
 }
 
-void survives_gaps(const Subject& subject, Remains&) {
+void survives_gaps(const Subject& subject) {
   try_walk(subject, true, [](Frame& frame) {
     if (frame.sequence >= 2) frame.sequence += 1'000'000'000'000;
     if (frame.sequence % 2 == 1) frame.sequence += 1;
@@ -206,7 +196,7 @@ void survives_gaps(const Subject& subject, Remains&) {
   });
 }
 
-void survives_unannounced_sensors(const Subject& subject, Remains&) {
+void survives_unannounced_sensors(const Subject& subject) {
   Frame frame = walk_frame(subject.seed, 0);
   frame.readings.front().sensor = 77;
   try_frame(subject, frame, true);
@@ -214,7 +204,7 @@ void survives_unannounced_sensors(const Subject& subject, Remains&) {
   try_frame(subject, frame, true);
 }
 
-void survives_two_readings(const Subject& subject, Remains&) {
+void survives_two_readings(const Subject& subject) {
   Frame frame = walk_frame(subject.seed, 0);
   frame.readings.push_back(frame.readings.front());
   try_frame(subject, frame, true);

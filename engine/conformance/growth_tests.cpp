@@ -23,13 +23,9 @@ std::string put_by(const LoadedLibrary& library, const Subject& subject, const I
   for (std::uint64_t step = 0; step < kGrowthFrames; ++step) {
     Frame frame = walk_frame(subject.seed, step);
     frame.readings.front().flags = sample_flags;
-    const Answer answer = plugin.process(frame, shape);
-    answer.demand_good();
-    bytes += answer.put.bytes;
+    bytes += plugin.process(frame, shape).bytes();
   }
-  const Answer report = plugin.report(0);
-  report.demand_good();
-  return bytes + report.put.bytes;
+  return bytes + plugin.report(0).bytes();
 }
 
 void compare(const Subject& subject, const std::string& what, const InputShape& shape,
@@ -38,31 +34,31 @@ void compare(const Subject& subject, const std::string& what, const InputShape& 
   demand_same(put_by(library, subject, shape, host, sample_flags), put_by(library, subject, {}), what);
 }
 
-void takes_a_larger_frame(const Subject& subject, Remains&) {
+void takes_a_larger_frame(const Subject& subject) {
   compare(subject, "a larger hw_frame_t changes the answer", {.frame_growth = kGrowth});
 }
-void takes_a_larger_sample(const Subject& subject, Remains&) {
+void takes_a_larger_sample(const Subject& subject) {
   compare(subject, "a larger hw_sample_t changes the answer", {.sample_growth = kGrowth});
 }
-void takes_larger_points(const Subject& subject, Remains&) {
+void takes_larger_points(const Subject& subject) {
   compare(subject, "a larger hw_points_t changes the answer", {.points_growth = kGrowth});
 }
-void honours_the_stride(const Subject& subject, Remains&) {
+void honours_the_stride(const Subject& subject) {
   compare(subject, "a larger stride changes the answer", {.stride = sizeof(hw_point3_t) + 16});
 }
-void takes_a_larger_activation(const Subject& subject, Remains&) {
+void takes_a_larger_activation(const Subject& subject) {
   compare(subject, "a larger hw_activation_t changes the answer", {.activation_growth = kGrowth});
 }
-void takes_a_larger_sensor(const Subject& subject, Remains&) {
+void takes_a_larger_sensor(const Subject& subject) {
   compare(subject, "a larger hw_sensor_info_t changes the answer", {.sensor_growth = kGrowth});
 }
-void takes_a_larger_host(const Subject& subject, Remains&) {
+void takes_a_larger_host(const Subject& subject) {
   compare(subject, "a larger hw_host_t changes the answer", {}, {.growth = kGrowth});
 }
-void ignores_unknown_flags(const Subject& subject, Remains&) {
+void ignores_unknown_flags(const Subject& subject) {
   compare(subject, "an unknown flag of a sample changes the answer", {}, {}, kUnknownFlag);
 }
-void ignores_reserved_members(const Subject& subject, Remains&) {
+void ignores_reserved_members(const Subject& subject) {
   compare(subject, "a reserved member that is not 0 changes the answer", {.reserved = 0xdeadbeef},
           {.reserved = 0xdeadbeef});
 }
@@ -70,21 +66,17 @@ void ignores_reserved_members(const Subject& subject, Remains&) {
 /// Throws Failed unless report() gives the same for an unusual request.
 void compare_reports(const Subject& subject, const std::string& what, std::uint32_t flags,
                      std::uint32_t growth) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
-  walk(plugin, subject, 0, kGrowthFrames);
+  Active plugin(subject);
+  plugin.walk(0, kGrowthFrames);
   const Answer plain = plugin.report(0);
   const Answer unusual = plugin.report(flags, growth);
-  plain.demand_good();
-  unusual.demand_good();
-  demand_same(unusual.put.bytes, plain.put.bytes, what);
+  demand_same(unusual.bytes(), plain.bytes(), what);
 }
 
-void takes_a_larger_request(const Subject& subject, Remains&) {
+void takes_a_larger_request(const Subject& subject) {
   compare_reports(subject, "a larger hw_report_request_t changes the report", 0, kGrowth);
 }
-void ignores_unknown_requests(const Subject& subject, Remains&) {
+void ignores_unknown_requests(const Subject& subject) {
   compare_reports(subject, "an unknown flag of a request changes the report", kUnknownFlag, 0);
 }
 

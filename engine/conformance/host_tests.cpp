@@ -12,24 +12,23 @@ namespace {
 constexpr std::uint64_t kHostFrames = 4;
 
 std::string answers_with(const LoadedLibrary& library, const Subject& subject, const HostShape& host) {
-  Instance plugin(library, subject, host);
-  plugin.activate();
-  return walk(plugin, subject, 0, kHostFrames);
+  Active plugin(library, subject, host);
+  return plugin.walk(0, kHostFrames);
 }
 
-void needs_no_extensions(const Subject& subject, Remains&) {
+void needs_no_extensions(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   demand_same(answers_with(library, subject, {.extensions = false}), answers_with(library, subject, {}),
               "without extensions of the host, it answers otherwise");
 }
 
-void survives_refusals(const Subject& subject, Remains&) {
+void survives_refusals(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const hw_status_t answer :
        std::initializer_list<hw_status_t>{HW_ERROR_MEMORY, HW_ERROR_DATA, HW_ERROR_ARGUMENT, 4711}) {
     Instance plugin(library, subject, {.answer = answer});
     plugin.activate();
-    const Answer processed = plugin.process(walk_frame(subject.seed, 0));
+    const Answer processed = plugin.step(0);
     processed.demand_reason();
     if (processed.good()) plugin.report(0).demand_reason();
     plugin.close();

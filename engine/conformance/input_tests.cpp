@@ -13,10 +13,8 @@ namespace {
 
 constexpr std::uint64_t kInputFrames = 5;
 
-void does_not_keep_frames(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+void does_not_keep_frames(const Subject& subject) {
+  Active plugin(subject);
   std::vector<InputMemory> memories(kInputFrames);
   for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     const hw_frame_t& frame = memories[step].put_frame(walk_frame(subject.seed, step));
@@ -28,21 +26,17 @@ void does_not_keep_frames(const Subject& subject, Remains&) {
   plugin.close();
 }
 
-void does_not_keep_the_activation(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+void does_not_keep_the_activation(const Subject& subject) {
+  Active plugin(subject);
   plugin.poison_activation();
-  walk(plugin, subject, 0, kInputFrames);
+  plugin.walk(0, kInputFrames);
   plugin.must_reset();
-  walk(plugin, subject, kInputFrames, kInputFrames + 1);
+  plugin.walk(kInputFrames, kInputFrames + 1);
   plugin.close();
 }
 
-void does_not_write(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+void does_not_write(const Subject& subject) {
+  Active plugin(subject);
   for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     InputMemory memory;
     const hw_frame_t& frame = memory.put_frame(walk_frame(subject.seed, step));
@@ -51,9 +45,8 @@ void does_not_write(const Subject& subject, Remains&) {
   }
 }
 
-void does_not_read_on(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void does_not_read_on(const Subject& subject) {
+  Instance plugin(subject);
   const InputShape tight{.tight = true};
   const Ended ended = plugin.activate({ordinary_sensor()}, tight);
   if (!ended.good()) plugin.activate();

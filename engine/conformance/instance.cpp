@@ -54,15 +54,23 @@ hw_sensor_info_t ordinary_sensor(std::uint32_t id) {
 }
 
 Instance::Instance(const LoadedLibrary& library, const Subject& subject, const HostShape& shape)
-    : host_(shape) {
+    : seed_(subject.seed), host_(shape) {
   const hw_plugin_info_t& info = library.info(subject.plugin);
   inputs_ = inputs_of(info);
-  Ended ended{.call = "create", .error = host::empty_error()};
-  ended.status = marked(
-      "create", [&] { return library.factory().create(&host_.host(), info.id, &plugin_, &ended.error); });
-  ended.demand_good();
+  ended("create", [&](hw_error_t* error) {
+    return library.factory().create(&host_.host(), info.id, &plugin_, error);
+  }).demand_good();
   demand(plugin_.vtable != nullptr, "create() left the vtable null");
   apply_settings(subject);
+}
+
+Instance::Instance(const Subject& subject, const HostShape& shape)
+    : Instance(std::make_unique<const LoadedLibrary>(subject.file), subject, shape) {}
+
+Instance::Instance(std::unique_ptr<const LoadedLibrary> library, const Subject& subject,
+                   const HostShape& shape)
+    : Instance(*library, subject, shape) {
+  own_library_ = std::move(library);
 }
 
 Instance::~Instance() {
@@ -74,19 +82,15 @@ Instance::~Instance() {
 
 Ended Instance::apply_setting(const hw_params_t& params, std::uint32_t index,
                               const host::Parameter& parameter, const std::string& value) {
-  Ended ended{.call = "set", .error = host::empty_error()};
   if (!parameter.is_text()) {
     const hw_param_value_t parsed = parameter.parse(value);
-    ended.status = marked("set", [&] { return params.set(plugin_.self, index, &parsed, &ended.error); });
-    return ended;
+    return ended("set", [&](hw_error_t* error) { return params.set(plugin_.self, index, &parsed, error); });
   }
   const hw_params_2_t* texts = parameters_2();
   demand(texts != nullptr, "declares a text parameter without " HW_EXT_PARAMS_2);
   const std::string text = host::text_parameter_value(parameter, value, {});
-  ended.call = "set_text";
-  ended.status =
-      marked("set_text", [&] { return texts->set_text(plugin_.self, index, text.c_str(), &ended.error); });
-  return ended;
+  return ended("set_text",
+               [&](hw_error_t* error) { return texts->set_text(plugin_.self, index, text.c_str(), error); });
 }
 
 void Instance::apply_settings(const Subject& subject) {
@@ -124,12 +128,12 @@ const hw_params_2_t* Instance::parameters_2() {
 }
 
 Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape) {
-  Ended ended{.call = "activate", .error = host::empty_error()};
   const hw_activation_t& activation = activation_.put_activation(sensors, shape);
-  ended.status = marked("activate",
-                        [&] { return plugin_.vtable->activate(plugin_.self, &activation, error_of(ended)); });
-  active_ = ended.good();
-  return ended;
+  const Ended activated = ended("activate", [&](hw_error_t* error) {
+    return plugin_.vtable->activate(plugin_.self, &activation, error);
+  });
+  active_ = activated.good();
+  return activated;
 }
 
 void Instance::activate() {
@@ -147,20 +151,21 @@ void Instance::deactivate() {
 }
 
 Ended Instance::reset() {
-  Ended ended{.call = "reset", .error = host::empty_error()};
-  ended.status = marked("reset", [&] { return plugin_.vtable->reset(plugin_.self, error_of(ended)); });
-  return ended;
+  return ended("reset", [&](hw_error_t* error) { return plugin_.vtable->reset(plugin_.self, error); });
+}
+
+template <typename Call>
+Answer Instance::answer(const char* name, const hw_frame_t* frame, std::vector<std::uint32_t> indices,
+                        Call&& call) {
+  host_.begin(frame, std::move(indices));
+  Answer given{ended(name, call)};
+  given.put = host_.finish();
+  return given;
 }
 
 Answer Instance::process(const hw_frame_t& frame, std::vector<std::uint32_t> indices) {
-  Answer answer;
-  answer.call = "process";
-  answer.error = host::empty_error();
-  host_.begin(&frame, std::move(indices));
-  answer.status =
-      marked("process", [&] { return plugin_.vtable->process(plugin_.self, &frame, error_of(answer)); });
-  answer.put = host_.finish();
-  return answer;
+  return answer("process", &frame, std::move(indices),
+                [&](hw_error_t* error) { return plugin_.vtable->process(plugin_.self, &frame, error); });
 }
 
 Answer Instance::process(const Frame& frame, const InputShape& shape) {
@@ -175,14 +180,8 @@ Answer Instance::report(std::uint32_t flags, std::uint32_t growth) {
   auto& request = *static_cast<hw_report_request_t*>(block.data());
   request.size = static_cast<std::uint32_t>(sizeof request) + growth;
   request.flags = flags;
-  Answer answer;
-  answer.call = "report";
-  answer.error = host::empty_error();
-  host_.begin(nullptr, {});
-  answer.status =
-      marked("report", [&] { return plugin_.vtable->report(plugin_.self, &request, error_of(answer)); });
-  answer.put = host_.finish();
-  return answer;
+  return answer("report", nullptr, {},
+                [&](hw_error_t* error) { return plugin_.vtable->report(plugin_.self, &request, error); });
 }
 
 void Instance::close() {
@@ -192,16 +191,10 @@ void Instance::close() {
   marked("destroy", [&] { plugin.vtable->destroy(plugin.self); });
 }
 
-std::string walk(Instance& instance, const Subject& subject, std::uint64_t begin, std::uint64_t end) {
+std::string Instance::walk(std::uint64_t begin, std::uint64_t end) {
   std::string bytes;
-  for (std::uint64_t step = begin; step < end; ++step) {
-    const Answer answer = instance.process(walk_frame(subject.seed, step));
-    answer.demand_good();
-    bytes += answer.put.bytes;
-  }
-  const Answer report = instance.report(0);
-  report.demand_good();
-  return bytes + report.put.bytes;
+  for (std::uint64_t k = begin; k < end; ++k) bytes += step(k).bytes();
+  return bytes + report(0).bytes();
 }
 
 void demand_same(const std::string& a, const std::string& b, const std::string& what) {

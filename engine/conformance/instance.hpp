@@ -3,14 +3,18 @@
 
 #include <hallway/hallway.h>
 
-#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "conformance/call_mark.hpp"
 #include "conformance/input_memory.hpp"
 #include "conformance/loaded_library.hpp"
 #include "conformance/test.hpp"
 #include "conformance/test_host.hpp"
+#include "conformance/walk.hpp"
+#include "host/error_text.hpp"
 #include "host/parameter.hpp"
 
 namespace hallway::conformance {
@@ -30,12 +34,25 @@ struct Ended {
   void demand_reason() const;
 };
 
+/// Calls a function of the plugin with an hw_error_t of its own.
+template <typename Call>
+Ended ended_by(const char* name, Call&& call) {
+  Ended ended{.call = name, .error = host::empty_error()};
+  ended.status = marked(name, [&] { return call(&ended.error); });
+  return ended;
+}
+
 /// How process() or report() ended, and what it put.
 struct Answer : Ended {
   Collected put{};
 
   /// Throws Failed unless it ended well and put nothing wrong. @return what was put
   const Collected& demand_valid() const;
+  /// Bytes of what was put. Throws Failed unless it ended well.
+  const std::string& bytes() const {
+    demand_good();
+    return put.bytes;
+  }
   /// Throws Failed if it failed without a reason, or ended well and put something wrong.
   void demand_survived() const;
 };
@@ -48,6 +65,8 @@ class Instance {
  public:
   /// Makes one. Throws Failed.
   Instance(const LoadedLibrary& library, const Subject& subject, const HostShape& shape = {});
+  /// The same with the library that it is in.
+  explicit Instance(const Subject& subject, const HostShape& shape = {});
   /// close(), if nobody has.
   ~Instance();
   Instance(const Instance&) = delete;
@@ -72,6 +91,11 @@ class Instance {
   /// Throws Failed where it fails.
   void must_reset() { reset().demand_good(); }
   Answer process(const Frame& frame, const InputShape& shape = {});
+  /// With frame `step` of the ordinary walk.
+  Answer step(std::uint64_t step) { return process(walk_frame(seed_, step)); }
+  /// Bytes of everything that was put from frame `begin` to before `end` of the ordinary walk, with a report at the end. Throws Failed where a
+  /// call fails.
+  std::string walk(std::uint64_t begin, std::uint64_t end);
   /// In memory that the caller has; `indices` says how the samples count in what is put.
   Answer process(const hw_frame_t& frame, std::vector<std::uint32_t> indices);
   Answer report(std::uint32_t flags, std::uint32_t growth = 0);
@@ -79,11 +103,21 @@ class Instance {
   void close();
 
  private:
+  Instance(std::unique_ptr<const LoadedLibrary> library, const Subject& subject, const HostShape& shape);
   void apply_settings(const Subject& subject);
   Ended apply_setting(const hw_params_t& params, std::uint32_t index, const host::Parameter& parameter,
                       const std::string& value);
-  hw_error_t* error_of(Ended& ended) const { return gives_errors_ ? &ended.error : nullptr; }
+  /// ended_by(), but for give_no_errors().
+  template <typename Call>
+  Ended ended(const char* name, Call&& call) const {
+    return ended_by(name, [&](hw_error_t* error) { return call(gives_errors_ ? error : nullptr); });
+  }
+  /// A call with outputs.
+  template <typename Call>
+  Answer answer(const char* name, const hw_frame_t* frame, std::vector<std::uint32_t> indices, Call&& call);
 
+  std::unique_ptr<const LoadedLibrary> own_library_;
+  std::uint64_t seed_;
   TestHost host_;
   hw_plugin_t plugin_{};
   std::vector<std::uint32_t> inputs_;
@@ -92,9 +126,16 @@ class Instance {
   bool gives_errors_ = true;
 };
 
-/// Bytes of everything that was put from frame `begin` to before `end` of the ordinary walk, with a report at the end. Throws Failed where
-/// a call fails.
-std::string walk(Instance& instance, const Subject& subject, std::uint64_t begin, std::uint64_t end);
+/// An instance that is active, with the ordinary sensor.
+struct Active : Instance {
+  explicit Active(const Subject& subject, const HostShape& shape = {}) : Instance(subject, shape) {
+    activate();
+  }
+  Active(const LoadedLibrary& library, const Subject& subject, const HostShape& shape = {})
+      : Instance(library, subject, shape) {
+    activate();
+  }
+};
 
 /// Throws Failed with `what` unless both are the same.
 void demand_same(const std::string& a, const std::string& b, const std::string& what);

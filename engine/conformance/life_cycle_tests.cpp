@@ -29,67 +29,57 @@ void demand_flat(std::size_t heap, std::size_t resident, const std::string& what
          what + " has left " + std::to_string(resident_now - resident) + " bytes of resident memory behind");
 }
 
-void is_destroyed_at_once(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, {.file = subject.file, .plugin = subject.plugin});
-  plugin.close();
+void is_destroyed_at_once(const Subject& subject) {
+  Instance(subject.plain()).close();
 }
 
-void is_deactivated_at_once(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+void is_deactivated_at_once(const Subject& subject) {
+  Active plugin(subject);
   plugin.deactivate();
   plugin.close();
 }
 
 /// Two instances, one of which was active before with other frames, get the same frames from then on.
-void deactivation_forgets(const Subject& subject, Remains&) {
+void deactivation_forgets(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   Instance used(library, subject);
   for (std::uint64_t round = 0; round < 2; ++round) {
     used.activate();
-    walk(used, subject, round * kLifeCycleFrames, (round + 1) * kLifeCycleFrames);
+    used.walk(round * kLifeCycleFrames, (round + 1) * kLifeCycleFrames);
     used.deactivate();
   }
   used.activate();
-  Instance fresh(library, subject);
-  fresh.activate();
-  demand_same(walk(used, subject, 2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
-              walk(fresh, subject, 2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
+  Active fresh(library, subject);
+  demand_same(used.walk(2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
+              fresh.walk(2 * kLifeCycleFrames, 3 * kLifeCycleFrames),
               "a plugin that was active before answers otherwise than a new one");
 }
 
-void is_reset_at_once(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+void is_reset_at_once(const Subject& subject) {
+  Active plugin(subject);
   plugin.must_reset();
   plugin.must_reset();
-  walk(plugin, subject, 0, 1);
+  plugin.walk(0, 1);
 }
 
-void reset_forgets(const Subject& subject, Remains&) {
+void reset_forgets(const Subject& subject) {
   const LoadedLibrary library(subject.file);
-  Instance used(library, subject);
-  used.activate();
-  walk(used, subject, 0, kLifeCycleFrames);
+  Active used(library, subject);
+  used.walk(0, kLifeCycleFrames);
   used.must_reset();
-  Instance fresh(library, subject);
-  fresh.activate();
-  demand_same(walk(used, subject, kLifeCycleFrames, 3 * kLifeCycleFrames),
-              walk(fresh, subject, kLifeCycleFrames, 3 * kLifeCycleFrames),
+  Active fresh(library, subject);
+  demand_same(used.walk(kLifeCycleFrames, 3 * kLifeCycleFrames),
+              fresh.walk(kLifeCycleFrames, 3 * kLifeCycleFrames),
               "a plugin that was reset answers otherwise than a newly activated one");
 }
 
 /// Bytes of a walk of one instance with nothing beside it.
 std::string alone(const LoadedLibrary& library, const Subject& subject) {
-  Instance plugin(library, subject);
-  plugin.activate();
-  return walk(plugin, subject, 0, kLifeCycleFrames);
+  Active plugin(library, subject);
+  return plugin.walk(0, kLifeCycleFrames);
 }
 
-void instances_are_independent(const Subject& subject, Remains&) {
+void instances_are_independent(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   Subject other = subject;
   other.seed = subject.seed + 1;
@@ -100,34 +90,32 @@ void instances_are_independent(const Subject& subject, Remains&) {
   second.activate();
   std::string bytes;
   for (std::uint64_t step = 0; step < kLifeCycleFrames; ++step) {
-    const Answer answer = first.process(walk_frame(subject.seed, step));
-    answer.demand_good();
-    bytes += answer.put.bytes;
-    second.process(walk_frame(other.seed, 2 * step)).demand_good();
+    bytes += first.step(step).bytes();
+    second.step(2 * step).demand_good();
   }
   second.close();
-  const Answer report = first.report(0);
-  report.demand_good();
-  demand_same(bytes + report.put.bytes, expected,
+  demand_same(bytes + first.report(0).bytes(), expected,
               "a plugin answers otherwise while another one of its kind is fed beside it");
 }
 
-void survives_a_refusal(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
+void need_refusal(Instance& plugin) {
   if (plugin.activate({}).good()) throw Skipped("the plugin refuses no sensors that this suite knows");
+}
+
+void survives_a_refusal(const Subject& subject) {
+  Instance plugin(subject);
+  need_refusal(plugin);
   plugin.close();
 }
 
-void can_be_activated_after_a_refusal(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  if (plugin.activate({}).good()) throw Skipped("the plugin refuses no sensors that this suite knows");
+void can_be_activated_after_a_refusal(const Subject& subject) {
+  Instance plugin(subject);
+  need_refusal(plugin);
   plugin.activate();
-  walk(plugin, subject, 0, 2);
+  plugin.walk(0, 2);
 }
 
-void creation_leaves_nothing(const Subject& subject, Remains&) {
+void creation_leaves_nothing(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   std::size_t heap = 0;
   std::size_t resident = 0;
@@ -141,7 +129,7 @@ void creation_leaves_nothing(const Subject& subject, Remains&) {
               "creating and destroying it " + std::to_string(kCreations - kWarmUp) + " times");
 }
 
-void use_leaves_nothing(const Subject& subject, Remains&) {
+void use_leaves_nothing(const Subject& subject) {
   // malloc() counts what a thread keeps for later as used; what it keeps settles within some hundred rounds.
   constexpr int kWarmUpRounds = 200;
   constexpr int kRounds = 320;
@@ -162,13 +150,13 @@ void use_leaves_nothing(const Subject& subject, Remains&) {
   demand_flat(heap, resident, "using it " + std::to_string(kRounds - kWarmUpRounds) + " times");
 }
 
-void loads_again_and_again(const Subject& subject, Remains&) {
+void loads_again_and_again(const Subject& subject) {
   for (int i = 0; i < kLoads; ++i) {
     try {
       LoadedLibrary library(subject.file);
       Instance plugin(library, subject);
       plugin.activate();
-      plugin.process(walk_frame(subject.seed, 0)).demand_good();
+      plugin.step(0).demand_good();
       plugin.close();
       library.unload();
     } catch (const NotLoadable& problem) {

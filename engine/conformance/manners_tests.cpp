@@ -25,10 +25,10 @@ void live(const Subject& subject) {
   Instance plugin(library, subject);
   plugin.parameters();
   plugin.activate();
-  walk(plugin, subject, 0, kMannersFrames);
+  plugin.walk(0, kMannersFrames);
   plugin.report(HW_REPORT_REFINE).demand_good();
   plugin.must_reset();
-  walk(plugin, subject, kMannersFrames, kMannersFrames + 1);
+  plugin.walk(kMannersFrames, kMannersFrames + 1);
   plugin.close();
   library.unload();
 }
@@ -41,7 +41,7 @@ void demand_unchanged(const Subject& subject, const char* what, Look&& look) {
     const LoadedLibrary library(subject.file);
     Instance plugin(library, subject);
     plugin.activate();
-    walk(plugin, subject, 0, kMannersFrames);
+    plugin.walk(0, kMannersFrames);
     demand(look() == before, std::string(what) + " changed while the plugin was active");
   }
   demand(look() == before, std::string(what) + " changed by the end of the plugin");
@@ -52,7 +52,7 @@ off_t bytes_written_to(int fd) {
   return ::fstat(fd, &facts) == 0 ? facts.st_size : 0;
 }
 
-void is_silent(const Subject& subject, Remains&) {
+void is_silent(const Subject& subject) {
   live(subject);
   std::fflush(nullptr);
   for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -62,7 +62,7 @@ void is_silent(const Subject& subject, Remains&) {
   }
 }
 
-void closes_what_it_opens(const Subject& subject, Remains&) {
+void closes_what_it_opens(const Subject& subject) {
   const std::vector<std::string> before = open_descriptors();
   live(subject);
   const std::vector<std::string> after = open_descriptors();
@@ -73,41 +73,41 @@ void closes_what_it_opens(const Subject& subject, Remains&) {
   demand(after.size() == before.size(), "it closed descriptors that are not its own");
 }
 
-void ends_its_threads(const Subject& subject, Remains&) {
+void ends_its_threads(const Subject& subject) {
   const std::size_t before = count_threads();
   live(subject);
   const std::size_t after = count_threads_down_to(before);
   demand(after <= before, std::to_string(after - before) + " threads are left");
 }
 
-void starts_no_processes(const Subject& subject, Remains&) {
+void starts_no_processes(const Subject& subject) {
   live(subject);
   if (!has_children()) return;
   end_children();
   throw Failed("a process is left that it started");
 }
 
-void keeps_signals(const Subject& subject, Remains&) {
+void keeps_signals(const Subject& subject) {
   demand_unchanged(subject, "signal handlers or blocked signals", signal_settings);
 }
 
-void keeps_locale(const Subject& subject, Remains&) {
+void keeps_locale(const Subject& subject) {
   demand_unchanged(subject, "the locale", [] { return std::string(::setlocale(LC_ALL, nullptr)); });
 }
 
-void keeps_float_settings(const Subject& subject, Remains&) {
+void keeps_float_settings(const Subject& subject) {
   demand_unchanged(subject, "rounding mode or other settings of floating-point arithmetic", float_settings);
 }
 
-void keeps_folder(const Subject& subject, Remains&) {
+void keeps_folder(const Subject& subject) {
   demand_unchanged(subject, "the working folder", [] { return std::filesystem::current_path().string(); });
 }
 
-void keeps_environment(const Subject& subject, Remains&) {
+void keeps_environment(const Subject& subject) {
   demand_unchanged(subject, "environment variables", environment_now);
 }
 
-void keeps_file_mask(const Subject& subject, Remains&) {
+void keeps_file_mask(const Subject& subject) {
   demand_unchanged(subject, "the file mode mask", file_mask);
 }
 

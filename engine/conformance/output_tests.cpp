@@ -18,22 +18,21 @@ constexpr std::uint64_t kLongWalk = 25;
 template <typename Check>
 void check_walk(const Subject& subject, Check&& check) {
   const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
+  Active plugin(library, subject);
   for (std::uint64_t step = 0; step < kLongWalk; ++step) {
-    check(library, plugin.process(walk_frame(subject.seed, step)));
+    check(library, plugin.step(step));
   }
   check(library, plugin.report(0));
   check(library, plugin.report(HW_REPORT_REFINE));
 }
 
-void puts_valid_outputs(const Subject& subject, Remains&) {
+void puts_valid_outputs(const Subject& subject) {
   check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
     if (answer.call == "process") answer.demand_valid();
   });
 }
 
-void puts_what_it_declares(const Subject& subject, Remains&) {
+void puts_what_it_declares(const Subject& subject) {
   check_walk(subject, [&](const LoadedLibrary& library, const Answer& answer) {
     const std::vector<std::uint32_t> declared = outputs_of(library.info(subject.plugin));
     for (const std::uint32_t kind : answer.put.kinds) {
@@ -44,26 +43,24 @@ void puts_what_it_declares(const Subject& subject, Remains&) {
   });
 }
 
-void writes_zeros(const Subject& subject, Remains&) {
+void writes_zeros(const Subject& subject) {
   check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
     demand(!answer.put.reserved_written,
            answer.call + "() put an output whose flags or reserved member are not 0");
   });
 }
 
-void numbers_parts(const Subject& subject, Remains&) {
+void numbers_parts(const Subject& subject) {
   check_walk(subject, [](const LoadedLibrary&, const Answer& answer) {
     demand(answer.put.epoch_problem.empty(), answer.call + "(): " + answer.put.epoch_problem);
   });
 }
 
-void puts_in_turn(const Subject& subject, Remains&) {
-  const LoadedLibrary library(subject.file);
-  Instance plugin(library, subject);
-  plugin.activate();
-  walk(plugin, subject, 0, 3);
+void puts_in_turn(const Subject& subject) {
+  Active plugin(subject);
+  plugin.walk(0, 3);
   plugin.must_reset();
-  walk(plugin, subject, 3, 5);
+  plugin.walk(3, 5);
   plugin.deactivate();
   plugin.close();
   demand(plugin.host().out_of_turn() == 0, "it called put() outside of process() and report()");

@@ -15,25 +15,16 @@
 namespace hallway::conformance {
 namespace {
 
-/// An instance and its parameters. Throws Skipped without hw.params/2.
-struct Fixture {
-  explicit Fixture(const Subject& subject)
-      : library(subject.file),
-        plugin(library, {.file = subject.file, .plugin = subject.plugin}),
-        parameters(plugin) {
-    texts = parameters.texts();
-    parameters.need_origins();
-  }
-  LoadedLibrary library;
-  Instance plugin;
-  Parameters parameters;
-  std::vector<std::uint32_t> texts;
+/// The parameters of a new plugin. Throws Skipped without hw.params/2.
+struct Fixture : Parameters {
+  explicit Fixture(const Subject& subject) : Parameters(subject), text_indices(texts()) { need_origins(); }
+  std::vector<std::uint32_t> text_indices;
 };
 
 /// The same with at least one text parameter.
 struct TextFixture : Fixture {
   explicit TextFixture(const Subject& subject) : Fixture(subject) {
-    if (texts.empty()) throw Skipped("no parameter of the plugin is a text");
+    if (text_indices.empty()) throw Skipped("no parameter of the plugin is a text");
   }
 };
 
@@ -41,69 +32,66 @@ const char* root_of(std::uint32_t type) {
   return type == HW_PARAM_TEXT ? "" : "/";
 }
 
-void texts_are_described(const Subject& subject, Remains&) {
-  const TextFixture fixture(subject);
-  for (const std::uint32_t i : fixture.texts) {
-    const hw_param_info_t& info = fixture.parameters.info(i);
-    const std::string name = fixture.parameters.name(i);
+void texts_are_described(const Subject& subject) {
+  const TextFixture parameters(subject);
+  for (const std::uint32_t i : parameters.text_indices) {
+    const hw_param_info_t& info = parameters.info(i);
+    const std::string name = parameters.name(i);
     demand(HW_HAS(&info, hw_param_info_t, reserved_2),
            name + ": its description is smaller than that of 1.4");
     demand_text(info.default_text, name + ": its default text");
     demand((info.flags & ~std::uint32_t{HW_PARAM_WRITABLE}) == 0, name + ": has unknown flags");
     demand(info.type != HW_PARAM_TEXT || info.flags == 0, name + ": a text that is no path is writable");
-    demand(fixture.parameters.get_text(i) == info.default_text, name + " of a new plugin is not its default");
+    demand(parameters.get_text(i) == info.default_text, name + " of a new plugin is not its default");
   }
 }
 
-void texts_are_kept(const Subject& subject, Remains&) {
-  const TextFixture fixture(subject);
-  for (const std::uint32_t i : fixture.texts) {
-    const std::string path = root_of(fixture.parameters.info(i).type);
+void texts_are_kept(const Subject& subject) {
+  const TextFixture parameters(subject);
+  for (const std::uint32_t i : parameters.text_indices) {
+    const std::string path = root_of(parameters.info(i).type);
     for (const std::string& text :
          {path + "a", path + "größer, 100 %", std::string(), path + std::string(4000, 'x')}) {
       std::string given = text;
-      fixture.parameters.set_text(i, given.c_str()).demand_good();
+      parameters.set_text(i, given.c_str()).demand_good();
       std::fill(given.begin(), given.end(), '?');  // the plugin has a copy
-      demand(fixture.parameters.get_text(i) == text,
-             fixture.parameters.name(i) + " is not what it was set to");
+      demand(parameters.get_text(i) == text, parameters.name(i) + " is not what it was set to");
     }
   }
 }
 
-void texts_stand_while_active(const Subject& subject, Remains&) {
-  TextFixture fixture(subject);
-  fixture.plugin.activate();
-  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
-  for (const std::uint32_t i : fixture.texts) {
-    const std::string before = fixture.parameters.get_text(i);
-    const Ended ended = fixture.parameters.set_text(i, "/other");
+void texts_stand_while_active(const Subject& subject) {
+  const TextFixture parameters(subject);
+  parameters.plugin().activate();
+  parameters.plugin().step(0).demand_good();
+  for (const std::uint32_t i : parameters.text_indices) {
+    const std::string before = parameters.get_text(i);
+    const Ended ended = parameters.set_text(i, "/other");
     demand(ended.status == HW_ERROR_STATE,
-           fixture.parameters.name(i) + ": set_text() while active gave " + hw_status_name(ended.status));
+           parameters.name(i) + ": set_text() while active gave " + hw_status_name(ended.status));
     ended.demand_reason();
-    demand(fixture.parameters.get_text(i) == before,
-           fixture.parameters.name(i) + " was refused and has changed");
+    demand(parameters.get_text(i) == before, parameters.name(i) + " was refused and has changed");
   }
 }
 
-void texts_are_no_numbers(const Subject& subject, Remains&) {
-  const TextFixture fixture(subject);
-  for (const std::uint32_t i : fixture.texts) {
-    const Ended ended = fixture.parameters.set(i, whole(fixture.parameters.info(i).type, 0));
+void texts_are_no_numbers(const Subject& subject) {
+  const TextFixture parameters(subject);
+  for (const std::uint32_t i : parameters.text_indices) {
+    const Ended ended = parameters.set(i, whole(parameters.info(i).type, 0));
     demand(ended.status == HW_ERROR_ARGUMENT,
-           fixture.parameters.name(i) + ": set() of a text parameter gave " + hw_status_name(ended.status));
+           parameters.name(i) + ": set() of a text parameter gave " + hw_status_name(ended.status));
     ended.demand_reason();
   }
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    const Ended ended = fixture.parameters.set_text(i, "1");
+  for (const std::uint32_t i : parameters.known()) {
+    const Ended ended = parameters.set_text(i, "1");
     demand(ended.status == HW_ERROR_ARGUMENT,
-           fixture.parameters.name(i) + ": set_text() of a number gave " + hw_status_name(ended.status));
+           parameters.name(i) + ": set_text() of a number gave " + hw_status_name(ended.status));
     ended.demand_reason();
   }
 }
 
-void origins_are_told(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  const Parameters& parameters = fixture.parameters;
+void origins_are_told(const Subject& subject) {
+  const Fixture parameters(subject);
   for (std::uint32_t i = 0; i < parameters.count(); ++i)
     demand(parameters.origin(i) == HW_PARAM_FROM_DEFAULT,
            parameters.name(i) + " of a new plugin is not FROM_DEFAULT");
@@ -114,7 +102,7 @@ void origins_are_told(const Subject& subject, Remains&) {
     parameters.set_and_check(i, parameters.get(i));
     demand(parameters.origin(i) == HW_PARAM_FROM_HOST, parameters.name(i) + " was set and is not FROM_HOST");
   }
-  for (const std::uint32_t i : fixture.texts) {
+  for (const std::uint32_t i : parameters.text_indices) {
     parameters.set_text(i, "").demand_good();
     demand(parameters.origin(i) == HW_PARAM_FROM_HOST, parameters.name(i) + " was set and is not FROM_HOST");
   }
@@ -130,9 +118,9 @@ hw_sensor_info_t odd_sensor() {
 }
 
 /// Activates the plugin and feeds one frame. Throws Skipped where it needs other samples than points.
-void use(Fixture& fixture, const Subject& subject) {
-  if (!fixture.plugin.activate({odd_sensor()}).good()) fixture.plugin.activate();
-  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
+void use(const Parameters& parameters) {
+  if (!parameters.plugin().activate({odd_sensor()}).good()) parameters.plugin().activate();
+  parameters.plugin().step(0).demand_good();
 }
 
 std::vector<hw_param_value_t> values_of(const Parameters& parameters) {
@@ -141,12 +129,11 @@ std::vector<hw_param_value_t> values_of(const Parameters& parameters) {
   return values;
 }
 
-void set_values_stand(const Subject& subject, Remains&) {
-  Fixture fixture(subject);
-  const Parameters& parameters = fixture.parameters;
+void set_values_stand(const Subject& subject) {
+  const Fixture parameters(subject);
   for (const std::uint32_t i : parameters.known()) parameters.set_and_check(i, parameters.get(i));
   const std::vector<hw_param_value_t> before = values_of(parameters);
-  use(fixture, subject);
+  use(parameters);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const std::uint32_t i = parameters.known()[k];
     demand(same(parameters.get(i), before[k]) && parameters.origin(i) == HW_PARAM_FROM_HOST,
@@ -161,12 +148,11 @@ bool is_within_range(const hw_param_info_t& info, const hw_param_value_t& value)
   return value.as.integer >= info.minimum.as.integer && value.as.integer <= info.maximum.as.integer;
 }
 
-void sensor_values_are_given_back(const Subject& subject, Remains&) {
-  Fixture fixture(subject);
-  const Parameters& parameters = fixture.parameters;
+void sensor_values_are_given_back(const Subject& subject) {
+  const Fixture parameters(subject);
   const std::vector<std::uint32_t> known = parameters.known();
   const std::vector<hw_param_value_t> before = values_of(parameters);
-  use(fixture, subject);
+  use(parameters);
   for (std::size_t k = 0; k < known.size(); ++k) {
     const hw_param_value_t now = parameters.get(known[k]);
     const bool from_sensor = parameters.origin(known[k]) == HW_PARAM_FROM_SENSOR;
@@ -175,7 +161,7 @@ void sensor_values_are_given_back(const Subject& subject, Remains&) {
     demand(!from_sensor || is_within_range(parameters.info(known[k]), now),
            parameters.name(known[k]) + " is outside of its range after activate()");
   }
-  fixture.plugin.deactivate();
+  parameters.plugin().deactivate();
   for (std::size_t k = 0; k < known.size(); ++k) {
     demand(same(parameters.get(known[k]), before[k]) && parameters.origin(known[k]) == HW_PARAM_FROM_DEFAULT,
            parameters.name(known[k]) + " is not as before after deactivate()");

@@ -19,17 +19,6 @@ namespace {
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// An instance and its parameters.
-struct Fixture {
-  explicit Fixture(const Subject& subject)
-      : library(subject.file),
-        plugin(library, {.file = subject.file, .plugin = subject.plugin}),
-        parameters(plugin) {}
-  LoadedLibrary library;
-  Instance plugin;
-  Parameters parameters;
-};
-
 bool is_snake_case(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -70,76 +59,75 @@ void demand_description(const hw_param_info_t& info) {
   }
 }
 
-void are_described(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  const std::uint32_t count = fixture.parameters.count();
+void are_described(const Subject& subject) {
+  const Parameters parameters(subject);
+  const std::uint32_t count = parameters.count();
   std::set<std::string> names;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const hw_param_info_t& info = fixture.parameters.info(i);
+    const hw_param_info_t& info = parameters.info(i);
     demand_description(info);
     demand(names.insert(info.name).second, "two parameters are called `" + printable(info.name) + "`");
   }
-  demand(fixture.parameters.count() == count, "the number of parameters has changed");
+  demand(parameters.count() == count, "the number of parameters has changed");
 }
 
 std::vector<std::uint32_t> indices_behind(std::uint32_t count) {
   return {count, count + 1, UINT32_MAX};
 }
 
-void are_not_described_behind_the_end(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t index : indices_behind(fixture.parameters.count())) {
-    demand(fixture.parameters.describe(index) == nullptr,
+void are_not_described_behind_the_end(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t index : indices_behind(parameters.count())) {
+    demand(parameters.describe(index) == nullptr,
            "describe(" + std::to_string(index) + ") is not null, and there is no such parameter");
   }
 }
 
-void do_not_exist_behind_the_end(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t index : indices_behind(fixture.parameters.count())) {
+void do_not_exist_behind_the_end(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t index : indices_behind(parameters.count())) {
     hw_param_value_t value = whole(HW_PARAM_BOOL, 0);
-    const Ended got = fixture.parameters.try_get(index, value);
+    const Ended got = parameters.try_get(index, value);
     demand(!got.good(), "get() of an index that does not exist succeeds");
     got.demand_reason();
-    const Ended set = fixture.parameters.set(index, whole(HW_PARAM_BOOL, 0));
+    const Ended set = parameters.set(index, whole(HW_PARAM_BOOL, 0));
     demand(!set.good(), "set() of an index that does not exist succeeds");
     set.demand_reason();
   }
 }
 
-void begin_with_their_defaults(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    const hw_param_value_t value = fixture.parameters.get(i);
-    demand(same(value, fixture.parameters.info(i).default_value),
-           fixture.parameters.name(i) + " of a new plugin is " + text_of(value) + " and not its default");
+void begin_with_their_defaults(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t i : parameters.known()) {
+    const hw_param_value_t value = parameters.get(i);
+    demand(same(value, parameters.info(i).default_value),
+           parameters.name(i) + " of a new plugin is " + text_of(value) + " and not its default");
   }
 }
 
-void keep_what_is_set(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    for (const hw_param_value_t& value : fixture.parameters.good_values(i)) {
-      fixture.parameters.set_and_check(i, value);
+void keep_what_is_set(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t i : parameters.known()) {
+    for (const hw_param_value_t& value : parameters.good_values(i)) {
+      parameters.set_and_check(i, value);
     }
   }
 }
 
 const std::set<hw_status_t> kRange{HW_ERROR_RANGE};
 
-void have_a_minimum(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    const hw_param_info_t& info = fixture.parameters.info(i);
+void have_a_minimum(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t i : parameters.known()) {
+    const hw_param_info_t& info = parameters.info(i);
     const bool is_real = info.type == HW_PARAM_DOUBLE;
     const std::int64_t least = info.type == HW_PARAM_INT ? info.minimum.as.integer : 0;
     if (is_real && info.minimum.as.real > std::numeric_limits<double>::lowest()) {
-      fixture.parameters.demand_refused(i, real(std::nextafter(info.minimum.as.real, -kInfinity)), kRange);
-      fixture.parameters.demand_refused(i, real(std::numeric_limits<double>::lowest()), kRange);
+      parameters.demand_refused(i, real(std::nextafter(info.minimum.as.real, -kInfinity)), kRange);
+      parameters.demand_refused(i, real(std::numeric_limits<double>::lowest()), kRange);
     } else if (!is_real && least > std::numeric_limits<std::int64_t>::min()) {
-      fixture.parameters.demand_refused(i, whole(info.type, least - 1), kRange);
-      fixture.parameters.demand_refused(i, whole(info.type, std::numeric_limits<std::int64_t>::min()),
-                                        kRange);
+      parameters.demand_refused(i, whole(info.type, least - 1), kRange);
+      parameters.demand_refused(i, whole(info.type, std::numeric_limits<std::int64_t>::min()), kRange);
     }
   }
 }
@@ -150,78 +138,78 @@ std::int64_t largest(const hw_param_info_t& info) {
                                       : info.maximum.as.integer;
 }
 
-void have_a_maximum(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    const hw_param_info_t& info = fixture.parameters.info(i);
+void have_a_maximum(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t i : parameters.known()) {
+    const hw_param_info_t& info = parameters.info(i);
     const bool is_real = info.type == HW_PARAM_DOUBLE;
     if (is_real && info.maximum.as.real < std::numeric_limits<double>::max()) {
-      fixture.parameters.demand_refused(i, real(std::nextafter(info.maximum.as.real, kInfinity)), kRange);
-      fixture.parameters.demand_refused(i, real(std::numeric_limits<double>::max()), kRange);
+      parameters.demand_refused(i, real(std::nextafter(info.maximum.as.real, kInfinity)), kRange);
+      parameters.demand_refused(i, real(std::numeric_limits<double>::max()), kRange);
     } else if (!is_real && largest(info) < std::numeric_limits<std::int64_t>::max()) {
-      fixture.parameters.demand_refused(i, whole(info.type, largest(info) + 1), kRange);
-      fixture.parameters.demand_refused(i, whole(info.type, std::numeric_limits<std::int64_t>::max()),
-                                        kRange);
+      parameters.demand_refused(i, whole(info.type, largest(info) + 1), kRange);
+      parameters.demand_refused(i, whole(info.type, std::numeric_limits<std::int64_t>::max()), kRange);
     }
   }
 }
 
-void are_finite(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
+void are_finite(const Subject& subject) {
+  const Parameters parameters(subject);
   bool any = false;
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    if (fixture.parameters.info(i).type != HW_PARAM_DOUBLE) continue;
+  for (const std::uint32_t i : parameters.known()) {
+    if (parameters.info(i).type != HW_PARAM_DOUBLE) continue;
     any = true;
     for (const double number : {kNotANumber, kInfinity, -kInfinity}) {
-      fixture.parameters.demand_refused(i, real(number), {HW_ERROR_RANGE, HW_ERROR_ARGUMENT, HW_ERROR_DATA});
+      parameters.demand_refused(i, real(number), {HW_ERROR_RANGE, HW_ERROR_ARGUMENT, HW_ERROR_DATA});
     }
   }
   if (!any) throw Skipped("no parameter of the plugin is a real number");
 }
 
-void have_one_type(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
+void have_one_type(const Subject& subject) {
+  const Parameters parameters(subject);
+  for (const std::uint32_t i : parameters.known()) {
     for (const std::uint32_t type : {HW_PARAM_BOOL, HW_PARAM_INT, HW_PARAM_DOUBLE, HW_PARAM_CHOICE}) {
-      if (type == fixture.parameters.info(i).type) continue;
-      fixture.parameters.demand_refused(i, type == HW_PARAM_DOUBLE ? real(0.0) : whole(type, 0),
-                                        {HW_ERROR_ARGUMENT});
+      if (type == parameters.info(i).type) continue;
+      parameters.demand_refused(i, type == HW_PARAM_DOUBLE ? real(0.0) : whole(type, 0), {HW_ERROR_ARGUMENT});
     }
-    fixture.parameters.demand_refused(i, whole(4711, 0), {HW_ERROR_ARGUMENT});
+    parameters.demand_refused(i, whole(4711, 0), {HW_ERROR_ARGUMENT});
   }
 }
 
-void stand_while_active(const Subject& subject, Remains&) {
-  Fixture fixture(subject);
-  fixture.plugin.activate();
-  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    for (const hw_param_value_t& value : fixture.parameters.good_values(i)) {
-      fixture.parameters.demand_refused(i, value, {HW_ERROR_STATE});
+void stand_while_active(const Subject& subject) {
+  const Parameters parameters(subject);
+  parameters.plugin().activate();
+  parameters.plugin().step(0).demand_good();
+  for (const std::uint32_t i : parameters.known()) {
+    for (const hw_param_value_t& value : parameters.good_values(i)) {
+      parameters.demand_refused(i, value, {HW_ERROR_STATE});
     }
   }
 }
 
-void can_be_set_between_activations(const Subject& subject, Remains&) {
-  Fixture fixture(subject);
-  fixture.plugin.activate();
-  fixture.plugin.process(walk_frame(subject.seed, 0)).demand_good();
-  fixture.plugin.deactivate();
-  for (const std::uint32_t i : fixture.parameters.known()) {
-    const hw_param_value_t original = fixture.parameters.get(i);
-    fixture.parameters.set_and_check(i, fixture.parameters.good_values(i)[0]);
-    fixture.parameters.set_and_check(i, original);
+void can_be_set_between_activations(const Subject& subject) {
+  const Parameters parameters(subject);
+  parameters.plugin().activate();
+  parameters.plugin().step(0).demand_good();
+  parameters.plugin().deactivate();
+  for (const std::uint32_t i : parameters.known()) {
+    const hw_param_value_t original = parameters.get(i);
+    parameters.set_and_check(i, parameters.good_values(i)[0]);
+    parameters.set_and_check(i, original);
   }
 }
 
-void belong_to_one_instance(const Subject& subject, Remains&) {
-  const Fixture changed(subject);
-  Instance other(changed.library, {.file = subject.file, .plugin = subject.plugin});
+void belong_to_one_instance(const Subject& subject) {
+  const LoadedLibrary library(subject.file);
+  Instance one(library, subject.plain());
+  Instance other(library, subject.plain());
+  const Parameters changed(one);
   const Parameters others(other);
-  for (const std::uint32_t i : changed.parameters.known()) {
+  for (const std::uint32_t i : changed.known()) {
     const hw_param_value_t before = others.get(i);
-    for (const hw_param_value_t& value : changed.parameters.good_values(i)) {
-      changed.parameters.set_and_check(i, value);
+    for (const hw_param_value_t& value : changed.good_values(i)) {
+      changed.set_and_check(i, value);
       demand(same(others.get(i), before),
              others.name(i) + " of one plugin has changed with that of another one");
     }
@@ -229,11 +217,12 @@ void belong_to_one_instance(const Subject& subject, Remains&) {
 }
 
 /// A new plugin with one parameter at an end of its range: it may refuse to be activated, but whatever it does has a reason.
-void survives_extremes(const Subject& subject, Remains&) {
-  const Fixture fixture(subject);
-  for (const std::uint32_t i : fixture.parameters.known()) {
+void survives_extremes(const Subject& subject) {
+  const LoadedLibrary library(subject.file);
+  Instance first(library, subject.plain());
+  for (const std::uint32_t i : Parameters(first).known()) {
     for (std::size_t end = 0; end < 2; ++end) {
-      Instance plugin(fixture.library, {.file = subject.file, .plugin = subject.plugin});
+      Instance plugin(library, subject.plain());
       const Parameters parameters(plugin);
       const hw_param_value_t value = parameters.good_values(i)[end];
       parameters.set(i, value).demand_good();
@@ -241,7 +230,7 @@ void survives_extremes(const Subject& subject, Remains&) {
       ended.demand_reason();
       if (!ended.good()) continue;
       for (std::uint64_t step = 0; step < 4; ++step) {
-        const Answer answer = plugin.process(walk_frame(subject.seed, step));
+        const Answer answer = plugin.step(step);
         demand(answer.good() && answer.put.problem.empty(),
                parameters.name(i) + " = " + text_of(value) + " was accepted, but then " +
                    (answer.good() ? "process() put a wrong output: " + answer.put.problem : answer.text()));

@@ -4,14 +4,13 @@
 #include <hallway/ext/params.h>
 
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/text.hpp"
-#include "conformance/call_mark.hpp"
 #include "conformance/instance.hpp"
-#include "host/error_text.hpp"
 
 namespace hallway::conformance {
 
@@ -51,9 +50,16 @@ class Parameters {
  public:
   /// Throws Skipped if there are none.
   explicit Parameters(Instance& plugin)
-      : self_(plugin.raw().self), functions_(plugin.parameters()), functions_2_(plugin.parameters_2()) {
+      : plugin_(plugin),
+        self_(plugin.raw().self),
+        functions_(plugin.parameters()),
+        functions_2_(plugin.parameters_2()) {
     if (functions_ == nullptr || count() == 0) throw Skipped("the plugin declares no parameters");
   }
+  /// Those of a new instance without settings.
+  explicit Parameters(const Subject& subject) : Parameters(std::make_unique<Instance>(subject.plain())) {}
+
+  Instance& plugin() const { return plugin_; }
 
   std::uint32_t count() const {
     return marked("count", [&] { return functions_->count(self_); });
@@ -70,19 +76,10 @@ class Parameters {
     return *info;
   }
   /// Indices of those whose type is known.
-  std::vector<std::uint32_t> known() const {
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t i = 0; i < count(); ++i) {
-      if (is_known(info(i).type)) indices.push_back(i);
-    }
-    return indices;
-  }
+  std::vector<std::uint32_t> known() const { return of_types(HW_PARAM_BOOL, HW_PARAM_CHOICE); }
   /// Indices of those whose values are texts. Throws Failed where there are some, and no hw_params_2_t.
   std::vector<std::uint32_t> texts() const {
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t i = 0; i < count(); ++i) {
-      if (info(i).type >= HW_PARAM_TEXT && info(i).type <= HW_PARAM_FOLDER) indices.push_back(i);
-    }
+    std::vector<std::uint32_t> indices = of_types(HW_PARAM_TEXT, HW_PARAM_FOLDER);
     demand(indices.empty() || functions_2_ != nullptr, "declares a text parameter without " HW_EXT_PARAMS_2);
     return indices;
   }
@@ -94,10 +91,8 @@ class Parameters {
     return marked("origin", [&] { return functions_2_->origin(self_, index); });
   }
   Ended try_get_text(std::uint32_t index, const char** text) const {
-    Ended ended{.call = "get_text", .error = host::empty_error()};
-    ended.status =
-        marked("get_text", [&] { return functions_2_->get_text(self_, index, text, &ended.error); });
-    return ended;
+    return ended_by("get_text",
+                    [&](hw_error_t* error) { return functions_2_->get_text(self_, index, text, error); });
   }
   /// Throws Failed where it fails.
   std::string get_text(std::uint32_t index) const {
@@ -107,17 +102,13 @@ class Parameters {
     return text;
   }
   Ended set_text(std::uint32_t index, const char* text) const {
-    Ended ended{.call = "set_text", .error = host::empty_error()};
-    ended.status =
-        marked("set_text", [&] { return functions_2_->set_text(self_, index, text, &ended.error); });
-    return ended;
+    return ended_by("set_text",
+                    [&](hw_error_t* error) { return functions_2_->set_text(self_, index, text, error); });
   }
   std::string name(std::uint32_t index) const { return "parameter `" + printable(info(index).name) + "`"; }
 
   Ended try_get(std::uint32_t index, hw_param_value_t& value) const {
-    Ended ended{.call = "get", .error = host::empty_error()};
-    ended.status = marked("get", [&] { return functions_->get(self_, index, &value, &ended.error); });
-    return ended;
+    return ended_by("get", [&](hw_error_t* error) { return functions_->get(self_, index, &value, error); });
   }
   /// Throws Failed where it fails.
   hw_param_value_t get(std::uint32_t index) const {
@@ -126,9 +117,7 @@ class Parameters {
     return value;
   }
   Ended set(std::uint32_t index, const hw_param_value_t& value) const {
-    Ended ended{.call = "set", .error = host::empty_error()};
-    ended.status = marked("set", [&] { return functions_->set(self_, index, &value, &ended.error); });
-    return ended;
+    return ended_by("set", [&](hw_error_t* error) { return functions_->set(self_, index, &value, error); });
   }
   /// Throws Failed where it fails, or another value stands then.
   void set_and_check(std::uint32_t index, const hw_param_value_t& value) const {
@@ -167,6 +156,19 @@ class Parameters {
   }
 
  private:
+  std::vector<std::uint32_t> of_types(std::uint32_t first, std::uint32_t last) const {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (info(i).type >= first && info(i).type <= last) indices.push_back(i);
+    }
+    return indices;
+  }
+  explicit Parameters(std::unique_ptr<Instance> plugin) : Parameters(*plugin) {
+    own_plugin_ = std::move(plugin);
+  }
+
+  std::unique_ptr<Instance> own_plugin_;
+  Instance& plugin_;
   void* self_;
   const hw_params_t* functions_;
   const hw_params_2_t* functions_2_;

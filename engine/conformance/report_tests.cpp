@@ -10,41 +10,33 @@ namespace {
 
 constexpr std::uint64_t kReportFrames = 12;
 
-struct Walked {
-  explicit Walked(const Subject& subject, std::uint64_t frames)
-      : library(subject.file), plugin(library, subject) {
-    plugin.activate();
-    for (std::uint64_t step = 0; step < frames; ++step) {
-      plugin.process(walk_frame(subject.seed, step)).demand_good();
-    }
+struct Walked : Active {
+  explicit Walked(const Subject& subject, std::uint64_t frames) : Active(subject) {
+    for (std::uint64_t k = 0; k < frames; ++k) step(k).demand_good();
   }
-  LoadedLibrary library;
-  Instance plugin;
 };
 
-void reports_a_valid_map(const Subject& subject, Remains&) {
-  Walked(subject, kReportFrames).plugin.report(0).demand_valid();
+void reports_a_valid_map(const Subject& subject) {
+  Walked(subject, kReportFrames).report(0).demand_valid();
 }
 
-void reports_a_valid_refined_map(const Subject& subject, Remains&) {
-  Walked(subject, kReportFrames).plugin.report(HW_REPORT_REFINE).demand_valid();
+void reports_a_valid_refined_map(const Subject& subject) {
+  Walked(subject, kReportFrames).report(HW_REPORT_REFINE).demand_valid();
 }
 
-void reports_before_frames(const Subject& subject, Remains&) {
+void reports_before_frames(const Subject& subject) {
   Walked walked(subject, 0);
-  walked.plugin.report(0).demand_valid();
-  walked.plugin.report(HW_REPORT_REFINE).demand_valid();
-  walk(walked.plugin, subject, 0, 2);
+  walked.report(0).demand_valid();
+  walked.report(HW_REPORT_REFINE).demand_valid();
+  walked.walk(0, 2);
 }
 
-void reports_the_same_twice(const Subject& subject, Remains&) {
+void reports_the_same_twice(const Subject& subject) {
   for (const std::uint32_t flags : {0u, HW_REPORT_REFINE}) {
     Walked walked(subject, kReportFrames);
-    const Answer first = walked.plugin.report(flags);
-    const Answer second = walked.plugin.report(flags);
-    first.demand_good();
-    second.demand_good();
-    demand_same(second.put.bytes, first.put.bytes,
+    const Answer first = walked.report(flags);
+    const Answer second = walked.report(flags);
+    demand_same(second.bytes(), first.bytes(),
                 "the second of two reports without a frame between is another one");
   }
 }
@@ -54,15 +46,13 @@ std::string answers(const Subject& subject, bool reports) {
   Walked walked(subject, 0);
   std::string bytes;
   for (std::uint64_t step = 0; step < kReportFrames; ++step) {
-    const Answer answer = walked.plugin.process(walk_frame(subject.seed, step));
-    answer.demand_good();
-    bytes += answer.put.bytes;
-    if (reports) walked.plugin.report(step % 2 == 0 ? HW_REPORT_REFINE : 0).demand_good();
+    bytes += walked.step(step).bytes();
+    if (reports) walked.report(step % 2 == 0 ? HW_REPORT_REFINE : 0).demand_good();
   }
   return bytes;
 }
 
-void reporting_changes_nothing(const Subject& subject, Remains&) {
+void reporting_changes_nothing(const Subject& subject) {
   demand_same(answers(subject, true), answers(subject, false),
               "frames are answered otherwise after report()");
 }

@@ -22,9 +22,8 @@ constexpr std::uint64_t kResultFrames = 8;
 constexpr std::size_t kThreads = 4;
 
 std::string answers_of(const LoadedLibrary& library, const Subject& subject, const HostShape& host = {}) {
-  Instance plugin(library, subject, host);
-  plugin.activate();
-  return walk(plugin, subject, 0, kResultFrames);
+  Active plugin(library, subject, host);
+  return plugin.walk(0, kResultFrames);
 }
 
 /// Runs `work` on another thread, and throws here what it throws there.
@@ -40,7 +39,7 @@ void on_another_thread(const std::function<void()>& work) {
   if (problem) std::rethrow_exception(problem);
 }
 
-void new_ones_answer_the_same(const Subject& subject, Remains&) {
+void new_ones_answer_the_same(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::string first = answers_of(library, subject);
   for (int i = 0; i < 2; ++i) {
@@ -48,29 +47,23 @@ void new_ones_answer_the_same(const Subject& subject, Remains&) {
   }
 }
 
-void processes_answer_the_same(const Subject& subject, Remains& remains) {
-  const LoadedLibrary library(subject.file);
-  remains.digest = content_hash(answers_of(library, subject));
+std::string digest_of_answers(const Subject& subject) {
+  return content_hash(answers_of(LoadedLibrary(subject.file), subject));
 }
 
-void threads_in_turn_answer_the_same(const Subject& subject, Remains&) {
+void threads_in_turn_answer_the_same(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::string expected = answers_of(library, subject);
-  Instance plugin(library, subject);
-  plugin.activate();
+  Active plugin(library, subject);
   std::string bytes;
   for (std::uint64_t step = 0; step < kResultFrames; ++step) {
-    on_another_thread([&] {
-      const Answer answer = plugin.process(walk_frame(subject.seed, step));
-      answer.demand_good();
-      bytes += answer.put.bytes;
-    });
+    on_another_thread([&] { bytes += plugin.step(step).bytes(); });
   }
   on_another_thread([&] { bytes += plugin.report(0).put.bytes; });
   demand_same(bytes, expected, "called on several threads in turn, it answers otherwise");
 }
 
-void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
+void threads_at_once_answer_the_same(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   std::vector<Subject> subjects(kThreads, subject);
   std::vector<std::string> expected;
@@ -89,7 +82,7 @@ void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
   for (std::size_t i = 0; i < kThreads; ++i) {
     threads.emplace_back([&, i] {
       try {
-        bytes[i] = walk(*plugins[i], subjects[i], 0, kResultFrames);
+        bytes[i] = plugins[i]->walk(0, kResultFrames);
       } catch (...) {
         problems[i] = std::current_exception();
       }
@@ -102,7 +95,7 @@ void threads_at_once_answer_the_same(const Subject& subject, Remains&) {
   }
 }
 
-void locale_does_not_matter(const Subject& subject, Remains&) {
+void locale_does_not_matter(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::string expected = answers_of(library, subject);
   if (!set_comma_locale(subject.scratch)) throw Skipped("no locale with a decimal comma could be made");
@@ -110,14 +103,14 @@ void locale_does_not_matter(const Subject& subject, Remains&) {
               "where the decimal point is a comma, it answers otherwise");
 }
 
-void folder_does_not_matter(const Subject& subject, Remains&) {
+void folder_does_not_matter(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   const std::string expected = answers_of(library, subject);
   if (::chdir("/") != 0) throw Skipped("the working folder cannot be changed");
   demand_same(answers_of(library, subject), expected, "in another working folder, it answers otherwise");
 }
 
-void environment_does_not_matter(const Subject& subject, Remains&) {
+void environment_does_not_matter(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   ::setenv("HOME", "/root", 1);
   const std::string expected = answers_of(library, subject);
@@ -127,7 +120,7 @@ void environment_does_not_matter(const Subject& subject, Remains&) {
   demand_same(answers_of(library, subject), expected, "with another environment, it answers otherwise");
 }
 
-void host_name_does_not_matter(const Subject& subject, Remains&) {
+void host_name_does_not_matter(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   demand_same(answers_of(library, subject, {.name = "another_host", .version = "99.1.2"}),
               answers_of(library, subject), "with a host of another name, it answers otherwise");
@@ -137,8 +130,8 @@ constexpr Test kResultTests[] = {
     {"same-again", "New plugins answer the same frames the same, one after the other.",
      new_ones_answer_the_same},
     {"same-processes",
-     "Two processes answer the same frames the same: no clock, no chance, no order of addresses.",
-     processes_answer_the_same, Way::kTwice},
+     "Two processes answer the same frames the same: no clock, no chance, no order of addresses.", nullptr,
+     Way::kConfined, digest_of_answers},
     {"same-threads", "Called on another thread for each frame, a plugin answers the same.",
      threads_in_turn_answer_the_same},
     {"same-at-once", "Four plugins that run at once on four threads answer as each does alone.",

@@ -143,7 +143,7 @@ Result judge(const Test& test, const Outcome& outcome, const SuiteSetup& setup) 
 Result run_one(const Test& test, const SuiteSetup& setup) {
   const Outcome first = run_process(test.name, setup);
   Result result = judge(test, first, setup);
-  if (test.way != Way::kTwice || result.verdict != Verdict::kPassed) return result;
+  if (test.digest == nullptr || result.verdict != Verdict::kPassed) return result;
   const Outcome second = run_process(test.name, setup);
   result = judge(test, second, setup);
   if (result.verdict == Verdict::kPassed && first.digest != second.digest) {

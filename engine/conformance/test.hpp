@@ -36,26 +36,25 @@ struct Subject {
   std::uint64_t seed = 1;        ///< of the frames it is given
   std::vector<std::pair<std::string, std::string>> settings{};  ///< parameters set before every activation
   std::filesystem::path scratch{};                              ///< a folder that may be written; or empty
+
+  /// The same without settings.
+  Subject plain() const { return {.file = file, .plugin = plugin, .seed = seed}; }
 };
 
-/// What a test leaves beside its verdict.
-struct Remains {
-  std::string digest{};  ///< must be the same from every process that runs the test; or empty
-};
-
-/// How a test is run.
+/// What a test's process may do.
 enum class Way {
-  kOnce,
-  kTwice,       ///< in two processes, whose digests must be equal
-  kUnconfined,  ///< in a process that may start others
+  kConfined,
+  kUnconfined,  ///< start others
 };
 
 /// One test of the suite.
 struct Test {
   const char* name;    ///< kebab-case, distinct
   const char* demand;  ///< one sentence: what the plugin must do
-  void (*run)(const Subject& subject, Remains& remains);
-  Way way = Way::kOnce;
+  void (*run)(const Subject& subject);
+  Way way = Way::kConfined;
+  /// Instead of `run`: what must be the same from two processes.
+  std::string (*digest)(const Subject& subject) = nullptr;
 };
 
 /// All tests, in the order of a plugin's life.

@@ -17,10 +17,10 @@ constexpr std::uint64_t kRubbishWord = 0xa5a5a5a5a5a5a5a5u;
 void write_log(void*, std::uint32_t, const char*) {}
 
 std::string bytes_of(const host::Outputs& outputs, std::uint32_t n_samples) {
-  host::ByteWriter counting{std::span<std::byte>()};
+  AlignedByteWriter counting{std::span<std::byte>()};
   host::write_outputs(counting, outputs, n_samples);
   std::string bytes(counting.size(), '\0');
-  host::ByteWriter writer{std::as_writable_bytes(std::span(bytes))};
+  AlignedByteWriter writer{std::as_writable_bytes(std::span(bytes))};
   host::write_outputs(writer, outputs, n_samples);
   return bytes;
 }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <thread>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
-#include "host/byte_stream.hpp"
 #include "host/load_step.hpp"
 
 namespace hallway::host {

@@ -12,6 +12,7 @@
 
 #include "base/origin.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "host/error_text.hpp"
 
 namespace hallway::host {
@@ -22,15 +23,6 @@ constexpr std::size_t kMaxLogBytes = 4000;
 constexpr std::size_t kMaxCounterName = 64;
 constexpr std::uint32_t kMaxSensors = 1000;
 constexpr std::uint64_t kMaxCounters = 1000;
-constexpr double kUnitTolerance = 1e-6;
-
-bool is_pose(const hw_pose_t& pose) {
-  double squared = 0;
-  for (const double q : pose.orientation) squared += q * q;
-  const bool finite = std::all_of(std::begin(pose.position), std::end(pose.position),
-                                  [](double x) { return std::isfinite(x); });
-  return finite && std::abs(std::sqrt(squared) - 1.0) <= kUnitTolerance;
-}
 
 /// Throws a text.
 void demand(bool condition, const char* text) {
@@ -45,7 +37,8 @@ std::string text_of(const char* text) {
 SensorInfo sensor_of(const hw_sensor_info_t* info) {
   demand(info != nullptr, "a sensor that is null");
   demand(HW_HAS(info, hw_sensor_info_t, noise_m), "a sensor of a wrong size");
-  demand(is_pose(info->T_body_sensor), "a sensor whose mount is no pose");
+  const hw_pose_t& mount = info->T_body_sensor;
+  demand(is_pose(mount.position, mount.orientation), "a sensor whose mount is no pose");
   SensorInfo sensor;
   sensor.id = info->id;
   sensor.kind = info->kind;

@@ -63,9 +63,7 @@ void ElfImage::fail(const std::string& message) const {
 }
 
 std::string_view ElfImage::bytes(std::uint64_t offset, std::uint64_t size) const {
-  if (offset > bytes_.size() || size > bytes_.size() - offset) {
-    fail("is cut off: it ends before what its headers announce");
-  }
+  if (!lies_within(offset, size, bytes_.size())) fail("is cut off: it ends before what its headers announce");
   return bytes_.substr(offset, size);
 }
 

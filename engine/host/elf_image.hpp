@@ -4,12 +4,13 @@
 #include <elf.h>
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/bytes.hpp"
 
 namespace hallway::host {
 
@@ -36,9 +37,7 @@ class ElfImage {
   std::string_view bytes(std::uint64_t offset, std::uint64_t size) const;
   template <typename T>
   T read(std::uint64_t offset) const {
-    T value;
-    std::memcpy(&value, bytes(offset, sizeof value).data(), sizeof value);
-    return value;
+    return load<T>(bytes(offset, sizeof(T)).data());
   }
   /// Entry `index` of a table that begins at `offset`.
   template <typename T>

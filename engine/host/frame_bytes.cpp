@@ -18,9 +18,6 @@
 namespace hallway::host {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "the bytes of a frame are those of the ABI's structs");
-
 constexpr std::array<char, 4> kMagic{'H', 'W', 'F', 'B'};
 
 /// More pixels than an image may have.
@@ -57,11 +54,6 @@ std::size_t written_size(const hw_points_t& points) {
   return has_pixels(points) ? sizeof(hw_points_t) : offsetof(hw_points_t, width);
 }
 
-/// Bytes that the pixels take: a multiple of 8.
-std::uint64_t pixel_bytes(const hw_points_t& points) {
-  return has_pixels(points) ? (points.count + 1) / 2 * 8 : 0;
-}
-
 void check_points(const hw_points_t& points) {
   demand_frame(HW_HAS(&points, hw_points_t, track) && points.size % 8 == 0, "with points of a wrong size");
   demand_frame(points.stride >= sizeof(hw_point3_t) && points.stride % 8 == 0,
@@ -93,29 +85,20 @@ void check_frame(const hw_frame_t& frame) {
   for (std::uint32_t i = 0; i < frame.n_samples; ++i) check_sample(frame.samples[i], frame.n_samples);
 }
 
-std::uint64_t points_bytes(const hw_points_t& points) {
-  const std::uint64_t track = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
-  return written_size(points) + points.count * sizeof(hw_point3_t) + track + pixel_bytes(points);
-}
-
-void put_points(Sink& sink, const hw_points_t& points) {
+void put_points(AlignedByteWriter& to, const hw_points_t& points) {
   hw_points_t copy = known_part(points);
   copy.size = static_cast<std::uint32_t>(written_size(points));
-  const std::uint64_t elements = sink.at() + copy.size;
   copy.stride = sizeof(hw_point3_t);
-  put_offset(copy.points, elements);
-  const std::uint64_t behind = elements + points.count * sizeof(hw_point3_t);
+  const std::uint64_t elements = to.size() + copy.size;
+  const std::uint64_t track = elements + points.count * sizeof(hw_point3_t);
   const std::uint64_t track_bytes = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
-  put_offset(copy.track, points.track != nullptr ? behind : 0);
-  put_offset(copy.pixel, has_pixels(points) ? behind + track_bytes : 0);
-  sink.put(&copy, copy.size);
-  for (std::uint64_t i = 0; i < points.count; ++i) sink.put(hw_point_at(&points, i), sizeof(hw_point3_t));
-  if (points.track != nullptr) sink.put(points.track, track_bytes);
-  if (has_pixels(points)) {
-    constexpr std::uint32_t kFill = 0;
-    sink.put(points.pixel, points.count * sizeof(std::uint32_t));
-    if (points.count % 2 != 0) sink.put(&kFill, sizeof kFill);
-  }
+  put_offset(copy.points, elements);
+  put_offset(copy.track, points.track != nullptr ? track : 0);
+  put_offset(copy.pixel, has_pixels(points) ? track + track_bytes : 0);
+  to.put_bytes(&copy, copy.size);
+  put_elements<hw_point3_t>(to, points.points, points.count, points.stride);
+  to.put_bytes(points.track, track_bytes);
+  if (has_pixels(points)) to.put_bytes(points.pixel, points.count * sizeof(std::uint32_t));
 }
 
 std::uint32_t count_known(const hw_frame_t& frame, std::uint32_t n_samples) {
@@ -124,69 +107,44 @@ std::uint32_t count_known(const hw_frame_t& frame, std::uint32_t n_samples) {
   return known;
 }
 
-/// A sample's planes as they are written: they refer to the samples that are written.
-hw_planes_t written_planes(const hw_frame_t& frame, const hw_sample_t& sample,
-                           std::vector<hw_plane_t>& storage) {
-  const hw_planes_t& planes = planes_of(sample);
+/// Planes as they are written: they refer to the samples that are written.
+void put_planes_of(AlignedByteWriter& to, const hw_frame_t& frame, const hw_planes_t& planes) {
   const bool there = planes.sample != HW_NO_SAMPLE && is_known(*frame.samples[planes.sample]);
-  return refer_to_sample(planes, there ? count_known(frame, planes.sample) : HW_NO_SAMPLE, storage);
-}
-
-std::uint64_t payload_bytes(const hw_frame_t& frame, const hw_sample_t& sample) {
   std::vector<hw_plane_t> storage;
-  if (sample.kind == HW_SAMPLE_PLANES) return planes_bytes(written_planes(frame, sample, storage));
-  return points_bytes(points_of(sample));
+  put_planes(to, refer_to_sample(planes, there ? count_known(frame, planes.sample) : HW_NO_SAMPLE, storage));
 }
 
-void put_sample(Sink& sink, const hw_frame_t& frame, const hw_sample_t& sample) {
+void put_sample(AlignedByteWriter& to, const hw_frame_t& frame, const hw_sample_t& sample) {
   hw_sample_t copy = known_part(sample);
-  put_offset(copy.payload, sink.at() + copy.size);
-  sink.put(&copy, copy.size);
-  std::vector<hw_plane_t> storage;
+  put_offset(copy.payload, to.size() + copy.size);
+  to.put_bytes(&copy, copy.size);
   if (sample.kind == HW_SAMPLE_PLANES) {
-    put_planes(sink, written_planes(frame, sample, storage));
+    put_planes_of(to, frame, planes_of(sample));
   } else {
-    put_points(sink, points_of(sample));
+    put_points(to, points_of(sample));
   }
 }
 
-}  // namespace
-
-std::size_t frame_bytes_size(const hw_frame_t& frame) {
-  check_frame(frame);
-  std::uint64_t size = sizeof(Head) + known_size(frame);
-  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
-    const hw_sample_t& sample = *frame.samples[i];
-    if (!is_known(sample)) continue;
-    size += sizeof(std::uint64_t) + known_size(sample) + payload_bytes(frame, sample);
-    demand_frame(size <= kMaxFrameBytes, "of more bytes than are taken");
-  }
-  return size;
-}
-
-void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes) {
-  if (bytes.size() != frame_bytes_size(frame)) {
-    throw Error(ErrorCode::kInternal, "the room for a frame has another size than the frame");
-  }
-  Sink sink(bytes);
+/// Puts a frame that check_frame() accepts, and has the number of all its bytes.
+void put_frame(AlignedByteWriter& to, const hw_frame_t& frame, std::uint64_t total) {
   Head head;
-  head.total = bytes.size();
-  sink.put(&head, sizeof head);
+  head.total = total;
+  to.put(head);
   hw_frame_t copy = known_part(frame);
   copy.n_samples = count_known(frame, frame.n_samples);
-  put_offset(copy.samples, sink.at() + copy.size);
-  sink.put(&copy, copy.size);
-  std::uint64_t entry = sink.skip(copy.n_samples * sizeof(std::uint64_t));
+  std::size_t entry = to.size() + copy.size;
+  put_offset(copy.samples, entry);
+  to.put_bytes(&copy, copy.size);
+  for (std::uint32_t i = 0; i < copy.n_samples; ++i) to.put(std::uint64_t{0});
   for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
     const hw_sample_t& sample = *frame.samples[i];
     if (!is_known(sample)) continue;
-    sink.put_at(entry, sink.at());
+    to.put_at(entry, std::uint64_t{to.size()});
     entry += sizeof(std::uint64_t);
-    put_sample(sink, frame, sample);
+    put_sample(to, frame, sample);
+    demand_frame(to.size() <= kMaxFrameBytes, "of more bytes than are taken");
   }
 }
-
-namespace {
 
 void check_head(const Head& head, std::size_t size) {
   if (head.magic != kMagic) damaged(0, "head", "no frame: it does not begin with HWFB");
@@ -203,10 +161,25 @@ void check_head(const Head& head, std::size_t size) {
 
 }  // namespace
 
+std::size_t frame_bytes_size(const hw_frame_t& frame) {
+  check_frame(frame);
+  AlignedByteWriter measure({});
+  put_frame(measure, frame, 0);
+  return measure.size();
+}
+
+void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes) {
+  if (bytes.size() != frame_bytes_size(frame)) {
+    throw Error(ErrorCode::kInternal, "the room for a frame has another size than the frame");
+  }
+  AlignedByteWriter writer(bytes);
+  put_frame(writer, frame, bytes.size());
+}
+
 void set_frame_sequence(std::span<std::byte> bytes, std::uint64_t sequence) {
   constexpr std::size_t kAt = sizeof(Head) + offsetof(hw_frame_t, sequence);
   if (bytes.size() < kAt + sizeof sequence) throw Error(ErrorCode::kInternal, "these bytes hold no frame");
-  std::memcpy(bytes.data() + kAt, &sequence, sizeof sequence);
+  store(bytes.data() + kAt, sequence);
 }
 
 const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
@@ -219,14 +192,13 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
     bytes = std::as_bytes(std::span(aligned_));
   }
   PartCursor cursor(bytes);
-  Head head;
-  std::memcpy(&head, cursor.take(0, sizeof head, "head"), sizeof head);
+  const auto head = load<Head>(cursor.take(0, sizeof(Head), "head"));
   check_head(head, bytes.size());
   frame_ = cursor.take_struct<hw_frame_t>(
-      sizeof head, size_with(offsetof(hw_frame_t, samples), &hw_frame_t::samples), "hw_frame_t");
+      sizeof head, offsetof(hw_frame_t, samples) + sizeof(hw_frame_t::samples), "hw_frame_t");
   // The table is as large as its bytes, so that a wild number cannot make it larger than what is there.
   const std::uint64_t table = std::uint64_t{frame_.n_samples} * sizeof(std::uint64_t);
-  const std::byte* entries = cursor.take(offset_in(frame_.samples), table, "table of samples");
+  const void* entries = cursor.take(offset_in(frame_.samples), table, "table of samples");
   offsets_.resize(frame_.n_samples);
   if (table != 0) std::memcpy(offsets_.data(), entries, table);
   readings_.resize(offsets_.size());
@@ -248,7 +220,7 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
 
 void FrameReader::read_sample(PartCursor& cursor, std::uint64_t offset, Sample& out) {
   out.sample = cursor.take_struct<hw_sample_t>(
-      offset, size_with(offsetof(hw_sample_t, payload), &hw_sample_t::payload), "hw_sample_t");
+      offset, offsetof(hw_sample_t, payload) + sizeof(hw_sample_t::payload), "hw_sample_t");
   const std::uint64_t payload = offset_in(out.sample.payload);
   if (payload == 0) damaged(offset, "hw_sample_t", "a sample without a payload");
   if (out.sample.kind == HW_SAMPLE_POINTS) read_points(cursor, payload, out);
@@ -296,21 +268,18 @@ void FrameReader::check_planes_of(std::uint32_t index) {
 }
 
 void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, Sample& reading) {
+  constexpr const char* kPart = "hw_points_t";
   hw_points_t& out = reading.points;
-  out = cursor.take_struct<hw_points_t>(offset, size_with(offsetof(hw_points_t, track), &hw_points_t::track),
-                                        "hw_points_t");
-  if (out.stride < sizeof(hw_point3_t) || out.stride % 8 != 0) {
-    damaged(offset, "hw_points_t", fmt::format("a stride of {} bytes", out.stride));
-  }
-  if (out.count > kMaxFrameBytes / out.stride)
-    damaged(offset, "hw_points_t", fmt::format("{} points", out.count));
-  const std::byte* points = cursor.take(offset_in(out.points), out.count * out.stride, "points");
+  out = cursor.take_struct<hw_points_t>(offset, offsetof(hw_points_t, track) + sizeof(hw_points_t::track),
+                                        kPart);
+  check_stride(offset, kPart, out.stride, sizeof(hw_point3_t));
+  check_count(offset, kPart, out.count, out.stride, "points");
+  out.points = cursor.take(offset_in(out.points), out.count * out.stride, "points");
   const std::uint64_t track = offset_in(out.track);
-  out.points = points;
   out.track = nullptr;
   if (track != 0) {
-    const std::byte* ids = cursor.take(track, out.count * sizeof(std::uint64_t), "track");
-    out.track = static_cast<const std::uint64_t*>(static_cast<const void*>(ids));
+    out.track =
+        static_cast<const std::uint64_t*>(cursor.take(track, out.count * sizeof(std::uint64_t), "track"));
   }
   read_pixels(cursor, offset, reading);
 }
@@ -327,7 +296,7 @@ void FrameReader::read_pixels(PartCursor& cursor, std::uint64_t offset, Sample& 
   if (out.width == 0 || out.height == 0 || out.width > kMaxPixels / out.height) {
     damaged(offset, "hw_points_t", fmt::format("an image of {} by {} pixels", out.width, out.height));
   }
-  const std::byte* pixels = cursor.take(at, out.count * sizeof(std::uint32_t), "pixel");
+  const void* pixels = cursor.take(at, out.count * sizeof(std::uint32_t), "pixel");
   reading.pixels.resize(out.count);
   if (out.count != 0) std::memcpy(reading.pixels.data(), pixels, out.count * sizeof(std::uint32_t));
   for (const std::uint32_t pixel : reading.pixels) {

@@ -10,7 +10,9 @@
 #include <span>
 #include <string>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
+#include "host/frame_bytes.hpp"
 
 namespace hallway::host {
 
@@ -39,39 +41,23 @@ T known_part(const T& value) {
 template <typename Pointer>
 void put_offset(Pointer& member, std::uint64_t offset) {
   static_assert(sizeof(Pointer) == sizeof offset);
-  std::memcpy(static_cast<void*>(&member), &offset, sizeof offset);
+  store(&member, offset);
 }
 
 template <typename Pointer>
 std::uint64_t offset_in(const Pointer& member) {
-  std::uint64_t offset = 0;
-  static_assert(sizeof(Pointer) == sizeof offset);
-  std::memcpy(&offset, static_cast<const void*>(&member), sizeof offset);
-  return offset;
+  static_assert(sizeof(Pointer) == sizeof(std::uint64_t));
+  return load<std::uint64_t>(&member);
 }
 
-/// Puts parts one after the other.
-class Sink {
- public:
-  explicit Sink(std::span<std::byte> bytes) : bytes_(bytes) {}
-  std::uint64_t at() const { return at_; }
-  void put(const void* data, std::size_t size) {
-    if (size != 0) std::memcpy(bytes_.data() + at_, data, size);
-    at_ += size;
+/// Puts elements that stand `stride` bytes apart; as much of each as T.
+template <typename T>
+void put_elements(AlignedByteWriter& to, const void* first, std::uint64_t count, std::uint64_t stride) {
+  if (stride == sizeof(T)) return to.put_bytes(first, count * sizeof(T));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    to.put_bytes(static_cast<const std::byte*>(first) + i * stride, sizeof(T));
   }
-  /// Leaves room for what is put later; @return where it begins
-  std::uint64_t skip(std::size_t size) {
-    at_ += size;
-    return at_ - size;
-  }
-  void put_at(std::uint64_t offset, std::uint64_t value) {
-    std::memcpy(bytes_.data() + offset, &value, sizeof value);
-  }
-
- private:
-  std::span<std::byte> bytes_;
-  std::uint64_t at_ = 0;
-};
+}
 
 [[noreturn]] inline void damaged(std::uint64_t offset, const char* part, const std::string& message) {
   throw Error(ErrorCode::kBadInput, message, Where{"", 0, fmt::format("frame, byte {}, {}", offset, part)});
@@ -83,11 +69,11 @@ class PartCursor {
   explicit PartCursor(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   /// `size` bytes at `offset`.
-  const std::byte* take(std::uint64_t offset, std::uint64_t size, const char* part) {
+  const void* take(std::uint64_t offset, std::uint64_t size, const char* part) {
     if (offset % 8 != 0) damaged(offset, part, "an offset that is not a multiple of 8");
     if (offset < end_)
       damaged(offset, part, fmt::format("a part before byte {}, where the one before it ends", end_));
-    if (offset > bytes_.size() || size > bytes_.size() - offset) {
+    if (!lies_within(offset, size, bytes_.size())) {
       damaged(offset, part,
               fmt::format("a part of {} bytes that ends beyond the frame's {}", size, bytes_.size()));
     }
@@ -98,8 +84,7 @@ class PartCursor {
   /// A copy of the struct at `offset`, whose first member is its size; members that these headers do not know are left out.
   template <typename T>
   T take_struct(std::uint64_t offset, std::size_t min_size, const char* part) {
-    std::uint32_t size = 0;
-    std::memcpy(&size, peek(offset, part), sizeof size);
+    const auto size = load<std::uint32_t>(peek(offset, part));
     if (size < min_size || size % 8 != 0) damaged(offset, part, fmt::format("a size of {} bytes", size));
     T value{};
     std::memcpy(&value, take(offset, size, part), std::min<std::size_t>(size, sizeof(T)));
@@ -109,9 +94,9 @@ class PartCursor {
   }
 
  private:
-  const std::byte* peek(std::uint64_t offset, const char* part) {
+  const void* peek(std::uint64_t offset, const char* part) {
     const std::uint64_t end = end_;
-    const std::byte* at = take(offset, 8, part);
+    const void* at = take(offset, 8, part);
     end_ = end;
     return at;
   }
@@ -120,10 +105,15 @@ class PartCursor {
   std::uint64_t end_ = 0;
 };
 
-/// Bytes that a struct had in ABI 1.0: up to and with its last member of that time.
-template <typename T, typename Member>
-constexpr std::size_t size_with(std::size_t offset, Member T::*) {
-  return offset + sizeof(Member);
+/// Refuses a list whose elements are not as far apart as they are large.
+inline void check_stride(std::uint64_t offset, const char* part, std::uint32_t stride, std::size_t least) {
+  if (stride < least || stride % 8 != 0) damaged(offset, part, fmt::format("a stride of {} bytes", stride));
+}
+
+/// Refuses more elements of a size than any frame holds.
+inline void check_count(std::uint64_t offset, const char* part, std::uint64_t count, std::uint64_t size,
+                        const char* what) {
+  if (count > kMaxFrameBytes / size) damaged(offset, part, fmt::format("{} {}", count, what));
 }
 
 }  // namespace hallway::host

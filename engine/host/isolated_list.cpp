@@ -3,8 +3,8 @@
 
 #include <system_error>
 
+#include "base/bytes.hpp"
 #include "base/text.hpp"
-#include "host/byte_stream.hpp"
 #include "host/plugin_messages.hpp"
 #include "host/plugin_process.hpp"
 
@@ -25,16 +25,16 @@ class Describer {
                                .data_bytes = data_limit(isolation_),
                                .file_bytes = isolation_.file_bytes,
                                .scratch = process_.scratch().string()};
-    ByteWriter writer(process_.room());
+    AlignedByteWriter writer(process_.room());
     write_start(writer, request);
     if (!writer.fits()) throw Error(ErrorCode::kPluginLoad, "has a name that is too long");
     std::vector<PluginInfo> infos;
-    call(Request::kDescribe, writer.size(), [&](ByteReader& reader) { infos = read_infos(reader); });
+    call(Request::kDescribe, writer.size(), [&](AlignedByteReader& reader) { infos = read_infos(reader); });
     return infos;
   }
 
   void close() {
-    call(Request::kClose, 0, [](ByteReader& reader) { reader.expect_end(); });
+    call(Request::kClose, 0, [](AlignedByteReader& reader) { reader.expect_end(); });
   }
 
  private:
@@ -42,7 +42,7 @@ class Describer {
   void call(Request request, std::size_t size, Read&& read) {
     process_.submit(request, size);
     const HostChannel::Answer answer = process_.await(request);
-    ByteReader reader(answer.bytes);
+    AlignedByteReader reader(answer.bytes);
     try {
       if (answer.reply == Reply::kError) throw_error(reader, file_.filename().string());
       read(reader);

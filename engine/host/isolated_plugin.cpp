@@ -36,8 +36,8 @@ void IsolatedPlugin::start() {
                        .scratch = process_->scratch().string(),
                        .writable = writable_};
   for (const std::filesystem::path& folder : folders_) request.folders.push_back(folder.string());
-  submit(Request::kStart, [&](ByteWriter& writer) { write_start(writer, request); });
-  await(Request::kStart, [&](ByteReader& reader) { started_ = read_started(reader); });
+  submit(Request::kStart, [&](AlignedByteWriter& writer) { write_start(writer, request); });
+  await(Request::kStart, [&](AlignedByteReader& reader) { started_ = read_started(reader); });
   if (!isolation_.temporary.empty() && process_->scratch().empty()) {
     started_.missing.push_back("no scratch folder can be made in " +
                                printable(isolation_.temporary.string(), kMaxText));
@@ -69,7 +69,7 @@ IsolatedPlugin::~IsolatedPlugin() {
 
 template <typename Write>
 void IsolatedPlugin::submit(Request request, Write&& write) {
-  ByteWriter writer(process_->room());
+  AlignedByteWriter writer(process_->room());
   write(writer);
   if (!writer.fits())
     throw Error(ErrorCode::kBadInput, "a request to the plugin is larger than the room for it");
@@ -79,7 +79,7 @@ void IsolatedPlugin::submit(Request request, Write&& write) {
 template <typename Read>
 void IsolatedPlugin::await(Request request, Read&& read) {
   const HostChannel::Answer answer = process_->await(request);
-  ByteReader reader(answer.bytes);
+  AlignedByteReader reader(answer.bytes);
   try {
     if (answer.reply == Reply::kError) throw_error(reader, started_.info.id);
     read(reader);
@@ -93,13 +93,13 @@ template <typename Write>
 void IsolatedPlugin::call(Request request, Write&& write) {
   if (closed_) throw Error(ErrorCode::kInternal, fmt::format("{}() after close()", call_name(request)));
   submit(request, write);
-  await(request, [](ByteReader& reader) { reader.expect_end(); });
+  await(request, [](AlignedByteReader& reader) { reader.expect_end(); });
 }
 
 IsolatedPlugin::ParameterState IsolatedPlugin::parameter_state(std::size_t index) {
-  submit(Request::kGetParameter, [&](ByteWriter& writer) { writer.put<std::uint64_t>(index); });
+  submit(Request::kGetParameter, [&](AlignedByteWriter& writer) { writer.put<std::uint64_t>(index); });
   ParameterState state{};
-  await(Request::kGetParameter, [&](ByteReader& reader) {
+  await(Request::kGetParameter, [&](AlignedByteReader& reader) {
     state.text = printable(reader.get_text(), kMaxText);
     state.from_sensor = reader.get<std::uint64_t>() != 0;
     reader.expect_end();
@@ -108,7 +108,7 @@ IsolatedPlugin::ParameterState IsolatedPlugin::parameter_state(std::size_t index
 }
 
 void IsolatedPlugin::send_parameter(const Setting& setting) {
-  call(Request::kSetParameter, [&](ByteWriter& writer) {
+  call(Request::kSetParameter, [&](AlignedByteWriter& writer) {
     writer.put_text(setting.name);
     writer.put_text(setting.value);
     write_where(writer, setting.where);
@@ -132,12 +132,12 @@ void IsolatedPlugin::set_parameter(std::string_view name, std::string_view value
 }
 
 void IsolatedPlugin::activate(std::span<const SensorInfo> sensors) {
-  call(Request::kActivate, [&](ByteWriter& writer) { write_sensors(writer, sensors); });
+  call(Request::kActivate, [&](AlignedByteWriter& writer) { write_sensors(writer, sensors); });
   active_ = true;
 }
 
 void IsolatedPlugin::reset() {
-  call(Request::kReset, [](ByteWriter&) {});
+  call(Request::kReset, [](AlignedByteWriter&) {});
 }
 
 void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const std::uint32_t> sent_indices) {
@@ -177,21 +177,23 @@ void IsolatedPlugin::submit(const hw_frame_t& frame) {
 const Outputs& IsolatedPlugin::collect() {
   if (submitted_ == collected_) throw Error(ErrorCode::kInternal, "collect() without a frame");
   const Pending& pending = pending_[collected_++ % pending_.size()];
-  await(Request::kProcess,
-        [&](ByteReader& reader) { read_answer(Request::kProcess, reader, &pending.frame, pending.indices); });
+  await(Request::kProcess, [&](AlignedByteReader& reader) {
+    read_answer(Request::kProcess, reader, &pending.frame, pending.indices);
+  });
   return collector_.outputs();
 }
 
 const Outputs& IsolatedPlugin::report(bool refine) {
   if (!active_) throw Error(ErrorCode::kInternal, "report() before activate()");
   if (submitted_ != collected_) throw Error(ErrorCode::kInternal, "report() with frames under way");
-  submit(Request::kReport, [&](ByteWriter& writer) { writer.put<std::uint64_t>(refine ? 1 : 0); });
-  await(Request::kReport, [&](ByteReader& reader) { read_answer(Request::kReport, reader, nullptr, {}); });
+  submit(Request::kReport, [&](AlignedByteWriter& writer) { writer.put<std::uint64_t>(refine ? 1 : 0); });
+  await(Request::kReport,
+        [&](AlignedByteReader& reader) { read_answer(Request::kReport, reader, nullptr, {}); });
   return collector_.outputs();
 }
 
 /// The other side has checked its outputs with the same code, so one that is wrong here was not written by it.
-void IsolatedPlugin::read_answer(Request request, ByteReader& reader, const hw_frame_t* frame,
+void IsolatedPlugin::read_answer(Request request, AlignedByteReader& reader, const hw_frame_t* frame,
                                  std::span<const std::uint32_t> indices) {
   collector_.begin(frame, indices);
   read_outputs(reader, collector_);
@@ -204,8 +206,8 @@ void IsolatedPlugin::close() {
   if (std::exchange(closed_, true) || !process_ || !process_->runs()) return;
   try {
     while (process_->under_way() != 0) process_->await(Request::kProcess);
-    submit(Request::kClose, [](ByteWriter&) {});
-    await(Request::kClose, [](ByteReader& reader) { reader.expect_end(); });
+    submit(Request::kClose, [](AlignedByteWriter&) {});
+    await(Request::kClose, [](AlignedByteReader& reader) { reader.expect_end(); });
   } catch (...) {
     process_->end();
     throw;

@@ -78,7 +78,7 @@ class IsolatedPlugin final : public Stage {
   void await(Request request, Read&& read);
   template <typename Write>
   void call(Request request, Write&& write);
-  void read_answer(Request request, ByteReader& reader, const hw_frame_t* frame,
+  void read_answer(Request request, AlignedByteReader& reader, const hw_frame_t* frame,
                    std::span<const std::uint32_t> indices);
 
   std::string wanted_;

@@ -111,11 +111,7 @@ std::optional<std::vector<std::string>> libraries_in_cache(std::string_view byte
   if (begin == std::string_view::npos) return std::nullopt;
   const std::string_view cache = bytes.substr(begin);
   if (cache.size() < kHeader) return std::nullopt;
-  const auto number_at = [&](std::size_t at) {
-    std::uint32_t number = 0;
-    std::memcpy(&number, cache.data() + at, sizeof number);
-    return number;
-  };
+  const auto number_at = [&](std::size_t at) { return load<std::uint32_t>(cache.data() + at); };
   const std::size_t count = number_at(kCountAt);
   if (count > (cache.size() - kHeader) / kEntry) return std::nullopt;
   std::vector<std::string> names;

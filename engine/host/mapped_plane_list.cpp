@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/unit_quaternion.hpp"
 #include "host/strided.hpp"
 #include "host/three.hpp"
 

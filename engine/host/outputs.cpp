@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "host/plugin_info.hpp"
 #include "host/sample_parts.hpp"
 #include "host/strided.hpp"
@@ -22,10 +23,8 @@ constexpr double kLargestEpoch = 9007199254740992.0;  // 2^53: doubles count up 
 /// What is wrong with a pose, null if nothing.
 const char* pose_problem(const hw_pose_t& pose) {
   if (!is_finite(pose.position)) return "a position that is not finite";
-  double squared = 0;
-  for (const double q : pose.orientation) squared += q * q;
-  if (!std::isfinite(squared)) return "a quaternion that is not finite";
-  if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return "a quaternion that is not of unit length";
+  if (!std::isfinite(quaternion_length(pose.orientation))) return "a quaternion that is not finite";
+  if (!is_unit_quaternion(pose.orientation)) return "a quaternion that is not of unit length";
   return nullptr;
 }
 

@@ -25,7 +25,7 @@ Payload sized() {
   return payload;
 }
 
-void read_pose(ByteReader& reader, OutputCollector& collector) {
+void read_pose(AlignedByteReader& reader, OutputCollector& collector) {
   const auto state = reader.get<std::uint64_t>();
   if (state == kNoPose) return;
   if (state > kValid) throw BadBytes{"a pose of no known state"};
@@ -42,7 +42,7 @@ void read_pose(ByteReader& reader, OutputCollector& collector) {
   put(collector, HW_OUTPUT_POSE, &pose);
 }
 
-void read_drive_command(ByteReader& reader, OutputCollector& collector) {
+void read_drive_command(AlignedByteReader& reader, OutputCollector& collector) {
   const auto commands = reader.get<std::uint64_t>();
   if (commands == 0) return;
   if (commands != 1) throw BadBytes{"more than one drive command"};
@@ -52,7 +52,7 @@ void read_drive_command(ByteReader& reader, OutputCollector& collector) {
   put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
 }
 
-void read_landmarks(ByteReader& reader, OutputCollector& collector) {
+void read_landmarks(AlignedByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_landmark_t>();
   auto landmarks = sized<hw_landmarks_t>();
   landmarks.stride = sizeof(hw_landmark_t);
@@ -65,7 +65,7 @@ void read_landmarks(ByteReader& reader, OutputCollector& collector) {
   if (list.count != 0) put(collector, HW_OUTPUT_LANDMARKS, &landmarks);
 }
 
-void read_associations(ByteReader& reader, OutputCollector& collector) {
+void read_associations(AlignedByteReader& reader, OutputCollector& collector) {
   const std::size_t n = reader.get_count();
   for (std::size_t i = 0; i < n; ++i) {
     auto associations = sized<hw_associations_t>();
@@ -77,7 +77,7 @@ void read_associations(ByteReader& reader, OutputCollector& collector) {
   }
 }
 
-void read_planes(ByteReader& reader, OutputCollector& collector) {
+void read_planes(AlignedByteReader& reader, OutputCollector& collector) {
   const std::size_t n = reader.get_count();
   for (std::size_t i = 0; i < n; ++i) {
     auto planes = sized<hw_planes_t>();
@@ -97,7 +97,7 @@ void read_planes(ByteReader& reader, OutputCollector& collector) {
   }
 }
 
-void read_mapped_planes(ByteReader& reader, OutputCollector& collector) {
+void read_mapped_planes(AlignedByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_mapped_plane_t>();
   const auto corners = reader.get_list<hw_mapped_corner_t>();
   auto planes = sized<hw_mapped_planes_t>();
@@ -110,7 +110,7 @@ void read_mapped_planes(ByteReader& reader, OutputCollector& collector) {
   if (list.count != 0 || corners.count != 0) put(collector, HW_OUTPUT_MAPPED_PLANES, &planes);
 }
 
-void read_submaps(ByteReader& reader, OutputCollector& collector) {
+void read_submaps(AlignedByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_submap_t>();
   const auto members = reader.get_list<std::uint64_t>();
   auto submaps = sized<hw_submaps_t>();
@@ -123,7 +123,7 @@ void read_submaps(ByteReader& reader, OutputCollector& collector) {
 }
 
 /// Their names are copied before they are checked.
-void read_counters(ByteReader& reader, OutputCollector& collector) {
+void read_counters(AlignedByteReader& reader, OutputCollector& collector) {
   const std::size_t n = reader.get_count();
   for (std::size_t i = 0; i < n; ++i) {
     const std::string name = reader.get_text();
@@ -136,7 +136,7 @@ void read_counters(ByteReader& reader, OutputCollector& collector) {
   }
 }
 
-void write_associations(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
+void write_associations(AlignedByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
   std::uint64_t n = 0;
   for (std::uint32_t sample = 0; sample < n_samples; ++sample) n += outputs.associations(sample) ? 1u : 0u;
   writer.put(n);
@@ -148,7 +148,7 @@ void write_associations(ByteWriter& writer, const Outputs& outputs, std::uint32_
   }
 }
 
-void write_planes(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
+void write_planes(AlignedByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
   std::uint64_t n = 0;
   for (std::uint32_t sample = 0; sample < n_samples; ++sample) n += outputs.planes(sample) ? 1u : 0u;
   writer.put(n);
@@ -164,7 +164,7 @@ void write_planes(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_sa
 
 }  // namespace
 
-void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
+void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint32_t n_samples) {
   const std::optional<PoseOutput>& pose = outputs.pose();
   writer.put<std::uint64_t>(!pose ? kNoPose : pose->valid ? kValid : kLost);
   if (pose) {
@@ -193,7 +193,7 @@ void write_outputs(ByteWriter& writer, const Outputs& outputs, std::uint32_t n_s
   }
 }
 
-void read_outputs(ByteReader& reader, OutputCollector& collector) {
+void read_outputs(AlignedByteReader& reader, OutputCollector& collector) {
   read_pose(reader, collector);
   read_drive_command(reader, collector);
   read_landmarks(reader, collector);

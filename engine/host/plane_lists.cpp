@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "base/unit_quaternion.hpp"
 #include "host/strided.hpp"
 #include "host/three.hpp"
 

@@ -15,11 +15,8 @@ namespace hallway::host {
 /// @param n_samples  of the frame that they are a sample of
 void check_planes(const hw_planes_t& planes, std::uint32_t n_samples);
 
-/// How many bytes put_planes() puts.
-std::uint64_t planes_bytes(const hw_planes_t& planes);
-
 /// Puts planes that check_planes() accepts.
-void put_planes(Sink& sink, const hw_planes_t& planes);
+void put_planes(AlignedByteWriter& to, const hw_planes_t& planes);
 
 /// The planes at `offset`; pointers lead into the bytes, and nothing that they lead to is checked. Throws Error{kBadInput}.
 hw_planes_t take_planes(PartCursor& cursor, std::uint64_t offset);

@@ -11,36 +11,36 @@ namespace {
 constexpr std::size_t kMaxText = 20'000;
 
 /// Ours for ever, unlike what the other side may still write over.
-std::string get_printable(ByteReader& reader) {
+std::string get_printable(AlignedByteReader& reader) {
   return printable(reader.get_text(), kMaxText);
 }
 
-void write_texts(ByteWriter& writer, const std::vector<std::string>& texts) {
+void write_texts(AlignedByteWriter& writer, const std::vector<std::string>& texts) {
   writer.put<std::uint64_t>(texts.size());
   for (const std::string& text : texts) writer.put_text(text);
 }
 
-std::vector<std::string> read_texts(ByteReader& reader) {
+std::vector<std::string> read_texts(AlignedByteReader& reader) {
   std::vector<std::string> texts(reader.get_count());
   for (std::string& text : texts) text = reader.get_text();
   return texts;
 }
 
-std::vector<std::string> read_printables(ByteReader& reader) {
+std::vector<std::string> read_printables(AlignedByteReader& reader) {
   std::vector<std::string> texts(reader.get_count());
   for (std::string& text : texts) text = get_printable(reader);
   return texts;
 }
 
-void write_info(ByteWriter& writer, const PluginInfo& info) {
+void write_info(AlignedByteWriter& writer, const PluginInfo& info) {
   for (const std::string* text : {&info.id, &info.name, &info.version, &info.vendor, &info.description}) {
     writer.put_text(*text);
   }
-  writer.put_list(std::span(info.inputs));
-  writer.put_list(std::span(info.outputs));
+  writer.put_list(info.inputs);
+  writer.put_list(info.outputs);
 }
 
-PluginInfo read_info(ByteReader& reader) {
+PluginInfo read_info(AlignedByteReader& reader) {
   PluginInfo info;
   for (std::string* text : {&info.id, &info.name, &info.version, &info.vendor, &info.description}) {
     *text = get_printable(reader);
@@ -50,7 +50,7 @@ PluginInfo read_info(ByteReader& reader) {
   return info;
 }
 
-void write_parameter(ByteWriter& writer, const Parameter& parameter) {
+void write_parameter(AlignedByteWriter& writer, const Parameter& parameter) {
   for (const std::string* text : {&parameter.name, &parameter.unit, &parameter.help}) writer.put_text(*text);
   for (const auto* value : {&parameter.default_value, &parameter.minimum, &parameter.maximum})
     writer.put(*value);
@@ -59,7 +59,7 @@ void write_parameter(ByteWriter& writer, const Parameter& parameter) {
   writer.put<std::uint64_t>(parameter.writable ? 1 : 0);
 }
 
-Parameter read_parameter(ByteReader& reader) {
+Parameter read_parameter(AlignedByteReader& reader) {
   Parameter parameter{};
   for (std::string* text : {&parameter.name, &parameter.unit, &parameter.help}) *text = get_printable(reader);
   for (auto* value : {&parameter.default_value, &parameter.minimum, &parameter.maximum}) {
@@ -82,7 +82,7 @@ ErrorCode code_of(std::uint32_t number) {
 
 }  // namespace
 
-void write_start(ByteWriter& writer, const StartRequest& request) {
+void write_start(AlignedByteWriter& writer, const StartRequest& request) {
   writer.put_text(request.wanted);
   write_texts(writer, request.folders);
   writer.put(request.data_bytes);
@@ -91,7 +91,7 @@ void write_start(ByteWriter& writer, const StartRequest& request) {
   write_texts(writer, request.writable);
 }
 
-StartRequest read_start(ByteReader& reader) {
+StartRequest read_start(AlignedByteReader& reader) {
   StartRequest request;
   request.wanted = reader.get_text();
   request.folders = read_texts(reader);
@@ -102,7 +102,7 @@ StartRequest read_start(ByteReader& reader) {
   return request;
 }
 
-void write_started(ByteWriter& writer, const StartReply& reply) {
+void write_started(AlignedByteWriter& writer, const StartReply& reply) {
   write_texts(writer, reply.missing);
   writer.put_text(reply.file);
   write_info(writer, reply.info);
@@ -110,7 +110,7 @@ void write_started(ByteWriter& writer, const StartReply& reply) {
   for (const Parameter& parameter : reply.parameters) write_parameter(writer, parameter);
 }
 
-StartReply read_started(ByteReader& reader) {
+StartReply read_started(AlignedByteReader& reader) {
   StartReply reply;
   reply.missing = read_printables(reader);
   reply.file = reader.get_text();
@@ -121,19 +121,19 @@ StartReply read_started(ByteReader& reader) {
   return reply;
 }
 
-void write_infos(ByteWriter& writer, std::span<const PluginInfo> infos) {
+void write_infos(AlignedByteWriter& writer, std::span<const PluginInfo> infos) {
   writer.put<std::uint64_t>(infos.size());
   for (const PluginInfo& info : infos) write_info(writer, info);
 }
 
-std::vector<PluginInfo> read_infos(ByteReader& reader) {
+std::vector<PluginInfo> read_infos(AlignedByteReader& reader) {
   std::vector<PluginInfo> infos(reader.get_count());
   for (PluginInfo& info : infos) info = read_info(reader);
   reader.expect_end();
   return infos;
 }
 
-void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors) {
+void write_sensors(AlignedByteWriter& writer, std::span<const SensorInfo> sensors) {
   writer.put<std::uint64_t>(sensors.size());
   for (const SensorInfo& sensor : sensors) {
     writer.put(sensor.id);
@@ -146,7 +146,7 @@ void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors) {
   }
 }
 
-std::vector<SensorInfo> read_sensors(ByteReader& reader) {
+std::vector<SensorInfo> read_sensors(AlignedByteReader& reader) {
   std::vector<SensorInfo> sensors(reader.get_count());
   for (SensorInfo& sensor : sensors) {
     sensor.id = reader.get<std::uint32_t>();
@@ -160,13 +160,13 @@ std::vector<SensorInfo> read_sensors(ByteReader& reader) {
   return sensors;
 }
 
-void write_where(ByteWriter& writer, const Where& where) {
+void write_where(AlignedByteWriter& writer, const Where& where) {
   writer.put_text(where.file);
   writer.put<std::int64_t>(where.line);
   writer.put_text(where.element);
 }
 
-Where read_where(ByteReader& reader) {
+Where read_where(AlignedByteReader& reader) {
   Where where;
   where.file = get_printable(reader);
   where.line = static_cast<int>(reader.get<std::int64_t>());
@@ -174,7 +174,7 @@ Where read_where(ByteReader& reader) {
   return where;
 }
 
-void write_error(ByteWriter& writer, const Error& error) {
+void write_error(AlignedByteWriter& writer, const Error& error) {
   const auto* failure = dynamic_cast<const PluginFailure*>(&error);
   writer.put(static_cast<std::uint32_t>(error.code()));
   writer.put_text(error.message());
@@ -182,7 +182,7 @@ void write_error(ByteWriter& writer, const Error& error) {
   writer.put_text(failure != nullptr ? failure->verdict().call : "");
 }
 
-void throw_error(ByteReader& reader, const std::string& plugin) {
+void throw_error(AlignedByteReader& reader, const std::string& plugin) {
   const ErrorCode code = code_of(reader.get<std::uint32_t>());
   const std::string message = get_printable(reader);
   const Where where = read_where(reader);

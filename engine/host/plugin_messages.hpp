@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "host/stage.hpp"
 #include "host/verdict.hpp"
 
@@ -24,8 +24,8 @@ struct StartRequest {
   std::string scratch{};                ///< folder that may be written in
   std::vector<std::string> writable{};  ///< further files and folders that may be written
 };
-void write_start(ByteWriter& writer, const StartRequest& request);
-StartRequest read_start(ByteReader& reader);
+void write_start(AlignedByteWriter& writer, const StartRequest& request);
+StartRequest read_start(AlignedByteReader& reader);
 
 /// The answer to it.
 struct StartReply {
@@ -34,22 +34,22 @@ struct StartReply {
   PluginInfo info{};
   std::vector<Parameter> parameters{};
 };
-void write_started(ByteWriter& writer, const StartReply& reply);
-StartReply read_started(ByteReader& reader);
+void write_started(AlignedByteWriter& writer, const StartReply& reply);
+StartReply read_started(AlignedByteReader& reader);
 
 /// The answer to kDescribe.
-void write_infos(ByteWriter& writer, std::span<const PluginInfo> infos);
-std::vector<PluginInfo> read_infos(ByteReader& reader);
+void write_infos(AlignedByteWriter& writer, std::span<const PluginInfo> infos);
+std::vector<PluginInfo> read_infos(AlignedByteReader& reader);
 
-void write_sensors(ByteWriter& writer, std::span<const SensorInfo> sensors);
-std::vector<SensorInfo> read_sensors(ByteReader& reader);
+void write_sensors(AlignedByteWriter& writer, std::span<const SensorInfo> sensors);
+std::vector<SensorInfo> read_sensors(AlignedByteReader& reader);
 
-void write_where(ByteWriter& writer, const Where& where);
-Where read_where(ByteReader& reader);
+void write_where(AlignedByteWriter& writer, const Where& where);
+Where read_where(AlignedByteReader& reader);
 
 /// An error, with the call that it came from where there is one.
-void write_error(ByteWriter& writer, const Error& error);
+void write_error(AlignedByteWriter& writer, const Error& error);
 /// Throws it again: an Error or a PluginFailure.
-[[noreturn]] void throw_error(ByteReader& reader, const std::string& plugin);
+[[noreturn]] void throw_error(AlignedByteReader& reader, const std::string& plugin);
 
 }  // namespace hallway::host

@@ -15,9 +15,9 @@
 #include <thread>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "base/child.hpp"
 #include "base/text.hpp"
-#include "host/byte_stream.hpp"
 #include "host/plugin_server.hpp"
 #include "host/process_use.hpp"
 
@@ -243,11 +243,10 @@ void PluginProcess::read_log() {
   std::array<char, kMaxPacket> packet;
   for (int i = 0; i < 1000; ++i) {
     const ssize_t got = ::recv(log_socket_, packet.data(), packet.size(), MSG_DONTWAIT);
-    LogHead head{};
-    if (got < static_cast<ssize_t>(sizeof head)) return;
-    std::memcpy(&head, packet.data(), sizeof head);
-    const std::string_view text(packet.data() + sizeof head, static_cast<std::size_t>(got) - sizeof head);
-    if (log_) log_(plugin_, head.level, printable(text, kMaxPacket));
+    if (got < static_cast<ssize_t>(sizeof(LogHead))) return;
+    ByteReader reader(std::string_view(packet.data(), static_cast<std::size_t>(got)));
+    const auto head = reader.get<LogHead>();
+    if (log_) log_(plugin_, head.level, printable(reader.take_rest(), kMaxPacket));
   }
 }
 

@@ -25,10 +25,10 @@ namespace {
 
 /// Sends what the plugin logs; on any thread.
 void send_log(PluginChannel& channel, std::uint32_t level, const std::string& message) {
-  const LogHead head{level};
-  std::string packet(sizeof head + message.size(), '\0');
-  std::memcpy(packet.data(), &head, sizeof head);
-  std::memcpy(packet.data() + sizeof head, message.data(), message.size());
+  std::string packet;
+  ByteAppender writer(packet);
+  writer.put(LogHead{level});
+  writer.put_raw(message);
   ::send(kLogDescriptor, packet.data(), packet.size(), MSG_NOSIGNAL);
   channel.nudge();
 }
@@ -41,8 +41,8 @@ class Server {
   /// Serves one call. @return whether there are more to come
   bool serve() {
     const PluginChannel::Call call = channel_.receive();
-    ByteReader reader(call.bytes);
-    ByteWriter writer(call.room);
+    AlignedByteReader reader(call.bytes);
+    AlignedByteWriter writer(call.room);
     std::optional<CallTime> time;
     try {
       if (call.request == Request::kProcess) {
@@ -62,7 +62,7 @@ class Server {
   }
 
  private:
-  CallTime perform(Request request, ByteReader& reader, ByteWriter& writer) {
+  CallTime perform(Request request, AlignedByteReader& reader, AlignedByteWriter& writer) {
     switch (request) {
       case Request::kStart:
         start(read_start(reader), writer);
@@ -103,13 +103,13 @@ class Server {
                     .writable = {request.writable.begin(), request.writable.end()}});
   }
 
-  void describe(const StartRequest& request, ByteWriter& writer) {
+  void describe(const StartRequest& request, AlignedByteWriter& writer) {
     confine_as(request);
     library_ = Library::load(request.wanted);
     write_infos(writer, library_->plugins());
   }
 
-  void start(const StartRequest& request, ByteWriter& writer) {
+  void start(const StartRequest& request, AlignedByteWriter& writer) {
     StartReply reply;
     reply.missing = confine_as(request);
     const std::vector<std::filesystem::path> folders(request.folders.begin(), request.folders.end());
@@ -124,18 +124,18 @@ class Server {
     write_started(writer, reply);
   }
 
-  void get_parameter(std::size_t index, ByteWriter& writer) {
+  void get_parameter(std::size_t index, AlignedByteWriter& writer) {
     writer.put_text(plugin_->parameter_text(index));
     writer.put<std::uint64_t>(plugin_->parameter_is_from_sensor(index) ? 1 : 0);
   }
 
-  void set_parameter(ByteReader& reader) {
+  void set_parameter(AlignedByteReader& reader) {
     const std::string name = reader.get_text();
     const std::string value = reader.get_text();
     plugin_->set_parameter(name, value, read_where(reader));
   }
 
-  CallTime process(std::span<const std::byte> bytes, ByteWriter& writer) {
+  CallTime process(std::span<const std::byte> bytes, AlignedByteWriter& writer) {
     const hw_frame_t& frame = frames_.read(bytes);
     write_outputs(writer, plugin_->process(frame), frame.n_samples);
     return plugin_->last_call();
@@ -151,7 +151,7 @@ class Server {
   }
 
   void answer_error(const PluginChannel::Call& call, const Error& error) {
-    ByteWriter writer(call.room);
+    AlignedByteWriter writer(call.room);
     write_error(writer, error);
     channel_.answer(Reply::kError, writer.size());
   }

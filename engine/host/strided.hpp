@@ -5,8 +5,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
+
+#include "base/bytes.hpp"
 
 namespace hallway::host {
 
@@ -28,9 +29,6 @@ inline bool is_finite(const double (&numbers)[3]) {
 /// More elements than this are taken for a wild number. A landmark takes 40 bytes.
 inline constexpr std::uint64_t kMaxElements = 1ull << 26;
 
-/// How far from 1 the length of a unit quaternion or vector may be.
-inline constexpr double kUnitTolerance = 1e-6;
-
 /// Throws Malformed for a list that cannot be one.
 inline void check_list(const void* first, std::uint64_t count) {
   if (count > kMaxElements) {
@@ -51,11 +49,7 @@ class Strided {
     }
   }
   std::size_t size() const { return count_; }
-  T operator[](std::size_t i) const {
-    T value;
-    std::memcpy(&value, first_ + i * stride_, sizeof value);
-    return value;
-  }
+  T operator[](std::size_t i) const { return load<T>(first_ + i * stride_); }
 
  private:
   const char* first_;

@@ -9,6 +9,7 @@
 #include "base/child.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "import/bag_protocol.hpp"
 #include "import/true_track.hpp"
 #include "log/byte_io.hpp"
@@ -89,7 +90,7 @@ TrueTrack track_of(const std::vector<BagPose>& poses, std::int64_t within_ns) {
     const auto& t = pose.position_m;
     const Quat q(w, x, y, z);
     const bool usable = pose.t_ns >= 0 && std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2]) &&
-                        std::abs(q.norm() - 1.0) < 0.01;
+                        is_unit_quaternion(pose.orientation, kUnitFileTolerance);
     if (usable) track.push_back({pose.t_ns, {q.normalized(), Vec3(t[0], t[1], t[2])}});
   }
   std::stable_sort(track.begin(), track.end(),

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/bytes.hpp"
 #include "base/text.hpp"
-#include "host/byte_stream.hpp"
 #include "import/point_collector.hpp"
 
 namespace hallway::import {
@@ -20,10 +20,10 @@ constexpr std::size_t kMaxTextBytes = 65'536;
 /// What `put` puts, as text.
 template <typename Put>
 std::string bytes_of(Put&& put) {
-  host::ByteWriter measure({});
+  AlignedByteWriter measure({});
   put(measure);
   std::string bytes(measure.size(), '\0');
-  host::ByteWriter writer(std::as_writable_bytes(std::span(bytes)));
+  AlignedByteWriter writer(std::as_writable_bytes(std::span(bytes)));
   put(writer);
   return bytes;
 }
@@ -31,7 +31,7 @@ std::string bytes_of(Put&& put) {
 template <typename Put>
 std::string message_of(BagMessageKind kind, Put&& put) {
   const std::string body = bytes_of(put);
-  return bytes_of([&](host::ByteWriter& out) {
+  return bytes_of([&](AlignedByteWriter& out) {
            out.put(kind);
            out.put<std::uint64_t>(body.size());
          }) +
@@ -42,11 +42,11 @@ std::string message_of(BagMessageKind kind, Put&& put) {
 template <typename Get>
 auto taken_from(std::string_view bytes, Get&& get) {
   try {
-    host::ByteReader reader(std::as_bytes(std::span(bytes)));
+    AlignedByteReader reader(std::as_bytes(std::span(bytes)));
     auto value = get(reader);
     reader.expect_end();
     return value;
-  } catch (const host::BadBytes& bad) {
+  } catch (const BadBytes& bad) {
     refuse(bad.what);
   }
 }
@@ -54,7 +54,7 @@ auto taken_from(std::string_view bytes, Get&& get) {
 }  // namespace
 
 std::string encode_request(const BagRequest& request) {
-  return bytes_of([&](host::ByteWriter& out) {
+  return bytes_of([&](AlignedByteWriter& out) {
     out.put_text(request.file);
     out.put_text(request.topic);
     out.put_text(request.truth_topic);
@@ -63,7 +63,7 @@ std::string encode_request(const BagRequest& request) {
 }
 
 BagRequest decode_request(std::string_view bytes) {
-  return taken_from(bytes, [](host::ByteReader& in) {
+  return taken_from(bytes, [](AlignedByteReader& in) {
     BagRequest request;
     request.file = in.get_text();
     request.topic = in.get_text();
@@ -74,17 +74,17 @@ BagRequest decode_request(std::string_view bytes) {
 }
 
 std::string encode_head(const BagHead& head) {
-  return message_of(BagMessageKind::kHead, [&](host::ByteWriter& out) {
+  return message_of(BagMessageKind::kHead, [&](AlignedByteWriter& out) {
     out.put_text(head.topic);
     out.put(head.frames);
     out.put(head.first_ns);
     out.put(head.last_ns);
-    out.put_list(std::span<const BagPose>(head.truth));
+    out.put_list(head.truth);
   });
 }
 
 BagHead decode_head(std::string_view bytes) {
-  return taken_from(bytes, [](host::ByteReader& in) {
+  return taken_from(bytes, [](AlignedByteReader& in) {
     BagHead head;
     head.topic = in.get_text();
     head.frames = in.get<std::uint64_t>();
@@ -96,15 +96,15 @@ BagHead decode_head(std::string_view bytes) {
 }
 
 std::string encode_frame(const Frame& frame) {
-  return message_of(BagMessageKind::kFrame, [&](host::ByteWriter& out) {
+  return message_of(BagMessageKind::kFrame, [&](AlignedByteWriter& out) {
     out.put(frame.t_ns);
     out.put(frame.not_finite);
-    out.put_list(std::span<const std::array<double, 3>>(frame.points));
+    out.put_list(frame.points);
   });
 }
 
 void decode_frame(std::string_view bytes, Frame& frame) {
-  taken_from(bytes, [&](host::ByteReader& in) {
+  taken_from(bytes, [&](AlignedByteReader& in) {
     frame.t_ns = in.get<std::int64_t>();
     frame.not_finite = in.get<std::uint64_t>();
     frame.points = in.copy_list<std::array<double, 3>>();
@@ -117,11 +117,11 @@ void decode_frame(std::string_view bytes, Frame& frame) {
 }
 
 std::string encode_end() {
-  return message_of(BagMessageKind::kEnd, [](host::ByteWriter&) {});
+  return message_of(BagMessageKind::kEnd, [](AlignedByteWriter&) {});
 }
 
 std::string encode_failure(const Error& failure) {
-  return message_of(BagMessageKind::kFailure, [&](host::ByteWriter& out) {
+  return message_of(BagMessageKind::kFailure, [&](AlignedByteWriter& out) {
     out.put<std::uint64_t>(failure.code() == ErrorCode::kUsage ? 1 : 0);
     out.put_text(std::string_view(failure.message()).substr(0, kMaxTextBytes));
     out.put_text(std::string_view(failure.where().element).substr(0, kMaxTextBytes));
@@ -129,7 +129,7 @@ std::string encode_failure(const Error& failure) {
 }
 
 Error decode_failure(std::string_view bytes) {
-  return taken_from(bytes, [](host::ByteReader& in) {
+  return taken_from(bytes, [](AlignedByteReader& in) {
     const ErrorCode code = in.get<std::uint64_t>() == 1 ? ErrorCode::kUsage : ErrorCode::kBadInput;
     const std::string message = printable(in.get_text(), kMaxTextBytes);
     return Error(code, message, {.element = printable(in.get_text(), kMaxTextBytes)});
@@ -137,7 +137,7 @@ Error decode_failure(std::string_view bytes) {
 }
 
 BagMessageHeader decode_message_start(std::string_view bytes) {
-  const BagMessageHeader header = taken_from(bytes, [](host::ByteReader& in) {
+  const BagMessageHeader header = taken_from(bytes, [](AlignedByteReader& in) {
     BagMessageHeader read;
     read.kind = in.get<BagMessageKind>();
     read.bytes = in.get<std::uint64_t>();

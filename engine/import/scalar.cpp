@@ -5,17 +5,15 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
+
+#include "base/bytes.hpp"
 
 namespace hallway::import {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
 template <typename T>
 double read_as(const char* bytes, ByteOrder order) {
-  std::array<char, sizeof(T)> copy{};
-  std::memcpy(copy.data(), bytes, sizeof(T));
+  auto copy = load<std::array<char, sizeof(T)>>(bytes);
   if (order == ByteOrder::kBig) std::reverse(copy.begin(), copy.end());
   return static_cast<double>(std::bit_cast<T>(copy));
 }

@@ -9,10 +9,10 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "geometry/rigid_fit.hpp"
 #include "geometry/se3.hpp"
 #include "log/line_reader.hpp"
-#include "log/unit_quaternion.hpp"
 
 namespace hallway::import {
 namespace {
@@ -46,7 +46,8 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::array<double, 4> unit_quaternion(std::array<double, 4> wxyz, const log::LineReader& lines) {
-  if (!log::is_unit(wxyz)) throw lines.error("the quaternion does not have unit length");
+  if (!is_unit_quaternion(wxyz, kUnitFileTolerance))
+    throw lines.error("the quaternion does not have unit length");
   const Quat q = Quat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
   return {q.w(), q.x(), q.y(), q.z()};
 }

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
 
 namespace hallway::link {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the protocol is little-endian");
 
 constexpr std::array<char, 4> kMagic{'H', 'W', 'U', 'D'};
 
@@ -35,11 +32,9 @@ static_assert(sizeof(Head) == kHeaderBytes);
 
 std::uint32_t checksum_of(Head head, std::span<const std::byte> payload) {
   head.checksum = 0;
-  std::array<unsigned char, sizeof head> bytes{};
-  std::memcpy(bytes.data(), &head, sizeof head);
-  const uLong begin = ::crc32(0, bytes.data(), bytes.size());
+  const uLong begin = ::crc32(0, reinterpret_cast<const Bytef*>(&head), sizeof head);
   if (payload.empty()) return static_cast<std::uint32_t>(begin);
-  const auto* rest = reinterpret_cast<const unsigned char*>(payload.data());
+  const auto* rest = reinterpret_cast<const Bytef*>(payload.data());
   return static_cast<std::uint32_t>(::crc32(begin, rest, static_cast<uInt>(payload.size())));
 }
 
@@ -81,15 +76,15 @@ void write_datagram(const Header& header, std::span<const std::byte> payload, By
   head.fragments = header.fragments;
   head.payload = static_cast<std::uint16_t>(payload.size());
   head.checksum = checksum_of(head, payload);
-  out.resize(sizeof head + payload.size());
-  std::memcpy(out.data(), &head, sizeof head);
-  if (!payload.empty()) std::memcpy(out.data() + sizeof head, payload.data(), payload.size());
+  out.clear();
+  BasicByteWriter<Bytes&> writer(out);
+  writer.put(head);
+  writer.put_bytes(payload.data(), payload.size());
 }
 
 std::variant<Datagram, Refusal> read_datagram(std::span<const std::byte> bytes) {
-  Head head;
-  if (bytes.size() < sizeof head || bytes.size() > kMaxDatagramBytes) return Refusal::kSize;
-  std::memcpy(&head, bytes.data(), sizeof head);
+  if (bytes.size() < sizeof(Head) || bytes.size() > kMaxDatagramBytes) return Refusal::kSize;
+  const auto head = load<Head>(bytes.data());
   if (head.magic != kMagic) return Refusal::kMagic;
   if (head.version != kProtocolVersion) return Refusal::kVersion;
   const auto payload = bytes.subspan(sizeof head);

@@ -4,18 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "host/byte_stream.hpp"
+#include "base/unit_quaternion.hpp"
 
 namespace hallway::link {
 namespace {
 
 constexpr std::uint32_t kLockStep = 1;
-constexpr double kUnitTolerance = 1e-6;
 
 struct RobotBytes {
   std::uint32_t flags = 0;
@@ -48,13 +47,8 @@ void check_name(const std::string& name) {
 }
 
 void check_mount(const host::SensorInfo& sensor) {
-  double squared = 0;
-  for (const double q : sensor.T_body_sensor.orientation) squared += q * q;
-  const auto& t = sensor.T_body_sensor.position;
-  const bool placed = std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2]);
-  if (!placed || !std::isfinite(squared) || std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) {
+  if (!is_pose(sensor.T_body_sensor.position, sensor.T_body_sensor.orientation))
     bad(fmt::format("the mount of sensor {} is no pose", sensor.id));
-  }
 }
 
 void check(const Description& description) {
@@ -96,7 +90,7 @@ host::SensorInfo sensor_of(const SensorBytes& bytes) {
 }
 
 Description read_parts(std::span<const std::byte> message) {
-  host::ByteReader reader(message);
+  AlignedByteReader reader(message);
   const auto robot = reader.get<RobotBytes>();
   Description description;
   description.lock_step = (robot.flags & kLockStep) != 0;
@@ -116,7 +110,7 @@ Description read_parts(std::span<const std::byte> message) {
 Bytes write_description(const Description& description) {
   check(description);
   Bytes message(kMaxDescriptionFragments * kFragmentBytes);
-  host::ByteWriter writer(message);
+  AlignedByteWriter writer(message);
   writer.put(RobotBytes{.flags = description.lock_step ? kLockStep : 0,
                         .sensors = static_cast<std::uint32_t>(description.sensors.size()),
                         .period_ns = description.period_ns});
@@ -135,7 +129,7 @@ Description read_description(std::span<const std::byte> message) {
     Description description = read_parts(message);
     check(description);
     return description;
-  } catch (const host::BadBytes& fault) {
+  } catch (const BadBytes& fault) {
     bad(fault.what);
   }
 }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "base/bytes.hpp"
+#include "base/unit_quaternion.hpp"
 
 namespace hallway::link {
 namespace {
-
-constexpr double kQuaternionTolerance = 1e-6;
 
 enum AnswerFlag : std::uint32_t { kHasCommand = 1, kHasPose = 2, kPoseValid = 4 };
 
@@ -26,14 +26,6 @@ struct AnswerBytes {
   std::uint64_t reserved = 0;
 };
 static_assert(sizeof(AnswerBytes) == 104);
-
-bool sound_pose(const AnswerBytes& bytes) {
-  double squared = 0;
-  for (const double q : bytes.orientation) squared += q * q;
-  const bool placed =
-      std::all_of(bytes.position.begin(), bytes.position.end(), [](double x) { return std::isfinite(x); });
-  return placed && std::isfinite(squared) && std::abs(std::sqrt(squared) - 1.0) <= kQuaternionTolerance;
-}
 
 }  // namespace
 
@@ -54,15 +46,14 @@ void write_answer(const Answer& answer, Bytes& payload) {
     std::copy_n(answer.pose->T_map_body.orientation, 4, bytes.orientation.begin());
   }
   payload.resize(sizeof bytes);
-  std::memcpy(payload.data(), &bytes, sizeof bytes);
+  store(payload.data(), bytes);
 }
 
 std::optional<Answer> read_answer(const Datagram& datagram) {
-  AnswerBytes bytes;
-  if (datagram.payload.size() != sizeof bytes) return std::nullopt;
-  std::memcpy(&bytes, datagram.payload.data(), sizeof bytes);
+  if (datagram.payload.size() != sizeof(AnswerBytes)) return std::nullopt;
+  const auto bytes = load<AnswerBytes>(datagram.payload.data());
   const bool sound = bytes.status <= HW_ANSWER_END && std::isfinite(bytes.linear_m_s) &&
-                     std::isfinite(bytes.angular_rad_s) && sound_pose(bytes);
+                     std::isfinite(bytes.angular_rad_s) && is_pose(bytes.position, bytes.orientation);
   if (!sound) return std::nullopt;
   Answer answer{.number = bytes.number,
                 .status = bytes.status,
@@ -80,8 +71,8 @@ std::optional<Answer> read_answer(const Datagram& datagram) {
 
 void write_missing(const std::vector<bool>& missing, Bytes& payload) {
   const auto fragments = static_cast<std::uint16_t>(missing.size());
-  payload.assign(sizeof fragments, std::byte{0});
-  std::memcpy(payload.data(), &fragments, sizeof fragments);
+  payload.resize(sizeof fragments);
+  store(payload.data(), fragments);
   if (std::find(missing.begin(), missing.end(), true) == missing.end()) return;
   payload.resize(sizeof fragments + (missing.size() + 7) / 8, std::byte{0});
   for (std::size_t i = 0; i < missing.size(); ++i) {
@@ -90,9 +81,8 @@ void write_missing(const std::vector<bool>& missing, Bytes& payload) {
 }
 
 std::optional<std::vector<bool>> read_missing(std::span<const std::byte> payload, std::size_t fragments) {
-  std::uint16_t told = 0;
-  if (payload.size() < sizeof told) return std::nullopt;
-  std::memcpy(&told, payload.data(), sizeof told);
+  if (payload.size() < sizeof(std::uint16_t)) return std::nullopt;
+  const auto told = load<std::uint16_t>(payload.data());
   const auto bits = payload.subspan(sizeof told);
   if (told != fragments || (!bits.empty() && bits.size() != (fragments + 7) / 8)) return std::nullopt;
   std::vector<bool> missing(fragments, false);

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
@@ -98,7 +99,7 @@ void FileOutput::keep(std::string_view bytes) {
   std::string all;
   if (!has_kept_) {
     all = kTailMagic;
-    for (std::size_t i = 0; i < sizeof written_; ++i) all += static_cast<char>(written_ >> (8 * i) & 0xff);
+    ByteAppender(all).put(written_);
   }
   all += bytes;  // in one call, so that no head stands there alone
   write_all(tail_fd_, all, printable(tail_path_.string()));

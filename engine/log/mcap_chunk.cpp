@@ -27,8 +27,7 @@ std::string decompress(const McapChunk& chunk) {
 }  // namespace
 
 std::string unpack_chunk(std::string_view content) {
-  McapChunk chunk;
-  parse_record(content, chunk);
+  const auto chunk = parse_record<McapChunk>(content);
   if (chunk.uncompressed_size > kMaxMcapRecordBytes) {
     bad(fmt::format("a chunk of {} bytes; at most {} are read", chunk.uncompressed_size,
                     kMaxMcapRecordBytes));
@@ -42,15 +41,14 @@ std::string unpack_chunk(std::string_view content) {
 std::optional<McapChunkRecord> next_chunk_record(std::string_view records, std::size_t& at) {
   const std::string_view rest = records.substr(at);
   if (rest.size() < kMcapRecordHead) bad("a chunk that ends within a record");
-  const McapRecordHead head = parse_record_head(rest.substr(0, kMcapRecordHead));
+  const McapRecordHead head = parse_record<McapRecordHead>(rest);
   if (head.length > rest.size() - kMcapRecordHead) bad("a chunk with a record that is longer than the chunk");
   at += kMcapRecordHead + head.length;
-  const auto op = static_cast<McapOp>(head.op);
   if (is_foreign(head.op)) return std::nullopt;
-  if (op != McapOp::kSchema && op != McapOp::kChannel && op != McapOp::kMessage) {
-    bad(fmt::format("a chunk with a record of kind {}", head.op));
+  if (head.op != McapOp::kSchema && head.op != McapOp::kChannel && head.op != McapOp::kMessage) {
+    bad(fmt::format("a chunk with a record of kind {}", fmt::underlying(head.op)));
   }
-  return McapChunkRecord{op, rest.substr(kMcapRecordHead, head.length)};
+  return McapChunkRecord{head.op, rest.substr(kMcapRecordHead, head.length)};
 }
 
 }  // namespace hallway::log

@@ -35,15 +35,12 @@ class SpanCopier {
     for (const auto& [id, schema] : index_.schemas) writer_.add(schema);
     for (const auto& [id, channel] : index_.channels) writer_.add(channel);
     for (const McapMetadataIndex& at : index_.metadata) {
-      McapMetadata metadata;
-      parse_record(read_indexed_record(input_, McapOp::kMetadata, at.offset, at.length), metadata);
-      writer_.add(metadata);
+      writer_.add(
+          parse_record<McapMetadata>(read_indexed_record(input_, McapOp::kMetadata, at.offset, at.length)));
     }
     for (const McapAttachmentIndex& at : index_.attachments) {
       const std::string content = read_indexed_record(input_, McapOp::kAttachment, at.offset, at.length);
-      McapAttachment attachment;
-      parse_record(content, attachment);
-      writer_.add(attachment);
+      writer_.add(parse_record<McapAttachment>(content));
     }
   }
 

@@ -23,13 +23,12 @@ std::string read_summary(const ByteInput& input) {
   std::string tail;
   if (input.size() < kTail + kMcapMagic.size()) bad_index("is too short for a log with an index");
   input.read(input.size() - kTail, kTail, tail);
-  const McapRecordHead head = parse_record_head(std::string_view(tail).substr(0, kMcapRecordHead));
-  if (!tail.ends_with(kMcapMagic) || static_cast<McapOp>(head.op) != McapOp::kFooter ||
-      head.length != kMcapFooterBytes) {
+  const McapRecordHead head = parse_record<McapRecordHead>(tail);
+  if (!tail.ends_with(kMcapMagic) || head.op != McapOp::kFooter || head.length != kMcapFooterBytes) {
     bad_index("does not end as a log does: it has no index");
   }
-  McapFooter footer;
-  parse_record(std::string_view(tail).substr(kMcapRecordHead, kMcapFooterBytes), footer);
+  const auto footer =
+      parse_record<McapFooter>(std::string_view(tail).substr(kMcapRecordHead, kMcapFooterBytes));
   const std::uint64_t footer_at = input.size() - kTail;
   if (footer.summary_start < kMcapMagic.size() || footer.summary_start > footer_at) bad_index("has no index");
   const std::uint64_t size = footer_at - footer.summary_start;
@@ -42,36 +41,29 @@ std::string read_summary(const ByteInput& input) {
   return summary;
 }
 
-template <typename Record>
-Record parsed(std::string_view content) {
-  Record record;
-  parse_record(content, record);
-  return record;
-}
-
 void take(McapOp op, std::string_view content, McapIndex& index) {
   switch (op) {
     case McapOp::kSchema: {
-      auto schema = parsed<McapSchema>(content);
+      auto schema = parse_record<McapSchema>(content);
       if (schema.id != 0) index.schemas.emplace(schema.id, std::move(schema));
       return;
     }
     case McapOp::kChannel: {
-      auto channel = parsed<McapChannel>(content);
+      auto channel = parse_record<McapChannel>(content);
       index.channels.emplace(channel.id, std::move(channel));
       return;
     }
     case McapOp::kStatistics:
-      index.statistics = parsed<McapStatistics>(content);
+      index.statistics = parse_record<McapStatistics>(content);
       return;
     case McapOp::kChunkIndex:
-      index.chunks.push_back(parsed<McapChunkIndex>(content));
+      index.chunks.push_back(parse_record<McapChunkIndex>(content));
       return;
     case McapOp::kAttachmentIndex:
-      index.attachments.push_back(parsed<McapAttachmentIndex>(content));
+      index.attachments.push_back(parse_record<McapAttachmentIndex>(content));
       return;
     case McapOp::kMetadataIndex:
-      index.metadata.push_back(parsed<McapMetadataIndex>(content));
+      index.metadata.push_back(parse_record<McapMetadataIndex>(content));
       return;
     default:
       return;  // summary offsets, and what a later version may have added
@@ -86,10 +78,10 @@ McapIndex read_mcap_index(const ByteInput& input) {
   std::string_view rest = summary;
   while (!rest.empty()) {
     if (rest.size() < kMcapRecordHead) bad_index("has an index that ends within a record");
-    const McapRecordHead head = parse_record_head(rest.substr(0, kMcapRecordHead));
+    const McapRecordHead head = parse_record<McapRecordHead>(rest);
     rest.remove_prefix(kMcapRecordHead);
     if (head.length > rest.size()) bad_index("has an index that ends within a record");
-    take(static_cast<McapOp>(head.op), rest.substr(0, head.length), index);
+    take(head.op, rest.substr(0, head.length), index);
     rest.remove_prefix(head.length);
   }
   for (const auto& [id, channel] : index.channels) {
@@ -101,14 +93,14 @@ McapIndex read_mcap_index(const ByteInput& input) {
 
 std::string read_indexed_record(const ByteInput& input, McapOp op, std::uint64_t offset,
                                 std::uint64_t length) {
-  const bool there = offset <= input.size() && length <= input.size() - offset;
-  if (!there || length < kMcapRecordHead || length - kMcapRecordHead > kMaxMcapRecordBytes) {
+  if (!lies_within(offset, length, input.size()) || length < kMcapRecordHead ||
+      length - kMcapRecordHead > kMaxMcapRecordBytes) {
     bad_index(fmt::format("an index of a record of {} bytes at byte {}", length, offset));
   }
   std::string record;
   input.read(offset, length, record);
-  const McapRecordHead head = parse_record_head(std::string_view(record).substr(0, kMcapRecordHead));
-  if (static_cast<McapOp>(head.op) != op || head.length != length - kMcapRecordHead) {
+  const McapRecordHead head = parse_record<McapRecordHead>(record);
+  if (head.op != op || head.length != length - kMcapRecordHead) {
     bad_index(fmt::format("at byte {} stands another record than the index says", offset));
   }
   return record.substr(kMcapRecordHead);
@@ -119,7 +111,7 @@ void read_indexed_chunk(const ByteInput& input, const McapChunkIndex& chunk, con
       unpack_chunk(read_indexed_record(input, McapOp::kChunk, chunk.offset, chunk.length));
   for (std::size_t at = 0; at < records.size();) {
     const auto item = next_chunk_record(records, at);
-    if (item && item->op == McapOp::kMessage) sink(parsed<McapMessage>(item->content));
+    if (item && item->op == McapOp::kMessage) sink(parse_record<McapMessage>(item->content));
   }
 }
 

@@ -45,7 +45,7 @@ bool McapReader::step() {
 
 bool McapReader::read_from_chunk() {
   const auto record = next_chunk_record(chunk_, chunk_at_);
-  return record && take_content(static_cast<std::uint8_t>(record->op), record->content);
+  return record && take_content(record->op, record->content);
 }
 
 bool McapReader::read_from_file() {
@@ -54,10 +54,10 @@ bool McapReader::read_from_file() {
   demand(left > 0, "the file ends without its footer");
   demand(left >= kMcapRecordHead, "the file ends within a record");
   input_.read(at_, kMcapRecordHead, head_);
-  const McapRecordHead head = parse_record_head(head_);
+  const McapRecordHead head = parse_record<McapRecordHead>(head_);
   if (head.length > left - kMcapRecordHead) {
-    bad_log(fmt::format("a record of kind {} and {} bytes, of which {} are there", head.op, head.length,
-                        left - kMcapRecordHead));
+    bad_log(fmt::format("a record of kind {} and {} bytes, of which {} are there", fmt::underlying(head.op),
+                        head.length, left - kMcapRecordHead));
   }
   if (head.length > kMaxMcapRecordBytes) {
     bad_log(fmt::format("a record of {} bytes; at most {} are read", head.length, kMaxMcapRecordBytes));
@@ -69,33 +69,33 @@ bool McapReader::read_from_file() {
   return false;
 }
 
-bool McapReader::take_data(std::uint8_t op) {
+bool McapReader::take_data(McapOp op) {
   const bool first = record_ == kMcapMagic.size();
-  demand(first == (static_cast<McapOp>(op) == McapOp::kHeader), "a header that is not at the start");
-  if (static_cast<McapOp>(op) == McapOp::kDataEnd) {
+  demand(first == (op == McapOp::kHeader), "a header that is not at the start");
+  if (op == McapOp::kDataEnd) {
     end_data();
     return false;
   }
   crc_ = crc32(content_, crc32(head_, crc_));
-  if (static_cast<McapOp>(op) == McapOp::kMessageIndex) {
+  if (op == McapOp::kMessageIndex) {
     check_message_index();
     return false;
   }
-  after_chunk_ = static_cast<McapOp>(op) == McapOp::kChunk;
-  if (static_cast<McapOp>(op) == McapOp::kMessage && chunks_ > 0) bad_log("a message outside of the chunks");
+  after_chunk_ = op == McapOp::kChunk;
+  if (op == McapOp::kMessage && chunks_ > 0) bad_log("a message outside of the chunks");
   if (after_chunk_) {
     open_chunk();
     return false;
   }
-  if (static_cast<McapOp>(op) == McapOp::kHeader) {
-    parse_record(content_, header_);
+  if (op == McapOp::kHeader) {
+    header_ = parse_record<McapHeader>(content_);
     return false;
   }
   return !is_foreign(op) && take_content(op, content_);
 }
 
-bool McapReader::take_content(std::uint8_t op, std::string_view content) {
-  switch (static_cast<McapOp>(op)) {
+bool McapReader::take_content(McapOp op, std::string_view content) {
+  switch (op) {
     case McapOp::kSchema:
       return add_schema(content);
     case McapOp::kChannel:
@@ -104,16 +104,16 @@ bool McapReader::take_content(std::uint8_t op, std::string_view content) {
       add_message(content);
       return true;
     case McapOp::kAttachment:
-      parse_record(content, item_.emplace<McapAttachment>());
+      item_ = parse_record<McapAttachment>(content);
       ++attachments_;
       return true;
     case McapOp::kMetadata:
       if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("metadata of {} bytes", content.size()));
-      parse_record(content, item_.emplace<McapMetadata>());
+      item_ = parse_record<McapMetadata>(content);
       ++metadata_;
       return true;
     default:
-      bad_log(fmt::format("a record of kind {} among the data", op));
+      bad_log(fmt::format("a record of kind {} among the data", fmt::underlying(op)));
   }
 }
 
@@ -126,8 +126,7 @@ void McapReader::count_facts(std::string_view content) {
 
 bool McapReader::add_schema(std::string_view content) {
   if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("a schema of {} bytes", content.size()));
-  auto& schema = item_.emplace<McapSchema>();
-  parse_record(content, schema);
+  const auto& schema = item_.emplace<McapSchema>(parse_record<McapSchema>(content));
   if (schema.id == 0) return false;  // to be ignored, says the format
   const auto [known, is_new] = schemas_.emplace(schema.id, schema);
   if (is_new) count_facts(content);
@@ -137,8 +136,7 @@ bool McapReader::add_schema(std::string_view content) {
 
 bool McapReader::add_channel(std::string_view content) {
   if (content.size() > kMaxMcapFactBytes) bad_log(fmt::format("a channel of {} bytes", content.size()));
-  auto& channel = item_.emplace<McapChannel>();
-  parse_record(content, channel);
+  const auto& channel = item_.emplace<McapChannel>(parse_record<McapChannel>(content));
   if (channel.schema_id != 0 && !schemas_.contains(channel.schema_id)) {
     bad_log(fmt::format("channel {} with schema {}, which is not known", channel.id, channel.schema_id));
   }
@@ -150,8 +148,7 @@ bool McapReader::add_channel(std::string_view content) {
 }
 
 void McapReader::add_message(std::string_view content) {
-  auto& message = item_.emplace<McapMessage>();
-  parse_record(content, message);
+  const auto& message = item_.emplace<McapMessage>(parse_record<McapMessage>(content));
   const auto count = counts_.find(message.channel_id);
   if (count == counts_.end())
     bad_log(fmt::format("a message of channel {}, which is not known", message.channel_id));
@@ -162,8 +159,7 @@ void McapReader::add_message(std::string_view content) {
 /// An index is not needed to read on. But where one stands without its chunk, the chunk before it was not recognized.
 void McapReader::check_message_index() const {
   demand(after_chunk_, "a message index that does not follow a chunk");
-  McapMessageIndex index;
-  parse_record(content_, index);
+  const auto index = parse_record<McapMessageIndex>(content_);
   const auto count = chunk_counts_.find(index.channel_id);
   const std::uint64_t there = count == chunk_counts_.end() ? 0 : count->second;
   if (index.entries.size() != there) {
@@ -183,21 +179,20 @@ void McapReader::open_chunk() {
 void McapReader::end_data() {
   section_ = Section::kSummary;
   summary_start_ = at_;
-  McapDataEnd end;
-  parse_record(content_, end);
+  const auto end = parse_record<McapDataEnd>(content_);
   demand(end.data_crc == 0 || end.data_crc == crc_,
          "the check sum of all data is wrong, though each chunk's is right");
   crc_ = 0;
 }
 
-void McapReader::take_summary(std::uint8_t op) {
-  if (static_cast<McapOp>(op) == McapOp::kFooter) {
+void McapReader::take_summary(McapOp op) {
+  if (op == McapOp::kFooter) {
     check_footer(head_);
     section_ = Section::kEnd;
     return;
   }
   crc_ = crc32(content_, crc32(head_, crc_));
-  switch (static_cast<McapOp>(op)) {
+  switch (op) {
     case McapOp::kStatistics:
       check_statistics(content_);
       return;
@@ -209,7 +204,7 @@ void McapReader::take_summary(std::uint8_t op) {
     case McapOp::kSummaryOffset:
       return;
     default:
-      if (!is_foreign(op)) bad_log(fmt::format("a record of kind {} in the summary", op));
+      if (!is_foreign(op)) bad_log(fmt::format("a record of kind {} in the summary", fmt::underlying(op)));
   }
 }
 
@@ -220,8 +215,7 @@ std::uint64_t McapReader::messages() const {
 }
 
 void McapReader::check_statistics(std::string_view content) const {
-  McapStatistics said;
-  parse_record(content, said);
+  const auto said = parse_record<McapStatistics>(content);
   const auto compare = [](const char* what, std::uint64_t claimed, std::uint64_t there) {
     if (claimed != there)
       bad_log(fmt::format("the statistics speak of {} {}; there are {}", claimed, what, there));
@@ -233,8 +227,7 @@ void McapReader::check_statistics(std::string_view content) const {
 }
 
 void McapReader::check_footer(std::string_view head) {
-  McapFooter footer;
-  parse_record(content_, footer);
+  const auto footer = parse_record<McapFooter>(content_);
   const std::string_view covered =
       std::string_view(content_).substr(0, content_.size() - sizeof footer.summary_crc);
   crc_ = crc32(covered, crc32(head, crc_));

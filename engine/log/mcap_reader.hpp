@@ -48,8 +48,6 @@ class McapReader {
 
   /// The channels given so far.
   const std::map<std::uint16_t, McapChannel>& channels() const { return channels_; }
-  /// Messages given so far, for each channel.
-  const std::map<std::uint16_t, std::uint64_t>& message_counts() const { return counts_; }
   std::uint64_t chunks() const { return chunks_; }
   /// Where in the file the record stands that the last item came from: itself or its chunk.
   std::uint64_t position() const { return record_; }
@@ -61,9 +59,9 @@ class McapReader {
   bool step();
   bool read_from_chunk();
   bool read_from_file();
-  bool take_data(std::uint8_t op);
-  void take_summary(std::uint8_t op);
-  bool take_content(std::uint8_t op, std::string_view content);
+  bool take_data(McapOp op);
+  void take_summary(McapOp op);
+  bool take_content(McapOp op, std::string_view content);
   bool add_schema(std::string_view content);
   bool add_channel(std::string_view content);
   void add_message(std::string_view content);

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "log/mcap_fields.hpp"
+
 namespace hallway::log {
 
-// The records of the MCAP container, version 0 (https://mcap.dev/spec): what they hold, and their bytes. Whole numbers
-// are little-endian; a text is its length (u32) and its bytes.
+// The records of the MCAP container, version 0 (https://mcap.dev/spec): what they hold, and their bytes.
 
 /// What an MCAP file begins and ends with.
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
@@ -35,8 +36,8 @@ enum class McapOp : std::uint8_t {
 };
 
 /// Records that a later version may have added, or that are a program's own.
-constexpr bool is_foreign(std::uint8_t op) {
-  return op > static_cast<std::uint8_t>(McapOp::kDataEnd);
+constexpr bool is_foreign(McapOp op) {
+  return op > McapOp::kDataEnd;
 }
 
 /// Bytes before a record's content: its kind and the length of the content.
@@ -49,6 +50,8 @@ using McapEntries = std::vector<std::pair<std::string, std::string>>;
 struct McapHeader {
   std::string profile;  ///< what the file promises of its channels
   std::string library;  ///< which program wrote it
+  static constexpr McapOp kOp = McapOp::kHeader;
+  static constexpr auto kFields = std::tuple(&McapHeader::profile, &McapHeader::library);
   bool operator==(const McapHeader&) const = default;
 };
 
@@ -56,6 +59,9 @@ struct McapFooter {
   std::uint64_t summary_start = 0;         ///< 0: there is no summary
   std::uint64_t summary_offset_start = 0;  ///< 0: there are no summary offsets
   std::uint32_t summary_crc = 0;           ///< 0: not known
+  static constexpr McapOp kOp = McapOp::kFooter;
+  static constexpr auto kFields =
+      std::tuple(&McapFooter::summary_start, &McapFooter::summary_offset_start, &McapFooter::summary_crc);
 };
 
 /// How the messages of channels look.
@@ -64,6 +70,9 @@ struct McapSchema {
   std::string name;
   std::string encoding;
   std::string data;
+  static constexpr McapOp kOp = McapOp::kSchema;
+  static constexpr auto kFields =
+      std::tuple(&McapSchema::id, &McapSchema::name, &McapSchema::encoding, &McapSchema::data);
   bool operator==(const McapSchema&) const = default;
 };
 
@@ -74,6 +83,9 @@ struct McapChannel {
   std::string topic;
   std::string encoding;  ///< of the messages
   McapEntries metadata;
+  static constexpr McapOp kOp = McapOp::kChannel;
+  static constexpr auto kFields = std::tuple(&McapChannel::id, &McapChannel::schema_id, &McapChannel::topic,
+                                             &McapChannel::encoding, &McapChannel::metadata);
   bool operator==(const McapChannel&) const = default;
 };
 
@@ -83,6 +95,10 @@ struct McapMessage {
   std::uint64_t log_time_ns = 0;
   std::uint64_t publish_time_ns = 0;
   std::string_view data;
+  static constexpr McapOp kOp = McapOp::kMessage;
+  static constexpr auto kFields =
+      std::tuple(&McapMessage::channel_id, &McapMessage::sequence, &McapMessage::log_time_ns,
+                 &McapMessage::publish_time_ns, McapRest{&McapMessage::data});
 };
 
 struct McapChunk {
@@ -92,6 +108,10 @@ struct McapChunk {
   std::uint32_t uncompressed_crc = 0;  ///< 0: not known
   std::string compression;             ///< "zstd", "lz4" or "" for none
   std::string_view records;
+  static constexpr McapOp kOp = McapOp::kChunk;
+  static constexpr auto kFields =
+      std::tuple(&McapChunk::start_time_ns, &McapChunk::end_time_ns, &McapChunk::uncompressed_size,
+                 &McapChunk::uncompressed_crc, &McapChunk::compression, &McapChunk::records);
 };
 
 /// Where the messages of one channel stand in a chunk.
@@ -99,6 +119,8 @@ struct McapMessageIndex {
   std::uint16_t channel_id = 0;
   std::vector<std::pair<std::uint64_t, std::uint64_t>>
       entries;  ///< log time, offset in the uncompressed records
+  static constexpr McapOp kOp = McapOp::kMessageIndex;
+  static constexpr auto kFields = std::tuple(&McapMessageIndex::channel_id, &McapMessageIndex::entries);
 };
 
 struct McapChunkIndex {
@@ -111,6 +133,11 @@ struct McapChunkIndex {
   std::string compression;
   std::uint64_t compressed_size = 0;
   std::uint64_t uncompressed_size = 0;
+  static constexpr McapOp kOp = McapOp::kChunkIndex;
+  static constexpr auto kFields = std::tuple(
+      &McapChunkIndex::start_time_ns, &McapChunkIndex::end_time_ns, &McapChunkIndex::offset,
+      &McapChunkIndex::length, &McapChunkIndex::message_indices, &McapChunkIndex::message_indices_length,
+      &McapChunkIndex::compression, &McapChunkIndex::compressed_size, &McapChunkIndex::uncompressed_size);
 };
 
 /// A file within the log.
@@ -120,6 +147,10 @@ struct McapAttachment {
   std::string name;
   std::string media_type;
   std::string_view data;
+  static constexpr McapOp kOp = McapOp::kAttachment;
+  static constexpr auto kFields =
+      std::tuple(&McapAttachment::log_time_ns, &McapAttachment::create_time_ns, &McapAttachment::name,
+                 &McapAttachment::media_type, &McapAttachment::data);
 };
 
 struct McapAttachmentIndex {
@@ -130,6 +161,11 @@ struct McapAttachmentIndex {
   std::uint64_t data_size = 0;
   std::string name;
   std::string media_type;
+  static constexpr McapOp kOp = McapOp::kAttachmentIndex;
+  static constexpr auto kFields = std::tuple(
+      &McapAttachmentIndex::offset, &McapAttachmentIndex::length, &McapAttachmentIndex::log_time_ns,
+      &McapAttachmentIndex::create_time_ns, &McapAttachmentIndex::data_size, &McapAttachmentIndex::name,
+      &McapAttachmentIndex::media_type);
 };
 
 struct McapStatistics {
@@ -142,12 +178,19 @@ struct McapStatistics {
   std::uint64_t start_time_ns = 0;
   std::uint64_t end_time_ns = 0;
   std::vector<std::pair<std::uint16_t, std::uint64_t>> channel_messages;
+  static constexpr McapOp kOp = McapOp::kStatistics;
+  static constexpr auto kFields = std::tuple(
+      &McapStatistics::messages, &McapStatistics::schemas, &McapStatistics::channels,
+      &McapStatistics::attachments, &McapStatistics::metadata, &McapStatistics::chunks,
+      &McapStatistics::start_time_ns, &McapStatistics::end_time_ns, &McapStatistics::channel_messages);
 };
 
 /// Named facts.
 struct McapMetadata {
   std::string name;
   McapEntries entries;
+  static constexpr McapOp kOp = McapOp::kMetadata;
+  static constexpr auto kFields = std::tuple(&McapMetadata::name, &McapMetadata::entries);
   bool operator==(const McapMetadata&) const = default;
 };
 
@@ -155,58 +198,62 @@ struct McapMetadataIndex {
   std::uint64_t offset = 0;
   std::uint64_t length = 0;  ///< with its head
   std::string name;
+  static constexpr McapOp kOp = McapOp::kMetadataIndex;
+  static constexpr auto kFields =
+      std::tuple(&McapMetadataIndex::offset, &McapMetadataIndex::length, &McapMetadataIndex::name);
 };
 
 struct McapSummaryOffset {
   McapOp group = McapOp::kSchema;
   std::uint64_t start = 0;
   std::uint64_t length = 0;
+  static constexpr McapOp kOp = McapOp::kSummaryOffset;
+  static constexpr auto kFields =
+      std::tuple(&McapSummaryOffset::group, &McapSummaryOffset::start, &McapSummaryOffset::length);
 };
 
 struct McapDataEnd {
   std::uint32_t data_crc = 0;  ///< of everything before this record; 0: not known
+  static constexpr McapOp kOp = McapOp::kDataEnd;
+  static constexpr auto kFields = std::tuple(&McapDataEnd::data_crc);
 };
 
-/// Each appends a whole record to `out`. A text of 4 GiB or more throws Error{kInternal}.
-void append_record(std::string& out, const McapHeader& header);
-void append_record(std::string& out, const McapFooter& footer);
-void append_record(std::string& out, const McapSchema& schema);
-void append_record(std::string& out, const McapChannel& channel);
-void append_record(std::string& out, const McapMessage& message);
-void append_record(std::string& out, const McapChunk& chunk);
-void append_record(std::string& out, const McapMessageIndex& index);
-void append_record(std::string& out, const McapChunkIndex& index);
-void append_record(std::string& out, const McapAttachment& attachment);
-void append_record(std::string& out, const McapAttachmentIndex& index);
-void append_record(std::string& out, const McapStatistics& statistics);
-void append_record(std::string& out, const McapMetadata& metadata);
-void append_record(std::string& out, const McapMetadataIndex& index);
-void append_record(std::string& out, const McapSummaryOffset& offset);
-void append_record(std::string& out, const McapDataEnd& end);
-
-/// Each reads the content of a record, without its head; `data` and `records` lead into `content`. Fields that a later
-/// version may have added at the end are passed over. Throws Error{kBadInput} with the cause alone; an attachment whose
-/// CRC is given and wrong is such a cause.
-void parse_record(std::string_view content, McapHeader& header);
-void parse_record(std::string_view content, McapFooter& footer);
-void parse_record(std::string_view content, McapSchema& schema);
-void parse_record(std::string_view content, McapChannel& channel);
-void parse_record(std::string_view content, McapMessage& message);
-void parse_record(std::string_view content, McapChunk& chunk);
-void parse_record(std::string_view content, McapMessageIndex& index);
-void parse_record(std::string_view content, McapAttachment& attachment);
-void parse_record(std::string_view content, McapStatistics& statistics);
-void parse_record(std::string_view content, McapChunkIndex& index);
-void parse_record(std::string_view content, McapAttachmentIndex& index);
-void parse_record(std::string_view content, McapMetadataIndex& index);
-void parse_record(std::string_view content, McapMetadata& metadata);
-void parse_record(std::string_view content, McapDataEnd& end);
-
-/// The head of a record, from its 9 bytes.
+/// What stands before a record's content.
 struct McapRecordHead {
-  std::uint8_t op = 0;
+  McapOp op = McapOp::kHeader;
   std::uint64_t length = 0;  ///< of the content
+  static constexpr auto kFields = std::tuple(&McapRecordHead::op, &McapRecordHead::length);
 };
-McapRecordHead parse_record_head(std::string_view head);
+
+/// Appends a whole record to `out`. A text of 4 GiB or more throws Error{kInternal}.
+template <typename Record>
+void append_record(std::string& out, const Record& record) {
+  McapFieldWriter to(out);
+  to.put(Record::kOp);
+  to.put_sized<std::uint64_t>([&] { to.put_fields(record); });
+}
+/// With its check sum.
+void append_record(std::string& out, const McapAttachment& attachment);
+
+/// Throws Error{kBadInput} for a record that ends too early.
+[[noreturn]] void refuse_record(const BadBytes& bad);
+
+/// Reads the content of a record, without its head, or a head; `data` and `records` lead into `content`. Fields that a later version may have
+/// added at the end are passed over. Throws Error{kBadInput} with the cause alone; an attachment whose CRC is given and wrong, and a footer of
+/// another length, are such a cause.
+template <typename Record>
+Record parse_record(std::string_view content) {
+  Record record;
+  try {
+    McapFieldReader(content).get_fields(record);
+  } catch (const BadBytes& bad) {
+    refuse_record(bad);
+  }
+  return record;
+}
+template <>
+McapFooter parse_record(std::string_view content);
+template <>
+McapAttachment parse_record(std::string_view content);
 
 }  // namespace hallway::log

@@ -110,13 +110,14 @@ void McapWriter::add(const McapMetadata& metadata) {
   write(record);
 }
 
-std::string McapWriter::chunk_record(const std::string& packed) const {
+std::string McapWriter::chunk_record(std::string_view records, const char* compression,
+                                     std::string_view packed) const {
   std::string record;
   append_record(record, McapChunk{.start_time_ns = chunk_.start_time_ns,
                                   .end_time_ns = chunk_.end_time_ns,
-                                  .uncompressed_size = chunk_.records.size(),
-                                  .uncompressed_crc = crc32(chunk_.records),
-                                  .compression = options_.compress ? "zstd" : "",
+                                  .uncompressed_size = records.size(),
+                                  .uncompressed_crc = crc32(records),
+                                  .compression = compression,
                                   .records = packed});
   return record;
 }
@@ -124,28 +125,22 @@ std::string McapWriter::chunk_record(const std::string& packed) const {
 void McapWriter::keep_chunk() {
   const std::string_view records = std::string_view(chunk_.records).substr(chunk_.kept);
   if (records.empty()) return;
-  std::string record;
-  append_record(record, McapChunk{.start_time_ns = chunk_.start_time_ns,
-                                  .end_time_ns = chunk_.end_time_ns,
-                                  .uncompressed_size = records.size(),
-                                  .uncompressed_crc = crc32(records),
-                                  .compression = "",
-                                  .records = records});
-  output_.keep(record);
+  output_.keep(chunk_record(records, "", records));
   chunk_.kept = chunk_.records.size();
 }
 
 void McapWriter::end_chunk() {
   if (chunk_.records.empty()) return;
   const std::string packed = options_.compress ? compress_zstd(chunk_.records) : chunk_.records;
-  std::string bytes = chunk_record(packed);
+  const char* compression = options_.compress ? "zstd" : "";
+  std::string bytes = chunk_record(chunk_.records, compression, packed);
   McapChunkIndex index{.start_time_ns = chunk_.start_time_ns,
                        .end_time_ns = chunk_.end_time_ns,
                        .offset = at_,
                        .length = bytes.size(),
                        .message_indices = {},
                        .message_indices_length = 0,
-                       .compression = options_.compress ? "zstd" : "",
+                       .compression = compression,
                        .compressed_size = packed.size(),
                        .uncompressed_size = chunk_.records.size()};
   for (auto& [channel, messages] : chunk_.indices) {
@@ -159,12 +154,12 @@ void McapWriter::end_chunk() {
   write(bytes);
 }
 
-template <typename Records>
-void McapWriter::write_group(McapOp op, const Records& records) {
+template <typename Record>
+void McapWriter::write_group(const std::vector<Record>& records) {
   if (records.empty()) return;
   std::string bytes;
   for (const auto& record : records) append_record(bytes, record);
-  groups_.push_back({.group = op, .start = at_, .length = bytes.size()});
+  groups_.push_back({.group = Record::kOp, .start = at_, .length = bytes.size()});
   write(bytes);
 }
 
@@ -181,21 +176,19 @@ void McapWriter::finish() {
   statistics_.metadata = static_cast<std::uint32_t>(metadata_indices_.size());
   statistics_.chunks = static_cast<std::uint32_t>(chunk_indices_.size());
   statistics_.channel_messages.assign(channel_messages_.begin(), channel_messages_.end());
-  write_group(McapOp::kSchema, values_of(schemas_));
-  write_group(McapOp::kChannel, values_of(channels_));
-  write_group(McapOp::kStatistics, std::vector<McapStatistics>{statistics_});
-  write_group(McapOp::kChunkIndex, chunk_indices_);
-  write_group(McapOp::kAttachmentIndex, attachment_indices_);
-  write_group(McapOp::kMetadataIndex, metadata_indices_);
+  write_group(values_of(schemas_));
+  write_group(values_of(channels_));
+  write_group(std::vector{statistics_});
+  write_group(chunk_indices_);
+  write_group(attachment_indices_);
+  write_group(metadata_indices_);
   footer.summary_offset_start = at_;
   std::string tail;
   for (const McapSummaryOffset& group : groups_) append_record(tail, group);
   append_record(tail, footer);
   tail.resize(tail.size() - sizeof footer.summary_crc);  // covered is all but the check sum itself
   footer.summary_crc = crc32(tail, crc_);
-  for (std::size_t i = 0; i < sizeof footer.summary_crc; ++i) {
-    tail += static_cast<char>(footer.summary_crc >> (8 * i) & 0xff);
-  }
+  ByteAppender(tail).put(footer.summary_crc);
   tail += kMcapMagic;
   write(tail);
   output_.close();

@@ -66,9 +66,9 @@ class McapWriter {
   void write(std::string_view bytes);
   bool ends_before(const McapMessage& message) const;
   void count(const McapMessage& message);
-  std::string chunk_record(const std::string& packed) const;
-  template <typename Records>
-  void write_group(McapOp op, const Records& records);
+  std::string chunk_record(std::string_view records, const char* compression, std::string_view packed) const;
+  template <typename Record>
+  void write_group(const std::vector<Record>& records);
 
   ByteOutput& output_;
   McapWriterOptions options_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "log/poses.hpp"
+#include "base/unit_quaternion.hpp"
 
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
-#include "log/unit_quaternion.hpp"
 
 namespace hallway::log {
 namespace {
@@ -36,7 +36,8 @@ std::vector<IterationPose> parse_poses(std::string_view text, const std::string&
     if (orientations) {
       pose.orientation = {row.number(kQw), row.number(kQx), row.number(kQy), row.number(kQz)};
     }
-    if (!is_unit(pose.orientation)) throw row.error("the quaternion qw,qx,qy,qz does not have unit length");
+    if (!is_unit_quaternion(pose.orientation, kUnitFileTolerance))
+      throw row.error("the quaternion qw,qx,qy,qz does not have unit length");
     poses.push_back(pose);
     previous = pose.iteration;
   }

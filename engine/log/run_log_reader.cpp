@@ -5,11 +5,11 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "log/json_text.hpp"
 #include "log/observations.hpp"
 #include "log/run_log.hpp"
 #include "log/run_log_channels.hpp"
-#include "log/unit_quaternion.hpp"
 
 namespace hallway::log {
 namespace {
@@ -52,7 +52,8 @@ TruePoseMessage true_pose(const Json& json) {
   pose.position_m = numbers<3>(json.at("T_world_body").at("position_m"));
   pose.orientation = numbers<4>(json.at("T_world_body").at("orientation_wxyz"));
   pose.orientation_known = json.at("orientation_known").get<bool>();
-  if (!is_unit(pose.orientation)) bad("a quaternion that is not of unit length");
+  if (!is_unit_quaternion(pose.orientation, kUnitFileTolerance))
+    bad("a quaternion that is not of unit length");
   return {pose};
 }
 
@@ -104,7 +105,8 @@ PoseMessage pose_answer(const Json& json) {
   const Json& pose = json.at("T_map_body");
   message.pose.position_m = numbers<3>(pose.at("position_m"));
   message.pose.orientation = numbers<4>(pose.at("orientation_wxyz"));
-  if (!is_unit(message.pose.orientation)) bad("a quaternion that is not of unit length");
+  if (!is_unit_quaternion(message.pose.orientation, kUnitFileTolerance))
+    bad("a quaternion that is not of unit length");
   if (json.contains("covariance")) message.pose.covariance = numbers<21>(json["covariance"]);
   return message;
 }
@@ -135,7 +137,8 @@ void read_submap(const Json& json, MapAnswer& map) {
     map.submaps.push_back({.id = id,
                            .position_m = numbers<3>(pose.at("position_m")),
                            .orientation = numbers<4>(pose.at("orientation_wxyz"))});
-    if (!is_unit(map.submaps.back().orientation)) bad("a quaternion that is not of unit length");
+    if (!is_unit_quaternion(map.submaps.back().orientation, kUnitFileTolerance))
+      bad("a quaternion that is not of unit length");
   }
   for (const Json& landmark : json.at("landmark_ids"))
     map.submap_members.push_back({id, whole(landmark, kNoLandmark - 1)});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "log/submap_poses.hpp"
+#include "base/unit_quaternion.hpp"
 
 #include <limits>
 
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
-#include "log/unit_quaternion.hpp"
 
 namespace hallway::log {
 namespace {
@@ -27,7 +27,8 @@ std::vector<SubmapPose> parse_submap_poses(std::string_view text, const std::str
         .id = row.whole(kId, std::numeric_limits<std::uint64_t>::max()),
         .position_m = row.vector(kX),
         .orientation = {row.number(kQw), row.number(kQx), row.number(kQy), row.number(kQz)}};
-    if (!is_unit(pose.orientation)) throw row.error("the quaternion qw,qx,qy,qz does not have unit length");
+    if (!is_unit_quaternion(pose.orientation, kUnitFileTolerance))
+      throw row.error("the quaternion qw,qx,qy,qz does not have unit length");
     poses.push_back(pose);
   }
   return poses;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "log/tum.hpp"
+#include "base/unit_quaternion.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +9,6 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "log/line_reader.hpp"
-#include "log/unit_quaternion.hpp"
 
 namespace hallway::log {
 namespace {
@@ -47,7 +47,8 @@ std::vector<StampedPose> parse_tum(std::string_view text, const std::string& fil
       throw lines.error(fmt::format("the time {} is not after {}", format_double(pose.t_s),
                                     format_double(poses.back().t_s)));
     }
-    if (!is_unit(pose.orientation)) throw lines.error("the quaternion qx qy qz qw does not have unit length");
+    if (!is_unit_quaternion(pose.orientation, kUnitFileTolerance))
+      throw lines.error("the quaternion qx qy qz qw does not have unit length");
     poses.push_back(pose);
   }
   return poses;

@@ -3,27 +3,17 @@
 
 #include <algorithm>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "log/mcap_records.hpp"
 
 namespace hallway::log {
-namespace {
-
-std::uint64_t number_at(std::string_view bytes, std::size_t at) {
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < sizeof number; ++i) {
-    number |= std::uint64_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-  }
-  return number;
-}
-
-}  // namespace
 
 UnfinishedInput::UnfinishedInput(const std::filesystem::path& path)
     : file_(path), written_(file_.size()), size_(file_.size()) {
   const std::string head = open_tail(tail_path(path));
   if (!head.starts_with(kTailMagic)) return;
-  const std::uint64_t before = number_at(head, kTailMagic.size());
+  const auto before = load<std::uint64_t>(head.data() + kTailMagic.size());
   if (before > file_.size() || is_superseded(before)) return;
   written_ = before;
   size_ = written_ + (tail_->size() - kTailHead);
@@ -45,8 +35,8 @@ bool UnfinishedInput::is_superseded(std::uint64_t before) const {
   if (file_.size() - before < kMcapRecordHead) return false;
   std::string head;
   file_.read(before, kMcapRecordHead, head);
-  if (static_cast<McapOp>(head[0]) != McapOp::kChunk) return false;
-  return number_at(head, 1) <= file_.size() - before - kMcapRecordHead;
+  const auto record = parse_record<McapRecordHead>(head);
+  return record.op == McapOp::kChunk && record.length <= file_.size() - before - kMcapRecordHead;
 }
 
 void UnfinishedInput::read(std::uint64_t offset, std::uint64_t count, std::string& out) const {

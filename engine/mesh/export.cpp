@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "image/png.hpp"
@@ -33,13 +33,6 @@ void check_content(const Model& model) {
   if (model.triangles.empty()) return;
   constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
   check_model(model, {kAny, kAny, kAny, kAny, kAny, kAny});
-}
-
-template <typename T>
-void append(std::string& out, T value) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  out.append(bytes, sizeof(T));
 }
 
 bool opaque(const Image& image) {
@@ -117,8 +110,8 @@ class GlbBuilder {
   /// @param image  what the material shows; nullptr for none
   void add(const Part& part, const Material& material, const Image* image) {
     Json attributes = {{"POSITION", add_positions(part.positions)}};
-    if (!part.uv.empty()) attributes["TEXCOORD_0"] = add_uv(part.uv);
-    const std::size_t indices = add_indices(part.indices);
+    if (!part.uv.empty()) attributes["TEXCOORD_0"] = add_items(part.uv, kArrayBuffer, kFloat, "VEC2");
+    const std::size_t indices = add_items(part.indices, kElementArrayBuffer, kUnsignedInt, "SCALAR");
     primitives_.push_back(
         {{"attributes", attributes}, {"indices", indices}, {"material", materials_.size()}});
     Json surface = {{"baseColorFactor", material.base_colour}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
@@ -166,36 +159,23 @@ class GlbBuilder {
         high[i] = std::max(high[i], position[i]);
       }
     }
-    accessors_.push_back({{"bufferView", add_view(positions, kArrayBuffer)},
-                          {"componentType", kFloat},
-                          {"count", positions.size()},
-                          {"type", "VEC3"},
-                          {"min", low},
-                          {"max", high}});
-    return accessors_.size() - 1;
-  }
-  std::size_t add_uv(const std::vector<std::array<float, 2>>& uv) {
-    accessors_.push_back({{"bufferView", add_view(uv, kArrayBuffer)},
-                          {"componentType", kFloat},
-                          {"count", uv.size()},
-                          {"type", "VEC2"}});
-    return accessors_.size() - 1;
-  }
-  std::size_t add_indices(const std::vector<std::uint32_t>& indices) {
-    accessors_.push_back({{"bufferView", add_view(indices, kElementArrayBuffer)},
-                          {"componentType", kUnsignedInt},
-                          {"count", indices.size()},
-                          {"type", "SCALAR"}});
-    return accessors_.size() - 1;
+    const std::size_t accessor = add_items(positions, kArrayBuffer, kFloat, "VEC3");
+    accessors_.back()["min"] = low;
+    accessors_.back()["max"] = high;
+    return accessor;
   }
   /// Every item is a multiple of four bytes, and images are filled up to one, so that each view begins where it may.
   template <typename T>
-  std::size_t add_view(const std::vector<T>& items, int target) {
+  std::size_t add_items(const std::vector<T>& items, int target, int component, const char* type) {
     const std::size_t bytes = items.size() * sizeof(T);
     views_.push_back(
         {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}, {"target", target}});
     binary_.append(reinterpret_cast<const char*>(items.data()), bytes);
-    return views_.size() - 1;
+    accessors_.push_back({{"bufferView", views_.size() - 1},
+                          {"componentType", component},
+                          {"count", items.size()},
+                          {"type", type}});
+    return accessors_.size() - 1;
   }
 
   /// The number of the texture that shows an image, which is written when it is first asked for.
@@ -221,13 +201,15 @@ class GlbBuilder {
     if (size > std::numeric_limits<std::uint32_t>::max())
       throw Error(ErrorCode::kBadInput, "the model is too large for a GLB file, which ends at 4 GB");
     std::string glb = "glTF";
-    append(glb, std::uint32_t{2});
-    append(glb, static_cast<std::uint32_t>(size));
-    append(glb, static_cast<std::uint32_t>(text.size()));
-    glb += "JSON" + text;
+    ByteAppender bytes(glb);
+    bytes.put(std::uint32_t{2});
+    bytes.put(static_cast<std::uint32_t>(size));
+    bytes.put(static_cast<std::uint32_t>(text.size()));
+    bytes.put_raw("JSON" + text);
     if (binary_.empty()) return glb;
-    append(glb, static_cast<std::uint32_t>(binary_.size()));
-    glb += std::string("BIN\0", 4) + binary_;
+    bytes.put(static_cast<std::uint32_t>(binary_.size()));
+    bytes.put_raw({"BIN\0", 4});
+    bytes.put_raw(binary_);
     return glb;
   }
 
@@ -282,6 +264,12 @@ unsigned char channel_byte(float value) {
   return static_cast<unsigned char>(std::lround(value * static_cast<float>(kMaxChannel)));
 }
 
+/// What a PLY file of z-up points begins with, up to the elements after these.
+std::string ply_head(std::size_t points) {
+  return "ply\nformat binary_little_endian 1.0\ncomment z up, metres\nelement vertex " +
+         std::to_string(points) + "\nproperty double x\nproperty double y\nproperty double z\n";
+}
+
 }  // namespace
 
 std::string to_glb(const Model& model) {
@@ -330,31 +318,27 @@ ObjFiles to_obj(const Model& model, const std::string& mtl_name) {
 
 std::string to_ply(const Model& model) {
   check_content(model);
-  std::string ply = "ply\nformat binary_little_endian 1.0\ncomment z up, metres\nelement vertex " +
-                    std::to_string(model.vertices.size()) +
-                    "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+  std::string ply = ply_head(model.vertices.size()) + "element face " +
                     std::to_string(model.triangles.size()) +
                     "\nproperty list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\n"
                     "property uchar blue\nproperty uchar alpha\nend_header\n";
-  for (const Vec3& vertex : model.vertices) {
-    for (const double value : {vertex.x(), vertex.y(), vertex.z()}) append(ply, value);
-  }
+  ByteAppender bytes(ply);
+  for (const Vec3& vertex : model.vertices) bytes.put_bytes(vertex.data(), sizeof vertex);
   for (const Triangle& triangle : model.triangles) {
-    append(ply, static_cast<unsigned char>(3));
-    for (const std::uint32_t vertex : triangle.vertices) append(ply, vertex);
+    bytes.put(static_cast<unsigned char>(3));
+    bytes.put(triangle.vertices);
     for (const float channel : model.materials[triangle.material].base_colour)
-      append(ply, channel_byte(channel));
+      bytes.put(channel_byte(channel));
   }
   return ply;
 }
 
 std::string points_to_ply(std::span<const Vec3> points_m) {
-  std::string ply = "ply\nformat binary_little_endian 1.0\ncomment z up, metres\nelement vertex " +
-                    std::to_string(points_m.size()) +
-                    "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  std::string ply = ply_head(points_m.size()) + "end_header\n";
+  ByteAppender bytes(ply);
   for (const Vec3& point : points_m) {
     if (!point.allFinite()) throw Error(ErrorCode::kBadInput, "a point to be written is not finite");
-    for (const double value : {point.x(), point.y(), point.z()}) append(ply, value);
+    bytes.put_bytes(point.data(), sizeof point);
   }
   return ply;
 }

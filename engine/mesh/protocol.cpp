@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/protocol.hpp"
 
-#include <bit>
+#include <array>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "base/text.hpp"
 
 namespace hallway::mesh {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "messages are written in the machine's byte order");
-static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 4 * sizeof(std::uint32_t));
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 4 * sizeof(std::uint32_t) &&
+              sizeof(ModelLimits) == 6 * sizeof(std::uint64_t));
 
 constexpr std::string_view kRequestMark = "HWMREQ01";
 constexpr std::string_view kModelMark = "HWMMOD01";
@@ -26,129 +26,112 @@ constexpr std::uint64_t kMaxPathBytes = 65'536;
   throw Error(ErrorCode::kBadInput, "the mesh loader gave a reply that cannot be read: " + message);
 }
 
-/// Appends numbers and texts to a message.
-class Writer {
+/// Reads a message, whatever is missing in it.
+template <typename Read>
+auto read_message(std::string_view message, Read&& read) {
+  ByteReader reader(message);
+  try {
+    return read(reader);
+  } catch (const BadBytes&) {
+    refuse("it is cut short");
+  }
+}
+
+void expect_end(ByteReader& reader) {
+  if (!reader.accept(kEndMark) || !reader.at_end()) refuse("it does not end where it should");
+}
+
+/// A count of items that take at least `least_bytes` each. Nothing is allocated before it is known that the message holds it.
+std::size_t read_count(ByteReader& reader, std::uint64_t most, std::size_t least_bytes, const char* what) {
+  const auto count = reader.get<std::uint64_t>();
+  if (count > most) refuse(std::to_string(count) + " " + what + "; the limit is " + std::to_string(most));
+  reader.expect(count, least_bytes);
+  return static_cast<std::size_t>(count);
+}
+
+std::string read_text(ByteReader& reader, std::uint64_t most) {
+  return std::string(reader.take_raw(read_count(reader, most, 1, "bytes of text")));
+}
+
+std::string read_name(ByteReader& reader) {
+  return printable(read_text(reader, kMaxNameBytes), kMaxNameBytes);
+}
+
+template <typename T>
+void read_array(ByteReader& reader, std::vector<T>& out, std::uint64_t most, const char* what) {
+  const std::size_t items = read_count(reader, most, sizeof(T), what);
+  const std::string_view bytes = reader.take_raw(items * sizeof(T));
+  out.resize(items);
+  // The types are plain numbers without gaps; Eigen's vectors only lack the trivial constructor.
+  if (items != 0) std::memcpy(static_cast<void*>(out.data()), bytes.data(), bytes.size());
+}
+
+void read_texts(ByteReader& reader, std::vector<std::string>& out) {
+  out.resize(read_count(reader, kMaxNotes, sizeof(std::uint64_t), "texts"));
+  for (std::string& text : out) text = read_text(reader, kMaxNameBytes);
+}
+
+/// A reply that is given to a sink in pieces.
+class Reply {
  public:
+  explicit Reply(const ByteSink& sink) : sink_(sink) {}
+
+  ByteAppender& writer() { return writer_; }
+  void put_count(std::size_t count) { writer_.put(std::uint64_t{count}); }
+  /// Sends what was put so far, and then an array without a copy of it.
   template <typename T>
-  void number(T value) {
-    static_assert(std::is_arithmetic_v<T>);
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    text_.append(bytes, sizeof(T));
+  void send_array(const std::vector<T>& items) {
+    put_count(items.size());
+    flush();
+    sink_({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)});
   }
-  void raw(std::string_view bytes) { text_.append(bytes); }
-  void text(std::string_view bytes) {
-    number<std::uint64_t>(bytes.size());
-    raw(bytes);
+  void put_texts(const std::vector<std::string>& texts) {
+    put_count(texts.size());
+    for (const std::string& text : texts) writer_.put_text(text);
   }
-  /// Gives what was appended, and starts again with nothing.
-  std::string take() { return std::exchange(text_, {}); }
+  void flush() { sink_(std::exchange(text_, {})); }
 
  private:
+  const ByteSink& sink_;
   std::string text_;
+  ByteAppender writer_{text_};
 };
 
-/// Takes numbers, texts and arrays off a message. Nothing is allocated before it is known that the message holds it.
-class Reader {
- public:
-  explicit Reader(std::string_view rest) : rest_(rest) {}
-
-  bool accept(std::string_view mark) {
-    if (!rest_.starts_with(mark)) return false;
-    rest_.remove_prefix(mark.size());
-    return true;
-  }
-  std::string_view raw(std::uint64_t bytes) {
-    if (bytes > rest_.size()) refuse("it is cut short");
-    const std::string_view taken = rest_.substr(0, static_cast<std::size_t>(bytes));
-    rest_.remove_prefix(taken.size());
-    return taken;
-  }
-  template <typename T>
-  T number() {
-    T value{};
-    std::memcpy(&value, raw(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-  /// A count of items that take at least `least_bytes` each.
-  std::size_t count(std::uint64_t most, std::uint64_t least_bytes, const char* what) {
-    const auto value = number<std::uint64_t>();
-    if (value > most) refuse(std::to_string(value) + " " + what + "; the limit is " + std::to_string(most));
-    if (value > rest_.size() / least_bytes) refuse("it is cut short");
-    return static_cast<std::size_t>(value);
-  }
-  std::string text(std::uint64_t most) { return std::string(raw(count(most, 1, "bytes of text"))); }
-  template <typename T>
-  void array(std::vector<T>& out, std::uint64_t most, const char* what) {
-    const std::size_t items = count(most, sizeof(T), what);
-    const std::string_view bytes = raw(items * sizeof(T));
-    out.resize(items);
-    // The types are plain numbers without gaps; Eigen's vectors only lack the trivial constructor.
-    if (items != 0) std::memcpy(static_cast<void*>(out.data()), bytes.data(), bytes.size());
-  }
-  bool at_end() const { return rest_.empty(); }
-
- private:
-  std::string_view rest_;
-};
-
-template <typename T>
-std::string_view bytes_of(const std::vector<T>& items) {
-  return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
-}
-
-template <typename T>
-void send_array(Writer& writer, const std::vector<T>& items, const ByteSink& sink) {
-  writer.number<std::uint64_t>(items.size());
-  sink(writer.take());
-  sink(bytes_of(items));
-}
-
-void write_texts(Writer& writer, const std::vector<std::string>& texts) {
-  writer.number<std::uint64_t>(texts.size());
-  for (const std::string& text : texts) writer.text(text);
-}
-
-void read_texts(Reader& reader, std::vector<std::string>& out) {
-  const std::size_t items = reader.count(kMaxNotes, sizeof(std::uint64_t), "texts");
-  for (std::size_t i = 0; i < items; ++i) out.push_back(reader.text(kMaxNameBytes));
-}
-
-void read_materials(Reader& reader, const ModelLimits& limits, std::vector<Material>& out) {
+void read_materials(ByteReader& reader, const ModelLimits& limits, std::vector<Material>& out) {
   constexpr std::uint64_t kLeast = sizeof(std::uint64_t) + 4 * sizeof(float) + sizeof(std::uint32_t);
-  const std::size_t items = reader.count(limits.materials, kLeast, "materials");
+  const std::size_t items = read_count(reader, limits.materials, kLeast, "materials");
   out.reserve(items);
   for (std::size_t i = 0; i < items; ++i) {
     Material material;
-    material.name = printable(reader.text(kMaxNameBytes), kMaxNameBytes);
-    for (float& channel : material.base_colour) channel = reader.number<float>();
-    const auto image = reader.number<std::uint32_t>();
+    material.name = read_name(reader);
+    material.base_colour = reader.get<std::array<float, 4>>();
+    const auto image = reader.get<std::uint32_t>();
     if (image != kNoImage) material.image = image;
     out.push_back(std::move(material));
   }
 }
 
-void read_images(Reader& reader, const ModelLimits& limits, std::vector<Image>& out) {
+void read_images(ByteReader& reader, const ModelLimits& limits, std::vector<Image>& out) {
   constexpr std::uint64_t kLeast = 2 * sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t);
-  const std::size_t items = reader.count(limits.images, kLeast, "images");
+  const std::size_t items = read_count(reader, limits.images, kLeast, "images");
   std::uint64_t left = limits.image_bytes;
   for (std::size_t i = 0; i < items; ++i) {
     Image image;
-    image.name = printable(reader.text(kMaxNameBytes), kMaxNameBytes);
-    image.width = reader.number<std::uint32_t>();
-    image.height = reader.number<std::uint32_t>();
-    reader.array(image.rgba, left, "bytes of images");
+    image.name = read_name(reader);
+    image.width = reader.get<std::uint32_t>();
+    image.height = reader.get<std::uint32_t>();
+    read_array(reader, image.rgba, left, "bytes of images");
     left -= image.rgba.size();
     out.push_back(std::move(image));
   }
 }
 
-[[noreturn]] void rethrow_failure(Reader& reader) {
-  const auto code = reader.number<std::uint32_t>();
-  const std::string message = reader.text(kMaxPathBytes);
-  const std::string file = reader.text(kMaxPathBytes);
-  const std::string element = reader.text(kMaxPathBytes);
-  if (!reader.accept(kEndMark) || !reader.at_end()) refuse("it does not end where it should");
+[[noreturn]] void rethrow_failure(ByteReader& reader) {
+  const auto code = reader.get<std::uint32_t>();
+  const std::string message = read_text(reader, kMaxPathBytes);
+  const std::string file = read_text(reader, kMaxPathBytes);
+  const std::string element = read_text(reader, kMaxPathBytes);
+  expect_end(reader);
   const bool about_files = code == static_cast<std::uint32_t>(ErrorCode::kIo);
   throw Error(about_files ? ErrorCode::kIo : ErrorCode::kBadInput, printable(message, kMaxNameBytes),
               {.file = printable(file, kMaxNameBytes), .element = printable(element, kMaxNameBytes)});
@@ -157,86 +140,84 @@ void read_images(Reader& reader, const ModelLimits& limits, std::vector<Image>& 
 }  // namespace
 
 std::string encode_request(const LoadRequest& request) {
-  Writer writer;
-  writer.raw(kRequestMark);
-  writer.text(request.file);
-  writer.text(request.root);
-  const ModelLimits& limits = request.limits;
-  for (const std::uint64_t limit : {limits.triangles, limits.vertices, limits.materials, limits.images,
-                                    limits.image_bytes, limits.file_bytes}) {
-    writer.number(limit);
-  }
-  writer.raw(kEndMark);
-  return writer.take();
+  std::string message;
+  ByteAppender writer(message);
+  writer.put_raw(kRequestMark);
+  writer.put_text(request.file);
+  writer.put_text(request.root);
+  writer.put(request.limits);
+  writer.put_raw(kEndMark);
+  return message;
 }
 
 LoadRequest decode_request(std::string_view message) {
-  Reader reader(message);
-  if (!reader.accept(kRequestMark)) refuse("no request");
-  LoadRequest request;
-  request.file = reader.text(kMaxPathBytes);
-  request.root = reader.text(kMaxPathBytes);
-  ModelLimits& limits = request.limits;
-  for (std::uint64_t* limit : {&limits.triangles, &limits.vertices, &limits.materials, &limits.images,
-                               &limits.image_bytes, &limits.file_bytes}) {
-    *limit = reader.number<std::uint64_t>();
-  }
-  if (!reader.accept(kEndMark) || !reader.at_end()) refuse("it does not end where it should");
-  return request;
+  return read_message(message, [](ByteReader& reader) {
+    if (!reader.accept(kRequestMark)) refuse("no request");
+    LoadRequest request;
+    request.file = read_text(reader, kMaxPathBytes);
+    request.root = read_text(reader, kMaxPathBytes);
+    request.limits = reader.get<ModelLimits>();
+    expect_end(reader);
+    return request;
+  });
 }
 
 void encode_model(const Model& model, const ByteSink& sink) {
-  Writer writer;
-  writer.raw(kModelMark);
-  writer.number(model.metres_per_unit);
-  send_array(writer, model.vertices, sink);
-  send_array(writer, model.uv, sink);
-  send_array(writer, model.triangles, sink);
-  writer.number<std::uint64_t>(model.materials.size());
+  Reply reply(sink);
+  ByteAppender& writer = reply.writer();
+  writer.put_raw(kModelMark);
+  writer.put(model.metres_per_unit);
+  reply.send_array(model.vertices);
+  reply.send_array(model.uv);
+  reply.send_array(model.triangles);
+  reply.put_count(model.materials.size());
   for (const Material& material : model.materials) {
-    writer.text(material.name);
-    for (const float channel : material.base_colour) writer.number(channel);
-    writer.number(material.image.value_or(kNoImage));
+    writer.put_text(material.name);
+    writer.put(material.base_colour);
+    writer.put(material.image.value_or(kNoImage));
   }
-  writer.number<std::uint64_t>(model.images.size());
+  reply.put_count(model.images.size());
   for (const Image& image : model.images) {
-    writer.text(image.name);
-    writer.number(image.width);
-    writer.number(image.height);
-    send_array(writer, image.rgba, sink);
+    writer.put_text(image.name);
+    writer.put(image.width);
+    writer.put(image.height);
+    reply.send_array(image.rgba);
   }
-  write_texts(writer, model.files);
-  write_texts(writer, model.warnings);
-  writer.raw(kEndMark);
-  sink(writer.take());
+  reply.put_texts(model.files);
+  reply.put_texts(model.warnings);
+  writer.put_raw(kEndMark);
+  reply.flush();
 }
 
 std::string encode_failure(const Error& failure) {
-  Writer writer;
-  writer.raw(kFailureMark);
-  writer.number(static_cast<std::uint32_t>(failure.code()));
-  writer.text(failure.message());
-  writer.text(failure.where().file);
-  writer.text(failure.where().element);
-  writer.raw(kEndMark);
-  return writer.take();
+  std::string message;
+  ByteAppender writer(message);
+  writer.put_raw(kFailureMark);
+  writer.put(static_cast<std::uint32_t>(failure.code()));
+  writer.put_text(failure.message());
+  writer.put_text(failure.where().file);
+  writer.put_text(failure.where().element);
+  writer.put_raw(kEndMark);
+  return message;
 }
 
 Model decode_reply(std::string_view message, const ModelLimits& limits) {
-  Reader reader(message);
-  if (reader.accept(kFailureMark)) rethrow_failure(reader);
-  if (!reader.accept(kModelMark)) refuse("it does not begin as one");
-  Model model;
-  model.metres_per_unit = reader.number<double>();
-  reader.array(model.vertices, limits.vertices, "vertices");
-  reader.array(model.uv, limits.vertices, "texture coordinates");
-  reader.array(model.triangles, limits.triangles, "triangles");
-  read_materials(reader, limits, model.materials);
-  read_images(reader, limits, model.images);
-  read_texts(reader, model.files);
-  read_texts(reader, model.warnings);
+  Model model = read_message(message, [&](ByteReader& reader) {
+    if (reader.accept(kFailureMark)) rethrow_failure(reader);
+    if (!reader.accept(kModelMark)) refuse("it does not begin as one");
+    Model read;
+    read.metres_per_unit = reader.get<double>();
+    read_array(reader, read.vertices, limits.vertices, "vertices");
+    read_array(reader, read.uv, limits.vertices, "texture coordinates");
+    read_array(reader, read.triangles, limits.triangles, "triangles");
+    read_materials(reader, limits, read.materials);
+    read_images(reader, limits, read.images);
+    read_texts(reader, read.files);
+    read_texts(reader, read.warnings);
+    expect_end(reader);
+    return read;
+  });
   for (std::string& warning : model.warnings) warning = printable(warning, kMaxNameBytes);
-  if (!reader.accept(kEndMark) || !reader.at_end()) refuse("it does not end where it should");
   check_model(model, limits);
   return model;
 }

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <numbers>
 
+#include "base/bytes.hpp"
 #include "planes/picture.hpp"
 
 namespace hallway::planes {
@@ -46,12 +46,6 @@ Json spread_json(std::vector<double> values, double unit) {
   return {{"mean", unit * sum / static_cast<double>(values.size())},
           {"median", unit * values[values.size() / 2]},
           {"max", unit * values.back()}};
-}
-
-template <typename T>
-void append(std::string& bytes, T value) {
-  static_assert(std::endian::native == std::endian::little);
-  bytes.append(std::bit_cast<std::array<char, sizeof(T)>>(value).data(), sizeof(T));
 }
 
 Json fault_json(const Fault& fault, const Truth& truth) {
@@ -178,14 +172,15 @@ std::string print_ply(const Cloud& cloud, const std::vector<FoundPlane>& found) 
       "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty int plane\n"
       "end_header\n",
       cloud.points.size());
+  ByteAppender writer(bytes);
   const std::vector<std::int64_t> planes = plane_of_points(cloud.points.size(), found);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     for (const double number : {cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z()})
-      append(bytes, number);
+      writer.put(number);
     const render::Rgb colour =
         planes[i] < 0 ? kNoPlaneColour : render::submap_colour(static_cast<std::size_t>(planes[i]));
-    for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) append(bytes, channel);
-    append(bytes, static_cast<std::int32_t>(planes[i]));
+    for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) writer.put(channel);
+    writer.put(static_cast<std::int32_t>(planes[i]));
   }
   return bytes;
 }

@@ -5,13 +5,13 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 
 namespace hallway::sense {
 namespace {
 
 constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kAngleRounding = 1e-9;  ///< radians; 360 degrees may come out a hair above 2 pi
-constexpr double kUnitRounding = 1e-6;   ///< of a quaternion's length
 constexpr double kDegrees = 360.0 / kFullTurn;
 
 }  // namespace
@@ -39,7 +39,9 @@ void SpecCheck::ranges(double min_range_m, double max_range_m) const {
 }
 
 void SpecCheck::mount(const Pose& T_body_sensor) const {
-  if (T_body_sensor.t.allFinite() && std::abs(T_body_sensor.q.norm() - 1.0) < kUnitRounding) return;
+  if (T_body_sensor.t.allFinite() &&
+      is_unit_quaternion(std::span<const double, 4>(T_body_sensor.q.coeffs().data(), 4)))
+    return;
   fail("T_body_sensor", "is not a finite position and a unit quaternion");
 }
 

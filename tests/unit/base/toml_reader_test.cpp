@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "base/random.hpp"
-#include "base/toml_depth.hpp"
+#include "base/toml_pieces.hpp"
 #include "support/errors.hpp"
 #include "support/long_mode.hpp"
 

@@ -77,7 +77,7 @@ class OutputsBytes : public testing::Test {
     put_everything(collector);
     EXPECT_EQ(collector.finish(), "");
     room_.resize(4096);
-    ByteWriter writer(std::as_writable_bytes(std::span(room_)));
+    AlignedByteWriter writer(std::as_writable_bytes(std::span(room_)));
     write_outputs(writer, collector.outputs(), 1);
     EXPECT_TRUE(writer.fits());
     room_.resize(writer.size() / 8);
@@ -87,7 +87,7 @@ class OutputsBytes : public testing::Test {
   std::string read(std::span<const std::byte> bytes) {
     reader_.begin(&frame_, indices_);
     try {
-      ByteReader reader(bytes);
+      AlignedByteReader reader(bytes);
       read_outputs(reader, reader_);
       reader.expect_end();
     } catch (const BadBytes& bad) {
@@ -132,7 +132,7 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   EXPECT_EQ(outputs.counters()[1].name, "a_long_name_of_a_counter");
   // And written again they are the same bytes.
   std::vector<std::uint64_t> again(room_.size());
-  ByteWriter writer(std::as_writable_bytes(std::span(again)));
+  AlignedByteWriter writer(std::as_writable_bytes(std::span(again)));
   write_outputs(writer, outputs, 1);
   EXPECT_EQ(again, room_);
 }
@@ -185,7 +185,7 @@ TEST_F(OutputsBytes, WithoutRoomNothingIsWrittenBeyondIt) {
   put_everything(reader_);
   reader_.finish();
   std::vector<std::uint64_t> room(20, 4711);
-  ByteWriter writer(std::as_writable_bytes(std::span(room).first(10)));
+  AlignedByteWriter writer(std::as_writable_bytes(std::span(room).first(10)));
   write_outputs(writer, reader_.outputs(), 1);
   EXPECT_FALSE(writer.fits());
   EXPECT_TRUE(std::all_of(room.begin() + 10, room.end(), [](std::uint64_t word) { return word == 4711; }));

@@ -260,15 +260,11 @@ TEST(McapIndex, GivesTheSameMessagesAsReadingOn) {
     ASSERT_EQ(index.metadata.size(), 1u);
     ASSERT_EQ(index.attachments.size(), 1u);
     // The offsets lead to the records themselves.
-    McapMetadata facts;
-    parse_record(std::string_view(bytes).substr(index.metadata[0].offset + kMcapRecordHead,
-                                                index.metadata[0].length - kMcapRecordHead),
-                 facts);
+    const auto facts = parse_record<McapMetadata>(std::string_view(bytes).substr(
+        index.metadata[0].offset + kMcapRecordHead, index.metadata[0].length - kMcapRecordHead));
     EXPECT_EQ(facts.name, "facts");
-    McapAttachment note;
-    parse_record(std::string_view(bytes).substr(index.attachments[0].offset + kMcapRecordHead,
-                                                index.attachments[0].length - kMcapRecordHead),
-                 note);
+    const auto note = parse_record<McapAttachment>(std::string_view(bytes).substr(
+        index.attachments[0].offset + kMcapRecordHead, index.attachments[0].length - kMcapRecordHead));
     EXPECT_EQ(note.data, "a note");
     EXPECT_EQ(index.attachments[0].data_size, note.data.size());
   }
@@ -279,23 +275,20 @@ TEST(McapIndex, EachMessageStandsWhereItsChunksIndexSays) {
   const MemoryInput input(bytes);
   std::size_t found = 0;
   for (const McapChunkIndex& chunk : read_mcap_index(input).chunks) {
-    McapChunk unpacked;
-    parse_record(
-        std::string_view(bytes).substr(chunk.offset + kMcapRecordHead, chunk.length - kMcapRecordHead),
-        unpacked);
+    const auto unpacked = parse_record<McapChunk>(
+        std::string_view(bytes).substr(chunk.offset + kMcapRecordHead, chunk.length - kMcapRecordHead));
     for (const auto& [channel, offset] : chunk.message_indices) {
-      const McapRecordHead head = parse_record_head(std::string_view(bytes).substr(offset, kMcapRecordHead));
-      EXPECT_EQ(static_cast<McapOp>(head.op), McapOp::kMessageIndex);
-      McapMessageIndex messages;
-      parse_record(std::string_view(bytes).substr(offset + kMcapRecordHead, head.length), messages);
+      const McapRecordHead head = parse_record<McapRecordHead>(std::string_view(bytes).substr(offset));
+      EXPECT_EQ(head.op, McapOp::kMessageIndex);
+      const auto messages = parse_record<McapMessageIndex>(
+          std::string_view(bytes).substr(offset + kMcapRecordHead, head.length));
       EXPECT_EQ(messages.channel_id, channel);
       for (const auto& [t_ns, at] : messages.entries) {
         std::size_t place = at;
         const auto record = next_chunk_record(unpacked.records, place);
         ASSERT_TRUE(record);
         ASSERT_EQ(record->op, McapOp::kMessage);
-        McapMessage message;
-        parse_record(record->content, message);
+        const auto message = parse_record<McapMessage>(record->content);
         EXPECT_EQ(message.log_time_ns, t_ns);
         EXPECT_EQ(message.channel_id, channel);
         ++found;
