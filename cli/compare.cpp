@@ -127,7 +127,7 @@ bool draw(const CompareOptions& options, render::Renderer renderer, const fs::pa
   sim::PictureSpec spec;
   spec.view = options.view == "top" ? sim::PictureView::kTop : sim::PictureView::kPerspective;
   spec.show = {sim::PictureLayer::kMap,       sim::PictureLayer::kTruth,  sim::PictureLayer::kEstimate,
-               sim::PictureLayer::kLandmarks, sim::PictureLayer::kErrors, sim::PictureLayer::kWalls};
+               sim::PictureLayer::kLandmarks, sim::PictureLayer::kErrors, sim::PictureLayer::kPlanes};
   spec.width_px = 960;
   spec.height_px = 640;
   write_file_atomically(folder / kPictureFile,

@@ -8,9 +8,9 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "log/landmarks.hpp"
-#include "log/observed_planes.hpp"
+#include "log/plane_observations.hpp"
 #include "log/poses.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 #include "log_command.hpp"
 #include "log_foxglove.hpp"
 #include "log_import.hpp"
@@ -106,7 +106,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
   log::ObservationLog observations(source.has_identities(), source.has_tracks());
-  log::ObservedPlaneLog planes(source.has_identities());
+  log::PlaneObservationLog planes(source.has_identities());
   std::vector<log::IterationPose> poses;
   run::SourceFrame frame;
   bool regular = true;
@@ -134,7 +134,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   if (!poses.empty()) log::write_poses(path / run::files::kTruePoses, poses);
   if (source.true_landmarks())
     log::write_landmarks(path / run::files::kTrueLandmarks, *source.true_landmarks());
-  if (source.true_walls()) log::write_true_walls(path / run::files::kTrueWalls, *source.true_walls());
+  if (source.true_planes()) log::write_true_planes(path / run::files::kTruePlanes, *source.true_planes());
   write_file_atomically(path / run::files::kRun,
                         manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   folder.commit();

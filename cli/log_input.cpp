@@ -9,9 +9,9 @@
 #include "console.hpp"
 #include "log/landmarks.hpp"
 #include "log/observations.hpp"
-#include "log/observed_planes.hpp"
+#include "log/plane_observations.hpp"
 #include "log/poses.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 #include "log/unfinished_input.hpp"
 #include "record/sensor_json.hpp"
 #include "run/log_source.hpp"
@@ -31,7 +31,7 @@ struct Files {
   std::optional<nlohmann::ordered_json> manifest;  ///< run.json of its folder
   std::optional<fs::path> true_poses;
   std::optional<fs::path> true_landmarks;
-  std::optional<fs::path> true_walls;
+  std::optional<fs::path> true_planes;
 };
 
 std::optional<fs::path> if_there(const fs::path& path) {
@@ -68,7 +68,7 @@ Files find_files(const LogChoice& choice, const fs::path& observations) {
     files.manifest = run::read_manifest(folder);
     files.true_poses = if_there(folder / run::files::kTruePoses);
     files.true_landmarks = if_there(folder / run::files::kTrueLandmarks);
-    files.true_walls = if_there(folder / run::files::kTrueWalls);
+    files.true_planes = if_there(folder / run::files::kTruePlanes);
   }
   if (!choice.true_poses.empty()) files.true_poses = choice.true_poses;
   if (!choice.true_landmarks.empty()) files.true_landmarks = choice.true_landmarks;
@@ -124,8 +124,8 @@ OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
   if (files.true_landmarks) {
     truth.landmarks = log::parse_landmarks(read_input(*files.true_landmarks), files.true_landmarks->string());
   }
-  if (files.true_walls)
-    truth.walls = log::parse_true_walls(read_input(*files.true_walls), files.true_walls->string());
+  if (files.true_planes)
+    truth.planes = log::parse_true_planes(read_input(*files.true_planes), files.true_planes->string());
   const auto take = [&](auto read) {
     if (read.damage) warn(opened, log::describe(*read.damage, read.log, path.string()));
     try {

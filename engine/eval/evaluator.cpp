@@ -103,14 +103,14 @@ std::uint64_t count_mapped(std::span<const MapLandmark> map) {
 Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
   if (truth_.has_identities && truth_.landmarks)
     motion_.emplace(*truth_.landmarks, kMovedNoises * truth_.noise_m);
-  if (truth_.has_identities && truth_.walls) planes_.emplace(*truth_.walls);
+  if (truth_.has_identities && truth_.planes) planes_.emplace(*truth_.planes);
 }
 
 void Evaluator::add_planes(const Iteration& iteration) {
-  planes_->add(iteration.given_planes, iteration.T_world_body, iteration.wall_places);
+  planes_->add(iteration.planes, iteration.T_world_body, iteration.true_plane_points);
   if (iteration.T_world_body && iteration.T_map_body && iteration.orientation_known)
     planes_->add_pose(static_cast<std::uint32_t>(iterations_), *iteration.T_world_body, *iteration.T_map_body,
-                      iteration.given_planes);
+                      iteration.planes);
 }
 
 void Evaluator::add(const Iteration& iteration) {

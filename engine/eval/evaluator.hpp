@@ -35,9 +35,9 @@ struct Iteration {
   std::span<const log::LandmarkId> identities;
   /// By observation: where it was seen, body frame [m]. As long as `associations`; empty where that is not kept.
   std::span<const Vec3> points{};
-  /// The planes that the plugin was given, by a sensor or by a plugin before it, and where true walls were seen.
-  std::span<const GivenPlane> given_planes{};
-  std::span<const WallPlace> wall_places{};
+  /// The plane observations that the plugin was given, by a sensor or by a plugin before it, and the points seen of true planes.
+  std::span<const AssociatedPlane> planes{};
+  std::span<const TruePlanePoint> true_plane_points{};
   std::optional<double> wall_ms;  ///< what the plugins took
   std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
 };
@@ -46,8 +46,8 @@ struct Iteration {
 struct Truth {
   bool has_identities = false;                          ///< the observations name their true landmarks
   std::optional<std::vector<log::Landmark>> landmarks;  ///< where the true landmarks are, each id once
-  /// Where the true walls are, each id once; empty where the plugin maps no planes.
-  std::optional<std::vector<log::TrueWall>> walls{};
+  /// Where the true planes are, each id once; empty where the plugin maps no planes.
+  std::optional<std::vector<log::TruePlane>> planes{};
   double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
 };
 
@@ -78,7 +78,7 @@ class Evaluator {
   Metrics metrics(std::span<const log::MapLandmark> online,
                   const std::optional<std::vector<log::MapLandmark>>& refined,
                   std::span<const JoinedEpoch> joined = {}) const;
-  /// The same for maps of planes; null where the true walls are not known.
+  /// The same for maps of planes; null where the true planes are not known.
   const PlaneScore* planes() const { return planes_ ? &*planes_ : nullptr; }
 
  private:
@@ -102,7 +102,7 @@ class Evaluator {
   std::uint64_t lost_ = 0;
   AssociationScore associations_;
   std::optional<MotionScore> motion_;  ///< where the truth says what moves
-  std::optional<PlaneScore> planes_;   ///< where the truth has walls
+  std::optional<PlaneScore> planes_;   ///< where the truth has planes
   PathParts path_;
   RefittedPath refitted_path_;
   std::vector<double> wall_ms_;

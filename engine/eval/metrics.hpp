@@ -76,7 +76,7 @@ struct Metrics {
     if (!landmarks_true || !landmarks_missed) return std::nullopt;
     return share(*landmarks_true - *landmarks_missed, *landmarks_true);
   }
-  /// Share of the true walls asked for that own a mapped plane, map as re-solved at the end; empty likewise.
+  /// Share of the true planes asked for that own a landmark, map as re-solved at the end; empty likewise.
   std::optional<double> wall_coverage() const {
     if (!planes) return std::nullopt;
     return share(planes->refined.walls_mapped, planes->walls_true);
@@ -116,7 +116,7 @@ struct Metrics {
   Consistency landmark_consistency;  ///< map as re-solved at the end, after the fit of its landmarks
   Consistency pose_consistency;      ///< poses as answered, after the fit of the online map's landmarks
 
-  std::optional<PlaneMetrics> planes;  ///< where the true walls are known and the pipeline maps planes
+  std::optional<PlaneMetrics> planes;  ///< where the true planes are known and the pipeline maps planes
 
   std::optional<TimeSummary> iteration_ms;      ///< wall clock
   std::optional<TimeSummary> iteration_cpu_ms;  ///< thread's CPU time

@@ -17,25 +17,25 @@ struct ErrorSummary {
 /// How well one map of planes is; docs/metrics.md defines each member. What is of nothing is empty.
 struct PlaneMapMetrics {
   std::uint64_t mapped = 0;                 ///< planes with the status mapped
-  std::uint64_t walls_mapped = 0;           ///< true walls in view that own one
+  std::uint64_t walls_mapped = 0;           ///< true planes in view that own one
   std::uint64_t walls_missing = 0;          ///< those that own none
-  std::uint64_t duplicated = 0;             ///< mapped planes where another one of the same wall is
-  std::uint64_t parts = 0;                  ///< mapped planes beside others of the same wall
-  std::uint64_t unmatched = 0;              ///< mapped planes that belong to no true wall
+  std::uint64_t duplicated = 0;             ///< mapped planes where another one of the same true plane is
+  std::uint64_t parts = 0;                  ///< mapped planes beside others of the same true plane
+  std::uint64_t unmatched = 0;              ///< mapped planes that belong to no true plane
   bool aligned = false;                     ///< by certain corners; else by the first pose
   std::optional<ErrorSummary> angle_deg{};  ///< between the planes of a pair
   std::optional<ErrorSummary> offset_m{};   ///< of the middle of the mapped one from the true one
   std::optional<ErrorSummary> corner_m{};   ///< of certain ends from the true ones
-  std::optional<double> extent_iou_mean{};  ///< of the extents along the walls
+  std::optional<double> extent_iou_mean{};  ///< of the extents along the true planes
   std::optional<double> extent_iou_least{};
 };
 
 /// How well planes were mapped.
 struct PlaneMetrics {
-  std::uint64_t observations = 0;        ///< planes that the mapper was given
-  std::uint64_t associations_none = 0;   ///< that it took for none of its own
-  std::uint64_t association_errors = 0;  ///< that it gave to one that another wall owns
-  std::uint64_t walls_true = 0;          ///< true walls seen long enough
+  std::uint64_t observations = 0;        ///< plane observations that the mapper was given
+  std::uint64_t associations_none = 0;   ///< that it associated with none of its own
+  std::uint64_t association_errors = 0;  ///< that it associated with one that another true plane owns
+  std::uint64_t walls_true = 0;          ///< true planes seen long enough
   PlaneMapMetrics online{};              ///< the map after the last iteration
   PlaneMapMetrics refined{};             ///< as re-solved at the end
   /// Of the poses as answered, where the online map's alignment puts them.

@@ -11,20 +11,17 @@
 
 #include "eval/plane_alignment.hpp"
 #include "eval/point_error.hpp"
+#include "geom/arrays.hpp"
 #include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {
 
 using log::LandmarkStatus;
-using log::MappedPlane;
+using log::PlaneLandmark;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kLevel = 1e-3;  ///< largest z of the normal of an upright plane
-
-Vec3 vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
 
 /// Errors of one kind, one after the other.
 class Errors {
@@ -66,7 +63,7 @@ struct End {
   Vec3 true_middle = Vec3::Zero();
 };
 
-std::vector<End> certain_ends(const MappedPlane& plane, const std::vector<Vec3>& corners) {
+std::vector<End> certain_ends(const PlaneLandmark& plane, const std::vector<Vec3>& corners) {
   std::vector<End> ends;
   const std::size_t n = plane.outline.size();
   if (n != corners.size()) return ends;
@@ -74,21 +71,21 @@ std::vector<End> certain_ends(const MappedPlane& plane, const std::vector<Vec3>&
     if (!plane.outline[i].edge_certain) continue;
     const Vec3 &a = corners[i], &b = corners[(i + 1) % n];
     const Vec3 middle =
-        0.5 * (vector_of(plane.outline[i].position_m) + vector_of(plane.outline[(i + 1) % n].position_m));
+        0.5 * (to_vec3(plane.outline[i].position_m) + to_vec3(plane.outline[(i + 1) % n].position_m));
     ends.push_back({middle, {a, (b - a).normalized()}, 0.5 * (a + b)});
   }
   return ends;
 }
 
-/// The certain edges of a plane that lies as it likes, each with the edge of its face that is nearest.
-std::vector<End> certain_edges(const MappedPlane& plane, const std::vector<Vec3>& corners,
+/// The certain edges of a plane that lies as it likes, each with the edge of its true plane that is nearest.
+std::vector<End> certain_edges(const PlaneLandmark& plane, const std::vector<Vec3>& corners,
                                const Pose& T_world_map) {
   std::vector<End> edges;
   const std::size_t n = plane.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (!plane.outline[i].edge_certain) continue;
     const Vec3 middle =
-        0.5 * (vector_of(plane.outline[i].position_m) + vector_of(plane.outline[(i + 1) % n].position_m));
+        0.5 * (to_vec3(plane.outline[i].position_m) + to_vec3(plane.outline[(i + 1) % n].position_m));
     const Vec3 placed = T_world_map * middle;
     End edge{middle, {}, Vec3::Zero()};
     double least = std::numeric_limits<double>::max();
@@ -107,10 +104,10 @@ std::vector<End> certain_edges(const MappedPlane& plane, const std::vector<Vec3>
   return edges;
 }
 
-Vec3 middle_of(const MappedPlane& plane) {
+Vec3 middle_of(const PlaneLandmark& plane) {
   Vec3 middle = Vec3::Zero();
-  for (const log::MappedCorner& corner : plane.outline)
-    middle += vector_of(corner.position_m) / static_cast<double>(plane.outline.size());
+  for (const log::OutlineCorner& corner : plane.outline)
+    middle += to_vec3(corner.position_m) / static_cast<double>(plane.outline.size());
   return middle;
 }
 
@@ -118,7 +115,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// A range along a wall.
+/// A range along a plane.
 struct Range {
   double from = 0.0;
   double to = 0.0;
@@ -178,53 +175,52 @@ log::PoseErrorRow error_of(std::uint32_t iteration, const Pose& estimate, const 
 
 }  // namespace
 
-PlaneScore::PlaneScore(std::span<const log::TrueWall> walls) {
-  for (const log::TrueWall& wall : walls) {
-    Face face;
-    for (const auto& corner : wall.corners_m) face.corners.push_back(vector_of(corner));
-    for (const auto& corner : wall.hull_m) face.outline.push_back(vector_of(corner));
-    if (face.outline.empty()) face.outline = face.corners;
-    const Vec3 along = face.corners[1] - face.corners[0];
-    face.length_m = along.norm();
-    if (!(face.length_m > 0.0)) continue;
-    face.along = along / face.length_m;
-    face.normal = face.along.cross(face.corners[3] - face.corners[0]).normalized();
-    face.from_m = face.length_m;
-    faces_.emplace(wall.id, std::move(face));
+PlaneScore::PlaneScore(std::span<const log::TruePlane> planes) {
+  for (const log::TruePlane& plane : planes) {
+    ScoredPlane truth;
+    for (const auto& corner : plane.corners_m) truth.corners.push_back(to_vec3(corner));
+    for (const auto& corner : plane.outline()) truth.outline.push_back(to_vec3(corner));
+    const Vec3 along = truth.corners[1] - truth.corners[0];
+    truth.length_m = along.norm();
+    if (!(truth.length_m > 0.0)) continue;
+    truth.along = along / truth.length_m;
+    truth.normal = truth.along.cross(truth.corners[3] - truth.corners[0]).normalized();
+    truth.from_m = truth.length_m;
+    true_planes_.emplace(plane.id, std::move(truth));
   }
 }
 
-void PlaneScore::add(std::span<const GivenPlane> given, const std::optional<Pose>& T_world_body,
-                     std::span<const WallPlace> places) {
-  std::vector<log::LandmarkId> taken_for, walls;
-  for (const GivenPlane& plane : given) {
-    taken_for.push_back(plane.taken_for);
-    walls.push_back(plane.wall);
+void PlaneScore::add(std::span<const AssociatedPlane> observations, const std::optional<Pose>& T_world_body,
+                     std::span<const TruePlanePoint> points) {
+  std::vector<log::LandmarkId> landmarks, true_planes;
+  for (const AssociatedPlane& plane : observations) {
+    landmarks.push_back(plane.landmark);
+    true_planes.push_back(plane.true_plane);
   }
-  associations_.add(taken_for, walls);
+  associations_.add(landmarks, true_planes);
   if (!T_world_body) return;
   std::map<log::LandmarkId, std::pair<double, double>> seen;
-  for (const WallPlace& place : places) {
-    const auto found = faces_.find(place.wall);
-    if (found == faces_.end()) continue;
-    const Face& face = found->second;
+  for (const TruePlanePoint& seen_point : points) {
+    const auto found = true_planes_.find(seen_point.true_plane);
+    if (found == true_planes_.end()) continue;
+    const ScoredPlane& truth = found->second;
     const double s =
-        std::clamp(face.along.dot(*T_world_body * place.place - face.corners[0]), 0.0, face.length_m);
-    const auto [entry, is_new] = seen.try_emplace(place.wall, s, s);
+        std::clamp(truth.along.dot(*T_world_body * seen_point.point - truth.corners[0]), 0.0, truth.length_m);
+    const auto [entry, is_new] = seen.try_emplace(seen_point.true_plane, s, s);
     entry->second = {std::min(entry->second.first, s), std::max(entry->second.second, s)};
   }
-  for (const auto& [wall, extent] : seen) {
-    Face& face = faces_.at(wall);
-    face.from_m = std::min(face.from_m, extent.first);
-    face.to_m = std::max(face.to_m, extent.second);
-    if (extent.second - extent.first >= kLeastLength_m) ++face.frames;
+  for (const auto& [id, extent] : seen) {
+    ScoredPlane& truth = true_planes_.at(id);
+    truth.from_m = std::min(truth.from_m, extent.first);
+    truth.to_m = std::max(truth.to_m, extent.second);
+    if (extent.second - extent.first >= kLeastLength_m) ++truth.frames;
   }
 }
 
 void PlaneScore::add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body,
-                          std::span<const GivenPlane> given) {
+                          std::span<const AssociatedPlane> observations) {
   poses_.push_back({iteration, T_world_body, T_map_body});
-  refitted_.add(iteration, T_map_body, given);
+  refitted_.add(iteration, T_map_body, observations);
 }
 
 void PlaneScore::keep_poses(const std::function<bool(std::uint32_t)>& is_in_map) {
@@ -238,21 +234,21 @@ std::optional<Pose> PlaneScore::first_pose_frame() const {
   return first->T_world_body * first->T_map_body.inverse();
 }
 
-std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const MappedPlane> map) const {
+std::vector<PlaneScore::Pair> PlaneScore::pairs_of(std::span<const PlaneLandmark> map) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   std::vector<Pair> pairs;
-  for (const MappedPlane& plane : map) {
+  for (const PlaneLandmark& plane : map) {
     const auto owner = ownership.owner.find(plane.id);
     if (plane.status != LandmarkStatus::kMapped || owner == ownership.owner.end()) continue;
-    if (const auto face = faces_.find(owner->second); face != faces_.end())
-      pairs.push_back({&plane, &face->second});
+    if (const auto truth = true_planes_.find(owner->second); truth != true_planes_.end())
+      pairs.push_back({&plane, &truth->second});
   }
   return pairs;
 }
 
 bool PlaneScore::are_level(const std::vector<Pair>& pairs) {
   return std::all_of(pairs.begin(), pairs.end(), [](const Pair& pair) {
-    return std::abs(pair.plane->normal[2]) < kLevel && std::abs(pair.face->normal.z()) < kLevel;
+    return std::abs(pair.plane->normal[2]) < kLevel && std::abs(pair.truth->normal.z()) < kLevel;
   });
 }
 
@@ -263,9 +259,9 @@ std::optional<Pose> PlaneScore::spatial_alignment(const std::vector<Pair>& pairs
   if (!first) return std::nullopt;
   std::vector<PointOnPlane> points;
   for (const Pair& pair : pairs) {
-    const Plane plane{pair.face->normal, pair.face->normal.dot(pair.face->corners[0])};
-    for (const log::MappedCorner& corner : pair.plane->outline)
-      points.push_back({vector_of(corner.position_m), plane});
+    const Plane plane{pair.truth->normal, pair.truth->normal.dot(pair.truth->corners[0])};
+    for (const log::OutlineCorner& corner : pair.plane->outline)
+      points.push_back({to_vec3(corner.position_m), plane});
   }
   const std::optional<Pose> aligned = align_to_planes(points, *first);
   by_planes = aligned.has_value();
@@ -276,7 +272,7 @@ std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& 
   if (!are_level(pairs)) return spatial_alignment(pairs, by_corners);
   std::vector<Vec3> from, to;
   for (const Pair& pair : pairs) {
-    for (const End& end : certain_ends(*pair.plane, pair.face->corners)) {
+    for (const End& end : certain_ends(*pair.plane, pair.truth->corners)) {
       from.push_back(end.middle);
       to.push_back(end.true_middle);
     }
@@ -295,15 +291,15 @@ std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& 
   return first_pose_frame();
 }
 
-std::optional<Pose> PlaneScore::alignment(std::span<const MappedPlane> map) const {
+std::optional<Pose> PlaneScore::alignment(std::span<const PlaneLandmark> map) const {
   bool by_corners = false;
   return alignment(pairs_of(map), by_corners);
 }
 
-void PlaneScore::count(std::span<const MappedPlane> map, PlaneMapMetrics& metrics) const {
+void PlaneScore::count(std::span<const PlaneLandmark> map, PlaneMapMetrics& metrics) const {
   const AssociationScore::Ownership ownership = associations_.ownership();
   std::set<log::LandmarkId> owners;
-  for (const MappedPlane& plane : map) {
+  for (const PlaneLandmark& plane : map) {
     if (plane.status != LandmarkStatus::kMapped) continue;
     ++metrics.mapped;
     const auto owner = ownership.owner.find(plane.id);
@@ -313,39 +309,39 @@ void PlaneScore::count(std::span<const MappedPlane> map, PlaneMapMetrics& metric
       ++metrics.parts;
     }
   }
-  for (const auto& [wall, face] : faces_) {
-    if (is_asked_for(face)) ++(owners.contains(wall) ? metrics.walls_mapped : metrics.walls_missing);
+  for (const auto& [id, truth] : true_planes_) {
+    if (is_asked_for(truth)) ++(owners.contains(id) ? metrics.walls_mapped : metrics.walls_missing);
   }
 }
 
 void PlaneScore::score_extents(const std::vector<Pair>& pairs, const Pose& T_world_map,
                                PlaneMapMetrics& metrics) {
-  std::map<const Face*, std::vector<Range>> extents;
-  std::vector<const Face*> faces;  // in the order of the pairs: that of pointers is none
-  for (const auto& [plane, face] : pairs) {
+  std::map<const ScoredPlane*, std::vector<Range>> extents;
+  std::vector<const ScoredPlane*> truths;  // in the order of the pairs: that of pointers is none
+  for (const auto& [plane, truth] : pairs) {
     Range extent{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    for (const log::MappedCorner& corner : plane->outline) {
-      const double s = face->along.dot(T_world_map * vector_of(corner.position_m) - face->corners[0]);
+    for (const log::OutlineCorner& corner : plane->outline) {
+      const double s = truth->along.dot(T_world_map * to_vec3(corner.position_m) - truth->corners[0]);
       extent = {std::min(extent.from, s), std::max(extent.to, s)};
     }
-    std::vector<Range>& of_face = extents[face];
-    if (of_face.empty()) faces.push_back(face);
-    of_face.push_back(extent);
+    std::vector<Range>& of_truth = extents[truth];
+    if (of_truth.empty()) truths.push_back(truth);
+    of_truth.push_back(extent);
   }
   double sum = 0.0;
-  for (const Face* face : faces) {
-    const std::uint64_t again = doubled(extents.at(face), kDoubled);
+  for (const ScoredPlane* truth : truths) {
+    const std::uint64_t again = doubled(extents.at(truth), kDoubled);
     metrics.duplicated += again;
     metrics.parts -= again;
-    const bool seen = face->to_m > face->from_m;
-    const double share = seen ? iou(extents.at(face), {face->from_m, face->to_m}) : 0.0;
+    const bool seen = truth->to_m > truth->from_m;
+    const double share = seen ? iou(extents.at(truth), {truth->from_m, truth->to_m}) : 0.0;
     sum += share;
     metrics.extent_iou_least = std::min(metrics.extent_iou_least.value_or(1.0), share);
   }
-  if (!faces.empty()) metrics.extent_iou_mean = sum / static_cast<double>(faces.size());
+  if (!truths.empty()) metrics.extent_iou_mean = sum / static_cast<double>(truths.size());
 }
 
-PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
+PlaneMapMetrics PlaneScore::score(std::span<const PlaneLandmark> map) const {
   PlaneMapMetrics metrics;
   count(map, metrics);
   const std::vector<Pair> pairs = pairs_of(map);
@@ -353,11 +349,11 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
   if (!T_world_map) return metrics;
   const bool level = are_level(pairs);
   Errors angles, offsets, corners;
-  for (const auto& [plane, face] : pairs) {
-    angles.add(angle_deg(T_world_map->q * vector_of(plane->normal), face->normal));
-    offsets.add(face->normal.dot(*T_world_map * middle_of(*plane) - face->corners[0]));
+  for (const auto& [plane, truth] : pairs) {
+    angles.add(angle_deg(T_world_map->q * to_vec3(plane->normal), truth->normal));
+    offsets.add(truth->normal.dot(*T_world_map * middle_of(*plane) - truth->corners[0]));
     for (const End& end :
-         level ? certain_ends(*plane, face->corners) : certain_edges(*plane, face->outline, *T_world_map)) {
+         level ? certain_ends(*plane, truth->corners) : certain_edges(*plane, truth->outline, *T_world_map)) {
       const Vec3 middle = *T_world_map * end.middle;
       corners.add((middle - end.truth.nearest(middle)).norm());
     }
@@ -369,7 +365,7 @@ PlaneMapMetrics PlaneScore::score(std::span<const MappedPlane> map) const {
   return metrics;
 }
 
-std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const MappedPlane> map) const {
+std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const PlaneLandmark> map) const {
   std::vector<log::PoseErrorRow> errors;
   const std::optional<Pose> T_world_map = alignment(map);
   if (!T_world_map) return errors;
@@ -380,7 +376,7 @@ std::vector<log::PoseErrorRow> PlaneScore::pose_errors(std::span<const MappedPla
   return errors;
 }
 
-std::vector<log::PoseErrorRow> PlaneScore::refitted_errors(std::span<const MappedPlane> map) const {
+std::vector<log::PoseErrorRow> PlaneScore::refitted_errors(std::span<const PlaneLandmark> map) const {
   std::vector<log::PoseErrorRow> errors;
   const std::optional<Pose> T_world_map = alignment(map);
   if (!T_world_map) return errors;
@@ -392,13 +388,13 @@ std::vector<log::PoseErrorRow> PlaneScore::refitted_errors(std::span<const Mappe
   return errors;
 }
 
-PlaneMetrics PlaneScore::metrics(std::span<const MappedPlane> online,
-                                 std::span<const MappedPlane> refined) const {
+PlaneMetrics PlaneScore::metrics(std::span<const PlaneLandmark> online,
+                                 std::span<const PlaneLandmark> refined) const {
   PlaneMetrics metrics;
   metrics.observations = associations_.observations();
   metrics.associations_none = associations_.none();
   metrics.association_errors = associations_.ownership().errors;
-  for (const auto& [wall, face] : faces_) metrics.walls_true += is_asked_for(face) ? 1u : 0u;
+  for (const auto& [id, truth] : true_planes_) metrics.walls_true += is_asked_for(truth) ? 1u : 0u;
   metrics.online = score(online);
   metrics.refined = score(refined);
   const auto summarize = [](const std::vector<log::PoseErrorRow>& errors,

@@ -12,60 +12,60 @@
 #include "eval/plane_metrics.hpp"
 #include "eval/refitted_planes.hpp"
 #include "geometry/se3.hpp"
-#include "log/mapped_planes.hpp"
+#include "log/plane_landmarks.hpp"
 #include "log/pose_errors.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 
 namespace hallway::eval {
 
-/// A place on a true wall that a sensor saw, body frame, with its noise.
-struct WallPlace {
-  log::LandmarkId wall = log::kNoLandmark;
-  Vec3 place = Vec3::Zero();
+/// A point on a true plane that a sensor saw, body frame, with its noise.
+struct TruePlanePoint {
+  log::LandmarkId true_plane = log::kNoLandmark;
+  Vec3 point = Vec3::Zero();
 };
 
-/// Scores maps of planes against the true walls; docs/metrics.md defines the numbers. Memory grows with the iterations, the walls and the different
-/// pairs (mapped plane, wall), and, up to a bound, with the planes given (see RefittedPlanes).
+/// Scores maps of planes against the true planes; docs/metrics.md defines the numbers. Memory grows with the iterations, the true planes and the different
+/// pairs (landmark, true plane), and, up to a bound, with the observations (see RefittedPlanes).
 class PlaneScore {
  public:
-  /// Frames that a wall must have been seen in, with at least kLeastLength_m of it in each, to be asked for.
+  /// Frames that a true plane must have been seen in, with at least kLeastLength_m of it in each, to be asked for.
   static constexpr std::uint32_t kLeastFrames = 20;
   static constexpr double kLeastLength_m = 0.3;
-  /// Share of the shorter of two planes of one wall from which on they are one twice; below, they are parts of it.
+  /// Share of the shorter of two landmarks of one true plane from which on they are one twice; below, they are parts of it.
   static constexpr double kDoubled = 0.5;
 
-  /// @param walls  each id once, corners as TrueWall says
-  explicit PlaneScore(std::span<const log::TrueWall> walls);
+  /// @param planes  each id once
+  explicit PlaneScore(std::span<const log::TruePlane> planes);
 
-  /// Adds what a frame's mapper was given, and what was seen of walls where the true pose is known. O(1) each.
-  void add(std::span<const GivenPlane> given, const std::optional<Pose>& T_world_body,
-           std::span<const WallPlace> places);
-  /// Adds an iteration that has both poses, and what its mapper was given.
+  /// Adds a frame's observations, and the points seen of true planes where the true pose is known. O(1) each.
+  void add(std::span<const AssociatedPlane> observations, const std::optional<Pose>& T_world_body,
+           std::span<const TruePlanePoint> points);
+  /// Adds an iteration that has both poses, and its observations.
   void add_pose(std::uint32_t iteration, const Pose& T_world_body, const Pose& T_map_body,
-                std::span<const GivenPlane> given = {});
+                std::span<const AssociatedPlane> observations = {});
 
   /// Says which of the poses are in the frame of reference of the map at the end: the others have no error there. All are, where nothing
   /// is said. @param is_in_map  by iteration
   void keep_poses(const std::function<bool(std::uint32_t)>& is_in_map);
 
   /// @param online, refined  the maps after the last iteration and as re-solved, each id once
-  PlaneMetrics metrics(std::span<const log::MappedPlane> online,
-                       std::span<const log::MappedPlane> refined) const;
+  PlaneMetrics metrics(std::span<const log::PlaneLandmark> online,
+                       std::span<const log::PlaneLandmark> refined) const;
 
-  /// Which true wall's planes were taken for which plane of the map.
+  /// Which true plane's observations were associated with which landmark.
   const AssociationScore& associations() const { return associations_; }
 
   /// The errors of the poses, where the alignment of a map puts them; empty where it has none.
-  std::vector<log::PoseErrorRow> pose_errors(std::span<const log::MappedPlane> map) const;
+  std::vector<log::PoseErrorRow> pose_errors(std::span<const log::PlaneLandmark> map) const;
   /// The same of the poses as re-fitted to the map, those that its planes determine.
-  std::vector<log::PoseErrorRow> refitted_errors(std::span<const log::MappedPlane> map) const;
+  std::vector<log::PoseErrorRow> refitted_errors(std::span<const log::PlaneLandmark> map) const;
 
   /// How a map lies in the world: by the best fit of its certain ends to the true ones, if three of them not near one line are known, else by the
   /// first pose; heights are left alone. Where a normal is not level: by the planes, from where the first pose puts the map, if they determine it.
-  std::optional<Pose> alignment(std::span<const log::MappedPlane> map) const;
+  std::optional<Pose> alignment(std::span<const log::PlaneLandmark> map) const;
 
  private:
-  struct Face {
+  struct ScoredPlane {
     std::vector<Vec3> corners;  ///< four
     std::vector<Vec3> outline;  ///< the corners, or what it is within them
     Vec3 normal = Vec3::Zero();
@@ -76,8 +76,8 @@ class PlaneScore {
     std::uint32_t frames = 0;  ///< with enough of it
   };
   struct Pair {
-    const log::MappedPlane* plane;
-    const Face* face;
+    const log::PlaneLandmark* plane;
+    const ScoredPlane* truth;
   };
   struct TwoPoses {
     std::uint32_t iteration;
@@ -87,18 +87,18 @@ class PlaneScore {
 
   /// T_world_map by the first pose in the map; empty without one.
   std::optional<Pose> first_pose_frame() const;
-  bool is_asked_for(const Face& face) const { return face.frames >= kLeastFrames; }
+  bool is_asked_for(const ScoredPlane& truth) const { return truth.frames >= kLeastFrames; }
   /// Whether all planes are upright, as a map in 2 1/2-D has them.
   static bool are_level(const std::vector<Pair>& pairs);
   std::optional<Pose> spatial_alignment(const std::vector<Pair>& pairs, bool& by_planes) const;
-  std::vector<Pair> pairs_of(std::span<const log::MappedPlane> map) const;
+  std::vector<Pair> pairs_of(std::span<const log::PlaneLandmark> map) const;
   std::optional<Pose> alignment(const std::vector<Pair>& pairs, bool& by_corners) const;
-  PlaneMapMetrics score(std::span<const log::MappedPlane> map) const;
-  void count(std::span<const log::MappedPlane> map, PlaneMapMetrics& metrics) const;
+  PlaneMapMetrics score(std::span<const log::PlaneLandmark> map) const;
+  void count(std::span<const log::PlaneLandmark> map, PlaneMapMetrics& metrics) const;
   static void score_extents(const std::vector<Pair>& pairs, const Pose& T_world_map,
                             PlaneMapMetrics& metrics);
 
-  std::map<log::LandmarkId, Face> faces_;
+  std::map<log::LandmarkId, ScoredPlane> true_planes_;
   AssociationScore associations_;
   std::vector<TwoPoses> poses_;
   RefittedPlanes refitted_;

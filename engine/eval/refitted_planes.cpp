@@ -51,7 +51,7 @@ struct Target {
   std::vector<Edge> edges;
 };
 
-Target target_of(const log::MappedPlane& plane) {
+Target target_of(const log::PlaneLandmark& plane) {
   Target target;
   target.normal = Vec3(plane.normal.data());
   target.offset = plane.offset_m;
@@ -61,7 +61,7 @@ Target target_of(const log::MappedPlane& plane) {
   for (int k = 0; k < 2; ++k) {
     target.from[k] = std::numeric_limits<double>::max();
     target.to[k] = std::numeric_limits<double>::lowest();
-    for (const log::MappedCorner& corner : plane.outline) {
+    for (const log::OutlineCorner& corner : plane.outline) {
       const double place = target.tangent[k].dot(Vec3(corner.position_m.data()));
       target.from[k] = std::min(target.from[k], place);
       target.to[k] = std::max(target.to[k], place);
@@ -233,12 +233,13 @@ double scatter(std::vector<double>& sizes, double otherwise) {
 
 }  // namespace
 
-void RefittedPlanes::add(std::uint32_t iteration, const Pose& T_map_body, std::span<const GivenPlane> given) {
+void RefittedPlanes::add(std::uint32_t iteration, const Pose& T_map_body,
+                         std::span<const AssociatedPlane> observations) {
   if (!complete_) return;
-  for (const GivenPlane& plane : given) {
-    if (plane.taken_for == log::kNoLandmark || plane.normal.isZero()) continue;
+  for (const AssociatedPlane& plane : observations) {
+    if (plane.landmark == log::kNoLandmark || plane.normal.isZero()) continue;
     bounds_.insert(bounds_.end(), plane.bounds.begin(), plane.bounds.end());
-    sights_.push_back({plane.taken_for, plane.normal, plane.middle, bounds_.size()});
+    sights_.push_back({plane.landmark, plane.normal, plane.centroid, bounds_.size()});
   }
   frames_.push_back({iteration, T_map_body, sights_.size()});
   if (bounds_.size() <= kMaxPoints) return;
@@ -249,10 +250,10 @@ void RefittedPlanes::add(std::uint32_t iteration, const Pose& T_map_body, std::s
 }
 
 std::map<log::LandmarkId, log::LandmarkId> RefittedPlanes::heirs_in(
-    std::span<const log::MappedPlane> map) const {
+    std::span<const log::PlaneLandmark> map) const {
   std::map<log::LandmarkId, Target> targets;
   std::set<log::LandmarkId> there;
-  for (const log::MappedPlane& plane : map) {
+  for (const log::PlaneLandmark& plane : map) {
     there.insert(plane.id);
     if (plane.status == log::LandmarkStatus::kMapped) targets.emplace(plane.id, target_of(plane));
   }
@@ -288,10 +289,10 @@ std::map<log::LandmarkId, log::LandmarkId> RefittedPlanes::heirs_in(
   return heirs;
 }
 
-std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::MappedPlane> map) const {
+std::vector<RefittedPlanes::Placed> RefittedPlanes::place(std::span<const log::PlaneLandmark> map) const {
   std::map<log::LandmarkId, Target> targets;
   bool level = true;
-  for (const log::MappedPlane& plane : map) {
+  for (const log::PlaneLandmark& plane : map) {
     if (plane.status != log::LandmarkStatus::kMapped) continue;
     targets.emplace(plane.id, target_of(plane));
     level = level && std::abs(plane.normal[2]) < kUpright;

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "geometry/se3.hpp"
-#include "log/mapped_planes.hpp"
+#include "log/plane_landmarks.hpp"
 
 namespace hallway::eval {
 
-/// A plane that a mapper was given.
-struct GivenPlane {
-  log::LandmarkId wall = log::kNoLandmark;       ///< the true wall that it is of
-  log::LandmarkId taken_for = log::kNoLandmark;  ///< the plane of the map that it was taken for
-  Vec3 normal = Vec3::Zero();                    ///< unit, body frame; zero: its place is not known
-  Vec3 middle = Vec3::Zero();                    ///< of what was seen of it, body frame [m]
-  std::vector<Vec3> bounds{};                    ///< the points that bound it, body frame [m]
+/// A plane observation that a mapper was given, with what it is of and what the mapper made of it.
+struct AssociatedPlane {
+  log::LandmarkId true_plane = log::kNoLandmark;  ///< that it is of
+  log::LandmarkId landmark = log::kNoLandmark;    ///< that it was associated with
+  Vec3 normal = Vec3::Zero();                     ///< unit, body frame; zero: its place is not known
+  Vec3 centroid = Vec3::Zero();                   ///< body frame [m]
+  std::vector<Vec3> bounds{};                     ///< its hull or corners, body frame [m]
 };
 
 /// The path as the map of planes at the end shows it: each frame placed anew where the planes that it was given, as they were associated while the run went on, lie
@@ -32,7 +32,7 @@ class RefittedPlanes {
   static constexpr double kUndetermined_m = 0.1;
 
   /// Adds a frame that was answered with a pose.
-  void add(std::uint32_t iteration, const Pose& T_map_body, std::span<const GivenPlane> given);
+  void add(std::uint32_t iteration, const Pose& T_map_body, std::span<const AssociatedPlane> observations);
 
   struct Placed {
     std::uint32_t iteration = 0;
@@ -44,7 +44,7 @@ class RefittedPlanes {
   /// frame lies by its planes alone, so that a cut near an edge does not decide where the frame is. A plane that is not in the map any more stands for the one in which most of what was
   /// taken for it lies. Directions that the planes leave open, as heights where all are upright,
   /// stay as they were answered. Empty beyond kMaxPoints. O(points), and planes of the map for each plane that is not in it any more.
-  std::vector<Placed> place(std::span<const log::MappedPlane> map) const;
+  std::vector<Placed> place(std::span<const log::PlaneLandmark> map) const;
 
  private:
   struct Sight {
@@ -58,7 +58,7 @@ class RefittedPlanes {
     std::size_t end = 0;  // of its sights
   };
   /// What has become of planes that are not in the map any more.
-  std::map<log::LandmarkId, log::LandmarkId> heirs_in(std::span<const log::MappedPlane> map) const;
+  std::map<log::LandmarkId, log::LandmarkId> heirs_in(std::span<const log::PlaneLandmark> map) const;
 
   std::vector<Vec3> bounds_;
   std::vector<Sight> sights_;

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "foxglove/frames.hpp"
+#include "geom/arrays.hpp"
 
 namespace hallway::foxglove {
 namespace {
@@ -22,19 +23,15 @@ constexpr std::array<Colour, 6> kSubmapColours{{{0.0, 0.62, 0.451},
                                                 {0.941, 0.894, 0.259},
                                                 {0.6, 0.6, 0.6}}};
 
-Vec3 vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 /// A share of the landmarks' extent, so that they are seen in a room and in a town.
 template <typename Landmarks>
 double diameter_for(const Landmarks& landmarks) {
   if (landmarks.empty()) return 0.0;
-  Vec3 low = vector_of(landmarks.front().position_m);
+  Vec3 low = to_vec3(landmarks.front().position_m);
   Vec3 high = low;
   for (const auto& landmark : landmarks) {
-    low = low.cwiseMin(vector_of(landmark.position_m));
-    high = high.cwiseMax(vector_of(landmark.position_m));
+    low = low.cwiseMin(to_vec3(landmark.position_m));
+    high = high.cwiseMax(to_vec3(landmark.position_m));
   }
   constexpr double kShare = 0.003;
   return std::clamp(kShare * (high - low).norm(), 0.02, 2.0);
@@ -58,9 +55,9 @@ Vec3 middle_of(const std::vector<Vec3>& places) {
   return middle;
 }
 
-Vec3 middle_of(const log::MappedPlane& plane) {
+Vec3 middle_of(const log::PlaneLandmark& plane) {
   std::vector<Vec3> places;
-  for (const log::MappedCorner& corner : plane.outline) places.push_back(vector_of(corner.position_m));
+  for (const log::OutlineCorner& corner : plane.outline) places.push_back(to_vec3(corner.position_m));
   return middle_of(places);
 }
 
@@ -74,17 +71,17 @@ Line star(const Vec3& middle, const std::vector<Vec3>& places, const Colour& col
 }
 
 /// The edges of a plane that are certain, or those that are not.
-Line edges_of(const log::MappedPlane& plane, bool certain) {
+Line edges_of(const log::PlaneLandmark& plane, bool certain) {
   constexpr double kCertainWidth_px = 3.0;
   Line line{.kind = Line::Kind::kPairs,
             .points = {},
             .width_px = certain ? kCertainWidth_px : 1.0,
             .colour = colour_of(plane.status)};
-  const std::vector<log::MappedCorner>& outline = plane.outline;
+  const std::vector<log::OutlineCorner>& outline = plane.outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     if (outline[i].edge_certain != certain) continue;
-    line.points.push_back(vector_of(outline[i].position_m));
-    line.points.push_back(vector_of(outline[(i + 1) % outline.size()].position_m));
+    line.points.push_back(to_vec3(outline[i].position_m));
+    line.points.push_back(to_vec3(outline[(i + 1) % outline.size()].position_m));
   }
   return line;
 }
@@ -95,7 +92,7 @@ Entity true_landmark_balls(std::span<const log::Landmark> landmarks) {
   Entity entity{.frame = frames::kWorld, .id = "true landmarks", .lines = {}, .balls = {}};
   const double diameter = diameter_for(landmarks);
   for (const log::Landmark& landmark : landmarks) {
-    entity.balls.push_back({vector_of(landmark.position_m), diameter, kTruthColour});
+    entity.balls.push_back({to_vec3(landmark.position_m), diameter, kTruthColour});
   }
   return entity;
 }
@@ -104,14 +101,14 @@ Entity landmark_balls(std::span<const log::MapLandmark> landmarks) {
   Entity entity{.frame = frames::kMap, .id = "landmarks", .lines = {}, .balls = {}};
   const double diameter = diameter_for(landmarks);
   for (const log::MapLandmark& landmark : landmarks) {
-    entity.balls.push_back({vector_of(landmark.position_m), diameter, colour_of(landmark.status)});
+    entity.balls.push_back({to_vec3(landmark.position_m), diameter, colour_of(landmark.status)});
   }
   return entity;
 }
 
-Entity mapped_plane_outlines(std::span<const log::MappedPlane> planes) {
+Entity mapped_plane_outlines(std::span<const log::PlaneLandmark> planes) {
   Entity entity{.frame = frames::kMap, .id = "mapped planes", .lines = {}, .balls = {}};
-  for (const log::MappedPlane& plane : planes) {
+  for (const log::PlaneLandmark& plane : planes) {
     for (const bool certain : {false, true}) {
       Line edges = edges_of(plane, certain);
       if (!edges.points.empty()) entity.lines.push_back(std::move(edges));
@@ -123,9 +120,9 @@ Entity mapped_plane_outlines(std::span<const log::MappedPlane> planes) {
 Entity submap_stars(const log::MapAnswer& map) {
   std::unordered_map<log::LandmarkId, Vec3> points, planes;
   for (const log::MapLandmark& landmark : map.landmarks) {
-    if (landmark.status == log::LandmarkStatus::kMapped) points[landmark.id] = vector_of(landmark.position_m);
+    if (landmark.status == log::LandmarkStatus::kMapped) points[landmark.id] = to_vec3(landmark.position_m);
   }
-  for (const log::MappedPlane& plane : map.planes) {
+  for (const log::PlaneLandmark& plane : map.planes) {
     if (plane.status == log::LandmarkStatus::kMapped) planes[plane.id] = middle_of(plane);
   }
   struct Star {
@@ -139,7 +136,7 @@ Entity submap_stars(const log::MapAnswer& map) {
       stars[member.first].planes.push_back(place->second);
   }
   std::unordered_map<std::uint64_t, Vec3> origins;
-  for (const log::SubmapPose& submap : map.submaps) origins[submap.id] = vector_of(submap.position_m);
+  for (const log::SubmapPose& submap : map.submaps) origins[submap.id] = to_vec3(submap.position_m);
   Entity entity{.frame = frames::kMap, .id = "submaps", .lines = {}, .balls = {}};
   std::size_t n = 0;
   for (const auto& [submap, joined] : stars) {

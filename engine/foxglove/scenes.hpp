@@ -22,7 +22,7 @@ Entity true_landmark_balls(std::span<const log::Landmark> landmarks);
 Entity landmark_balls(std::span<const log::MapLandmark> landmarks);
 
 /// The outlines of a plugin's planes, coloured as landmarks are, in the frame "map"; edges that are certain are wider.
-Entity mapped_plane_outlines(std::span<const log::MappedPlane> planes);
+Entity mapped_plane_outlines(std::span<const log::PlaneLandmark> planes);
 
 /// The mapped landmarks of each submap, joined to its middle by lines of one colour, and the middles of its mapped planes, joined to its origin;
 /// in the frame "map".

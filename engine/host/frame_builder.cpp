@@ -12,7 +12,7 @@ struct FrameBuilder::Reading {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint32_t> pixels;
   hw_planes_t planes_payload{};
-  PlaneReading planes;
+  Planes planes;
 
   void finish_points() {
     points_payload = {};
@@ -93,8 +93,8 @@ std::vector<std::uint32_t>& FrameBuilder::add_pixels(std::uint32_t width, std::u
   return reading.pixels;
 }
 
-FrameBuilder::PlaneReading& FrameBuilder::add_planes(std::uint32_t sensor_id) {
-  PlaneReading& planes = add_reading(HW_SAMPLE_PLANES, sensor_id).planes;
+FrameBuilder::Planes& FrameBuilder::add_planes(std::uint32_t sensor_id) {
+  Planes& planes = add_reading(HW_SAMPLE_PLANES, sensor_id).planes;
   planes.planes.clear();
   planes.hull_points.clear();
   return planes;

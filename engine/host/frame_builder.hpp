@@ -37,14 +37,14 @@ class FrameBuilder {
   std::vector<std::uint32_t>& add_pixels(std::uint32_t width, std::uint32_t height);
 
   /// The planes of a reading, and what their hulls are made of (hw_plane_t.first_hull).
-  struct PlaneReading {
+  struct Planes {
     std::vector<hw_plane_t> planes;
     std::vector<hw_point3_t> hull_points;
   };
 
   /// Adds an instantaneous reading of planes that a sensor gives itself, as add_points() does.
   /// @return the empty lists to be filled, sensor frame, metres; valid until the next call
-  PlaneReading& add_planes(std::uint32_t sensor_id);
+  Planes& add_planes(std::uint32_t sensor_id);
 
   /// The frame, as the ABI has it; valid until the next begin().
   const hw_frame_t& finish();

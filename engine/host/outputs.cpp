@@ -101,7 +101,7 @@ void OutputCollector::begin(const hw_frame_t* frame, std::span<const std::uint32
   outputs_.association_ranges_.clear();
   outputs_.association_ids_.clear();
   outputs_.planes_.clear();
-  outputs_.mapped_planes_.clear();
+  outputs_.plane_landmarks_.clear();
   outputs_.submaps_.clear();
   outputs_.submap_members_.clear();
   outputs_.n_counters_ = 0;
@@ -247,7 +247,7 @@ hw_status_t OutputCollector::copy_planes(const hw_planes_t& planes) {
 
 hw_status_t OutputCollector::copy_mapped_planes(const hw_mapped_planes_t& planes) {
   demand(HW_HAS(&planes, hw_mapped_planes_t, corners), "a payload that is too small");
-  outputs_.mapped_planes_.add(planes);
+  outputs_.plane_landmarks_.add(planes);
   return HW_OK;
 }
 
@@ -304,7 +304,7 @@ std::string OutputCollector::finish() {
 }
 
 void OutputCollector::check_distinct_ids() {
-  const std::span<const hw_mapped_plane_t> planes = outputs_.mapped_planes_.planes();
+  const std::span<const hw_mapped_plane_t> planes = outputs_.plane_landmarks_.planes();
   sorted_ids_.clear();
   for (const hw_landmark_t& landmark : outputs_.landmarks_) sorted_ids_.push_back(landmark.id);
   for (const hw_mapped_plane_t& plane : planes) sorted_ids_.push_back(plane.id);

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "host/mapped_plane_list.hpp"
+#include "host/plane_landmark_list.hpp"
 #include "host/plane_lists.hpp"
 
 namespace hallway::host {
@@ -67,7 +67,7 @@ class Outputs {
   /// The planes found in that sample of the frame; nothing if not put.
   std::optional<PlaneList> planes(std::uint32_t sample) const { return planes_.of(sample); }
   /// The planes of the map, ids distinct from each other's and from the landmarks'.
-  const MappedPlaneList& mapped_planes() const { return mapped_planes_; }
+  const PlaneLandmarkList& plane_landmarks() const { return plane_landmarks_; }
   /// The submaps, in the order put.
   std::span<const hw_submap_t> submaps() const { return submaps_; }
   /// The landmarks of a submap of this object.
@@ -96,7 +96,7 @@ class Outputs {
   std::vector<AssociationRange> association_ranges_;
   std::vector<std::uint64_t> association_ids_;
   PlaneLists planes_;
-  MappedPlaneList mapped_planes_;
+  PlaneLandmarkList plane_landmarks_;
   std::vector<hw_submap_t> submaps_;
   std::vector<std::uint64_t> submap_members_;
   std::vector<Counter> counters_;  ///< the first n_counters_ count; the others keep their memory

@@ -97,7 +97,7 @@ void read_planes(AlignedByteReader& reader, OutputCollector& collector) {
   }
 }
 
-void read_mapped_planes(AlignedByteReader& reader, OutputCollector& collector) {
+void read_plane_landmarks(AlignedByteReader& reader, OutputCollector& collector) {
   const auto list = reader.get_list<hw_mapped_plane_t>();
   const auto corners = reader.get_list<hw_mapped_corner_t>();
   auto planes = sized<hw_mapped_planes_t>();
@@ -182,8 +182,8 @@ void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint3
   writer.put_list(outputs.landmark_covariances());
   write_associations(writer, outputs, n_samples);
   write_planes(writer, outputs, n_samples);
-  writer.put_list(outputs.mapped_planes().planes());
-  writer.put_list(outputs.mapped_planes().corners());
+  writer.put_list(outputs.plane_landmarks().planes());
+  writer.put_list(outputs.plane_landmarks().corners());
   writer.put_list(outputs.submaps());
   writer.put_list(outputs.all_members());
   writer.put<std::uint64_t>(outputs.counters().size());
@@ -199,7 +199,7 @@ void read_outputs(AlignedByteReader& reader, OutputCollector& collector) {
   read_landmarks(reader, collector);
   read_associations(reader, collector);
   read_planes(reader, collector);
-  read_mapped_planes(reader, collector);
+  read_plane_landmarks(reader, collector);
   read_submaps(reader, collector);
   read_counters(reader, collector);
 }

@@ -5,7 +5,7 @@
 
 #include "log/id_pairs.hpp"
 #include "log/map_landmarks.hpp"
-#include "log/mapped_planes.hpp"
+#include "log/plane_landmarks.hpp"
 #include "log/submap_poses.hpp"
 
 namespace hallway::log {
@@ -13,7 +13,7 @@ namespace hallway::log {
 /// The map that a pipeline put in report().
 struct MapAnswer {
   std::vector<MapLandmark> landmarks{};
-  std::vector<MappedPlane> planes{};
+  std::vector<PlaneLandmark> planes{};
   std::vector<SubmapPose> submaps{};
   std::vector<IdPair> submap_members{};  ///< submap, landmark or plane
   std::vector<IdPair>

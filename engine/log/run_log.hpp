@@ -14,10 +14,11 @@
 #include "log/landmarks.hpp"
 #include "log/map_answer.hpp"
 #include "log/mcap_writer.hpp"
-#include "log/planes.hpp"
+#include "log/plane_names.hpp"
+#include "log/plane_observations.hpp"
 #include "log/pose_covariances.hpp"
 #include "log/poses.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 
 namespace hallway::log {
 
@@ -31,7 +32,7 @@ inline constexpr std::string_view kActivation = "/hallway/activation";          
 inline constexpr std::string_view kTruePose = "/hallway/truth/pose";            ///< T_world_body
 inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    ///< of the observations
 inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
-inline constexpr std::string_view kTrueWalls = "/hallway/truth/walls";          ///< world
+inline constexpr std::string_view kTruePlanes = plane_names::kTruePlanesTopic;  ///< world
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
 inline constexpr std::string_view kAssociations = "/hallway/output/associations";
 inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
@@ -79,7 +80,7 @@ class RunLogWriter {
   /// JSON: the period and the sensors.
   void add_activation(const std::string& json);
   void add_true_landmarks(std::span<const Landmark> landmarks);
-  void add_true_walls(std::span<const TrueWall> walls);
+  void add_true_planes(std::span<const TruePlane> planes);
   /// A frame in the form of host/frame_bytes.hpp.
   void add_frame(const FrameStamp& stamp, std::string_view bytes);
   void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
@@ -88,7 +89,7 @@ class RunLogWriter {
   void add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids);
   void add_command(const FrameStamp& stamp, const CommandAnswer& command);
   /// The planes that were found in the frame's reading.
-  void add_planes(const FrameStamp& stamp, std::span<const PlaneAnswer> planes);
+  void add_planes(const FrameStamp& stamp, std::span<const PlaneObservation> planes);
   /// The map at the end, under the stamp of the last frame.
   void add_map(const FrameStamp& stamp, const MapAnswer& map);
   /// Makes sure that what was added survives the end of the program (McapWriter::keep_chunk).
@@ -113,23 +114,14 @@ struct FrameMessage {
 struct ActivationMessage {
   std::string json;
 };
-struct TruePoseMessage {
-  IterationPose pose;
-};
 struct IdentitiesMessage {
   std::uint32_t iteration = 0;
   std::vector<LandmarkId> ids;
 };
-struct TrueLandmarksMessage {
-  std::vector<Landmark> landmarks;
-};
-struct TrueWallsMessage {
-  std::vector<TrueWall> walls;
-};
 
-/// What replay needs of a log; std::monostate for all else.
-using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, TruePoseMessage,
-                                IdentitiesMessage, TrueLandmarksMessage, TrueWallsMessage>;
+/// What replay needs of a log, with the true pose of a frame, and the true landmarks and planes of the world; std::monostate for all else.
+using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose,
+                                IdentitiesMessage, std::vector<Landmark>, std::vector<TruePlane>>;
 
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.
@@ -139,12 +131,9 @@ struct PoseMessage {
   std::uint32_t iteration = 0;
   PoseAnswer pose;
 };
-struct MapMessage {
-  MapAnswer map;
-};
 
 /// What a plugin answered; std::monostate for all else.
-using AnswerMessage = std::variant<std::monostate, PoseMessage, MapMessage>;
+using AnswerMessage = std::variant<std::monostate, PoseMessage, MapAnswer>;
 
 /// What a message says, by its channel's topic. Throws as parse_run_message() does.
 AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message);

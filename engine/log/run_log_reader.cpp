@@ -46,7 +46,7 @@ std::uint32_t iteration_of(const Json& json) {
   return static_cast<std::uint32_t>(whole(json.at("iteration"), kMaxIteration));
 }
 
-TruePoseMessage true_pose(const Json& json) {
+IterationPose true_pose(const Json& json) {
   IterationPose pose;
   pose.iteration = iteration_of(json);
   pose.position_m = numbers<3>(json.at("T_world_body").at("position_m"));
@@ -54,7 +54,7 @@ TruePoseMessage true_pose(const Json& json) {
   pose.orientation_known = json.at("orientation_known").get<bool>();
   if (!is_unit_quaternion(pose.orientation, kUnitFileTolerance))
     bad("a quaternion that is not of unit length");
-  return {pose};
+  return pose;
 }
 
 IdentitiesMessage identities(const Json& json) {
@@ -65,34 +65,34 @@ IdentitiesMessage identities(const Json& json) {
   return message;
 }
 
-TrueLandmarksMessage true_landmarks(const Json& json) {
-  TrueLandmarksMessage message;
+std::vector<Landmark> true_landmarks(const Json& json) {
+  std::vector<Landmark> landmarks;
   std::unordered_set<LandmarkId> seen;
   for (const Json& entry : json.at("landmarks")) {
-    message.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
-                                 .position_m = numbers<3>(entry.at("position_m")),
-                                 .moving = entry.value("moving", false)});
-    if (!seen.insert(message.landmarks.back().id).second) bad("a landmark that stands there twice");
+    landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
+                         .position_m = numbers<3>(entry.at("position_m")),
+                         .moving = entry.value("moving", false)});
+    if (!seen.insert(landmarks.back().id).second) bad("a landmark that stands there twice");
   }
-  return message;
+  return landmarks;
 }
 
-TrueWallsMessage true_walls(const Json& json) {
-  TrueWallsMessage message;
+std::vector<TruePlane> true_planes(const Json& json) {
+  std::vector<TruePlane> planes;
   std::unordered_set<LandmarkId> seen;
-  for (const Json& entry : json.at("walls")) {
-    TrueWall& wall = message.walls.emplace_back();
-    wall.id = whole(entry.at("id"), kNoLandmark - 1);
+  for (const Json& entry : json.at(plane_names::kTruePlanesKey)) {
+    TruePlane& plane = planes.emplace_back();
+    plane.id = whole(entry.at("id"), kNoLandmark - 1);
     const Json& corners = entry.at("corners_m");
-    if (!corners.is_array() || corners.size() != wall.corners_m.size()) bad("a wall without four corners");
-    for (std::size_t i = 0; i < wall.corners_m.size(); ++i) wall.corners_m[i] = numbers<3>(corners[i]);
+    if (!corners.is_array() || corners.size() != plane.corners_m.size()) bad("a wall without four corners");
+    for (std::size_t i = 0; i < plane.corners_m.size(); ++i) plane.corners_m[i] = numbers<3>(corners[i]);
     if (const auto hull = entry.find("hull_m"); hull != entry.end()) {
       if (!hull->is_array() || hull->size() < 3) bad("a wall whose outline has fewer than three corners");
-      for (const Json& corner : *hull) wall.hull_m.push_back(numbers<3>(corner));
+      for (const Json& corner : *hull) plane.hull_m.push_back(numbers<3>(corner));
     }
-    if (!seen.insert(wall.id).second) bad("a wall that stands there twice");
+    if (!seen.insert(plane.id).second) bad("a wall that stands there twice");
   }
-  return message;
+  return planes;
 }
 
 PoseMessage pose_answer(const Json& json) {
@@ -117,12 +117,12 @@ LandmarkStatus status_of(const Json& json) {
   return *status;
 }
 
-MappedPlane mapped_plane(const Json& json) {
-  MappedPlane plane{.id = whole(json.at("id"), kNoLandmark - 1),
-                    .observations = whole(json.at("observations"), UINT64_MAX),
-                    .status = status_of(json),
-                    .normal = numbers<3>(json.at("normal")),
-                    .offset_m = numbers<1>(Json::array({json.at("offset_m")}))[0]};
+PlaneLandmark plane_landmark(const Json& json) {
+  PlaneLandmark plane{.id = whole(json.at("id"), kNoLandmark - 1),
+                      .observations = whole(json.at("observations"), UINT64_MAX),
+                      .status = status_of(json),
+                      .normal = numbers<3>(json.at("normal")),
+                      .offset_m = numbers<1>(Json::array({json.at("offset_m")}))[0]};
   for (const Json& corner : json.at("outline"))
     plane.outline.push_back({numbers<3>(corner.at("position_m")), corner.at("edge_certain").get<bool>()});
   if (plane.outline.size() < 3) bad("a plane of fewer than 3 corners");
@@ -144,7 +144,7 @@ void read_submap(const Json& json, MapAnswer& map) {
     map.submap_members.push_back({id, whole(landmark, kNoLandmark - 1)});
 }
 
-MapMessage map_answer(const Json& json) {
+MapAnswer map_answer(const Json& json) {
   MapAnswer map;
   for (const Json& entry : json.at("landmarks")) {
     map.landmarks.push_back({.id = whole(entry.at("id"), kNoLandmark - 1),
@@ -154,14 +154,14 @@ MapMessage map_answer(const Json& json) {
     if (entry.contains("covariance_m2")) map.landmarks.back().covariance = numbers<6>(entry["covariance_m2"]);
   }
   if (json.contains("planes")) {
-    for (const Json& plane : json["planes"]) map.planes.push_back(mapped_plane(plane));
+    for (const Json& plane : json["planes"]) map.planes.push_back(plane_landmark(plane));
   }
   for (const Json& submap : json.at("submaps")) read_submap(submap, map);
   if (json.contains("joined_epochs")) {
     for (const Json& pair : json["joined_epochs"])
       map.joined_epochs.push_back({whole(pair.at(0), UINT64_MAX), whole(pair.at(1), UINT64_MAX)});
   }
-  return {std::move(map)};
+  return map;
 }
 
 RunMessage parse(std::string_view topic, std::string_view data) {
@@ -170,7 +170,7 @@ RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kTruePose) return true_pose(parse_json(data));
   if (topic == topics::kIdentities) return identities(parse_json(data));
   if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
-  if (topic == topics::kTrueWalls) return true_walls(parse_json(data));
+  if (topic == topics::kTruePlanes) return true_planes(parse_json(data));
   return {};
 }
 
@@ -195,7 +195,7 @@ auto parse_message(const McapChannel& channel, const McapMessage& message, Parse
 }  // namespace
 
 bool is_of_whole_log(std::string_view topic) {
-  return topic == topics::kActivation || topic == topics::kTrueLandmarks || topic == topics::kTrueWalls;
+  return topic == topics::kActivation || topic == topics::kTrueLandmarks || topic == topics::kTruePlanes;
 }
 
 RunMessage parse_run_message(const McapChannel& channel, const McapMessage& message) {

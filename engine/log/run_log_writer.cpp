@@ -49,9 +49,9 @@ Json submaps_json(const MapAnswer& map) {
   return submaps;
 }
 
-Json mapped_plane_json(const MappedPlane& plane) {
+Json plane_landmark_json(const PlaneLandmark& plane) {
   Json outline = Json::array();
-  for (const MappedCorner& corner : plane.outline)
+  for (const OutlineCorner& corner : plane.outline)
     outline.push_back({{"position_m", numbers(corner.position_m)}, {"edge_certain", corner.edge_certain}});
   return {{"id", plane.id},
           {"observations", plane.observations},
@@ -68,8 +68,7 @@ Json points_json(const List& points) {
   return list;
 }
 
-Json plane_json(const PlaneAnswer& answer) {
-  const Plane& plane = answer.plane;
+Json plane_json(const PlaneObservation& plane) {
   const auto scalars = numbers(std::array{plane.offset_m, plane.rms_m, plane.exclusive_share});
   return {{"id", plane.id},
           {"normal", numbers(plane.normal)},
@@ -79,8 +78,8 @@ Json plane_json(const PlaneAnswer& answer) {
           {"points", plane.points},
           {"rms_m", scalars[1]},
           {"exclusive_share", scalars[2]},
-          {"hull_m", points_json(answer.hull_m)},
-          {"members", answer.members}};
+          {"hull_m", points_json(plane.hull_m)},
+          {"members", plane.members}};
 }
 
 std::string text_of(const Json& json) {
@@ -132,14 +131,14 @@ void RunLogWriter::add_true_landmarks(std::span<const Landmark> landmarks) {
   add(topics::kTrueLandmarks, {}, text_of({{"landmarks", list}}));
 }
 
-void RunLogWriter::add_true_walls(std::span<const TrueWall> walls) {
+void RunLogWriter::add_true_planes(std::span<const TruePlane> planes) {
   Json list = Json::array();
-  for (const TrueWall& wall : walls) {
-    Json entry = {{"id", wall.id}, {"corners_m", points_json(wall.corners_m)}};
-    if (!wall.hull_m.empty()) entry["hull_m"] = points_json(wall.hull_m);
+  for (const TruePlane& plane : planes) {
+    Json entry = {{"id", plane.id}, {"corners_m", points_json(plane.corners_m)}};
+    if (!plane.hull_m.empty()) entry["hull_m"] = points_json(plane.hull_m);
     list.push_back(std::move(entry));
   }
-  add(topics::kTrueWalls, {}, text_of({{"walls", list}}));
+  add(topics::kTruePlanes, {}, text_of({{plane_names::kTruePlanesKey, list}}));
 }
 
 void RunLogWriter::add_frame(const FrameStamp& stamp, std::string_view bytes) {
@@ -179,9 +178,9 @@ void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& com
       text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
 }
 
-void RunLogWriter::add_planes(const FrameStamp& stamp, std::span<const PlaneAnswer> planes) {
+void RunLogWriter::add_planes(const FrameStamp& stamp, std::span<const PlaneObservation> planes) {
   Json list = Json::array();
-  for (const PlaneAnswer& plane : planes) list.push_back(plane_json(plane));
+  for (const PlaneObservation& plane : planes) list.push_back(plane_json(plane));
   add(topics::kPlanes, stamp, text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"planes", list}}));
 }
 
@@ -197,7 +196,7 @@ void RunLogWriter::add_map(const FrameStamp& stamp, const MapAnswer& map) {
   Json json{{"landmarks", std::move(list)}};
   if (!map.planes.empty()) {
     Json& planes = json["planes"] = Json::array();
-    for (const MappedPlane& plane : map.planes) planes.push_back(mapped_plane_json(plane));
+    for (const PlaneLandmark& plane : map.planes) planes.push_back(plane_landmark_json(plane));
   }
   json["submaps"] = submaps_json(map);
   for (const IdPair& pair : map.joined_epochs) json["joined_epochs"].push_back({pair.first, pair.second});

@@ -81,9 +81,9 @@ Json decidable_json(const Decidable& decidable, std::size_t i) {
 
 }  // namespace
 
-Json planes_json(const Cloud& cloud, const std::vector<FoundPlane>& found) {
+Json planes_json(const Cloud& cloud, const std::vector<PlaneObservation>& found) {
   Json list = Json::array();
-  for (const FoundPlane& plane : found) {
+  for (const PlaneObservation& plane : found) {
     std::vector<std::uint64_t> rows;
     for (const PointIndex member : plane.members) rows.push_back(cloud.rows[member]);
     list.push_back({{"id", plane.id},
@@ -158,7 +158,7 @@ Json score_json(const Score& score, const Truth& truth) {
   return json;
 }
 
-std::vector<std::int64_t> plane_of_points(std::size_t points, const std::vector<FoundPlane>& found) {
+std::vector<std::int64_t> plane_of_points(std::size_t points, const std::vector<PlaneObservation>& found) {
   std::vector<std::int64_t> of_points(points, -1);
   for (std::size_t f = found.size(); f-- > 0;) {
     for (const PointIndex member : found[f].members) of_points[member] = static_cast<std::int64_t>(f);
@@ -166,7 +166,7 @@ std::vector<std::int64_t> plane_of_points(std::size_t points, const std::vector<
   return of_points;
 }
 
-std::string print_ply(const Cloud& cloud, const std::vector<FoundPlane>& found) {
+std::string print_ply(const Cloud& cloud, const std::vector<PlaneObservation>& found) {
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
       "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty int plane\n"

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "geom/arrays.hpp"
 #include "host/frame_builder.hpp"
 #include "import/point_collector.hpp"
 
@@ -22,17 +23,13 @@ std::vector<host::SensorInfo> sensors() {
   return {sensor};
 }
 
-Vec3 to_vec3(const double (&numbers)[3]) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-FoundPlane copy_plane(const host::PlaneList& list, const hw_plane_t& plane) {
-  FoundPlane copy{.id = plane.id,
-                  .plane = {to_vec3(plane.normal), plane.offset_m},
-                  .centroid = to_vec3(plane.centroid),
-                  .points = plane.n_points,
-                  .rms = plane.rms_m,
-                  .exclusive_share = plane.exclusive_share};
+PlaneObservation copy_plane(const host::PlaneList& list, const hw_plane_t& plane) {
+  PlaneObservation copy{.id = plane.id,
+                        .plane = {to_vec3(plane.normal), plane.offset_m},
+                        .centroid = to_vec3(plane.centroid),
+                        .points = plane.n_points,
+                        .rms = plane.rms_m,
+                        .exclusive_share = plane.exclusive_share};
   for (std::size_t i = 0; i < copy.corners.size(); ++i) copy.corners[i] = to_vec3(plane.corners[i]);
   for (const hw_point3_t& point : list.hull_of(plane)) copy.hull.emplace_back(point.x, point.y, point.z);
   const auto members = list.members_of(plane);
@@ -40,8 +37,8 @@ FoundPlane copy_plane(const host::PlaneList& list, const hw_plane_t& plane) {
   return copy;
 }
 
-std::vector<FoundPlane> copy_planes(const host::Outputs& outputs) {
-  std::vector<FoundPlane> planes;
+std::vector<PlaneObservation> copy_planes(const host::Outputs& outputs) {
+  std::vector<PlaneObservation> planes;
   if (const auto list = outputs.planes(0)) {
     for (const hw_plane_t& plane : list->planes) planes.push_back(copy_plane(*list, plane));
   }

@@ -13,7 +13,7 @@ namespace hallway::planes {
 
 /// What a plugin made of a cloud.
 struct Answer {
-  std::vector<FoundPlane> planes{};
+  std::vector<PlaneObservation> planes{};
   double ms = 0.0;      ///< wall clock, the plugin's call alone; the median of the calls
   double cpu_ms = 0.0;  ///< the same of the calling thread's CPU time
 };

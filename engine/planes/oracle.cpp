@@ -80,14 +80,14 @@ bool tells_rectangles(const Truth& truth) {
 
 }  // namespace
 
-std::vector<FoundPlane> answer_knowing(const std::vector<Vec3>& points, const Truth& truth) {
+std::vector<PlaneObservation> answer_knowing(const std::vector<Vec3>& points, const Truth& truth) {
   if (!tells_rectangles(truth) || points.empty()) return {};
   const Overlap sizes = overlap_of(truth, {});
   std::vector<Source> sources;
   for (std::size_t j = 0; j < truth.planes.size(); ++j)
     sources.push_back(source_of(truth.planes[j], static_cast<double>(sizes.truth_sizes[j]), truth.noise));
   const double none = log_outliers(points, sizes.outliers);
-  std::vector<FoundPlane> found(sources.size());
+  std::vector<PlaneObservation> found(sources.size());
   std::vector<std::vector<Vec3>> own(sources.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t j = source_of_point(sources, points[i], none);

@@ -11,7 +11,7 @@ namespace hallway::planes {
 /// likely (or to none), by the rectangles, the noise, the numbers of points and that of outliers. Holes are
 /// not known to it. Planes are fitted to the points that they are given. Empty where the truth does not tell
 /// rectangles and noise. O(points x planes).
-std::vector<FoundPlane> answer_knowing(const std::vector<Vec3>& points, const Truth& truth);
+std::vector<PlaneObservation> answer_knowing(const std::vector<Vec3>& points, const Truth& truth);
 
 /// Counts apart, for each IoU, the planes that `knowing`, the score of answer_knowing() on the same truth,
 /// does not get right: sets Score::decidable of `score`.

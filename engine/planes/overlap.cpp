@@ -24,7 +24,7 @@ std::vector<std::size_t> places_of_points(const Truth& truth) {
 
 }  // namespace
 
-Overlap overlap_of(const Truth& truth, const std::vector<FoundPlane>& found) {
+Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& found) {
   const std::vector<std::size_t> places = places_of_points(truth);
   std::vector<bool> assigned(places.size(), false);
   Overlap overlap;

@@ -37,6 +37,6 @@ struct Overlap {
 };
 
 /// Counts. A label without a plane counts as an outlier. O(members log members).
-Overlap overlap_of(const Truth& truth, const std::vector<FoundPlane>& found);
+Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& found);
 
 }  // namespace hallway::planes

@@ -53,7 +53,7 @@ Picture picture_of(const std::vector<Vec3>& points, const Layer& layer) {
   return picture;
 }
 
-std::vector<std::size_t> found_of_points(std::size_t points, const std::vector<FoundPlane>& found) {
+std::vector<std::size_t> found_of_points(std::size_t points, const std::vector<PlaneObservation>& found) {
   std::vector<std::size_t> places;
   for (const std::int64_t plane : plane_of_points(points, found))
     places.push_back(plane < 0 ? kNone : static_cast<std::size_t>(plane));

@@ -22,7 +22,7 @@ struct PictureSize {
 /// What a picture shows.
 struct PictureContent {
   const std::vector<Vec3>& points;
-  const std::vector<FoundPlane>& found;
+  const std::vector<PlaneObservation>& found;
   std::string title{};
   std::string subtitle{};
 };

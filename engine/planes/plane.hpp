@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "geom/plane.hpp"
+#include "geom/plane_observation.hpp"
 
 namespace hallway::planes {
 
@@ -18,19 +18,6 @@ inline constexpr std::int64_t kNoLabel = -1;
 
 /// A rectangle in space, counter-clockwise seen from where its plane's normal points.
 using Corners = std::array<Vec3, 4>;
-
-/// A plane that a plugin found, in the cloud's frame and unit.
-struct FoundPlane {
-  std::uint64_t id = 0;
-  Plane plane{};  ///< normal towards the origin
-  Vec3 centroid = Vec3::Zero();
-  Corners corners{};
-  std::vector<Vec3> hull{};           ///< empty where the plugin does not tell it
-  std::vector<PointIndex> members{};  ///< ascending; empty where the plugin does not tell them
-  std::uint64_t points = 0;           ///< how many it was made from
-  double rms = 0.0;
-  double exclusive_share = 0.0;
-};
 
 /// A plane that is known to be there.
 struct TruePlane {

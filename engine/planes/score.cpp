@@ -49,7 +49,7 @@ std::vector<Vec3> middles(const std::vector<Vec3>& points, const Truth& truth) {
 
 class Judge {
  public:
-  Judge(const std::vector<Vec3>& points, const Truth& truth, const std::vector<FoundPlane>& found)
+  Judge(const std::vector<Vec3>& points, const Truth& truth, const std::vector<PlaneObservation>& found)
       : truth_(truth),
         found_(found),
         overlap_(overlap_of(truth, found)),
@@ -215,7 +215,7 @@ class Judge {
   }
 
   const Truth& truth_;
-  const std::vector<FoundPlane>& found_;
+  const std::vector<PlaneObservation>& found_;
   const Overlap overlap_;
   const std::vector<Vec3> middles_;
   const std::vector<bool> apart_;
@@ -253,7 +253,7 @@ std::vector<bool> counted_apart(const Truth& truth) {
 }
 
 Score score_planes(const std::vector<Vec3>& points, const Truth& truth,
-                   const std::vector<FoundPlane>& found) {
+                   const std::vector<PlaneObservation>& found) {
   return Judge(points, truth, found).judge();
 }
 

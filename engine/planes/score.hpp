@@ -65,7 +65,8 @@ struct Score {
 };
 
 /// Scores what was found in a cloud. Members are places in Truth::labels. O(members log members).
-Score score_planes(const std::vector<Vec3>& points, const Truth& truth, const std::vector<FoundPlane>& found);
+Score score_planes(const std::vector<Vec3>& points, const Truth& truth,
+                   const std::vector<PlaneObservation>& found);
 
 /// For each true plane whether it is counted apart: it has fewer than 20 points, or a nearly parallel one (within 10 degrees) is nearer than 5 times the noise.
 std::vector<bool> counted_apart(const Truth& truth);

@@ -2,7 +2,7 @@
 #include "record/answer_recorder.hpp"
 
 #include "host/frame_bytes.hpp"
-#include "record/plane_answers.hpp"
+#include "record/plane_observations.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
 
@@ -75,7 +75,7 @@ void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
   if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
   if (const auto& command = outputs.drive_command())
     writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});
-  if (const auto planes = outputs.planes(0)) writer_.add_planes(stamp_, plane_answers(*planes));
+  if (const auto planes = outputs.planes(0)) writer_.add_planes(stamp_, plane_observations(*planes));
 }
 
 void AnswerRecorder::record_map(const FinalMap& map) {

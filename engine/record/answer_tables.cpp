@@ -6,7 +6,7 @@
 #include "log/timing.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
-#include "record/plane_answers.hpp"
+#include "record/plane_observations.hpp"
 
 namespace hallway::record {
 
@@ -51,7 +51,7 @@ void AnswerTables::add_pose(std::uint32_t iteration, std::int64_t t_ns, const ho
 void AnswerTables::add_planes(std::uint32_t iteration, const host::PlaneList& list) {
   if (!planes_) planes_.emplace(folder_ / files::kPlanes, ',', log::kPlaneColumns);
   for (const hw_plane_t& plane : list.planes)
-    log::add_row(planes_->next_row(), log::IterationPlane{iteration, plane_row(plane)});
+    log::add_row(planes_->next_row(), log::IterationPlane{iteration, plane_observation(plane)});
 }
 
 void AnswerTables::close() {

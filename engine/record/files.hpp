@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "log/plane_names.hpp"
+
 /// The names of the files of a run folder.
 namespace hallway::record::files {
 
@@ -13,7 +15,7 @@ inline constexpr const char* kObservedPlanes = "observed_planes.csv";
 inline constexpr const char* kLog = "run.mcap";
 inline constexpr const char* kTruePoses = "truth_poses.csv";
 inline constexpr const char* kTrueLandmarks = "truth_landmarks.csv";
-inline constexpr const char* kTrueWalls = "true_walls.csv";
+inline constexpr const char* kTruePlanes = log::plane_names::kTruePlanesFile;
 inline constexpr const char* kTrueTrajectory = "truth.tum";
 inline constexpr const char* kTrajectory = "trajectory.tum";
 inline constexpr const char* kMapEpochs = "map_epochs.csv";

@@ -2,7 +2,7 @@
 #include "record/final_map.hpp"
 
 #include "record/files.hpp"
-#include "record/plane_answers.hpp"
+#include "record/plane_observations.hpp"
 
 namespace hallway::record {
 namespace {
@@ -26,12 +26,12 @@ std::optional<std::array<double, 6>> covariance_of(std::span<const host::Landmar
   return covariances[landmark];
 }
 
-log::MappedPlane copy_plane(const host::MappedPlaneList& list, const hw_mapped_plane_t& plane) {
-  log::MappedPlane copy{.id = plane.id,
-                        .observations = plane.observations,
-                        .status = status_of(plane.status),
-                        .normal = three(plane.normal),
-                        .offset_m = plane.offset_m};
+log::PlaneLandmark copy_plane(const host::PlaneLandmarkList& list, const hw_mapped_plane_t& plane) {
+  log::PlaneLandmark copy{.id = plane.id,
+                          .observations = plane.observations,
+                          .status = status_of(plane.status),
+                          .normal = three(plane.normal),
+                          .offset_m = plane.offset_m};
   for (const hw_mapped_corner_t& corner : list.outline(plane))
     copy.outline.push_back({three(corner.position), (corner.flags & HW_EDGE_CERTAIN) != 0});
   return copy;
@@ -58,7 +58,7 @@ FinalMap copy_map(const host::Outputs* report) {
                              .status = status_of(landmark.status),
                              .covariance = covariance_of(covariances, i)});
   }
-  const host::MappedPlaneList& planes = report->mapped_planes();
+  const host::PlaneLandmarkList& planes = report->plane_landmarks();
   for (const hw_mapped_plane_t& plane : planes.planes()) map.planes.push_back(copy_plane(planes, plane));
   for (const hw_submap_t& submap : report->submaps()) {
     map.submaps.push_back(copy_pose(submap));
@@ -75,7 +75,7 @@ void write_map(const std::filesystem::path& folder, const FinalMap& map) {
   log::write_landmarks_ply(folder / files::kLandmarksPly, map.landmarks);
   log::write_id_pairs(folder / files::kSubmaps, map.submap_members, log::kSubmapColumns);
   if (!map.submaps.empty()) log::write_submap_poses(folder / files::kSubmapPoses, map.submaps);
-  if (!map.planes.empty()) log::write_mapped_planes(folder / files::kMappedPlanes, map.planes);
+  if (!map.planes.empty()) log::write_plane_landmarks(folder / files::kMappedPlanes, map.planes);
 }
 
 }  // namespace hallway::record

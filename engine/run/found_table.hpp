@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "log/planes.hpp"
+#include "log/plane_observations.hpp"
 #include "log/row_file.hpp"
 #include "record/files.hpp"
-#include "record/plane_answers.hpp"
+#include "record/plane_observations.hpp"
 #include "run/frame_feed.hpp"
 
 namespace hallway::run {
@@ -36,7 +36,7 @@ class FoundTable {
  private:
   void add_row(std::uint32_t iteration, const hw_plane_t& plane) {
     if (!rows_) rows_.emplace(file_, ',', log::kPlaneColumns);
-    log::add_row(rows_->next_row(), log::IterationPlane{iteration, record::plane_row(plane)});
+    log::add_row(rows_->next_row(), log::IterationPlane{iteration, record::plane_observation(plane)});
   }
 
   std::filesystem::path file_;

@@ -5,6 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "geom/arrays.hpp"
+
 namespace hallway::run {
 namespace {
 
@@ -14,18 +16,18 @@ void copy(const std::array<double, 3>& from, double (&to)[3]) {
   std::copy(from.begin(), from.end(), to);
 }
 
-void add_planes(host::FrameBuilder& builder, std::span<const log::ObservedPlane> planes) {
-  host::FrameBuilder::PlaneReading& reading = builder.add_planes(kSensorId);
-  for (const log::ObservedPlane& seen : planes) {
+void add_planes(host::FrameBuilder& builder, std::span<const log::PlaneObservation> planes) {
+  host::FrameBuilder::Planes& reading = builder.add_planes(kSensorId);
+  for (const log::PlaneObservation& seen : planes) {
     hw_plane_t& plane = reading.planes.emplace_back();
-    plane.id = seen.plane.id;
-    copy(seen.plane.normal, plane.normal);
-    plane.offset_m = seen.plane.offset_m;
-    copy(seen.plane.centroid_m, plane.centroid);
-    for (std::size_t i = 0; i < 4; ++i) copy(seen.plane.corners_m[i], plane.corners[i]);
-    plane.n_points = seen.plane.points;
-    plane.rms_m = seen.plane.rms_m;
-    plane.exclusive_share = seen.plane.exclusive_share;
+    plane.id = seen.id;
+    copy(seen.normal, plane.normal);
+    plane.offset_m = seen.offset_m;
+    copy(seen.centroid_m, plane.centroid);
+    for (std::size_t i = 0; i < 4; ++i) copy(seen.corners_m[i], plane.corners[i]);
+    plane.n_points = seen.points;
+    plane.rms_m = seen.rms_m;
+    plane.exclusive_share = seen.exclusive_share;
     plane.first_hull = seen.hull_m.empty() ? 0 : reading.hull_points.size();
     plane.n_hull = seen.hull_m.size();
     for (const auto& point : seen.hull_m) reading.hull_points.push_back({point[0], point[1], point[2]});
@@ -60,7 +62,7 @@ LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
                          .has_identities = source.has_identities()}),
       source_(source) {
   if (source.true_landmarks()) recorder_.writer().add_true_landmarks(*source.true_landmarks());
-  if (source.true_walls()) recorder_.writer().add_true_walls(*source.true_walls());
+  if (source.true_planes()) recorder_.writer().add_true_planes(*source.true_planes());
 }
 
 void LogRecorder::add_view(bool has_answers) {
@@ -82,8 +84,8 @@ void LogRecorder::record_input(const hw_frame_t& given, const SourceFrame& truth
   if (!truth.T_world_body) return;
   const Pose& pose = *truth.T_world_body;
   const log::IterationPose true_pose{.iteration = stamp.iteration,
-                                     .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
-                                     .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()},
+                                     .position_m = to_array(pose.t),
+                                     .orientation = to_array(pose.q),
                                      .orientation_known = truth.orientation_known};
   writer.add_true_pose(stamp, true_pose);
   if (view_) view_->add_true_pose(stamp, true_pose);

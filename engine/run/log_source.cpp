@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "geom/arrays.hpp"
 #include "host/frame_builder.hpp"
 #include "host/plane_lists.hpp"
 #include "host/strided.hpp"
@@ -24,7 +25,7 @@ LogSource::LogSource(log::ObservationLog observations, LogTruth truth, host::Sen
   count_iterations(observations_.iterations(), steps);
 }
 
-LogSource::LogSource(log::ObservedPlaneLog planes, LogTruth truth, host::SensorInfo sensor,
+LogSource::LogSource(log::PlaneObservationLog planes, LogTruth truth, host::SensorInfo sensor,
                      std::int64_t period_ns, std::uint32_t steps)
     : planes_(std::move(planes)),
       truth_(std::move(truth)),
@@ -75,11 +76,8 @@ void LogSource::read(std::uint32_t iteration, SourceFrame& frame) {
       std::lower_bound(truth_.poses->begin(), truth_.poses->end(), iteration,
                        [](const log::IterationPose& a, std::uint32_t b) { return a.iteration < b; });
   if (pose == truth_.poses->end() || pose->iteration != iteration) return;
-  const auto& q = pose->orientation;
-  const auto& t = pose->position_m;
   frame.orientation_known = pose->orientation_known;
-  // As it was read: normalised again it might differ in its last bit, and be written as another pose.
-  frame.T_world_body = Pose{Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+  frame.T_world_body = to_pose(pose->position_m, pose->orientation);
 }
 
 }  // namespace hallway::run

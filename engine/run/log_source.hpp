@@ -10,7 +10,7 @@ namespace hallway::run {
 struct LogTruth {
   std::optional<std::vector<log::IterationPose>> poses;  ///< T_world_body
   std::optional<std::vector<log::Landmark>> landmarks;   ///< world
-  std::optional<std::vector<log::TrueWall>> walls;       ///< world
+  std::optional<std::vector<log::TruePlane>> planes;     ///< world
 };
 
 /// The frames of a recorded log.
@@ -21,7 +21,7 @@ class LogSource : public Source {
   LogSource(log::ObservationLog observations, LogTruth truth, host::SensorInfo sensor, std::int64_t period_ns,
             std::uint32_t steps);
   /// Of a sensor that gives planes. Throws Error{kBadInput} naming the iteration of planes that are not as <hallway/planes.h> says.
-  LogSource(log::ObservedPlaneLog planes, LogTruth truth, host::SensorInfo sensor, std::int64_t period_ns,
+  LogSource(log::PlaneObservationLog planes, LogTruth truth, host::SensorInfo sensor, std::int64_t period_ns,
             std::uint32_t steps);
 
   std::uint32_t iterations() const override { return iterations_; }
@@ -34,7 +34,7 @@ class LogSource : public Source {
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return truth_.landmarks;
   }
-  const std::optional<std::vector<log::TrueWall>>& true_walls() const override { return truth_.walls; }
+  const std::optional<std::vector<log::TruePlane>>& true_planes() const override { return truth_.planes; }
 
  private:
   bool is_of_planes() const { return sensor_.kind == HW_SAMPLE_PLANES; }
@@ -42,7 +42,7 @@ class LogSource : public Source {
   void check_planes();
 
   log::ObservationLog observations_;  ///< of a sensor that gives points
-  log::ObservedPlaneLog planes_;      ///< of one that gives planes
+  log::PlaneObservationLog planes_;   ///< of one that gives planes
   LogTruth truth_;
   host::SensorInfo sensor_;
   std::int64_t period_ns_;

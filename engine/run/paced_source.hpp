@@ -27,8 +27,8 @@ class PacedSource : public Source {
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return source_.true_landmarks();
   }
-  const std::optional<std::vector<log::TrueWall>>& true_walls() const override {
-    return source_.true_walls();
+  const std::optional<std::vector<log::TruePlane>>& true_planes() const override {
+    return source_.true_planes();
   }
 
  private:

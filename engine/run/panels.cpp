@@ -11,7 +11,7 @@
 
 #include "base/file.hpp"
 #include "log/observations.hpp"
-#include "log/planes.hpp"
+#include "log/plane_observations.hpp"
 #include "log/poses.hpp"
 #include "record/sensor_json.hpp"
 #include "render/colour.hpp"
@@ -19,7 +19,7 @@
 #include "run/abi_pose.hpp"
 #include "run/paste.hpp"
 #include "run/pictures.hpp"
-#include "run/wall_layers.hpp"
+#include "run/plane_layers.hpp"
 
 namespace hallway::run {
 namespace {
@@ -96,12 +96,12 @@ sim::PictureSpec layers(std::vector<PictureLayer> show) {
   return spec;
 }
 
-/// A panel with the true walls, which all four have, so that they show the same part of the world.
+/// A panel with the true planes, which all four have, so that they show the same part of the world.
 render::Picture panel(const Record& record, std::string title, std::string subtitle) {
   render::Picture picture;
   picture.title = std::move(title);
   picture.subtitle = std::move(subtitle);
-  add_walls(picture, record, layers({PictureLayer::kTruth}), Pose());
+  add_planes(picture, record, layers({PictureLayer::kTruth}), Pose());
   return picture;
 }
 
@@ -133,9 +133,9 @@ render::Picture planes_panel(const Record& record, const Moment& moment) {
 
 render::Image draw_panels(const Record& record, const sim::PictureSpec& spec, render::Renderer renderer) {
   const Moment moment = read_moment(record);
-  sim::PictureSpec plain = layers({PictureLayer::kTruth, PictureLayer::kEstimate, PictureLayer::kWalls});
+  sim::PictureSpec plain = layers({PictureLayer::kTruth, PictureLayer::kEstimate, PictureLayer::kPlanes});
   render::Picture truth_and_map = compose_picture(record, plain);
-  render::Picture map = compose_picture(record, layers({PictureLayer::kWalls, PictureLayer::kSubmaps}));
+  render::Picture map = compose_picture(record, layers({PictureLayer::kPlanes, PictureLayer::kSubmaps}));
   map.title = "the map and its submaps";
   map.subtitle.clear();
   const render::Picture panels[] = {std::move(truth_and_map), points_panel(record, moment),

@@ -76,14 +76,14 @@ void cut_line(const Box& frame, render::Polyline& line) {
 Box frame_of(const Record& record, const std::vector<render::Surface>& surfaces) {
   Box frame;
   for (const log::StampedPose& pose : record.truth) frame.extend(Vec3(pose.position_m.data()));
-  const bool path_alone = surfaces.empty() && record.true_landmarks.empty() && record.true_walls.empty();
+  const bool path_alone = surfaces.empty() && record.true_landmarks.empty() && record.true_planes.empty();
   if (path_alone && !frame.isEmpty()) {
     const Vec3 around = Vec3::Constant(range_of(record).value_or(frame.diagonal().norm() + 1.0));
     frame = Box(frame.min() - around, frame.max() + around);
   }
   for (const log::Landmark& landmark : record.true_landmarks) frame.extend(Vec3(landmark.position_m.data()));
-  for (const log::TrueWall& wall : record.true_walls) {
-    for (const auto& corner : wall.corners_m) frame.extend(Vec3(corner.data()));
+  for (const log::TruePlane& plane : record.true_planes) {
+    for (const auto& corner : plane.corners_m) frame.extend(Vec3(corner.data()));
   }
   if (frame.isEmpty()) return frame;
   for (const render::Surface& surface : surfaces) {

@@ -11,7 +11,7 @@
 namespace hallway::run {
 
 /// The part of the world that pictures of a run show: the surfaces of the map and what is true in it, with a margin. Where there are neither surfaces nor true landmarks or
-/// walls, as far around the true path as the sensor sees. Empty where nothing is true: then nothing is cut off.
+/// planes, as far around the true path as the sensor sees. Empty where nothing is true: then nothing is cut off.
 Box frame_of(const Record& record, const std::vector<render::Surface>& surfaces);
 
 /// The crop of a top view that shows a frame in a map area, whatever else is in the picture. The frame must not be empty.

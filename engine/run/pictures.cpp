@@ -17,7 +17,7 @@
 #include "run/landmark_layers.hpp"
 #include "run/panels.hpp"
 #include "run/picture_frame.hpp"
-#include "run/wall_layers.hpp"
+#include "run/plane_layers.hpp"
 
 namespace hallway::run {
 namespace {
@@ -232,7 +232,7 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   }
   const Pose T_world_path = path_place(record);
   const Pose T_world_map = map_place(record);
-  add_walls(picture, record, spec, T_world_map);
+  add_planes(picture, record, spec, T_world_map);
   if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, T_world_path);
   add_landmarks(picture, record, spec, T_world_map, error_scale);
   add_paths(picture, record, spec, T_world_path);

@@ -10,6 +10,7 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "eval/plane_score.hpp"
+#include "geom/arrays.hpp"
 #include "geometry/rigid_fit.hpp"
 #include "map/reader.hpp"
 #include "record/epoch_table.hpp"
@@ -40,13 +41,9 @@ auto read_if_there(const fs::path& path, Read read) -> decltype(read(path)) {
   return read(path);
 }
 
-Vec3 vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 Pose pose_of(const log::StampedPose& pose) {
   const auto& q = pose.orientation;
-  return {Quat(q[0], q[1], q[2], q[3]).normalized(), vector_of(pose.position_m)};
+  return {Quat(q[0], q[1], q[2], q[3]).normalized(), to_vec3(pose.position_m)};
 }
 
 /// What every folder of the command that wrote it has must be there: a robot program knows no truth to score by, and who serves one gets no map of it.
@@ -85,8 +82,8 @@ Record read_record(const fs::path& folder) {
   read_answers(folder, record);
   record.truth = read_if_there(folder / files::kTrueTrajectory, log::read_tum);
   record.true_landmarks = read_if_there(folder / files::kTrueLandmarks, log::read_landmarks);
-  record.true_walls = read_if_there(folder / files::kTrueWalls, log::read_true_walls);
-  record.planes = read_if_there(folder / files::kMappedPlanes, log::read_mapped_planes);
+  record.true_planes = read_if_there(folder / files::kTruePlanes, log::read_true_planes);
+  record.planes = read_if_there(folder / files::kMappedPlanes, log::read_plane_landmarks);
   record.submap_poses = read_if_there(folder / files::kSubmapPoses, log::read_submap_poses);
   record.matches = read_if_there(folder / files::kMatches, [](const fs::path& path) {
     return log::read_id_pairs(path, log::kMatchColumns);
@@ -110,7 +107,7 @@ Record read_record(const fs::path& folder) {
 std::optional<Pose> align_landmarks(const Record& record) {
   std::unordered_map<log::LandmarkId, Vec3> truth;
   for (const log::Landmark& landmark : record.true_landmarks)
-    truth[landmark.id] = vector_of(landmark.position_m);
+    truth[landmark.id] = to_vec3(landmark.position_m);
   std::unordered_map<log::LandmarkId, log::LandmarkId> owner;
   for (const log::IdPair& match : record.matches) owner[match.first] = match.second;
   std::vector<Vec3> from;
@@ -120,7 +117,7 @@ std::optional<Pose> align_landmarks(const Record& record) {
     if (landmark.status != log::LandmarkStatus::kMapped || match == owner.end()) continue;
     const auto true_position = truth.find(match->second);
     if (true_position == truth.end()) continue;
-    from.push_back(vector_of(landmark.position_m));
+    from.push_back(to_vec3(landmark.position_m));
     to.push_back(true_position->second);
   }
   if (from.size() < kPairsForFit) return std::nullopt;
@@ -135,18 +132,19 @@ std::optional<Pose> align_path(const Record& record) {
     while (estimate != record.trajectory.end() && estimate->t_s < pose.t_s) ++estimate;
     if (estimate == record.trajectory.end()) break;
     if (estimate->t_s != pose.t_s) continue;
-    from.push_back(vector_of(estimate->position_m));
-    to.push_back(vector_of(pose.position_m));
+    from.push_back(to_vec3(estimate->position_m));
+    to.push_back(to_vec3(pose.position_m));
   }
   if (from.size() < kPairsForFit) return std::nullopt;
   return rigid_fit(from, to);
 }
 
 std::optional<Pose> align_planes(const Record& record) {
-  if (record.planes.empty() || record.true_walls.empty()) return std::nullopt;
-  eval::PlaneScore score(record.true_walls);
+  if (record.planes.empty() || record.true_planes.empty()) return std::nullopt;
+  eval::PlaneScore score(record.true_planes);
   for (const log::IdPair& match : record.matches)
-    score.add(std::array{eval::GivenPlane{.wall = match.second, .taken_for = match.first}}, std::nullopt, {});
+    score.add(std::array{eval::AssociatedPlane{.true_plane = match.second, .landmark = match.first}},
+              std::nullopt, {});
   if (!record.trajectory.empty()) {
     const log::StampedPose& first = record.trajectory.front();
     const auto truth = std::find_if(record.truth.begin(), record.truth.end(),

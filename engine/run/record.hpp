@@ -11,9 +11,9 @@
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
-#include "log/mapped_planes.hpp"
+#include "log/plane_landmarks.hpp"
 #include "log/submap_poses.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
 #include "render/picture.hpp"
@@ -35,9 +35,9 @@ struct Record {
   std::size_t poses_in_other_parts = 0;  ///< left out of `trajectory`: they are in other frames of reference
   std::vector<log::Landmark> true_landmarks;  ///< world
   std::vector<log::MapLandmark> landmarks;    ///< map frame
-  std::vector<log::TrueWall> true_walls;      ///< world
-  std::vector<log::MappedPlane> planes;       ///< map frame
-  std::vector<log::IdPair> matches;           ///< landmark or plane, true landmark or wall
+  std::vector<log::TruePlane> true_planes;    ///< world
+  std::vector<log::PlaneLandmark> planes;     ///< map frame
+  std::vector<log::IdPair> matches;           ///< landmark or plane, true landmark or plane
   std::vector<log::IdPair> submaps;           ///< submap, landmark or plane
   std::vector<log::SubmapPose> submap_poses;  ///< T_map_submap
 };
@@ -55,7 +55,7 @@ Record read_record(const std::filesystem::path& folder);
 /// are known.
 std::optional<Pose> align_landmarks(const Record& record);
 
-/// T_world_map by the mapped planes, as PlaneScore::alignment() has it; empty where none were mapped or no true walls are known.
+/// T_world_map by the mapped planes, as PlaneScore::alignment() has it; empty where none were mapped or no true planes are known.
 std::optional<Pose> align_planes(const Record& record);
 
 /// T_world_map by the best rigid fit of the estimated positions to the true ones of the same time; empty if fewer than

@@ -9,10 +9,11 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "geom/arrays.hpp"
 #include "host/frame_bytes.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
-#include "record/plane_answers.hpp"
+#include "record/plane_observations.hpp"
 #include "record/sensor_json.hpp"
 
 namespace hallway::run {
@@ -58,14 +59,11 @@ class Collector {
       bad("the activation: " + printable(failure.what()));
     }
   }
-  void operator()(const log::TruePoseMessage& message) {
-    SourceFrame* frame = frame_of(message.pose.iteration);
+  void operator()(const log::IterationPose& pose) {
+    SourceFrame* frame = frame_of(pose.iteration);
     if (frame == nullptr) return;
-    const auto& q = message.pose.orientation;
-    const auto& t = message.pose.position_m;
-    frame->orientation_known = message.pose.orientation_known;
-    // As it was read: normalised again it might differ in its last bit.
-    frame->T_world_body = Pose{Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
+    frame->orientation_known = pose.orientation_known;
+    frame->T_world_body = to_pose(pose.position_m, pose.orientation);
   }
   void operator()(const log::IdentitiesMessage& message) {
     SourceFrame* frame = frame_of(message.iteration);
@@ -76,11 +74,11 @@ class Collector {
                       frame->is_of_planes ? "planes" : "points"));
     }
     for (std::size_t i = 0; i < seen; ++i) {
-      (frame->is_of_planes ? frame->planes[i].wall : frame->observations[i].landmark) = message.ids[i];
+      (frame->is_of_planes ? frame->planes[i].true_plane : frame->observations[i].landmark) = message.ids[i];
     }
   }
-  void operator()(log::TrueLandmarksMessage&& message) { run_.true_landmarks = std::move(message.landmarks); }
-  void operator()(log::TrueWallsMessage&& message) { run_.true_walls = std::move(message.walls); }
+  void operator()(std::vector<log::Landmark>&& landmarks) { run_.true_landmarks = std::move(landmarks); }
+  void operator()(std::vector<log::TruePlane>&& planes) { run_.true_planes = std::move(planes); }
 
  private:
   static Json parse_json(const std::string& text, const char* what) {
@@ -135,17 +133,8 @@ class Collector {
     if (planes.sample != HW_NO_SAMPLE)
       bad(fmt::format("frame {} has planes that were found in another reading", frame.sequence));
     copy.planes.reserve(planes.count);
-    for (std::uint64_t i = 0; i < planes.count; ++i) {
-      const hw_plane_t& plane = *hw_plane_at(&planes, i);
-      log::ObservedPlane& seen = copy.planes.emplace_back();
-      seen.plane = record::plane_row(plane);
-      for (std::uint64_t k = 0; k < plane.n_hull; ++k) {
-        const auto* at =
-            static_cast<const char*>(planes.hull_points) + (plane.first_hull + k) * planes.hull_stride;
-        const auto& point = *static_cast<const hw_point3_t*>(static_cast<const void*>(at));
-        seen.hull_m.push_back({point.x, point.y, point.z});
-      }
-    }
+    for (std::uint64_t i = 0; i < planes.count; ++i)
+      copy.planes.push_back(record::plane_observation(planes, i));
   }
 
   /// Null for what belongs to no frame: it may have been cut off.

@@ -19,7 +19,7 @@ struct RecordedRun {
   bool has_tracks = false;
   std::vector<SourceFrame> frames;
   std::optional<std::vector<log::Landmark>> true_landmarks;
-  std::optional<std::vector<log::TrueWall>> true_walls;
+  std::optional<std::vector<log::TruePlane>> true_planes;
   std::optional<log::McapDamage> damage;  ///< where reading stopped; what stands before it is here
 };
 
@@ -42,7 +42,7 @@ class RecordedSource : public Source {
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
     return run_.true_landmarks;
   }
-  const std::optional<std::vector<log::TrueWall>>& true_walls() const override { return run_.true_walls; }
+  const std::optional<std::vector<log::TruePlane>>& true_planes() const override { return run_.true_planes; }
 
  private:
   RecordedRun run_;

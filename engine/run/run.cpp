@@ -28,11 +28,11 @@
 #include "run/manifest.hpp"
 #include "run/map_epoch.hpp"
 #include "run/pictures.hpp"
+#include "run/plane_truth.hpp"
 #include "run/record.hpp"
 #include "run/run_files.hpp"
 #include "run/truth_of.hpp"
 #include "run/truth_tables.hpp"
-#include "run/wall_sight.hpp"
 
 namespace hallway::run {
 namespace {
@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 /// Everything that is collected while a run goes on and written at its end.
 struct Collected {
   log::ObservationLog observations{true};
-  log::ObservedPlaneLog planes{true};
+  log::PlaneObservationLog planes{true};
   TruthTables truth;
 };
 
@@ -60,7 +60,7 @@ class Tally {
         keep_observations_(keep_observations),
         T_body_sensor_(pose_of(source.sensor().T_body_sensor)),
         evaluator_(truth_for(source, maps_planes)) {
-    if (evaluator_.planes() != nullptr) wall_sight_.emplace(source);
+    if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
   }
 
   /// @param map_epoch  the part of the map that the answer's pose is in
@@ -80,15 +80,15 @@ class Tally {
                               .associations = associations(answer),
                               .identities = identities_,
                               .points = points_,
-                              .given_planes = {},
-                              .wall_places = {},
+                              .planes = {},
+                              .true_plane_points = {},
                               .wall_ms = {},
                               .cpu_ms = {}};
     if (answer.outputs != nullptr) add_answer(answer, iteration);
-    if (wall_sight_) {
-      wall_sight_->read(answer);
-      iteration.given_planes = wall_sight_->given();
-      iteration.wall_places = wall_sight_->places();
+    if (plane_truth_) {
+      plane_truth_->read(answer);
+      iteration.planes = plane_truth_->planes();
+      iteration.true_plane_points = plane_truth_->points();
     }
     evaluator_.add(iteration);
     keep_truth(answer.iteration, frame);
@@ -102,7 +102,7 @@ class Tally {
  private:
   static eval::Truth truth_for(const Source& source, bool maps_planes) {
     eval::Truth truth = truth_of(source);
-    if (!maps_planes) truth.walls.reset();
+    if (!maps_planes) truth.planes.reset();
     return truth;
   }
 
@@ -137,7 +137,7 @@ class Tally {
   bool keep_observations_;
   Pose T_body_sensor_;
   eval::Evaluator evaluator_;
-  std::optional<WallSight> wall_sight_;  ///< where maps of planes are scored
+  std::optional<PlaneTruth> plane_truth_;  ///< where maps of planes are scored
   std::vector<log::LandmarkId> identities_;
   std::vector<log::LandmarkId> none_;
   std::vector<Vec3> points_;  ///< body frame

@@ -20,7 +20,7 @@ eval::Truth path_truth(const Source& source) {
   eval::Truth truth = truth_of(source);
   truth.has_identities = false;
   truth.landmarks.reset();
-  truth.walls.reset();
+  truth.planes.reset();
   return truth;
 }
 

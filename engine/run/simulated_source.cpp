@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "geom/arrays.hpp"
 #include "run/abi_pose.hpp"
 
 namespace hallway::run {
@@ -38,9 +39,8 @@ void SimulatedSource::take(const sense::PointSensorSpec& spec) {
   landmarks_.emplace();
   for (const Vec3& place : simulator_.landmarks()) {
     const auto id = static_cast<std::uint32_t>(landmarks_->size());
-    landmarks_->push_back({.id = id,
-                           .position_m = {place.x(), place.y(), place.z()},
-                           .moving = simulator_.moving_landmarks().moves(id)});
+    landmarks_->push_back(
+        {.id = id, .position_m = to_array(place), .moving = simulator_.moving_landmarks().moves(id)});
   }
 }
 
@@ -63,29 +63,25 @@ void SimulatedSource::take(const sense::PlaneSensorSpec& spec) {
 }
 
 void SimulatedSource::add_walls() {
-  if (walls_) return;
+  if (true_planes_) return;
   const double height_m = (simulator_.pose_at(0) * pose_of(sensor_.T_body_sensor)).t.z();
   set_walls(simulator_.walls_at(height_m));
 }
 
 void SimulatedSource::set_walls(const sense::WallPlan& plan) {
-  walls_.emplace();
+  true_planes_.emplace();
   for (const sense::Wall& wall : plan.walls) {
     const Vec2 &l = wall.left, &r = wall.right;
-    walls_->push_back({.id = walls_->size(),
-                       .corners_m = {{{l.x(), l.y(), wall.low_m},
-                                      {r.x(), r.y(), wall.low_m},
-                                      {r.x(), r.y(), wall.high_m},
-                                      {l.x(), l.y(), wall.high_m}}},
-                       .hull_m = {}});
+    true_planes_->push_back({.id = true_planes_->size(),
+                             .corners_m = {{{l.x(), l.y(), wall.low_m},
+                                            {r.x(), r.y(), wall.low_m},
+                                            {r.x(), r.y(), wall.high_m},
+                                            {l.x(), l.y(), wall.high_m}}},
+                             .hull_m = {}});
   }
 }
 
 namespace {
-
-std::array<double, 3> numbers_of(const Vec3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
-}
 
 /// Four corners for a face: its own, the last one twice where it has three, or those of a rectangle around it.
 std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
@@ -94,43 +90,40 @@ std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
   std::size_t lowest = 0;  // edge, with which walls begin
   for (std::size_t i = 1; i < own.size(); ++i) lowest = height(i) < height(lowest) ? i : lowest;
   std::rotate(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lowest), own.end());
-  if (own.size() <= 4)
-    return {numbers_of(own[0]), numbers_of(own[1]), numbers_of(own[2]), numbers_of(own.back())};
+  if (own.size() <= 4) return {to_array(own[0]), to_array(own[1]), to_array(own[2]), to_array(own.back())};
   const sense::FaceAxes axes(face.plane);
   Vec2 low = axes.flat(own[0]), high = low;
   for (const Vec3& p : own) {
     low = low.cwiseMin(axes.flat(p));
     high = high.cwiseMax(axes.flat(p));
   }
-  const auto corner = [&](double x, double y) { return numbers_of(axes.lift({x, y})); };
+  const auto corner = [&](double x, double y) { return to_array(axes.lift({x, y})); };
   return {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()),
           corner(low.x(), high.y())};
 }
 
-log::ObservedPlane plane_of(const sense::PlaneObservation& seen, std::uint64_t id) {
-  log::ObservedPlane observed;
-  observed.wall = seen.wall;
-  observed.plane.id = id;
-  observed.plane.normal = numbers_of(seen.plane.normal);
-  observed.plane.offset_m = seen.plane.offset;
-  observed.plane.centroid_m = numbers_of(seen.centroid);
-  for (std::size_t i = 0; i < seen.corners.size(); ++i)
-    observed.plane.corners_m[i] = numbers_of(seen.corners[i]);
-  for (const Vec3& p : seen.hull) observed.hull_m.push_back(numbers_of(p));
-  observed.plane.exclusive_share = 1.0;
-  return observed;
+log::PlaneObservation observation_of(const PlaneObservation& seen, std::uint64_t id) {
+  log::PlaneObservation observation{.id = id,
+                                    .true_plane = seen.true_plane,
+                                    .normal = to_array(seen.plane.normal),
+                                    .offset_m = seen.plane.offset,
+                                    .centroid_m = to_array(seen.centroid),
+                                    .exclusive_share = 1.0};
+  for (std::size_t i = 0; i < seen.corners.size(); ++i) observation.corners_m[i] = to_array(seen.corners[i]);
+  for (const Vec3& p : seen.hull) observation.hull_m.push_back(to_array(p));
+  return observation;
 }
 
 }  // namespace
 
 void SimulatedSource::set_faces(const sense::FacePlan& plan) {
-  walls_.emplace();
+  true_planes_.emplace();
   for (const Polygon& face : plan.faces) {
-    log::TrueWall& wall = walls_->emplace_back();
-    wall.id = walls_->size() - 1;
-    wall.corners_m = corners_of(face);
-    if (face.vertices.size() <= wall.corners_m.size()) continue;
-    for (const Vec3& corner : face.vertices) wall.hull_m.push_back(numbers_of(corner));
+    log::TruePlane& plane = true_planes_->emplace_back();
+    plane.id = true_planes_->size() - 1;
+    plane.corners_m = corners_of(face);
+    if (face.vertices.size() <= plane.corners_m.size()) continue;
+    for (const Vec3& corner : face.vertices) plane.hull_m.push_back(to_array(corner));
   }
 }
 
@@ -144,11 +137,10 @@ void SimulatedSource::read(std::uint32_t iteration, SourceFrame& frame) {
   frame.planes.clear();
   const sim::Reading& reading = step.readings.front();
   for (const sense::PointObservation& seen : reading.observations) {
-    frame.observations.push_back(
-        {.landmark = seen.landmark, .point = {seen.point.x(), seen.point.y(), seen.point.z()}});
+    frame.observations.push_back({.landmark = seen.landmark, .point = to_array(seen.point)});
   }
-  for (const sense::PlaneObservation& seen : reading.planes)
-    frame.planes.push_back(plane_of(seen, frame.planes.size()));
+  for (const PlaneObservation& seen : reading.planes)
+    frame.planes.push_back(observation_of(seen, frame.planes.size()));
 }
 
 }  // namespace hallway::run

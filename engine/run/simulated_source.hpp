@@ -12,7 +12,7 @@ class SimulatedSource : public Source {
   /// Keeps a reference to the simulator. Throws Error{kBadInput} unless the scenario has exactly one sensor.
   explicit SimulatedSource(const sim::Simulator& simulator);
 
-  /// Makes the true walls known also of a sensor of points: those at its height.
+  /// Makes true planes known also of a sensor of points: the walls at its height.
   void add_walls();
 
   std::uint32_t iterations() const override { return simulator_.scenario().steps; }
@@ -20,7 +20,7 @@ class SimulatedSource : public Source {
   const host::SensorInfo& sensor() const override { return sensor_; }
   bool has_identities() const override { return true; }
   const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return landmarks_; }
-  const std::optional<std::vector<log::TrueWall>>& true_walls() const override { return walls_; }
+  const std::optional<std::vector<log::TruePlane>>& true_planes() const override { return true_planes_; }
 
  private:
   void take(const sense::PointSensorSpec& spec);
@@ -30,8 +30,8 @@ class SimulatedSource : public Source {
 
   const sim::Simulator& simulator_;
   host::SensorInfo sensor_;
-  std::optional<std::vector<log::Landmark>> landmarks_;  ///< where the sensor is one of points
-  std::optional<std::vector<log::TrueWall>> walls_;      ///< where it is one of planes, or they were added
+  std::optional<std::vector<log::Landmark>> landmarks_;     ///< where the sensor is one of points
+  std::optional<std::vector<log::TruePlane>> true_planes_;  ///< where it is one of planes, or they were added
 };
 
 }  // namespace hallway::run

@@ -18,7 +18,7 @@ inline eval::Truth truth_of(const Source& source) {
   }
   return {.has_identities = source.has_identities(),
           .landmarks = source.true_landmarks(),
-          .walls = source.true_walls(),
+          .planes = source.true_planes(),
           .noise_m = largest};
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "run/truth_tables.hpp"
 
+#include "geom/arrays.hpp"
 #include "log/landmarks.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 #include "record/files.hpp"
 
 namespace hallway::run {
@@ -11,8 +12,8 @@ namespace files = record::files;
 
 log::StampedPose stamped_pose(std::int64_t t_ns, const Pose& pose) {
   return {.t_s = static_cast<double>(t_ns) / 1e9,
-          .position_m = {pose.t.x(), pose.t.y(), pose.t.z()},
-          .orientation = {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+          .position_m = to_array(pose.t),
+          .orientation = to_array(pose.q)};
 }
 
 void TruthTables::add(std::uint32_t iteration, const SourceFrame& frame) {
@@ -31,7 +32,7 @@ void TruthTables::write(const std::filesystem::path& folder, const Source& sourc
     log::write_poses(folder / files::kTruePoses, poses_);
   }
   if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
-  if (source.true_walls()) log::write_true_walls(folder / files::kTrueWalls, *source.true_walls());
+  if (source.true_planes()) log::write_true_planes(folder / files::kTruePlanes, *source.true_planes());
 }
 
 }  // namespace hallway::run

@@ -92,11 +92,11 @@ void FaceSensor::check_pose(const Pose& T_world_body, std::uint32_t step) const 
 void FaceSensor::observe(const Pose& T_world_body, std::uint32_t step,
                          std::vector<PlaneObservation>& out) const {
   check_pose(T_world_body, step);
-  std::vector<FacePiece> pieces;
+  std::vector<VisibleFace> pieces;
   view_.find(T_world_body * spec_.T_body_sensor, pieces);
   using Placed = std::tuple<std::uint64_t, std::uint32_t, PlaneObservation>;  // in the random order
   std::vector<Placed> all;
-  for (const FacePiece& piece : pieces) {
+  for (const VisibleFace& piece : pieces) {
     auto seen = make_seen(piece, step);
     if (!seen) continue;
     const auto bits = order_.bits(step, piece.face);
@@ -109,7 +109,7 @@ void FaceSensor::observe(const Pose& T_world_body, std::uint32_t step,
   for (Placed& placed : all) out.push_back(std::move(std::get<2>(placed)));
 }
 
-std::optional<PlaneObservation> FaceSensor::make_seen(const FacePiece& piece, std::uint32_t step) const {
+std::optional<PlaneObservation> FaceSensor::make_seen(const VisibleFace& piece, std::uint32_t step) const {
   const auto deviate = [&](std::uint64_t which, double sigma) {
     return sigma * noise_.normal(step, kOfFace * piece.face + which);
   };
@@ -140,7 +140,7 @@ std::optional<PlaneObservation> FaceSensor::make_seen(const FacePiece& piece, st
   const Vec3 shift = hinge + deviate(0, spec_.noise_m) * plane.normal;
   const auto place = [&](const Vec2& p) { return Vec3(shift + turn * (axes.lift(p) - hinge)); };
   PlaneObservation seen;
-  seen.wall = piece.face;
+  seen.true_plane = piece.face;
   seen.plane.normal = (turn * plane.normal).normalized();
   seen.plane.offset = seen.plane.normal.dot(shift);
   if (seen.plane.offset > 0.0) return std::nullopt;

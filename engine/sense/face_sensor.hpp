@@ -24,7 +24,7 @@ class FaceSensor {
   /// or more, or ranges that are distances (`bounded_sides`).
   FaceSensor(PlaneSensorSpec spec, const FacePlan& plan, std::uint64_t seed);
 
-  /// Replaces `out` by what is seen in a step; PlaneObservation::wall is an index in FacePlan::faces.
+  /// Replaces `out` by what is seen in a step; PlaneObservation::true_plane is an index in FacePlan::faces.
   ///
   /// @param T_world_body  the robot's true pose; throws as check_pose() does
   void observe(const Pose& T_world_body, std::uint32_t step, std::vector<PlaneObservation>& out) const;
@@ -35,7 +35,7 @@ class FaceSensor {
   const PlaneSensorSpec& spec() const { return spec_; }
 
  private:
-  std::optional<PlaneObservation> make_seen(const FacePiece& piece, std::uint32_t step) const;
+  std::optional<PlaneObservation> make_seen(const VisibleFace& piece, std::uint32_t step) const;
 
   PlaneSensorSpec spec_;
   FaceView view_;

@@ -64,7 +64,7 @@ Polygon FaceView::in_view(const Polygon& polygon, const Pose& T_sensor_world) co
   return seen;
 }
 
-void FaceView::find(const Pose& T_world_sensor, std::vector<FacePiece>& pieces) const {
+void FaceView::find(const Pose& T_world_sensor, std::vector<VisibleFace>& pieces) const {
   const Pose T_sensor_world = T_world_sensor.inverse();
   std::vector<Polygon> obstacles;
   if (spec_.occlusion) {
@@ -83,7 +83,7 @@ void FaceView::find(const Pose& T_world_sensor, std::vector<FacePiece>& pieces) 
 }
 
 void FaceView::find_on(const Polygon& whole, std::uint32_t face, const std::vector<Polygon>& obstacles,
-                       std::vector<FacePiece>& pieces) const {
+                       std::vector<VisibleFace>& pieces) const {
   const FaceAxes axes(whole.plane);
   std::vector<Vec2> corners;
   for (const Vec3& vertex : whole.vertices) corners.push_back(axes.flat(vertex));
@@ -98,7 +98,7 @@ void FaceView::find_on(const Polygon& whole, std::uint32_t face, const std::vect
   }
   const Convex hull = hull_of(std::move(points), kFlatOfPiece_m);
   if (hull.size() < 3 || width_of(hull) < spec_.min_length_m) return;
-  FacePiece& piece = pieces.emplace_back();
+  VisibleFace& piece = pieces.emplace_back();
   piece.face = face;
   piece.seen.plane = whole.plane;
   for (const Vec2& p : hull) piece.seen.vertices.push_back(axes.lift(p));

@@ -20,7 +20,7 @@ struct FaceViewSpec {
 };
 
 /// What is seen of a face.
-struct FacePiece {
+struct VisibleFace {
   std::uint32_t face = 0;  ///< index in FacePlan::faces
   Polygon seen;            ///< sensor's frame, metres; its normal is towards the sensor
 };
@@ -34,13 +34,13 @@ class FaceView {
   FaceView(const FaceViewSpec& spec, const FacePlan& plan);
 
   /// Replaces `pieces` by what is seen, in the order of the faces. O(obstacles in view * faces in view + obstacles).
-  void find(const Pose& T_world_sensor, std::vector<FacePiece>& pieces) const;
+  void find(const Pose& T_world_sensor, std::vector<VisibleFace>& pieces) const;
 
  private:
   /// A polygon in the sensor's frame, cut by the view; without vertices if it is out of it.
   Polygon in_view(const Polygon& polygon, const Pose& T_sensor_world) const;
   void find_on(const Polygon& whole, std::uint32_t face, const std::vector<Polygon>& obstacles,
-               std::vector<FacePiece>& pieces) const;
+               std::vector<VisibleFace>& pieces) const;
 
   FaceViewSpec spec_;
   const FacePlan& plan_;

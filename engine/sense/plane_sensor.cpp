@@ -66,11 +66,11 @@ void PlaneSensor::observe(const Pose& T_world_body, std::uint32_t step,
   check_pose(T_world_body, step);
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
   const Vec3 forward = T_world_sensor.q * Vec3::UnitX();
-  std::vector<WallPiece> pieces;
+  std::vector<VisibleWall> pieces;
   view_.find(T_world_sensor.t.head<2>(), forward.head<2>().normalized(), pieces);
   std::vector<Seen> all;
   all.reserve(pieces.size());
-  for (const WallPiece& piece : pieces) {
+  for (const VisibleWall& piece : pieces) {
     if (const auto seen = make_seen(piece, step)) all.push_back(*seen);
   }
   std::sort(all.begin(), all.end(),
@@ -80,7 +80,7 @@ void PlaneSensor::observe(const Pose& T_world_body, std::uint32_t step,
   for (const Seen& seen : all) out.push_back(seen.observation);
 }
 
-std::optional<PlaneSensor::Seen> PlaneSensor::make_seen(const WallPiece& piece, std::uint32_t step) const {
+std::optional<PlaneSensor::Seen> PlaneSensor::make_seen(const VisibleWall& piece, std::uint32_t step) const {
   const std::uint64_t key = std::uint64_t{piece.wall} << 24 | piece.part;
   const auto deviate = [&](std::uint64_t which, double sigma) {
     return sigma * noise_.normal(step, kDeviates * key + which);
@@ -102,7 +102,7 @@ std::optional<PlaneSensor::Seen> PlaneSensor::make_seen(const WallPiece& piece, 
   const Vec2 left = middle + left_m * along, right = middle + right_m * along;
   const auto bits = order_.bits(step, key);
   Seen seen{.place = std::uint64_t{bits[0]} << 32 | bits[1], .key = key, .observation = {}};
-  seen.observation.wall = piece.wall;
+  seen.observation.true_plane = piece.wall;
   seen.observation.plane = {at_height(normal, 0.0), offset_m};
   seen.observation.centroid = at_height(0.5 * (left + right), 0.5 * (low_m + high_m));
   seen.observation.corners = {at_height(left, low_m), at_height(right, low_m), at_height(right, high_m),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "geom/plane.hpp"
+#include "geom/plane_observation.hpp"
 #include "geometry/se3.hpp"
 #include "sense/wall_plan.hpp"
 #include "sense/wall_view.hpp"
@@ -34,18 +34,6 @@ struct PlaneSensorSpec {
   double noise_m = 0.0;
   double noise_angle = 0.0;
   double noise_end_m = 0.0;
-};
-
-/// One seen plane: an upright rectangle, or a polygon. Sensor frame, metres, with noise.
-struct PlaneObservation {
-  std::uint32_t wall =
-      0;  ///< index in WallPlan::walls (FacePlan::faces) of what it truly is: for scoring, never for a plugin
-  Plane plane{};  ///< the normal is towards the sensor: offset <= 0
-  Vec3 centroid = Vec3::Zero();
-  /// Counter-clockwise seen from where the normal points: left and right at the bottom, right and left at the top. Of a polygon
-  /// a rectangle around it.
-  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  std::vector<Vec3> hull{};  ///< the polygon: convex, on the plane, in that order; empty of a rectangle
 };
 
 /// Sees the walls of a plan as planes with corners, as the simulations of thesis 4.3 do: what is within the view and not hidden by
@@ -82,7 +70,7 @@ class PlaneSensor {
     PlaneObservation observation;
   };
 
-  std::optional<Seen> make_seen(const WallPiece& piece, std::uint32_t step) const;
+  std::optional<Seen> make_seen(const VisibleWall& piece, std::uint32_t step) const;
 
   PlaneSensorSpec spec_;
   const WallPlan& plan_;

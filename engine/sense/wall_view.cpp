@@ -134,7 +134,7 @@ void WallView::add_out_of_view(const WallLine& line, std::vector<Interval>& take
   taken.push_back(behind);
 }
 
-void WallView::find(const Vec2& position, const Vec2& forward, std::vector<WallPiece>& pieces) const {
+void WallView::find(const Vec2& position, const Vec2& forward, std::vector<VisibleWall>& pieces) const {
   const auto to_sensor = [&](const Vec2& point) {
     const Vec2 way = point - position;
     return Vec2(forward.dot(way), forward.x() * way.y() - forward.y() * way.x());
@@ -154,7 +154,7 @@ void WallView::find(const Vec2& position, const Vec2& forward, std::vector<WallP
 }
 
 void WallView::find_on(const WallLine& line, std::uint32_t wall, std::span<const Obstacle> obstacles,
-                       std::vector<WallPiece>& pieces) const {
+                       std::vector<VisibleWall>& pieces) const {
   const Interval all = in_view(line);
   if (!(all.from < all.to)) return;
   std::vector<Interval> kept{all}, taken;

@@ -24,7 +24,7 @@ struct WallViewSpec {
 };
 
 /// A part of a wall that is seen.
-struct WallPiece {
+struct VisibleWall {
   std::uint32_t wall = 0;  ///< index in WallPlan::walls
   std::uint32_t part = 0;  ///< counts the pieces of this wall in this view, from its left
   /// Its ends in the sensor's frame, metres; the empty side is to the sensor.
@@ -46,14 +46,14 @@ class WallView {
   /// obstacles). An end of a wall that is seen is given bit by bit as it is, whatever touches it.
   /// @param position  world, metres
   /// @param forward   the line of sight, unit
-  void find(const Vec2& position, const Vec2& forward, std::vector<WallPiece>& pieces) const;
+  void find(const Vec2& position, const Vec2& forward, std::vector<VisibleWall>& pieces) const;
 
  private:
   bool may_hide(const Obstacle& obstacle) const;
   Interval in_view(const WallLine& line) const;
   void add_out_of_view(const WallLine& line, std::vector<Interval>& taken) const;
   void find_on(const WallLine& line, std::uint32_t wall, std::span<const Obstacle> obstacles,
-               std::vector<WallPiece>& pieces) const;
+               std::vector<VisibleWall>& pieces) const;
 
   WallViewSpec spec_;
   const WallPlan& plan_;

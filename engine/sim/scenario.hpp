@@ -37,7 +37,7 @@ using host::short_plugin_name;
 enum class PictureView { kTop, kPerspective, kPanels };
 
 /// What a picture can show.
-enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum, kWalls };
+enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum, kPlanes };
 
 /// The names of the layers, in the order of PictureLayer.
 const std::vector<std::string>& picture_layer_names();

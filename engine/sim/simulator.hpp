@@ -30,7 +30,7 @@ namespace hallway::sim {
 struct Reading {
   std::size_t sensor = 0;                             ///< index in Scenario::sensors
   std::vector<sense::PointObservation> observations;  ///< of a sensor of points
-  std::vector<sense::PlaneObservation> planes;        ///< of a sensor of planes
+  std::vector<PlaneObservation> planes;               ///< of a sensor of planes
 };
 
 /// One moment of a run.

@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "log/observed_planes.hpp"
+#include "log/plane_observations.hpp"
 #include "log/poses.hpp"
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 
 namespace hallway::peers {
 namespace {
@@ -116,13 +116,13 @@ PlaneRun read_plane_run(const std::filesystem::path& folder) {
   const auto json = nlohmann::json::parse(read_file(folder / "run.json"));
   const Sensor sensor = read_sensor(json, run);
   std::map<log::LandmarkId, std::size_t> index;
-  for (const log::TrueWall& wall : log::read_true_walls(folder / "true_walls.csv")) {
+  for (const log::TruePlane& wall : log::read_true_planes(folder / "true_walls.csv")) {
     index[wall.id] = run.walls.size();
     run.walls.push_back(
         {{wall.corners_m[0][0], wall.corners_m[0][1]}, {wall.corners_m[1][0], wall.corners_m[1][1]}});
   }
   const std::string file = (folder / "observed_planes.csv").string();
-  const log::ReadPlaneLog read = log::parse_observed_planes(read_file(file), file);
+  const log::ReadPlaneObservations read = log::parse_observed_planes(read_file(file), file);
   if (read.damage) throw Error(ErrorCode::kBadInput, log::describe(*read.damage, read.log, file));
   for (const log::IterationPose& pose : log::read_poses(folder / "truth_poses.csv")) {
     const Pose3 T{pose.position_m[0], pose.position_m[1],
@@ -133,7 +133,7 @@ PlaneRun read_plane_run(const std::filesystem::path& folder) {
   for (std::uint32_t i = 0; i < run.poses.size(); ++i) {
     std::vector<SeenWall>& frame = run.frames.emplace_back();
     if (i >= read.log.iterations()) continue;
-    for (const log::ObservedPlane& seen : read.log.frame(i)) {
+    for (const log::PlaneObservation& seen : read.log.frame(i)) {
       const auto wall = index.find(seen.wall);
       if (wall == index.end()) continue;
       const auto& corners = seen.plane.corners_m;

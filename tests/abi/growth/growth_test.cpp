@@ -106,10 +106,10 @@ TEST_P(Growth, TheMapArrives) {
   ASSERT_EQ(map.landmarks().size(), 2u);
   EXPECT_EQ(map.landmarks()[1].id, 8u);
   EXPECT_EQ(map.landmarks()[1].position[2], 7);
-  ASSERT_EQ(map.mapped_planes().planes().size(), GetParam().knows_planes ? 1u : 0u);
-  for (const hw_mapped_plane_t& plane : map.mapped_planes().planes()) {
-    ASSERT_EQ(map.mapped_planes().outline(plane).size(), 3u);
-    EXPECT_EQ(map.mapped_planes().outline(plane)[0].flags, HW_EDGE_CERTAIN);
+  ASSERT_EQ(map.plane_landmarks().planes().size(), GetParam().knows_planes ? 1u : 0u);
+  for (const hw_mapped_plane_t& plane : map.plane_landmarks().planes()) {
+    ASSERT_EQ(map.plane_landmarks().outline(plane).size(), 3u);
+    EXPECT_EQ(map.plane_landmarks().outline(plane)[0].flags, HW_EDGE_CERTAIN);
   }
   ASSERT_EQ(map.submaps().size(), 1u);
   EXPECT_EQ(map.members(map.submaps()[0]).size(), 2u);

@@ -25,10 +25,10 @@ std::array<Vec3, 4> corners_of(std::size_t k) {
   return {Vec3(l[0], l[1], 0), Vec3(r[0], r[1], 0), Vec3(r[0], r[1], 2), Vec3(l[0], l[1], 2)};
 }
 
-std::vector<log::TrueWall> true_walls() {
-  std::vector<log::TrueWall> walls;
+std::vector<log::TruePlane> true_planes() {
+  std::vector<log::TruePlane> walls;
   for (std::size_t k = 0; k < 4; ++k) {
-    log::TrueWall& wall = walls.emplace_back();
+    log::TruePlane& wall = walls.emplace_back();
     wall.id = k;
     for (std::size_t i = 0; i < 4; ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -42,10 +42,10 @@ std::array<double, 3> numbers_of(const Vec3& v) {
 }
 
 /// The plane with these corners in the world, in the map's frame; both ends are certain.
-log::MappedPlane mapped(log::LandmarkId id, const std::array<Vec3, 4>& corners) {
+log::PlaneLandmark mapped(log::LandmarkId id, const std::array<Vec3, 4>& corners) {
   const Pose T_map_world = T_world_map().inverse();
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
-  log::MappedPlane plane{
+  log::PlaneLandmark plane{
       .id = id, .observations = 9, .normal = numbers_of(T_map_world.q * normal), .outline = {}};
   for (std::size_t i = 0; i < 4; ++i)
     plane.outline.push_back({numbers_of(T_map_world * corners[i]), i % 2 == 1});
@@ -54,20 +54,20 @@ log::MappedPlane mapped(log::LandmarkId id, const std::array<Vec3, 4>& corners) 
 }
 
 /// Planes 10 to 13, which are walls 0 to 3.
-std::vector<log::MappedPlane> exact_map() {
-  std::vector<log::MappedPlane> map;
+std::vector<log::PlaneLandmark> exact_map() {
+  std::vector<log::PlaneLandmark> map;
   for (std::size_t k = 0; k < 4; ++k) map.push_back(mapped(10 + k, corners_of(k)));
   return map;
 }
 
 /// All walls seen whole by a robot that moves a little in each of 30 frames and knows where it is.
 PlaneScore whole_run() {
-  PlaneScore score(true_walls());
+  PlaneScore score(true_planes());
   for (std::uint32_t frame = 0; frame < 30; ++frame) {
     const Pose T_world_body{Quat(Eigen::AngleAxisd(0.1 * frame, Vec3::UnitZ())),
                             Vec3(2 + 0.05 * frame, 2, 1)};
-    std::vector<GivenPlane> given;
-    std::vector<WallPlace> places;
+    std::vector<AssociatedPlane> given;
+    std::vector<TruePlanePoint> places;
     for (std::size_t k = 0; k < 4; ++k) {
       given.push_back({k, 10 + k});
       for (const std::size_t i : {0u, 1u}) places.push_back({k, T_world_body.inverse() * corners_of(k)[i]});
@@ -105,11 +105,11 @@ TEST(PlaneScore, AnExactMapHasNoErrors) {
 
 TEST(PlaneScore, AShiftedWallIsOffByItsShift) {
   // Nobody says that its ends are certain, so that the others alone place the map.
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   std::array<Vec3, 4> corners = corners_of(1);
   for (Vec3& corner : corners) corner.x() += 0.1;
   map[1] = mapped(11, corners);
-  for (log::MappedCorner& corner : map[1].outline) corner.edge_certain = false;
+  for (log::OutlineCorner& corner : map[1].outline) corner.edge_certain = false;
   const PlaneMapMetrics refined = whole_run().metrics({}, map).refined;
   ASSERT_TRUE(refined.offset_m && refined.corner_m);
   EXPECT_NEAR(refined.offset_m->max, 0.1, 1e-9);
@@ -120,7 +120,7 @@ TEST(PlaneScore, AShiftedWallIsOffByItsShift) {
 }
 
 TEST(PlaneScore, AWallShiftedAlongItselfHasWrongCornersAndAShorterCommonExtent) {
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   std::array<Vec3, 4> corners = corners_of(0);  // from x = 6 to 0
   for (Vec3& corner : corners) corner.x() += 2.0;
   map[0] = mapped(10, corners);
@@ -132,20 +132,20 @@ TEST(PlaneScore, AWallShiftedAlongItselfHasWrongCornersAndAShorterCommonExtent) 
 }
 
 TEST(PlaneScore, ATurnedWallIsOffByItsAngle) {
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   const Quat turn(Eigen::AngleAxisd(2.0 * std::numbers::pi / 180.0, Vec3::UnitZ()));
   std::array<Vec3, 4> corners = corners_of(2);
   const Vec3 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
   for (Vec3& corner : corners) corner = turn * (corner - middle) + middle;
   map[2] = mapped(12, corners);
-  for (log::MappedCorner& corner : map[2].outline) corner.edge_certain = false;
+  for (log::OutlineCorner& corner : map[2].outline) corner.edge_certain = false;
   const PlaneMapMetrics refined = whole_run().metrics({}, map).refined;
   EXPECT_NEAR(refined.angle_deg->max, 2.0, 1e-9);
   expect_exact(refined.offset_m, 4);
 }
 
 TEST(PlaneScore, AMissingWallIsCountedAndSoIsADoubledOne) {
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   map.pop_back();
   PlaneScore score = whole_run();
   EXPECT_EQ(score.metrics(map, map).online.walls_missing, 1u);
@@ -153,7 +153,7 @@ TEST(PlaneScore, AMissingWallIsCountedAndSoIsADoubledOne) {
   map = exact_map();
   map.push_back(mapped(14, corners_of(0)));
   map.push_back(mapped(15, corners_of(0)));
-  score.add(std::array{GivenPlane{0, 14}}, std::nullopt, {});
+  score.add(std::array{AssociatedPlane{0, 14}}, std::nullopt, {});
   const PlaneMapMetrics online = score.metrics(map, {}).online;
   EXPECT_EQ(online.duplicated, 1u);
   EXPECT_EQ(online.unmatched, 1u) << "nothing was ever taken for 15";
@@ -161,13 +161,13 @@ TEST(PlaneScore, AMissingWallIsCountedAndSoIsADoubledOne) {
 }
 
 TEST(PlaneScore, AWallInTwoPartsIsNotDoubled) {
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   map[0] = mapped(10, {Vec3(6, 0, 0), Vec3(3.2, 0, 0), Vec3(3.2, 0, 2), Vec3(6, 0, 2)});
   map[0].outline[1].edge_certain = false;
   map.push_back(mapped(14, {Vec3(2.6, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(2.6, 0, 2)}));
   map[4].outline[3].edge_certain = false;
   PlaneScore score = whole_run();
-  score.add(std::array{GivenPlane{0, 14}}, std::nullopt, {});
+  score.add(std::array{AssociatedPlane{0, 14}}, std::nullopt, {});
   const PlaneMapMetrics online = score.metrics(map, {}).online;
   EXPECT_EQ(online.duplicated, 0u);
   EXPECT_EQ(online.parts, 1u);
@@ -176,7 +176,7 @@ TEST(PlaneScore, AWallInTwoPartsIsNotDoubled) {
 }
 
 TEST(PlaneScore, TemporaryPlanesAreNotInTheMap) {
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   map[0].status = log::LandmarkStatus::kTemporary;
   const PlaneMapMetrics online = whole_run().metrics(map, {}).online;
   EXPECT_EQ(online.mapped, 3u);
@@ -184,9 +184,9 @@ TEST(PlaneScore, TemporaryPlanesAreNotInTheMap) {
 }
 
 TEST(PlaneScore, WallsThatWereHardlySeenAreNotAskedFor) {
-  PlaneScore score(true_walls());
+  PlaneScore score(true_planes());
   for (std::uint32_t frame = 0; frame < 100; ++frame) {
-    std::vector<WallPlace> places{{0, {1, 0, 0}}, {0, {1.2, 0, 0}}};  // 0.2 m of it
+    std::vector<TruePlanePoint> places{{0, {1, 0, 0}}, {0, {1.2, 0, 0}}};  // 0.2 m of it
     if (frame < PlaneScore::kLeastFrames) places.insert(places.end(), {{1, {6, 1, 0}}, {1, {6, 2, 0}}});
     if (frame + 1 < PlaneScore::kLeastFrames) places.insert(places.end(), {{2, {1, 4, 0}}, {2, {3, 4, 0}}});
     score.add({}, Pose(), places);
@@ -195,23 +195,23 @@ TEST(PlaneScore, WallsThatWereHardlySeenAreNotAskedFor) {
 }
 
 TEST(PlaneScore, OfAWallSeenInPartThatPartIsAskedFor) {
-  PlaneScore score(true_walls());
+  PlaneScore score(true_planes());
   for (std::size_t k = 0; k < 4; ++k) {
     const std::array<Vec3, 4> corners = corners_of(k);
     const Vec3 right = k == 0 ? Vec3(3, 0, 0) : corners[1];
-    score.add(std::array{GivenPlane{k, 10 + k}}, Pose(),
-              std::array{WallPlace{k, corners[0]}, WallPlace{k, right}});
+    score.add(std::array{AssociatedPlane{k, 10 + k}}, Pose(),
+              std::array{TruePlanePoint{k, corners[0]}, TruePlanePoint{k, right}});
   }
-  std::vector<log::MappedPlane> map = exact_map();
+  std::vector<log::PlaneLandmark> map = exact_map();
   map[0] = mapped(10, {Vec3(6, 0, 0), Vec3(3, 0, 0), Vec3(3, 0, 2), Vec3(6, 0, 2)});
   map[0].outline[1].edge_certain = false;
   EXPECT_NEAR(*score.metrics(map, {}).online.extent_iou_least, 1.0, 1e-9);
 }
 
 TEST(PlaneScore, TooFewCornersLeaveTheFirstPose) {
-  std::vector<log::MappedPlane> map = exact_map();
-  for (log::MappedPlane& plane : map) {
-    for (log::MappedCorner& corner : plane.outline) corner.edge_certain = false;
+  std::vector<log::PlaneLandmark> map = exact_map();
+  for (log::PlaneLandmark& plane : map) {
+    for (log::OutlineCorner& corner : plane.outline) corner.edge_certain = false;
   }
   const PlaneMapMetrics online = whole_run().metrics(map, {}).online;
   EXPECT_FALSE(online.aligned);

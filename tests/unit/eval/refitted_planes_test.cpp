@@ -24,12 +24,12 @@ Vec3 normal_of(const std::array<Vec3, 4>& corners) {
   return (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
 }
 
-std::vector<log::MappedPlane> map_of(std::size_t walls) {
-  std::vector<log::MappedPlane> map;
+std::vector<log::PlaneLandmark> map_of(std::size_t walls) {
+  std::vector<log::PlaneLandmark> map;
   for (std::size_t k = 0; k < walls; ++k) {
     const std::array<Vec3, 4> corners = corners_of(k);
     const Vec3 normal = normal_of(corners);
-    log::MappedPlane& plane = map.emplace_back();
+    log::PlaneLandmark& plane = map.emplace_back();
     plane.id = 10 + k;
     plane.normal = {normal.x(), normal.y(), normal.z()};
     plane.offset_m = normal.dot(corners[0]);
@@ -48,34 +48,34 @@ struct Noise {
 };
 
 /// What a robot sees of a wall, cut short by `cut` of it at its right end.
-GivenPlane seen(const Pose& T_map_body, std::size_t wall, double cut = 0.0) {
+AssociatedPlane seen(const Pose& T_map_body, std::size_t wall, double cut = 0.0) {
   std::array<Vec3, 4> corners = corners_of(wall);
   const Vec3 way = corners[1] - corners[0];
   for (const std::size_t i : {1u, 2u}) corners[i] -= cut * way;
-  GivenPlane given;
-  given.wall = wall;
-  given.taken_for = 10 + wall;
+  AssociatedPlane given;
+  given.true_plane = wall;
+  given.landmark = 10 + wall;
   const Pose inverse = T_map_body.inverse();
   given.normal = inverse.q * normal_of(corners);
   for (const Vec3& corner : corners) {
     given.bounds.push_back(inverse * corner);
-    given.middle += given.bounds.back() / 4.0;
+    given.centroid += given.bounds.back() / 4.0;
   }
   return given;
 }
 
 /// The plane off its place: across, turned about its middle, and each end along it.
-GivenPlane shaken(GivenPlane plane, const Noise& noise, const Random& random, std::uint32_t frame,
-                  std::uint64_t key) {
+AssociatedPlane shaken(AssociatedPlane plane, const Noise& noise, const Random& random, std::uint32_t frame,
+                       std::uint64_t key) {
   const Quat turn(Eigen::AngleAxisd(noise.angle * random.normal(frame, key), Vec3::UnitZ()));
   const Vec3 step = noise.normal * random.normal(frame, key + 1) * plane.normal;
   const Vec3 along = Vec3::UnitZ().cross(plane.normal);
   for (Vec3& bound : plane.bounds) {
-    const bool left = along.dot(bound - plane.middle) > 0.0;
+    const bool left = along.dot(bound - plane.centroid) > 0.0;
     const Vec3 longer = noise.end * random.normal(frame, key + (left ? 2 : 3)) * along;
-    bound = plane.middle + turn * (bound - plane.middle) + step + longer;
+    bound = plane.centroid + turn * (bound - plane.centroid) + step + longer;
   }
-  plane.middle += step;
+  plane.centroid += step;
   plane.normal = turn * plane.normal;
   return plane;
 }
@@ -85,7 +85,7 @@ TEST(RefittedPlanes, ExactPlanesGiveTheTruePlaceWhateverWasAnswered) {
   std::vector<Pose> truth;
   for (std::uint32_t i = 0; i < 20; ++i) {
     truth.push_back(turned(0.1 * i, Vec3(2 + 0.1 * i, 2, 0.8)));
-    std::vector<GivenPlane> given;
+    std::vector<AssociatedPlane> given;
     for (std::size_t k = 0; k < 4; ++k) given.push_back(seen(truth.back(), k));
     path.add(i, turned(0.1 * i + 0.01, truth.back().t + Vec3(0.02, -0.03, 0)), given);
   }
@@ -112,7 +112,7 @@ TEST(RefittedPlanes, FramesThatLeaveADirectionOpenAreLeftOut) {
   const Pose truth = turned(0.0, Vec3(2, 2, 0.8));
   RefittedPlanes path;
   path.add(0, truth, std::array{seen(truth, 0), seen(truth, 1)});
-  GivenPlane cut =
+  AssociatedPlane cut =
       seen(truth, 0,
            0.3);  // its left end is in the open: a wall, cut at both ends, does not tell the place along it
   for (const std::size_t i : {0u, 3u}) cut.bounds[i] += 0.5 * (cut.bounds[1] - cut.bounds[0]);
@@ -126,9 +126,9 @@ TEST(RefittedPlanes, FramesThatLeaveADirectionOpenAreLeftOut) {
 TEST(RefittedPlanes, PlanesThatAreNotInTheMapSayNothing) {
   const Pose truth = turned(0.0, Vec3(2, 2, 0.8));
   RefittedPlanes path;
-  GivenPlane stranger = seen(truth, 2);
-  stranger.taken_for = 99;
-  GivenPlane unplaced = seen(truth, 3);
+  AssociatedPlane stranger = seen(truth, 2);
+  stranger.landmark = 99;
+  AssociatedPlane unplaced = seen(truth, 3);
   unplaced.normal.setZero();
   path.add(0, truth, std::array{stranger, unplaced});
   EXPECT_TRUE(path.place(map_of(4)).empty());
@@ -152,7 +152,7 @@ TEST(RefittedPlanes, OneEndAloneDoesNotTellThePlace) {
   const Pose truth = turned(0.0, Vec3(2, 2, 0.8));
   RefittedPlanes path;
   for (std::uint32_t i = 0; i < 20; ++i) path.add(i, truth, std::array{seen(truth, 0), seen(truth, 1)});
-  GivenPlane one = seen(truth, 0, 0.05 / 6.0);
+  AssociatedPlane one = seen(truth, 0, 0.05 / 6.0);
   for (const std::size_t i : {0u, 3u}) one.bounds[i] += 0.5 * (one.bounds[1] - one.bounds[0]);
   path.add(20, truth, std::array{one});
   path.add(21, truth, std::array{seen(truth, 0)});  // both ends, as far apart as they are in the map
@@ -167,8 +167,8 @@ TEST(RefittedPlanes, APlaneThatIsGoneStandsForTheOneWhereItWasSeen) {
   const auto placed_of = [&](std::uint32_t frames) {
     RefittedPlanes path;
     for (std::uint32_t i = 0; i < frames; ++i) {
-      GivenPlane gone = seen(truth, 2, 0.3);
-      gone.taken_for = 99;
+      AssociatedPlane gone = seen(truth, 2, 0.3);
+      gone.landmark = 99;
       path.add(i, answered, std::array{seen(truth, 1, 0.4), gone});
     }
     return path.place(map_of(4));
@@ -187,7 +187,7 @@ TEST(RefittedPlanes, EachKindIsWeighedByItsScatter) {
     std::vector<Vec3> truth;
     for (std::uint32_t i = 0; i < 300; ++i) {
       const Pose T = turned(0.02 * i, Vec3(2 + 0.005 * i, 2, 0.8));
-      std::vector<GivenPlane> given;
+      std::vector<AssociatedPlane> given;
       for (std::size_t k = 0; k < 4; ++k) given.push_back(shaken(seen(T, k), noise, random, i, 4 * k));
       path.add(i, T, given);
       truth.push_back(T.t);

@@ -62,7 +62,7 @@ TEST(FoxgloveScenes, ASubmapJoinsItsMappedLandmarksToTheirMiddle) {
   EXPECT_FALSE(same(entity.lines[0].colour, entity.lines[1].colour));
 }
 
-log::MappedPlane square(log::LandmarkId id, double x) {
+log::PlaneLandmark square(log::LandmarkId id, double x) {
   return {.id = id,
           .normal = {-1, 0, 0},
           .offset_m = -x,

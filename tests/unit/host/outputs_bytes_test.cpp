@@ -121,7 +121,7 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   EXPECT_EQ(planes->planes[1].normal[1], 1);
   EXPECT_TRUE(std::ranges::equal(planes->members_of(planes->planes[1]), std::vector<std::uint32_t>{0, 2}));
   EXPECT_EQ(planes->hull_of(planes->planes[1]).size(), 1u);
-  const MappedPlaneList& mapped = outputs.mapped_planes();
+  const PlaneLandmarkList& mapped = outputs.plane_landmarks();
   ASSERT_EQ(mapped.planes().size(), 2u);
   EXPECT_EQ(mapped.planes()[1].id, 12u);
   ASSERT_EQ(mapped.outline(mapped.planes()[0]).size(), 4u);
@@ -168,7 +168,7 @@ TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
         for (const std::uint32_t member : planes->members_of(plane)) EXPECT_LT(member, 3u);
       }
     }
-    const MappedPlaneList& mapped = reader_.outputs().mapped_planes();
+    const PlaneLandmarkList& mapped = reader_.outputs().plane_landmarks();
     for (const hw_mapped_plane_t& plane : mapped.planes()) {
       EXPECT_TRUE(std::isfinite(plane.offset_m));
       EXPECT_GE(mapped.outline(plane).size(), 3u);

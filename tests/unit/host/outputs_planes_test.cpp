@@ -80,7 +80,7 @@ TEST(MappedPlanes, OutlinesOfSeveralListsAreKeptApart) {
   EXPECT_EQ(put_mapped(collector, {wall(7)}, wall_corners()), HW_OK);
   EXPECT_EQ(put_mapped(collector, {second}, corners), HW_OK);
   EXPECT_EQ(collector.finish(), "");
-  const MappedPlaneList& mapped = collector.outputs().mapped_planes();
+  const PlaneLandmarkList& mapped = collector.outputs().plane_landmarks();
   ASSERT_EQ(mapped.planes().size(), 2u);
   for (const hw_mapped_plane_t& plane : mapped.planes()) {
     ASSERT_EQ(mapped.outline(plane).size(), 4u);
@@ -88,7 +88,7 @@ TEST(MappedPlanes, OutlinesOfSeveralListsAreKeptApart) {
     EXPECT_EQ(mapped.outline(plane)[1].position[1], -1) << plane.id;
   }
   collector.begin(nullptr, {});
-  EXPECT_TRUE(collector.outputs().mapped_planes().planes().empty());
+  EXPECT_TRUE(collector.outputs().plane_landmarks().planes().empty());
 }
 
 TEST(MappedPlanes, HaveIdsThatNoLandmarkHas) {

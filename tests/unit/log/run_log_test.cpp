@@ -66,7 +66,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   EXPECT_EQ(valid.pose.orientation, pose.orientation);
   EXPECT_EQ(valid.pose.covariance, pose.covariance);
   EXPECT_FALSE(std::get<PoseMessage>(answers[2]).pose.valid);
-  const MapAnswer& map = std::get<MapMessage>(answers[3]).map;
+  const MapAnswer& map = std::get<MapAnswer>(answers[3]);
   ASSERT_EQ(map.landmarks.size(), landmarks.size());
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     EXPECT_EQ(map.landmarks[i].id, landmarks[i].id);
@@ -82,7 +82,7 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   }
 }
 
-TEST(RunLog, MappedPlanesAndSubmapsReadBackToTheSameBits) {
+TEST(RunLog, PlaneLandmarksAndSubmapsReadBackToTheSameBits) {
   const MapAnswer map{
       .planes = {{.id = 7,
                   .observations = 12,
@@ -99,47 +99,50 @@ TEST(RunLog, MappedPlanesAndSubmapsReadBackToTheSameBits) {
   writer.finish();
   const std::vector<AnswerMessage> answers = answers_of(out.text());
   ASSERT_EQ(answers.size(), 1u);
-  const MapAnswer& read = std::get<MapMessage>(answers[0]).map;
+  const MapAnswer& read = std::get<MapAnswer>(answers[0]);
   EXPECT_EQ(read.planes, map.planes);
   EXPECT_EQ(read.submaps, map.submaps);
   ASSERT_EQ(read.submap_members.size(), 2u) << "also of a submap whose pose is not told";
   EXPECT_EQ(read.submap_members[1].first, 6u);
 }
 
-TEST(RunLog, TrueWallsReadBackToTheSameBits) {
-  std::vector<TrueWall> walls(2);
-  walls[0].corners_m = {{{0.1, 0, 0}, {1, 0, 0}, {1, 0, 1.0 / 3.0}, {0.1, 0, 1e-300}}};
-  walls[1].id = 7;
-  walls[1].hull_m = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0.1}, {1, 0, 1}, {0, 0, 1}};
+TEST(RunLog, TruePlanesReadBackToTheSameBits) {
+  std::vector<TruePlane> planes(2);
+  planes[0].corners_m = {{{0.1, 0, 0}, {1, 0, 0}, {1, 0, 1.0 / 3.0}, {0.1, 0, 1e-300}}};
+  planes[1].id = 7;
+  planes[1].hull_m = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0.1}, {1, 0, 1}, {0, 0, 1}};
   StringOutput out;
   RunLogWriter writer(out, "test", "{}");
-  writer.add_true_walls(walls);
+  writer.add_true_planes(planes);
   writer.finish();
   const MemoryInput input(out.text());
   McapReader reader(input);
-  std::vector<TrueWall> back;
+  std::vector<TruePlane> back;
   while (const McapItem* item = reader.next()) {
     const auto* message = std::get_if<McapMessage>(item);
     if (message == nullptr) continue;
-    back = std::get<TrueWallsMessage>(parse_run_message(reader.channels().at(message->channel_id), *message))
-               .walls;
+    back = std::get<std::vector<TruePlane>>(
+        parse_run_message(reader.channels().at(message->channel_id), *message));
   }
   ASSERT_EQ(back.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(back[i].id, walls[i].id);
-    EXPECT_EQ(back[i].corners_m, walls[i].corners_m);
-    EXPECT_EQ(back[i].hull_m, walls[i].hull_m);
+    EXPECT_EQ(back[i].id, planes[i].id);
+    EXPECT_EQ(back[i].corners_m, planes[i].corners_m);
+    EXPECT_EQ(back[i].hull_m, planes[i].hull_m);
   }
 }
 
 TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {
-  const PlaneAnswer plane{
-      .plane = {.id = 5, .normal = {0, 0, -1}, .offset_m = -2, .points = 3, .exclusive_share = 0.5},
-      .hull_m = {{1, 2, 2}},
-      .members = {0, 4, 7}};
+  const PlaneObservation plane{.id = 5,
+                               .normal = {0, 0, -1},
+                               .offset_m = -2,
+                               .hull_m = {{1, 2, 2}},
+                               .members = {0, 4, 7},
+                               .points = 3,
+                               .exclusive_share = 0.5};
   StringOutput out;
   RunLogWriter writer(out, "test", "{}");
-  writer.add_planes({3, 10}, std::vector<PlaneAnswer>{plane});
+  writer.add_planes({3, 10}, std::vector<PlaneObservation>{plane});
   writer.finish();
   const MemoryInput input(out.text());
   McapReader reader(input);

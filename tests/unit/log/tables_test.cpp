@@ -12,8 +12,8 @@
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
-#include "log/mapped_planes.hpp"
-#include "log/planes.hpp"
+#include "log/plane_landmarks.hpp"
+#include "log/plane_observations.hpp"
 #include "log/pose_errors.hpp"
 #include "log/poses.hpp"
 #include "log/row_file.hpp"
@@ -82,9 +82,9 @@ TEST(Poses, MayBePositionsAlone) {
   EXPECT_EQ(print_poses(poses), text);
 }
 
-TEST(MappedPlanes, ReadBackToTheSameBits) {
+TEST(PlaneLandmarks, ReadBackToTheSameBits) {
   const std::vector<double> values = test::random_doubles(40, 5);
-  std::vector<MappedPlane> planes(2);
+  std::vector<PlaneLandmark> planes(2);
   std::size_t next = 0;
   const auto three = [&] {
     next += 3;
@@ -98,27 +98,27 @@ TEST(MappedPlanes, ReadBackToTheSameBits) {
                  .offset_m = values[39 - i]};
     for (std::size_t k = 0; k < 4 - i; ++k) planes[i].outline.push_back({three(), k == 1});
   }
-  EXPECT_EQ(parse_mapped_planes(print_mapped_planes(planes), "mapped_planes.csv"), planes);
+  EXPECT_EQ(parse_plane_landmarks(print_plane_landmarks(planes), "mapped_planes.csv"), planes);
 }
 
-TEST(MappedPlanes, ArePrintedInTheDocumentedForm) {
+TEST(PlaneLandmarks, ArePrintedInTheDocumentedForm) {
   const std::string text =
       "plane_id,observations,status,nx,ny,nz,offset_m,corner,x,y,z,edge_certain\n"
       "4,9,mapped,0,0,1,2,0,0,0,2,0\n4,9,mapped,0,0,1,2,1,1,0,2,1\n4,9,mapped,0,0,1,2,2,1,1,2,0\n";
-  EXPECT_EQ(print_mapped_planes(parse_mapped_planes(text, "mapped_planes.csv")), text);
+  EXPECT_EQ(print_plane_landmarks(parse_plane_landmarks(text, "mapped_planes.csv")), text);
 }
 
-TEST(MappedPlanes, AreRefusedWhereTheirCornersAreNotInARow) {
+TEST(PlaneLandmarks, AreRefusedWhereTheirCornersAreNotInARow) {
   const std::string header = "plane_id,observations,status,nx,ny,nz,offset_m,corner,x,y,z,edge_certain\n";
   const auto row = [](int plane, int corner) {
     return std::to_string(plane) + ",9,mapped,0,0,1,2," + std::to_string(corner) + ",0,0,2,0\n";
   };
   const std::string whole = row(4, 0) + row(4, 1) + row(4, 2);
-  EXPECT_FALSE(error_of([&] { parse_mapped_planes(header + whole, "t"); }));
+  EXPECT_FALSE(error_of([&] { parse_plane_landmarks(header + whole, "t"); }));
   for (const std::string& rows :
        {row(4, 1), row(4, 0) + row(4, 2), row(4, 0) + row(4, 1), whole + row(5, 3), whole + whole,
         row(4, 0) + row(4, 1) + row(5, 0), whole + "5,9,gone,0,0,1,2,0,0,0,2,0\n"}) {
-    EXPECT_TRUE(error_of([&] { parse_mapped_planes(header + rows, "t"); })) << rows;
+    EXPECT_TRUE(error_of([&] { parse_plane_landmarks(header + rows, "t"); })) << rows;
   }
 }
 

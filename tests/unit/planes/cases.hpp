@@ -10,10 +10,10 @@
 namespace hallway::planes::test {
 
 /// What a perfect plugin would answer: planes and members as they are.
-inline std::vector<FoundPlane> perfect(const Truth& truth) {
-  std::vector<FoundPlane> found;
+inline std::vector<PlaneObservation> perfect(const Truth& truth) {
+  std::vector<PlaneObservation> found;
   for (const TruePlane& plane : truth.planes) {
-    FoundPlane answer{.id = found.size(), .plane = plane.plane};
+    PlaneObservation answer{.id = found.size(), .plane = plane.plane};
     if (plane.corners) answer.corners = *plane.corners;
     for (std::size_t i = 0; i < truth.labels.size(); ++i) {
       if (truth.labels[i] == plane.label) answer.members.push_back(static_cast<PointIndex>(i));
@@ -29,7 +29,7 @@ struct Case {
   std::vector<Vec3> points{};
   Truth truth{};
 
-  Score score(const std::vector<FoundPlane>& found) const { return score_planes(points, truth, found); }
+  Score score(const std::vector<PlaneObservation>& found) const { return score_planes(points, truth, found); }
 };
 
 /// Level squares of 10 x 10 points, one metre above the other from z = 0 on; labels 0, 1, …; then `outliers` points far away.
@@ -54,7 +54,7 @@ inline Case levels(int count, int outliers = 0) {
 }
 
 /// A perfect answer whose members are replaced.
-inline FoundPlane with_members(FoundPlane plane, std::vector<PointIndex> members) {
+inline PlaneObservation with_members(PlaneObservation plane, std::vector<PointIndex> members) {
   std::sort(members.begin(), members.end());
   plane.members = std::move(members);
   return plane;

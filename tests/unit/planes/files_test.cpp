@@ -13,7 +13,7 @@ namespace {
 
 TEST(PlaneFiles, MembersAreRowsOfTheInput) {
   const Cloud cloud{.points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, .rows = {0, 2, 5}};
-  const FoundPlane plane{.id = 9, .plane = {Vec3(0, 0, -1), -1}, .members = {1, 2}, .points = 2};
+  const PlaneObservation plane{.id = 9, .plane = {Vec3(0, 0, -1), -1}, .members = {1, 2}, .points = 2};
   const auto json = planes_json(cloud, {plane});
   EXPECT_EQ(json.at(0).at("members"), nlohmann::ordered_json({2, 5}));
   EXPECT_EQ(json.at(0).at("normal"), nlohmann::ordered_json({0.0, 0.0, -1.0}));
@@ -34,7 +34,7 @@ TEST(PlaneFiles, PlyReadsBackToTheSameBits) {
 }
 
 TEST(PlaneFiles, APointOfSeveralPlanesIsOfTheFirst) {
-  const std::vector<FoundPlane> found{with_members({}, {1, 2}), with_members({}, {2, 3})};
+  const std::vector<PlaneObservation> found{with_members({}, {1, 2}), with_members({}, {2, 3})};
   EXPECT_EQ(plane_of_points(5, found), (std::vector<std::int64_t>{-1, 0, 0, 1, -1}));
 }
 
@@ -59,7 +59,7 @@ TEST(PlaneFiles, WhatCannotBeSaidIsNull) {
 
 TEST(PlaneFiles, FaultsNameLabelsAndPlanes) {
   const Case two = levels(2);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   found[0] = with_members(found[0], indices(0, 108));
   found[1] = with_members(found[1], indices(108, 200));
   const auto json = score_json(two.score(found), two.truth);

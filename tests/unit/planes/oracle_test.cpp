@@ -61,7 +61,7 @@ Case cross() {
 
 TEST(Oracle, GivesTheCrossingToTheDenserPlane) {
   const Case planes = cross();
-  const std::vector<FoundPlane> found = answer_knowing(planes.points, planes.truth);
+  const std::vector<PlaneObservation> found = answer_knowing(planes.points, planes.truth);
   ASSERT_EQ(found.size(), 2u);
   for (const PointIndex i : found[1].members) EXPECT_GT(std::abs(planes.points[i].z()), 0.1);
   EXPECT_GT(std::abs(found[0].plane.normal.z()), 0.999);
@@ -84,7 +84,7 @@ TEST(Oracle, WhatItMissesIsCountedApartAtThatIou) {
     EXPECT_EQ(score.matched[i], 2u) << "the other numbers stay";
   }
   // A plane found that is none stays an error whatever is decidable.
-  std::vector<FoundPlane> found = perfect(planes.truth);
+  std::vector<PlaneObservation> found = perfect(planes.truth);
   found.push_back(with_members(found[1], indices(0, 40)));
   score = planes.score(found);
   count_decidable(knowing, score);

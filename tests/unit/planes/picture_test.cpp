@@ -19,7 +19,7 @@ bool has(const render::Image& image, render::Rgb colour, int begin_x, int end_x)
 
 TEST(PlanePictures, PlanesHaveColoursOfTheirOwn) {
   const Case two = levels(2, 40);
-  const std::vector<FoundPlane> found = perfect(two.truth);
+  const std::vector<PlaneObservation> found = perfect(two.truth);
   const render::Image image = draw_planes({two.points, found, "levels"}, {}, {400, 300});
   EXPECT_EQ(image.width_px, 400);
   EXPECT_TRUE(has(image, render::submap_colour(1), 0, 400));
@@ -30,7 +30,7 @@ TEST(PlanePictures, PlanesHaveColoursOfTheirOwn) {
 TEST(PlanePictures, PairsHaveOneColourOnBothSidesAndFaultsAnother) {
   const Case two = levels(2);
   const render::View view{.kind = render::ViewKind::kPerspective};
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   const auto draw = [&] {
     return draw_comparison({two.points, found, "levels"}, two.truth, two.score(found), view, {400, 300});
   };

@@ -55,7 +55,7 @@ TEST(Score, ScenesAgainstThemselvesAreOneEverywhere) {
 
 TEST(Score, OppositeNormalsAreTheSamePlane) {
   const Case one = levels(1);
-  std::vector<FoundPlane> found = perfect(one.truth);
+  std::vector<PlaneObservation> found = perfect(one.truth);
   found[0].plane = {-found[0].plane.normal, -found[0].plane.offset};
   EXPECT_EQ(one.score(found).pairs.at(0).normal_error, 0.0);
 }
@@ -70,7 +70,7 @@ TEST(Score, NothingFoundIsAllMissing) {
 
 TEST(Score, AnInventedPlaneIsExtra) {
   const Case two = levels(2, 30);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   found.push_back(with_members(found[0], indices(200, 230)));
   const Score score = two.score(found);
   EXPECT_EQ(score.matched[0], 2u);
@@ -81,7 +81,7 @@ TEST(Score, AnInventedPlaneIsExtra) {
 
 TEST(Score, HalvesAreASplit) {
   const Case two = levels(2);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   found.push_back(with_members(found[0], indices(50, 100)));
   found[0] = with_members(found[0], indices(0, 50));
   const Score score = two.score(found);
@@ -91,7 +91,7 @@ TEST(Score, HalvesAreASplit) {
 
 TEST(Score, ASwappedHalfIsASplitOfBothAndAMerge) {
   const Case two = levels(2);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   std::vector<PointIndex> first = indices(0, 49), second = indices(49, 100);
   for (const PointIndex i : indices(151, 200)) first.push_back(i);
   for (const PointIndex i : indices(100, 151)) second.push_back(i);
@@ -104,7 +104,7 @@ TEST(Score, ASwappedHalfIsASplitOfBothAndAMerge) {
 
 TEST(Score, TwoInOneAreAMerge) {
   const Case three = levels(3);
-  std::vector<FoundPlane> found = perfect(three.truth);
+  std::vector<PlaneObservation> found = perfect(three.truth);
   found[0] = with_members(found[0], indices(0, 200));
   found.erase(found.begin() + 1);
   const Score score = three.score(found);
@@ -114,7 +114,7 @@ TEST(Score, TwoInOneAreAMerge) {
 
 TEST(Score, PointsOfAnotherPlaneAreStolen) {
   const Case two = levels(2);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   found[0] = with_members(found[0], indices(0, 108));
   found[1] = with_members(found[1], indices(108, 200));
   const Score score = two.score(found);
@@ -129,7 +129,7 @@ TEST(Score, PointsOfAnotherPlaneAreStolen) {
 
 TEST(Score, SharedPointsCountForBoth) {
   const Case two = levels(2);
-  std::vector<FoundPlane> found = perfect(two.truth);
+  std::vector<PlaneObservation> found = perfect(two.truth);
   found[0] = with_members(found[0], indices(0, 104));
   const Score score = two.score(found);
   EXPECT_EQ(score.matched[2], 2u);
@@ -138,7 +138,7 @@ TEST(Score, SharedPointsCountForBoth) {
 
 TEST(Score, ErrorsAreThoseOfThePlane) {
   const Case one = levels(1);
-  std::vector<FoundPlane> found = perfect(one.truth);
+  std::vector<PlaneObservation> found = perfect(one.truth);
   const double angle = 0.06;
   const Vec3 normal(std::sin(angle), 0, std::cos(angle));
   found[0].plane = {normal, normal.dot(Vec3(4.5, 4.5, 0.25))};
@@ -159,7 +159,7 @@ TEST(Score, PlanesThatMeetAreFoundSo) {
     corner.points.emplace_back(0, i % 10, i / 10);
     corner.truth.labels.push_back(1);
   }
-  std::vector<FoundPlane> found = perfect(corner.truth);
+  std::vector<PlaneObservation> found = perfect(corner.truth);
   EXPECT_EQ(faults_of(corner, corner.score(found)), Texts{});
   for (Vec3& c : found[1].corners) c.x() -= 0.3;
   EXPECT_EQ(faults_of(corner, corner.score(found)), Texts{"unattached 0+1, gap 0.3"});
@@ -184,7 +184,7 @@ TEST(Score, SmallAndTightOnesAreCountedApart) {
 TEST(Score, AnyOrderOfWhatWasFoundGivesTheSame) {
   const Scene scene = make_scene(5, 1, {.planes = {12, 12}, .points = {2000, 2000}});
   const Truth truth = truth_of(scene);
-  std::vector<FoundPlane> found = perfect(truth);
+  std::vector<PlaneObservation> found = perfect(truth);
   found[2] = with_members(found[2], indices(0, 300));
   found.pop_back();
   const std::string forward = scores_json({score_planes(scene.points, truth, found)}).dump();
@@ -202,7 +202,7 @@ TEST(Score, TruePlanesWithoutPointsAreNotAskedFor) {
 
 TEST(Score, ManyPlanesOfManyPointsAreCountedQuickly) {
   const Case many = levels(300);
-  std::vector<FoundPlane> found;
+  std::vector<PlaneObservation> found;
   for (PointIndex i = 0; i < 30'000; ++i) found.push_back(with_members({}, {i}));
   EXPECT_EQ(many.score(found).count(FaultKind::kMissing), 300u);
 }

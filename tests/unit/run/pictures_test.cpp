@@ -112,14 +112,14 @@ Record room_record(double error_m) {
   const double corners[4][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   for (std::uint64_t i = 0; i < 4; ++i) {
     const auto &r = corners[i], &l = corners[(i + 1) % 4];
-    record.true_walls.push_back(
+    record.true_planes.push_back(
         {.id = i, .corners_m = {{{l[0], l[1], 0}, {r[0], r[1], 0}, {r[0], r[1], 2}, {l[0], l[1], 2}}}});
     if (i == 3) continue;
-    log::MappedPlane& plane = record.planes.emplace_back();
+    log::PlaneLandmark& plane = record.planes.emplace_back();
     plane.id = 20 + i;
     plane.normal = {i == 1 ? -1.0 : 0.0, i == 0 ? 1.0 : i == 2 ? -1.0 : 0.0, 0};
     for (std::size_t k = 0; k < 4; ++k) {
-      plane.outline.push_back({record.true_walls.back().corners_m[k], k == 1});
+      plane.outline.push_back({record.true_planes.back().corners_m[k], k == 1});
       plane.outline.back().position_m[0] += error_m;
     }
     record.matches.push_back({20 + i, i});

@@ -34,8 +34,8 @@ FacePlan plan_of(std::vector<Polygon> faces) {
   return {faces, faces};
 }
 
-std::vector<FacePiece> seen(const FacePlan& plan, const FaceViewSpec& spec = {}, const Pose& T = {}) {
-  std::vector<FacePiece> pieces;
+std::vector<VisibleFace> seen(const FacePlan& plan, const FaceViewSpec& spec = {}, const Pose& T = {}) {
+  std::vector<VisibleFace> pieces;
   FaceView(spec, plan).find(T, pieces);
   return pieces;
 }
@@ -148,10 +148,10 @@ TEST(FaceView, SeesWhatRaysSee) {
   for (int trial = 0; trial < 30; ++trial) {
     const Pose T{from_yaw_pitch_roll(uniform(-3, 3), uniform(-1.5, 1.5), uniform(-3, 3)),
                  Vec3(uniform(-7, 7), uniform(-7, 7), uniform(-4, 4))};
-    const std::vector<FacePiece> pieces = seen(plan, spec, T);
+    const std::vector<VisibleFace> pieces = seen(plan, spec, T);
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
       const auto piece =
-          std::find_if(pieces.begin(), pieces.end(), [&](const FacePiece& p) { return p.face == i; });
+          std::find_if(pieces.begin(), pieces.end(), [&](const VisibleFace& p) { return p.face == i; });
       for (int sample = 0; sample < 20; ++sample) {
         const std::vector<Vec3>& v = faces[i].vertices;
         const Vec3 at = v[0] + uniform(0, 1) * (v[1] - v[0]) + uniform(0, 1) * (v[3] - v[0]);
@@ -170,7 +170,7 @@ TEST(FaceView, SeesWhatRaysSee) {
         }
       }
     }
-    for (const FacePiece& piece : pieces) {
+    for (const VisibleFace& piece : pieces) {
       for (const Vec3& p : piece.seen.vertices) {
         EXPECT_NEAR(piece.seen.plane.distance(p), 0.0, 1e-9);
         EXPECT_LE(std::abs(p.y()), p.x() * std::tan(0.5 * spec.horizontal_fov) + 1e-9);

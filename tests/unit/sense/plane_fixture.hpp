@@ -52,29 +52,28 @@ inline Pose standing(double x = 0.0, double y = 0.0, double yaw = 0.0) {
   return {from_yaw_pitch_roll(yaw, 0, 0), {x, y, kEye_m}};
 }
 
-inline std::vector<sense::PlaneObservation> observe(const sense::PlaneSensor& sensor, const Pose& pose,
-                                                    std::uint32_t step = 0) {
-  std::vector<sense::PlaneObservation> planes;
+inline std::vector<PlaneObservation> observe(const sense::PlaneSensor& sensor, const Pose& pose,
+                                             std::uint32_t step = 0) {
+  std::vector<PlaneObservation> planes;
   sensor.observe(pose, step, planes);
   return planes;
 }
 
 /// What is seen without noise, by wall and from left to right.
-inline std::vector<sense::PlaneObservation> seen_of(const sense::PlaneSensorSpec& spec,
-                                                    const sense::WallPlan& plan,
-                                                    const Pose& pose = standing()) {
+inline std::vector<PlaneObservation> seen_of(const sense::PlaneSensorSpec& spec, const sense::WallPlan& plan,
+                                             const Pose& pose = standing()) {
   auto planes = observe(sense::PlaneSensor(spec, plan, 1), pose);
-  const auto left_bearing = [](const sense::PlaneObservation& plane) {
+  const auto left_bearing = [](const PlaneObservation& plane) {
     return std::atan2(plane.corners[0].y(), plane.corners[0].x());
   };
   std::sort(planes.begin(), planes.end(), [&](const auto& a, const auto& b) {
-    return std::pair(a.wall, -left_bearing(a)) < std::pair(b.wall, -left_bearing(b));
+    return std::pair(a.true_plane, -left_bearing(a)) < std::pair(b.true_plane, -left_bearing(b));
   });
   return planes;
 }
 
 /// Whether a plane reaches from one point to another, sensor frame.
-inline bool reaches(const sense::PlaneObservation& plane, const Vec2& left, const Vec2& right) {
+inline bool reaches(const PlaneObservation& plane, const Vec2& left, const Vec2& right) {
   constexpr double kRounding_m = 1e-12;
   return (plane.corners[0].head<2>() - left).norm() < kRounding_m &&
          (plane.corners[1].head<2>() - right).norm() < kRounding_m;

@@ -54,7 +54,7 @@ class PlaneNoise : public testing::Test {
     const PlaneSensor sensor(noisy(), plan_, 42);
     for (std::uint32_t step = 0; step < kSteps; ++step) {
       for (const PlaneObservation& plane : observe(sensor, standing(), step))
-        all_[plane.wall][step] = deviates_of(plane, plan_.walls[plane.wall], noisy());
+        all_[plane.true_plane][step] = deviates_of(plane, plan_.walls[plane.true_plane], noisy());
     }
   }
 
@@ -135,7 +135,7 @@ TEST_F(PlaneNoise, DependsOnSeedAndNameAndStepAlone) {
   const auto first = [&](const PlaneSensorSpec& spec, std::uint64_t seed, const WallPlan& plan) {
     Deviates found{};
     for (const PlaneObservation& plane : observe(PlaneSensor(spec, plan, seed), standing())) {
-      if (plane.wall == 0) found = deviates_of(plane, plan.walls[0], spec);
+      if (plane.true_plane == 0) found = deviates_of(plane, plan.walls[0], spec);
     }
     return found;
   };
@@ -163,7 +163,7 @@ TEST(PlaneNoiseAtTheBorder, DecidesNothing) {
   for (std::uint32_t step = 0; step < 20; ++step) {
     const auto planes = observe(sensor, standing(), step);
     ASSERT_EQ(planes.size(), 10u);
-    for (const PlaneObservation& plane : planes) ASSERT_LT(plane.wall, 10u);
+    for (const PlaneObservation& plane : planes) ASSERT_LT(plane.true_plane, 10u);
   }
 }
 
@@ -193,7 +193,7 @@ TEST(PlaneOrder, SaysNothingOfIdentity) {
   const PlaneSensor sensor(plane_camera(), plan, 1);
   const auto order = [&](std::uint32_t step) {
     std::vector<std::uint32_t> found;
-    for (const PlaneObservation& plane : observe(sensor, standing(), step)) found.push_back(plane.wall);
+    for (const PlaneObservation& plane : observe(sensor, standing(), step)) found.push_back(plane.true_plane);
     return found;
   };
   EXPECT_EQ(order(0), order(0));

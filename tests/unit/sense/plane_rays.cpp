@@ -136,7 +136,7 @@ void compare(const Scenery& scenery, const PlaneSensorSpec& spec, const Pose& po
       if (!distance_m) continue;
       given.push_back(*distance_m);
       const Vec2 place = (pose.t + *distance_m * direction).head<2>();
-      ASSERT_TRUE(unsure || is_on_wall(scenery.plan.walls[plane.wall], place)) << plane.wall;
+      ASSERT_TRUE(unsure || is_on_wall(scenery.plan.walls[plane.true_plane], place)) << plane.true_plane;
     }
     if (unsure) {
       ++counts.skipped;

@@ -24,7 +24,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::vector<std::uint32_t> walls_of(const std::vector<PlaneObservation>& planes) {
   std::vector<std::uint32_t> walls;
-  for (const PlaneObservation& plane : planes) walls.push_back(plane.wall);
+  for (const PlaneObservation& plane : planes) walls.push_back(plane.true_plane);
   return walls;
 }
 using Walls = std::vector<std::uint32_t>;
@@ -32,7 +32,7 @@ using Walls = std::vector<std::uint32_t>;
 TEST(PlaneSensor, GivesAWallAsARectangleThatFacesIt) {
   const auto planes = seen_of(plane_camera(), plan_of({{{5, 2}, {5, -2}}}));
   ASSERT_EQ(planes.size(), 1u);
-  EXPECT_EQ(planes[0].wall, 0u);
+  EXPECT_EQ(planes[0].true_plane, 0u);
   EXPECT_EQ(planes[0].plane.normal, Vec3(-1, 0, 0));
   EXPECT_EQ(planes[0].plane.offset, -5.0);
   EXPECT_EQ(planes[0].centroid, Vec3(5, 0, 0.5));
@@ -188,7 +188,7 @@ TEST(PlaneSensor, SeesAllRound) {
   const double gap = 5 * std::tan(30 * kDegree);
   std::size_t behind = 0;
   for (const PlaneObservation& plane : most) {
-    if (plane.wall != 2) continue;
+    if (plane.true_plane != 2) continue;
     ++behind;
     EXPECT_TRUE(reaches(plane, {-5, -5}, {-5, -gap}) || reaches(plane, {-5, gap}, {-5, 5}));
   }

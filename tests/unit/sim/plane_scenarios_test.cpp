@@ -34,7 +34,7 @@ class Drive {
       std::vector<Sight>& sights = steps_.emplace_back();
       const auto& sensor = std::get<sense::PlaneSensorSpec>(simulator_.scenario().sensors.at(0));
       const Pose T_world_sensor = frame.T_world_body * sensor.T_body_sensor;
-      for (const sense::PlaneObservation& plane : frame.readings.at(0).planes)
+      for (const PlaneObservation& plane : frame.readings.at(0).planes)
         sights.push_back(sight_of(plane, T_world_sensor));
     }
   }
@@ -91,13 +91,13 @@ class Drive {
     return load_scenario(test::source_folder() / "maps" / (name + ".toml"));
   }
 
-  Sight sight_of(const sense::PlaneObservation& plane, const Pose& T_world_sensor) const {
-    const sense::Wall& wall = walls()[plane.wall];
+  Sight sight_of(const PlaneObservation& plane, const Pose& T_world_sensor) const {
+    const sense::Wall& wall = walls()[plane.true_plane];
     const auto is_at = [&](const Vec3& corner, const Vec2& end) {
       return ((T_world_sensor * corner).head<2>() - end).norm() < kSame_m;
     };
     const bool left = is_at(plane.corners[0], wall.left), right = is_at(plane.corners[1], wall.right);
-    return {plane.wall, (plane.corners[1] - plane.corners[0]).norm(), left && right, !left && !right};
+    return {plane.true_plane, (plane.corners[1] - plane.corners[0]).norm(), left && right, !left && !right};
   }
 
   Simulator simulator_;

@@ -87,8 +87,8 @@ TEST(PlaneSensors, SeeTheMapsWallsWhereTheyAre) {
     const Frame frame = simulator.step(i);
     EXPECT_TRUE(frame.readings[0].observations.empty());
     const Pose T_world_sensor = frame.T_world_body * spec_of(simulator).T_body_sensor;
-    for (const sense::PlaneObservation& plane : frame.readings[0].planes) {
-      const sense::Wall& wall = simulator.walls(0)->walls.at(plane.wall);
+    for (const PlaneObservation& plane : frame.readings[0].planes) {
+      const sense::Wall& wall = simulator.walls(0)->walls.at(plane.true_plane);
       for (const Vec3& corner : plane.corners) {
         const Vec3 place = T_world_sensor * corner;
         EXPECT_NEAR((place.head<2>() - wall.left).dot(wall.normal()), 0.0, 1e-9);

@@ -168,7 +168,7 @@ std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64
     face.plane.offset = face.plane.normal.dot(face.vertices.front());
   };
   std::vector<TrueFrame> frames;
-  std::vector<sense::PlaneObservation> seen;
+  std::vector<PlaneObservation> seen;
   for (std::size_t i = 0; i < scene.path.size(); ++i) {
     if (i >= moving.begin && i < moving.begin + moving.frames) {
       move(plan.faces[moving.face]);
@@ -177,9 +177,9 @@ std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64
     sense::FaceSensor(spec, plan, seed).observe(scene.path[i], static_cast<std::uint32_t>(i), seen);
     TrueFrame& frame = frames.emplace_back();
     frame.T_world_robot = scene.path[i];
-    for (const sense::PlaneObservation& plane : seen) {
+    for (const PlaneObservation& plane : seen) {
       frame.faces.push_back({plane.plane.normal, plane.centroid, plane.hull});
-      frame.truth.push_back(plane.wall);
+      frame.truth.push_back(plane.true_plane);
     }
   }
   return frames;

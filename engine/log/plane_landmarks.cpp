@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "log/mapped_planes.hpp"
+#include "log/plane_landmarks.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::vector<CsvColumn> columns() {
           {"offset_m"}, {"corner"},       {"x"},      {"y"},  {"z"},  {"edge_certain"}};
 }
 
-MappedPlane read_plane(const CsvReader& row, LandmarkId id) {
+PlaneLandmark read_plane(const CsvReader& row, LandmarkId id) {
   const auto status = landmark_status(row.text(kStatus));
   if (!status) throw row.bad_field(kStatus, "\"temporary\", \"mapped\" or \"dynamic\"");
   return {.id = id,
@@ -43,16 +43,16 @@ MappedPlane read_plane(const CsvReader& row, LandmarkId id) {
           .offset_m = row.number(kOffset)};
 }
 
-void check_complete(const CsvReader& row, const std::vector<MappedPlane>& planes) {
+void check_complete(const CsvReader& row, const std::vector<PlaneLandmark>& planes) {
   if (!planes.empty() && planes.back().outline.size() < kLeastCorners)
     throw row.error(fmt::format("plane {} has fewer than {} corners", planes.back().id, kLeastCorners));
 }
 
 }  // namespace
 
-std::vector<MappedPlane> parse_mapped_planes(std::string_view text, const std::string& file) {
+std::vector<PlaneLandmark> parse_plane_landmarks(std::string_view text, const std::string& file) {
   CsvReader row(text, file, columns());
-  std::vector<MappedPlane> planes;
+  std::vector<PlaneLandmark> planes;
   UniqueIds ids;
   while (row.next()) {
     if (row.whole(kCorner, kMaxWhole) == 0) {
@@ -61,7 +61,7 @@ std::vector<MappedPlane> parse_mapped_planes(std::string_view text, const std::s
     }
     if (planes.empty() || row.whole(kId, kNoLandmark - 1) != planes.back().id)
       throw row.bad_field(kCorner, "0 in the first row of a plane");
-    MappedPlane& plane = planes.back();
+    PlaneLandmark& plane = planes.back();
     if (row.whole(kCorner, kMaxWhole) != plane.outline.size())
       throw row.bad_field(kCorner, fmt::format("{}", plane.outline.size()));
     plane.outline.push_back({.position_m = row.vector(kPosition), .edge_certain = row.whole(kEdge, 1) == 1});
@@ -70,17 +70,17 @@ std::vector<MappedPlane> parse_mapped_planes(std::string_view text, const std::s
   return planes;
 }
 
-std::vector<MappedPlane> read_mapped_planes(const std::filesystem::path& path) {
-  return parse_mapped_planes(read_file(path), path.string());
+std::vector<PlaneLandmark> read_plane_landmarks(const std::filesystem::path& path) {
+  return parse_plane_landmarks(read_file(path), path.string());
 }
 
-std::string print_mapped_planes(std::span<const MappedPlane> planes) {
+std::string print_plane_landmarks(std::span<const PlaneLandmark> planes) {
   RowWriter out(',');
   for (const CsvColumn& column : columns()) out.word(column.name);
   out.end_row();
-  for (const MappedPlane& plane : planes) {
+  for (const PlaneLandmark& plane : planes) {
     for (std::size_t i = 0; i < plane.outline.size(); ++i) {
-      const MappedCorner& corner = plane.outline[i];
+      const OutlineCorner& corner = plane.outline[i];
       out.whole(plane.id).whole(plane.observations).word(landmark_status_name(plane.status));
       out.numbers(plane.normal).number(plane.offset_m).whole(i).numbers(corner.position_m);
       out.whole(corner.edge_certain ? 1 : 0).end_row();
@@ -89,8 +89,8 @@ std::string print_mapped_planes(std::span<const MappedPlane> planes) {
   return out.take();
 }
 
-void write_mapped_planes(const std::filesystem::path& path, std::span<const MappedPlane> planes) {
-  write_file_atomically(path, print_mapped_planes(planes));
+void write_plane_landmarks(const std::filesystem::path& path, std::span<const PlaneLandmark> planes) {
+  write_file_atomically(path, print_plane_landmarks(planes));
 }
 
 }  // namespace hallway::log

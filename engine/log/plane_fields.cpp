@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "log/hull_field.hpp"
+#include "log/plane_fields.hpp"
 
 #include <cmath>
 #include <optional>
@@ -8,6 +8,12 @@
 #include "base/text.hpp"
 
 namespace hallway::log {
+
+std::array<std::array<double, 3>, 4> read_corners(const CsvReader& row, std::size_t first_column) {
+  std::array<std::array<double, 3>, 4> corners{};
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = row.vector(first_column + 3 * i);
+  return corners;
+}
 
 std::vector<std::array<double, 3>> read_hull(const CsvReader& row, std::size_t column) {
   std::vector<std::array<double, 3>> hull;

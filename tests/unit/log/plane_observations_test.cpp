@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tables of planes that a sensor gave, and of true walls.
-#include "log/observed_planes.hpp"
+// Tables of planes that a sensor gave, and of true planes.
+#include "log/plane_observations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "log/true_walls.hpp"
+#include "log/true_planes.hpp"
 #include "support/errors.hpp"
 #include "support/random_doubles.hpp"
 
@@ -19,8 +19,8 @@ using test::same_bits;
 constexpr const char* kHeader =
     "iteration,wall_id,nx,ny,nz,offset_m,cx,cy,cz,x0,y0,z0,x1,y1,z1,x2,y2,z2,x3,y3,z3\n";
 
-bool same_geometry(const Plane& a, const Plane& b) {
-  const auto numbers = [](const Plane& plane) {
+bool same_geometry(const PlaneObservation& a, const PlaneObservation& b) {
+  const auto numbers = [](const PlaneObservation& plane) {
     std::vector<double> all(plane.normal.begin(), plane.normal.end());
     all.push_back(plane.offset_m);
     all.insert(all.end(), plane.centroid_m.begin(), plane.centroid_m.end());
@@ -31,29 +31,29 @@ bool same_geometry(const Plane& a, const Plane& b) {
   return std::equal(x.begin(), x.end(), y.begin(), y.end(), same_bits);
 }
 
-ObservedPlane random_plane(LandmarkId wall, std::uint32_t step) {
+PlaneObservation random_plane(LandmarkId true_plane, std::uint32_t step) {
   const std::vector<double> values = test::random_doubles(19, step);
-  ObservedPlane seen;
-  seen.wall = wall;
+  PlaneObservation seen;
+  seen.true_plane = true_plane;
   for (std::size_t i = 0; i < 3; ++i) {
-    seen.plane.normal[i] = values[i];
-    seen.plane.centroid_m[i] = values[4 + i];
-    for (std::size_t k = 0; k < 4; ++k) seen.plane.corners_m[k][i] = values[7 + 3 * k + i];
+    seen.normal[i] = values[i];
+    seen.centroid_m[i] = values[4 + i];
+    for (std::size_t k = 0; k < 4; ++k) seen.corners_m[k][i] = values[7 + 3 * k + i];
   }
-  seen.plane.offset_m = values[3];
+  seen.offset_m = values[3];
   return seen;
 }
 
-ReadPlaneLog parse(const std::string& text) {
+ReadPlaneObservations parse(const std::string& text) {
   return parse_observed_planes(text, "planes.csv");
 }
 
 TEST(ObservedPlanes, HullsComeBackAsTheyWere) {
-  ObservedPlaneLog log(true);
-  std::vector<ObservedPlane> two{random_plane(3, 1), random_plane(4, 2)};
+  PlaneObservationLog log(true);
+  std::vector<PlaneObservation> two{random_plane(3, 1), random_plane(4, 2)};
   two[0].hull_m = {{0.1, 0.2, 1e-7}, {1.0 / 3.0, -2.0, 5.0}, {7.0, 8.0, 9.5}};
   log.add_frame(0, two);
-  const ReadPlaneLog read = parse(print_observed_planes(log));
+  const ReadPlaneObservations read = parse(print_observed_planes(log));
   EXPECT_FALSE(read.damage);
   ASSERT_EQ(read.log.frame(0).size(), 2u);
   EXPECT_EQ(read.log.frame(0)[0].hull_m, two[0].hull_m);
@@ -61,21 +61,21 @@ TEST(ObservedPlanes, HullsComeBackAsTheyWere) {
 }
 
 TEST(ObservedPlanes, AHullOfFewerThanThreePointsIsRefused) {
-  ObservedPlaneLog log(true);
-  std::vector<ObservedPlane> bad{random_plane(3, 1)};
+  PlaneObservationLog log(true);
+  std::vector<PlaneObservation> bad{random_plane(3, 1)};
   bad[0].hull_m = {{0.1, 0.2, 0.3}, {1.0, -2.0, 5.0}};
   log.add_frame(0, bad);
   EXPECT_TRUE(error_of([&] { parse(print_observed_planes(log)); }));
 }
 
 TEST(ObservedPlanes, ReadBackToTheSameBits) {
-  ObservedPlaneLog log(true);
-  const std::vector<ObservedPlane> two{random_plane(7, 1), random_plane(kNoLandmark, 2)};
-  const std::vector<ObservedPlane> one{random_plane(0, 3)};
+  PlaneObservationLog log(true);
+  const std::vector<PlaneObservation> two{random_plane(7, 1), random_plane(kNoLandmark, 2)};
+  const std::vector<PlaneObservation> one{random_plane(0, 3)};
   log.add_frame(0, two);
   log.add_frame(3, one);
   log.add_frame(5, {});
-  const ReadPlaneLog back = parse(print_observed_planes(log));
+  const ReadPlaneObservations back = parse(print_observed_planes(log));
   ASSERT_FALSE(back.damage);
   EXPECT_TRUE(back.log.has_identities());
   EXPECT_EQ(back.log.iterations(), 6u);
@@ -84,25 +84,25 @@ TEST(ObservedPlanes, ReadBackToTheSameBits) {
   EXPECT_TRUE(back.log.frame(1).empty());
   EXPECT_TRUE(back.log.frame(5).empty());
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_TRUE(same_geometry(back.log.frame(0)[i].plane, two[i].plane)) << i;
-    EXPECT_EQ(back.log.frame(0)[i].wall, two[i].wall);
-    EXPECT_EQ(back.log.frame(0)[i].plane.id, i) << "its place in its frame";
-    EXPECT_EQ(back.log.frame(0)[i].plane.exclusive_share, 1.0);
-    EXPECT_EQ(back.log.frame(0)[i].plane.points, 0u);
+    EXPECT_TRUE(same_geometry(back.log.frame(0)[i], two[i])) << i;
+    EXPECT_EQ(back.log.frame(0)[i].true_plane, two[i].true_plane);
+    EXPECT_EQ(back.log.frame(0)[i].id, i) << "its place in its frame";
+    EXPECT_EQ(back.log.frame(0)[i].exclusive_share, 1.0);
+    EXPECT_EQ(back.log.frame(0)[i].points, 0u);
   }
-  EXPECT_EQ(back.log.frame(3)[0].plane.id, 0u);
+  EXPECT_EQ(back.log.frame(3)[0].id, 0u);
   EXPECT_EQ(print_observed_planes(back.log), print_observed_planes(log));
 }
 
 TEST(ObservedPlanes, NeedNoIdentities) {
-  ObservedPlaneLog log;
-  const std::vector<ObservedPlane> one{random_plane(7, 1)};
+  PlaneObservationLog log;
+  const std::vector<PlaneObservation> one{random_plane(7, 1)};
   log.add_frame(0, one);
   const std::string text = print_observed_planes(log);
   EXPECT_TRUE(text.starts_with("iteration,nx,")) << text;
-  const ReadPlaneLog back = parse(text);
+  const ReadPlaneObservations back = parse(text);
   EXPECT_FALSE(back.log.has_identities());
-  EXPECT_EQ(back.log.frame(0)[0].wall, kNoLandmark);
+  EXPECT_EQ(back.log.frame(0)[0].true_plane, kNoLandmark);
 }
 
 TEST(ObservedPlanes, AreToldFromPointsByTheirHeader) {
@@ -114,7 +114,8 @@ TEST(ObservedPlanes, AreToldFromPointsByTheirHeader) {
 
 TEST(ObservedPlanes, AreReadUpToTheFirstBadRow) {
   const std::string good = "0,4,0,0,-1,-2,0,0,2,1,1,2,-1,1,2,-1,-1,2,1,-1,2\n";
-  const ReadPlaneLog read = parse(kHeader + good + "1,4,0,0,-1,-2,0,0,2,1,1,2,-1,1,2,-1,-1,2,1,-1,nan\n");
+  const ReadPlaneObservations read =
+      parse(kHeader + good + "1,4,0,0,-1,-2,0,0,2,1,1,2,-1,1,2,-1,-1,2,1,-1,nan\n");
   ASSERT_TRUE(read.damage);
   EXPECT_EQ(read.damage->line, 3);
   EXPECT_EQ(read.log.frame(0).size(), 1u);
@@ -127,43 +128,43 @@ TEST(ObservedPlanes, AreReadUpToTheFirstBadRow) {
   EXPECT_TRUE(error_of([&] { parse("iteration,nx,ny,nz,offset_m\n"); }));
 }
 
-TEST(TrueWalls, ReadBackToTheSameBits) {
+TEST(TruePlanes, ReadBackToTheSameBits) {
   const std::vector<double> values = test::random_doubles(24, 5);
-  std::vector<TrueWall> walls(2);
-  for (std::size_t i = 0; i < 24; ++i) walls[i / 12].corners_m[i % 12 / 3][i % 3] = values[i];
-  walls[1].id = 9;
-  const std::vector<TrueWall> back = parse_true_walls(print_true_walls(walls), "true_walls.csv");
+  std::vector<TruePlane> planes(2);
+  for (std::size_t i = 0; i < 24; ++i) planes[i / 12].corners_m[i % 12 / 3][i % 3] = values[i];
+  planes[1].id = 9;
+  const std::vector<TruePlane> back = parse_true_planes(print_true_planes(planes), "true_walls.csv");
   ASSERT_EQ(back.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(back[i].id, walls[i].id);
-    EXPECT_EQ(back[i].corners_m, walls[i].corners_m);
+    EXPECT_EQ(back[i].id, planes[i].id);
+    EXPECT_EQ(back[i].corners_m, planes[i].corners_m);
   }
-  EXPECT_TRUE(print_true_walls(walls).starts_with("wall_id,x0,y0,z0,x1,"));
-  EXPECT_EQ(print_true_walls(walls).find("hull"), std::string::npos);
+  EXPECT_TRUE(print_true_planes(planes).starts_with("wall_id,x0,y0,z0,x1,"));
+  EXPECT_EQ(print_true_planes(planes).find("hull"), std::string::npos);
 }
 
-TEST(TrueWalls, OfMoreThanFourCornersHaveTheirOutline) {
+TEST(TruePlanes, OfMoreThanFourCornersHaveTheirOutline) {
   const std::vector<double> values = test::random_doubles(15, 6);
-  std::vector<TrueWall> walls(2);
-  walls[1].id = 3;
+  std::vector<TruePlane> planes(2);
+  planes[1].id = 3;
   for (std::size_t i = 0; i < 5; ++i)
-    walls[1].hull_m.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
-  const std::vector<TrueWall> back = parse_true_walls(print_true_walls(walls), "true_walls.csv");
+    planes[1].hull_m.push_back({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+  const std::vector<TruePlane> back = parse_true_planes(print_true_planes(planes), "true_walls.csv");
   ASSERT_EQ(back.size(), 2u);
   EXPECT_TRUE(back[0].hull_m.empty());
-  EXPECT_EQ(back[1].hull_m, walls[1].hull_m);
-  const std::string text = print_true_walls(walls);
+  EXPECT_EQ(back[1].hull_m, planes[1].hull_m);
+  const std::string text = print_true_planes(planes);
   const std::string begin = text.substr(0, text.find('\n') + 1) + "1,0,0,0,1,0,0,1,0,1,0,0,1,";
-  EXPECT_EQ(parse_true_walls(begin + "0 0 0 1 0 0 1 1 0\n", "a").front().hull_m.size(), 3u);
+  EXPECT_EQ(parse_true_planes(begin + "0 0 0 1 0 0 1 1 0\n", "a").front().hull_m.size(), 3u);
   for (const char* hull : {"0 0 0 1 0 0", "0 0 0 1 0 0 1 1", "0 0 0 1 0 0 1 1 x"})
-    EXPECT_TRUE(error_of([&] { parse_true_walls(begin + hull + "\n", "a"); })) << hull;
+    EXPECT_TRUE(error_of([&] { parse_true_planes(begin + hull + "\n", "a"); })) << hull;
 }
 
-TEST(TrueWalls, HaveDistinctIds) {
+TEST(TruePlanes, HaveDistinctIds) {
   const std::string row = "1,0,0,0,1,0,0,1,0,1,0,0,1\n";
-  const std::string header = print_true_walls({});
-  EXPECT_EQ(parse_true_walls(header + row, "a").size(), 1u);
-  EXPECT_TRUE(error_of([&] { parse_true_walls(header + row + row, "a"); }));
+  const std::string header = print_true_planes({});
+  EXPECT_EQ(parse_true_planes(header + row, "a").size(), 1u);
+  EXPECT_TRUE(error_of([&] { parse_true_planes(header + row + row, "a"); }));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/mapped_plane_list.hpp"
+#include "host/plane_landmark_list.hpp"
 
 #include <hallway/output.h>
 
@@ -49,12 +49,12 @@ void append(std::vector<T>& all, const Strided<T>& list) {
 
 }  // namespace
 
-void MappedPlaneList::clear() {
+void PlaneLandmarkList::clear() {
   planes_.clear();
   corners_.clear();
 }
 
-void MappedPlaneList::add(const hw_mapped_planes_t& planes) {
+void PlaneLandmarkList::add(const hw_mapped_planes_t& planes) {
   const std::size_t first_plane = planes_.size(), first_corner = corners_.size();
   append(planes_, Strided<hw_mapped_plane_t>(planes.planes, planes.count, planes.stride));
   append(corners_, Strided<hw_mapped_corner_t>(planes.corners, planes.n_corners, planes.corner_stride));

@@ -11,7 +11,7 @@
 namespace hallway::host {
 
 /// The planes of a plugin's map, checked, in memory that is used again.
-class MappedPlaneList {
+class PlaneLandmarkList {
  public:
   void clear();
   /// Copies a list behind those that are there and checks the copy: what mapped_planes.h demands, but for distinct ids.

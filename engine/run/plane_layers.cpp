@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "run/wall_layers.hpp"
+#include "run/plane_layers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <span>
 #include <unordered_map>
 
+#include "geom/arrays.hpp"
 #include "render/colour.hpp"
 
 namespace hallway::run {
@@ -15,10 +15,6 @@ namespace {
 /// More mapped planes than this have no numbers in a picture.
 constexpr std::ptrdiff_t kMostNumbers = 80;
 
-Vec3 point_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 template <std::size_t N>
 Vec3 middle_of(const std::array<Vec3, N>& points) {
   Vec3 middle = Vec3::Zero();
@@ -26,26 +22,25 @@ Vec3 middle_of(const std::array<Vec3, N>& points) {
   return middle;
 }
 
-Vec3 middle_of(const log::MappedPlane& plane) {
+Vec3 middle_of(const log::PlaneLandmark& plane) {
   Vec3 middle = Vec3::Zero();
-  for (const log::MappedCorner& corner : plane.outline)
-    middle += point_of(corner.position_m) / static_cast<double>(plane.outline.size());
+  for (const log::OutlineCorner& corner : plane.outline)
+    middle += to_vec3(corner.position_m) / static_cast<double>(plane.outline.size());
   return middle;
 }
 
-void add_true_walls(render::Picture& picture, const Record& record) {
-  render::Segments walls{.pairs = {},
-                         .colour = render::palette::kTruth,
-                         .width_px = 5.0,
-                         .opacity = 0.45,
-                         .label = "true walls"};
-  for (const log::TrueWall& wall : record.true_walls) {
-    const std::span<const std::array<double, 3>> outline =
-        wall.hull_m.empty() ? std::span(wall.corners_m) : std::span(wall.hull_m);
+void add_true_planes(render::Picture& picture, const Record& record) {
+  render::Segments planes{.pairs = {},
+                          .colour = render::palette::kTruth,
+                          .width_px = 5.0,
+                          .opacity = 0.45,
+                          .label = "true walls"};
+  for (const log::TruePlane& plane : record.true_planes) {
+    const auto outline = plane.outline();
     for (std::size_t i = 0; i < outline.size(); ++i)
-      walls.pairs.push_back({point_of(outline[i]), point_of(outline[(i + 1) % outline.size()])});
+      planes.pairs.push_back({to_vec3(outline[i]), to_vec3(outline[(i + 1) % outline.size()])});
   }
-  if (!walls.pairs.empty()) picture.segments.push_back(std::move(walls));
+  if (!planes.pairs.empty()) picture.segments.push_back(std::move(planes));
 }
 
 /// The outlines of planes of one status, and dots at those of their ends that are certain.
@@ -60,12 +55,12 @@ void add_mapped(render::Picture& picture, const Record& record, const Pose& T_wo
                        .colour = outlines.colour,
                        .size_px = 6.0,
                        .label = temporary ? "" : "certain ends"};
-  for (const log::MappedPlane& plane : record.planes) {
+  for (const log::PlaneLandmark& plane : record.planes) {
     if ((plane.status == log::LandmarkStatus::kTemporary) != temporary) continue;
     const std::size_t n = plane.outline.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const std::array<Vec3, 2> edge{T_world_map * point_of(plane.outline[i].position_m),
-                                     T_world_map * point_of(plane.outline[(i + 1) % n].position_m)};
+      const std::array<Vec3, 2> edge{T_world_map * to_vec3(plane.outline[i].position_m),
+                                     T_world_map * to_vec3(plane.outline[(i + 1) % n].position_m)};
       outlines.pairs.push_back(edge);
       if (plane.outline[i].edge_certain) ends.positions.push_back(middle_of(edge));
     }
@@ -76,13 +71,13 @@ void add_mapped(render::Picture& picture, const Record& record, const Pose& T_wo
 
 void add_stars(render::Picture& picture, const Record& record, const Pose& T_world_map) {
   std::unordered_map<std::uint64_t, Vec3> middles;
-  for (const log::MappedPlane& plane : record.planes) {
+  for (const log::PlaneLandmark& plane : record.planes) {
     if (plane.status == log::LandmarkStatus::kMapped) middles[plane.id] = T_world_map * middle_of(plane);
   }
   std::map<std::uint64_t, std::vector<std::uint64_t>> members;
   for (const log::IdPair& member : record.submaps) members[member.first].push_back(member.second);
   for (const log::SubmapPose& submap : record.submap_poses) {
-    const Vec3 origin = T_world_map * point_of(submap.position_m);
+    const Vec3 origin = T_world_map * to_vec3(submap.position_m);
     render::Segments star{.pairs = {},
                           .colour = render::submap_colour(submap.id),
                           .width_px = 1.0,
@@ -103,12 +98,12 @@ void add_stars(render::Picture& picture, const Record& record, const Pose& T_wor
 }
 
 void add_numbers(render::Picture& picture, const Record& record, const Pose& T_world_map) {
-  const auto is_mapped = [](const log::MappedPlane& plane) {
+  const auto is_mapped = [](const log::PlaneLandmark& plane) {
     return plane.status == log::LandmarkStatus::kMapped;
   };
   const auto mapped = std::count_if(record.planes.begin(), record.planes.end(), is_mapped);
   if (mapped > kMostNumbers) return;
-  for (const log::MappedPlane& plane : record.planes) {
+  for (const log::PlaneLandmark& plane : record.planes) {
     if (is_mapped(plane))
       picture.labels.push_back(
           {.position = T_world_map * middle_of(plane), .text = std::to_string(plane.id)});
@@ -117,12 +112,12 @@ void add_numbers(render::Picture& picture, const Record& record, const Pose& T_w
 
 }  // namespace
 
-void add_walls(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
-               const Pose& T_world_map) {
+void add_planes(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+                const Pose& T_world_map) {
   if (record.planes.empty()) return;
-  if (spec.shows(sim::PictureLayer::kTruth)) add_true_walls(picture, record);
+  if (spec.shows(sim::PictureLayer::kTruth)) add_true_planes(picture, record);
   if (spec.shows(sim::PictureLayer::kSubmaps)) add_stars(picture, record, T_world_map);
-  if (!spec.shows(sim::PictureLayer::kWalls)) return;
+  if (!spec.shows(sim::PictureLayer::kPlanes)) return;
   for (const bool temporary : {true, false}) add_mapped(picture, record, T_world_map, temporary);
   if (spec.shows(sim::PictureLayer::kSubmaps)) add_numbers(picture, record, T_world_map);
 }
