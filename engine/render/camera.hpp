@@ -5,16 +5,10 @@
 #include <span>
 
 #include "geometry/se3.hpp"
+#include "render/image.hpp"
 #include "render/view.hpp"
 
 namespace hallway::render {
-
-/// A rectangle in pixels, edges inclusive on the left and top, exclusive on the right and bottom.
-struct PixelRect {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  int width() const { return right - left; }
-  int height() const { return bottom - top; }
-};
 
 /// A place in a picture. Pixel (i, j) covers [i, i+1) x [j, j+1); y runs down.
 struct ScreenPoint {

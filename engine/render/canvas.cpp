@@ -144,15 +144,13 @@ PixelRect hull(const PixelRect& a, const PixelRect& b) {
 bool Occluders::hides(int x, int y, double distance) const {
   if (distance_m.empty() || x < area.left || y < area.top || x >= area.right || y >= area.bottom)
     return false;
-  const std::size_t i = static_cast<std::size_t>(y - area.top) * static_cast<std::size_t>(area.width()) +
-                        static_cast<std::size_t>(x - area.left);
+  const std::size_t i = pixel_index(x - area.left, y - area.top, area.width());
   return distance * (1.0 - kOnFaceShare) - kOnFace_m > static_cast<double>(distance_m[i]);
 }
 
 Canvas::Canvas(Image& image) : image_(image), clip_{0, 0, image.width_px, image.height_px} {
-  const std::size_t pixels = image.bytes.size() / 3;
-  visible_.assign(pixels, 0.0f);
-  hidden_.assign(pixels, 0.0f);
+  visible_.assign(image.bytes.size() / 3, 0.0f);
+  hidden_ = visible_;
 }
 
 void Canvas::set_clip(const PixelRect& clip) {
@@ -160,12 +158,7 @@ void Canvas::set_clip(const PixelRect& clip) {
 }
 
 void Canvas::blend(int x, int y, Rgb colour, double opacity) {
-  const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width_px) +
-                             static_cast<std::size_t>(x));
-  const Rgb mixed = mix({image_.bytes[i], image_.bytes[i + 1], image_.bytes[i + 2]}, colour, opacity);
-  image_.bytes[i] = mixed.r;
-  image_.bytes[i + 1] = mixed.g;
-  image_.bytes[i + 2] = mixed.b;
+  image_.set(x, y, mix(image_.at(x, y), colour, opacity));
 }
 
 void Canvas::cover(const ScreenSegment& segment, double radius_px) {
@@ -177,34 +170,26 @@ void Canvas::cover(const ScreenSegment& segment, double radius_px) {
   const double squared = ab.squaredNorm();
   const PixelRect box = intersection(
       clip_, pixels_around(a.cwiseMin(segment.to.pixel), a.cwiseMax(segment.to.pixel), radius + 1.0));
-  for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      const Vec2 ap = pixel_centre(x, y) - a;
-      const double t = squared > 0.0 ? std::clamp(ap.dot(ab) / squared, 0.0, 1.0) : 0.0;
-      const double gap = (ap - t * ab).squaredNorm();
-      if (gap >= (radius + 0.5) * (radius + 0.5)) continue;
-      const float coverage = strength * static_cast<float>(coverage_of(std::sqrt(gap) - radius));
-      const bool behind = occluders_ != nullptr && occluders_->hides(x, y, distance_at(segment, t));
-      std::vector<float>& layer = behind ? hidden_ : visible_;
-      float& value = layer[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width_px) +
-                           static_cast<std::size_t>(x)];
-      value = std::max(value, coverage);
-    }
-  }
+  for_each_pixel(box, [&](int x, int y) {
+    const Vec2 ap = pixel_centre(x, y) - a;
+    const double t = squared > 0.0 ? std::clamp(ap.dot(ab) / squared, 0.0, 1.0) : 0.0;
+    const double gap = (ap - t * ab).squaredNorm();
+    if (gap >= (radius + 0.5) * (radius + 0.5)) return;
+    const float coverage = strength * static_cast<float>(coverage_of(std::sqrt(gap) - radius));
+    const bool behind = occluders_ != nullptr && occluders_->hides(x, y, distance_at(segment, t));
+    float& value = (behind ? hidden_ : visible_)[pixel_index(x, y, image_.width_px)];
+    value = std::max(value, coverage);
+  });
 }
 
 void Canvas::composite(Rgb colour, double opacity, double hidden_share, const PixelRect& touched) {
-  for (int y = touched.top; y < touched.bottom; ++y) {
-    for (int x = touched.left; x < touched.right; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width_px) +
-                            static_cast<std::size_t>(x);
-      const double shown =
-          std::max(static_cast<double>(visible_[i]), hidden_share * static_cast<double>(hidden_[i]));
-      if (shown > 0.0) blend(x, y, colour, opacity * shown);
-      visible_[i] = 0.0f;
-      hidden_[i] = 0.0f;
-    }
-  }
+  for_each_pixel(touched, [&](int x, int y) {
+    const std::size_t i = pixel_index(x, y, image_.width_px);
+    const double shown =
+        std::max(static_cast<double>(visible_[i]), hidden_share * static_cast<double>(hidden_[i]));
+    if (shown > 0.0) blend(x, y, colour, opacity * shown);
+    visible_[i] = hidden_[i] = 0.0f;
+  });
 }
 
 void Canvas::stroke_layer(std::span<const ScreenSegment> segments, const StrokeStyle& style,
@@ -270,15 +255,13 @@ void Canvas::fill_convex(std::span<const ScreenPoint> corners, Rgb colour, doubl
       intersection(clip_, pixels_around(low.cwiseMax(outer_low).cwiseMin(outer_high),
                                         high.cwiseMax(outer_low).cwiseMin(outer_high), 1.0));
   const InverseDistance inverse(corners);
-  for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      const Vec2 centre = pixel_centre(x, y);
-      const double coverage = coverage_of(outside_of(corners, sense, centre));
-      if (coverage <= 0.0) continue;
-      const bool behind = occluders_ != nullptr && occluders_->hides(x, y, inverse.distance_at(centre));
-      blend(x, y, colour, opacity * coverage * (behind ? kHiddenShare : 1.0));
-    }
-  }
+  for_each_pixel(box, [&](int x, int y) {
+    const Vec2 centre = pixel_centre(x, y);
+    const double coverage = coverage_of(outside_of(corners, sense, centre));
+    if (coverage <= 0.0) return;
+    const bool behind = occluders_ != nullptr && occluders_->hides(x, y, inverse.distance_at(centre));
+    blend(x, y, colour, opacity * coverage * (behind ? kHiddenShare : 1.0));
+  });
 }
 
 void Canvas::mark(const ScreenPoint& at, MarkerShape shape, Rgb colour, double size_px) {
@@ -295,15 +278,13 @@ void Canvas::mark(const ScreenPoint& at, MarkerShape shape, Rgb colour, double s
   const double opacity = hidden ? kHiddenShare : 1.0;
   const bool rim = size_px >= 4.0;
   const PixelRect box = intersection(clip_, pixels_around(c, c, radius + 2.0));
-  for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      const double distance = mark_distance(shape, pixel_centre(x, y) - c, radius);
-      const double halo = coverage_of(distance - 1.0);
-      if (rim && halo > 0.0) blend(x, y, palette::kPaper, kHaloOpacity * opacity * halo);
-      const double coverage = coverage_of(distance);
-      if (coverage > 0.0) blend(x, y, colour, opacity * coverage);
-    }
-  }
+  for_each_pixel(box, [&](int x, int y) {
+    const double distance = mark_distance(shape, pixel_centre(x, y) - c, radius);
+    const double halo = coverage_of(distance - 1.0);
+    if (rim && halo > 0.0) blend(x, y, palette::kPaper, kHaloOpacity * opacity * halo);
+    const double coverage = coverage_of(distance);
+    if (coverage > 0.0) blend(x, y, colour, opacity * coverage);
+  });
 }
 
 void Canvas::text(const Font& font, std::string_view utf8, double size_px, const Vec2& origin_px,
@@ -313,29 +294,21 @@ void Canvas::text(const Font& font, std::string_view utf8, double size_px, const
   const int top = static_cast<int>(std::lround(origin_px.y())) + bitmap.top;
   const auto coverage_at = [&](int column, int row) {
     if (column < 0 || row < 0 || column >= bitmap.width || row >= bitmap.height) return 0;
-    return static_cast<int>(
-        bitmap.coverage[static_cast<std::size_t>(row) * static_cast<std::size_t>(bitmap.width) +
-                        static_cast<std::size_t>(column)]);
+    return int{bitmap.coverage[pixel_index(column, row, bitmap.width)]};
   };
   const PixelRect box =
       intersection(clip_, {left - 2, top - 2, left + bitmap.width + 2, top + bitmap.height + 2});
-  for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      int rim = 0;
-      for (int dy = -2; dy <= 2; ++dy) {
-        for (int dx = -2; dx <= 2; ++dx) {
-          if (dx * dx + dy * dy <= 5) rim = std::max(rim, coverage_at(x - left + dx, y - top + dy));
-        }
-      }
-      if (rim > 0) blend(x, y, palette::kPaper, kHaloOpacity * rim / 255.0);
-    }
-  }
-  for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      const int coverage = coverage_at(x - left, y - top);
-      if (coverage > 0) blend(x, y, colour, coverage / 255.0);
-    }
-  }
+  for_each_pixel(box, [&](int x, int y) {
+    int rim = 0;
+    for_each_pixel({-2, -2, 3, 3}, [&](int dx, int dy) {
+      if (dx * dx + dy * dy <= 5) rim = std::max(rim, coverage_at(x - left + dx, y - top + dy));
+    });
+    if (rim > 0) blend(x, y, palette::kPaper, kHaloOpacity * rim / 255.0);
+  });
+  for_each_pixel(box, [&](int x, int y) {
+    const int coverage = coverage_at(x - left, y - top);
+    if (coverage > 0) blend(x, y, colour, coverage / 255.0);
+  });
 }
 
 }  // namespace hallway::render

@@ -194,7 +194,7 @@ class Drawing {
   const Camera& camera() const { return camera_; }
 
   Image paint(int width_px, int height_px) {
-    Image image = blank(width_px, height_px);
+    Image image = blank_image(width_px, height_px);
     Canvas canvas(image);
     canvas.set_clip(layout_.map);
     const double grid_m = paint_grid(canvas);
@@ -212,15 +212,6 @@ class Drawing {
   }
 
  private:
-  static Image blank(int width_px, int height_px) {
-    Image image{width_px, height_px, {}};
-    image.bytes.reserve(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
-    for (std::int64_t i = 0; i < std::int64_t{width_px} * height_px; ++i) {
-      image.bytes.insert(image.bytes.end(), {palette::kPaper.r, palette::kPaper.g, palette::kPaper.b});
-    }
-    return image;
-  }
-
   bool has_surfaces() const { return !picture_.surfaces.empty(); }
 
   /// A faint grid of round metres on the ground: everywhere in a top view, else under content that has no faces to tell

@@ -22,31 +22,19 @@ constexpr GlLibraryNames kLibrary{"egl", kFiles, "Debian packages libegl1, libeg
 
 /// The functions of the library, under its own names.
 struct Functions {
-  decltype(&eglQueryString) query_string = nullptr;
-  decltype(&eglGetProcAddress) function = nullptr;
-  decltype(&eglInitialize) initialize = nullptr;
-  decltype(&eglBindAPI) bind_api = nullptr;
-  decltype(&eglChooseConfig) choose_config = nullptr;
-  decltype(&eglCreateContext) create_context = nullptr;
-  decltype(&eglDestroyContext) destroy_context = nullptr;
-  decltype(&eglCreatePbufferSurface) create_surface = nullptr;
-  decltype(&eglDestroySurface) destroy_surface = nullptr;
-  decltype(&eglMakeCurrent) make_current = nullptr;
-  decltype(&eglReleaseThread) release_thread = nullptr;
+  const GlLibrary& library;
 
-  explicit Functions(const GlLibrary& library) {
-    library.find("eglQueryString", query_string);
-    library.find("eglGetProcAddress", function);
-    library.find("eglInitialize", initialize);
-    library.find("eglBindAPI", bind_api);
-    library.find("eglChooseConfig", choose_config);
-    library.find("eglCreateContext", create_context);
-    library.find("eglDestroyContext", destroy_context);
-    library.find("eglCreatePbufferSurface", create_surface);
-    library.find("eglDestroySurface", destroy_surface);
-    library.find("eglMakeCurrent", make_current);
-    library.find("eglReleaseThread", release_thread);
-  }
+  decltype(&eglQueryString) query_string = library.find("eglQueryString");
+  decltype(&eglGetProcAddress) function = library.find("eglGetProcAddress");
+  decltype(&eglInitialize) initialize = library.find("eglInitialize");
+  decltype(&eglBindAPI) bind_api = library.find("eglBindAPI");
+  decltype(&eglChooseConfig) choose_config = library.find("eglChooseConfig");
+  decltype(&eglCreateContext) create_context = library.find("eglCreateContext");
+  decltype(&eglDestroyContext) destroy_context = library.find("eglDestroyContext");
+  decltype(&eglCreatePbufferSurface) create_surface = library.find("eglCreatePbufferSurface");
+  decltype(&eglDestroySurface) destroy_surface = library.find("eglDestroySurface");
+  decltype(&eglMakeCurrent) make_current = library.find("eglMakeCurrent");
+  decltype(&eglReleaseThread) release_thread = library.find("eglReleaseThread");
 
   /// A function of an extension; null where there is none.
   template <class T>
@@ -96,7 +84,7 @@ EGLDisplay surfaceless_platform(const Functions& egl) {
 
 class EglContext final : public GlContext {
  public:
-  EglContext() : library_(kLibrary), egl_(library_) {
+  EglContext() : library_(kLibrary), egl_{library_} {
     try {
       open_display();
       make_context();

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "render/image.hpp"
 
 namespace hallway::render {
 namespace {
@@ -129,7 +130,7 @@ TextBitmap Font::render(std::string_view text, double size_px) const {
   });
   out.width = right - out.left;
   out.height = bottom - out.top;
-  out.coverage.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), 0);
+  out.coverage.assign(pixel_index(0, out.height, out.width), 0);
   std::vector<std::uint8_t> glyph_pixels;
   data_->walk(text, size_px, [&](int glyph, double x) {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -137,19 +138,13 @@ TextBitmap Font::render(std::string_view text, double size_px) const {
     const int width = x1 - x0;
     const int height = y1 - y0;
     if (width <= 0 || height <= 0) return;
-    glyph_pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    glyph_pixels.assign(pixel_index(0, height, width), 0);
     stbtt_MakeGlyphBitmapSubpixel(&data_->info, glyph_pixels.data(), width, height, width, unit, unit, part,
                                   0.0f, glyph);
-    for (int y = 0; y < height; ++y) {
-      for (int column = 0; column < width; ++column) {
-        const std::size_t to =
-            static_cast<std::size_t>(y0 - out.top + y) * static_cast<std::size_t>(out.width) +
-            static_cast<std::size_t>(x0 - out.left + column);
-        const std::size_t from =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-        out.coverage[to] = std::max(out.coverage[to], glyph_pixels[from]);
-      }
-    }
+    for_each_pixel({0, 0, width, height}, [&](int column, int row) {
+      std::uint8_t& to = out.coverage[pixel_index(x0 - out.left + column, y0 - out.top + row, out.width)];
+      to = std::max(to, glyph_pixels[pixel_index(column, row, width)]);
+    });
   });
   return out;
 }

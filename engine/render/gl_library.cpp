@@ -39,10 +39,10 @@ void GlLibrary::fail(const std::string& cause) const {
   throw NoRenderer(fmt::format("{}: {} {} ({})", names_.renderer, file_, cause, names_.packages));
 }
 
-void* GlLibrary::symbol(const char* name) const {
+EntryPoint GlLibrary::find(const char* name) const {
   void* address = ::dlsym(handle_, name);
   if (address == nullptr) fail(std::string("has no ") + name);
-  return address;
+  return {address};
 }
 
 }  // namespace hallway::render

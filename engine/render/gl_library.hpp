@@ -13,6 +13,16 @@ struct GlLibraryNames {
   const char* packages;                ///< Debian packages that have it
 };
 
+/// The address of a function, which becomes a pointer to the function that it is said to be.
+struct EntryPoint {
+  void* address = nullptr;
+
+  template <class Function>
+  operator Function*() const {
+    return reinterpret_cast<Function*>(address);
+  }
+};
+
 /// A shared library that renders, opened at run time. It stays loaded to the end of the program: Mesa and LLVM leave functions behind that
 /// are called at the end of threads and of the program.
 class GlLibrary {
@@ -20,18 +30,13 @@ class GlLibrary {
   /// Throws NoRenderer if none of the files can be opened.
   explicit GlLibrary(const GlLibraryNames& names);
 
-  /// Puts the entry point of a function into a pointer to such a function. Throws NoRenderer if the library has none.
-  template <class T>
-  void find(const char* name, T& function) const {
-    function = reinterpret_cast<T>(symbol(name));
-  }
+  /// Throws NoRenderer if the library has no such function.
+  EntryPoint find(const char* name) const;
 
   /// Throws NoRenderer: the library is there, and `cause` is why it does not draw.
   [[noreturn]] void fail(const std::string& cause) const;
 
  private:
-  void* symbol(const char* name) const;
-
   GlLibraryNames names_;
   const char* file_ = nullptr;  ///< that was opened
   void* handle_ = nullptr;

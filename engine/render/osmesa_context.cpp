@@ -20,22 +20,18 @@ constexpr unsigned kUnsignedByte = 0x1401;  // GL_UNSIGNED_BYTE
 
 /// The functions of the library, under its own names.
 struct Functions {
-  void* (*create_context)(const int* attributes, void* shared) = nullptr;
-  unsigned char (*make_current)(void* context, void* buffer, unsigned type, int width, int height) = nullptr;
-  void (*destroy_context)(void* context) = nullptr;
-  GlContext::Function (*function)(const char* name) = nullptr;
+  const GlLibrary& library;
 
-  explicit Functions(const GlLibrary& library) {
-    library.find("OSMesaCreateContextAttribs", create_context);
-    library.find("OSMesaMakeCurrent", make_current);
-    library.find("OSMesaDestroyContext", destroy_context);
-    library.find("OSMesaGetProcAddress", function);
-  }
+  void* (*create_context)(const int* attributes, void* shared) = library.find("OSMesaCreateContextAttribs");
+  unsigned char (*make_current)(void* context, void* buffer, unsigned type, int width,
+                                int height) = library.find("OSMesaMakeCurrent");
+  void (*destroy_context)(void* context) = library.find("OSMesaDestroyContext");
+  GlContext::Function (*function)(const char* name) = library.find("OSMesaGetProcAddress");
 };
 
 class OsMesaContext final : public GlContext {
  public:
-  OsMesaContext() : library_(kLibrary), osmesa_(library_) {
+  OsMesaContext() : library_(kLibrary), osmesa_{library_} {
     constexpr std::array<int, 13> kWanted{kFormat,  kRgba,        kDepthBits,    0, kStencilBits,  0,
                                           kProfile, kCoreProfile, kMajorVersion, 3, kMinorVersion, 3,
                                           0};

@@ -106,8 +106,7 @@ float smoothed(const std::vector<float>& shade, const SurfaceLayer& layer, int x
                              layer.normal[i].dot(layer.normal[centre]) > 0.9f &&
                              std::abs(layer.distance_m[i] - distance) < 0.1f + 0.02f * distance;
       if (!same_face) continue;
-      sum += shade[static_cast<std::size_t>(v) * static_cast<std::size_t>(layer.area.width()) +
-                   static_cast<std::size_t>(u)];
+      sum += shade[pixel_index(u, v, layer.area.width())];
       ++count;
     }
   }
@@ -146,96 +145,77 @@ double edge_weight(const SurfaceLayer& layer, int x, int y) {
   return strongest == 2 ? 0.6 : strongest == 1 ? 0.28 : 0.0;
 }
 
-constexpr std::size_t kRowsAtOnce = 16;
+/// Calls `visit(x, y)` for each place of a grid; rows are shared out to threads.
+template <typename Visit>
+void parallel_pixels(int width, int height, unsigned threads, Visit visit) {
+  constexpr std::size_t kRowsAtOnce = 16;
+  parallel_for(static_cast<std::size_t>(height), kRowsAtOnce, threads,
+               [&](std::size_t begin, std::size_t end) {
+                 for_each_pixel({0, static_cast<int>(begin), width, static_cast<int>(end)}, visit);
+               });
+}
+
+/// Calls `visit(index)` for each sample of a pixel of the layer's area.
+template <typename Visit>
+void for_each_sample(const SurfaceLayer& layer, int x, int y, Visit visit) {
+  for_each_pixel({0, 0, layer.factor, layer.factor},
+                 [&](int dx, int dy) { visit(layer.index(x * layer.factor + dx, y * layer.factor + dy)); });
+}
 
 }  // namespace
 
 void darken_corners(SurfaceLayer& layer, const Camera& camera, unsigned threads) {
-  const int width = layer.area.width();
-  const std::size_t rows = static_cast<std::size_t>(layer.area.height());
+  const int width = layer.area.width(), height = layer.area.height();
   const CornerShade corners(layer, camera);
-  std::vector<float> shade(rows * static_cast<std::size_t>(width), 0.0f);
-  parallel_for(rows, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      for (int x = 0; x < width; ++x) {
-        shade[y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
-            corners.at(x, static_cast<int>(y));
-      }
-    }
-  });
-  parallel_for(rows, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      for (int x = 0; x < width; ++x) {
-        const double share = std::min(1.0, 1.5 * static_cast<double>(smoothed(shade, layer, x, y)));
-        const double dark = kDarkest * std::round(share * kSteps) / kSteps;
-        if (dark <= 0.0) continue;
-        for (int k = 0; k < layer.factor * layer.factor; ++k) {
-          Rgb& colour = layer.colour[layer.index(x * layer.factor + k % layer.factor,
-                                                 y * layer.factor + k / layer.factor)];
-          colour = mix(colour, {52, 48, 62}, dark);
-        }
-      }
-    }
+  std::vector<float> shade(pixel_index(0, height, width), 0.0f);
+  parallel_pixels(width, height, threads,
+                  [&](int x, int y) { shade[pixel_index(x, y, width)] = corners.at(x, y); });
+  parallel_pixels(width, height, threads, [&](int x, int y) {
+    const double share = std::min(1.0, 1.5 * static_cast<double>(smoothed(shade, layer, x, y)));
+    const double dark = kDarkest * std::round(share * kSteps) / kSteps;
+    if (dark <= 0.0) return;
+    for_each_sample(layer, x, y, [&](std::size_t i) {
+      layer.colour[i] = mix(layer.colour[i], {52, 48, 62}, dark);
+    });
   });
 }
 
 void outline_faces(SurfaceLayer& layer, unsigned threads) {
-  parallel_for(static_cast<std::size_t>(layer.height), kRowsAtOnce, threads,
-               [&](std::size_t begin, std::size_t end) {
-                 for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-                   for (int x = 0; x < layer.width; ++x) {
-                     const double weight = edge_weight(layer, x, y);
-                     if (weight <= 0.0) continue;
-                     Rgb& colour = layer.colour[layer.index(x, y)];
-                     colour = mix(colour, palette::kInk, weight);
-                   }
-                 }
-               });
+  parallel_pixels(layer.width, layer.height, threads, [&](int x, int y) {
+    const double weight = edge_weight(layer, x, y);
+    if (weight <= 0.0) return;
+    Rgb& colour = layer.colour[layer.index(x, y)];
+    colour = mix(colour, palette::kInk, weight);
+  });
 }
 
 void copy_to_image(const SurfaceLayer& layer, Image& image) {
   const int samples = layer.factor * layer.factor;
-  for (int y = 0; y < layer.area.height(); ++y) {
-    for (int x = 0; x < layer.area.width(); ++x) {
-      int r = 0, g = 0, b = 0;
-      bool anything = false;
-      for (int k = 0; k < samples; ++k) {
-        const std::size_t i =
-            layer.index(x * layer.factor + k % layer.factor, y * layer.factor + k / layer.factor);
-        const Rgb& c = layer.colour[i];
-        anything = anything || layer.distance_m[i] != kNothing || c != palette::kPaper;
-        r += c.r;
-        g += c.g;
-        b += c.b;
-      }
-      if (!anything) continue;
-      const auto mean = [samples](int sum) {
-        return static_cast<std::uint8_t>((sum + samples / 2) / samples);
-      };
-      const std::size_t to =
-          3 * (static_cast<std::size_t>(layer.area.top + y) * static_cast<std::size_t>(image.width_px) +
-               static_cast<std::size_t>(layer.area.left + x));
-      image.bytes[to] = mean(r);
-      image.bytes[to + 1] = mean(g);
-      image.bytes[to + 2] = mean(b);
-    }
-  }
+  for_each_pixel({0, 0, layer.area.width(), layer.area.height()}, [&](int x, int y) {
+    int r = 0, g = 0, b = 0;
+    bool anything = false;
+    for_each_sample(layer, x, y, [&](std::size_t i) {
+      const Rgb& c = layer.colour[i];
+      anything = anything || layer.distance_m[i] != kNothing || c != palette::kPaper;
+      r += c.r;
+      g += c.g;
+      b += c.b;
+    });
+    if (!anything) return;
+    const auto mean = [samples](int sum) { return static_cast<std::uint8_t>((sum + samples / 2) / samples); };
+    image.set(layer.area.left + x, layer.area.top + y, {mean(r), mean(g), mean(b)});
+  });
 }
 
 Occluders make_occluders(const SurfaceLayer& layer) {
   Occluders out{layer.area, {}};
-  out.distance_m.reserve(static_cast<std::size_t>(layer.area.width()) *
-                         static_cast<std::size_t>(layer.area.height()));
-  for (int y = 0; y < layer.area.height(); ++y) {
-    for (int x = 0; x < layer.area.width(); ++x) {
-      float farthest = 0.0f;
-      for (int k = 0; k < layer.factor * layer.factor; ++k) {
-        farthest = std::max(farthest, layer.distance_m[layer.index(x * layer.factor + k % layer.factor,
-                                                                   y * layer.factor + k / layer.factor)]);
-      }
-      out.distance_m.push_back(farthest);
-    }
-  }
+  const int width = layer.area.width(), height = layer.area.height();
+  out.distance_m.reserve(pixel_index(0, height, width));
+  for_each_pixel({0, 0, width, height}, [&](int x, int y) {
+    float farthest = 0.0f;
+    for_each_sample(layer, x, y, [&](std::size_t i) { farthest = std::max(farthest, layer.distance_m[i]); });
+    out.distance_m.push_back(farthest);
+  });
   return out;
 }
 

@@ -378,7 +378,6 @@ class SurfacePainter {
   }
 
   void clear() {
-    constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     gl_.draw_buffers(2, kBoth.data());
     const std::array<float, 3> paper = unit_colour(palette::kPaper);
     const std::array<float, 4> background{paper[0], paper[1], paper[2], 0.0f};
@@ -441,7 +440,6 @@ class SurfacePainter {
   /// solid around that point shows one back, every other one as many fronts as backs. Right for overlapping solids too.
   void count_solids_at_cut() {
     constexpr std::array<GLenum, 2> kNone{GL_NONE, GL_NONE};
-    constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     gl_.draw_buffers(2, kNone.data());
     gl_.enable(GL_STENCIL_TEST);
     gl_.stencil_func(GL_ALWAYS, 0, 0xFF);
@@ -464,18 +462,17 @@ class SurfacePainter {
   void resolve(int width, int height) {
     gl_.bind_framebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]);
     gl_.bind_framebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[1]);
-    constexpr std::array<GLenum, 2> kPlaces{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    for (const GLenum place : kPlaces) {
+    for (const GLenum place : kBoth) {
       gl_.read_buffer(place);
       gl_.draw_buffers(place == GL_COLOR_ATTACHMENT0 ? 1 : 2,
-                       place == GL_COLOR_ATTACHMENT0 ? kPlaces.data() : kOnlySecond.data());
+                       place == GL_COLOR_ATTACHMENT0 ? kBoth.data() : kOnlySecond.data());
       gl_.blit_framebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
     gl_.blit_framebuffer(0, 0, width, height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   }
 
   void read_back(SurfaceLayer& layer, int left, int top, int width, int height) {
-    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::size_t count = pixel_index(0, height, width);
     colours_.resize(4 * count);
     normals_.resize(4 * count);
     depths_.resize(count);
@@ -486,13 +483,9 @@ class SurfacePainter {
     gl_.read_buffer(GL_COLOR_ATTACHMENT1);
     gl_.read_pixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, normals_.data());
     gl_.read_pixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const std::size_t from =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        store(layer, layer.index(left + x, top + y), from);
-      }
-    }
+    for_each_pixel({0, 0, width, height}, [&](int x, int y) {
+      store(layer, layer.index(left + x, top + y), pixel_index(x, y, width));
+    });
   }
 
   void store(SurfaceLayer& layer, std::size_t to, std::size_t from) const {
@@ -517,6 +510,7 @@ class SurfacePainter {
     return static_cast<float>(2.0 * far_m * near_m / (far_m + near_m - z * (far_m - near_m)));
   }
 
+  static constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   static constexpr std::array<GLenum, 2> kOnlySecond{GL_NONE, GL_COLOR_ATTACHMENT1};
 
   std::unique_ptr<GlContext> context_;
@@ -545,7 +539,7 @@ SurfaceLayer empty_layer(const PixelRect& area, int factor) {
   layer.factor = factor;
   layer.width = area.width() * factor;
   layer.height = area.height() * factor;
-  const std::size_t count = static_cast<std::size_t>(layer.width) * static_cast<std::size_t>(layer.height);
+  const std::size_t count = layer.index(0, layer.height);
   layer.colour.assign(count, palette::kPaper);
   layer.normal.assign(count, Eigen::Vector3f::Zero());
   layer.distance_m.assign(count, std::numeric_limits<float>::infinity());

@@ -24,9 +24,7 @@ struct SurfaceLayer {
   std::vector<float> distance_m;        ///< along the viewing direction; infinity where there is nothing
   std::vector<std::uint8_t> cut;        ///< 1 where a solid is cut open
 
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return pixel_index(x, y, width); }
 };
 
 /// Draws the faces, textured where they have a picture, lit by a sky and a sun, with 4-fold multisampling at `factor` times the resolution of the picture.

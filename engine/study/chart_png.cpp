@@ -32,7 +32,7 @@ void add_dashes(const Vec2& from, const Vec2& to, double done_px, std::vector<Sc
 /// Paints the pieces of a sheet.
 class PngPainter {
  public:
-  explicit PngPainter(const ChartSheet& sheet) : sheet_(sheet), image_(blank()), canvas_(image_) {}
+  explicit PngPainter(const ChartSheet& sheet) : sheet_(sheet), canvas_(image_) {}
 
   void operator()(const SheetLine& line) {
     canvas_.set_clip(line.clipped ? frame() : whole());
@@ -67,13 +67,6 @@ class PngPainter {
   std::string finish() const { return render::encode_png(image_); }
 
  private:
-  static render::Image blank() {
-    render::Image image{kChartWidth_px, kChartHeight_px, {}};
-    const render::Rgb paper = render::palette::kPaper;
-    for (int i = 0; i < kChartWidth_px * kChartHeight_px; ++i)
-      image.bytes.insert(image.bytes.end(), {paper.r, paper.g, paper.b});
-    return image;
-  }
   static render::PixelRect whole() { return {0, 0, kChartWidth_px, kChartHeight_px}; }
   render::PixelRect frame() const {
     const auto whole_number = [](double value) { return static_cast<int>(std::lround(value)); };
@@ -82,7 +75,7 @@ class PngPainter {
   }
 
   const ChartSheet& sheet_;
-  render::Image image_;
+  render::Image image_ = render::blank_image(kChartWidth_px, kChartHeight_px);
   Canvas canvas_;
   Font regular_{Font::Weight::kRegular};
   Font bold_{Font::Weight::kBold};
