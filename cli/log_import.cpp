@@ -31,7 +31,10 @@ class ImportedSource : public run::Source {
   /// @param steps  how many frames to give; 0 for all
   ImportedSource(std::unique_ptr<import::Recording> recording, std::uint32_t steps)
       : recording_(std::move(recording)), iterations_(recording_->frames()) {
-    sensor_.name = recording_->sensor();
+    facts_.sensor.name = recording_->sensor();
+    facts_.has_identities = recording_->has_identities();
+    facts_.has_tracks = recording_->has_tracks();
+    facts_.true_landmarks = recording_->true_landmarks();
     if (steps > 0) iterations_ = std::min(iterations_, steps);
   }
 
@@ -51,12 +54,6 @@ class ImportedSource : public run::Source {
     if (frame_.not_finite > 0) ++frames_not_finite_;
     if (!frame_.T_world_body) ++frames_without_truth_;
   }
-  const host::SensorInfo& sensor() const override { return sensor_; }
-  bool has_identities() const override { return recording_->has_identities(); }
-  bool has_tracks() const override { return recording_->has_tracks(); }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
-    return recording_->true_landmarks();
-  }
 
   /// About the frames that were read, each of them once.
   std::vector<std::string> missing() const {
@@ -75,7 +72,6 @@ class ImportedSource : public run::Source {
  private:
   std::unique_ptr<import::Recording> recording_;
   std::uint32_t iterations_;
-  host::SensorInfo sensor_;
   import::Frame frame_;
   std::uint64_t not_finite_ = 0;
   std::uint64_t frames_not_finite_ = 0;

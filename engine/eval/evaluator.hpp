@@ -20,26 +20,26 @@ namespace hallway::eval {
 
 /// One iteration of a run, as the evaluator needs it. The spans are read during the call alone.
 struct Iteration {
-  std::optional<Pose> T_world_body;  ///< the truth, where known
-  bool orientation_known = true;     ///< false: of the truth only the position is meant
-  std::optional<Pose> T_map_body;    ///< the plugin's estimate; empty where it gave none (lost)
-  double t_s = 0.0;                  ///< time of the frame
+  std::optional<Pose> T_world_body{};  ///< the truth, where known
+  bool orientation_known = true;       ///< false: of the truth only the position is meant
+  std::optional<Pose> T_map_body{};    ///< the plugin's estimate; empty where it gave none (lost)
+  double t_s = 0.0;                    ///< time of the frame
   /// Which connected part of its map the pose is in, where the plugin says so (`map_epoch`).
   std::optional<std::uint64_t> map_epoch{};
   /// Of the estimate's error, as hw_pose_output_t says; empty where it is not told.
-  std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;
+  std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance{};
   /// By observation: the landmark that the plugin took it for, kNoLandmark for none.
-  std::span<const log::LandmarkId> associations;
+  std::span<const log::LandmarkId> associations{};
   /// By observation: the true landmark, kNoLandmark for none. As long as `associations`; empty where the input has no
   /// identities.
-  std::span<const log::LandmarkId> identities;
+  std::span<const log::LandmarkId> identities{};
   /// By observation: where it was seen, body frame [m]. As long as `associations`; empty where that is not kept.
   std::span<const Vec3> points{};
   /// The plane observations that the plugin was given, by a sensor or by a plugin before it, and the points seen of true planes.
   std::span<const AssociatedPlane> planes{};
   std::span<const TruePlanePoint> true_plane_points{};
-  std::optional<double> wall_ms;  ///< what the plugins took
-  std::optional<double> cpu_ms;   ///< CPU time of the thread that called them
+  std::optional<double> wall_ms{};  ///< what the plugins took
+  std::optional<double> cpu_ms{};   ///< CPU time of the thread that called them
 };
 
 /// What is known about the world beside the iterations.

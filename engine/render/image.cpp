@@ -18,10 +18,10 @@ void check_image_size(std::int64_t width_px, std::int64_t height_px) {
           width_px, height_px, kMaxImageSide_px, kMaxImagePixels));
 }
 
-Image blank_image(int width_px, int height_px) {
+Image blank_image(int width_px, int height_px, Rgb colour) {
   Image image{width_px, height_px, {}};
   image.bytes.resize(3 * pixel_index(0, height_px, width_px));
-  for_each_pixel({0, 0, width_px, height_px}, [&](int x, int y) { image.set(x, y, palette::kPaper); });
+  for_each_pixel({0, 0, width_px, height_px}, [&](int x, int y) { image.set(x, y, colour); });
   return image;
 }
 

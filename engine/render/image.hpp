@@ -53,8 +53,8 @@ struct Image {
   }
 };
 
-/// A picture of the colour of paper.
-Image blank_image(int width_px, int height_px);
+/// A picture of one colour.
+Image blank_image(int width_px, int height_px, Rgb colour = palette::kPaper);
 
 /// Throws Error{kBadInput} unless both sides are at least 1, at most kMaxImageSide_px and their product is at most
 /// kMaxImagePixels. Allocates nothing.

@@ -65,7 +65,6 @@ std::string measure_text(double metres) {
 void add_portals(Picture& picture, const bsp::PortalGraph& portals) {
   if (portals.portals.empty()) return;
   Patches patches{
-      .polygons = {},
       .colour = kPortal,
       .opacity = portal_opacity(portals.portals.size()),
       .outline_px = portals.portals.size() > 1000 ? 0.8 : 1.8,
@@ -79,13 +78,12 @@ void add_leak(Picture& picture, const bsp::Leak& leak, const std::string& occupa
   const std::string size = opening.is_measured() ? fmt::format("{} × {}", measure_text(opening.width_m),
                                                                measure_text(opening.height_m))
                                                  : "gap of " + measure_text(opening.width_m);
-  Patches patches{.polygons = {}, .colour = kOpening, .opacity = 0.5, .outline_px = 2.0, .label = {}};
+  Patches patches{.colour = kOpening, .opacity = 0.5, .outline_px = 2.0};
   for (const Polygon& polygon : opening.polygons) patches.polygons.push_back(polygon.vertices);
   picture.patches.push_back(std::move(patches));
   picture.polylines.push_back({.points = leak.way,
                                .colour = palette::kError,
                                .width_px = 4.0,
-                               .dashed = false,
                                .label = fmt::format("leak path, {}", measure_text(leak.length_m))});
   picture.markers.push_back({.positions = {leak.way.front()},
                              .shape = MarkerShape::kDot,
@@ -120,8 +118,7 @@ void add_wireframe(Picture& picture, const csg::Surface& surface, const std::vec
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  Segments lines{.pairs = {},
-                 .colour = palette::kInk,
+  Segments lines{.colour = palette::kInk,
                  .width_px = edges.size() > 5000 ? 0.7 : 1.1,
                  .opacity = edges.size() > 5000 ? 0.55 : 0.75,
                  .label = fmt::format("{} edges", edges.size())};

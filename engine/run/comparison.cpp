@@ -59,15 +59,6 @@ render::View fixed_view(const render::Picture& panel, const Box& frame, render::
   return view;
 }
 
-/// Makes all of an image one colour.
-void fill(render::Image& image, render::Rgb colour) {
-  const auto pixels = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
-  image.bytes.clear();
-  image.bytes.reserve(3 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i)
-    image.bytes.insert(image.bytes.end(), {colour.r, colour.g, colour.b});
-}
-
 /// What all runs have in common: the smallest, so that none is drawn out of the picture.
 std::optional<double> common_error_scale(const std::vector<Compared>& runs) {
   std::optional<double> common;
@@ -84,7 +75,7 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
                               render::Renderer renderer) {
   const Grid grid = grid_of(runs.size(), spec);
   const std::optional<double> error_scale = common_error_scale(runs);
-  render::Image image{grid.columns * grid.width_px, grid.rows * grid.height_px, {}};
+  render::Image image;
   std::optional<Box> frame;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const render::Plan plan = picture_plan(runs[i].record, spec);
@@ -93,7 +84,8 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
     if (!frame) frame = frame_of(runs[i].record, panel.surfaces);
     const render::View view = fixed_view(panel, *frame, view_of_plan(spec, plan, renderer), grid);
     const render::Image drawn = render::draw(panel, view, grid.width_px, grid.height_px);
-    if (i == 0) fill(image, drawn.at(0, 0));
+    if (i == 0)
+      image = render::blank_image(grid.columns * grid.width_px, grid.rows * grid.height_px, drawn.at(0, 0));
     const int at = static_cast<int>(i);
     paste(drawn, at % grid.columns * grid.width_px, at / grid.columns * grid.height_px, image);
   }

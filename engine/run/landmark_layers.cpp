@@ -61,11 +61,23 @@ void add_submaps(render::Picture& picture, const Record& record, const LandmarkP
   for (const auto& [submap, places] : members) {
     Vec3 centre = Vec3::Zero();
     for (const Vec3& place : places) centre += place / static_cast<double>(places.size());
-    render::Segments links{
-        .pairs = {}, .colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22, .label = {}};
+    render::Segments links{.colour = render::submap_colour(submap), .width_px = 0.8, .opacity = 0.22};
     for (const Vec3& place : places) links.pairs.push_back({centre, place});
     picture.segments.push_back(std::move(links));
   }
+}
+
+/// The marks of true landmarks, without any place.
+render::Markers true_rings() {
+  return {.shape = render::MarkerShape::kRing,
+          .colour = render::palette::kTruth,
+          .size_px = 7.0,
+          .label = "true landmarks"};
+}
+
+/// Adds marks where there are any.
+void add_marks(render::Picture& picture, render::Markers&& markers) {
+  if (!markers.positions.empty()) picture.markers.push_back(std::move(markers));
 }
 
 }  // namespace
@@ -92,11 +104,8 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   if (record.landmarks.empty() && !record.planes.empty()) return;  // what was mapped are walls
   const LandmarkPlaces mapped = mapped_places(record, T_world_map);
   const Box extent = extent_of(record, mapped);
-  render::Markers estimates{.positions = {},
-                            .shape = render::MarkerShape::kDot,
-                            .colour = render::palette::kEstimate,
-                            .size_px = 4.0,
-                            .label = "mapped landmarks"};
+  render::Markers estimates{
+      .colour = render::palette::kEstimate, .size_px = 4.0, .label = "mapped landmarks"};
   for (const log::MapLandmark& landmark :
        record.landmarks) {  // in the file's order, so that the picture is the same
     const auto place = mapped.find(landmark.id);
@@ -107,16 +116,8 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
   for (const log::IdPair& match : record.matches) {
     if (mapped.contains(match.first)) mapped_truths.insert(match.second);
   }
-  render::Markers truth{.positions = {},
-                        .shape = render::MarkerShape::kRing,
-                        .colour = render::palette::kTruth,
-                        .size_px = 7.0,
-                        .label = "true landmarks"};
-  render::Markers others{.positions = {},
-                         .shape = render::MarkerShape::kDot,
-                         .colour = render::palette::kMutedInk,
-                         .size_px = 1.8,
-                         .label = "not mapped"};
+  render::Markers truth = true_rings();
+  render::Markers others{.colour = render::palette::kMutedInk, .size_px = 1.8, .label = "not mapped"};
   for (const log::Landmark& landmark : record.true_landmarks) {
     auto& markers = mapped_truths.contains(landmark.id) ? truth : others;
     markers.positions.push_back(Vec3(landmark.position_m.data()));
@@ -129,31 +130,24 @@ void add_landmarks(render::Picture& picture, const Record& record, const sim::Pi
         .pairs = is_diverged ? decltype(render::Segments::pairs){} : error_lines(record, mapped),
         .colour = render::palette::kError,
         .width_px = 1.4,
-        .opacity = 0.9,
-        .label = {}};
+        .opacity = 0.9};
     const double scale = error_scale ? *error_scale : scale_for(errors.pairs, extent.diagonal().norm());
     for (auto& line : errors.pairs) line[1] = line[0] + scale * (line[1] - line[0]);
     errors.label = scale > 1.0 ? fmt::format("landmark error × {:.0f}", scale) : "landmark error";
     if (!errors.pairs.empty()) picture.segments.push_back(std::move(errors));
   }
   if (spec.shows(sim::PictureLayer::kTruth)) {
-    for (render::Markers* markers : {&others, &truth}) {
-      if (!markers->positions.empty()) picture.markers.push_back(std::move(*markers));
-    }
+    add_marks(picture, std::move(others));
+    add_marks(picture, std::move(truth));
   }
-  if (spec.shows(sim::PictureLayer::kLandmarks) && !estimates.positions.empty())
-    picture.markers.push_back(std::move(estimates));
+  if (spec.shows(sim::PictureLayer::kLandmarks)) add_marks(picture, std::move(estimates));
 }
 
 void add_true_landmarks(render::Picture& picture, const Record& record) {
-  render::Markers truth{.positions = {},
-                        .shape = render::MarkerShape::kRing,
-                        .colour = render::palette::kTruth,
-                        .size_px = 7.0,
-                        .label = "true landmarks"};
+  render::Markers truth = true_rings();
   for (const log::Landmark& landmark : record.true_landmarks)
     truth.positions.push_back(Vec3(landmark.position_m.data()));
-  if (!truth.positions.empty()) picture.markers.push_back(std::move(truth));
+  add_marks(picture, std::move(truth));
 }
 
 }  // namespace hallway::run

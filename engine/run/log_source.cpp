@@ -15,23 +15,29 @@
 
 namespace hallway::run {
 
-LogSource::LogSource(log::ObservationLog observations, LogTruth truth, host::SensorInfo sensor,
-                     std::int64_t period_ns, std::uint32_t steps)
-    : observations_(std::move(observations)),
-      truth_(std::move(truth)),
-      sensor_(std::move(sensor)),
+LogSource::LogSource(std::uint32_t kind, bool has_identities, LogTruth truth, const host::SensorInfo& sensor,
+                     std::int64_t period_ns)
+    : Source({.sensor = sensor,
+              .has_identities = has_identities,
+              .true_landmarks = std::move(truth.landmarks),
+              .true_planes = std::move(truth.planes)}),
+      true_poses_(std::move(truth.poses)),
       period_ns_(period_ns) {
-  sensor_.kind = HW_SAMPLE_POINTS;
+  facts_.sensor.kind = kind;
+}
+
+LogSource::LogSource(log::ObservationLog observations, LogTruth truth, const host::SensorInfo& sensor,
+                     std::int64_t period_ns, std::uint32_t steps)
+    : LogSource(HW_SAMPLE_POINTS, observations.has_identities(), std::move(truth), sensor, period_ns) {
+  facts_.has_tracks = observations.has_tracks();
+  observations_ = std::move(observations);
   count_iterations(observations_.iterations(), steps);
 }
 
-LogSource::LogSource(log::PlaneObservationLog planes, LogTruth truth, host::SensorInfo sensor,
+LogSource::LogSource(log::PlaneObservationLog planes, LogTruth truth, const host::SensorInfo& sensor,
                      std::int64_t period_ns, std::uint32_t steps)
-    : planes_(std::move(planes)),
-      truth_(std::move(truth)),
-      sensor_(std::move(sensor)),
-      period_ns_(period_ns) {
-  sensor_.kind = HW_SAMPLE_PLANES;
+    : LogSource(HW_SAMPLE_PLANES, planes.has_identities(), std::move(truth), sensor, period_ns) {
+  planes_ = std::move(planes);
   count_iterations(planes_.iterations(), steps);
   check_planes();
 }
@@ -39,8 +45,8 @@ LogSource::LogSource(log::PlaneObservationLog planes, LogTruth truth, host::Sens
 void LogSource::count_iterations(std::uint32_t seen, std::uint32_t steps) {
   iterations_ = seen;
   // A robot may have seen nothing at the end: the frames of its poses were there all the same.
-  if (truth_.poses && !truth_.poses->empty()) {
-    iterations_ = std::max(iterations_, truth_.poses->back().iteration + 1);
+  if (true_poses_ && !true_poses_->empty()) {
+    iterations_ = std::max(iterations_, true_poses_->back().iteration + 1);
   }
   if (steps > 0) iterations_ = std::min(iterations_, steps);
 }
@@ -71,11 +77,11 @@ void LogSource::read(std::uint32_t iteration, SourceFrame& frame) {
   const auto planes = planes_.frame(iteration);
   frame.planes.assign(planes.begin(), planes.end());
   frame.T_world_body.reset();
-  if (!truth_.poses) return;
+  if (!true_poses_) return;
   const auto pose =
-      std::lower_bound(truth_.poses->begin(), truth_.poses->end(), iteration,
+      std::lower_bound(true_poses_->begin(), true_poses_->end(), iteration,
                        [](const log::IterationPose& a, std::uint32_t b) { return a.iteration < b; });
-  if (pose == truth_.poses->end() || pose->iteration != iteration) return;
+  if (pose == true_poses_->end() || pose->iteration != iteration) return;
   frame.orientation_known = pose->orientation_known;
   frame.T_world_body = to_pose(pose->position_m, pose->orientation);
 }

@@ -82,7 +82,7 @@ void add_start(render::Picture& picture, const map::Document& document) {
   if (!start) return;
   const Pose& T = start->T_world_body;
   picture.polylines.push_back(
-      {.points = {T.t, T * Vec3(kHeading_m, 0, 0)}, .colour = kStartColour, .width_px = 3.0, .label = {}});
+      {.points = {T.t, T * Vec3(kHeading_m, 0, 0)}, .colour = kStartColour, .width_px = 3.0});
   picture.markers.push_back({.positions = {T.t},
                              .shape = render::MarkerShape::kDiamond,
                              .colour = kStartColour,
@@ -138,11 +138,8 @@ void add_sensors(render::Picture& picture, const map::Document& document) {
 }
 
 void add_lights(render::Picture& picture, const world::CompiledWorld& world) {
-  render::Markers lights{.positions = {},
-                         .shape = render::MarkerShape::kRing,
-                         .colour = kLightColour,
-                         .size_px = 9.0,
-                         .label = "lights"};
+  render::Markers lights{
+      .shape = render::MarkerShape::kRing, .colour = kLightColour, .size_px = 9.0, .label = "lights"};
   for (const map::Occupant& occupant : world.occupants) {
     if (occupant.classname.starts_with("light")) lights.positions.push_back(occupant.position_m);
   }

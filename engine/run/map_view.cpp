@@ -79,11 +79,12 @@ ModelLook load_look(const std::filesystem::path& file, const std::filesystem::pa
 }  // namespace
 
 void add_map(render::Picture& picture, const world::CompiledWorld& world, const MapView& view,
-             render::Faces faces) {
+             render::Faces faces, const std::vector<render::Surface>& models) {
   add_faces(picture, world, view, faces);
   if (view.portals) render::add_portals(picture, world.partition.portals);
   const auto& leak = world.partition.enclosure.leak;
   if (view.leak && leak) render::add_leak(picture, *leak, occupant_text(world.occupants[leak->occupant]));
+  if (!view.wireframe) picture.surfaces.insert(picture.surfaces.end(), models.begin(), models.end());
 }
 
 std::vector<render::Surface> model_faces(const map::Document& document, const std::filesystem::path& folder,

@@ -30,7 +30,7 @@ struct MapView {
 /// Adds a map to a picture. Of a map that does not leak, `leak` shows nothing.
 /// Throws Error{kBadInput} for a `pvs_from_m` in solid, or of a map without visible sets.
 void add_map(render::Picture& picture, const world::CompiledWorld& world, const MapView& view,
-             render::Faces faces);
+             render::Faces faces, const std::vector<render::Surface>& models);
 
 /// The models that stand in a map (`hw_mesh`), as faces.
 /// @param folder  the map's

@@ -6,7 +6,7 @@
 namespace hallway::run {
 
 PacedSource::PacedSource(Source& source, double rate, std::function<void(Clock::time_point)> sleep_until)
-    : source_(source), rate_(rate), sleep_until_(std::move(sleep_until)) {}
+    : Source(source.facts()), source_(source), rate_(rate), sleep_until_(std::move(sleep_until)) {}
 
 void PacedSource::read(std::uint32_t iteration, SourceFrame& frame) {
   source_.read(iteration, frame);

@@ -21,15 +21,6 @@ class PacedSource : public Source {
 
   std::uint32_t iterations() const override { return source_.iterations(); }
   void read(std::uint32_t iteration, SourceFrame& frame) override;
-  const host::SensorInfo& sensor() const override { return source_.sensor(); }
-  bool has_identities() const override { return source_.has_identities(); }
-  bool has_tracks() const override { return source_.has_tracks(); }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
-    return source_.true_landmarks();
-  }
-  const std::optional<std::vector<log::TruePlane>>& true_planes() const override {
-    return source_.true_planes();
-  }
 
  private:
   struct Start {

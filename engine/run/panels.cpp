@@ -13,10 +13,8 @@
 #include "log/observations.hpp"
 #include "log/plane_observations.hpp"
 #include "log/poses.hpp"
-#include "record/sensor_json.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
-#include "run/abi_pose.hpp"
 #include "run/paste.hpp"
 #include "run/pictures.hpp"
 #include "run/plane_layers.hpp"
@@ -50,20 +48,12 @@ std::uint32_t fullest_frame(const std::vector<log::IterationPlane>& planes) {
   return most == count.end() ? 0 : most->first;
 }
 
-Pose mount_of(const Record& record) {
-  const auto sensors = record.run.find("sensors");
-  if (sensors == record.run.end() || !sensors->is_array() || sensors->empty()) return {};
-  const auto mount = sensors->front().find("T_body_sensor");
-  return mount == sensors->front().end() ? Pose() : pose_of(record::read_pose(*mount));
-}
-
 std::optional<Pose> true_pose(const fs::path& folder, std::uint32_t iteration) {
   const fs::path file = folder / files::kTruePoses;
   if (!fs::exists(file)) return std::nullopt;
   for (const log::IterationPose& pose : log::read_poses(file)) {
     if (pose.iteration != iteration) continue;
-    const auto& q = pose.orientation;
-    return Pose{Quat(q[0], q[1], q[2], q[3]).normalized(), Vec3(pose.position_m.data())};
+    return pose_of(log::StampedPose{.position_m = pose.position_m, .orientation = pose.orientation});
   }
   return std::nullopt;
 }
@@ -77,7 +67,7 @@ Moment read_moment(const Record& record) {
   moment.iteration = fullest_frame(planes);
   const std::optional<Pose> T_world_body = true_pose(folder, moment.iteration);
   if (!T_world_body) return moment;
-  const Pose T_world_sensor = *T_world_body * mount_of(record);
+  const Pose T_world_sensor = *T_world_body * mount_of(sensor_of(record));
   for (const log::IterationPlane& plane : planes) {
     if (plane.iteration != moment.iteration || std::abs(plane.plane.normal[2]) > kUpright) continue;
     std::array<Vec3, 4>& corners = moment.planes.emplace_back();
@@ -120,8 +110,7 @@ render::Picture planes_panel(const Record& record, const Moment& moment) {
   render::Picture picture = panel(record, "upright planes found",
                                   fmt::format("{} in frame {}", moment.planes.size(), moment.iteration));
   for (std::size_t i = 0; i < moment.planes.size(); ++i) {
-    render::Segments outline{
-        .pairs = {}, .colour = render::submap_colour(i), .width_px = 2.0, .opacity = 1.0, .label = {}};
+    render::Segments outline{.colour = render::submap_colour(i), .width_px = 2.0};
     for (std::size_t k = 0; k < 4; ++k)
       outline.pairs.push_back({moment.planes[i][k], moment.planes[i][(k + 1) % 4]});
     picture.segments.push_back(std::move(outline));
@@ -142,8 +131,7 @@ render::Image draw_panels(const Record& record, const sim::PictureSpec& spec, re
                                     planes_panel(record, moment), std::move(map)};
   const int width = spec.width_px / 2, height = spec.height_px / 2;
   render::check_image_size(width, height);
-  render::Image image{2 * width, 2 * height, {}};
-  image.bytes.resize(std::size_t{12} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  render::Image image = render::blank_image(2 * width, 2 * height);
   for (int i = 0; i < 4; ++i) {
     const render::View view{.renderer = renderer};
     paste(render::draw(panels[i], view, width, height), (i % 2) * width, (i / 2) * height, image);

@@ -18,11 +18,9 @@ constexpr double kUprightMargin = 0.1;
 
 /// How far the sensor sees; empty where that is not known.
 std::optional<double> range_of(const Record& record) {
-  const auto sensors = record.run.find("sensors");
-  if (sensors == record.run.end() || !sensors->is_array() || sensors->empty()) return std::nullopt;
-  const auto range = sensors->front().find("max_range_m");
-  if (range == sensors->front().end() || !range->is_number()) return std::nullopt;
-  const double range_m = range->get<double>();
+  const nlohmann::ordered_json range = value_at(sensor_of(record), {"max_range_m"});
+  if (!range.is_number()) return std::nullopt;
+  const double range_m = range.get<double>();
   return std::isfinite(range_m) && range_m > 0.0 ? std::optional(range_m) : std::nullopt;
 }
 

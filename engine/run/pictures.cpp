@@ -9,11 +9,10 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "record/sensor_json.hpp"
+#include "geom/arrays.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
 #include "render/png.hpp"
-#include "run/abi_pose.hpp"
 #include "run/landmark_layers.hpp"
 #include "run/panels.hpp"
 #include "run/picture_frame.hpp"
@@ -22,14 +21,7 @@
 namespace hallway::run {
 namespace {
 
-Vec3 vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
-Pose pose_of(const log::StampedPose& pose) {
-  const auto& q = pose.orientation;
-  return {Quat(q[0], q[1], q[2], q[3]).normalized(), vector_of(pose.position_m)};
-}
+using Json = nlohmann::ordered_json;
 
 /// The positions as a line, broken where poses are missing.
 std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose& T_world_frame) {
@@ -41,7 +33,7 @@ std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const bool gap = i > 0 && poses[i].t_s - poses[i - 1].t_s > 1.5 * period_s;
     if (gap) line.push_back(Vec3::Constant(std::nan("")));
-    line.push_back(T_world_frame * vector_of(poses[i].position_m));
+    line.push_back(T_world_frame * to_vec3(poses[i].position_m));
   }
   return line;
 }
@@ -59,40 +51,33 @@ void add_paths(render::Picture& picture, const Record& record, const sim::Pictur
     picture.polylines.push_back({.points = line_of(record.truth, Pose()),
                                  .colour = render::palette::kTruth,
                                  .width_px = 5.0,
-                                 .dashed = false,
                                  .label = "true path"});
   }
   if (spec.shows(sim::PictureLayer::kEstimate) && !record.trajectory.empty()) {
     picture.polylines.push_back({.points = line_of(record.trajectory, T_world_map),
                                  .colour = render::palette::kEstimate,
                                  .width_px = 1.8,
-                                 .dashed = false,
                                  .label = path_label(record)});
     // Where the estimate has diverged it does not begin where the robot did.
-    const Vec3 start = record.truth.empty() ? T_world_map * vector_of(record.trajectory.front().position_m)
-                                            : vector_of(record.truth.front().position_m);
+    const Vec3 start = record.truth.empty() ? T_world_map * to_vec3(record.trajectory.front().position_m)
+                                            : to_vec3(record.truth.front().position_m);
     picture.labels.push_back({.position = start, .text = "start"});
   }
 }
 
 /// The sensor at the last pose that is known.
 void add_frustum(render::Picture& picture, const Record& record, const Pose& T_world_map) {
-  const auto sensors = record.run.find("sensors");
-  if (sensors == record.run.end() || !sensors->is_array() || sensors->empty()) return;
-  const auto& sensor = sensors->front();
+  const Json sensor = sensor_of(record);
   const auto number = [&](const char* key) {
-    const auto value = sensor.find(key);
-    return value != sensor.end() && value->is_number() ? value->template get<double>() : std::nan("");
+    const Json value = value_at(sensor, {key});
+    return value.is_number() ? value.get<double>() : std::nan("");
   };
-  render::FrustumMark mark;
-  mark.horizontal_fov = number("horizontal_fov_rad");
-  mark.vertical_fov = number("vertical_fov_rad");
-  mark.range_m = number("max_range_m");
-  mark.label = "field of view at the end";
+  render::FrustumMark mark{.horizontal_fov = number("horizontal_fov_rad"),
+                           .vertical_fov = number("vertical_fov_rad"),
+                           .range_m = number("max_range_m"),
+                           .label = "field of view at the end"};
   if (!(mark.horizontal_fov > 0.0) || !(mark.vertical_fov > 0.0) || !(mark.range_m > 0.0)) return;
-  Pose T_body_sensor;
-  const auto mount = sensor.find("T_body_sensor");
-  if (mount != sensor.end()) T_body_sensor = run::pose_of(record::read_pose(*mount));
+  const Pose T_body_sensor = mount_of(sensor);
   if (!record.truth.empty()) {
     mark.T_world_sensor = pose_of(record.truth.back()) * T_body_sensor;
   } else if (!record.trajectory.empty()) {
@@ -103,55 +88,48 @@ void add_frustum(render::Picture& picture, const Record& record, const Pose& T_w
   picture.frustum = mark;
 }
 
-std::string number_text(const nlohmann::ordered_json& value, const char* format) {
+std::string number_text(const Json& value, const char* format) {
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : std::string("unknown");
 }
 
 /// What metrics.json says of the walls; empty where it says nothing.
-std::string walls_text(const nlohmann::ordered_json& metrics) {
-  const auto planes = metrics.find("planes");
-  if (planes == metrics.end() || !planes->is_object()) return {};
-  const nlohmann::ordered_json& map = planes->value("final", nlohmann::ordered_json::object());
+std::string walls_text(const Json& metrics) {
+  const Json planes = value_at(metrics, {"planes"});
+  if (!planes.is_object()) return {};
+  const Json map = planes.value("final", Json::object());
   std::string text =
-      fmt::format(", {} of {} walls mapped", map.value("walls_mapped", 0), planes->value("walls_true", 0));
-  const auto corners = map.find("corner_m");
-  if (corners != map.end() && corners->is_object())
-    text += ", corners " + number_text(corners->value("rms", nlohmann::ordered_json()), "{:.4f}") + " m RMS";
+      fmt::format(", {} of {} walls mapped", map.value("walls_mapped", 0), planes.value("walls_true", 0));
+  if (value_at(map, {"corner_m"}).is_object())
+    text += ", corners " + number_text(value_at(map, {"corner_m", "rms"}), "{:.4f}") + " m RMS";
   return text;
 }
 
 /// ", 98.0 % of the frames have a pose"; empty where metrics.json does not say so.
-std::string coverage_text(const nlohmann::ordered_json& metrics, const char* what, const char* text) {
-  const auto coverage = metrics.find("coverage");
-  if (coverage == metrics.end() || !coverage->is_object()) return {};
-  const auto share = coverage->find(what);
-  if (share == coverage->end() || !share->is_number()) return {};
-  return fmt::format(", {:.1f} % {}", 100.0 * share->get<double>(), text);
+std::string coverage_text(const Json& metrics, const char* what, const char* text) {
+  const Json share = value_at(metrics, {"coverage", what});
+  return share.is_number() ? fmt::format(", {:.1f} % {}", 100.0 * share.get<double>(), text) : std::string();
 }
 
 /// What went wrong with the path; empty where nothing did.
-std::string verdict_text(const nlohmann::ordered_json& metrics) {
-  const auto verdict = metrics.find("verdict");
-  if (verdict == metrics.end() || !verdict->is_string() || *verdict == "ok") return {};
-  return verdict->get<std::string>() + ": ";
+std::string verdict_text(const Json& metrics) {
+  const Json verdict = value_at(metrics, {"verdict"});
+  return verdict.is_string() && verdict != "ok" ? verdict.get<std::string>() + ": " : std::string();
 }
 
 std::string subtitle_of(const Record& record) {
-  const auto& metrics = record.metrics;
+  const Json& metrics = record.metrics;
   std::string text = verdict_text(metrics) + fmt::format("{} iterations", record.run.value("iterations", 0)) +
                      coverage_text(metrics, "poses", "with a pose");
-  const auto positions = metrics.find("position_rmse_m");
-  if (positions != metrics.end() && positions->is_object() && (*positions)["aligned"].is_number())
-    text += ", path RMSE " + number_text((*positions)["aligned"], "{:.3f}") + " m";
+  const auto add_error = [&](const char* what, const Json& error, const char* format) {
+    if (error.is_number()) text += what + number_text(error, format) + " m";
+  };
+  add_error(", path RMSE ", value_at(metrics, {"position_rmse_m", "aligned"}), "{:.3f}");
   const std::string landmarks = coverage_text(metrics, "landmarks", "of the seen landmarks mapped");
-  const auto& mapped = metrics.value("landmarks_mapped", nlohmann::ordered_json());
+  const Json mapped = value_at(metrics, {"landmarks_mapped"});
   text += landmarks;
   if (landmarks.empty() && mapped.is_number() && mapped.get<std::uint64_t>() > 0)
     text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
-  const auto rmse = metrics.find("landmark_rmse_m");
-  if (rmse != metrics.end() && rmse->is_object() && rmse->contains("final_aligned") &&
-      (*rmse)["final_aligned"].is_number())
-    text += ", landmark RMSE " + number_text((*rmse)["final_aligned"], "{:.4f}") + " m";
+  add_error(", landmark RMSE ", value_at(metrics, {"landmark_rmse_m", "final_aligned"}), "{:.4f}");
   return text + walls_text(metrics);
 }
 
@@ -225,11 +203,8 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   render::Picture picture;
   picture.title = printable(record.run.value("name", "run"));
   picture.subtitle = subtitle_of(record);
-  if (record.world && (spec.shows(sim::PictureLayer::kMap) || map_view.anything())) {
-    add_map(picture, *record.world, map_view, faces);
-    if (!map_view.wireframe)
-      picture.surfaces.insert(picture.surfaces.end(), record.models.begin(), record.models.end());
-  }
+  if (record.world && (spec.shows(sim::PictureLayer::kMap) || map_view.anything()))
+    add_map(picture, *record.world, map_view, faces, record.models);
   const Pose T_world_path = path_place(record);
   const Pose T_world_map = map_place(record);
   add_planes(picture, record, spec, T_world_map);
@@ -244,10 +219,7 @@ render::Picture compose_map_picture(const MapSubject& subject, const MapView& ma
   render::Picture picture;
   picture.title = printable(subject.title);
   picture.subtitle = map_subtitle(subject.world, map_view);
-  add_map(picture, subject.world, map_view, faces);
-  if (!map_view.wireframe) {
-    picture.surfaces.insert(picture.surfaces.end(), subject.meshes.begin(), subject.meshes.end());
-  }
+  add_map(picture, subject.world, map_view, faces, subject.meshes);
   if (subject.document != nullptr) add_map_things(picture, *subject.document, subject.world, subject.things);
   return picture;
 }

@@ -30,11 +30,8 @@ Vec3 middle_of(const log::PlaneLandmark& plane) {
 }
 
 void add_true_planes(render::Picture& picture, const Record& record) {
-  render::Segments planes{.pairs = {},
-                          .colour = render::palette::kTruth,
-                          .width_px = 5.0,
-                          .opacity = 0.45,
-                          .label = "true walls"};
+  render::Segments planes{
+      .colour = render::palette::kTruth, .width_px = 5.0, .opacity = 0.45, .label = "true walls"};
   for (const log::TruePlane& plane : record.true_planes) {
     const auto outline = plane.outline();
     for (std::size_t i = 0; i < outline.size(); ++i)
@@ -45,16 +42,10 @@ void add_true_planes(render::Picture& picture, const Record& record) {
 
 /// The outlines of planes of one status, and dots at those of their ends that are certain.
 void add_mapped(render::Picture& picture, const Record& record, const Pose& T_world_map, bool temporary) {
-  render::Segments outlines{.pairs = {},
-                            .colour = temporary ? render::palette::kMutedInk : render::palette::kEstimate,
+  render::Segments outlines{.colour = temporary ? render::palette::kMutedInk : render::palette::kEstimate,
                             .width_px = temporary ? 1.0 : 2.0,
-                            .opacity = 1.0,
                             .label = temporary ? "temporary walls" : "mapped walls"};
-  render::Markers ends{.positions = {},
-                       .shape = render::MarkerShape::kDot,
-                       .colour = outlines.colour,
-                       .size_px = 6.0,
-                       .label = temporary ? "" : "certain ends"};
+  render::Markers ends{.colour = outlines.colour, .size_px = 6.0, .label = temporary ? "" : "certain ends"};
   for (const log::PlaneLandmark& plane : record.planes) {
     if ((plane.status == log::LandmarkStatus::kTemporary) != temporary) continue;
     const std::size_t n = plane.outline.size();
@@ -78,11 +69,7 @@ void add_stars(render::Picture& picture, const Record& record, const Pose& T_wor
   for (const log::IdPair& member : record.submaps) members[member.first].push_back(member.second);
   for (const log::SubmapPose& submap : record.submap_poses) {
     const Vec3 origin = T_world_map * to_vec3(submap.position_m);
-    render::Segments star{.pairs = {},
-                          .colour = render::submap_colour(submap.id),
-                          .width_px = 1.0,
-                          .opacity = 0.45,
-                          .label = {}};
+    render::Segments star{.colour = render::submap_colour(submap.id), .opacity = 0.45};
     for (const std::uint64_t member : members[submap.id]) {
       if (const auto middle = middles.find(member); middle != middles.end())
         star.pairs.push_back({origin, middle->second});
@@ -91,8 +78,7 @@ void add_stars(render::Picture& picture, const Record& record, const Pose& T_wor
     picture.markers.push_back({.positions = {origin},
                                .shape = render::MarkerShape::kDiamond,
                                .colour = star.colour,
-                               .size_px = 7.0,
-                               .label = {}});
+                               .size_px = 7.0});
     picture.segments.push_back(std::move(star));
   }
 }

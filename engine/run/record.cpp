@@ -14,6 +14,8 @@
 #include "geometry/rigid_fit.hpp"
 #include "map/reader.hpp"
 #include "record/epoch_table.hpp"
+#include "record/sensor_json.hpp"
+#include "run/abi_pose.hpp"
 #include "run/map_view.hpp"
 
 namespace hallway::run {
@@ -41,11 +43,6 @@ auto read_if_there(const fs::path& path, Read read) -> decltype(read(path)) {
   return read(path);
 }
 
-Pose pose_of(const log::StampedPose& pose) {
-  const auto& q = pose.orientation;
-  return {Quat(q[0], q[1], q[2], q[3]).normalized(), to_vec3(pose.position_m)};
-}
-
 /// What every folder of the command that wrote it has must be there: a robot program knows no truth to score by, and who serves one gets no map of it.
 void read_answers(const fs::path& folder, Record& record) {
   const std::string command = record.run.value("command", "");
@@ -59,6 +56,31 @@ void read_answers(const fs::path& folder, Record& record) {
 }
 
 }  // namespace
+
+Pose pose_of(const log::StampedPose& pose) {
+  const Pose exact = to_pose(pose.position_m, pose.orientation);
+  return {exact.q.normalized(), exact.t};
+}
+
+nlohmann::ordered_json value_at(const nlohmann::ordered_json& json,
+                                std::initializer_list<const char*> names) {
+  const nlohmann::ordered_json* at = &json;
+  for (const char* name : names) {
+    const auto found = at->find(name);
+    if (found == at->end()) return {};
+    at = &*found;
+  }
+  return *at;
+}
+
+nlohmann::ordered_json sensor_of(const Record& record) {
+  const nlohmann::ordered_json sensors = value_at(record.run, {"sensors"});
+  return sensors.is_array() && !sensors.empty() ? sensors.front() : nlohmann::ordered_json();
+}
+
+Pose mount_of(const nlohmann::ordered_json& sensor) {
+  return sensor.contains("T_body_sensor") ? pose_of(record::read_pose(sensor.at("T_body_sensor"))) : Pose();
+}
 
 bool is_run_folder(const fs::path& folder) {
   std::error_code code;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +42,18 @@ struct Record {
   std::vector<log::IdPair> submaps;           ///< submap, landmark or plane
   std::vector<log::SubmapPose> submap_poses;  ///< T_map_submap
 };
+
+/// A pose of a table, normalised again.
+Pose pose_of(const log::StampedPose& pose);
+
+/// The value at a path of names; null where there is none.
+nlohmann::ordered_json value_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> names);
+
+/// The sensor in a run's run.json; null where it names none.
+nlohmann::ordered_json sensor_of(const Record& record);
+
+/// T_body_sensor of that; the identity where it does not say. Throws Error{kBadInput}.
+Pose mount_of(const nlohmann::ordered_json& sensor);
 
 /// Whether a folder is one that a run has written.
 bool is_run_folder(const std::filesystem::path& folder);

@@ -52,9 +52,9 @@ class Collector {
     const Json json = parse_json(message.json, "the activation");
     try {
       run_.period_ns = json.value("period_ns", std::int64_t{0});
-      run_.has_identities = json.value("has_identities", false);
+      run_.facts.has_identities = json.value("has_identities", false);
       if (json.at("sensors").size() != 1) bad("replay takes logs of one sensor");
-      run_.sensor = record::read_sensor(json.at("sensors").front());
+      run_.facts.sensor = record::read_sensor(json.at("sensors").front());
     } catch (const nlohmann::json::exception& failure) {
       bad("the activation: " + printable(failure.what()));
     }
@@ -77,8 +77,10 @@ class Collector {
       (frame->is_of_planes ? frame->planes[i].true_plane : frame->observations[i].landmark) = message.ids[i];
     }
   }
-  void operator()(std::vector<log::Landmark>&& landmarks) { run_.true_landmarks = std::move(landmarks); }
-  void operator()(std::vector<log::TruePlane>&& planes) { run_.true_planes = std::move(planes); }
+  void operator()(std::vector<log::Landmark>&& landmarks) {
+    run_.facts.true_landmarks = std::move(landmarks);
+  }
+  void operator()(std::vector<log::TruePlane>&& planes) { run_.facts.true_planes = std::move(planes); }
 
  private:
   static Json parse_json(const std::string& text, const char* what) {
@@ -103,8 +105,8 @@ class Collector {
     }
     SourceFrame copy;
     copy.t_ns = frame.t_ns;
-    copy.is_of_planes = run_.sensor.kind == HW_SAMPLE_PLANES;
-    if (frame.samples[0]->kind != run_.sensor.kind) {
+    copy.is_of_planes = run_.facts.sensor.kind == HW_SAMPLE_PLANES;
+    if (frame.samples[0]->kind != run_.facts.sensor.kind) {
       const char* kind = copy.is_of_planes ? "planes" : "points";
       bad(fmt::format("frame {} has no {}, which its sensor gives", frame.sequence, kind));
     }
@@ -125,7 +127,7 @@ class Collector {
       if (points.track != nullptr) copy.observations.back().track = points.track[i];
     }
     copy.is_tracked = (frame.samples[0]->flags & HW_SAMPLE_TRACKED) != 0 && points.track != nullptr;
-    run_.has_tracks = run_.has_tracks || copy.is_tracked;
+    run_.facts.has_tracks = run_.facts.has_tracks || copy.is_tracked;
   }
 
   static void add_planes(const hw_frame_t& frame, SourceFrame& copy) {
@@ -178,7 +180,9 @@ RecordedRun read_recorded_run(const log::ByteInput& input) {
 }
 
 RecordedSource::RecordedSource(RecordedRun run, std::uint32_t steps)
-    : run_(std::move(run)), iterations_(static_cast<std::uint32_t>(run_.frames.size())) {
+    : Source(std::move(run.facts)),
+      frames_(std::move(run.frames)),
+      iterations_(static_cast<std::uint32_t>(frames_.size())) {
   if (steps > 0) iterations_ = std::min(iterations_, steps);
 }
 

@@ -13,13 +13,9 @@ namespace hallway::run {
 /// What replay needs of an MCAP log.
 struct RecordedRun {
   std::optional<nlohmann::ordered_json> manifest;  ///< run.json as known before the first frame
-  host::SensorInfo sensor;
+  SourceFacts facts;
   std::int64_t period_ns = 0;  ///< 0 where not known
-  bool has_identities = false;
-  bool has_tracks = false;
   std::vector<SourceFrame> frames;
-  std::optional<std::vector<log::Landmark>> true_landmarks;
-  std::optional<std::vector<log::TruePlane>> true_planes;
   std::optional<log::McapDamage> damage;  ///< where reading stopped; what stands before it is here
 };
 
@@ -35,17 +31,10 @@ class RecordedSource : public Source {
   RecordedSource(RecordedRun run, std::uint32_t steps);
 
   std::uint32_t iterations() const override { return iterations_; }
-  void read(std::uint32_t iteration, SourceFrame& frame) override { frame = run_.frames[iteration]; }
-  const host::SensorInfo& sensor() const override { return run_.sensor; }
-  bool has_identities() const override { return run_.has_identities; }
-  bool has_tracks() const override { return run_.has_tracks; }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
-    return run_.true_landmarks;
-  }
-  const std::optional<std::vector<log::TruePlane>>& true_planes() const override { return run_.true_planes; }
+  void read(std::uint32_t iteration, SourceFrame& frame) override { frame = frames_[iteration]; }
 
  private:
-  RecordedRun run_;
+  std::vector<SourceFrame> frames_;
   std::uint32_t iterations_;
 };
 

@@ -73,17 +73,11 @@ class Tally {
       points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
     eval::Iteration iteration{.T_world_body = frame.T_world_body,
                               .orientation_known = frame.orientation_known,
-                              .T_map_body = {},
                               .t_s = static_cast<double>(frame.t_ns) * 1e-9,
                               .map_epoch = map_epoch,
-                              .pose_covariance = {},
                               .associations = associations(answer),
                               .identities = identities_,
-                              .points = points_,
-                              .planes = {},
-                              .true_plane_points = {},
-                              .wall_ms = {},
-                              .cpu_ms = {}};
+                              .points = points_};
     if (answer.outputs != nullptr) add_answer(answer, iteration);
     if (plane_truth_) {
       plane_truth_->read(answer);

@@ -15,6 +15,7 @@
 namespace hallway::run {
 
 SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(simulator) {
+  facts_.has_identities = true;
   const sim::Scenario& scenario = simulator.scenario();
   if (scenario.sensors.size() != 1) {
     throw Error(
@@ -29,55 +30,53 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
 }
 
 void SimulatedSource::take(const sense::PointSensorSpec& spec) {
-  sensor_.name = spec.name;
-  sensor_.T_body_sensor = abi_pose(spec.T_body_sensor);
-  sensor_.horizontal_fov = spec.horizontal_fov;
-  sensor_.vertical_fov = spec.vertical_fov;
-  sensor_.min_range_m = spec.min_range_m;
-  sensor_.max_range_m = spec.max_range_m;
-  for (int axis = 0; axis < 3; ++axis) sensor_.noise_m[axis] = spec.noise_m[axis];
-  landmarks_.emplace();
+  facts_.sensor = {.name = spec.name,
+                   .T_body_sensor = abi_pose(spec.T_body_sensor),
+                   .horizontal_fov = spec.horizontal_fov,
+                   .vertical_fov = spec.vertical_fov,
+                   .min_range_m = spec.min_range_m,
+                   .max_range_m = spec.max_range_m,
+                   .noise_m = {spec.noise_m[0], spec.noise_m[1], spec.noise_m[2]}};
+  facts_.true_landmarks.emplace();
   for (const Vec3& place : simulator_.landmarks()) {
-    const auto id = static_cast<std::uint32_t>(landmarks_->size());
-    landmarks_->push_back(
+    const auto id = static_cast<std::uint32_t>(facts_.true_landmarks->size());
+    facts_.true_landmarks->push_back(
         {.id = id, .position_m = to_array(place), .moving = simulator_.moving_landmarks().moves(id)});
   }
 }
 
 void SimulatedSource::take(const sense::PlaneSensorSpec& spec) {
-  sensor_.kind = HW_SAMPLE_PLANES;
-  sensor_.name = spec.name;
-  sensor_.T_body_sensor = abi_pose(spec.T_body_sensor);
-  sensor_.horizontal_fov = spec.view.horizontal_fov;
-  sensor_.vertical_fov = spec.vertical_fov;
-  sensor_.min_range_m = spec.view.min_range_m;
-  sensor_.max_range_m = spec.view.max_range_m;
-  sensor_.noise_m[0] = sensor_.noise_m[1] = spec.noise_m;  // along the normals, which are level
-  sensor_.noise_m[2] = 0.0;
-  if (spec.shape == sense::PlaneShape::faces) {
-    sensor_.noise_m[2] = spec.noise_m;
-    set_faces(*simulator_.faces(0));
-  } else {
+  const bool walls = spec.shape == sense::PlaneShape::walls;  // their normals are level
+  facts_.sensor = {.kind = HW_SAMPLE_PLANES,
+                   .name = spec.name,
+                   .T_body_sensor = abi_pose(spec.T_body_sensor),
+                   .horizontal_fov = spec.view.horizontal_fov,
+                   .vertical_fov = spec.vertical_fov,
+                   .min_range_m = spec.view.min_range_m,
+                   .max_range_m = spec.view.max_range_m,
+                   .noise_m = {spec.noise_m, spec.noise_m, walls ? 0.0 : spec.noise_m}};
+  if (walls) {
     set_walls(*simulator_.walls(0));
+  } else {
+    set_faces(*simulator_.faces(0));
   }
 }
 
 void SimulatedSource::add_walls() {
-  if (true_planes_) return;
-  const double height_m = (simulator_.pose_at(0) * pose_of(sensor_.T_body_sensor)).t.z();
+  if (facts_.true_planes) return;
+  const double height_m = (simulator_.pose_at(0) * pose_of(facts_.sensor.T_body_sensor)).t.z();
   set_walls(simulator_.walls_at(height_m));
 }
 
 void SimulatedSource::set_walls(const sense::WallPlan& plan) {
-  true_planes_.emplace();
+  facts_.true_planes.emplace();
   for (const sense::Wall& wall : plan.walls) {
     const Vec2 &l = wall.left, &r = wall.right;
-    true_planes_->push_back({.id = true_planes_->size(),
-                             .corners_m = {{{l.x(), l.y(), wall.low_m},
-                                            {r.x(), r.y(), wall.low_m},
-                                            {r.x(), r.y(), wall.high_m},
-                                            {l.x(), l.y(), wall.high_m}}},
-                             .hull_m = {}});
+    facts_.true_planes->push_back({.id = facts_.true_planes->size(),
+                                   .corners_m = {{{l.x(), l.y(), wall.low_m},
+                                                  {r.x(), r.y(), wall.low_m},
+                                                  {r.x(), r.y(), wall.high_m},
+                                                  {l.x(), l.y(), wall.high_m}}}});
   }
 }
 
@@ -117,10 +116,10 @@ log::PlaneObservation observation_of(const PlaneObservation& seen, std::uint64_t
 }  // namespace
 
 void SimulatedSource::set_faces(const sense::FacePlan& plan) {
-  true_planes_.emplace();
+  facts_.true_planes.emplace();
   for (const Polygon& face : plan.faces) {
-    log::TruePlane& plane = true_planes_->emplace_back();
-    plane.id = true_planes_->size() - 1;
+    log::TruePlane& plane = facts_.true_planes->emplace_back();
+    plane.id = facts_.true_planes->size() - 1;
     plane.corners_m = corners_of(face);
     if (face.vertices.size() <= plane.corners_m.size()) continue;
     for (const Vec3& corner : face.vertices) plane.hull_m.push_back(to_array(corner));
@@ -132,7 +131,7 @@ void SimulatedSource::read(std::uint32_t iteration, SourceFrame& frame) {
   frame.t_ns = step.t_ns;
   frame.T_world_body = step.T_world_body;
   frame.orientation_known = true;
-  frame.is_of_planes = sensor_.kind == HW_SAMPLE_PLANES;
+  frame.is_of_planes = facts_.sensor.kind == HW_SAMPLE_PLANES;
   frame.observations.clear();
   frame.planes.clear();
   const sim::Reading& reading = step.readings.front();

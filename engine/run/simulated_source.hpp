@@ -17,10 +17,6 @@ class SimulatedSource : public Source {
 
   std::uint32_t iterations() const override { return simulator_.scenario().steps; }
   void read(std::uint32_t iteration, SourceFrame& frame) override;
-  const host::SensorInfo& sensor() const override { return sensor_; }
-  bool has_identities() const override { return true; }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return landmarks_; }
-  const std::optional<std::vector<log::TruePlane>>& true_planes() const override { return true_planes_; }
 
  private:
   void take(const sense::PointSensorSpec& spec);
@@ -29,9 +25,6 @@ class SimulatedSource : public Source {
   void set_faces(const sense::FacePlan& plan);
 
   const sim::Simulator& simulator_;
-  host::SensorInfo sensor_;
-  std::optional<std::vector<log::Landmark>> landmarks_;     ///< where the sensor is one of points
-  std::optional<std::vector<log::TruePlane>> true_planes_;  ///< where it is one of planes, or they were added
 };
 
 }  // namespace hallway::run

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/se3.hpp"
@@ -32,28 +33,35 @@ struct SourceFrame {
   }
 };
 
+/// What is known of a source beside its frames.
+struct SourceFacts {
+  host::SensorInfo sensor{};    ///< the one sensor
+  bool has_identities = false;  ///< whether the observations name their true landmarks or planes
+  bool has_tracks = false;      ///< whether the sensor follows its points in any frame
+  std::optional<std::vector<log::Landmark>> true_landmarks{};  ///< world, where that is known
+  std::optional<std::vector<log::TruePlane>> true_planes{};    ///< likewise
+};
+
 /// Where a run's input comes from: a simulator or a log. A frame is a pure function of its number.
 class Source {
  public:
+  explicit Source(SourceFacts facts = {}) : facts_(std::move(facts)) {}
   virtual ~Source() = default;
 
   /// How many frames there are.
   virtual std::uint32_t iterations() const = 0;
   /// Replaces `frame` by frame `iteration`, below iterations().
   virtual void read(std::uint32_t iteration, SourceFrame& frame) = 0;
-  /// The one sensor.
-  virtual const host::SensorInfo& sensor() const = 0;
-  /// Whether the observations name their true landmarks or planes.
-  virtual bool has_identities() const = 0;
-  /// Whether the sensor follows its points in any frame.
-  virtual bool has_tracks() const { return false; }
-  /// Where the true landmarks are (world), if that is known.
-  virtual const std::optional<std::vector<log::Landmark>>& true_landmarks() const = 0;
-  /// Where the true planes are (world), if that is known.
-  virtual const std::optional<std::vector<log::TruePlane>>& true_planes() const {
-    static const std::optional<std::vector<log::TruePlane>> kNone;
-    return kNone;
-  }
+
+  const SourceFacts& facts() const { return facts_; }
+  const host::SensorInfo& sensor() const { return facts_.sensor; }
+  bool has_identities() const { return facts_.has_identities; }
+  bool has_tracks() const { return facts_.has_tracks; }
+  const std::optional<std::vector<log::Landmark>>& true_landmarks() const { return facts_.true_landmarks; }
+  const std::optional<std::vector<log::TruePlane>>& true_planes() const { return facts_.true_planes; }
+
+ protected:
+  SourceFacts facts_;
 };
 
 }  // namespace hallway::run

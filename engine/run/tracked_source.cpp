@@ -9,10 +9,12 @@ namespace hallway::run {
 
 static_assert(log::kNoTrack == log::kNoLandmark, "what has no identity has no track");
 
-TrackedSource::TrackedSource(std::unique_ptr<Source> source) : source_(std::move(source)) {
-  if (source_->sensor().kind != HW_SAMPLE_POINTS)
+TrackedSource::TrackedSource(std::unique_ptr<Source> source)
+    : Source(source->facts()), source_(std::move(source)) {
+  facts_.has_tracks = true;
+  if (sensor().kind != HW_SAMPLE_POINTS)
     throw Error(ErrorCode::kUsage, "the log is not of points: there is nothing that has tracks");
-  if (source_->has_identities()) return;
+  if (has_identities()) return;
   throw Error(ErrorCode::kUsage,
               "the log does not name the landmarks of its points: there are no ids to track by");
 }

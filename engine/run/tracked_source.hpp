@@ -16,15 +16,6 @@ class TrackedSource : public Source {
 
   std::uint32_t iterations() const override { return source_->iterations(); }
   void read(std::uint32_t iteration, SourceFrame& frame) override;
-  const host::SensorInfo& sensor() const override { return source_->sensor(); }
-  bool has_identities() const override { return true; }
-  bool has_tracks() const override { return true; }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override {
-    return source_->true_landmarks();
-  }
-  const std::optional<std::vector<log::TruePlane>>& true_planes() const override {
-    return source_->true_planes();
-  }
 
  private:
   std::unique_ptr<Source> source_;

@@ -100,7 +100,7 @@ class RecordingPart : public run::Source {
     if (part.last < part.first || part.last >= recording_->frames())
       throw Error(ErrorCode::kBadInput,
                   fmt::format("the recording has {} scans, not scan {}", recording_->frames(), part.last));
-    sensor_.name = recording_->sensor();
+    facts_.sensor.name = recording_->sensor();
   }
 
   std::uint32_t iterations() const override { return part_.last - part_.first + 1; }
@@ -112,15 +112,10 @@ class RecordingPart : public run::Source {
     frame.T_world_body = frame_.T_world_body;
     frame.orientation_known = frame_.orientation_known;
   }
-  const host::SensorInfo& sensor() const override { return sensor_; }
-  bool has_identities() const override { return false; }
-  const std::optional<std::vector<log::Landmark>>& true_landmarks() const override { return none_; }
 
  private:
   std::unique_ptr<import::Recording> recording_;
   ParkInterval part_;
-  host::SensorInfo sensor_;
-  std::optional<std::vector<log::Landmark>> none_;
   import::Frame frame_;
 };
 
