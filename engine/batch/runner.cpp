@@ -21,6 +21,7 @@
 #include "base/spawn.hpp"
 #include "base/text.hpp"
 #include "batch/content.hpp"
+#include "batch/table.hpp"
 
 namespace hallway::batch {
 namespace {
@@ -54,10 +55,8 @@ class FolderLock {
 };
 
 Json to_json(const Result& result, const std::string& hash) {
-  Json labels = Json::object();
-  for (const Label& label : result.labels) labels[label.name] = label.value;
   return {{"schema", "hallway.cell/1"}, {"hash", hash},
-          {"name", result.name},        {"labels", labels},
+          {"name", result.name},        {"labels", labels_json(result)},
           {"status", result.status},    {"problem", result.problem},
           {"wall_s", result.wall_s},    {"metrics", result.metrics},
           {"verdict", result.verdict}};
@@ -284,11 +283,7 @@ class Runner {
       try {
         jobs_.push_back(std::make_unique<Job>(plan_.cells[index], index, hash, plan_, setup_));
       } catch (const Error& error) {
-        keep(index, hash,
-             Result{.name = plan_.cells[index].name,
-                    .labels = plan_.cells[index].labels,
-                    .status = exit_status(error.code()),
-                    .problem = error.what()});
+        keep_failure(index, hash, error);
       }
     }
     return any;
@@ -302,15 +297,20 @@ class Runner {
         if (!job->step()) return false;
         keep(job->index(), job->hash(), job->result());
       } catch (const Error& error) {
-        keep(job->index(), job->hash(),
-             Result{.name = plan_.cells[job->index()].name,
-                    .labels = plan_.cells[job->index()].labels,
-                    .status = exit_status(error.code()),
-                    .problem = error.what()});
+        keep_failure(job->index(), job->hash(), error);
       }
       return true;
     });
     return jobs_.size() != before;
+  }
+
+  void keep_failure(std::size_t index, const std::string& hash, const Error& error) {
+    const Cell& cell = plan_.cells[index];
+    keep(index, hash,
+         {.name = cell.name,
+          .labels = cell.labels,
+          .status = exit_status(error.code()),
+          .problem = error.what()});
   }
 
   /// A result that cannot be written is one all the same, and is run again by the next batch.

@@ -21,13 +21,6 @@ void add_numbers(std::vector<std::pair<std::string, double>>& numbers, const std
     add_numbers(numbers, name.empty() ? key : name + "." + key, value);
 }
 
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 /// Names in the order in which they are first met.
 void add_name(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -46,6 +39,13 @@ std::string label_of(const Result& result, const std::string& name) {
 
 }  // namespace
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::vector<std::pair<std::string, double>> numbers_of(const Json& metrics) {
   std::vector<std::pair<std::string, double>> numbers;
   add_numbers(numbers, "", metrics);
@@ -60,7 +60,6 @@ std::optional<double> number_of(const Json& metrics, const std::string& name) {
 }
 
 std::string path_verdict_of(const Result& result) {
-  if (!result.metrics.is_object()) return {};
   const auto verdict = result.metrics.find("verdict");
   return verdict != result.metrics.end() && verdict->is_string() ? verdict->get<std::string>() : "";
 }
@@ -72,15 +71,16 @@ std::string print_csv(const std::vector<Result>& results) {
     for (const auto& [name, number] : numbers_of(result.metrics)) add_name(metrics, name);
   }
   std::string text = "name";
-  for (const std::string& label : labels) text += "," + field(label);
+  for (const std::string& label : labels) text += "," + csv_field(label);
   text += ",status,verdict,problem,wall_s,path_verdict";
-  for (const std::string& metric : metrics) text += "," + field(metric);
+  for (const std::string& metric : metrics) text += "," + csv_field(metric);
   text += "\r\n";
   for (const Result& result : results) {
-    text += field(result.name);
-    for (const std::string& label : labels) text += "," + field(label_of(result, label));
-    text += fmt::format(",{},{},{},{},{}", result.status, field(verdict_name(result)), field(result.problem),
-                        format_double(result.wall_s), field(path_verdict_of(result)));
+    text += csv_field(result.name);
+    for (const std::string& label : labels) text += "," + csv_field(label_of(result, label));
+    text += fmt::format(",{},{},{},{},{}", result.status, csv_field(verdict_name(result)),
+                        csv_field(result.problem), format_double(result.wall_s),
+                        csv_field(path_verdict_of(result)));
     const auto numbers = numbers_of(result.metrics);
     for (const std::string& metric : metrics) {
       const auto found = std::find_if(numbers.begin(), numbers.end(),
@@ -92,13 +92,17 @@ std::string print_csv(const std::vector<Result>& results) {
   return text;
 }
 
+Json labels_json(const Result& result) {
+  Json labels = Json::object();
+  for (const Label& label : result.labels) labels[label.name] = label.value;
+  return labels;
+}
+
 Json to_json(const std::vector<Result>& results) {
   Json cells = Json::array();
   for (const Result& result : results) {
-    Json labels = Json::object();
-    for (const Label& label : result.labels) labels[label.name] = label.value;
     cells.push_back({{"name", result.name},
-                     {"labels", labels},
+                     {"labels", labels_json(result)},
                      {"status", result.status},
                      {"problem", result.problem},
                      {"verdict", result.verdict},

@@ -11,6 +11,12 @@
 
 namespace hallway::batch {
 
+/// A text as a field of CSV (RFC 4180), in quotes where it needs them.
+std::string csv_field(const std::string& text);
+
+/// The labels of a run, by name.
+nlohmann::ordered_json labels_json(const Result& result);
+
 /// The numbers of a metrics.json by their names with points between the levels, in its order: {"a": {"b": 1}} has "a.b".
 std::vector<std::pair<std::string, double>> numbers_of(const nlohmann::ordered_json& metrics);
 

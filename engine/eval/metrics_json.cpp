@@ -77,44 +77,45 @@ Json to_json(const Metrics& metrics) {
   landmark_rmse["final_aligned"] = number(metrics.landmark_rmse_final_aligned_m);
   Json position_rmse = aligned(metrics.position_rmse_m);
   position_rmse["refitted_aligned"] = number(metrics.position_rmse_refitted_aligned_m);
-  Json document;
-  document["schema"] = "hallway.metrics/1";
-  document["iterations"] = metrics.iterations;
-  document["lost_iterations"] = metrics.lost_iterations;
-  document["verdict"] = metrics.verdict ? Json(name_of(*metrics.verdict)) : Json(nullptr);
-  document["coverage"] = {{"poses", number(metrics.pose_coverage())},
-                          {"landmarks", number(metrics.landmark_coverage())},
-                          {"walls", number(metrics.wall_coverage())}};
-  document["parts"] = parts(metrics.parts);
-  document["divergence"] = divergence(metrics);
-  document["observations"] = metrics.observations;
-  document["associations_none"] = metrics.associations_none;
-  document["association_errors"] = number(metrics.association_errors);
-  document["associations_dropped"] = number(metrics.associations_dropped);
-  document["landmarks_true"] = number(metrics.landmarks_true);
-  document["landmarks_mapped"] = metrics.landmarks_mapped;
-  document["landmarks_duplicated"] = number(metrics.landmarks_duplicated);
-  document["landmarks_missed"] = number(metrics.landmarks_missed);
-  document["landmarks_unmatched"] = number(metrics.landmarks_unmatched);
-  document["moving"] = moving(metrics.moving);
-  document["landmark_pairs"] = metrics.landmark_pairs;
-  document["landmark_rmse_m"] = std::move(landmark_rmse);
-  document["position_pairs"] = metrics.position_pairs;
-  document["position_rmse_m"] = std::move(position_rmse);
-  document["position_refitted_pairs"] = metrics.position_refitted_pairs;
-  document["position_final_m"] = number(metrics.position_final_m);
-  document["rotation_rmse_deg"] = aligned(metrics.rotation_rmse_deg);
-  document["rpe"] = {{"frame", to_json(metrics.rpe_frame)},
-                     {"metre", to_json(metrics.rpe_metre)},
-                     {"second", to_json(metrics.rpe_second)}};
-  document["nees"] = {{"landmarks", number(metrics.landmark_consistency.mean())},
-                      {"landmark_pairs", metrics.landmark_consistency.count()},
-                      {"poses", number(metrics.pose_consistency.mean())},
-                      {"pose_pairs", metrics.pose_consistency.count()}};
-  document["planes"] = to_json(metrics.planes);
-  document["iteration_ms"] = to_json(metrics.iteration_ms);
-  document["iteration_cpu_ms"] = to_json(metrics.iteration_cpu_ms);
-  return document;
+  return {{"schema", "hallway.metrics/1"},
+          {"iterations", metrics.iterations},
+          {"lost_iterations", metrics.lost_iterations},
+          {"verdict", metrics.verdict ? Json(name_of(*metrics.verdict)) : Json(nullptr)},
+          {"coverage",
+           {{"poses", number(metrics.pose_coverage())},
+            {"landmarks", number(metrics.landmark_coverage())},
+            {"walls", number(metrics.wall_coverage())}}},
+          {"parts", parts(metrics.parts)},
+          {"divergence", divergence(metrics)},
+          {"observations", metrics.observations},
+          {"associations_none", metrics.associations_none},
+          {"association_errors", number(metrics.association_errors)},
+          {"associations_dropped", number(metrics.associations_dropped)},
+          {"landmarks_true", number(metrics.landmarks_true)},
+          {"landmarks_mapped", metrics.landmarks_mapped},
+          {"landmarks_duplicated", number(metrics.landmarks_duplicated)},
+          {"landmarks_missed", number(metrics.landmarks_missed)},
+          {"landmarks_unmatched", number(metrics.landmarks_unmatched)},
+          {"moving", moving(metrics.moving)},
+          {"landmark_pairs", metrics.landmark_pairs},
+          {"landmark_rmse_m", std::move(landmark_rmse)},
+          {"position_pairs", metrics.position_pairs},
+          {"position_rmse_m", std::move(position_rmse)},
+          {"position_refitted_pairs", metrics.position_refitted_pairs},
+          {"position_final_m", number(metrics.position_final_m)},
+          {"rotation_rmse_deg", aligned(metrics.rotation_rmse_deg)},
+          {"rpe",
+           {{"frame", to_json(metrics.rpe_frame)},
+            {"metre", to_json(metrics.rpe_metre)},
+            {"second", to_json(metrics.rpe_second)}}},
+          {"nees",
+           {{"landmarks", number(metrics.landmark_consistency.mean())},
+            {"landmark_pairs", metrics.landmark_consistency.count()},
+            {"poses", number(metrics.pose_consistency.mean())},
+            {"pose_pairs", metrics.pose_consistency.count()}}},
+          {"planes", to_json(metrics.planes)},
+          {"iteration_ms", to_json(metrics.iteration_ms)},
+          {"iteration_cpu_ms", to_json(metrics.iteration_cpu_ms)}};
 }
 
 Json without_clock(Json document) {

@@ -63,6 +63,12 @@ struct End {
   Vec3 true_middle = Vec3::Zero();
 };
 
+/// The middle of the edge from a corner of a landmark's outline to the next one.
+Vec3 middle_of_edge(const PlaneLandmark& plane, std::size_t i) {
+  const std::vector<log::OutlineCorner>& outline = plane.outline;
+  return 0.5 * (to_vec3(outline[i].position_m) + to_vec3(outline[(i + 1) % outline.size()].position_m));
+}
+
 std::vector<End> certain_ends(const PlaneLandmark& plane, const std::vector<Vec3>& corners) {
   std::vector<End> ends;
   const std::size_t n = plane.outline.size();
@@ -70,8 +76,7 @@ std::vector<End> certain_ends(const PlaneLandmark& plane, const std::vector<Vec3
   for (std::size_t i = 0; i < n; ++i) {
     if (!plane.outline[i].edge_certain) continue;
     const Vec3 &a = corners[i], &b = corners[(i + 1) % n];
-    const Vec3 middle =
-        0.5 * (to_vec3(plane.outline[i].position_m) + to_vec3(plane.outline[(i + 1) % n].position_m));
+    const Vec3 middle = middle_of_edge(plane, i);
     ends.push_back({middle, {a, (b - a).normalized()}, 0.5 * (a + b)});
   }
   return ends;
@@ -84,8 +89,7 @@ std::vector<End> certain_edges(const PlaneLandmark& plane, const std::vector<Vec
   const std::size_t n = plane.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (!plane.outline[i].edge_certain) continue;
-    const Vec3 middle =
-        0.5 * (to_vec3(plane.outline[i].position_m) + to_vec3(plane.outline[(i + 1) % n].position_m));
+    const Vec3 middle = middle_of_edge(plane, i);
     const Vec3 placed = T_world_map * middle;
     End edge{middle, {}, Vec3::Zero()};
     double least = std::numeric_limits<double>::max();
@@ -227,10 +231,15 @@ void PlaneScore::keep_poses(const std::function<bool(std::uint32_t)>& is_in_map)
   for (TwoPoses& poses : poses_) poses.in_map = is_in_map(poses.iteration);
 }
 
-std::optional<Pose> PlaneScore::first_pose_frame() const {
+const PlaneScore::TwoPoses* PlaneScore::first_poses() const {
   const auto first =
       std::find_if(poses_.begin(), poses_.end(), [](const TwoPoses& poses) { return poses.in_map; });
-  if (first == poses_.end()) return std::nullopt;
+  return first == poses_.end() ? nullptr : &*first;
+}
+
+std::optional<Pose> PlaneScore::first_pose_frame() const {
+  const TwoPoses* first = first_poses();
+  if (first == nullptr) return std::nullopt;
   return first->T_world_body * first->T_map_body.inverse();
 }
 
@@ -283,9 +292,8 @@ std::optional<Pose> PlaneScore::alignment(const std::vector<Pair>& pairs, bool& 
   by_corners = determine_a_pose(from) && determine_a_pose(to);
   if (by_corners) {
     Pose T_world_map = *rigid_fit(from, to);
-    const auto first =
-        std::find_if(poses_.begin(), poses_.end(), [](const TwoPoses& poses) { return poses.in_map; });
-    if (first != poses_.end()) T_world_map.t.z() = first->T_world_body.t.z() - first->T_map_body.t.z();
+    const TwoPoses* first = first_poses();
+    if (first != nullptr) T_world_map.t.z() = first->T_world_body.t.z() - first->T_map_body.t.z();
     return T_world_map;
   }
   return first_pose_frame();

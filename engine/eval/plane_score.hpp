@@ -85,7 +85,9 @@ class PlaneScore {
     bool in_map = true;  ///< of the frame of reference of the map at the end
   };
 
-  /// T_world_map by the first pose in the map; empty without one.
+  /// The first poses in the map; null without any.
+  const TwoPoses* first_poses() const;
+  /// T_world_map by them; empty without any.
   std::optional<Pose> first_pose_frame() const;
   bool is_asked_for(const ScoredPlane& truth) const { return truth.frames >= kLeastFrames; }
   /// Whether all planes are upright, as a map in 2 1/2-D has them.

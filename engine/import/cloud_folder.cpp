@@ -14,6 +14,7 @@
 #include "import/pcd.hpp"
 #include "import/ply.hpp"
 #include "import/point_records.hpp"
+#include "import/words.hpp"
 #include "log/observations.hpp"
 
 namespace hallway::import {
@@ -109,9 +110,7 @@ std::vector<FrameFile> find_frames(const fs::path& path, const CloudOptions& opt
 }
 
 bool has_extension(const fs::path& path, std::string_view wanted) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension == wanted;
+  return lower_case(path.extension().string()) == wanted;
 }
 
 class CloudFolder : public Recording {

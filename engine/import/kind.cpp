@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kKinds{Kind::kClouds,       Kind::kTum,          Kind::kVictoriaPark,
-                            Kind::kStereoTracks, Kind::kRangeBearing, Kind::kBag};
+/// In the order of Kind.
+constexpr std::array kKindNames{"clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"};
 
 std::optional<Kind> kind_of_file(const fs::path& path) {
   constexpr std::uint64_t kFirstBytes = 1024;
@@ -60,28 +60,13 @@ std::optional<Kind> kind_of_folder(const fs::path& folder) {
 }  // namespace
 
 const char* kind_name(Kind kind) {
-  switch (kind) {
-    case Kind::kClouds:
-      return "clouds";
-    case Kind::kTum:
-      return "tum";
-    case Kind::kVictoriaPark:
-      return "victoria-park";
-    case Kind::kStereoTracks:
-      return "stereo-tracks";
-    case Kind::kRangeBearing:
-      return "range-bearing";
-    case Kind::kBag:
-      break;
-  }
-  return "bag";
+  return kKindNames[static_cast<std::size_t>(kind)];
 }
 
 std::optional<Kind> kind_named(std::string_view name) {
-  for (const Kind kind : kKinds) {
-    if (name == kind_name(kind)) return kind;
-  }
-  return std::nullopt;
+  const auto found = std::find(kKindNames.begin(), kKindNames.end(), name);
+  if (found == kKindNames.end()) return std::nullopt;
+  return static_cast<Kind>(found - kKindNames.begin());
 }
 
 std::optional<Kind> tell_kind(const fs::path& path) {

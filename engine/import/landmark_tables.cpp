@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "geom/arrays.hpp"
 #include "import/point_table.hpp"
 #include "import/word_lines.hpp"
 #include "import/words.hpp"
@@ -118,8 +119,8 @@ TruePoses read_camera_poses(const fs::path& path, std::uint32_t frames) {
   while (rows.next()) {
     const std::uint32_t frame = rows.later_iteration(kFrame, last);
     last = frame;
-    const auto t = rows.vector(kPosition);
-    const Pose T_world_camera{orientation_in(rows, kRotation), Vec3(t[0], t[1], t[2])};
+    const Vec3 t = to_vec3(rows.vector(kPosition));
+    const Pose T_world_camera{orientation_in(rows, kRotation), t};
     if (frame >= frames) continue;
     poses.resize(frame + std::size_t{1});
     poses[frame] = T_body_camera * T_world_camera * T_body_camera.inverse();

@@ -18,37 +18,29 @@ double read_as(const char* bytes, ByteOrder order) {
   return static_cast<double>(std::bit_cast<T>(copy));
 }
 
+/// How a kind of number is read.
+struct Reading {
+  std::size_t size = 0;
+  double (*read)(const char* bytes, ByteOrder order) = nullptr;
+};
+
+template <typename... T>
+constexpr std::array<Reading, sizeof...(T)> readings_of() {
+  return {{{sizeof(T), read_as<T>}...}};
+}
+
+/// In the order of Scalar.
+constexpr auto kReadings = readings_of<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                                       std::uint32_t, std::int64_t, std::uint64_t, float, double>();
+
 }  // namespace
 
 std::size_t size_of(Scalar type) {
-  constexpr std::array<std::size_t, 10> kSizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
+  return kReadings[static_cast<std::size_t>(type)].size;
 }
 
 double read_scalar(const char* bytes, Scalar type, ByteOrder order) {
-  switch (type) {
-    case Scalar::kInt8:
-      return read_as<std::int8_t>(bytes, order);
-    case Scalar::kUint8:
-      return read_as<std::uint8_t>(bytes, order);
-    case Scalar::kInt16:
-      return read_as<std::int16_t>(bytes, order);
-    case Scalar::kUint16:
-      return read_as<std::uint16_t>(bytes, order);
-    case Scalar::kInt32:
-      return read_as<std::int32_t>(bytes, order);
-    case Scalar::kUint32:
-      return read_as<std::uint32_t>(bytes, order);
-    case Scalar::kInt64:
-      return read_as<std::int64_t>(bytes, order);
-    case Scalar::kUint64:
-      return read_as<std::uint64_t>(bytes, order);
-    case Scalar::kFloat32:
-      return read_as<float>(bytes, order);
-    case Scalar::kFloat64:
-      break;
-  }
-  return read_as<double>(bytes, order);
+  return kReadings[static_cast<std::size_t>(type)].read(bytes, order);
 }
 
 }  // namespace hallway::import

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,8 +11,8 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
+#include "geom/arrays.hpp"
 #include "geometry/rigid_fit.hpp"
-#include "geometry/se3.hpp"
 #include "log/line_reader.hpp"
 
 namespace hallway::import {
@@ -20,6 +21,8 @@ namespace {
 constexpr std::size_t kTumNumbers = 8;
 constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kEurocNumbers = 8;
+/// In the order of TrajectoryFormat.
+constexpr std::array kFormatNames{"tum", "kitti", "euroc"};
 /// Of quaternions and of matrices.
 constexpr double kTolerance = 0.01;
 
@@ -48,8 +51,13 @@ std::vector<std::string_view> words_of(std::string_view line) {
 std::array<double, 4> unit_quaternion(std::array<double, 4> wxyz, const log::LineReader& lines) {
   if (!is_unit_quaternion(wxyz, kUnitFileTolerance))
     throw lines.error("the quaternion does not have unit length");
-  const Quat q = Quat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
-  return {q.w(), q.x(), q.y(), q.z()};
+  return to_array(Quat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized());
+}
+
+void check_later(double t_s, double before_s, const log::LineReader& lines) {
+  if (t_s <= before_s)
+    throw lines.error(
+        fmt::format("the time {} is not after {}", format_double(t_s), format_double(before_s)));
 }
 
 /// Reads lines of one format; times must increase.
@@ -63,9 +71,7 @@ class Reader {
     while (lines_.next()) {
       if (lines_.line().starts_with('#')) continue;
       const log::StampedPose pose = pose_of_line();
-      if (!poses_.empty() && pose.t_s <= poses_.back().t_s)
-        throw lines_.error(fmt::format("the time {} is not after {}", format_double(pose.t_s),
-                                       format_double(poses_.back().t_s)));
+      if (!poses_.empty()) check_later(pose.t_s, poses_.back().t_s, lines_);
       poses_.push_back(pose);
     }
     if (poses_.empty()) throw Error(ErrorCode::kBadInput, "holds no poses", {.file = lines_.file()});
@@ -106,8 +112,7 @@ class Reader {
     const Eigen::Matrix3d off = R * R.transpose() - Eigen::Matrix3d::Identity();
     if (!(off.cwiseAbs().maxCoeff() <= kTolerance) || !(R.determinant() > 0.0))
       throw lines_.error("the first three columns are no rotation");
-    const Quat q = nearest_rotation(R);
-    return {static_cast<double>(poses_.size()), {v[3], v[7], v[11]}, {q.w(), q.x(), q.y(), q.z()}};
+    return {static_cast<double>(poses_.size()), {v[3], v[7], v[11]}, to_array(nearest_rotation(R))};
   }
 
   /// The header says which columns these are; without it nobody knows whether w comes first.
@@ -167,22 +172,13 @@ TrajectoryFormat tell_format(std::string_view text, const std::string& file) {
 }  // namespace
 
 const char* name_of(TrajectoryFormat format) {
-  switch (format) {
-    case TrajectoryFormat::kTum:
-      return "tum";
-    case TrajectoryFormat::kKitti:
-      return "kitti";
-    case TrajectoryFormat::kEuroc:
-      return "euroc";
-  }
-  return "";
+  return kFormatNames[static_cast<std::size_t>(format)];
 }
 
 std::optional<TrajectoryFormat> trajectory_format(std::string_view name) {
-  for (const auto format : {TrajectoryFormat::kTum, TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc}) {
-    if (name == name_of(format)) return format;
-  }
-  return std::nullopt;
+  const auto found = std::find(kFormatNames.begin(), kFormatNames.end(), name);
+  if (found == kFormatNames.end()) return std::nullopt;
+  return static_cast<TrajectoryFormat>(found - kFormatNames.begin());
 }
 
 ForeignTrajectory parse_trajectory(std::string_view text, const std::string& file,
@@ -208,9 +204,7 @@ std::vector<double> read_times(const std::filesystem::path& path) {
   while (lines.next()) {
     if (lines.line().starts_with('#')) continue;
     const double t_s = number_of(lines.line(), lines);
-    if (!times.empty() && t_s <= times.back())
-      throw lines.error(
-          fmt::format("the time {} is not after {}", format_double(t_s), format_double(times.back())));
+    if (!times.empty()) check_later(t_s, times.back(), lines);
     times.push_back(t_s);
   }
   return times;

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "geom/arrays.hpp"
 #include "import/frame_list.hpp"
 #include "import/true_track.hpp"
 #include "import/words.hpp"
@@ -45,9 +46,8 @@ TrueTrack read_truth(const fs::path& folder, std::int64_t within_ns) {
                   fmt::format("the time {} is not from 0 to 9e9 seconds", format_double(pose.t_s)),
                   {.file = printable(file.string())});
     }
-    const auto& [w, x, y, z] = pose.orientation;
-    const Pose T_world_optical{Quat(w, x, y, z).normalized(),
-                               Vec3(pose.position_m[0], pose.position_m[1], pose.position_m[2])};
+    Pose T_world_optical = to_pose(pose.position_m, pose.orientation);
+    T_world_optical.q.normalize();
     if (!poses.empty() && poses.back().t_ns == *t_ns) continue;
     poses.push_back({*t_ns, T_world_optical * optical_from_body()});
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "base/text.hpp"
 
@@ -39,6 +38,12 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
 std::optional<double> parse_coordinate(std::string_view word) {
   if (const auto number = parse_double(word)) return number;
   if (word.starts_with('+')) {
@@ -46,9 +51,7 @@ std::optional<double> parse_coordinate(std::string_view word) {
       return number;
     }
   }
-  std::string plain(word.substr(word.starts_with('-') || word.starts_with('+') ? 1 : 0));
-  std::transform(plain.begin(), plain.end(), plain.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string plain = lower_case(word.substr(word.starts_with('-') || word.starts_with('+') ? 1 : 0));
   if (plain == "nan" || plain == "inf" || plain == "infinity" || plain == "nan(ind)") {
     return std::numeric_limits<double>::quiet_NaN();
   }

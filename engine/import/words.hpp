@@ -3,10 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace hallway::import {
+
+/// A text with the capitals of ASCII in lower case.
+std::string lower_case(std::string_view text);
 
 /// Replaces `words` by the words of a line, which blanks part.
 void split_words(std::string_view line, std::vector<std::string_view>& words);

@@ -33,8 +33,7 @@ std::optional<CloudKind> kind_of(std::string_view content, const fs::path& path)
   if (content.starts_with("ply")) return CloudKind::kPly;
   if (content.starts_with("# .PCD")) return CloudKind::kPcd;
   if (content.starts_with(kPngMagic)) return CloudKind::kDepth;
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = import::lower_case(path.extension().string());
   constexpr std::pair<std::string_view, CloudKind> kNames[] = {{".ply", CloudKind::kPly},
                                                                {".pcd", CloudKind::kPcd},
                                                                {".csv", CloudKind::kCsv},

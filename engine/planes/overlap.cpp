@@ -5,11 +5,7 @@
 #include <map>
 
 namespace hallway::planes {
-namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-/// For each point the place of its plane, or kNone.
 std::vector<std::size_t> places_of_points(const Truth& truth) {
   std::map<std::int64_t, std::size_t> places;
   for (std::size_t i = 0; i < truth.planes.size(); ++i) places[truth.planes[i].label] = i;
@@ -17,12 +13,10 @@ std::vector<std::size_t> places_of_points(const Truth& truth) {
   of_points.reserve(truth.labels.size());
   for (const std::int64_t label : truth.labels) {
     const auto place = label == kNoLabel ? places.end() : places.find(label);
-    of_points.push_back(place == places.end() ? kNone : place->second);
+    of_points.push_back(place == places.end() ? kNoPlace : place->second);
   }
   return of_points;
 }
-
-}  // namespace
 
 Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& found) {
   const std::vector<std::size_t> places = places_of_points(truth);
@@ -35,7 +29,7 @@ Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& foun
     of_members.clear();
     for (const PointIndex member : found[f].members) {
       assigned[member] = true;
-      if (places[member] != kNone) of_members.push_back(places[member]);
+      if (places[member] != kNoPlace) of_members.push_back(places[member]);
     }
     std::sort(of_members.begin(), of_members.end());
     for (std::size_t i = 0; i < of_members.size(); ++i) {
@@ -44,7 +38,7 @@ Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& foun
     }
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i] == kNone) {
+    if (places[i] == kNoPlace) {
       ++overlap.outliers;
       overlap.assigned_outliers += assigned[i] ? 1u : 0u;
     } else {

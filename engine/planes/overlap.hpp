@@ -36,6 +36,12 @@ struct Overlap {
   }
 };
 
+/// The place of a plane that is none.
+inline constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
+
+/// For each point the place of its plane in Truth::planes; kNoPlace for a label without a plane.
+std::vector<std::size_t> places_of_points(const Truth& truth);
+
 /// Counts. A label without a plane counts as an outlier. O(members log members).
 Overlap overlap_of(const Truth& truth, const std::vector<PlaneObservation>& found);
 

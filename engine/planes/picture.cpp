@@ -2,9 +2,9 @@
 #include "planes/picture.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "planes/files.hpp"
+#include "planes/overlap.hpp"
 #include "render/draw.hpp"
 
 namespace hallway::planes {
@@ -15,11 +15,10 @@ using render::Rgb;
 
 constexpr std::size_t kMostPoints = 60'000;
 constexpr double kPoint_px = 2.4;
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// Points and rectangles of a set of planes; colour by plane.
 struct Layer {
-  std::vector<std::size_t> plane_of_point{};  ///< place of its plane, or kNone
+  std::vector<std::size_t> plane_of_point{};  ///< place of its plane, or kNoPlace
   std::vector<Corners> rectangles{};          ///< some may be missing
   std::vector<Rgb> colours{};                 ///< of the planes
 };
@@ -29,7 +28,7 @@ void add_points(Picture& picture, const std::vector<Vec3>& points, const Layer& 
   std::vector<render::Markers> marks(layer.colours.size() + 1);
   for (std::size_t i = 0; i < points.size(); i += step) {
     const std::size_t plane = layer.plane_of_point[i];
-    marks[plane == kNone ? 0 : plane + 1].positions.push_back(points[i]);
+    marks[plane == kNoPlace ? 0 : plane + 1].positions.push_back(points[i]);
   }
   for (std::size_t i = 0; i < marks.size(); ++i) {
     marks[i].colour = i == 0 ? kNoPlaneColour : layer.colours[i - 1];
@@ -56,7 +55,7 @@ Picture picture_of(const std::vector<Vec3>& points, const Layer& layer) {
 std::vector<std::size_t> found_of_points(std::size_t points, const std::vector<PlaneObservation>& found) {
   std::vector<std::size_t> places;
   for (const std::int64_t plane : plane_of_points(points, found))
-    places.push_back(plane < 0 ? kNone : static_cast<std::size_t>(plane));
+    places.push_back(plane < 0 ? kNoPlace : static_cast<std::size_t>(plane));
   return places;
 }
 
@@ -70,14 +69,7 @@ Layer found_layer(const PictureContent& content) {
 }
 
 Layer true_layer(const PictureContent& content, const Truth& truth) {
-  std::map<std::int64_t, std::size_t> places;
-  for (std::size_t i = 0; i < truth.planes.size(); ++i) places[truth.planes[i].label] = i;
-  Layer layer;
-  for (std::size_t i = 0; i < content.points.size(); ++i) {
-    const auto place = places.find(truth.labels[i]);
-    layer.plane_of_point.push_back(truth.labels[i] == kNoLabel || place == places.end() ? kNone
-                                                                                        : place->second);
-  }
+  Layer layer{.plane_of_point = places_of_points(truth)};
   const bool all = std::all_of(truth.planes.begin(), truth.planes.end(),
                                [](const TruePlane& plane) { return plane.corners.has_value(); });
   for (std::size_t i = 0; i < truth.planes.size(); ++i) {
@@ -117,18 +109,9 @@ void mark_fault(const PictureContent& content, const Truth& truth, const Fault& 
 }
 
 render::Image beside(const render::Image& left, const render::Image& right) {
-  render::Image both{left.width_px + right.width_px, left.height_px, {}};
-  const auto row = [](const render::Image& image, int y) {
-    const std::size_t size = 3 * static_cast<std::size_t>(image.width_px);
-    const auto begin = image.bytes.begin() + static_cast<std::ptrdiff_t>(size * static_cast<std::size_t>(y));
-    return std::pair(begin, begin + static_cast<std::ptrdiff_t>(size));
-  };
-  for (int y = 0; y < both.height_px; ++y) {
-    for (const render::Image* image : {&left, &right}) {
-      const auto [begin, end] = row(*image, y);
-      both.bytes.insert(both.bytes.end(), begin, end);
-    }
-  }
+  render::Image both = render::blank_image(left.width_px + right.width_px, left.height_px);
+  render::paste(left, 0, 0, both);
+  render::paste(right, left.width_px, 0, both);
   return both;
 }
 

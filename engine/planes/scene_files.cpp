@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "geom/arrays.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
 
@@ -34,10 +35,6 @@ std::vector<log::CsvColumn> columns() {
   std::vector<log::CsvColumn> list;
   for (const std::string_view name : split(kPlaneColumns, ',')) list.push_back({name});
   return list;
-}
-
-Vec3 to_vec3(const std::array<double, 3>& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
 SceneRectangle read_rectangle(const log::CsvReader& row) {

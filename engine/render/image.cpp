@@ -7,6 +7,11 @@
 
 namespace hallway::render {
 
+void paste(const Image& from, int x, int y, Image& to) {
+  for_each_pixel({0, 0, from.width_px, from.height_px},
+                 [&](int column, int row) { to.set(x + column, y + row, from.at(column, row)); });
+}
+
 void check_image_size(std::int64_t width_px, std::int64_t height_px) {
   const auto side_ok = [](std::int64_t side) { return side >= 1 && side <= kMaxImageSide_px; };
   if (side_ok(width_px) && side_ok(height_px) && width_px * height_px <= kMaxImagePixels) return;

@@ -56,6 +56,9 @@ struct Image {
 /// A picture of one colour.
 Image blank_image(int width_px, int height_px, Rgb colour = palette::kPaper);
 
+/// Copies an image into a larger one, its top left corner at column `x` and row `y`.
+void paste(const Image& from, int x, int y, Image& to);
+
 /// Throws Error{kBadInput} unless both sides are at least 1, at most kMaxImageSide_px and their product is at most
 /// kMaxImagePixels. Allocates nothing.
 void check_image_size(std::int64_t width_px, std::int64_t height_px);

@@ -7,7 +7,6 @@
 
 #include "base/text.hpp"
 #include "render/draw.hpp"
-#include "run/paste.hpp"
 #include "run/picture_frame.hpp"
 #include "run/pictures.hpp"
 
@@ -87,7 +86,7 @@ render::Image draw_comparison(const std::vector<Compared>& runs, const sim::Pict
     if (i == 0)
       image = render::blank_image(grid.columns * grid.width_px, grid.rows * grid.height_px, drawn.at(0, 0));
     const int at = static_cast<int>(i);
-    paste(drawn, at % grid.columns * grid.width_px, at / grid.columns * grid.height_px, image);
+    render::paste(drawn, at % grid.columns * grid.width_px, at / grid.columns * grid.height_px, image);
   }
   return image;
 }

@@ -15,7 +15,6 @@
 #include "log/poses.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
-#include "run/paste.hpp"
 #include "run/pictures.hpp"
 #include "run/plane_layers.hpp"
 
@@ -134,7 +133,7 @@ render::Image draw_panels(const Record& record, const sim::PictureSpec& spec, re
   render::Image image = render::blank_image(2 * width, 2 * height);
   for (int i = 0; i < 4; ++i) {
     const render::View view{.renderer = renderer};
-    paste(render::draw(panels[i], view, width, height), (i % 2) * width, (i / 2) * height, image);
+    render::paste(render::draw(panels[i], view, width, height), (i % 2) * width, (i / 2) * height, image);
   }
   return image;
 }

@@ -131,7 +131,7 @@ class BinningStudy {
   }
 
   void add_reference(Chart& chart) const {
-    Series line{.name = "n log2 n", .style = SeriesStyle::kDashed, .colour = {38, 43, 51}};
+    Series line{.name = "n log2 n", .style = SeriesStyle::kDashed, .colour = render::palette::kInk};
     for (const std::size_t n : sizes_) {
       const double size = static_cast<double>(n);
       line.points.emplace_back(size, size * std::log2(size));

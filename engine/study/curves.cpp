@@ -47,11 +47,22 @@ std::string short_name(const RunSpec& spec, const std::set<std::string>& varied,
   return name;
 }
 
-/// For each x the median of the y that are there.
-std::vector<Vec2> median_by_x(const std::map<double, std::vector<double>>& values) {
-  std::vector<Vec2> points;
-  for (const auto& [x, y] : values) points.emplace_back(x, *median(y));
-  return points;
+/// For each group a line of medians by x. @param add  calls its second argument with the x and y of a run's trace
+template <typename Add>
+std::vector<Series> median_series(const std::vector<RunGroup>& groups, Add add) {
+  std::vector<Series> all;
+  for (const RunGroup& group : groups) {
+    std::map<double, std::vector<double>> values;
+    for (const StudyRun* run : group.runs) {
+      add(run->trace, [&](double x, const std::optional<double>& y) {
+        if (y) values[x].push_back(*y);
+      });
+    }
+    Series line{.name = group.name, .colour = series_colour(all.size())};
+    for (const auto& [x, y] : values) line.points.emplace_back(x, *median(y));
+    all.push_back(std::move(line));
+  }
+  return all;
 }
 
 }  // namespace
@@ -98,34 +109,18 @@ PartMeans part_means(const Trace& trace, std::size_t begin, std::size_t end) {
 }
 
 std::vector<Series> sample_series(const std::vector<RunGroup>& groups, SampleNumber number) {
-  std::vector<Series> all;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::map<double, std::vector<double>> values;
-    for (const StudyRun* run : groups[i].runs) {
-      for (const MapSample& sample : run->trace.samples) {
-        if (const auto value = number(sample)) values[sample.iterations].push_back(*value);
-      }
-    }
-    all.push_back({.name = groups[i].name, .points = median_by_x(values), .colour = series_colour(i)});
-  }
-  return all;
+  return median_series(groups, [&](const Trace& trace, const auto& add) {
+    for (const MapSample& sample : trace.samples) add(sample.iterations, number(sample));
+  });
 }
 
 std::vector<Series> part_series(const std::vector<RunGroup>& groups, std::size_t length, std::size_t begin,
                                 const PartNumber& number) {
-  std::vector<Series> all;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::map<double, std::vector<double>> values;
-    for (const StudyRun* run : groups[i].runs) {
-      const Trace& trace = run->trace;
-      for (std::size_t at = begin; at + length <= trace.steps.size(); at += length) {
-        if (const auto value = number(part_means(trace, at, at + length)))
-          values[static_cast<double>(at) + 0.5 * static_cast<double>(length)].push_back(*value);
-      }
-    }
-    all.push_back({.name = groups[i].name, .points = median_by_x(values), .colour = series_colour(i)});
-  }
-  return all;
+  return median_series(groups, [&](const Trace& trace, const auto& add) {
+    for (std::size_t at = begin; at + length <= trace.steps.size(); at += length)
+      add(static_cast<double>(at) + 0.5 * static_cast<double>(length),
+          number(part_means(trace, at, at + length)));
+  });
 }
 
 std::optional<double> group_median(const RunGroup& group,

@@ -67,8 +67,8 @@ std::vector<DensityPoint> density_points(const std::vector<RunGroup>& groups) {
 void add_references(const std::vector<Vec2>& line, std::vector<Series>& series) {
   if (line.size() < 2 || !(line.front().x() > 1.0)) return;
   const Vec2 first = line.front();
-  Series linear{.name = "n", .style = SeriesStyle::kDashed, .colour = {112, 118, 128}};
-  Series log_linear{.name = "n log n", .style = SeriesStyle::kDashed, .colour = {38, 43, 51}};
+  Series linear{.name = "n", .style = SeriesStyle::kDashed, .colour = render::palette::kMutedInk};
+  Series log_linear{.name = "n log n", .style = SeriesStyle::kDashed, .colour = render::palette::kInk};
   for (const Vec2& point : line) {
     const double share = point.x() / first.x();
     linear.points.emplace_back(point.x(), first.y() * share);

@@ -95,7 +95,7 @@ Outcome conclude_map_size(const std::vector<StudyRun>& runs, const Request&) {
                 }).front();
   seen.name = "in view";
   seen.style = SeriesStyle::kDashed;
-  seen.colour = {38, 43, 51};
+  seen.colour = render::palette::kInk;
   visible.series.push_back(std::move(seen));
   return {.tables = {findings.take(), times.take()}, .charts = {time, visible}};
 }

@@ -96,27 +96,21 @@ Table runs_table(const std::vector<StudyRun>& runs, bool times) {
   return table;
 }
 
-/// What happened between two looks at the map.
-Table curves_table(const std::vector<StudyRun>& runs) {
-  Table table{.file = "curves", .columns = label_columns(runs)};
-  table.columns.insert(table.columns.end(),
-                       {"iterations", "visible_mean", "landmarks_mapped", "landmark_error_sum_m",
-                        "landmark_rmse_first_pose_m", "landmark_rmse_aligned_m", "position_error_mean_m",
-                        "x_error_mean_m", "y_error_mean_m", "z_error_mean_m"});
+/// A row for each look at the map: the run's labels, the iterations, and what `fields` gives of the look and of the part before it.
+template <typename Fields>
+Table samples_table(const std::vector<StudyRun>& runs, Table table, const std::vector<std::string>& columns,
+                    Fields fields) {
+  table.columns = label_columns(runs);
+  table.columns.push_back("iterations");
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
   for (const StudyRun& run : runs) {
     std::size_t begin = 0;
     for (const MapSample& sample : run.trace.samples) {
-      const PartMeans part = part_means(run.trace, begin, sample.iterations);
       std::vector<Field> row = label_fields(run.spec);
-      row.insert(row.end(),
-                 {static_cast<double>(sample.iterations), part.visible, static_cast<double>(sample.mapped),
-                  field(sample.error_sum_m), field(sample.rmse_first_pose_m), field(sample.rmse_aligned_m)});
-      if (part.error) {
-        row.insert(row.end(), {part.error->distance, part.error->signed_mean.x(), part.error->signed_mean.y(),
-                               part.error->signed_mean.z()});
-      } else {
-        row.resize(table.columns.size());
-      }
+      row.emplace_back(static_cast<double>(sample.iterations));
+      for (Field& one : fields(sample, part_means(run.trace, begin, sample.iterations)))
+        row.push_back(std::move(one));
+      row.resize(table.columns.size());
       table.add(std::move(row));
       begin = sample.iterations;
     }
@@ -124,20 +118,28 @@ Table curves_table(const std::vector<StudyRun>& runs) {
   return table;
 }
 
+/// What happened between two looks at the map.
+Table curves_table(const std::vector<StudyRun>& runs) {
+  return samples_table(runs, {.file = "curves"},
+                       {"visible_mean", "landmarks_mapped", "landmark_error_sum_m",
+                        "landmark_rmse_first_pose_m", "landmark_rmse_aligned_m", "position_error_mean_m",
+                        "x_error_mean_m", "y_error_mean_m", "z_error_mean_m"},
+                       [](const MapSample& sample, const PartMeans& part) {
+                         std::vector<Field> fields{part.visible, static_cast<double>(sample.mapped),
+                                                   field(sample.error_sum_m), field(sample.rmse_first_pose_m),
+                                                   field(sample.rmse_aligned_m)};
+                         if (part.error) {
+                           const Vec3& mean = part.error->signed_mean;
+                           fields.insert(fields.end(), {part.error->distance, mean.x(), mean.y(), mean.z()});
+                         }
+                         return fields;
+                       });
+}
+
 Table times_curves_table(const std::vector<StudyRun>& runs) {
-  Table table{.file = "times_curves", .columns = label_columns(runs), .clock = true};
-  table.columns.insert(table.columns.end(), {"iterations", "cpu_mean_ms"});
-  for (const StudyRun& run : runs) {
-    std::size_t begin = 0;
-    for (const MapSample& sample : run.trace.samples) {
-      std::vector<Field> row = label_fields(run.spec);
-      row.insert(row.end(), {static_cast<double>(sample.iterations),
-                             part_means(run.trace, begin, sample.iterations).cpu_ms});
-      table.add(std::move(row));
-      begin = sample.iterations;
-    }
-  }
-  return table;
+  return samples_table(
+      runs, {.file = "times_curves", .clock = true}, {"cpu_mean_ms"},
+      [](const MapSample&, const PartMeans& part) { return std::vector<Field>{part.cpu_ms}; });
 }
 
 Json chart_entry(const Chart& chart) {

@@ -50,7 +50,8 @@ Outcome conclude_stationary(const std::vector<StudyRun>& runs, const Request&) {
   for (const RunGroup& group : groups)
     add_exponent(group, "152", "exponent of landmark RMSE over iterations", rmse_over_iterations, findings);
   if (!chart.series.empty() && !chart.series.front().points.empty()) {
-    Series ideal{.name = "1 / sqrt(iterations)", .style = SeriesStyle::kDashed, .colour = {38, 43, 51}};
+    Series ideal{
+        .name = "1 / sqrt(iterations)", .style = SeriesStyle::kDashed, .colour = render::palette::kInk};
     const Vec2 first = chart.series.front().points.front();
     for (const Vec2& point : chart.series.front().points)
       ideal.points.emplace_back(point.x(), first.y() * std::sqrt(first.x() / point.x()));

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "batch/table.hpp"
 
 namespace hallway::study {
 namespace {
@@ -18,15 +19,8 @@ bool is_number(const Field& field) {
   return std::holds_alternative<double>(field) && std::isfinite(std::get<double>(field));
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of("\",\n\r") == std::string::npos) return text;
-  std::string safe = "\"";
-  for (const char c : text) safe += c == '"' ? "\"\"" : std::string(1, c);
-  return safe + '"';
-}
-
 std::string csv_text(const Field& field) {
-  if (const auto* text = std::get_if<std::string>(&field)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&field)) return batch::csv_field(*text);
   return is_number(field) ? format_double(std::get<double>(field)) : "";
 }
 
@@ -49,7 +43,7 @@ void Table::add(std::vector<Field> row) {
 std::string print_csv(const Table& table) {
   std::string text;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
-    text += (i > 0 ? "," : "") + quoted(table.columns[i]);
+    text += (i > 0 ? "," : "") + batch::csv_field(table.columns[i]);
   text += '\n';
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + csv_text(row[i]);

@@ -80,16 +80,16 @@ Outcome conclude_victoria_park(const std::vector<StudyRun>& runs, const Request&
     const ThesisInterval& interval =
         run.spec.label("scans").starts_with("1181") ? kIntervals[0] : kIntervals[1];
     const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
-    findings.add(interval.figures, group.name, "scans", count(metrics.iterations), "1");
-    findings.add(interval.figures, group.name, "scans without a pose", count(metrics.lost_iterations), "1");
-    findings.add(interval.figures, group.name, "scans with a pose, share", metrics.pose_coverage(), "1");
-    findings.add(interval.figures, group.name, "diverged",
-                 count(metrics.verdict == eval::PathVerdict::kDiverged ? 1 : 0), "1");
-    findings.add(interval.figures, group.name, "lost",
-                 count(metrics.verdict == eval::PathVerdict::kLost ? 1 : 0), "1");
-    findings.add(interval.figures, group.name, "trees mapped", count(metrics.landmarks_mapped), "1");
-    findings.add(interval.figures, group.name, "path against satellite fixes, RMSE aligned",
-                 metrics.position_rmse_m.aligned, "m");
+    const auto add = [&](const char* what, const std::optional<double>& value, const char* unit = "1") {
+      findings.add(interval.figures, group.name, what, value, unit);
+    };
+    add("scans", count(metrics.iterations));
+    add("scans without a pose", count(metrics.lost_iterations));
+    add("scans with a pose, share", metrics.pose_coverage());
+    add("diverged", count(metrics.verdict == eval::PathVerdict::kDiverged ? 1 : 0));
+    add("lost", count(metrics.verdict == eval::PathVerdict::kLost ? 1 : 0));
+    add("trees mapped", count(metrics.landmarks_mapped));
+    add("path against satellite fixes, RMSE aligned", metrics.position_rmse_m.aligned, "m");
     outcome.charts.push_back(map_chart(run, interval.figures, outcome.charts.size() + 1));
   }
   add_times(groups, "6.8", times);
