@@ -2,6 +2,7 @@
 #include "eval/path_verdict.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -21,15 +22,8 @@ double worse_of(double worst, double error) {
 }  // namespace
 
 const char* name_of(PathVerdict verdict) {
-  switch (verdict) {
-    case PathVerdict::kOk:
-      return "ok";
-    case PathVerdict::kDiverged:
-      return "diverged";
-    case PathVerdict::kLost:
-      return "lost";
-  }
-  return "";
+  constexpr std::array kNames{"ok", "diverged", "lost"};
+  return kNames.at(static_cast<std::size_t>(verdict));
 }
 
 double extent_of(std::span<const Vec3> path) {

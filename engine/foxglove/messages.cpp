@@ -6,6 +6,7 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <hallway/ext/log.h>
 
+#include <array>
 #include <bit>
 #include <set>
 
@@ -24,22 +25,13 @@ namespace pb = ::google::protobuf;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
+/// In the order of Schema.
 const pb::Descriptor& descriptor_of(Schema schema) {
-  switch (schema) {
-    case Schema::kPointCloud:
-      return *::foxglove::PointCloud::descriptor();
-    case Schema::kFrameTransform:
-      return *::foxglove::FrameTransform::descriptor();
-    case Schema::kPoseInFrame:
-      return *::foxglove::PoseInFrame::descriptor();
-    case Schema::kSceneUpdate:
-      return *::foxglove::SceneUpdate::descriptor();
-    case Schema::kLog:
-      return *::foxglove::Log::descriptor();
-    case Schema::kCompressedImage:
-      return *::foxglove::CompressedImage::descriptor();
-  }
-  throw Error(ErrorCode::kInternal, "an unknown schema");
+  static constexpr std::array kDescriptors{
+      ::foxglove::PointCloud::descriptor,  ::foxglove::FrameTransform::descriptor,
+      ::foxglove::PoseInFrame::descriptor, ::foxglove::SceneUpdate::descriptor,
+      ::foxglove::Log::descriptor,         ::foxglove::CompressedImage::descriptor};
+  return *kDescriptors.at(static_cast<std::size_t>(schema))();
 }
 
 /// Protobuf promises the same bytes for the same message only when asked to.

@@ -62,7 +62,7 @@ Vec3 middle_of(const log::PlaneLandmark& plane) {
 }
 
 Line star(const Vec3& middle, const std::vector<Vec3>& places, const Colour& colour) {
-  Line line{.kind = Line::Kind::kPairs, .points = {}, .width_px = 1.0, .colour = colour};
+  Line line{.kind = Line::Kind::kPairs, .colour = colour};
   for (const Vec3& place : places) {
     line.points.push_back(middle);
     line.points.push_back(place);
@@ -74,7 +74,6 @@ Line star(const Vec3& middle, const std::vector<Vec3>& places, const Colour& col
 Line edges_of(const log::PlaneLandmark& plane, bool certain) {
   constexpr double kCertainWidth_px = 3.0;
   Line line{.kind = Line::Kind::kPairs,
-            .points = {},
             .width_px = certain ? kCertainWidth_px : 1.0,
             .colour = colour_of(plane.status)};
   const std::vector<log::OutlineCorner>& outline = plane.outline;
@@ -89,7 +88,7 @@ Line edges_of(const log::PlaneLandmark& plane, bool certain) {
 }  // namespace
 
 Entity true_landmark_balls(std::span<const log::Landmark> landmarks) {
-  Entity entity{.frame = frames::kWorld, .id = "true landmarks", .lines = {}, .balls = {}};
+  Entity entity{.frame = frames::kWorld, .id = "true landmarks"};
   const double diameter = diameter_for(landmarks);
   for (const log::Landmark& landmark : landmarks) {
     entity.balls.push_back({to_vec3(landmark.position_m), diameter, kTruthColour});
@@ -98,7 +97,7 @@ Entity true_landmark_balls(std::span<const log::Landmark> landmarks) {
 }
 
 Entity landmark_balls(std::span<const log::MapLandmark> landmarks) {
-  Entity entity{.frame = frames::kMap, .id = "landmarks", .lines = {}, .balls = {}};
+  Entity entity{.frame = frames::kMap, .id = "landmarks"};
   const double diameter = diameter_for(landmarks);
   for (const log::MapLandmark& landmark : landmarks) {
     entity.balls.push_back({to_vec3(landmark.position_m), diameter, colour_of(landmark.status)});
@@ -107,7 +106,7 @@ Entity landmark_balls(std::span<const log::MapLandmark> landmarks) {
 }
 
 Entity mapped_plane_outlines(std::span<const log::PlaneLandmark> planes) {
-  Entity entity{.frame = frames::kMap, .id = "mapped planes", .lines = {}, .balls = {}};
+  Entity entity{.frame = frames::kMap, .id = "mapped planes"};
   for (const log::PlaneLandmark& plane : planes) {
     for (const bool certain : {false, true}) {
       Line edges = edges_of(plane, certain);
@@ -137,7 +136,7 @@ Entity submap_stars(const log::MapAnswer& map) {
   }
   std::unordered_map<std::uint64_t, Vec3> origins;
   for (const log::SubmapPose& submap : map.submaps) origins[submap.id] = to_vec3(submap.position_m);
-  Entity entity{.frame = frames::kMap, .id = "submaps", .lines = {}, .balls = {}};
+  Entity entity{.frame = frames::kMap, .id = "submaps"};
   std::size_t n = 0;
   for (const auto& [submap, joined] : stars) {
     const Colour& colour = kSubmapColours[n++ % kSubmapColours.size()];

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "foxglove/frames.hpp"
 #include "foxglove/scenes.hpp"
+#include "geom/arrays.hpp"
 
 namespace hallway::foxglove {
 namespace {
@@ -32,24 +33,14 @@ constexpr const char* kPictures = "/foxglove/pictures/";  ///< and the picture's
 constexpr double kTruePathWidth_px = 4.0;
 constexpr double kPathWidth_px = 2.0;
 
-/// Bit by bit, also where the quaternion is not quite a unit one.
-Pose pose_of(const std::array<double, 3>& t, const std::array<double, 4>& q) {
-  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
-}
-
-Pose pose_of(const hw_pose_t& pose) {
-  const auto& q = pose.orientation;
-  const auto& t = pose.position;
-  return {Quat(q[0], q[1], q[2], q[3]), Vec3(t[0], t[1], t[2])};
-}
-
 }  // namespace
 
 View::View(log::McapWriter& log, const ViewOptions& options)
     : log_(log), options_(options), next_id_(options.first_id) {}
 
 void View::set_sensors(std::span<const host::SensorInfo> sensors) {
-  for (const host::SensorInfo& sensor : sensors) T_body_sensor_[sensor.id] = pose_of(sensor.T_body_sensor);
+  for (const host::SensorInfo& sensor : sensors)
+    T_body_sensor_[sensor.id] = to_pose(sensor.T_body_sensor.position, sensor.T_body_sensor.orientation);
 }
 
 void View::set_true_landmarks(std::span<const log::Landmark> landmarks) {
@@ -76,14 +67,13 @@ void View::begin() {
   if (std::exchange(begun_, true)) return;
   if (!options_.has_answers) put_transform(now_, frames::kTrueBody, frames::kBody, Pose());
   if (!true_landmarks_.empty()) {
-    put(topics::kTrueLandmarks, Schema::kSceneUpdate, now_,
-        print_scene(now_.t_ns, true_landmark_balls(true_landmarks_)));
+    put_scene(topics::kTrueLandmarks, now_, true_landmark_balls(true_landmarks_));
   }
   for (const LogLine& line : early_) put_log(line);
 }
 
 void View::add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose) {
-  const Pose T_world_body = pose_of(pose.position_m, pose.orientation);
+  const Pose T_world_body = to_pose(pose.position_m, pose.orientation);
   if (pose.orientation_known) {
     put_transform(stamp, frames::kWorld, frames::kTrueBody, T_world_body);
     put(topics::kTruePose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kWorld, T_world_body));
@@ -95,7 +85,7 @@ void View::add_true_pose(const log::FrameStamp& stamp, const log::IterationPose&
 
 void View::add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose) {
   if (!pose.valid) return;
-  const Pose T_map_body = pose_of(pose.position_m, pose.orientation);
+  const Pose T_map_body = to_pose(pose.position_m, pose.orientation);
   place_map(stamp, T_map_body);
   put_transform(stamp, frames::kMap, frames::kBody, T_map_body);
   put(topics::kPose, Schema::kPoseInFrame, stamp, print_pose(stamp.t_ns, frames::kMap, T_map_body));
@@ -117,12 +107,9 @@ void View::place_map(const log::FrameStamp& stamp, const Pose& T_map_body) {
 }
 
 void View::add_map(const log::FrameStamp& stamp, const log::MapAnswer& map) {
-  put(topics::kLandmarks, Schema::kSceneUpdate, stamp,
-      print_scene(stamp.t_ns, landmark_balls(map.landmarks)));
-  if (!map.planes.empty())
-    put(topics::kMappedPlanes, Schema::kSceneUpdate, stamp,
-        print_scene(stamp.t_ns, mapped_plane_outlines(map.planes)));
-  put(topics::kSubmaps, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, submap_stars(map)));
+  put_scene(topics::kLandmarks, stamp, landmark_balls(map.landmarks));
+  if (!map.planes.empty()) put_scene(topics::kMappedPlanes, stamp, mapped_plane_outlines(map.planes));
+  put_scene(topics::kSubmaps, stamp, submap_stars(map));
 }
 
 void View::add_log(const LogLine& line) {
@@ -153,18 +140,20 @@ void View::put_transform(const log::FrameStamp& stamp, const std::string& parent
       print_transform(stamp.t_ns, parent, child, T_parent_child));
 }
 
+void View::put_scene(const char* topic, const log::FrameStamp& stamp, const Entity& entity) {
+  put(topic, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, entity));
+}
+
 void View::put_path(const log::FrameStamp& stamp) {
-  const Entity entity{
-      .frame = frames::kMap, .id = "path", .lines = path_.show(kPathWidth_px, kEstimateColour), .balls = {}};
-  put(topics::kPath, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, entity));
+  put_scene(topics::kPath, stamp,
+            {.frame = frames::kMap, .id = "path", .lines = path_.show(kPathWidth_px, kEstimateColour)});
 }
 
 void View::put_true_path(const log::FrameStamp& stamp) {
-  const Entity entity{.frame = frames::kWorld,
-                      .id = "true path",
-                      .lines = true_path_.show(kTruePathWidth_px, kTruthColour),
-                      .balls = {}};
-  put(topics::kTruePath, Schema::kSceneUpdate, stamp, print_scene(stamp.t_ns, entity));
+  put_scene(topics::kTruePath, stamp,
+            {.frame = frames::kWorld,
+             .id = "true path",
+             .lines = true_path_.show(kTruePathWidth_px, kTruthColour)});
 }
 
 void View::put(const std::string& topic, Schema schema, const log::FrameStamp& stamp,

@@ -58,6 +58,7 @@ class View {
  private:
   void begin();
   void put(const std::string& topic, Schema schema, const log::FrameStamp& stamp, std::string_view bytes);
+  void put_scene(const char* topic, const log::FrameStamp& stamp, const Entity& entity);
   void put_log(const LogLine& line);
   void put_transform(const log::FrameStamp& stamp, const std::string& parent, const std::string& child,
                      const Pose& T_parent_child);

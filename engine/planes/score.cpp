@@ -31,17 +31,13 @@ double angle_between(const Plane& a, const Plane& b) {
 
 /// The middle of each true plane's points.
 std::vector<Vec3> middles(const std::vector<Vec3>& points, const Truth& truth) {
-  std::vector<std::pair<std::int64_t, std::size_t>> places;
-  for (std::size_t i = 0; i < truth.planes.size(); ++i) places.emplace_back(truth.planes[i].label, i);
-  std::sort(places.begin(), places.end());
+  const std::vector<std::size_t> places = places_of_points(truth);
   std::vector<Vec3> sums(truth.planes.size(), Vec3::Zero());
   std::vector<double> counts(truth.planes.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto place =
-        std::lower_bound(places.begin(), places.end(), std::pair(truth.labels[i], std::size_t{0}));
-    if (place == places.end() || place->first != truth.labels[i]) continue;
-    sums[place->second] += points[i];
-    counts[place->second] += 1.0;
+    if (places[i] == kNoPlace) continue;
+    sums[places[i]] += points[i];
+    counts[places[i]] += 1.0;
   }
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(counts[i], 1.0);
   return sums;

@@ -75,19 +75,20 @@ Rgb submap_colour(std::size_t index) {
   const double part = hue - std::floor(hue);
   const double rise = kLow + (kHigh - kLow) * part;
   const double fall = kHigh - (kHigh - kLow) * part;
+  const auto rgb = [](double r, double g, double b) { return Rgb{channel(r), channel(g), channel(b)}; };
   switch (static_cast<int>(hue)) {
     case 0:
-      return {channel(kHigh), channel(rise), channel(kLow)};
+      return rgb(kHigh, rise, kLow);
     case 1:
-      return {channel(fall), channel(kHigh * 0.86), channel(kLow)};
+      return rgb(fall, kHigh * 0.86, kLow);
     case 2:
-      return {channel(kLow), channel(kHigh * 0.8), channel(rise)};
+      return rgb(kLow, kHigh * 0.8, rise);
     case 3:
-      return {channel(kLow), channel(fall), channel(kHigh)};
+      return rgb(kLow, fall, kHigh);
     case 4:
-      return {channel(rise), channel(kLow), channel(kHigh)};
+      return rgb(rise, kLow, kHigh);
     default:
-      return {channel(kHigh), channel(kLow), channel(fall)};
+      return rgb(kHigh, kLow, fall);
   }
 }
 

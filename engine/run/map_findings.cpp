@@ -36,35 +36,46 @@ bool is_ours(const std::string& classname) {
   return classname.starts_with("hw_");
 }
 
-Where where_of(const map::Document& document, int entity, int line) {
-  return {.file = printable(document.file, 4096), .line = line, .element = fmt::format("entity {}", entity)};
-}
+/// Findings about one map.
+class Findings {
+ public:
+  Findings(const map::Document& document, std::vector<Finding>& list) : document_(document), list_(list) {}
 
-void add_occupants_in_solid(std::vector<Finding>& findings, const map::Document& document,
-                            const world::CompiledWorld& world) {
+  void add(Severity severity, int entity, int line, const std::string& message, const char* id) {
+    list_.push_back(
+        {severity,
+         {.file = printable(document_.file, 4096), .line = line, .element = fmt::format("entity {}", entity)},
+         message,
+         id});
+  }
+
+ private:
+  const map::Document& document_;
+  std::vector<Finding>& list_;
+};
+
+void add_occupants_in_solid(Findings& findings, const world::CompiledWorld& world) {
   for (const std::size_t index : world.partition.enclosure.in_solid) {
     const map::Occupant& occupant = world.occupants[index];
-    findings.push_back(
-        {is_ours(occupant.classname) ? Severity::kError : Severity::kWarning,
-         where_of(document, occupant.entity, occupant.line),
-         fmt::format("{} is in solid, at {}", printable(occupant.classname), place_text(occupant.position_m)),
-         "occupant-in-solid"});
+    findings.add(
+        is_ours(occupant.classname) ? Severity::kError : Severity::kWarning, occupant.entity, occupant.line,
+        fmt::format("{} is in solid, at {}", printable(occupant.classname), place_text(occupant.position_m)),
+        "occupant-in-solid");
   }
 }
 
-void add_leak(std::vector<Finding>& findings, const map::Document& document,
-              const world::CompiledWorld& world) {
+void add_leak(Findings& findings, const world::CompiledWorld& world) {
   const auto& leak = world.partition.enclosure.leak;
   const bool has_structure =
       std::any_of(world.brushes.solids.begin(), world.brushes.solids.end(),
                   [](const map::Solid& solid) { return solid.role == map::BrushRole::kAdd; });
   if (!leak || !has_structure) return;
   const map::Occupant& occupant = world.occupants[leak->occupant];
-  findings.push_back(
-      {Severity::kWarning, where_of(document, occupant.entity, occupant.line),
-       fmt::format("the map leaks: {} reaches the void after {}, through {}", printable(occupant.classname),
-                   render::measure_text(leak->length_m), opening_text(leak->narrowest)),
-       "leak"});
+  findings.add(
+      Severity::kWarning, occupant.entity, occupant.line,
+      fmt::format("the map leaks: {} reaches the void after {}, through {}", printable(occupant.classname),
+                  render::measure_text(leak->length_m), opening_text(leak->narrowest)),
+      "leak");
 }
 
 /// A stretch of a path that lies in solid.
@@ -101,8 +112,7 @@ std::pair<std::optional<Stretch>, std::size_t> blocked_stretches(const bsp::Tree
   return {first, count};
 }
 
-void add_blocked_paths(std::vector<Finding>& findings, const map::Document& document,
-                       const world::CompiledWorld& world) {
+void add_blocked_paths(Findings& findings, const map::Document& document, const world::CompiledWorld& world) {
   std::size_t paths = 0;
   for (std::size_t i = 0; i < document.entities.size(); ++i) {
     const map::Entity& entity = document.entities[i];
@@ -116,8 +126,7 @@ void add_blocked_paths(std::vector<Finding>& findings, const map::Document& docu
           fmt::format("path \"{}\" passes through a wall from {:.2f} m to {:.2f} m along it, at {}",
                       printable(*name), first->from_m, first->to_m, place_text(first->at));
       if (count > 1) text += count == 2 ? ", and once more" : fmt::format(", and {} more times", count - 1);
-      findings.push_back({Severity::kError, where_of(document, static_cast<int>(i), entity.line), text,
-                          "path-through-wall"});
+      findings.add(Severity::kError, static_cast<int>(i), entity.line, text, "path-through-wall");
     } catch (const Error&) {
       continue;  // a path that cannot be made is a finding of map::check()
     }
@@ -152,8 +161,7 @@ std::vector<std::uint32_t> connected_parts(const bsp::PortalGraph& graph) {
 }
 
 /// Waypoints to which no opening leads from the robot's start. Those in solid are said already.
-void add_unreachable_waypoints(std::vector<Finding>& findings, const map::Document& document,
-                               const world::CompiledWorld& world) {
+void add_unreachable_waypoints(Findings& findings, const world::CompiledWorld& world) {
   const auto start = std::find_if(world.occupants.begin(), world.occupants.end(), [](const auto& occupant) {
     return occupant.classname == "hw_robot_start";
   });
@@ -166,11 +174,11 @@ void add_unreachable_waypoints(std::vector<Finding>& findings, const map::Docume
     const std::int32_t cluster = bsp::cluster_at(tree, occupant.position_m);
     if (occupant.classname != "hw_waypoint" || cluster < 0) continue;
     if (parts[static_cast<std::size_t>(cluster)] == parts[static_cast<std::size_t>(home)]) continue;
-    findings.push_back(
-        {Severity::kError, where_of(document, occupant.entity, occupant.line),
-         fmt::format("waypoint {} at {} cannot be reached from the robot's start: no opening leads there",
-                     printable(occupant.name), place_text(occupant.position_m)),
-         "unreachable-waypoint"});
+    findings.add(
+        Severity::kError, occupant.entity, occupant.line,
+        fmt::format("waypoint {} at {} cannot be reached from the robot's start: no opening leads there",
+                    printable(occupant.name), place_text(occupant.position_m)),
+        "unreachable-waypoint");
   }
 }
 
@@ -229,7 +237,7 @@ class Openings {
 };
 
 /// Doors and windows of the editor that end in solid, such as where another wall stands behind the one that they are in.
-void add_blocked_openings(std::vector<Finding>& findings, const map::Document& document,
+void add_blocked_openings(Findings& findings, const map::Document& document,
                           const world::CompiledWorld& world) {
   std::map<int, std::vector<const map::Solid*>> openings;  // by entity
   for (const map::Solid& solid : world.brushes.solids) {
@@ -245,11 +253,10 @@ void add_blocked_openings(std::vector<Finding>& findings, const map::Document& d
     const std::string& made = *entity.find("_hw_made");
     Box box;
     for (const map::Solid* solid : solids) box.extend(solid->box);
-    findings.push_back(
-        {Severity::kWarning, where_of(document, index, entity.line),
-         fmt::format("the {} at {} leads nowhere: there is solid behind it", made.substr(0, made.find(' ')),
-                     place_text((box.min() + box.max()) / 2.0)),
-         "blocked-opening"});
+    findings.add(Severity::kWarning, index, entity.line,
+                 fmt::format("the {} at {} leads nowhere: there is solid behind it",
+                             made.substr(0, made.find(' ')), place_text((box.min() + box.max()) / 2.0)),
+                 "blocked-opening");
   }
 }
 
@@ -267,11 +274,12 @@ void add_world_findings(std::vector<Finding>& findings, const map::Document& doc
     }
     return;
   }
-  add_occupants_in_solid(findings, document, world);
-  add_blocked_paths(findings, document, world);
-  add_unreachable_waypoints(findings, document, world);
-  add_blocked_openings(findings, document, world);
-  add_leak(findings, document, world);
+  Findings found(document, findings);
+  add_occupants_in_solid(found, world);
+  add_blocked_paths(found, document, world);
+  add_unreachable_waypoints(found, world);
+  add_blocked_openings(found, document, world);
+  add_leak(found, world);
 }
 
 }  // namespace

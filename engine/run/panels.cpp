@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/panels.hpp"
+#include "run/pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,6 @@
 #include "log/poses.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
-#include "run/pictures.hpp"
 #include "run/plane_layers.hpp"
 
 namespace hallway::run {

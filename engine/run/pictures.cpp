@@ -14,7 +14,6 @@
 #include "render/draw.hpp"
 #include "render/png.hpp"
 #include "run/landmark_layers.hpp"
-#include "run/panels.hpp"
 #include "run/picture_frame.hpp"
 #include "run/plane_layers.hpp"
 

@@ -30,7 +30,6 @@
 #include "run/pictures.hpp"
 #include "run/plane_truth.hpp"
 #include "run/record.hpp"
-#include "run/run_files.hpp"
 #include "run/truth_of.hpp"
 #include "run/truth_tables.hpp"
 
@@ -222,6 +221,13 @@ std::map<std::string, std::string> draw_pictures(const record::OutputFolder& out
 }
 
 }  // namespace
+
+void write_attachments(const std::filesystem::path& folder, const std::vector<Attachment>& attachments) {
+  for (const Attachment& attachment : attachments) {
+    make_folder((folder / attachment.name).parent_path());
+    write_file_atomically(folder / attachment.name, attachment.content);
+  }
+}
 
 bool maps_planes(const host::Pipeline& pipeline) {
   if (pipeline.facts().empty()) return false;

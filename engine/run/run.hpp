@@ -80,4 +80,7 @@ bool maps_planes(const host::Pipeline& pipeline);
 /// Throws Error{kIo} if the folder cannot be written, which is checked first.
 RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks);
 
+/// Writes files that were read, with the folders in their names. Throws Error{kIo}.
+void write_attachments(const std::filesystem::path& folder, const std::vector<Attachment>& attachments);
+
 }  // namespace hallway::run

@@ -2,6 +2,7 @@
 #include "run/serve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,6 @@
 #include "record/sensor_json.hpp"
 #include "run/log_recorder.hpp"
 #include "run/record.hpp"
-#include "run/run_files.hpp"
 #include "run/served_path.hpp"
 #include "run/truth_tables.hpp"
 
@@ -230,20 +230,8 @@ ServeResult serve(Source& source, link::RobotEnd& robot, const ServePlan& plan, 
 
 nlohmann::ordered_json print_serving(const ServeResult& result) {
   const link::RobotCounters& counters = result.counters;
-  const auto name = [&] {
-    switch (result.end) {
-      case ServeResult::End::kAllSent:
-        return "all_sent";
-      case ServeResult::End::kLeft:
-        return "left";
-      case ServeResult::End::kSilent:
-        return "silent";
-      case ServeResult::End::kStopped:
-        return "stopped";
-    }
-    return "";
-  };
-  return {{"end", name()},
+  static constexpr std::array kEnds{"all_sent", "left", "silent", "stopped"};  // in the order of End
+  return {{"end", kEnds.at(static_cast<std::size_t>(result.end))},
           {"frames", result.frames},
           {"answered", result.answered},
           {"unanswered", result.frames - result.answered},

@@ -26,6 +26,12 @@ double angle(TableReader& sensor, const char* key) {
   return number(sensor, key) * (std::numbers::pi / 180.0);
 }
 
+Quat orientation(TableReader& sensor) {
+  const double yaw = angle(sensor, "yaw_deg");
+  const double pitch = angle(sensor, "pitch_deg");
+  return from_yaw_pitch_roll(yaw, pitch, angle(sensor, "roll_deg"));
+}
+
 bool flag(TableReader& sensor, const char* key) {
   return sensor.flag(key, map::sensor_key(key).fallback == "1");
 }
@@ -94,10 +100,7 @@ sense::PointSensorSpec read_points(const std::string& name, TableReader& sensor)
   spec.noise_m = sensor.vector_or_one("noise_m", range_of("noise_m"), Vec3::Zero());
   spec.noise_per_m = sensor.vector_or_one("noise_per_m", range_of("noise_per_m"), Vec3::Zero());
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
-  const double yaw = angle(sensor, "yaw_deg");
-  const double pitch = angle(sensor, "pitch_deg");
-  const double roll = angle(sensor, "roll_deg");
-  spec.T_body_sensor.q = from_yaw_pitch_roll(yaw, pitch, roll);
+  spec.T_body_sensor.q = orientation(sensor);
   return spec;
 }
 
@@ -134,10 +137,7 @@ sense::PlaneSensorSpec read_faces(const std::string& name, TableReader& sensor) 
       throw sensor.error(key, std::string(key) + " = " + format_double(number(sensor, key)) +
                                   ": a sensor of faces sees less than 180 degrees");
   }
-  const double yaw = angle(sensor, "yaw_deg");
-  const double pitch = angle(sensor, "pitch_deg");
-  const double roll = angle(sensor, "roll_deg");
-  spec.T_body_sensor.q = from_yaw_pitch_roll(yaw, pitch, roll);
+  spec.T_body_sensor.q = orientation(sensor);
   return spec;
 }
 
