@@ -68,7 +68,7 @@ Layer found_layer(const PictureContent& content) {
   return layer;
 }
 
-Layer true_layer(const PictureContent& content, const Truth& truth) {
+Layer true_layer(const Truth& truth) {
   Layer layer{.plane_of_point = places_of_points(truth)};
   const bool all = std::all_of(truth.planes.begin(), truth.planes.end(),
                                [](const TruePlane& plane) { return plane.corners.has_value(); });
@@ -126,7 +126,7 @@ render::Image draw_planes(const PictureContent& content, const render::View& vie
 
 render::Image draw_comparison(const PictureContent& content, const Truth& truth, const Score& score,
                               const render::View& view, const PictureSize& size) {
-  const Layer true_side = true_layer(content, truth);
+  const Layer true_side = true_layer(truth);
   Layer found_side = found_layer(content);
   for (std::size_t f = 0; f < found_side.colours.size(); ++f)
     found_side.colours[f] = render::submap_colour(truth.planes.size() + f);

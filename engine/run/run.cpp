@@ -21,9 +21,9 @@
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "render/renderer.hpp"
-#include "run/abi_pose.hpp"
 #include "run/found_table.hpp"
 #include "run/frame_feed.hpp"
+#include "run/iteration_maker.hpp"
 #include "run/log_recorder.hpp"
 #include "run/manifest.hpp"
 #include "run/map_epoch.hpp"
@@ -45,11 +45,6 @@ struct Collected {
   TruthTables truth;
 };
 
-std::optional<Pose> estimate_of(const host::Outputs& outputs) {
-  if (!outputs.pose() || !outputs.pose()->valid) return std::nullopt;
-  return pose_of(outputs.pose()->T_map_body);
-}
-
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
@@ -57,34 +52,26 @@ class Tally {
   Tally(const Source& source, bool keep_observations, bool maps_planes)
       : source_(source),
         keep_observations_(keep_observations),
-        T_body_sensor_(pose_of(source.sensor().T_body_sensor)),
+        iterations_(source),
         evaluator_(truth_for(source, maps_planes)) {
     if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
   }
 
   /// @param map_epoch  the part of the map that the answer's pose is in
   void add(const FrameAnswer& answer, std::optional<std::uint64_t> map_epoch) {
-    const SourceFrame& frame = answer.frame;
-    identities_.clear();
-    if (source_.has_identities()) frame.identities(identities_);
-    points_.clear();
-    for (const log::Observation& seen : frame.observations)
-      points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
-    eval::Iteration iteration{.T_world_body = frame.T_world_body,
-                              .orientation_known = frame.orientation_known,
-                              .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-                              .map_epoch = map_epoch,
-                              .associations = associations(answer),
-                              .identities = identities_,
-                              .points = points_};
-    if (answer.outputs != nullptr) add_answer(answer, iteration);
+    eval::Iteration iteration = iterations_.make(answer);
+    iteration.map_epoch = map_epoch;
+    if (iteration.T_map_body && answer.outputs->pose()->covariance) {
+      using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+      iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
+    }
     if (plane_truth_) {
       plane_truth_->read(answer);
       iteration.planes = plane_truth_->planes();
       iteration.true_plane_points = plane_truth_->points();
     }
     evaluator_.add(iteration);
-    keep_truth(answer.iteration, frame);
+    keep_truth(answer.iteration, answer.frame);
   }
 
   /// No more frames come. @param joined  parts of the map that are one
@@ -99,24 +86,6 @@ class Tally {
     return truth;
   }
 
-  void add_answer(const FrameAnswer& answer, eval::Iteration& iteration) {
-    iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
-    iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
-    iteration.T_map_body = estimate_of(*answer.outputs);
-    if (iteration.T_map_body && answer.outputs->pose()->covariance) {
-      using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-      iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
-    }
-  }
-
-  std::span<const log::LandmarkId> associations(const FrameAnswer& answer) {
-    if (answer.outputs != nullptr) {
-      if (const auto given = answer.outputs->associations(0)) return *given;
-    }
-    none_.assign(answer.frame.observations.size() + answer.frame.planes.size(), log::kNoLandmark);
-    return none_;
-  }
-
   void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
     if (keep_observations_ && frame.is_of_planes) {
       collected_.planes.add_frame(iteration, frame.planes);
@@ -128,12 +97,9 @@ class Tally {
 
   const Source& source_;
   bool keep_observations_;
-  Pose T_body_sensor_;
+  IterationMaker iterations_;
   eval::Evaluator evaluator_;
   std::optional<PlaneTruth> plane_truth_;  ///< where maps of planes are scored
-  std::vector<log::LandmarkId> identities_;
-  std::vector<log::LandmarkId> none_;
-  std::vector<Vec3> points_;  ///< body frame
   Collected collected_;
 };
 

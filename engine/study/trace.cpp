@@ -6,11 +6,10 @@
 
 #include "eval/evaluator.hpp"
 #include "eval/point_error.hpp"
-#include "record/answer_tables.hpp"
 #include "record/failures.hpp"
 #include "record/final_map.hpp"
-#include "run/abi_pose.hpp"
 #include "run/frame_feed.hpp"
+#include "run/iteration_maker.hpp"
 #include "run/map_epoch.hpp"
 #include "run/truth_of.hpp"
 
@@ -22,10 +21,7 @@ using record::FinalMap;
 /// Takes down a run while it goes on.
 class Tracer {
  public:
-  explicit Tracer(const run::Source& source)
-      : has_identities_(source.has_identities()),
-        T_body_sensor_(run::pose_of(source.sensor().T_body_sensor)),
-        evaluator_(run::truth_of(source)) {
+  explicit Tracer(const run::Source& source) : iterations_(source), evaluator_(run::truth_of(source)) {
     if (!source.true_landmarks()) return;
     for (const log::Landmark& landmark : *source.true_landmarks()) {
       if (!landmark.moving) true_place_.emplace(landmark.id, Vec3(landmark.position_m.data()));
@@ -35,14 +31,14 @@ class Tracer {
   void add(const run::FrameAnswer& answer) {
     if (answer.outputs == nullptr) return;
     const run::SourceFrame& frame = answer.frame;
-    std::optional<Pose> estimate;
-    if (const auto& pose = answer.outputs->pose(); pose && pose->valid)
-      estimate = run::pose_of(pose->T_map_body);
-    const double cpu_ms = record::milliseconds(answer.time.cpu_ns);
-    score(frame, *answer.outputs, estimate, record::milliseconds(answer.time.wall_ns), cpu_ms);
+    eval::Iteration iteration = iterations_.make(answer);
+    iteration.map_epoch = answer.outputs->map_epoch();
+    evaluator_.add(iteration);
+    const std::optional<Pose>& estimate = iteration.T_map_body;
     if (!trace_.T_world_map && estimate && frame.T_world_body && frame.orientation_known)
       trace_.T_world_map = *frame.T_world_body * estimate->inverse();
-    TraceStep step{.visible = static_cast<std::uint32_t>(frame.observations.size()), .cpu_ms = cpu_ms};
+    TraceStep step{.visible = static_cast<std::uint32_t>(frame.observations.size()),
+                   .cpu_ms = *iteration.cpu_ms};
     if (frame.T_world_body) step.truth = frame.T_world_body->t;
     if (estimate) step.estimate = estimate->t;
     trace_.steps.push_back(step);
@@ -86,31 +82,6 @@ class Tracer {
   }
 
  private:
-  void score(const run::SourceFrame& frame, const host::Outputs& outputs, const std::optional<Pose>& estimate,
-             double wall_ms, double cpu_ms) {
-    identities_.clear();
-    if (has_identities_) {
-      for (const log::Observation& seen : frame.observations) identities_.push_back(seen.landmark);
-    }
-    points_.clear();
-    for (const log::Observation& seen : frame.observations)
-      points_.push_back(T_body_sensor_ * Vec3(seen.point.data()));
-    none_.assign(frame.observations.size(), log::kNoLandmark);
-    std::span<const log::LandmarkId> associations = none_;
-    if (const auto given = outputs.associations(0)) associations = *given;
-    evaluator_.add({.T_world_body = frame.T_world_body,
-                    .orientation_known = frame.orientation_known,
-                    .T_map_body = estimate,
-                    .t_s = static_cast<double>(frame.t_ns) * 1e-9,
-                    .map_epoch = outputs.map_epoch(),
-                    .pose_covariance = std::nullopt,
-                    .associations = associations,
-                    .identities = identities_,
-                    .points = points_,
-                    .wall_ms = wall_ms,
-                    .cpu_ms = cpu_ms});
-  }
-
   void count(const host::Counter& counter) {
     auto at = std::find_if(trace_.counters.begin(), trace_.counters.end(),
                            [&](const CounterMean& known) { return known.name == counter.name; });
@@ -120,13 +91,9 @@ class Tracer {
     ++counted_[counter.name];
   }
 
-  bool has_identities_;
-  Pose T_body_sensor_;
-  std::vector<Vec3> points_;  ///< body frame
+  run::IterationMaker iterations_;
   eval::Evaluator evaluator_;
   std::unordered_map<log::LandmarkId, Vec3> true_place_;
-  std::vector<log::LandmarkId> identities_;
-  std::vector<log::LandmarkId> none_;
   std::unordered_map<std::string, std::uint64_t> counted_;
   Trace trace_;
 };
