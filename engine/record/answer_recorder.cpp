@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/answer_recorder.hpp"
 
+#include <array>
+
 #include "host/frame_bytes.hpp"
 #include "record/plane_observations.hpp"
 #include "record/sensor_json.hpp"
@@ -37,10 +39,9 @@ std::string activation_text(const LogFacts& facts) {
 
 log::PoseAnswer pose_answer(const host::Outputs& outputs) {
   const host::PoseOutput& pose = outputs.pose().value();
-  const auto& t = pose.T_map_body.position;
-  const auto& q = pose.T_map_body.orientation;
-  log::PoseAnswer answer{
-      .valid = pose.valid, .position_m = {t[0], t[1], t[2]}, .orientation = {q[0], q[1], q[2], q[3]}};
+  log::PoseAnswer answer{.valid = pose.valid,
+                         .position_m = std::to_array(pose.T_map_body.position),
+                         .orientation = std::to_array(pose.T_map_body.orientation)};
   if (pose.covariance) answer.covariance = log::upper_triangle(*pose.covariance);
   answer.map_epoch = outputs.map_epoch();
   return answer;

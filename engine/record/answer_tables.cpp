@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/answer_tables.hpp"
 
+#include <array>
+
 #include "log/commands.hpp"
 #include "log/pose_covariances.hpp"
 #include "log/timing.hpp"
@@ -11,11 +13,9 @@
 namespace hallway::record {
 
 log::StampedPose stamped_pose(std::int64_t t_ns, const hw_pose_t& pose) {
-  const auto& t = pose.position;
-  const auto& q = pose.orientation;
   return {.t_s = static_cast<double>(t_ns) / 1e9,
-          .position_m = {t[0], t[1], t[2]},
-          .orientation = {q[0], q[1], q[2], q[3]}};
+          .position_m = std::to_array(pose.position),
+          .orientation = std::to_array(pose.orientation)};
 }
 
 AnswerTables::AnswerTables(const std::filesystem::path& folder)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/final_map.hpp"
 
+#include <array>
+
 #include "record/files.hpp"
 #include "record/plane_observations.hpp"
 
@@ -30,18 +32,17 @@ log::PlaneLandmark copy_plane(const host::PlaneLandmarkList& list, const hw_mapp
   log::PlaneLandmark copy{.id = plane.id,
                           .observations = plane.observations,
                           .status = status_of(plane.status),
-                          .normal = three(plane.normal),
+                          .normal = std::to_array(plane.normal),
                           .offset_m = plane.offset_m};
   for (const hw_mapped_corner_t& corner : list.outline(plane))
-    copy.outline.push_back({three(corner.position), (corner.flags & HW_EDGE_CERTAIN) != 0});
+    copy.outline.push_back({std::to_array(corner.position), (corner.flags & HW_EDGE_CERTAIN) != 0});
   return copy;
 }
 
 log::SubmapPose copy_pose(const hw_submap_t& submap) {
-  const auto& q = submap.T_map_submap.orientation;
   return {.id = submap.id,
-          .position_m = three(submap.T_map_submap.position),
-          .orientation = {q[0], q[1], q[2], q[3]}};
+          .position_m = std::to_array(submap.T_map_submap.position),
+          .orientation = std::to_array(submap.T_map_submap.orientation)};
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ FinalMap copy_map(const host::Outputs* report) {
   for (std::size_t i = 0; i < report->landmarks().size(); ++i) {
     const hw_landmark_t& landmark = report->landmarks()[i];
     map.landmarks.push_back({.id = landmark.id,
-                             .position_m = three(landmark.position),
+                             .position_m = std::to_array(landmark.position),
                              .observations = landmark.observations,
                              .status = status_of(landmark.status),
                              .covariance = covariance_of(covariances, i)});

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "record/plane_observations.hpp"
 
+#include <array>
+
 namespace hallway::record {
 
 log::PlaneObservation plane_observation(const hw_plane_t& plane) {
   return {.id = plane.id,
-          .normal = three(plane.normal),
+          .normal = std::to_array(plane.normal),
           .offset_m = plane.offset_m,
-          .centroid_m = three(plane.centroid),
-          .corners_m = {three(plane.corners[0]), three(plane.corners[1]), three(plane.corners[2]),
-                        three(plane.corners[3])},
+          .centroid_m = std::to_array(plane.centroid),
+          .corners_m = {std::to_array(plane.corners[0]), std::to_array(plane.corners[1]),
+                        std::to_array(plane.corners[2]), std::to_array(plane.corners[3])},
           .points = plane.n_points,
           .rms_m = plane.rms_m,
           .exclusive_share = plane.exclusive_share};

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "host/plane_lists.hpp"
 #include "log/plane_observations.hpp"
 
 namespace hallway::record {
-
-/// Three numbers of the ABI's as tables have them.
-inline std::array<double, 3> three(const double (&numbers)[3]) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
 
 /// A plane as tables have it: without hull and members.
 log::PlaneObservation plane_observation(const hw_plane_t& plane);

@@ -55,11 +55,10 @@ class Folder {
     path_.add_answer(answer);
     const log::FrameStamp stamp{static_cast<std::uint32_t>(answer.sequence), t_ns};
     if (answer.pose) {
-      const bool valid = answer.pose->valid;
       const hw_pose_t& pose = answer.pose->T_map_body;
-      const auto& t = pose.position;
-      const auto& q = pose.orientation;
-      recorder_.writer().add_pose(stamp, {valid, {t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}});
+      recorder_.writer().add_pose(stamp, {.valid = answer.pose->valid,
+                                          .position_m = std::to_array(pose.position),
+                                          .orientation = std::to_array(pose.orientation)});
     }
     if (answer.command)
       recorder_.writer().add_command(stamp, {answer.command->linear_m_s, answer.command->angular_rad_s});
