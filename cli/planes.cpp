@@ -110,7 +110,7 @@ std::string table(const Found& found) {
   std::string text = fmt::format("{:>5} {:>8} {:>27} {:>10} {:>9} {:>6}\n", "plane", "points", "normal",
                                  "offset", "rms", "excl");
   for (std::size_t i = 0; i < found.answer.planes.size(); ++i) {
-    const planes::PlaneObservation& plane = found.answer.planes[i];
+    const PlaneObservation& plane = found.answer.planes[i];
     const Vec3& n = plane.plane.normal;
     text += fmt::format("{:>5} {:>8} {:>9.4f}{:>9.4f}{:>9.4f} {:>10.4g} {:>9.3g} {:>6.2f}\n", i, plane.points,
                         n.x(), n.y(), n.z(), plane.plane.offset, plane.rms, plane.exclusive_share);
