@@ -134,9 +134,9 @@ PlaneRun read_plane_run(const std::filesystem::path& folder) {
     std::vector<SeenWall>& frame = run.frames.emplace_back();
     if (i >= read.log.iterations()) continue;
     for (const log::PlaneObservation& seen : read.log.frame(i)) {
-      const auto wall = index.find(seen.wall);
+      const auto wall = index.find(seen.true_plane);
       if (wall == index.end()) continue;
-      const auto& corners = seen.plane.corners_m;
+      const auto& corners = seen.corners_m;
       frame.push_back({wall->second, {{corners[0][0], corners[0][1]}, {corners[1][0], corners[1][1]}}});
     }
     std::vector<Facing> local;
