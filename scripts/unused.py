@@ -35,6 +35,8 @@ EXCEPTED_NAMES = {
     "value_type": "algorithms of the standard", "difference_type": "algorithms of the standard",
     "reference": "algorithms of the standard", "pointer": "algorithms of the standard",
     "iterator_category": "algorithms of the standard", "rebind": "containers of the standard",
+    "kContinue": "a number of a choice, which is compared with the two others",
+    "read_observations": "for tests and benchmarks that look at a run's folder", "StringOutput": "a log in memory, for tests",
     "construct": "containers of the standard", "__asan_default_options": "the address sanitizer calls it",
 }
 

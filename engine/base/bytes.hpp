@@ -151,15 +151,15 @@ class BasicByteReader {
     return {take(count, sizeof(T)), count};
   }
   /// A copy of a list.
-  template <typename T>
-  std::vector<T> copy_list() {
+  template <typename T, typename List = std::vector<T>>
+  List copy_list() {
     static_assert(std::is_trivially_copyable_v<T>);
-    const List<T> list = get_list<T>();
-    std::vector<T> copy(list.count);
+    const auto list = get_list<T>();
+    List copy(list.count, T{});
     if (list.count != 0) std::memcpy(copy.data(), list.first, list.count * sizeof(T));
     return copy;
   }
-  std::string get_text() { return std::string(take_raw(get<std::uint64_t>())); }
+  std::string get_text() { return copy_list<char, std::string>(); }
   /// How many elements follow, each of which takes at least `bytes_each`.
   std::size_t get_count(std::size_t bytes_each = kAlignment) {
     const auto count = get<std::uint64_t>();

@@ -106,8 +106,8 @@ bool names_same(const std::string& a, const char* b) {
 std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
   std::vector<std::string> all = changes;
   for (char** entry = ::environ; entry != nullptr && *entry != nullptr; ++entry) {
-    const bool changed = std::any_of(changes.begin(), changes.end(),
-                                     [&](const std::string& change) { return names_same(change, *entry); });
+    const bool changed =
+        std::ranges::any_of(changes, [&](const std::string& change) { return names_same(change, *entry); });
     if (!changed) all.emplace_back(*entry);
   }
   return all;

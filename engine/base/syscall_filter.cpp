@@ -82,38 +82,19 @@ class Filter {
 
   /// Refuses the call if (argument & mask) has any bit.
   void refuse_bits(std::uint32_t call, int argument, std::uint32_t mask) {
-    jump(BPF_JEQ, call, 0, 4);
-    load_argument(argument);
-    jump(BPF_JSET, mask, 0, 1);
-    refuse(EPERM);
-    allow();
+    judge(call, argument, BPF_JSET, mask, 0, 1);
   }
-
   /// Refuses the call unless (argument & mask) has any bit.
   void demand_bits(std::uint32_t call, int argument, std::uint32_t mask) {
-    jump(BPF_JEQ, call, 0, 4);
-    load_argument(argument);
-    jump(BPF_JSET, mask, 1, 0);
-    refuse(EPERM);
-    allow();
+    judge(call, argument, BPF_JSET, mask, 1, 0);
   }
-
   /// Refuses the call unless the low half of the argument is `value`.
   void demand_value(std::uint32_t call, int argument, std::uint32_t value) {
-    jump(BPF_JEQ, call, 0, 4);
-    load_argument(argument);
-    jump(BPF_JEQ, value, 1, 0);
-    refuse(EPERM);
-    allow();
+    judge(call, argument, BPF_JEQ, value, 1, 0);
   }
-
   /// Refuses the call if the low half of the argument is `value`.
   void refuse_value(std::uint32_t call, int argument, std::uint32_t value) {
-    jump(BPF_JEQ, call, 0, 4);
-    load_argument(argument);
-    jump(BPF_JEQ, value, 0, 1);
-    refuse(EPERM);
-    allow();
+    judge(call, argument, BPF_JEQ, value, 0, 1);
   }
 
   bool install() {
@@ -133,6 +114,14 @@ class Filter {
   void load_argument(int i) { load(offsetof(seccomp_data, args) + 8 * static_cast<std::size_t>(i)); }
   void jump(int kind, std::uint32_t value, int if_true, int if_false) {
     add(BPF_JMP | kind | BPF_K, value, if_true, if_false);
+  }
+  /// Compares an argument of the call; 1 passes over the refusal.
+  void judge(std::uint32_t call, int argument, int kind, std::uint32_t value, int if_true, int if_false) {
+    jump(BPF_JEQ, call, 0, 4);
+    load_argument(argument);
+    jump(kind, value, if_true, if_false);
+    refuse(EPERM);
+    allow();
   }
   void refuse(int reason) { add(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(reason)); }
   void allow() { add(BPF_RET | BPF_K, SECCOMP_RET_ALLOW); }

@@ -36,7 +36,7 @@ TableReader::TableReader(std::string file, std::string prefix, const TomlTable& 
                          const std::vector<std::string>& known, std::vector<Setting>& settings)
     : file_(std::move(file)), prefix_(std::move(prefix)), table_(table), line_(line), settings_(settings) {
   for (const TomlEntry& entry : table_) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+    if (std::ranges::find(known, entry.key) == known.end()) {
       throw error(entry.key, "unknown key" + suggestion(entry.key, known));
     }
   }
@@ -90,7 +90,7 @@ std::string TableReader::text(std::string_view key, const std::optional<std::str
 std::size_t TableReader::choice(std::string_view key, const std::vector<std::string>& choices,
                                 const std::optional<std::size_t>& fallback) {
   const std::string value = text(key, fallback ? std::optional(choices[*fallback]) : std::nullopt);
-  const auto found = std::find(choices.begin(), choices.end(), value);
+  const auto found = std::ranges::find(choices, value);
   if (found == choices.end()) {
     throw error(key,
                 "\"" + printable(value) + "\" is none of: " + list_of(choices) + suggestion(value, choices));
@@ -110,13 +110,13 @@ std::vector<std::size_t> TableReader::choices(std::string_view key, const std::v
       const auto* name = std::get_if<std::string>(&item.value);
       if (name == nullptr)
         throw error(key, std::string("must be a list of texts; it holds ") + kind_name(item));
-      const auto found = std::find(choices.begin(), choices.end(), *name);
+      const auto found = std::ranges::find(choices, *name);
       if (found == choices.end()) {
         throw error(
             key, "\"" + printable(*name) + "\" is none of: " + list_of(choices) + suggestion(*name, choices));
       }
       const auto index = static_cast<std::size_t>(found - choices.begin());
-      if (std::find(chosen.begin(), chosen.end(), index) != chosen.end())
+      if (std::ranges::find(chosen, index) != chosen.end())
         throw error(key, "\"" + *name + "\" stands twice");
       chosen.push_back(index);
     }

@@ -19,7 +19,7 @@ bool is_ascii(char c) {
 }
 
 bool is_ascii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return is_ascii(c); });
+  return std::ranges::all_of(text, [](char c) { return is_ascii(c); });
 }
 
 int lines_before(std::string_view text, std::size_t at) {
@@ -59,8 +59,7 @@ void append_string(std::string& out, const TomlPiece& piece) {
 }
 
 void append_comment(std::string& out, std::string_view comment) {
-  std::transform(comment.begin(), comment.end(), std::back_inserter(out),
-                 [](char c) { return is_ascii(c) ? c : '?'; });
+  std::ranges::transform(comment, std::back_inserter(out), [](char c) { return is_ascii(c) ? c : '?'; });
 }
 
 }  // namespace

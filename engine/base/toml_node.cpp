@@ -7,14 +7,12 @@
 namespace hallway {
 
 TomlNode* find(TomlTable& table, std::string_view key) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+  const auto found = std::ranges::find_if(table, [&](const TomlEntry& entry) { return entry.key == key; });
   return found == table.end() ? nullptr : &found->node;
 }
 
 const TomlNode* find(const TomlTable& table, std::string_view key) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+  const auto found = std::ranges::find_if(table, [&](const TomlEntry& entry) { return entry.key == key; });
   return found == table.end() ? nullptr : &found->node;
 }
 

@@ -18,7 +18,7 @@ std::optional<TomlPiece> TomlPieces::next() {
     piece.text = piece.text.substr(0, piece.text.find_first_of("\"'#"));
   }
   at_ += piece.text.size();
-  line_ += static_cast<int>(std::count(piece.text.begin(), piece.text.end(), '\n'));
+  line_ += static_cast<int>(std::ranges::count(piece.text, '\n'));
   return piece;
 }
 

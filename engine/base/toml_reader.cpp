@@ -51,8 +51,8 @@ TomlTable convert_table(const toml::table& table) {
   const auto position = [](const toml::key& key) {
     return std::pair(key.source().begin.line, key.source().begin.column);
   };
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [&](const auto& a, const auto& b) { return position(*a.first) < position(*b.first); });
+  std::ranges::stable_sort(
+      pairs, [&](const auto& a, const auto& b) { return position(*a.first) < position(*b.first); });
   TomlTable entries;
   entries.reserve(pairs.size());
   for (const auto& [key, node] : pairs) {

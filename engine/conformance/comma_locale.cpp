@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "conformance/comma_locale.hpp"
-
 #include <locale.h>
 #include <stdlib.h>
 
@@ -11,6 +9,7 @@
 #include <string_view>
 
 #include "base/file.hpp"
+#include "conformance/surroundings.hpp"
 
 namespace hallway::conformance {
 namespace {

@@ -101,7 +101,7 @@ void has_good_ids(const Subject& subject) {
   for (const hw_plugin_info_t* info : descriptions(library)) {
     demand(info->id != nullptr, "an id is null");
     const std::string id = info->id;
-    const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
+    const bool plain = std::ranges::all_of(id, [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
              c == '-' || c == '.';
     });

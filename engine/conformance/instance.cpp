@@ -139,8 +139,7 @@ Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const Inp
 void Instance::activate() {
   const Ended ended = activate({ordinary_sensor()});
   if (ended.good()) return;
-  const bool points_alone =
-      std::all_of(inputs_.begin(), inputs_.end(), [](auto kind) { return kind == HW_SAMPLE_POINTS; });
+  const bool points_alone = std::ranges::all_of(inputs_, [](auto kind) { return kind == HW_SAMPLE_POINTS; });
   if (!points_alone) throw Skipped("the plugin needs other samples than points: " + ended.text());
   throw Failed("a sensor of points with all facts known was refused: " + ended.text());
 }

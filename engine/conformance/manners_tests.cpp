@@ -67,7 +67,7 @@ void closes_what_it_opens(const Subject& subject) {
   live(subject);
   const std::vector<std::string> after = open_descriptors();
   for (const std::string& descriptor : after) {
-    demand(std::find(before.begin(), before.end(), descriptor) != before.end(),
+    demand(std::ranges::find(before, descriptor) != before.end(),
            "descriptor " + descriptor + " is left open");
   }
   demand(after.size() == before.size(), "it closed descriptors that are not its own");

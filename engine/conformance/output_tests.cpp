@@ -36,7 +36,7 @@ void puts_what_it_declares(const Subject& subject) {
   check_walk(subject, [&](const LoadedLibrary& library, const Answer& answer) {
     const std::vector<std::uint32_t> declared = outputs_of(library.info(subject.plugin));
     for (const std::uint32_t kind : answer.put.kinds) {
-      demand(std::find(declared.begin(), declared.end(), kind) != declared.end(),
+      demand(std::ranges::find(declared, kind) != declared.end(),
              answer.call + "() put " + host::output_kind_name(kind) +
                  ", which is not among the plugin's outputs");
     }

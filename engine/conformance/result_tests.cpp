@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/hash.hpp"
-#include "conformance/comma_locale.hpp"
 #include "conformance/instance.hpp"
+#include "conformance/surroundings.hpp"
 #include "conformance/walk.hpp"
 
 namespace hallway::conformance {

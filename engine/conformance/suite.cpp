@@ -77,9 +77,8 @@ Outcome read_note(const Note& note) {
 
 /// A backtrace without what stands between the test and main().
 std::vector<std::string> plugin_part(std::vector<std::string> backtrace) {
-  const auto ours = std::find_if(backtrace.begin(), backtrace.end(), [](const std::string& line) {
-    return line.starts_with(std::string(kTestProgram) + "+");
-  });
+  const auto ours = std::ranges::find_if(
+      backtrace, [](const std::string& line) { return line.starts_with(std::string(kTestProgram) + "+"); });
   backtrace.erase(ours, backtrace.end());
   return backtrace;
 }
@@ -163,8 +162,7 @@ std::vector<const Test*> chosen_tests(const SuiteSetup& setup) {
   }
   std::vector<const Test*> chosen;
   for (const Test& test : all_tests()) {
-    const bool wanted =
-        setup.only.empty() || std::count(setup.only.begin(), setup.only.end(), test.name) != 0;
+    const bool wanted = setup.only.empty() || std::ranges::count(setup.only, test.name) != 0;
     if (wanted) chosen.push_back(&test);
   }
   return chosen;
@@ -172,7 +170,7 @@ std::vector<const Test*> chosen_tests(const SuiteSetup& setup) {
 
 /// A word of a command line, for a shell.
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::strchr("_-./=:,+", c) != nullptr;
   });

@@ -126,7 +126,7 @@ std::string float_settings() {
 std::vector<std::string> environment_now() {
   std::vector<std::string> all;
   for (char** entry = ::environ; entry != nullptr && *entry != nullptr; ++entry) all.emplace_back(*entry);
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   return all;
 }
 

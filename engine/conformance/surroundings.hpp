@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,9 @@ std::string float_settings();
 std::vector<std::string> environment_now();
 /// umask().
 unsigned file_mask();
+
+/// Makes the decimal point of this process a comma, as many languages have it (de_DE), by a locale that is written into `folder`: which locales
+/// a machine has cannot be relied on. @return false where that cannot be done
+bool set_comma_locale(const std::filesystem::path& folder);
 
 }  // namespace hallway::conformance

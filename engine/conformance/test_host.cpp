@@ -64,7 +64,7 @@ TestHost::TestHost(const HostShape& shape)
 
 void TestHost::begin(const hw_frame_t* frame, std::vector<std::uint32_t> indices) {
   indices_ = std::move(indices);
-  n_samples_ = indices_.empty() ? 0 : *std::max_element(indices_.begin(), indices_.end()) + 1;
+  n_samples_ = indices_.empty() ? 0 : *std::ranges::max_element(indices_) + 1;
   collected_ = {};
   collector_.begin(frame, indices_);
   open_ = true;

@@ -20,8 +20,7 @@ const std::vector<Test>& all_tests() {
 }
 
 const Test* find_test(std::string_view name) {
-  const auto found = std::find_if(all_tests().begin(), all_tests().end(),
-                                  [&](const Test& test) { return test.name == name; });
+  const auto found = std::ranges::find_if(all_tests(), [&](const Test& test) { return test.name == name; });
   return found == all_tests().end() ? nullptr : &*found;
 }
 

@@ -14,8 +14,8 @@ namespace hallway::conformance {
 inline void demand_text(const char* text, const std::string& what) {
   demand(text != nullptr, what + " is null");
   std::string plain = text;
-  std::replace_if(
-      plain.begin(), plain.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::ranges::replace_if(
+      plain, [](char c) { return c == '\n' || c == '\t'; }, ' ');
   demand(printable(plain, 2 * plain.size() + 4) == plain,
          what + " is not UTF-8 without control characters: " + printable(text));
 }

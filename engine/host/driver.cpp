@@ -10,9 +10,11 @@
 #include <set>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "base/origin.hpp"
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
+#include "host/c_sensor.hpp"
 #include "host/error_text.hpp"
 
 namespace hallway::host {
@@ -40,15 +42,8 @@ SensorInfo sensor_of(const hw_sensor_info_t* info) {
   const hw_pose_t& mount = info->T_body_sensor;
   demand(is_pose(mount.position, mount.orientation), "a sensor whose mount is no pose");
   SensorInfo sensor;
-  sensor.id = info->id;
-  sensor.kind = info->kind;
   sensor.name = text_of(info->name);
-  sensor.T_body_sensor = info->T_body_sensor;
-  sensor.horizontal_fov = info->horizontal_fov;
-  sensor.vertical_fov = info->vertical_fov;
-  sensor.min_range_m = info->min_range_m;
-  sensor.max_range_m = info->max_range_m;
-  std::copy(std::begin(info->noise_m), std::end(info->noise_m), sensor.noise_m);
+  copy_sensor_facts(*info, sensor);
   return sensor;
 }
 
@@ -119,7 +114,7 @@ void Driver::call(const char* name, Call&& call) {
 void Driver::check_settings(std::span<const DriverSetting> settings) const {
   const std::vector<std::string> known = info().setting_keys();
   for (const DriverSetting& setting : settings) {
-    if (std::find(known.begin(), known.end(), setting.key) != known.end()) continue;
+    if (std::ranges::find(known, setting.key) != known.end()) continue;
     std::string names;
     for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
     throw Error(
@@ -177,9 +172,8 @@ std::vector<Counter> Driver::counters() {
   if (counters->stride < sizeof(hw_counter_t) || counters->stride % 8 != 0) return {};
   std::vector<Counter> copied;
   for (std::uint64_t i = 0; i < std::min(counters->count, kMaxCounters); ++i) {
-    hw_counter_t counter{};
-    std::memcpy(&counter, static_cast<const char*>(counters->counters) + i * counters->stride,
-                sizeof counter);
+    const auto counter =
+        load<hw_counter_t>(static_cast<const char*>(counters->counters) + i * counters->stride);
     if (counter.name == nullptr || !std::isfinite(counter.value)) continue;
     copied.push_back({printable({counter.name, strnlen(counter.name, kMaxCounterName)}), counter.value});
   }

@@ -32,7 +32,7 @@ std::string read_info_id(const char* text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
   };
-  if (id.empty() || id.size() > kMaxIdBytes || !std::all_of(id.begin(), id.end(), allowed)) {
+  if (id.empty() || id.size() > kMaxIdBytes || !std::ranges::all_of(id, allowed)) {
     fail_info(
         fmt::format("its id `{}` is not 1 to {} letters, digits and _ - .", printable(id), kMaxIdBytes));
   }

@@ -224,8 +224,7 @@ const std::vector<PluginInfo>& Library::plugins() const {
 }
 
 const PluginInfo* Library::find(std::string_view id) const {
-  const auto found =
-      std::find_if(plugins().begin(), plugins().end(), [&](const PluginInfo& p) { return p.id == id; });
+  const auto found = std::ranges::find_if(plugins(), [&](const PluginInfo& p) { return p.id == id; });
   return found == plugins().end() ? nullptr : &*found;
 }
 

@@ -119,7 +119,7 @@ void add_exports(LibraryFacts& facts, const ElfImage& image) {
       facts.exports.emplace_back(ElfImage::text_at(names, symbol.st_name));
     }
   }
-  std::sort(facts.exports.begin(), facts.exports.end());
+  std::ranges::sort(facts.exports);
 }
 
 std::vector<std::string> folders_of(const DynamicSection& dynamic) {

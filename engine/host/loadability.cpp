@@ -93,8 +93,8 @@ void judge_entry(Loadability& result, const LibraryFacts& facts, const MachinePr
         "was built for version {}.{} of the plugin ABI, there it is {}.{}: what is newer it must do without",
         facts.abi->abi_major, facts.abi->abi_minor, machine.abi_major, machine.abi_minor));
   }
-  const auto more = std::count_if(facts.exports.begin(), facts.exports.end(),
-                                  [](const std::string& name) { return name != HW_ENTRY_SYMBOL; });
+  const auto more =
+      std::ranges::count_if(facts.exports, [](const std::string& name) { return name != HW_ENTRY_SYMBOL; });
   if (more > 0) {
     result.remarks.push_back(
         fmt::format("exports {} symbols besides {}; -fvisibility=hidden keeps them from meeting others", more,

@@ -76,7 +76,7 @@ void check_keys(const TomlTable& table, const std::string& file) {
   const std::vector<std::string> known{"schema", "name",      "machine",   "glibc",    "glibcxx",
                                        "cxxabi", "abi_major", "abi_minor", "libraries"};
   for (const TomlEntry& entry : table) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    if (std::ranges::find(known, entry.key) != known.end()) continue;
     throw Error(ErrorCode::kBadInput,
                 fmt::format("unknown key \"{}\"{}", printable(entry.key), suggestion(entry.key, known)),
                 {file, entry.node.line, {}});
@@ -121,7 +121,7 @@ std::optional<std::vector<std::string>> libraries_in_cache(std::string_view byte
     const std::string_view name = ElfImage::text_at(cache, number_at(at + 4));
     if (!name.empty()) names.emplace_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
@@ -182,7 +182,7 @@ MachineProfile parse_profile(const std::string& text, const std::filesystem::pat
   for (const TomlNode& library : value_of<TomlArray>(table, "libraries", "a list of names", file)) {
     if (const auto* name = std::get_if<std::string>(&library.value)) profile.libraries.push_back(*name);
   }
-  std::sort(profile.libraries.begin(), profile.libraries.end());
+  std::ranges::sort(profile.libraries);
   return profile;
 }
 

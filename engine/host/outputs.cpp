@@ -232,8 +232,7 @@ hw_status_t OutputCollector::copy_associations(const hw_associations_t& associat
   demand(!outputs_.associations(index), "a second time for one sample");
   const Strided<std::uint64_t> ids(associations.landmark_ids, associations.count, sizeof(std::uint64_t));
   const std::size_t first = outputs_.association_ids_.size();
-  outputs_.association_ids_.resize(first + ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) outputs_.association_ids_[first + i] = ids[i];
+  ids.append_to(outputs_.association_ids_);
   outputs_.association_ranges_.push_back({index, first, ids.size()});
   return HW_OK;
 }
@@ -261,13 +260,13 @@ hw_status_t OutputCollector::copy_submaps(const hw_submaps_t& submaps) {
     if (const char* problem = pose_problem(submap.T_map_submap)) {
       throw Malformed{fmt::format("submap {} has {}", submap.id, problem)};
     }
-    if (submap.first_member > members.size() || submap.n_members > members.size() - submap.first_member) {
+    if (!lies_within(submap.first_member, submap.n_members, members.size())) {
       throw Malformed{fmt::format("submap {} has members beyond the list of members", submap.id)};
     }
     submap.first_member += first_member;
     outputs_.submaps_.push_back(submap);
   }
-  for (std::size_t i = 0; i < members.size(); ++i) outputs_.submap_members_.push_back(members[i]);
+  members.append_to(outputs_.submap_members_);
   return HW_OK;
 }
 
@@ -308,8 +307,8 @@ void OutputCollector::check_distinct_ids() {
   sorted_ids_.clear();
   for (const hw_landmark_t& landmark : outputs_.landmarks_) sorted_ids_.push_back(landmark.id);
   for (const hw_mapped_plane_t& plane : planes) sorted_ids_.push_back(plane.id);
-  std::sort(sorted_ids_.begin(), sorted_ids_.end());
-  const auto twice = std::adjacent_find(sorted_ids_.begin(), sorted_ids_.end());
+  std::ranges::sort(sorted_ids_);
+  const auto twice = std::ranges::adjacent_find(sorted_ids_);
   if (twice == sorted_ids_.end()) return;
   fault_ = fmt::format("{}: two of them have the id {}",
                        planes.empty() ? "landmarks" : "landmarks and mapped_planes", *twice);

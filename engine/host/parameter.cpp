@@ -142,7 +142,7 @@ hw_param_value_t Parameter::parse(std::string_view text) const {
       return number && in_range(*this, value) ? value : fail("a number " + range_text(*this));
     }
     case HW_PARAM_CHOICE: {
-      const auto found = std::find(choices.begin(), choices.end(), text);
+      const auto found = std::ranges::find(choices, text);
       if (found == choices.end()) {
         return fail(fmt::format("one of {}{}", fmt::join(choices, ", "), suggestion(text, choices)));
       }

@@ -65,7 +65,7 @@ class Typing {
 
   std::optional<std::size_t> giver_of(std::uint32_t kind, const std::vector<std::size_t>& placed) const {
     for (std::size_t i = 0; i < plugins_.size(); ++i) {
-      if (given_[i].contains(kind) && std::find(placed.begin(), placed.end(), i) == placed.end()) return i;
+      if (given_[i].contains(kind) && std::ranges::find(placed, i) == placed.end()) return i;
     }
     return std::nullopt;
   }
@@ -76,7 +76,7 @@ class Typing {
     for (bool more = true; more;) {
       more = false;
       for (std::size_t i = 0; i < plugins_.size() && !more; ++i) {
-        const bool placed = std::find(order.begin(), order.end(), i) != order.end();
+        const bool placed = std::ranges::find(order, i) != order.end();
         if (placed || unmet(i, there)) continue;
         order.push_back(i);
         there.insert(given_[i].begin(), given_[i].end());
@@ -118,7 +118,7 @@ class Typing {
       way.push_back(at);
       links.push_back(fmt::format("`{}` needs {}, which {} gives", plugins_[at].id, sample_kind_name(kind),
                                   *giver == at ? "only itself" : "`" + plugins_[*giver].id + "`"));
-      const auto seen = std::find(way.begin(), way.end(), *giver);
+      const auto seen = std::ranges::find(way, *giver);
       at = *giver;
       if (seen == way.end()) continue;
       links.erase(links.begin(), links.begin() + (seen - way.begin()));

@@ -43,8 +43,7 @@ const char* outline_problem(const hw_mapped_plane_t& plane, std::span<const hw_m
 template <typename T>
 void append(std::vector<T>& all, const Strided<T>& list) {
   demand(all.size() + list.size() <= kMaxElements, "too many in one call");
-  all.reserve(all.size() + list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) all.push_back(list[i]);
+  list.append_to(all);
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ void PlaneLandmarkList::add(const hw_mapped_planes_t& planes) {
       throw Malformed{fmt::format("plane {} has the unknown status {}", plane.id, plane.status)};
     }
     if (const char* problem = number_problem(plane)) fail(problem);
-    if (plane.first_corner > planes.n_corners || plane.n_corners > planes.n_corners - plane.first_corner)
+    if (!lies_within(plane.first_corner, plane.n_corners, planes.n_corners))
       fail("corners beyond their list");
     if (plane.first_corner < end) fail("corners of the plane before it");
     end = plane.first_corner + plane.n_corners;

@@ -32,8 +32,8 @@ class OnPlane {
 };
 
 bool is_finite(const hw_plane_t& plane) {
-  const bool corners = std::all_of(std::begin(plane.corners), std::end(plane.corners),
-                                   [](const Three& corner) { return host::is_finite(corner); });
+  const bool corners =
+      std::ranges::all_of(plane.corners, [](const Three& corner) { return host::is_finite(corner); });
   return corners && host::is_finite(plane.normal) && host::is_finite(plane.centroid) &&
          std::isfinite(plane.offset_m) && std::isfinite(plane.rms_m) && std::isfinite(plane.exclusive_share);
 }
@@ -47,8 +47,7 @@ const char* plane_problem(const hw_plane_t& plane) {
   if (plane.exclusive_share < 0 || plane.exclusive_share > 1) return "an exclusive_share outside of 0 to 1";
   const OnPlane is_on(plane);
   if (!is_on(plane.centroid)) return "a centroid that is not on it";
-  if (!std::all_of(std::begin(plane.corners), std::end(plane.corners), is_on))
-    return "a corner that is not on it";
+  if (!std::ranges::all_of(plane.corners, is_on)) return "a corner that is not on it";
   const double reach = reach_of(plane);
   if (turn(plane.corners[0], plane.corners[1], plane.corners[3], plane.normal) < -kOnPlane * reach * reach)
     return "corners that run clockwise";
@@ -67,7 +66,7 @@ void check_hull(const hw_plane_t& plane, std::span<const hw_point3_t> hull) {
 void check_range(const hw_plane_t& plane, std::uint64_t first, std::uint64_t count, std::size_t size,
                  std::uint64_t& end, const char* what) {
   if (count == 0) return;
-  if (first > size || count > size - first)
+  if (!lies_within(first, count, size))
     throw Malformed{fmt::format("plane {} has {} beyond their list", plane.id, what)};
   if (first < end) throw Malformed{fmt::format("plane {} has {} of the plane before it", plane.id, what)};
   end = first + count;
@@ -85,12 +84,6 @@ void check_members(const hw_plane_t& plane, std::span<const std::uint32_t> membe
     if (i > 0 && members[i] <= members[i - 1])
       throw Malformed{fmt::format("plane {} has members that do not ascend", plane.id)};
   }
-}
-
-template <typename T, typename List>
-void append(std::vector<T>& all, const List& list) {
-  all.reserve(all.size() + list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) all.push_back(list[i]);
 }
 
 template <typename T, typename Range>
@@ -125,13 +118,13 @@ void PlaneLists::add(const hw_planes_t& planes, std::uint32_t sample, std::uint6
                     {planes_.size(), list.size()},
                     {hull_points_.size(), hull_points.size()},
                     {members_.size(), planes.n_members}};
-  append(planes_, list);
+  list.append_to(planes_);
   for (std::size_t i = entry.planes.first; i < planes_.size(); ++i) {
     // Where an empty range begins says nothing, and may be anywhere.
     if (planes_[i].n_hull == 0) planes_[i].first_hull = 0;
     if (planes_[i].n_members == 0) planes_[i].first_member = 0;
   }
-  append(hull_points_, hull_points);
+  hull_points.append_to(hull_points_);
   members_.resize(members_.size() + planes.n_members);
   if (planes.n_members != 0)
     std::memcpy(&members_[entry.members.first], planes.members, planes.n_members * sizeof(std::uint32_t));
@@ -157,8 +150,8 @@ void PlaneLists::check_planes(const Entry& entry, std::uint64_t elements) {
 void PlaneLists::check_ids(std::span<const hw_plane_t> planes) {
   sorted_ids_.clear();
   for (const hw_plane_t& plane : planes) sorted_ids_.push_back(plane.id);
-  std::sort(sorted_ids_.begin(), sorted_ids_.end());
-  const auto twice = std::adjacent_find(sorted_ids_.begin(), sorted_ids_.end());
+  std::ranges::sort(sorted_ids_);
+  const auto twice = std::ranges::adjacent_find(sorted_ids_);
   if (twice != sorted_ids_.end()) throw Malformed{fmt::format("two of them have the id {}", *twice)};
 }
 

@@ -192,8 +192,7 @@ hw_status_t Plugin::set_value(std::uint32_t index, std::string_view value, const
 
 void Plugin::set_parameter(std::string_view name, std::string_view value, const Where& where) {
   if (active_) throw Error(ErrorCode::kInternal, "set_parameter() after activate()");
-  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
-                                  [&](const Parameter& p) { return p.name == name; });
+  const auto found = std::ranges::find_if(parameters_, [&](const Parameter& p) { return p.name == name; });
   if (found == parameters_.end()) {
     std::vector<std::string> names;
     for (const Parameter& parameter : parameters_) names.push_back(parameter.name);

@@ -7,7 +7,6 @@ namespace hallway::host {
 inline constexpr int kRequestDescriptor = 3;  ///< memory: requests
 inline constexpr int kReplyDescriptor = 4;    ///< memory: replies
 inline constexpr int kLogDescriptor = 5;      ///< a socket of packets: what the plugin logs
-inline constexpr int kDescriptors = 6;
 
 /// What stands before the text in a packet of the log.
 struct LogHead {

@@ -12,7 +12,7 @@ const hw_frame_t& SampleSelection::select(const hw_frame_t& frame, std::span<con
   samples_.clear();
   indices_.clear();
   for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
-    if (std::find(inputs.begin(), inputs.end(), frame.samples[i]->kind) == inputs.end()) continue;
+    if (std::ranges::find(inputs, frame.samples[i]->kind) == inputs.end()) continue;
     samples_.push_back(frame.samples[i]);
     indices_.push_back(i);
   }
@@ -28,7 +28,7 @@ const hw_frame_t& SampleSelection::select(const hw_frame_t& frame, std::span<con
 
 const hw_sample_t* SampleSelection::renumbered(const hw_sample_t& sample) {
   const auto& planes = *static_cast<const hw_planes_t*>(sample.payload);
-  const auto found = std::find(indices_.begin(), indices_.end(), planes.sample);
+  const auto found = std::ranges::find(indices_, planes.sample);
   const std::uint32_t index =
       found == indices_.end() ? HW_NO_SAMPLE : static_cast<std::uint32_t>(found - indices_.begin());
   if (index == planes.sample) return &sample;

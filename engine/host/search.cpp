@@ -31,8 +31,7 @@ struct Drivers {
 
 template <typename Info>
 const Info* with_id(const std::vector<Info>& infos, std::string_view id) {
-  const auto found =
-      std::find_if(infos.begin(), infos.end(), [&](const Info& info) { return info.id == id; });
+  const auto found = std::ranges::find_if(infos, [&](const Info& info) { return info.id == id; });
   return found == infos.end() ? nullptr : &*found;
 }
 
@@ -144,7 +143,7 @@ std::vector<fs::path> library_files(std::span<const fs::path> folders) {
     for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
       if (it->path().extension() == ".so") files.push_back(it->path());
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     all.insert(all.end(), files.begin(), files.end());
   }
   return all;

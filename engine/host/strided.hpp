@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/bytes.hpp"
 
@@ -50,6 +51,11 @@ class Strided {
   }
   std::size_t size() const { return count_; }
   T operator[](std::size_t i) const { return load<T>(first_ + i * stride_); }
+  /// Copies all elements behind those of `list`.
+  void append_to(std::vector<T>& list) const {
+    list.reserve(list.size() + count_);
+    for (std::size_t i = 0; i < count_; ++i) list.push_back((*this)[i]);
+  }
 
  private:
   const char* first_;

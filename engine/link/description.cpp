@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 #include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
+#include "host/c_sensor.hpp"
 
 namespace hallway::link {
 namespace {
@@ -63,32 +63,6 @@ void check(const Description& description) {
   }
 }
 
-SensorBytes bytes_of(const host::SensorInfo& sensor) {
-  SensorBytes bytes{.id = sensor.id,
-                    .kind = sensor.kind,
-                    .T_body_sensor = sensor.T_body_sensor,
-                    .horizontal_fov = sensor.horizontal_fov,
-                    .vertical_fov = sensor.vertical_fov,
-                    .min_range_m = sensor.min_range_m,
-                    .max_range_m = sensor.max_range_m,
-                    .noise_m = {}};
-  std::copy_n(sensor.noise_m, 3, bytes.noise_m);
-  return bytes;
-}
-
-host::SensorInfo sensor_of(const SensorBytes& bytes) {
-  host::SensorInfo sensor;
-  sensor.id = bytes.id;
-  sensor.kind = bytes.kind;
-  sensor.T_body_sensor = bytes.T_body_sensor;
-  sensor.horizontal_fov = bytes.horizontal_fov;
-  sensor.vertical_fov = bytes.vertical_fov;
-  sensor.min_range_m = bytes.min_range_m;
-  sensor.max_range_m = bytes.max_range_m;
-  std::copy_n(bytes.noise_m, 3, sensor.noise_m);
-  return sensor;
-}
-
 Description read_parts(std::span<const std::byte> message) {
   AlignedByteReader reader(message);
   const auto robot = reader.get<RobotBytes>();
@@ -98,8 +72,9 @@ Description read_parts(std::span<const std::byte> message) {
   description.name = reader.get_text();
   if (robot.sensors > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
   for (std::uint32_t i = 0; i < robot.sensors; ++i) {
-    description.sensors.push_back(sensor_of(reader.get<SensorBytes>()));
-    description.sensors.back().name = reader.get_text();
+    host::SensorInfo& sensor = description.sensors.emplace_back();
+    host::copy_sensor_facts(reader.get<SensorBytes>(), sensor);
+    sensor.name = reader.get_text();
   }
   reader.expect_end();
   return description;
@@ -116,7 +91,9 @@ Bytes write_description(const Description& description) {
                         .period_ns = description.period_ns});
   writer.put_text(description.name);
   for (const host::SensorInfo& sensor : description.sensors) {
-    writer.put(bytes_of(sensor));
+    SensorBytes bytes;
+    host::copy_sensor_facts(sensor, bytes);
+    writer.put(bytes);
     writer.put_text(sensor.name);
   }
   if (!writer.fits()) bad(fmt::format("it has more than {} bytes", message.size()));

@@ -73,7 +73,7 @@ void write_missing(const std::vector<bool>& missing, Bytes& payload) {
   const auto fragments = static_cast<std::uint16_t>(missing.size());
   payload.resize(sizeof fragments);
   store(payload.data(), fragments);
-  if (std::find(missing.begin(), missing.end(), true) == missing.end()) return;
+  if (std::ranges::find(missing, true) == missing.end()) return;
   payload.resize(sizeof fragments + (missing.size() + 7) / 8, std::byte{0});
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (missing[i]) payload[sizeof fragments + i / 8] |= std::byte{1} << (i % 8);

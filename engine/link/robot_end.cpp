@@ -126,8 +126,8 @@ void RobotEnd::take_answer(const Datagram& datagram) {
   last_answer_ = answer->number;
   ++counters_.answers;
   CameAnswer came{.answer = *answer};
-  const auto sent = std::find_if(sent_.begin(), sent_.end(),
-                                 [&](const auto& entry) { return entry.first == answer->sequence; });
+  const auto sent =
+      std::ranges::find_if(sent_, [&](const auto& entry) { return entry.first == answer->sequence; });
   if (sent != sent_.end()) came.round_trip = Clock::now() - sent->second;
   if (answers_.size() == kMaxAnswers) answers_.pop_front();
   answers_.push_back(std::move(came));
@@ -200,8 +200,7 @@ bool RobotEnd::deliver(std::uint64_t sequence, std::span<const std::byte> frame,
   while (!delivery_.answered && !over_ && !stop()) {
     wait(due);
     if (std::exchange(delivery_.told, false)) {
-      const bool all_there =
-          std::find(delivery_.missing.begin(), delivery_.missing.end(), true) == delivery_.missing.end();
+      const bool all_there = std::ranges::find(delivery_.missing, true) == delivery_.missing.end();
       if (!all_there) {
         question = send_missing(frame);
         retry = kFirstRetry;

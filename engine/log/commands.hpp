@@ -2,11 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "log/row_writer.hpp"
 
@@ -22,20 +18,9 @@ struct IterationCommand {
 /// The first line of the table.
 inline constexpr std::string_view kCommandColumns = "iteration,linear_m_s,angular_rad_s";
 
-/// Reads commands from CSV: columns `iteration,linear_m_s,angular_rad_s` in any order, iterations increasing. Throws
-/// Error{kBadInput} with the line of the first thing that is wrong, also for a file that is cut off. O(length).
-///
-/// @param text  the file's content
-/// @param file  its name, for messages
-std::vector<IterationCommand> parse_commands(std::string_view text, const std::string& file);
-
-/// parse_commands() of a file. Throws Error{kIo} if it cannot be read.
-std::vector<IterationCommand> read_commands(const std::filesystem::path& path);
-
 /// Adds a row. Throws Error{kInternal} for a number that is not finite.
-void add_row(RowWriter& out, const IterationCommand& command);
-
-/// The text that parse_commands() reads back to the same values. Throws Error{kInternal} for a number that is not finite.
-std::string print_commands(std::span<const IterationCommand> commands);
+inline void add_row(RowWriter& out, const IterationCommand& command) {
+  out.whole(command.iteration).number(command.linear_m_s).number(command.angular_rad_s).end_row();
+}
 
 }  // namespace hallway::log

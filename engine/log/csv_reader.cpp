@@ -38,8 +38,8 @@ void CsvReader::read_header() {
   split_fields(lines_.line(), fields_);
   width_ = fields_.size();
   for (std::size_t place = 0; place < width_; ++place) {
-    const auto known = std::find_if(columns_.begin(), columns_.end(),
-                                    [&](const CsvColumn& column) { return column.name == fields_[place]; });
+    const auto known = std::ranges::find_if(
+        columns_, [&](const CsvColumn& column) { return column.name == fields_[place]; });
     if (known == columns_.end()) continue;
     std::size_t& where = place_[static_cast<std::size_t>(known - columns_.begin())];
     if (where != kAbsent) throw lines_.error(fmt::format("the header has column \"{}\" twice", known->name));

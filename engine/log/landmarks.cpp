@@ -32,8 +32,7 @@ std::vector<Landmark> read_landmarks(const std::filesystem::path& path) {
 
 std::string print_landmarks(std::span<const Landmark> landmarks) {
   RowWriter out(',');
-  const bool any_moves =
-      std::any_of(landmarks.begin(), landmarks.end(), [](const Landmark& l) { return l.moving; });
+  const bool any_moves = std::ranges::any_of(landmarks, [](const Landmark& l) { return l.moving; });
   out.word(any_moves ? "landmark_id,x,y,z,moving" : "landmark_id,x,y,z").end_row();
   for (const Landmark& landmark : landmarks) {
     out.whole(landmark.id).numbers(landmark.position_m);

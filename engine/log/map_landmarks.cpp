@@ -57,7 +57,7 @@ std::string_view landmark_status_name(LandmarkStatus status) {
 }
 
 std::optional<LandmarkStatus> landmark_status(std::string_view name) {
-  const auto found = std::find(kStatusNames.begin(), kStatusNames.end(), name);
+  const auto found = std::ranges::find(kStatusNames, name);
   if (found == kStatusNames.end()) return std::nullopt;
   return static_cast<LandmarkStatus>(found - kStatusNames.begin());
 }
@@ -94,8 +94,8 @@ std::vector<MapLandmark> read_map_landmarks(const std::filesystem::path& path) {
 
 std::string print_map_landmarks(std::span<const MapLandmark> landmarks) {
   RowWriter out(',');
-  const bool covariances = std::any_of(landmarks.begin(), landmarks.end(),
-                                       [](const MapLandmark& l) { return l.covariance.has_value(); });
+  const bool covariances =
+      std::ranges::any_of(landmarks, [](const MapLandmark& l) { return l.covariance.has_value(); });
   out.word("id,x,y,z,observations,status");
   if (covariances) out.word("cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz");
   out.end_row();

@@ -64,7 +64,7 @@ class SpanCopier {
  private:
   bool is_needed(const McapChunkIndex& chunk, const McapSpan& span) const {
     if (chunk.start_time_ns <= span.to_ns && chunk.end_time_ns >= span.from_ns) return true;
-    return std::any_of(chunk.message_indices.begin(), chunk.message_indices.end(), [&](const auto& entry) {
+    return std::ranges::any_of(chunk.message_indices, [&](const auto& entry) {
       const auto channel = index_.channels.find(entry.first);
       return channel != index_.channels.end() && span.is_of_whole_log(channel->second);
     });

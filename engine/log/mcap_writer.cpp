@@ -145,7 +145,7 @@ void McapWriter::end_chunk() {
                        .uncompressed_size = chunk_.records.size()};
   for (auto& [channel, messages] : chunk_.indices) {
     index.message_indices.emplace_back(channel, at_ + bytes.size());
-    std::sort(messages.entries.begin(), messages.entries.end());
+    std::ranges::sort(messages.entries);
     append_record(bytes, messages);
   }
   index.message_indices_length = bytes.size() - index.length;

@@ -81,13 +81,6 @@ void add_row(RowWriter& out, const IterationPlane& row) {
   out.whole(plane.points).number(plane.rms_m).number(plane.exclusive_share).end_row();
 }
 
-std::string print_planes(std::span<const IterationPlane> planes) {
-  RowWriter out(',');
-  out.word(kPlaneColumns).end_row();
-  for (const IterationPlane& plane : planes) add_row(out, plane);
-  return out.take();
-}
-
 bool is_of_planes(std::string_view text) {
   const std::string_view header = text.substr(0, text.find('\n'));
   const std::vector<std::string_view> names = split(header, ',');

@@ -59,9 +59,6 @@ std::vector<IterationPlane> parse_planes(std::string_view text, const std::strin
 /// Adds a row. Throws Error{kInternal} for a number that is not finite.
 void add_row(RowWriter& out, const IterationPlane& plane);
 
-/// The text that parse_planes() reads back to the same values. Throws Error{kInternal} for a number that is not finite.
-std::string print_planes(std::span<const IterationPlane> planes);
-
 /// The planes that a sensor gave in a run.
 class PlaneObservationLog : public FrameList<PlaneObservation> {
  public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "log/poses.hpp"
-#include "base/unit_quaternion.hpp"
 
 #include "base/file.hpp"
+#include "base/unit_quaternion.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
 

@@ -35,4 +35,13 @@ class RowWriter {
   std::string text_;
 };
 
+/// The text of a table: its first line, then a row for each item, as add_row() has it. Throws as add_row() does.
+template <typename Rows>
+std::string print_table(std::string_view columns, const Rows& rows) {
+  RowWriter out(',');
+  out.word(columns).end_row();
+  for (const auto& row : rows) add_row(out, row);
+  return out.take();
+}
+
 }  // namespace hallway::log

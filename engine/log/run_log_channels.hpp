@@ -25,7 +25,7 @@ inline constexpr std::array kRunTopics{topics::kActivation,   topics::kTrueLandm
 
 /// The id of a topic's channel.
 inline std::uint16_t run_channel_id(std::string_view topic) {
-  const auto found = std::find(kRunTopics.begin(), kRunTopics.end(), topic);
+  const auto found = std::ranges::find(kRunTopics, topic);
   return static_cast<std::uint16_t>(found - kRunTopics.begin() + 1);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "log/submap_poses.hpp"
-#include "base/unit_quaternion.hpp"
 
 #include <limits>
 
 #include "base/file.hpp"
+#include "base/unit_quaternion.hpp"
 #include "log/csv_reader.hpp"
 #include "log/row_writer.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "log/tum.hpp"
-#include "base/unit_quaternion.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "base/unit_quaternion.hpp"
 #include "log/line_reader.hpp"
 
 namespace hallway::log {

@@ -228,8 +228,8 @@ class GlbBuilder {
 std::string obj_name(const Material& material, std::size_t index) {
   std::string name = "m" + std::to_string(index);
   if (!material.name.empty()) name += "_" + printable(material.name, kMaxNameBytes);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '\\' || c == '#'; }, '_');
+  std::ranges::replace_if(
+      name, [](char c) { return c == ' ' || c == '\\' || c == '#'; }, '_');
   return name;
 }
 

@@ -93,7 +93,7 @@ void check_images(const Model& model, const ModelLimits& limits) {
 std::vector<std::uint32_t> add_images(Model& model, std::vector<Image> images) {
   std::vector<std::uint32_t> numbers;
   for (Image& image : images) {
-    const auto same = std::find(model.images.begin(), model.images.end(), image);
+    const auto same = std::ranges::find(model.images, image);
     numbers.push_back(static_cast<std::uint32_t>(same - model.images.begin()));
     if (same == model.images.end()) model.images.push_back(std::move(image));
   }

@@ -42,10 +42,10 @@ Quat rotation_of(const map::EntityKeys& keys) {
 Vec3 scale_of(const map::EntityKeys& keys) {
   if (!keys.has("scale")) return Vec3::Ones();
   const std::vector<double> numbers = numbers_in(keys.text("scale"));
-  const bool good = (numbers.size() == 1 || numbers.size() == 3) &&
-                    std::all_of(numbers.begin(), numbers.end(), [](double number) {
-                      return std::abs(number) >= kLeastScale && std::abs(number) <= kMostScale;
-                    });
+  const bool good =
+      (numbers.size() == 1 || numbers.size() == 3) && std::ranges::all_of(numbers, [](double number) {
+        return std::abs(number) >= kLeastScale && std::abs(number) <= kMostScale;
+      });
   if (!good)
     throw keys.error("key `scale` takes one number or three, each of 1e-6 to 1e6 or its negative", "scale");
   if (numbers.size() == 1) return Vec3::Constant(numbers[0]);

@@ -70,7 +70,8 @@ class Folder {
     write_attachments(folder, plan_.attachments);
     truth_.write(folder, source_);
     result.metrics = path_.write(folder, source_);
-    if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));
+    if (!commands.empty())
+      write_file_atomically(folder / files::kCommands, log::print_table(log::kCommandColumns, commands));
     nlohmann::ordered_json manifest = plan_.manifest;
     manifest["sensors"] = nlohmann::ordered_json::array({record::print_sensor(source_.sensor())});
     manifest["iterations"] = result.frames;

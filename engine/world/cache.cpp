@@ -2,11 +2,10 @@
 #include "world/cache.hpp"
 
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "base/bytes.hpp"
+#include "base/byte_archive.hpp"
 #include "base/hash.hpp"
 
 namespace hallway::world {
@@ -15,163 +14,105 @@ namespace {
 constexpr std::string_view kMagic = "hallway.world/2\n";
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Plane) == 4 * sizeof(double));
 
-/// A value of a compilation, as it is walked through: changed where it is read.
-template <typename Archive, typename T>
-using Of = std::conditional_t<Archive::kReads, T, const T>;
-
-/// Writes the values that pass() walks through.
-class Writer {
- public:
-  static constexpr bool kReads = false;
-  explicit Writer(ByteAppender& out) : out_(out) {}
-
-  template <typename... Numbers>
-  void numbers(const Numbers&... values) {
-    (out_.put(values), ...);
-  }
-  /// A value that stands there as a T.
-  template <typename T, typename Value>
-  void number_as(const Value& value) {
-    out_.put(static_cast<T>(value));
-  }
-  template <typename T>
-  void list(const std::vector<T>& values) {
-    out_.put_list(values);
-  }
-  /// The length of a list whose items pass() then walks through.
-  template <typename T>
-  void length(const std::vector<T>& items, std::size_t) {
-    out_.put(std::uint64_t{items.size()});
-  }
-
- private:
-  ByteAppender& out_;
+struct Saver : ByteSaver<ByteAppender> {
+  using ByteSaver::ByteSaver;
 };
-
-/// Reads them back, in the same way.
-class Reader {
- public:
-  static constexpr bool kReads = true;
-  explicit Reader(ByteReader& in) : in_(in) {}
-
-  template <typename... Numbers>
-  void numbers(Numbers&... values) {
-    ((values = in_.get<Numbers>()), ...);
-  }
-  template <typename T, typename Value>
-  void number_as(Value& value) {
-    value = static_cast<Value>(in_.get<T>());
-  }
-  template <typename T>
-  void list(std::vector<T>& values) {
-    values = in_.copy_list<T>();
-  }
-  template <typename T>
-  void length(std::vector<T>& items, std::size_t least_bytes_each) {
-    items.resize(in_.get_count(least_bytes_each));
-  }
-
- private:
-  ByteReader& in_;
+struct Loader : ByteLoader<ByteReader> {
+  using ByteLoader::ByteLoader;
 };
 
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, Vec3>& v) {
-  archive.numbers(v[0], v[1], v[2]);
+void pass(Archive& archive, Passed<Archive, Vec3>& v) {
+  archive.values(v[0], v[1], v[2]);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, Plane>& plane) {
+void pass(Archive& archive, Passed<Archive, Plane>& plane) {
   pass(archive, plane.normal);
-  archive.numbers(plane.offset);
+  archive.values(plane.offset);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, Box>& box) {
+void pass(Archive& archive, Passed<Archive, Box>& box) {
   pass(archive, box.min());
   pass(archive, box.max());
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Child>& child) {
+void pass(Archive& archive, Passed<Archive, bsp::Child>& child) {
   std::uint32_t bits = child.bits();
-  archive.numbers(bits);
+  archive.values(bits);
   if constexpr (Archive::kReads) child = bsp::Child(bits);
 }
-template <typename Archive, typename Items>
-void pass_all(Archive& archive, Items& items, std::size_t least_bytes_each = sizeof(double)) {
-  archive.length(items, least_bytes_each);
-  for (auto& item : items) pass(archive, item);
-}
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, Polygon>& polygon) {
+void pass(Archive& archive, Passed<Archive, Polygon>& polygon) {
   pass(archive, polygon.plane);
   pass_all(archive, polygon.vertices, sizeof(Vec3));
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, csg::SurfacePolygon>& polygon) {
+void pass(Archive& archive, Passed<Archive, csg::SurfacePolygon>& polygon) {
   pass(archive, polygon.plane);
-  archive.list(polygon.vertices);
-  archive.numbers(polygon.solid, polygon.face);
+  archive.lists(polygon.vertices);
+  archive.values(polygon.solid, polygon.face);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Node>& node) {
-  archive.numbers(node.offset);
+void pass(Archive& archive, Passed<Archive, bsp::Node>& node) {
+  archive.values(node.offset);
   for (auto& child : node.child) pass(archive, child);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Leaf>& leaf) {
-  archive.template number_as<std::uint8_t>(leaf.content);
-  archive.numbers(leaf.cluster);
+void pass(Archive& archive, Passed<Archive, bsp::Leaf>& leaf) {
+  archive.template value_as<std::uint8_t>(leaf.content);
+  archive.values(leaf.cluster);
   pass(archive, leaf.box);
-  archive.numbers(leaf.first_face, leaf.face_count);
+  archive.values(leaf.first_face, leaf.face_count);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Tree>& tree) {
+void pass(Archive& archive, Passed<Archive, bsp::Tree>& tree) {
   archive.length(tree.nodes, sizeof(double));
   pass(archive, tree.root);
   for (auto& node : tree.nodes) pass(archive, node);
   pass_all(archive, tree.normals, sizeof(Vec3));
   pass_all(archive, tree.leaves);
-  archive.list(tree.leaf_faces);
+  archive.lists(tree.leaf_faces);
   pass(archive, tree.bounds);
-  archive.numbers(tree.clusters);
+  archive.values(tree.clusters);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Portal>& portal) {
+void pass(Archive& archive, Passed<Archive, bsp::Portal>& portal) {
   pass(archive, portal.polygon);
-  archive.numbers(portal.cluster[0], portal.cluster[1]);
+  archive.values(portal.cluster[0], portal.cluster[1]);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Leak>& leak) {
-  archive.numbers(leak.occupant);
+void pass(Archive& archive, Passed<Archive, bsp::Leak>& leak) {
+  archive.values(leak.occupant);
   pass_all(archive, leak.way, sizeof(Vec3));
-  archive.numbers(leak.length_m);
+  archive.values(leak.length_m);
   pass(archive, leak.narrowest.at);
-  archive.numbers(leak.narrowest.width_m, leak.narrowest.height_m);
+  archive.values(leak.narrowest.width_m, leak.narrowest.height_m);
   pass_all(archive, leak.narrowest.polygons);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Enclosure>& enclosure) {
-  archive.template number_as<std::uint8_t>(enclosure.sealed);
-  archive.list(enclosure.in_solid);
-  archive.list(enclosure.leaking);
+void pass(Archive& archive, Passed<Archive, bsp::Enclosure>& enclosure) {
+  archive.template value_as<std::uint8_t>(enclosure.sealed);
+  archive.lists(enclosure.in_solid);
+  archive.lists(enclosure.leaking);
   bool leaks = enclosure.leak.has_value();
-  archive.template number_as<std::uint8_t>(leaks);
+  archive.template value_as<std::uint8_t>(leaks);
   if constexpr (Archive::kReads) {
     if (leaks) enclosure.leak.emplace();
   }
   if (leaks) pass(archive, *enclosure.leak);
 }
 template <typename Archive>
-void pass(Archive& archive, Of<Archive, bsp::Compiled>& partition) {
+void pass(Archive& archive, Passed<Archive, bsp::Compiled>& partition) {
   pass_all(archive, partition.surface.vertices, sizeof(Vec3));
   pass_all(archive, partition.surface.polygons, sizeof(Plane));
   if constexpr (Archive::kReads) partition.inside.resize(partition.surface.polygons.size());
   for (std::size_t i = 0; i < partition.inside.size(); ++i) {
     bool inside = partition.inside[i];
-    archive.template number_as<std::uint8_t>(inside);
+    archive.template value_as<std::uint8_t>(inside);
     if constexpr (Archive::kReads) partition.inside[i] = inside;
   }
   pass(archive, partition.tree);
-  archive.numbers(partition.portals.clusters);
+  archive.values(partition.portals.clusters);
   pass_all(archive, partition.portals.portals);
   pass(archive, partition.enclosure);
 }
@@ -202,8 +143,8 @@ std::optional<pvs::VisibleSets> get_visible(ByteReader& in) {
 std::string encode(const bsp::Compiled& partition, const std::optional<pvs::VisibleSets>& visible) {
   std::string body;
   ByteAppender out(body);
-  Writer writer(out);
-  pass(writer, partition);
+  Saver saver(out);
+  pass(saver, partition);
   put_visible(out, visible);
   return std::string(kMagic) + content_hash(body) + body;
 }
@@ -218,9 +159,9 @@ std::optional<Cached> decode(std::string_view bytes) {
   if (content_hash(bytes) != hash) return std::nullopt;
   try {
     ByteReader in(bytes);
-    Reader reader(in);
+    Loader loader(in);
     Cached cached;
-    pass(reader, cached.partition);
+    pass(loader, cached.partition);
     cached.visible = get_visible(in);
     in.expect_end();
     return cached;

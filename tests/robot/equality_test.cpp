@@ -2,10 +2,11 @@
 // The same frames give the same bytes in every host.
 #include <gtest/gtest.h>
 
+#include "base/file.hpp"
 #include "cli/batch_results.hpp"
 #include "cli/small_world.hpp"
-#include "log/commands.hpp"
 #include "robot/robot_world.hpp"
+#include "support/table_readers.hpp"
 
 namespace hallway::test {
 namespace {
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Plugins, RecordedRobot, testing::Values("slam_point", F
 using DrivingRobot = RecordedRobot;
 
 TEST_P(DrivingRobot, CommandsStandInATable) {
-  const auto commands = log::read_commands(robot("robot") / "commands.csv");
+  const auto commands = test::parse_commands(read_file(robot("robot") / "commands.csv"), "commands.csv");
   ASSERT_EQ(commands.size(), 60u);
   EXPECT_EQ(commands.back().iteration, 59u);
   EXPECT_GE(commands.front().linear_m_s, 0.25);

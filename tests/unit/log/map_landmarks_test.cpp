@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/file.hpp"
-#include "log/pose_covariances.hpp"
 #include "support/errors.hpp"
 #include "support/random_doubles.hpp"
+#include "support/table_readers.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::log {
@@ -73,7 +73,8 @@ TEST(PoseCovariances, ReadBackToTheSameBits) {
   out.word(kPoseCovarianceColumns).end_row();
   add_row(out, IterationCovariance{3, upper_triangle(matrix)});
   add_row(out, IterationCovariance{9, PoseCovariance{1.0}});
-  const std::vector<IterationCovariance> back = parse_pose_covariances(out.take(), "pose_covariances.csv");
+  const std::vector<IterationCovariance> back =
+      test::parse_pose_covariances(out.take(), "pose_covariances.csv");
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(back[0].iteration, 3u);
   EXPECT_EQ(back[0].covariance, upper_triangle(matrix));

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
+#include "base/file.hpp"
 #include "base/random.hpp"
-#include "log/commands.hpp"
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
@@ -18,10 +18,10 @@
 #include "log/poses.hpp"
 #include "log/row_file.hpp"
 #include "log/submap_poses.hpp"
-#include "log/timing.hpp"
 #include "support/data.hpp"
 #include "support/errors.hpp"
 #include "support/random_doubles.hpp"
+#include "support/table_readers.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::log {
@@ -181,7 +181,8 @@ TEST(Timing, ReadsBackToTheSameBits) {
   for (std::uint32_t i = 0; i < 300; ++i) {
     times.push_back({i, std::abs(values[2 * i]), std::abs(values[2 * i + 1])});
   }
-  const std::vector<IterationTime> back = parse_timing(print_timing(times), "timing.csv");
+  const std::vector<IterationTime> back =
+      test::parse_timing(print_table(kTimingColumns, times), "timing.csv");
   ASSERT_EQ(back.size(), times.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_EQ(back[i].iteration, times[i].iteration);
@@ -191,7 +192,7 @@ TEST(Timing, ReadsBackToTheSameBits) {
 }
 
 TEST(Timing, IsPrintedInTheDocumentedForm) {
-  EXPECT_EQ(print_timing(std::vector<IterationTime>{{2, 0.25, 0.125}}),
+  EXPECT_EQ(print_table(kTimingColumns, std::vector<IterationTime>{{2, 0.25, 0.125}}),
             "iteration,wall_ms,cpu_ms\n2,0.25,0.125\n");
 }
 
@@ -199,7 +200,8 @@ TEST(Commands, ReadBackToTheSameBits) {
   std::vector<IterationCommand> commands;
   const std::vector<double> values = test::random_doubles(600, 9);
   for (std::uint32_t i = 0; i < 300; ++i) commands.push_back({3 * i, values[2 * i], values[2 * i + 1]});
-  const std::vector<IterationCommand> back = parse_commands(print_commands(commands), "commands.csv");
+  const std::vector<IterationCommand> back =
+      test::parse_commands(print_table(kCommandColumns, commands), "commands.csv");
   ASSERT_EQ(back.size(), commands.size());
   for (std::size_t i = 0; i < commands.size(); ++i) {
     EXPECT_EQ(back[i].iteration, commands[i].iteration);
@@ -209,14 +211,14 @@ TEST(Commands, ReadBackToTheSameBits) {
 }
 
 TEST(Commands, ArePrintedInTheDocumentedForm) {
-  EXPECT_EQ(print_commands(std::vector<IterationCommand>{{2, 0.25, -0.5}}),
+  EXPECT_EQ(print_table(kCommandColumns, std::vector<IterationCommand>{{2, 0.25, -0.5}}),
             "iteration,linear_m_s,angular_rad_s\n2,0.25,-0.5\n");
 }
 
 TEST(Commands, WhatIsWrongIsNamedWithItsLine) {
   const std::string head = "iteration,linear_m_s,angular_rad_s\n0,1,0\n";
   for (const char* row : {"0,1,0\n", "1,nan,0\n", "1,1\n", "1,1,x\n", "1,1,0"}) {
-    const auto error = test::error_of([&] { parse_commands(head + row, "c.csv"); });
+    const auto error = test::error_of([&] { test::parse_commands(head + row, "c.csv"); });
     ASSERT_TRUE(error) << row;
     EXPECT_EQ(error->where().line, 3) << row;
   }
@@ -239,10 +241,10 @@ TEST(PlaneTable, ReadBackToTheSameBits) {
           .rms_m = v[19],
           .exclusive_share = v[20]}});
   }
-  const std::string text = print_planes(planes);
+  const std::string text = print_table(kPlaneColumns, planes);
   const std::vector<IterationPlane> back = parse_planes(text, "planes.csv");
   ASSERT_EQ(back.size(), planes.size());
-  EXPECT_EQ(print_planes(back), text);
+  EXPECT_EQ(print_table(kPlaneColumns, back), text);
   EXPECT_EQ(back[50].iteration, 16u);
   EXPECT_EQ(back[50].plane.id, UINT64_MAX - 50);
   EXPECT_TRUE(same_bits(back[50].plane.normal[1], values[21 * 50 + 1]));
@@ -251,7 +253,7 @@ TEST(PlaneTable, ReadBackToTheSameBits) {
 }
 
 TEST(PlaneTable, WhatIsWrongIsNamedWithItsLine) {
-  const std::string good = print_planes(std::vector<IterationPlane>{{2, {.id = 1}}});
+  const std::string good = print_table(kPlaneColumns, std::vector<IterationPlane>{{2, {.id = 1}}});
   const std::string row = good.substr(good.find('\n') + 1);
   EXPECT_EQ(parse_planes(good + row, "p.csv").size(), 2u) << "several of one iteration";
   for (const std::string& bad : {"1" + row.substr(1), "x" + row.substr(1), row.substr(0, row.size() - 1),
@@ -271,8 +273,8 @@ TEST(RowFile, HoldsMoreRowsThanItsMemory) {
     add_row(file.next_row(), commands.back());
   }
   file.close();
-  EXPECT_EQ(read_file(folder / "commands.csv"), print_commands(commands));
-  EXPECT_EQ(read_commands(folder / "commands.csv").size(), commands.size());
+  EXPECT_EQ(read_file(folder / "commands.csv"), print_table(kCommandColumns, commands));
+  EXPECT_EQ(test::parse_commands(read_file(folder / "commands.csv"), "commands.csv").size(), commands.size());
 }
 
 TEST(Tables, GoThroughFiles) {
@@ -284,7 +286,7 @@ TEST(Tables, GoThroughFiles) {
   times.close();
   EXPECT_EQ(read_poses(folder / "poses.csv").at(0).iteration, 1u);
   EXPECT_EQ(read_landmarks(folder / "landmarks.csv").at(0).id, 4u);
-  EXPECT_EQ(read_timing(folder / "timing.csv").at(0).wall_ms, 1.5);
+  EXPECT_EQ(test::parse_timing(read_file(folder / "timing.csv"), "timing.csv").at(0).wall_ms, 1.5);
 }
 
 TEST(Tables, ReadTheTruthOfARecordedLog) {
@@ -319,7 +321,7 @@ void map_landmarks(const std::string& text) {
   parse_map_landmarks(text, "t.csv");
 }
 void timing(const std::string& text) {
-  parse_timing(text, "t.csv");
+  test::parse_timing(text, "t.csv");
 }
 
 const std::string kPoses = "iteration,x,y,z,qw,qx,qy,qz\n4,0,0,0,1,0,0,0\n";
