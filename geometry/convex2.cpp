@@ -48,6 +48,13 @@ void drop_inner(std::vector<Vec2>& points) {
 
 }  // namespace
 
+PlaneAxes::PlaneAxes(const Vec3& normal) : n(normal) {
+  int least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  u = Vec3::Unit(least).cross(normal).normalized();
+  v = normal.cross(u);
+}
+
 Convex convex_hull(std::vector<Vec2> points) {
   drop_inner(points);
   std::sort(points.begin(), points.end(), before);

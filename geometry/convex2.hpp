@@ -16,6 +16,18 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Two axes of a plane, as the x and y of a map that is looked at from where the normal points: u x v = normal. They follow from the normal alone.
+struct PlaneAxes {
+  /// @param normal  unit
+  explicit PlaneAxes(const Vec3& normal);
+
+  Vec2 flat(const Vec3& point) const { return {u.dot(point), v.dot(point)}; }
+  /// The point of the plane at that offset along its normal.
+  Vec3 lift(const Vec2& point, double offset) const { return point.x() * u + point.y() * v + offset * n; }
+
+  Vec3 u, v, n;
+};
+
 /// The corners of the smallest convex polygon that holds the points, counter-clockwise from the one with the least (x, y); no three on
 /// a line. Equal points give one, collinear ones two. Coordinates are finite. O(n log n).
 Convex convex_hull(std::vector<Vec2> points);

@@ -88,7 +88,7 @@ class PeerPlugin final : public sdk::Plugin {
     if (points_.size() < static_cast<std::size_t>(min_points_)) return {};
     em::CloudScale scale{spacing_, noise_};
     if (!(spacing_ > 0.0 && noise_ > 0.0)) {
-      const em::CloudScale measured = em::measure_scale(points_, em::PointTree(points_));
+      const em::CloudScale measured = em::measure_scale(points_, KdTree(points_));
       if (!(spacing_ > 0.0)) scale.spacing = measured.spacing;
       if (!(noise_ > 0.0)) scale.noise = std::max(measured.noise, kLeastNoise * scale.spacing);
     }

@@ -20,14 +20,14 @@ void PlaneList::add(const std::vector<Vec3>& points, Members members) {
   if (members.empty()) return;
   std::sort(members.begin(), members.end());
   const Vec3 reference = points[members.front()];
-  em::PointSums sums;
+  em::Moments moments;
   std::vector<Vec3> own;
   own.reserve(members.size());
   for (const std::uint32_t i : members) {
     own.push_back(points[i]);
-    sums.add(points[i] - reference);
+    moments.add(points[i] - reference);
   }
-  const auto fit = em::fit_plane(sums);
+  const auto fit = em::fit_plane(moments);
   if (!fit) return;
   const Vec3 centroid = fit->centroid + reference;
   const Vec3 normal = em::orient(fit->normal, centroid);

@@ -90,13 +90,13 @@ std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
   for (std::size_t i = 1; i < own.size(); ++i) lowest = height(i) < height(lowest) ? i : lowest;
   std::rotate(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lowest), own.end());
   if (own.size() <= 4) return {to_array(own[0]), to_array(own[1]), to_array(own[2]), to_array(own.back())};
-  const sense::FaceAxes axes(face.plane);
+  const PlaneAxes axes(face.plane.normal);
   Vec2 low = axes.flat(own[0]), high = low;
   for (const Vec3& p : own) {
     low = low.cwiseMin(axes.flat(p));
     high = high.cwiseMax(axes.flat(p));
   }
-  const auto corner = [&](double x, double y) { return to_array(axes.lift({x, y})); };
+  const auto corner = [&](double x, double y) { return to_array(axes.lift({x, y}, face.plane.offset)); };
   return {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()),
           corner(low.x(), high.y())};
 }

@@ -23,7 +23,7 @@ struct Group {
 };
 
 /// A polygon's corners in its plane.
-Convex flattened(const csg::Surface& surface, const csg::SurfacePolygon& polygon, const FaceAxes& axes) {
+Convex flattened(const csg::Surface& surface, const csg::SurfacePolygon& polygon, const PlaneAxes& axes) {
   Convex flat;
   for (const std::uint32_t vertex : polygon.vertices) flat.push_back(axes.flat(surface.vertices[vertex]));
   return flat;
@@ -59,7 +59,7 @@ class Groups {
       const std::size_t root = root_of(i);
       Group& group = groups[root];
       group.plane = surface_.polygons[root].plane;
-      group.parts.push_back(flattened(surface_, surface_.polygons[i], FaceAxes(group.plane)));
+      group.parts.push_back(flattened(surface_, surface_.polygons[i], PlaneAxes(group.plane.normal)));
     }
     std::vector<Group> list;
     for (auto& [root, group] : groups) list.push_back(std::move(group));
@@ -89,11 +89,11 @@ Convex joined(const std::vector<const Convex*>& parts) {
   double sum = 0.0;
   std::vector<Vec2> points;
   for (const Convex* part : parts) {
-    sum += area_of(*part);
+    sum += polygon_area(*part);
     points.insert(points.end(), part->begin(), part->end());
   }
   Convex hull = hull_of(std::move(points), kFlatOfFace_m);
-  return area_of(hull) <= sum * (1.0 + kSameArea) ? hull : Convex{};
+  return polygon_area(hull) <= sum * (1.0 + kSameArea) ? hull : Convex{};
 }
 
 /// Joins parts as long as two of them are convex together.
@@ -114,13 +114,6 @@ void join_pairs(std::vector<Convex>& parts) {
 
 }  // namespace
 
-FaceAxes::FaceAxes(const Plane& plane) : foot(plane.offset * plane.normal) {
-  int least = 0;
-  plane.normal.cwiseAbs().minCoeff(&least);
-  u = Vec3::Unit(least).cross(plane.normal).normalized();
-  v = plane.normal.cross(u);
-}
-
 FacePlan make_face_plan(const csg::Surface& surface, const std::function<bool(std::size_t)>& wanted) {
   FacePlan plan;
   for (const csg::SurfacePolygon& polygon : surface.polygons) {
@@ -130,7 +123,7 @@ FacePlan make_face_plan(const csg::Surface& surface, const std::function<bool(st
     for (const std::uint32_t vertex : polygon.vertices) obstacle.vertices.push_back(surface.vertices[vertex]);
   }
   for (Group& group : Groups(surface, wanted).all()) {
-    const FaceAxes axes(group.plane);
+    const PlaneAxes axes(group.plane.normal);
     std::vector<const Convex*> parts;
     for (const Convex& part : group.parts) parts.push_back(&part);
     std::vector<Convex> faces;
@@ -145,7 +138,7 @@ FacePlan make_face_plan(const csg::Surface& surface, const std::function<bool(st
       if (face.size() < 3) continue;
       Polygon& polygon = plan.faces.emplace_back();
       polygon.plane = group.plane;
-      for (const Vec2& p : face) polygon.vertices.push_back(axes.lift(p));
+      for (const Vec2& p : face) polygon.vertices.push_back(axes.lift(p, group.plane.offset));
     }
   }
   return plan;

@@ -11,17 +11,6 @@
 
 namespace hallway::sense {
 
-/// Two axes of a plane, as the x and y of a map that is looked at from where the normal points.
-struct FaceAxes {
-  explicit FaceAxes(const Plane& plane);
-
-  Vec2 flat(const Vec3& point) const { return {u.dot(point), v.dot(point)}; }
-  Vec3 lift(const Vec2& point) const { return point.x() * u + point.y() * v + foot; }
-
-  Vec3 u, v;
-  Vec3 foot;  ///< the plane's point nearest to the origin
-};
-
 /// The world as a sensor of whole faces sees it. World frame, metres.
 struct FacePlan {
   std::vector<Polygon> faces;      ///< convex; the index is the face's number

@@ -10,7 +10,6 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "sense/spec_check.hpp"
-#include "trace/scene.hpp"
 
 namespace hallway::sense {
 namespace {
@@ -19,15 +18,7 @@ constexpr std::uint64_t kOfFace = 4096;  ///< random numbers of a face in a step
 constexpr double kFlatOfNoise_m = 1e-9;
 
 FaceViewSpec view_of(const PlaneSensorSpec& spec) {
-  const SpecCheck check(spec.name);
-  check.angle("horizontal_fov", spec.view.horizontal_fov);
-  check.angle("vertical_fov", spec.vertical_fov);
-  check.ranges(spec.view.min_range_m, spec.view.max_range_m);
-  check.not_negative("min_length_m", spec.view.min_length_m);
-  check.not_negative("noise_m", spec.noise_m);
-  check.not_negative("noise_angle", spec.noise_angle);
-  check.not_negative("noise_end_m", spec.noise_end_m);
-  check.mount(spec.T_body_sensor);
+  checked(spec);
   const auto refuse = [&](const std::string& problem) {
     throw Error(ErrorCode::kBadInput, problem, {.element = "sensor `" + printable(spec.name) + "`"});
   };
@@ -43,7 +34,7 @@ Vec2 middle_of(const Convex& polygon) {
   double twice = 0.0;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i - 1] - polygon[0], b = polygon[i] - polygon[0];
-    const double part = a.x() * b.y() - a.y() * b.x();
+    const double part = cross(a, b);
     sum += part * (a + b) / 3.0;
     twice += part;
   }
@@ -81,12 +72,7 @@ FaceSensor::FaceSensor(PlaneSensorSpec spec, const FacePlan& plan, std::uint64_t
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
 void FaceSensor::check_pose(const Pose& T_world_body, std::uint32_t step) const {
-  const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
-  if (T_world_sensor.t.allFinite() && T_world_sensor.q.coeffs().allFinite() &&
-      T_world_sensor.t.cwiseAbs().maxCoeff() <= trace::Scene::kMaxRayCoordinate)
-    return;
-  throw Error(ErrorCode::kBadInput, "the pose is not finite or too far from the origin",
-              {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
+  sense::check_pose(spec_.name, step, T_world_body * spec_.T_body_sensor);
 }
 
 void FaceSensor::observe(const Pose& T_world_body, std::uint32_t step,
@@ -114,7 +100,7 @@ std::optional<PlaneObservation> FaceSensor::make_seen(const VisibleFace& piece, 
     return sigma * noise_.normal(step, kOfFace * piece.face + which);
   };
   const Plane& plane = piece.seen.plane;
-  const FaceAxes axes(plane);
+  const PlaneAxes axes(plane.normal);
   Convex outline;
   for (const Vec3& vertex : piece.seen.vertices) outline.push_back(axes.flat(vertex));
   const Vec2 centre = middle_of(outline);
@@ -128,17 +114,16 @@ std::optional<PlaneObservation> FaceSensor::make_seen(const VisibleFace& piece, 
     const Vec2 from = a + deviate(3 + 2 * i, spec_.noise_end_m) * outward;
     const Vec2 to = b + deviate(4 + 2 * i, spec_.noise_end_m) * outward;
     const Vec2 normal(to.y() - from.y(), from.x() - to.x());
-    moved = cut(moved, normal, normal.dot(from));
+    moved = clip(moved, normal, normal.dot(from));
   }
   moved = hull_of(std::move(moved), kFlatOfNoise_m);
-  if (moved.size() < 3 || area_of(moved) <= 0.0) return std::nullopt;
+  if (moved.size() < 3 || polygon_area(moved) <= 0.0) return std::nullopt;
 
   const Vec3 tilt = deviate(1, spec_.noise_angle) * axes.u + deviate(2, spec_.noise_angle) * axes.v;
-  Quat turn = Quat::Identity();
-  if (tilt.norm() > 0.0) turn = Quat(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
-  const Vec3 hinge = axes.lift(centre);
+  const Quat turn = tilt.norm() > 0.0 ? rotation_by(tilt) : Quat::Identity();
+  const Vec3 hinge = axes.lift(centre, plane.offset);
   const Vec3 shift = hinge + deviate(0, spec_.noise_m) * plane.normal;
-  const auto place = [&](const Vec2& p) { return Vec3(shift + turn * (axes.lift(p) - hinge)); };
+  const auto place = [&](const Vec2& p) { return Vec3(shift + turn * (axes.lift(p, plane.offset) - hinge)); };
   PlaneObservation seen;
   seen.true_plane = piece.face;
   seen.plane.normal = (turn * plane.normal).normalized();

@@ -27,7 +27,7 @@ void keep_before(std::vector<Vec3>& vertices, const Plane& plane) {
 }
 
 /// Where rays from the sensor, which is in the origin, through an obstacle meet the plane of a face.
-Convex shadow(std::vector<Vec3> obstacle, const Plane& plane, const FaceAxes& axes) {
+Convex shadow(std::vector<Vec3> obstacle, const Plane& plane, const PlaneAxes& axes) {
   const double distance_m = -plane.offset;  // of the sensor
   keep_before(obstacle, {plane.normal, plane.offset + kOnFace_m});
   keep_before(obstacle, {-plane.normal, -(plane.offset + distance_m * (1.0 - 1e-6))});
@@ -84,7 +84,7 @@ void FaceView::find(const Pose& T_world_sensor, std::vector<VisibleFace>& pieces
 
 void FaceView::find_on(const Polygon& whole, std::uint32_t face, const std::vector<Polygon>& obstacles,
                        std::vector<VisibleFace>& pieces) const {
-  const FaceAxes axes(whole.plane);
+  const PlaneAxes axes(whole.plane.normal);
   std::vector<Vec2> corners;
   for (const Vec3& vertex : whole.vertices) corners.push_back(axes.flat(vertex));
   std::vector<Convex> visible{hull_of(corners, 0.0)};
@@ -94,14 +94,14 @@ void FaceView::find_on(const Polygon& whole, std::uint32_t face, const std::vect
   }
   std::vector<Vec2> points;
   for (const Convex& part : visible) {
-    if (area_of(part) > kNoArea_m2) points.insert(points.end(), part.begin(), part.end());
+    if (polygon_area(part) > kNoArea_m2) points.insert(points.end(), part.begin(), part.end());
   }
   const Convex hull = hull_of(std::move(points), kFlatOfPiece_m);
-  if (hull.size() < 3 || width_of(hull) < spec_.min_length_m) return;
+  if (hull.size() < 3 || width(hull) < spec_.min_length_m) return;
   VisibleFace& piece = pieces.emplace_back();
   piece.face = face;
   piece.seen.plane = whole.plane;
-  for (const Vec2& p : hull) piece.seen.vertices.push_back(axes.lift(p));
+  for (const Vec2& p : hull) piece.seen.vertices.push_back(axes.lift(p, whole.plane.offset));
 }
 
 }  // namespace hallway::sense

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "geometry/morton.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::sense {
@@ -24,12 +25,7 @@ void check_landmarks(const std::vector<Vec3>& landmarks) {
   if (landmarks.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::kBadInput, "there are more than 2^32 landmarks");
   }
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    if (landmarks[i].allFinite() && landmarks[i].cwiseAbs().maxCoeff() <= trace::Scene::kMaxRayCoordinate)
-      continue;
-    throw Error(ErrorCode::kBadInput, "its position is not finite or too far from the origin",
-                {.element = "landmark " + std::to_string(i)});
-  }
+  for (std::size_t i = 0; i < landmarks.size(); ++i) check_landmark(landmarks[i], i);
 }
 
 /// The clusters of all leaves that a point may be in, rising; empty if one of them has no cluster.
@@ -69,31 +65,26 @@ class Curve {
   }
 
   std::uint64_t place(const Vec3& point) const {
-    std::uint64_t place = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double step = std::clamp((point[axis] - low_[axis]) * steps_per_m_, 0.0, kSteps);
-      place |= spread(static_cast<std::uint64_t>(step)) << axis;
-    }
-    return place;
+    const auto step = [&](int axis) {
+      return static_cast<std::uint64_t>(std::clamp((point[axis] - low_[axis]) * steps_per_m_, 0.0, kSteps));
+    };
+    return morton_code(step(0), step(1), step(2));
   }
 
  private:
   static constexpr double kSteps = 2097151.0;  // 2^21 - 1
-
-  /// Puts two zeros between the lowest 21 bits.
-  static std::uint64_t spread(std::uint64_t bits) {
-    bits = (bits | bits << 32) & 0x001F00000000FFFFu;
-    bits = (bits | bits << 16) & 0x001F0000FF0000FFu;
-    bits = (bits | bits << 8) & 0x100F00F00F00F00Fu;
-    bits = (bits | bits << 4) & 0x10C30C30C30C30C3u;
-    return (bits | bits << 2) & 0x1249249249249249u;
-  }
 
   Vec3 low_ = Vec3::Zero();
   double steps_per_m_ = 0.0;
 };
 
 }  // namespace
+
+void check_landmark(const Vec3& position, std::size_t number) {
+  if (trace::Scene::takes(position)) return;
+  throw Error(ErrorCode::kBadInput, "its position is not finite or too far from the origin",
+              {.element = "landmark " + std::to_string(number)});
+}
 
 LandmarkIndex::LandmarkIndex(const std::vector<Vec3>& landmarks) {
   check_landmarks(landmarks);

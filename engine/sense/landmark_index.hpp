@@ -58,4 +58,7 @@ class LandmarkIndex {
   std::vector<std::uint32_t> numbers_;
 };
 
+/// Throws Error{kBadInput} that names the landmark if trace::Scene takes no rays that end at its position.
+void check_landmark(const Vec3& position, std::size_t number);
+
 }  // namespace hallway::sense

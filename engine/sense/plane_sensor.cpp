@@ -6,10 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "sense/spec_check.hpp"
-#include "trace/scene.hpp"
 
 namespace hallway::sense {
 namespace {
@@ -17,6 +15,12 @@ namespace {
 constexpr double kSameHeight_m = 1e-6;
 constexpr double kLevel = 1e-6;  ///< radians
 constexpr std::uint64_t kDeviates = 4;
+
+Vec3 at_height(const Vec2& point, double z) {
+  return {point.x(), point.y(), z};
+}
+
+}  // namespace
 
 const PlaneSensorSpec& checked(const PlaneSensorSpec& spec) {
   const SpecCheck check(spec.name);
@@ -31,12 +35,6 @@ const PlaneSensorSpec& checked(const PlaneSensorSpec& spec) {
   return spec;
 }
 
-Vec3 at_height(const Vec2& point, double z) {
-  return {point.x(), point.y(), z};
-}
-
-}  // namespace
-
 PlaneSensor::PlaneSensor(PlaneSensorSpec spec, const WallPlan& plan, std::uint64_t seed)
     : spec_(std::move(spec)),
       plan_(plan),
@@ -46,18 +44,15 @@ PlaneSensor::PlaneSensor(PlaneSensorSpec spec, const WallPlan& plan, std::uint64
 
 void PlaneSensor::check_pose(const Pose& T_world_body, std::uint32_t step) const {
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
-  const auto fail = [&](const std::string& problem) {
-    throw Error(ErrorCode::kBadInput, problem,
-                {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
-  };
-  const Vec3& at = T_world_sensor.t;
+  sense::check_pose(spec_.name, step, T_world_sensor);
   const Vec3 up = T_world_sensor.q * Vec3::UnitZ();
-  if (!at.allFinite() || !up.allFinite() || at.cwiseAbs().maxCoeff() > trace::Scene::kMaxRayCoordinate)
-    fail("the pose is not finite or too far from the origin");
-  if (up.head<2>().norm() > kLevel || up.z() < 0.0) fail("is not level, as a sensor of planes must be");
-  if (std::abs(at.z() - plan_.height_m) > kSameHeight_m) {
-    fail("is at the height " + format_double(at.z()) + " m; a sensor of planes stays at one, here " +
-         format_double(plan_.height_m) + " m");
+  if (up.head<2>().norm() > kLevel || up.z() < 0.0)
+    refuse_pose(spec_.name, step, "is not level, as a sensor of planes must be");
+  const double height_m = T_world_sensor.t.z();
+  if (std::abs(height_m - plan_.height_m) > kSameHeight_m) {
+    refuse_pose(spec_.name, step,
+                "is at the height " + format_double(height_m) + " m; a sensor of planes stays at one, here " +
+                    format_double(plan_.height_m) + " m");
   }
 }
 

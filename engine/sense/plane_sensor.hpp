@@ -36,6 +36,10 @@ struct PlaneSensorSpec {
   double noise_end_m = 0.0;
 };
 
+/// Returns `spec`. Throws Error{kBadInput} naming the sensor and the member if the name is empty, an angle is not in (0, 2 pi], the ranges are negative,
+/// infinite, or minimum above maximum, or another length or a noise is negative or not finite.
+const PlaneSensorSpec& checked(const PlaneSensorSpec& spec);
+
 /// Sees the walls of a plan as planes with corners, as the simulations of thesis 4.3 do: what is within the view and not hidden by
 /// something nearer, each piece of a wall for itself, from its empty side. What is seen is decided in the horizontal plane alone; a
 /// piece is as high as its wall.
@@ -45,9 +49,7 @@ struct PlaneSensorSpec {
 /// nothing about identity. All random numbers are keyed by (seed, sensor's name, step, wall, part of the wall).
 class PlaneSensor {
  public:
-  /// Keeps a reference to `plan`, which must outlive the sensor. Throws Error{kBadInput} naming the sensor and the member if the name
-  /// is empty, an angle is not in (0, 2 pi], the ranges are negative, infinite, or minimum above maximum, or another length or
-  /// a noise is negative or not finite.
+  /// Keeps a reference to `plan`, which must outlive the sensor. Throws as checked() does.
   PlaneSensor(PlaneSensorSpec spec, const WallPlan& plan, std::uint64_t seed);
 
   /// Replaces `out` by what is seen in a step. O(obstacles in view * walls in view + obstacles).

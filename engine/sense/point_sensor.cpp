@@ -5,9 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/text.hpp"
 #include "sense/spec_check.hpp"
 
 namespace hallway::sense {
@@ -39,12 +37,7 @@ void PointSensor::observe(const Pose& T_world_body, std::uint32_t step, std::spa
                           unsigned threads, std::vector<PointObservation>& out) const {
   constexpr std::size_t kGrain = 256;
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
-  const Vec3& viewpoint = T_world_sensor.t;
-  if (!viewpoint.allFinite() || viewpoint.cwiseAbs().maxCoeff() > trace::Scene::kMaxRayCoordinate ||
-      !T_world_sensor.q.coeffs().allFinite()) {
-    throw Error(ErrorCode::kBadInput, "the pose is not finite or too far from the origin",
-                {.element = "sensor `" + printable(spec_.name) + "`, step " + std::to_string(step)});
-  }
+  check_pose(spec_.name, step, T_world_sensor);
   std::vector<VisiblePoint> visible;
   visibility_.find(T_world_sensor, moved, threads, visible);
   std::vector<Seen> all(visible.size());

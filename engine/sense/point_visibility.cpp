@@ -90,10 +90,7 @@ void PointVisibility::find_moved(const Pose& T_world_sensor, std::span<const Lan
   std::vector<VisiblePoint> in_view;
   std::vector<Vec3> ends;
   for (const LandmarkPlace& at : moved) {
-    if (!at.place.allFinite() || at.place.cwiseAbs().maxCoeff() > trace::Scene::kMaxRayCoordinate) {
-      throw Error(ErrorCode::kBadInput, "its position is not finite or too far from the origin",
-                  {.element = "landmark " + std::to_string(at.landmark)});
-    }
+    check_landmark(at.place, at.landmark);
     const Vec3 point = to_sensor * (at.place - T_world_sensor.t);
     if (!field_of_view_.contains(point)) continue;
     in_view.push_back({at.landmark, point});

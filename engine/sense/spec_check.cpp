@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
+#include "trace/scene.hpp"
 
 namespace hallway::sense {
 namespace {
@@ -48,6 +49,16 @@ void SpecCheck::mount(const Pose& T_body_sensor) const {
 void SpecCheck::fail(const std::string& member, const std::string& problem) const {
   throw Error(ErrorCode::kBadInput, member + " " + problem,
               {.element = "sensor `" + printable(sensor_) + "`"});
+}
+
+void refuse_pose(const std::string& sensor, std::uint32_t step, const std::string& problem) {
+  throw Error(ErrorCode::kBadInput, problem,
+              {.element = "sensor `" + printable(sensor) + "`, step " + std::to_string(step)});
+}
+
+void check_pose(const std::string& sensor, std::uint32_t step, const Pose& T_world_sensor) {
+  if (!trace::Scene::takes(T_world_sensor.t) || !T_world_sensor.q.coeffs().allFinite())
+    refuse_pose(sensor, step, "the pose is not finite or too far from the origin");
 }
 
 }  // namespace hallway::sense

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "geometry/se3.hpp"
@@ -28,5 +29,11 @@ class SpecCheck {
 
   const std::string& sensor_;
 };
+
+/// Throws Error{kBadInput} that names the sensor and the step, for a pose at which it cannot be.
+[[noreturn]] void refuse_pose(const std::string& sensor, std::uint32_t step, const std::string& problem);
+
+/// Refuses a pose of the sensor that is not finite, or farther from the origin than trace::Scene::kMaxRayCoordinate.
+void check_pose(const std::string& sensor, std::uint32_t step, const Pose& T_world_sensor);
 
 }  // namespace hallway::sense

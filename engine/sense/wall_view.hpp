@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/intervals.hpp"
 #include "geometry/se3.hpp"
-#include "sense/intervals.hpp"
 #include "sense/wall_plan.hpp"
 
 namespace hallway::sense {

@@ -21,8 +21,7 @@ std::unique_ptr<const QueryBackend> make_backend(TriangleSet triangles, Backend 
 }
 
 inline void check_point(const Vec3& point) {
-  const auto within = [](double value) { return std::abs(value) <= Scene::kMaxRayCoordinate; };
-  if (!(within(point.x()) && within(point.y()) && within(point.z()))) refuse_point();  // also for NaN
+  if (!Scene::takes(point)) refuse_point();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -54,6 +55,11 @@ class Scene {
   static constexpr double kMaxCoordinate = 1e7;
   /// Rays may start this far from the world's origin, in metres along each axis.
   static constexpr double kMaxRayCoordinate = 1e8;
+  /// Whether a ray may start or end at a point: it is finite and within kMaxRayCoordinate.
+  static bool takes(const Vec3& point) {
+    const auto within = [](double value) { return std::abs(value) <= kMaxRayCoordinate; };  // false for NaN
+    return within(point.x()) && within(point.y()) && within(point.z());
+  }
 
   /// Copies the triangles and builds what the backend needs: O(n log n). An empty mesh is a scene that is
   /// never hit. Throws Error{kBadInput} naming the triangle or vertex if an index is out of range, or a

@@ -44,39 +44,32 @@ class Auto {
   std::map<std::uint32_t, PlaneMemory> memories_;  ///< by sensor
 };
 
-class First {
+/// An algorithm that keeps nothing from frame to frame.
+template <typename OptionsOf, Extraction (*kExtract)(std::span<const Vec3>, const OptionsOf&)>
+class Forgetful {
  public:
-  using Options = Em1Options;
-  static constexpr hw_plugin_info_t kInfo =
-      make_info("em1", "Planes by EM, algorithm 1",
-                "Finds finite planes, all of them fitted anew in every iteration (thesis 3.5.2).");
-  static auto rows() { return em1_options(); }
-
-  explicit First(const Options& options) : options_(options) {}
-  Extraction extract(std::span<const Vec3> cloud, std::uint32_t) const {
-    return extract_em1(cloud, options_);
-  }
+  using Options = OptionsOf;
+  explicit Forgetful(const Options& options) : options_(options) {}
+  Extraction extract(std::span<const Vec3> cloud, std::uint32_t) const { return kExtract(cloud, options_); }
   void forget() {}
 
  private:
   Options options_;
 };
 
-class Second {
- public:
-  using Options = Em2Options;
+struct First : Forgetful<Em1Options, &extract_em1> {
+  using Forgetful::Forgetful;
+  static constexpr hw_plugin_info_t kInfo =
+      make_info("em1", "Planes by EM, algorithm 1",
+                "Finds finite planes, all of them fitted anew in every iteration (thesis 3.5.2).");
+  static auto rows() { return em1_options(); }
+};
+
+struct Second : Forgetful<Em2Options, &extract_em2> {
+  using Forgetful::Forgetful;
   static constexpr hw_plugin_info_t kInfo = make_info(
       "em2", "Planes by EM, algorithm 2", "Finds finite planes, one grown after the other (thesis 3.5.3).");
   static auto rows() { return em2_options(); }
-
-  explicit Second(const Options& options) : options_(options) {}
-  Extraction extract(std::span<const Vec3> cloud, std::uint32_t) const {
-    return extract_em2(cloud, options_);
-  }
-  void forget() {}
-
- private:
-  Options options_;
 };
 
 hw_point3_t to_c(const Vec3& p) {

@@ -12,15 +12,6 @@
 
 namespace hallway::em {
 
-/// A frame on a plane: coordinates (a, b) along `u` and `v` from `origin`, height along `normal`.
-/// Orthonormal, right-handed (u x v = normal).
-struct PlaneFrame {
-  Vec3 origin = Vec3::Zero();
-  Vec3 u = Vec3::UnitX();
-  Vec3 v = Vec3::UnitY();
-  Vec3 normal = Vec3::UnitZ();
-};
-
 /// Axis-parallel box by its middle and half sizes.
 struct Box {
   Vec3 middle = Vec3::Zero();

@@ -5,15 +5,25 @@
 
 namespace hallway::em {
 
+bool OrientedBox::touches(const Vec3& middle, const Vec3& half_sides) const {
+  const Vec3 d = middle - centre;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const double reach = half[static_cast<Eigen::Index>(i)] + axes[i].cwiseAbs().dot(half_sides);
+    // A little more than touching, lest rounding shut out what contains() lets in.
+    if (std::abs(axes[i].dot(d)) > reach * (1.0 + 1e-9)) return false;
+  }
+  return true;
+}
+
 bool maximise(Candidate& plane, std::span<const Vec3> points) {
-  PointSums sums;
+  Moments moments;
   std::vector<Vec3> members;
   members.reserve(plane.members.size());
   for (const std::uint32_t i : plane.members) {
-    sums.add(points[i]);
+    moments.add(points[i]);
     members.push_back(points[i]);
   }
-  const auto fit = fit_plane(sums);
+  const auto fit = fit_plane(moments);
   if (!fit) return false;
   plane.fit = *fit;
   plane.outline = outline_of(members, fit->normal, fit->centroid);
@@ -30,7 +40,7 @@ std::optional<Candidate> plane_through(std::span<const Vec3> points, std::vector
 
 OrientedBox matching_space(const Candidate& plane, double expansion, double distance) {
   const Rectangle& bounds = plane.outline.rectangle;
-  const FlatFrame& frame = plane.outline.frame;
+  const PlaneFrame& frame = plane.outline.frame;
   OrientedBox box;
   box.centre = frame.lift(bounds.centre);
   box.axes[0] = bounds.axis.x() * frame.u + bounds.axis.y() * frame.v;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,10 +10,23 @@
 
 #include "em/core/plane_fit.hpp"
 #include "em/core/plane_shape.hpp"
-#include "em/core/point_tree.hpp"
-#include "em/core/types.hpp"
 
 namespace hallway::em {
+
+/// A box at any angle.
+struct OrientedBox {
+  Vec3 centre = Vec3::Zero();
+  std::array<Vec3, 3> axes{};  ///< unit, perpendicular
+  Vec3 half = Vec3::Zero();    ///< half length along each axis
+
+  bool contains(const Vec3& p) const {
+    const Vec3 d = p - centre;
+    return std::abs(axes[2].dot(d)) <= half[2] && std::abs(axes[0].dot(d)) <= half[0] &&
+           std::abs(axes[1].dot(d)) <= half[1];
+  }
+  /// False only if no point of the box about `middle` with sides along the coordinate axes lies inside.
+  bool touches(const Vec3& middle, const Vec3& half_sides) const;
+};
 
 /// A plane while it is sought: its equation, its bounds, and the points that match it, which others may match too.
 struct Candidate {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "em/core/robust_range.hpp"
+#include "geometry/morton.hpp"
 
 namespace hallway::em {
 namespace {
@@ -25,15 +26,6 @@ bool usable(const Vec3& p) {
   return (p.array().abs() <= kLargestCoordinate).all();
 }
 
-/// Bits 0..11 of `value` moved three apart.
-std::uint64_t spread_bits(std::uint64_t value) {
-  value = (value | (value << 16)) & 0x0000ff0000ffULL;
-  value = (value | (value << 8)) & 0x00f00f00f00fULL;
-  value = (value | (value << 4)) & 0x0c30c30c30c3ULL;
-  value = (value | (value << 2)) & 0x249249249249ULL;
-  return value;
-}
-
 std::uint64_t cell_of(double value, double low, double scale) {
   constexpr double kLast = (1 << kAxisBits) - 1;
   return static_cast<std::uint64_t>(std::clamp((value - low) * scale, 0.0, kLast));
@@ -47,9 +39,9 @@ RawVector<std::uint64_t> words_of(std::span<const Vec3> cloud, const Bounds& bou
   workers.run_parts(cloud.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& p = cloud[i];
-      const std::uint64_t code = spread_bits(cell_of(p.x(), bounds.low.x(), scale)) |
-                                 spread_bits(cell_of(p.y(), bounds.low.y(), scale)) << 1 |
-                                 spread_bits(cell_of(p.z(), bounds.low.z(), scale)) << 2;
+      const std::uint64_t code =
+          morton_code(cell_of(p.x(), bounds.low.x(), scale), cell_of(p.y(), bounds.low.y(), scale),
+                      cell_of(p.z(), bounds.low.z(), scale));
       words[i] = code << kIndexBits | i;
     }
   });

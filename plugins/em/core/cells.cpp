@@ -119,6 +119,11 @@ CellMap<std::uint8_t> spread(const CellGrid& grid, const CellMap<std::uint8_t>& 
 
 }  // namespace
 
+CellGrid part_of(const CellGrid& grid, const CellRange& range) {
+  return {grid.low_a + range.first_column * grid.cell, grid.low_b + range.first_row * grid.cell, grid.cell,
+          range.last_column - range.first_column + 1, range.last_row - range.first_row + 1};
+}
+
 CellGrid grid_over(double low_a, double high_a, double low_b, double high_b, double cell, std::size_t most) {
   CellGrid grid{low_a, low_b, cell, cells_along(high_a - low_a, cell), cells_along(high_b - low_b, cell)};
   while (static_cast<double>(grid.columns) * grid.rows > static_cast<double>(most)) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
+
+#include "em/core/types.hpp"
 
 namespace hallway::em {
 
@@ -20,6 +24,13 @@ struct CellGrid {
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   double high_a() const { return low_a + cell * columns; }
   double high_b() const { return low_b + cell * rows; }
+  /// Whether (a, b) lies inside of the rectangle or on its border.
+  bool contains(const Vec2& at) const {
+    return at.x() >= low_a && at.y() >= low_b && at.x() <= high_a() && at.y() <= high_b();
+  }
+  Vec2 middle(int column, int row) const {
+    return {low_a + (column + 0.5) * cell, low_b + (row + 0.5) * cell};
+  }
   /// Cell of (a, b), which must lie inside of the rectangle or on its border.
   std::size_t at(double a, double b) const {
     const int column = static_cast<int>((a - low_a) / cell);
@@ -32,6 +43,26 @@ struct CellGrid {
            static_cast<std::size_t>(column);
   }
 };
+
+/// Rectangle of cells, ends included; empty at first.
+struct CellRange {
+  int first_column = std::numeric_limits<int>::max(), last_column = -1;
+  int first_row = first_column, last_row = -1;
+
+  bool empty() const { return last_column < first_column; }
+  bool contains(int column, int row) const {
+    return column >= first_column && column <= last_column && row >= first_row && row <= last_row;
+  }
+  void extend(int column, int row) {
+    first_column = std::min(first_column, column);
+    last_column = std::max(last_column, column);
+    first_row = std::min(first_row, row);
+    last_row = std::max(last_row, row);
+  }
+};
+
+/// The grid of a range of the cells of another.
+CellGrid part_of(const CellGrid& grid, const CellRange& range);
 
 /// The grid over the rectangle with the cells asked for, or larger ones where there would be more than
 /// `most`.

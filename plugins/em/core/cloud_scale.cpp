@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "em/core/plane_fit.hpp"
+#include "geometry/median.hpp"
 
 namespace hallway::em {
 namespace {
@@ -22,12 +23,12 @@ struct Flatness {
 
 std::optional<Flatness> flattest(std::span<const Vec3> points, const std::vector<Neighbour>& neighbours) {
   std::optional<Flatness> best;
-  PointSums sums;
+  Moments moments;
   std::size_t used = 0;
   for (const std::size_t size : kSizes) {
     if (size > neighbours.size()) break;
-    for (; used < size; ++used) sums.add(points[neighbours[used].place] - points[neighbours[0].place]);
-    const auto fit = fit_plane(sums);
+    for (; used < size; ++used) moments.add(points[neighbours[used].index] - points[neighbours[0].index]);
+    const auto fit = fit_plane(moments);
     if (!fit) continue;
     const double n = static_cast<double>(size);
     const double across = std::max(fit->variances[0], 0.0);
@@ -38,38 +39,32 @@ std::optional<Flatness> flattest(std::span<const Vec3> points, const std::vector
   return best;
 }
 
-double middle_value(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 double noise_of(std::vector<Flatness> neighbourhoods) {
   std::sort(neighbourhoods.begin(), neighbourhoods.end(), [](const Flatness& a, const Flatness& b) {
     return a.ratio != b.ratio ? a.ratio < b.ratio : a.noise < b.noise;
   });
   std::vector<double> noises;
   for (std::size_t i = 0; 4 * i < neighbourhoods.size(); ++i) noises.push_back(neighbourhoods[i].noise);
-  return middle_value(noises);
+  return noises.empty() ? 0.0 : median(noises);
 }
 
 }  // namespace
 
-CloudScale measure_scale(std::span<const Vec3> points, const PointTree& tree) {
+CloudScale measure_scale(std::span<const Vec3> points, const KdTree& tree) {
   if (points.size() < kSizes.front()) return {};
   std::vector<double> spacings;
   std::vector<Flatness> neighbourhoods;
+  std::vector<Neighbour> neighbours;
   const std::size_t samples = std::min(kSamples, points.size());
   for (std::size_t i = 0; i < samples; ++i) {
     const Vec3& p = points[i * points.size() / samples];
-    const std::vector<Neighbour> neighbours = tree.nearest(p, kSizes.back());
+    tree.nearest(p, kSizes.back(), neighbours);
     // k points other than p within r: one point per area pi r^2 / k.
     const double k = static_cast<double>(kSpacingNeighbours);
-    spacings.push_back(std::sqrt(M_PI * neighbours[kSpacingNeighbours].squared_distance / k));
+    spacings.push_back(std::sqrt(M_PI * neighbours[kSpacingNeighbours].distance2 / k));
     if (const auto flat = flattest(points, neighbours)) neighbourhoods.push_back(*flat);
   }
-  return {middle_value(spacings), noise_of(std::move(neighbourhoods))};
+  return {median(spacings), noise_of(std::move(neighbourhoods))};
 }
 
 }  // namespace hallway::em

@@ -3,8 +3,7 @@
 
 #include <span>
 
-#include "em/core/point_tree.hpp"
-#include "em/core/types.hpp"
+#include "geometry/kd_tree.hpp"
 
 namespace hallway::em {
 
@@ -18,6 +17,6 @@ struct CloudScale {
 /// Looks at a few hundred neighbourhoods, spread evenly over the points in their order; all zero for fewer than 12 points. A
 /// neighbourhood's noise is its scatter along its normal, at the size at which it is flattest; the flattest quarter
 /// of the neighbourhoods counts, since the others lie at seams or hold outliers.
-CloudScale measure_scale(std::span<const Vec3> points, const PointTree& tree);
+CloudScale measure_scale(std::span<const Vec3> points, const KdTree& tree);
 
 }  // namespace hallway::em

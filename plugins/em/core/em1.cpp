@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "em/core/candidate.hpp"
+#include "em/core/cloud_scale.hpp"
 #include "em/core/description.hpp"
 #include "em/core/dice.hpp"
 #include "em/core/plane_merge.hpp"
@@ -14,6 +15,20 @@
 
 namespace hallway::em {
 namespace {
+
+constexpr std::array<OptionRow<Em1Options>, 4> kEm1OwnRows{{
+    {"max_iterations", "iterations", 1, 100000, "The search ends after so many iterations.", nullptr,
+     &Em1Options::max_iterations},
+    {"patience", "iterations", 1, 100000,
+     "The search ends when so many iterations in a row have brought no plane and no points.", nullptr,
+     &Em1Options::patience},
+    {"new_planes", "planes", 1, 1000, "Random planes that an iteration starts.", nullptr,
+     &Em1Options::new_planes},
+    {"tries", "points", 1, 100000, "Random points that an iteration draws at most to start them from.",
+     nullptr, &Em1Options::tries},
+}};
+
+constexpr auto kEm1Rows = joined_rows(common_rows<Em1Options>(), kEm1OwnRows);
 
 // An iteration that matches fewer points more than this share of the cloud brings nothing new.
 constexpr double kProgress = 0.001;
@@ -23,7 +38,7 @@ class Em1Search {
  public:
   Em1Search(std::span<const Vec3> points, const Em1Options& options)
       : points_(points), options_(options), dice_(static_cast<std::uint64_t>(options.seed)) {
-    lengths_ = lengths_of(options, measure_scale(points, PointTree(points)));
+    lengths_ = lengths_of(options, measure_scale(points, KdTree(points)));
     merge_bounds_ = {std::cos(options.merge_angle_deg * M_PI / 180.0), lengths_.merge_offset,
                      lengths_.expansion};
   }
@@ -107,8 +122,8 @@ class Em1Search {
         second = other;
       }
     }
-    if (second.squared_distance > lengths_.seed_distance * lengths_.seed_distance) return std::nullopt;
-    return plane_through(points_, {start, first.place, second.place});
+    if (second.distance2 > lengths_.seed_distance * lengths_.seed_distance) return std::nullopt;
+    return plane_through(points_, {start, first.index, second.index});
   }
 
   /// Maximisation and what keeps the planes apart (7 to 10).
@@ -137,6 +152,14 @@ class Em1Search {
 };
 
 }  // namespace
+
+std::span<const OptionRow<Em1Options>> em1_options() {
+  return kEm1Rows;
+}
+
+void Em1Options::validate() const {
+  check_ranges(*this, em1_options());
+}
 
 Extraction extract_em1(std::span<const Vec3> cloud, const Em1Options& options) {
   options.validate();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "em/core/candidate.hpp"
+#include "em/core/cloud_scale.hpp"
 #include "em/core/dense_part.hpp"
 #include "em/core/description.hpp"
 #include "em/core/dice.hpp"
@@ -14,6 +15,23 @@
 
 namespace hallway::em {
 namespace {
+
+constexpr std::array<OptionRow<Em2Options>, 5> kEm2OwnRows{{
+    {"max_planes", "planes", 1, 1000000, "The search ends after so many planes that were grown and kept.",
+     nullptr, &Em2Options::max_planes},
+    {"tries", "points", 1, 1000000,
+     "The search ends after so many random points in a row that gave no plane.", nullptr, &Em2Options::tries},
+    {"grow_steps", "steps", 1, 100000, "A plane is widened so often at most.", nullptr,
+     &Em2Options::grow_steps},
+    {"min_density", "1", 0.0, 1.0,
+     "A plane ends where its density falls below this share of that around its seed; 0: no check.",
+     &Em2Options::min_density, nullptr},
+    {"density_step", "length", 0.0, 1e9,
+     "Width of the strips in which density is watched; 0: 4 times the spacing of the points.",
+     &Em2Options::density_step, nullptr},
+}};
+
+constexpr auto kEm2Rows = joined_rows(common_rows<Em2Options>(), kEm2OwnRows);
 
 // Widening a plane turns it at first; from then on it has ended when it gains no points.
 constexpr int kTurningSteps = 3;
@@ -86,10 +104,11 @@ class Em2Search {
   }
 
   std::optional<Candidate> seed_plane(std::uint32_t start) const {  // 4
-    const std::vector<Neighbour> nearest = tree_.nearest(points_[start], 3);
+    std::vector<Neighbour> nearest;
+    tree_.nearest(points_[start], 3, nearest);
     const double reach = lengths_.seed_distance;
-    if (nearest.size() < 3 || nearest[2].squared_distance > reach * reach) return std::nullopt;
-    return plane_through(points_, {nearest[0].place, nearest[1].place, nearest[2].place});
+    if (nearest.size() < 3 || nearest[2].distance2 > reach * reach) return std::nullopt;
+    return plane_through(points_, {nearest[0].index, nearest[1].index, nearest[2].index});
   }
 
   /// Widens a plane step by step (5); false if it has too few points on the way. One that has not even
@@ -133,7 +152,7 @@ class Em2Search {
   std::span<const Vec3> points_;
   const Em2Options& options_;
   Dice dice_;
-  PointTree tree_;
+  KdTree tree_;
   Lengths lengths_;
   MergeBounds merge_bounds_;
   DensityCheck density_check_;
@@ -143,6 +162,14 @@ class Em2Search {
 };
 
 }  // namespace
+
+std::span<const OptionRow<Em2Options>> em2_options() {
+  return kEm2Rows;
+}
+
+void Em2Options::validate() const {
+  check_ranges(*this, em2_options());
+}
 
 Extraction extract_em2(std::span<const Vec3> cloud, const Em2Options& options) {
   options.validate();

@@ -106,22 +106,13 @@ void describe(const CanonicalCloud& cloud, const Places& places, const PlaneFram
   const Vec3 normal = cloud.frame.axes.transpose() * plane.normal;
   std::vector<Vec3> members;
   members.reserve(places.size());
-  Vec3 sum = Vec3::Zero();
-  double squares = 0.0;
-  for (const std::uint32_t i : places) {
-    members.push_back(cloud.points.at(i));
-    const Vec3 from = members.back() - patch.origin;
-    sum += from;
-    squares += std::pow(normal.dot(from), 2);
-  }
-  const auto n = static_cast<double>(places.size());
-  const Vec3 mean = sum / n;
-  plane.centroid = cloud.frame.to_cloud(patch.origin + mean - normal.dot(mean) * normal);
-  plane.rms = std::sqrt(squares / n);
-  Outline outline = outline_of(members, normal, patch.origin);
-  outline.frame.origin = anchor;
-  outline.frame.u = cloud.frame.axes * outline.frame.u;
-  outline.frame.v = cloud.frame.axes * outline.frame.v;
+  for (const std::uint32_t i : places) members.push_back(cloud.points.at(i));
+  const Footprint foot = footprint_of(members, normal, patch.origin);
+  plane.centroid = cloud.frame.to_cloud(foot.centroid);
+  plane.rms = foot.rms;
+  Outline outline = foot.outline;
+  outline.frame = {anchor, cloud.frame.axes * outline.frame.u, cloud.frame.axes * outline.frame.v,
+                   plane.normal};
   plane.corners = corners_of(outline);
   plane.hull = hull_of(outline);
 }

@@ -26,19 +26,13 @@ struct Site {
   Vec3 high = -low;
 
   explicit Site(const Patch& patch) {
-    const CellGrid& grid = patch.grid;
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        if (patch.log_density[grid.place(column, row)] == kNotCovered) continue;
-        const double a = grid.low_a + (column + 0.5) * grid.cell;
-        const double b = grid.low_b + (row + 0.5) * grid.cell;
-        middles.push_back(patch.frame.origin + a * patch.frame.u + b * patch.frame.v);
-        low = low.cwiseMin(middles.back());
-        high = high.cwiseMax(middles.back());
-      }
-    }
-    low -= Vec3::Constant(grid.cell);
-    high += Vec3::Constant(grid.cell);
+    visit_cells(patch, [&](const Vec3& middle) {
+      middles.push_back(middle);
+      low = low.cwiseMin(middle);
+      high = high.cwiseMax(middle);
+    });
+    low -= Vec3::Constant(patch.grid.cell);
+    high += Vec3::Constant(patch.grid.cell);
   }
   bool boxes_meet(const Site& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
@@ -47,17 +41,12 @@ struct Site {
 
 /// Whether two patches overlap in a seam, not more, and meet there without a step.
 bool meet(const Patch& larger, const Patch& smaller, const Site& at_smaller) {
-  const CellGrid& grid = larger.grid;
   double shared = 0.0;
   double away = 0.0;
   for (const Vec3& middle : at_smaller.middles) {
-    const Vec3 from = middle - larger.frame.origin;
-    const double a = larger.frame.u.dot(from);
-    const double b = larger.frame.v.dot(from);
-    if (a < grid.low_a || b < grid.low_b || a > grid.high_a() || b > grid.high_b()) continue;
-    if (larger.log_density[grid.at(a, b)] == kNotCovered) continue;
+    if (!larger.covers(larger.frame.flat(middle))) continue;
     shared += 1.0;
-    away += std::abs(larger.frame.normal.dot(from));
+    away += std::abs(larger.frame.height(middle));
   }
   return shared >= kFewestShared && shared <= kBeside * static_cast<double>(at_smaller.middles.size()) &&
          away <= shared * kStep * (larger.sigma + smaller.sigma);

@@ -22,7 +22,7 @@ constexpr double kMostSquares =
 
 /// The members by the squares that they lie in.
 SquareMembers squares_of(std::span<const Vec3> cloud, const Plane& plane, double side) {
-  const FlatFrame frame = flat_frame(plane.normal, plane.centroid);
+  const PlaneFrame frame = flat_frame(plane.normal, plane.centroid);
   double farthest = 0.0;
   for (const PointIndex member : plane.members)
     farthest = std::max(farthest, frame.flat(cloud[member]).cwiseAbs().maxCoeff());
@@ -63,20 +63,12 @@ std::vector<PointIndex> take_part(SquareMembers& squares) {
 Plane part_of(std::span<const Vec3> cloud, const Plane& whole, std::vector<PointIndex> members) {
   Plane part = whole;
   std::vector<Vec3> points;
-  Vec3 sum = Vec3::Zero();
-  double squares = 0.0;
-  for (const PointIndex member : members) {
-    points.push_back(cloud[member]);
-    sum += points.back() - whole.centroid;
-    squares += std::pow(whole.normal.dot(points.back() - whole.centroid), 2);
-  }
-  const auto n = static_cast<double>(members.size());
-  const Vec3 mean = sum / n;
-  part.centroid = whole.centroid + mean - whole.normal.dot(mean) * whole.normal;
-  part.rms = std::sqrt(squares / n);
-  const Outline outline = outline_of(points, whole.normal, whole.centroid);
-  part.corners = corners_of(outline);
-  part.hull = hull_of(outline);
+  for (const PointIndex member : members) points.push_back(cloud[member]);
+  const Footprint foot = footprint_of(points, whole.normal, whole.centroid);
+  part.centroid = foot.centroid;
+  part.rms = foot.rms;
+  part.corners = corners_of(foot.outline);
+  part.hull = hull_of(foot.outline);
   part.members = std::move(members);
   return part;
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/median.hpp"
+
 namespace hallway::em {
 namespace {
 
@@ -30,10 +32,7 @@ std::uint16_t median_count(const CellMap<std::uint16_t>& counts, std::vector<std
   for (const std::uint16_t count : counts) {
     if (count > 0) sorted.push_back(count);
   }
-  if (sorted.empty()) return 0;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return sorted.empty() ? std::uint16_t{0} : median(sorted);
 }
 
 /// Area that `cells` square cells cover, those at the border by half.

@@ -29,8 +29,7 @@ bool alike(const Seed& left, const Seed& right, double sigma) {
 std::vector<double> heights_of(const PointField& field, const Grown& grown) {
   std::vector<double> heights;
   heights.reserve(grown.members.size());
-  for (const std::uint32_t i : grown.members)
-    heights.push_back(grown.frame.normal.dot(field.points.at(i) - grown.frame.origin));
+  for (const std::uint32_t i : grown.members) heights.push_back(grown.frame.height(field.points.at(i)));
   return heights;
 }
 

@@ -68,7 +68,7 @@ double support_of(const Around& around, const PlaneFrame& frame, double reach) {
 std::optional<Seed> seed_of(const std::vector<Vec3>& around, const PlaneFrame& frame, double reach) {
   Moments moments;
   for (const Vec3& p : around) {
-    if (std::abs(frame.normal.dot(p - frame.origin)) <= reach) moments.add(p - frame.origin);
+    if (std::abs(frame.height(p)) <= reach) moments.add(p - frame.origin);
   }
   if (moments.weight() < static_cast<double>(kFewest)) return std::nullopt;
   const PlaneFit fit = moments.fit(frame.origin);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/median.hpp"
+
 namespace hallway::em {
 namespace {
 
@@ -72,9 +74,7 @@ double Mixture::noise() const {
   if (patches.empty()) return 0.0;
   std::vector<double> sigmas;
   for (const Patch& patch : patches) sigmas.push_back(patch.sigma);
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  return median(sigmas);
 }
 
 std::vector<Mixture::Reach> Mixture::reaches(double outlier) const {

@@ -23,20 +23,11 @@ constexpr double kGrowth =
 constexpr double kMarginSigmas = 4.0;
 constexpr double kMarginCells = 4.0;
 
-/// Rectangle of cells, ends included; empty if last < first.
-struct CellRange {
-  int first_column, last_column, first_row, last_row;
-};
-
 CellRange range_of(const CellGrid& grid, const CellMap<std::uint8_t>& cells) {
-  CellRange range{grid.columns, -1, grid.rows, -1};
+  CellRange range;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      if (cells[grid.place(column, row)] == 0) continue;
-      range.first_column = std::min(range.first_column, column);
-      range.last_column = std::max(range.last_column, column);
-      range.first_row = std::min(range.first_row, row);
-      range.last_row = std::max(range.last_row, row);
+      if (cells[grid.place(column, row)] != 0) range.extend(column, row);
     }
   }
   return range;
@@ -112,8 +103,7 @@ void take_support(Patch& patch, const CellMap<float>& own, const CellMap<std::ui
   patch.density = density_within(patch.grid, support, likely, own, patch.density);
   set_densities(patch, own, support, likely);
   const CellRange range = range_of(patch.grid, support);
-  if (range.last_column < range.first_column) return;
-  crop(patch, range.first_column, range.last_column, range.first_row, range.last_row);
+  if (!range.empty()) crop(patch, range);
 }
 
 /// Cells of a patch's grid: its points, what it may cover, the largest part of that which hangs together, and
@@ -148,33 +138,26 @@ void Mixture::crop_to_points(std::uint32_t j, int margin, SlabPoints& slab) {
   CellGrid& grid = patches[j].grid;
   const auto column_of = [&grid](double a) { return static_cast<int>((a - grid.low_a) / grid.cell); };
   const auto row_of = [&grid](double b) { return static_cast<int>((b - grid.low_b) / grid.cell); };
-  CellRange range{grid.columns, -1, grid.rows, -1};
+  CellRange range;
   for (std::size_t k = 0; k < slab.size(); ++k) {
     const std::uint32_t label = best_[slab.place[k]];
     if (label != j && label != kNoPlane) continue;
-    range.first_column = std::min(range.first_column, column_of(slab.a[k]));
-    range.last_column = std::max(range.last_column, column_of(slab.a[k]));
-    range.first_row = std::min(range.first_row, row_of(slab.b[k]));
-    range.last_row = std::max(range.last_row, row_of(slab.b[k]));
+    range.extend(column_of(slab.a[k]), row_of(slab.b[k]));
   }
-  if (range.last_column < 0) return;
-  const int first_column = std::max(range.first_column - margin, 0);
-  const int first_row = std::max(range.first_row - margin, 0);
-  const int last_column = std::min(range.last_column + margin, grid.columns - 1);
-  const int last_row = std::min(range.last_row + margin, grid.rows - 1);
+  if (range.empty()) return;
+  const CellRange wide{
+      std::max(range.first_column - margin, 0), std::min(range.last_column + margin, grid.columns - 1),
+      std::max(range.first_row - margin, 0), std::min(range.last_row + margin, grid.rows - 1)};
   std::size_t kept = 0;
   for (std::size_t k = 0; k < slab.size(); ++k) {
-    const int column = column_of(slab.a[k]);
-    const int row = row_of(slab.b[k]);
-    if (column < first_column || column > last_column || row < first_row || row > last_row) continue;
+    if (!wide.contains(column_of(slab.a[k]), row_of(slab.b[k]))) continue;
     slab.place[kept] = slab.place[k];
     slab.a[kept] = slab.a[k];
     slab.b[kept] = slab.b[k];
     slab.height[kept++] = slab.height[k];
   }
   slab.resize(kept);
-  grid = {grid.low_a + first_column * grid.cell, grid.low_b + first_row * grid.cell, grid.cell,
-          last_column - first_column + 1, last_row - first_row + 1};
+  grid = part_of(grid, wide);
 }
 
 CellMap<float> Mixture::own_points(std::uint32_t j, Scratch& scratch, CellMap<float>& density) const {

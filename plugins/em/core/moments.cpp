@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "em/core/moments.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "geometry/symmetric.hpp"
 
 namespace hallway::em {
 
@@ -37,12 +37,12 @@ Vec3 Moments::variances() const {
 }
 
 PlaneFit Moments::fit(const Vec3& reference) const {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance());
+  const Spectrum<3> axes = spectrum(covariance());
   PlaneFit result;
-  result.variances = solver.eigenvalues().cwiseMax(0.0);
+  result.variances = axes.values.cwiseMax(0.0);
   result.frame.origin = reference + mean();
-  result.frame.normal = solver.eigenvectors().col(0).normalized();
-  result.frame.u = solver.eigenvectors().col(2).normalized();
+  result.frame.normal = axes.vectors.col(0).normalized();
+  result.frame.u = axes.vectors.col(2).normalized();
   result.frame.v = result.frame.normal.cross(result.frame.u).normalized();
   return result;
 }

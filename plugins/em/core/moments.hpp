@@ -51,6 +51,8 @@ class Moments {
   double weight() const { return weight_; }
   /// Mean; the weight must be positive.
   Vec3 mean() const { return Vec3(x_, y_, z_) / weight_; }
+  /// Mean squared distance from the place that the points are given relative to.
+  double mean_square() const { return xx_ / weight_ + (yy_ / weight_ + zz_ / weight_); }
   /// Covariance about the mean (divided by the weight).
   Mat3 covariance() const;
   /// Variances along the principal axes, ascending and not negative, in closed form; quicker than fit(), good

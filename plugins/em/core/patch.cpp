@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hallway::em {
@@ -28,44 +27,10 @@ void cover(Patch& patch, const CellMap<std::uint8_t>& support) {
   }
 }
 
-/// Middle of a cell in space.
-Vec3 middle_of(const PlaneFrame& frame, const CellGrid& grid, int column, int row) {
-  return frame.origin + (grid.low_a + (column + 0.5) * grid.cell) * frame.u +
-         (grid.low_b + (row + 0.5) * grid.cell) * frame.v;
-}
-
-/// Calls visit(middle) for each cell that the patch covers.
-template <typename Visit>
-void visit_cells(const Patch& patch, Visit visit) {
-  for (int row = 0; row < patch.grid.rows; ++row) {
-    for (int column = 0; column < patch.grid.columns; ++column) {
-      if (patch.log_density[patch.grid.place(column, row)] == kNotCovered) continue;
-      visit(middle_of(patch.frame, patch.grid, column, row));
-    }
-  }
-}
-
-struct Reach {
-  double low_a = std::numeric_limits<double>::infinity();
-  double low_b = low_a;
-  double high_a = -low_a;
-  double high_b = -low_a;
-};
-
-void widen(Reach& bounds, const PlaneFrame& frame, const Patch& patch) {
-  visit_cells(patch, [&](const Vec3& middle) {
-    const double a = frame.u.dot(middle - frame.origin);
-    const double b = frame.v.dot(middle - frame.origin);
-    bounds.low_a = std::min(bounds.low_a, a);
-    bounds.high_a = std::max(bounds.high_a, a);
-    bounds.low_b = std::min(bounds.low_b, b);
-    bounds.high_b = std::max(bounds.high_b, b);
-  });
-}
-
-void mark(const Patch& from, const PlaneFrame& frame, const CellGrid& grid, CellMap<std::uint8_t>& support) {
+void mark(const Patch& from, const Patch& to, CellMap<std::uint8_t>& support) {
   visit_cells(from, [&](const Vec3& middle) {
-    support[grid.at(frame.u.dot(middle - frame.origin), frame.v.dot(middle - frame.origin))] = 1;
+    const Vec2 at = to.frame.flat(middle);
+    support[to.grid.at(at.x(), at.y())] = 1;
   });
 }
 
@@ -101,10 +66,8 @@ Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uin
   CellMap<std::uint8_t> support(result.grid.size(), 0);
   for (int row = 0; row < result.grid.rows; ++row) {
     for (int column = 0; column < result.grid.columns; ++column) {
-      const double a = result.grid.low_a + (column + 0.5) * result.grid.cell;
-      const double b = result.grid.low_b + (row + 0.5) * result.grid.cell;
-      if (a < old.low_a || b < old.low_b || a > old.high_a() || b > old.high_b()) continue;
-      support[result.grid.place(column, row)] = marked[old.at(a, b)];
+      const Vec2 at = result.grid.middle(column, row);
+      if (old.contains(at)) support[result.grid.place(column, row)] = marked[old.at(at.x(), at.y())];
     }
   }
   cover(result, support);
@@ -112,31 +75,25 @@ Patch restricted(const Patch& patch, const CellGrid& old, const CellMap<std::uin
 }
 
 bool touching(const Patch& left, const Patch& right) {
-  const CellGrid& grid = left.grid;
   bool found = false;
-  visit_cells(right, [&](const Vec3& middle) {
-    const double a = left.frame.u.dot(middle - left.frame.origin);
-    const double b = left.frame.v.dot(middle - left.frame.origin);
-    if (found || a < grid.low_a || b < grid.low_b || a > grid.high_a() || b > grid.high_b()) return;
-    found = left.log_density[grid.at(a, b)] != kNotCovered;
-  });
+  visit_cells(right, [&](const Vec3& middle) { found = found || left.covers(left.frame.flat(middle)); });
   return found;
 }
 
 Patch joined(const Patch& left, const Patch& right, const PlaneFrame& frame) {
-  Reach bounds;
-  widen(bounds, frame, left);
-  widen(bounds, frame, right);
+  Eigen::AlignedBox2d bounds;
+  for (const Patch* patch : {&left, &right})
+    visit_cells(*patch, [&](const Vec3& middle) { bounds.extend(frame.flat(middle)); });
   Patch patch;
   patch.frame = frame;
   patch.sigma = std::max(left.sigma, right.sigma);
   patch.level = std::max(left.level, right.level);
   patch.density = std::max(left.density, right.density);
-  patch.grid = with_margin(bounds.low_a, bounds.high_a, bounds.low_b, bounds.high_b,
+  patch.grid = with_margin(bounds.min().x(), bounds.max().x(), bounds.min().y(), bounds.max().y(),
                            std::max(left.grid.cell, right.grid.cell));
   CellMap<std::uint8_t> support(patch.grid.size(), 0);
-  mark(left, frame, patch.grid, support);
-  mark(right, frame, patch.grid, support);
+  mark(left, patch, support);
+  mark(right, patch, support);
   cover(patch, support);
   return patch;
 }
@@ -150,16 +107,13 @@ Patch denser(const Patch& patch, double factor) {
   return result;
 }
 
-void crop(Patch& patch, int first_column, int last_column, int first_row, int last_row) {
+void crop(Patch& patch, const CellRange& range) {
   const CellGrid old = patch.grid;
-  patch.grid = {old.low_a + first_column * old.cell, old.low_b + first_row * old.cell, old.cell,
-                last_column - first_column + 1, last_row - first_row + 1};
+  patch.grid = part_of(old, range);
   CellMap<float> kept(patch.grid.size());
-  for (int row = first_row; row <= last_row; ++row) {
-    for (int column = first_column; column <= last_column; ++column) {
-      kept[patch.grid.place(column - first_column, row - first_row)] =
-          patch.log_density[old.place(column, row)];
-    }
+  for (int row = 0; row < patch.grid.rows; ++row) {
+    const float* first = &patch.log_density[old.place(range.first_column, range.first_row + row)];
+    std::copy(first, first + patch.grid.columns, &kept[patch.grid.place(0, row)]);
   }
   patch.log_density = std::move(kept);
 }

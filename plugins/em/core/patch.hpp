@@ -22,6 +22,11 @@ struct Patch {
   double density = 0.0;        ///< points per area
   CellGrid grid;               ///< in the frame's coordinates
   CellMap<float> log_density;  ///< log of points per area of each cell, or kNotCovered
+
+  /// Whether a cell that the patch covers holds a place of its plane.
+  bool covers(const Vec2& at) const {
+    return grid.contains(at) && log_density[grid.at(at.x(), at.y())] != kNotCovered;
+  }
 };
 
 /// Log of the normal density of noise `sigma` at its peak.
@@ -47,7 +52,18 @@ Patch joined(const Patch& left, const Patch& right, const PlaneFrame& frame);
 /// The patch for a cloud with `factor` times as many points.
 Patch denser(const Patch& patch, double factor);
 
-/// Keeps the columns and rows given (ends included) of the grid.
-void crop(Patch& patch, int first_column, int last_column, int first_row, int last_row);
+/// Keeps a range of the cells of the grid; not an empty one.
+void crop(Patch& patch, const CellRange& range);
+
+/// Calls visit(middle) with the place in space of each cell that the patch covers.
+template <typename Visit>
+void visit_cells(const Patch& patch, Visit visit) {
+  for (int row = 0; row < patch.grid.rows; ++row) {
+    for (int column = 0; column < patch.grid.columns; ++column) {
+      if (patch.log_density[patch.grid.place(column, row)] != kNotCovered)
+        visit(patch.frame.lift(patch.grid.middle(column, row)));
+    }
+  }
+}
 
 }  // namespace hallway::em

@@ -1,36 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <optional>
 
-#include "em/core/types.hpp"
+#include "em/core/moments.hpp"
 
 namespace hallway::em {
-
-/// Sums over points from which their plane follows, so that points can be added and taken out without a look at the others.
-/// The sums are about the origin: they resolve a spread of about 1e-7 of the distance from there, so place the origin near.
-struct PointSums {
-  double weight = 0.0;               ///< number of points, or the sum of their weights
-  Vec3 sum = Vec3::Zero();           ///< of the coordinates
-  std::array<double, 6> products{};  ///< of xx, xy, xz, yy, yz, zz
-
-  void add(const Vec3& p, double w = 1.0) {
-    weight += w;
-    const Vec3 q = w * p;
-    sum += q;
-    products[0] += q.x() * p.x();
-    products[1] += q.x() * p.y();
-    products[2] += q.x() * p.z();
-    products[3] += q.y() * p.y();
-    products[4] += q.y() * p.z();
-    products[5] += q.z() * p.z();
-  }
-  void remove(const Vec3& p, double w = 1.0) { add(p, -w); }
-
-  PointSums& operator+=(const PointSums& other);
-  PointSums& operator-=(const PointSums& other);
-};
 
 /// The plane with the least sum of squared distances to some points.
 struct FittedPlane {
@@ -48,7 +23,7 @@ struct FittedPlane {
 
 /// Total least squares: the normal is the eigenvector of the least eigenvalue of the scatter about the centroid (the last
 /// singular vector of the centred points; thesis 3.5.2, step 7). Empty for fewer than three points and where they coincide,
-/// lie on a line, or are not finite: then no plane is better than another.
-std::optional<FittedPlane> fit_plane(const PointSums& sums);
+/// lie on a line, or are not finite: then no plane is better than another. The moments resolve a spread of about 1e-7 of the distance from the place that they are relative to.
+std::optional<FittedPlane> fit_plane(const Moments& moments);
 
 }  // namespace hallway::em

@@ -6,19 +6,16 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/intervals.hpp"
+
 namespace hallway::em {
 namespace {
-
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-};
 
 Interval shadow(const std::array<Vec3, 4>& corners, const Vec3& axis) {
   Interval interval{axis.dot(corners[0]), axis.dot(corners[0])};
   for (const Vec3& corner : corners) {
-    interval.low = std::min(interval.low, axis.dot(corner));
-    interval.high = std::max(interval.high, axis.dot(corner));
+    interval.from = std::min(interval.from, axis.dot(corner));
+    interval.to = std::max(interval.to, axis.dot(corner));
   }
   return interval;
 }
@@ -64,7 +61,7 @@ bool outlines_meet(const Outline& a, const Outline& b, double gap) {
     for (const Vec3& axis : sides_of(*outline)) {
       const Interval on_a = shadow(corners_a, axis);
       const Interval on_b = shadow(corners_b, axis);
-      if (std::max(on_a.low, on_b.low) - std::min(on_a.high, on_b.high) > gap) return false;
+      if (std::max(on_a.from, on_b.from) - std::min(on_a.to, on_b.to) > gap) return false;
     }
   }
   return true;

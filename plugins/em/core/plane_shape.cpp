@@ -52,13 +52,14 @@ Vec3 orient(const Vec3& normal, const Vec3& on_plane) {
   return normal;
 }
 
-FlatFrame flat_frame(const Vec3& normal, const Vec3& origin) {
+PlaneFrame flat_frame(const Vec3& normal, const Vec3& origin) {
   // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
   const double sign = std::copysign(1.0, normal.z());
   const double a = -1.0 / (sign + normal.z());
   const double b = normal.x() * normal.y() * a;
-  FlatFrame frame;
+  PlaneFrame frame;
   frame.origin = origin;
+  frame.normal = normal;
   frame.u = Vec3(1.0 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
   frame.v = Vec3(b, sign + normal.y() * normal.y() * a, -normal.y());
   return frame;
@@ -120,6 +121,19 @@ std::vector<Vec3> hull_of(const Outline& outline) {
   hull.reserve(outline.hull.size());
   for (const Vec2& p : outline.hull) hull.push_back(outline.frame.lift(p));
   return hull;
+}
+
+Footprint footprint_of(std::span<const Vec3> points, const Vec3& normal, const Vec3& origin) {
+  Vec3 sum = Vec3::Zero();
+  double squares = 0.0;
+  for (const Vec3& p : points) {
+    sum += p - origin;
+    squares += std::pow(normal.dot(p - origin), 2);
+  }
+  const auto n = static_cast<double>(points.size());
+  const Vec3 mean = sum / n;
+  return {origin + mean - normal.dot(mean) * normal, std::sqrt(squares / n),
+          outline_of(points, normal, origin)};
 }
 
 double density(double points, double area) {

@@ -14,20 +14,8 @@ namespace hallway::em {
 /// origin, the one whose first component that is not zero is positive. So normal . x <= 0 on the plane.
 Vec3 orient(const Vec3& normal, const Vec3& on_plane);
 
-/// Coordinates on a plane: u x v = normal.
-struct FlatFrame {
-  Vec3 origin = Vec3::Zero();
-  Vec3 u = Vec3::UnitX();
-  Vec3 v = Vec3::UnitY();
-
-  /// A point's foot on the plane.
-  Vec2 flat(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
-  /// Where a place of the plane lies in space.
-  Vec3 lift(const Vec2& p) const { return origin + p.x() * u + p.y() * v; }
-};
-
 /// A frame on the plane through `origin`; its axes are a function of the unit normal alone.
-FlatFrame flat_frame(const Vec3& normal, const Vec3& origin);
+PlaneFrame flat_frame(const Vec3& normal, const Vec3& origin);
 
 /// A rectangle at any angle.
 struct Rectangle {
@@ -50,7 +38,7 @@ Rectangle tightest_rectangle(std::span<const Vec2> hull);
 
 /// What points cover on a plane.
 struct Outline {
-  FlatFrame frame;
+  PlaneFrame frame;
   std::vector<Vec2> hull;
   Rectangle rectangle;
 };
@@ -61,6 +49,16 @@ Outline outline_of(std::span<const Vec3> points, const Vec3& normal, const Vec3&
 /// The corners in space, counter-clockwise seen from where the frame's u x v points.
 std::array<Vec3, 4> corners_of(const Outline& outline);
 std::vector<Vec3> hull_of(const Outline& outline);
+
+/// What points show of a plane.
+struct Footprint {
+  Vec3 centroid = Vec3::Zero();  ///< the foot of their mean
+  double rms = 0.0;              ///< distance of the points from the plane
+  Outline outline;
+};
+
+/// The footprint of points, at least one, on the plane through `origin`.
+Footprint footprint_of(std::span<const Vec3> points, const Vec3& normal, const Vec3& origin);
 
 /// Points per area; 0 where there is no area.
 double density(double points, double area);

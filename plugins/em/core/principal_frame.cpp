@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "em/core/principal_frame.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 
 #include "em/core/robust_range.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace hallway::em {
 namespace {
@@ -126,14 +125,14 @@ CloudFrame principal_frame(std::span<const Vec3> cloud, Workers& workers) {
   if (sums.count < 1) return frame;
   const Vec3 mean = mean_of(sums);
   frame.origin += step * mean;
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance_of(sums, mean));
-  const Vec3 first = towards_most(cloud, frame.origin, solver.eigenvectors().col(2).normalized(), workers);
-  const Vec3 second = towards_most(cloud, frame.origin, solver.eigenvectors().col(1).normalized(), workers);
+  const Spectrum<3> principal = spectrum(covariance_of(sums, mean));
+  const Vec3 first = towards_most(cloud, frame.origin, principal.vectors.col(2).normalized(), workers);
+  const Vec3 second = towards_most(cloud, frame.origin, principal.vectors.col(1).normalized(), workers);
   frame.axes.col(0) = first;
   frame.axes.col(1) = second;
   frame.axes.col(2) = first.cross(second);
   // A side of length s, evenly filled, has the variance s^2 / 12.
-  frame.extent = step * (12.0 * solver.eigenvalues().cwiseMax(0.0).reverse()).cwiseSqrt();
+  frame.extent = step * (12.0 * principal.values.cwiseMax(0.0).reverse()).cwiseSqrt();
   return frame;
 }
 

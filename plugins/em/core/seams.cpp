@@ -12,7 +12,7 @@ constexpr double kWithin = 2.0;        // standard deviations
 constexpr double kLeastTurn = 0.9659;  // cosine of 15 degrees
 
 bool near(const Vec3& p, const Patch& patch) {
-  return std::abs(patch.frame.normal.dot(p - patch.frame.origin)) <= kWithin * patch.sigma;
+  return std::abs(patch.frame.height(p)) <= kWithin * patch.sigma;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/median.hpp"
+
 namespace hallway::em {
 namespace {
 
@@ -69,9 +71,7 @@ double PlaneSearch::rougher_noise(double sigma, const std::vector<std::uint32_t>
     if (seed.noise > kRougher * sigma && seed.noise < kRoughest * sigma) noise.push_back(seed.noise);
   }
   if (noise.size() < kRoughSeeds) return 0.0;
-  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
-  std::nth_element(noise.begin(), middle, noise.end());
-  return *middle;
+  return median(noise);
 }
 
 void PlaneSearch::accept(Grown&& grown, std::vector<std::uint8_t>& claimed) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "em/core/neighbours.hpp"
+#include "geometry/median.hpp"
 
 namespace hallway::em {
 namespace {
@@ -117,18 +118,9 @@ std::optional<Seed> seed_at(const std::vector<Level>& levels, std::uint32_t plac
   return seed;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The seed of `seeds` (at least one) with the median noise.
 Seed with_median_noise(std::vector<Seed> seeds) {
-  const auto middle = seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 2);
-  std::nth_element(seeds.begin(), middle, seeds.end(),
-                   [](const Seed& left, const Seed& right) { return left.noise < right.noise; });
-  return *middle;
+  return median(seeds, [](const Seed& left, const Seed& right) { return left.noise < right.noise; });
 }
 
 /// The first of `seeds` that are at least so wide, up to `most`.
@@ -170,7 +162,7 @@ double noise_of_seeds(const std::vector<Seed>& seeds) {
   const Seed among_all = with_median_noise(first_wide(seeds, 0.0, best));
   std::vector<double> radii;
   for (std::size_t k = 0; k < (seeds.size() + 1) / 2; ++k) radii.push_back(seeds[k].radius);
-  const double narrowest = kNarrow * median(std::move(radii));
+  const double narrowest = kNarrow * median(radii);
   if (among_all.radius >= narrowest) return among_all.noise;
   return with_median_noise(first_wide(seeds, narrowest, best)).noise;
 }

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "geometry/median.hpp"
+
 namespace hallway::em {
 namespace {
 
@@ -17,19 +19,6 @@ bool usable(const Vec3& p) {
 
 bool lies_before(const Vec3& a, const Vec3& b) {
   return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());
-}
-
-// A far outlier does not move it, unlike a mean or the middle of a box.
-Vec3 middle_of(const std::vector<Vec3>& points) {
-  Vec3 middle;
-  std::vector<double> values(points.size());
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    middle[axis] = *half;
-  }
-  return middle;
 }
 
 }  // namespace
@@ -48,7 +37,7 @@ SortedCloud sort_cloud(std::span<const Vec3> cloud) {
     sorted.place_of[i] = static_cast<std::uint32_t>(sorted.points.size() - 1);
   }
   if (sorted.points.empty()) return sorted;
-  sorted.origin = middle_of(sorted.points);
+  sorted.origin = median_of_coordinates(sorted.points);
   for (Vec3& p : sorted.points) p -= sorted.origin;
   return sorted;
 }

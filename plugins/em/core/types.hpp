@@ -9,6 +9,21 @@
 
 namespace hallway::em {
 
+/// A frame on a plane: coordinates (a, b) along `u` and `v` from `origin`, height along `normal`.
+/// Orthonormal, right-handed (u x v = normal).
+struct PlaneFrame {
+  Vec3 origin = Vec3::Zero();
+  Vec3 u = Vec3::UnitX();
+  Vec3 v = Vec3::UnitY();
+  Vec3 normal = Vec3::UnitZ();
+
+  /// A point's foot on the plane, and how high the point is above it.
+  Vec2 flat(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
+  double height(const Vec3& p) const { return normal.dot(p - origin); }
+  /// Where a place of the plane lies in space.
+  Vec3 lift(const Vec2& p) const { return origin + p.x() * u + p.y() * v; }
+};
+
 /// Index of a point of the cloud, in the order given.
 using PointIndex = std::uint32_t;
 

@@ -8,16 +8,12 @@
 #include <cstdint>
 #include <tuple>
 
+#include "geometry/median.hpp"
+
 namespace hallway::icp {
 namespace {
 
 constexpr std::size_t kNear = 8;  // fewer than so many copies of a point do not hide the next one
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 using Cube = std::array<double, 3>;
 
@@ -43,23 +39,19 @@ double spacing_of(const Points& places, const KdTree& tree) {
   for (const Vec3& p : places) {
     tree.nearest(p, kNear, near);
     const auto other =
-        std::find_if(near.begin(), near.end(), [](const Neighbour& each) { return each.distance2_m2 > 0.0; });
-    if (other != near.end()) distances.push_back(std::sqrt(other->distance2_m2));
+        std::find_if(near.begin(), near.end(), [](const Neighbour& each) { return each.distance2 > 0.0; });
+    if (other != near.end()) distances.push_back(std::sqrt(other->distance2));
   }
-  return distances.empty() ? 0.0 : median_of(distances);
+  return distances.empty() ? 0.0 : median(distances);
 }
 
 double extent_of(const Points& points) {
   if (points.empty()) return 0.0;
-  Vec3 middle;
+  const Vec3 middle = median_of_coordinates(points);
   std::vector<double> values(points.size());
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
-    middle[axis] = median_of(values);
-  }
   std::transform(points.begin(), points.end(), values.begin(),
                  [&middle](const Vec3& p) { return (p - middle).norm(); });
-  return 2.0 * median_of(values);
+  return 2.0 * median(values);
 }
 
 Points thinned(const Points& points, double cube_m) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "icp/core/kd_tree.hpp"
+#include "geometry/kd_tree.hpp"
+#include "icp/core/types.hpp"
 
 namespace hallway::icp {
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
-#include "icp/core/overlapping_grid.hpp"
+#include "geometry/hash_grid.hpp"
+#include "icp/core/types.hpp"
 
 namespace hallway::icp {
 
@@ -21,7 +23,7 @@ inline constexpr std::uint64_t kNoLandmark = ~std::uint64_t{0};
 class PointMap {
  public:
   /// @param separation_m  above 0
-  explicit PointMap(double separation_m) : grid_(separation_m) {}
+  explicit PointMap(double separation_m) : separation_m_(separation_m), grid_(separation_m) {}
 
   /// Takes a point of the map frame in. @return its landmark
   std::uint64_t add(const Vec3& p);
@@ -32,7 +34,12 @@ class PointMap {
   Points near(const Vec3& place, double radius_m) const;
 
  private:
-  OverlappingGrid grid_;
+  /// The landmark that was first seen nearest to `p`, within the separation; of several the one with the smallest number.
+  std::optional<std::uint32_t> known_near(const Vec3& p) const;
+
+  double separation_m_;
+  HashGrid grid_;                 // of the places where landmarks were first seen
+  std::vector<Vec3> first_seen_;  // likewise
   std::vector<Landmark> landmarks_;
 };
 

@@ -86,7 +86,7 @@ class Search {
       }
       residuals_.push_back(rules_.metric == Metric::point_to_plane
                                ? std::abs(pair.normal.dot(pair.target - moved))
-                               : std::sqrt(found->distance2_m2));
+                               : std::sqrt(found->distance2));
       pairs_.push_back(pair);
       matched_.push_back(found->index);
     }

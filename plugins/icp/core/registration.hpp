@@ -3,8 +3,9 @@
 
 #include <string_view>
 
-#include "icp/core/kd_tree.hpp"
+#include "geometry/kd_tree.hpp"
 #include "icp/core/robust.hpp"
+#include "icp/core/types.hpp"
 
 namespace hallway::icp {
 

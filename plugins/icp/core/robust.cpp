@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "geometry/median.hpp"
+
 namespace hallway::icp {
 
 double scale_of(std::vector<double> residuals) {
   if (residuals.empty()) return 0.0;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median(residuals);
 }
 
 double weight_of(Kernel kernel, double residual, double scale) {

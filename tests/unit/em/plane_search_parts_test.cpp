@@ -43,20 +43,21 @@ TEST(SortedCloud, LeavesOutWhatIsNotFiniteAndKeepsEachPlaceOnce) {
   EXPECT_TRUE(sort_cloud({}).points.empty());
 }
 
-TEST(PointTree, FindsWhatALookAtAllPointsFinds) {
+TEST(OrientedBox, ATreeFindsWhatALookAtAllPointsFinds) {
   const std::vector<Vec3> points = planted::cloud_of(planted::random_patch(1), 1);
-  const PointTree tree(points);
+  const KdTree tree(points);
+  std::vector<Neighbour> nearest;
   planted::Numbers numbers(1);
   for (int round = 0; round < 50; ++round) {
     const Vec3 p = points[numbers.below(points.size())] + 0.2 * planted::random_direction(numbers);
     std::vector<Neighbour> expected;
     for (std::uint32_t i = 0; i < points.size(); ++i) expected.push_back({(points[i] - p).squaredNorm(), i});
     std::sort(expected.begin(), expected.end());
-    const std::vector<Neighbour> nearest = tree.nearest(p, 20);
+    tree.nearest(p, 20, nearest);
     ASSERT_EQ(nearest.size(), 20u);
-    for (std::size_t i = 0; i < nearest.size(); ++i) EXPECT_EQ(nearest[i].place, expected[i].place);
+    for (std::size_t i = 0; i < nearest.size(); ++i) EXPECT_EQ(nearest[i].index, expected[i].index);
 
-    const FlatFrame frame = flat_frame(planted::random_direction(numbers), p);
+    const PlaneFrame frame = flat_frame(planted::random_direction(numbers), p);
     const OrientedBox box{p, {frame.u, frame.v, frame.u.cross(frame.v)}, Vec3(0.5, 0.3, 0.2)};
     std::vector<std::uint32_t> inside;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -64,8 +65,8 @@ TEST(PointTree, FindsWhatALookAtAllPointsFinds) {
     }
     EXPECT_EQ(tree.within(box), inside);
   }
-  EXPECT_EQ(tree.nearest(points[0], 1000).size(), points.size());
-  EXPECT_TRUE(PointTree({}).nearest(Vec3::Zero(), 3).empty());
+  tree.nearest(points[0], 1000, nearest);
+  EXPECT_EQ(nearest.size(), points.size());
 }
 
 TEST(CloudScale, IsNearTheTruthForPatches) {
@@ -74,14 +75,14 @@ TEST(CloudScale, IsNearTheTruthForPatches) {
     patch.points = 2000;
     patch.sigma = seed < 5 ? 0.005 : 0.02;
     const std::vector<Vec3> points = planted::cloud_of(patch, seed);
-    const CloudScale scale = measure_scale(points, PointTree(points));
+    const CloudScale scale = measure_scale(points, KdTree(points));
     const double spacing = std::sqrt(4.0 * patch.half_u * patch.half_v / 2000.0);
     EXPECT_GT(scale.spacing, 0.8 * spacing);
     EXPECT_LT(scale.spacing, 1.4 * spacing);
     EXPECT_GT(scale.noise, 0.75 * patch.sigma);
     EXPECT_LT(scale.noise, 1.15 * patch.sigma);
   }
-  EXPECT_EQ(measure_scale({}, PointTree({})).spacing, 0.0);
+  EXPECT_EQ(measure_scale({}, KdTree({})).spacing, 0.0);
 }
 
 // A patch in the plane z = `height`, from `x` on, on a lattice.

@@ -108,12 +108,12 @@ TEST(Orient, PointsTowardsTheOrigin) {
   EXPECT_EQ(orient(-Vec3::UnitY(), Vec3(4, 0, 2)), Vec3::UnitY());
 }
 
-TEST(FlatFrame, IsRightHandedForEveryNormal) {
+TEST(PlaneFrame, IsRightHandedForEveryNormal) {
   planted::Numbers numbers(11);
   for (int i = 0; i < 200; ++i) {
     Vec3 normal = planted::random_direction(numbers);
     if (i < 6) normal = (i % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(i / 2);
-    const FlatFrame frame = flat_frame(normal, Vec3(1, 2, 3));
+    const PlaneFrame frame = flat_frame(normal, Vec3(1, 2, 3));
     EXPECT_NEAR((frame.u.cross(frame.v) - normal).norm(), 0.0, 1e-12);
     EXPECT_NEAR(frame.u.norm(), 1.0, 1e-12);
     EXPECT_NEAR((frame.flat(frame.lift(Vec2(0.3, -2.0))) - Vec2(0.3, -2.0)).norm(), 0.0, 1e-12);

@@ -109,5 +109,13 @@ TEST(Convex, ClippingKeepsWhatLiesBelowTheLine) {
   EXPECT_EQ(clip(square, Vec2(1, 1), 2.0).size(), 3u);
 }
 
+TEST(PlaneAxes, PointsGoThereAndBack) {
+  const Vec3 normal = Vec3(1.0, -2.0, 0.5).normalized();
+  const PlaneAxes axes(normal);
+  EXPECT_NEAR((axes.u.cross(axes.v) - normal).norm(), 0.0, 1e-12);
+  const Vec3 p(0.3, 4.0, -2.0);
+  EXPECT_NEAR((axes.lift(axes.flat(p), normal.dot(p)) - p).norm(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace hallway

@@ -93,6 +93,17 @@ TEST(FromYawPitchRoll, TurnsAsDocumented) {
   EXPECT_LT((from_yaw_pitch_roll(quarter, quarter, 0) * Vec3::UnitY() + Vec3::UnitX()).norm(), 1e-12);
 }
 
+TEST(RotationVector, IsUndoneByTheRotationThatItMakes) {
+  for (std::uint32_t i = 0; i < kCases; ++i) {
+    const Vec3 vector = geometry().vector(i).normalized() * (i % 2 == 0 ? 1e-13 : 0.006 * i);
+    EXPECT_LT((rotation_vector(rotation_by(vector)) - vector).norm(), 1e-12);
+    const Quat q = rotation_by(vector);
+    EXPECT_LT((rotation_vector(Quat(-q.w(), -q.x(), -q.y(), -q.z())) - vector).norm(), 1e-12);
+    EXPECT_NEAR(angle_of(q), vector.norm(), 1e-12);
+  }
+  EXPECT_EQ(rotation_by(Vec3::Zero()).coeffs(), Quat::Identity().coeffs());
+}
+
 TEST(AngleBetween, IsTheAngleOfTheTurn) {
   for (const double angle : {0.0, 1e-9, 1e-4, 1.0, 3.0, kPi}) {
     const Quat a = geometry().rotation(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Neighbours, spacing and thinning, against what a loop over all points says.
+// Spacing and thinning, against what a loop over all points says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include "clouds.hpp"
 #include "icp/core/cloud_scale.hpp"
 #include "icp/core/normals.hpp"
-#include "icp/core/overlapping_grid.hpp"
 
 namespace hallway::icp {
 namespace {
@@ -24,92 +23,6 @@ Points mixed(std::uint64_t seed) {
                           static_cast<double>(random.below(3))));
   }
   return points;
-}
-
-std::vector<double> all_distances2(const Points& points, const Vec3& place) {
-  std::vector<double> distances;
-  for (const Vec3& p : points) distances.push_back((p - place).squaredNorm());
-  std::sort(distances.begin(), distances.end());
-  return distances;
-}
-
-TEST(KdTree, NearestIsThatOfALoopOverAllPoints) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Points points = mixed(seed);
-    const KdTree tree(points);
-    Random random(seed + 100);
-    for (int i = 0; i < 200; ++i) {
-      const Vec3 place = random.in_box({12, 10, 5});
-      const double nearest2 = all_distances2(points, place).front();
-      const auto found = tree.nearest(place, 1.0);
-      ASSERT_EQ(found.has_value(), nearest2 <= 1.0);
-      if (!found) continue;
-      EXPECT_EQ(found->distance2_m2, nearest2);
-      EXPECT_EQ((points[found->index] - place).squaredNorm(), nearest2);
-    }
-  }
-}
-
-TEST(KdTree, TheNearestFewAreThoseOfALoopOverAllPoints) {
-  const Points points = mixed(7);
-  const KdTree tree(points);
-  Random random(8);
-  std::vector<Neighbour> found;
-  for (const std::size_t count : {1u, 8u, 20u, 700u}) {
-    for (int i = 0; i < 30; ++i) {
-      const Vec3 place = random.in_box({12, 10, 5});
-      const std::vector<double> expected = all_distances2(points, place);
-      tree.nearest(place, count, found);
-      ASSERT_EQ(found.size(), std::min(count, points.size()));
-      for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k].distance2_m2, expected[k]);
-    }
-  }
-}
-
-TEST(KdTree, AnswersDoNotDependOnTheOrderOfPoints) {
-  const Points points = mixed(9);
-  const Points other = clouds::shuffled(points, 10);
-  const KdTree tree(points), other_tree(other);
-  std::vector<Neighbour> found, other_found;
-  for (double x = -1.0; x < 7.0; x += 0.5) {
-    const Vec3 place(x, 2.5, 0.5);  // as far from several points of the lattice
-    EXPECT_EQ(points[tree.nearest(place, 5.0)->index], other[other_tree.nearest(place, 5.0)->index]);
-    tree.nearest(place, 9, found);
-    other_tree.nearest(place, 9, other_found);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      EXPECT_EQ(points[found[k].index], other[other_found[k].index]);
-  }
-}
-
-TEST(KdTree, OfNothingAndOfOnePoint) {
-  std::vector<Neighbour> found;
-  const KdTree empty{Points()};
-  EXPECT_FALSE(empty.nearest(Vec3::Zero(), 1e9));
-  empty.nearest(Vec3::Zero(), 3, found);
-  EXPECT_TRUE(found.empty());
-  const KdTree one{Points{Vec3(1, 0, 0)}};
-  EXPECT_TRUE(one.nearest(Vec3::Zero(), 1.0)) << "the bound is included";
-  EXPECT_FALSE(one.nearest(Vec3::Zero(), 0.999));
-}
-
-TEST(OverlappingGrid, NearestIsThatOfALoopOverAllPoints) {
-  for (const double reach : {0.1, 0.7, 3.0}) {
-    const Points points = mixed(11);
-    OverlappingGrid grid(reach);
-    for (const Vec3& p : points) grid.add(p);
-    Random random(12);
-    int found_some = 0;
-    for (int i = 0; i < 300; ++i) {
-      const Vec3 place = i % 3 == 0 ? points[random.below(points.size())] : random.in_box({12, 10, 5});
-      const double nearest2 = all_distances2(points, place).front();
-      const auto found = grid.nearest(place);
-      ASSERT_EQ(found.has_value(), nearest2 <= reach * reach);
-      if (!found) continue;
-      ++found_some;
-      EXPECT_EQ((points[*found] - place).squaredNorm(), nearest2);
-    }
-    EXPECT_GE(found_some, 100);
-  }
 }
 
 TEST(CloudScale, SpacingOfALatticeIsItsStepWhateverItsCopies) {

@@ -50,12 +50,12 @@ double size_of(const Polygon& polygon) {
 
 TEST(Convex, WidthAreaAndDifference) {
   const Convex square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-  EXPECT_DOUBLE_EQ(area_of(square), 4.0);
-  EXPECT_DOUBLE_EQ(width_of({{0, 0}, {5, 0}, {5, 1}, {0, 1}}), 1.0);
+  EXPECT_DOUBLE_EQ(polygon_area(square), 4.0);
+  EXPECT_DOUBLE_EQ(width({{0, 0}, {5, 0}, {5, 1}, {0, 1}}), 1.0);
   std::vector<Convex> pieces{square};
   subtract(pieces, {{0.5, 0.5}, {1.5, 0.5}, {1.5, 1.5}, {0.5, 1.5}});
   double left = 0.0;
-  for (const Convex& piece : pieces) left += area_of(piece);
+  for (const Convex& piece : pieces) left += polygon_area(piece);
   EXPECT_NEAR(left, 3.0, 1e-12);
   subtract(pieces, {{-1, -1}, {3, -1}, {3, 3}, {-1, 3}});
   EXPECT_TRUE(pieces.empty());

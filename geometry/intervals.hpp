@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace hallway::sense {
+namespace hallway {
 
 /// A stretch of a line, from < to; may be infinite.
 struct Interval {
@@ -18,4 +18,4 @@ void subtract(std::vector<Interval>& kept, std::vector<Interval>& taken);
 /// Leaves of an interval where g >= 0, for g linear with g(0) = `at_zero` and slope `slope`; empty (from >= to) if that is nowhere.
 void keep_where_positive(Interval& interval, double at_zero, double slope);
 
-}  // namespace hallway::sense
+}  // namespace hallway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sense/intervals.hpp"
+#include "geometry/intervals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 
-namespace hallway::sense {
+namespace hallway {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -88,4 +88,4 @@ TEST(KeepWherePositive, CutsAtTheRoot) {
 }
 
 }  // namespace
-}  // namespace hallway::sense
+}  // namespace hallway

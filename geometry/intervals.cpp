@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sense/intervals.hpp"
+#include "geometry/intervals.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace hallway::sense {
+namespace hallway {
 
 void subtract(std::vector<Interval>& kept, std::vector<Interval>& taken) {
   std::erase_if(taken, [](const Interval& interval) { return !(interval.from < interval.to); });
@@ -34,4 +34,4 @@ void keep_where_positive(Interval& interval, double at_zero, double slope) {
   }
 }
 
-}  // namespace hallway::sense
+}  // namespace hallway
