@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "em/core/cloud_scale.hpp"
-#include "em/core/point_tree.hpp"
+#include "geometry/kd_tree.hpp"
 #include "plane_list.hpp"
 
 namespace hallway::peers {
