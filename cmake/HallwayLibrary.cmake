@@ -9,7 +9,7 @@
 option(HALLWAY_PRECOMPILE "Precompile Eigen and the common standard headers" ON)
 
 # hallway_precompile(<target> LIBRARY|EXECUTABLE …headers [LINKS …]): the headers as one precompiled header that other targets of that kind may reuse (the
-# two differ in how they address code). LINKS: the libraries that it and those targets link; by default what nearly all link.
+# two differ in how they address code: -fPIC and -fPIE). LINKS: the libraries that it and those targets link; by default what nearly all link.
 function(hallway_precompile target kind)
   if(NOT HALLWAY_PRECOMPILE OR HALLWAY_FUZZ)
     return()
@@ -19,11 +19,11 @@ function(hallway_precompile target kind)
     set(arg_LINKS fmt::fmt Eigen3::Eigen Threads::Threads)
   endif()
   set(source ${CMAKE_BINARY_DIR}/precompiled/${target}.cpp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "int main() {\n  return 0;\n}\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "")
+  add_library(${target} OBJECT ${source})  # which nobody links: CMake ties a precompiled header to a target with a source
   if(kind STREQUAL EXECUTABLE)
-    add_executable(${target} ${source})
-  else()
-    add_library(${target} OBJECT ${source})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE ${CMAKE_CXX_COMPILE_OPTIONS_PIE})
   endif()
   if("<nlohmann/json.hpp>" IN_LIST arg_UNPARSED_ARGUMENTS)
     list(APPEND arg_LINKS nlohmann_json::nlohmann_json)  # its users are compiled with the same definitions
