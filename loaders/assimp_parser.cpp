@@ -16,9 +16,9 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "loaders/image_decoder.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders {
 namespace {
@@ -136,8 +136,6 @@ class Converter {
   }
 
  private:
-  [[noreturn]] static void refuse(const std::string& message) { throw Error(ErrorCode::kBadInput, message); }
-
   void check_sizes() const {
     std::uint64_t vertices = 0;
     std::uint64_t triangles = 0;
@@ -313,7 +311,7 @@ void set_frame(Scene& scene, const std::string& extension, const aiScene& from, 
 
 Scene parse_by_assimp(FileAccess& access, const mesh::ModelLimits& limits) {
   const std::string bytes = access.read_model();
-  if (bytes.empty()) throw Error(ErrorCode::kBadInput, "is empty");
+  if (bytes.empty()) refuse("is empty");
   Assimp::Importer importer;
   importer.SetIOHandler(new GuardedFiles(access, bytes));  // which deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -321,8 +319,7 @@ Scene parse_by_assimp(FileAccess& access, const mesh::ModelLimits& limits) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene* scene = importer.ReadFile(access.model_name(),
                                            aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_FlipUVs);
-  if (scene == nullptr)
-    throw Error(ErrorCode::kBadInput, "cannot be read: " + printable(trim(importer.GetErrorString()), 500));
+  if (scene == nullptr) refuse("cannot be read: " + printable(trim(importer.GetErrorString()), 500));
   Scene result = Converter(*scene, access, limits).run();
   set_frame(result, lower_extension(access.model_name()), *scene, bytes);
   return result;

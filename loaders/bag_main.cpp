@@ -2,28 +2,21 @@
 // hallway-bag: reads the messages of a ROS 1 bag and hands them to the program that started it (engine/import/bag_protocol.hpp).
 #include <stdlib.h>  // setenv is POSIX, not in <cstdlib>
 
-#include <cstdlib>
-#include <exception>
 #include <functional>
-#include <new>
 
-#include "base/error.hpp"
-#include "base/helper.hpp"
 #include "base/sandbox.hpp"
-#include "base/text.hpp"
 #include "import/bag_protocol.hpp"
 #include "loaders/bag_file.hpp"
 #include "loaders/bag_points.hpp"
 #include "loaders/bag_topics.hpp"
+#include "loaders/helper_main.hpp"
+#include "loaders/refuse.hpp"
 
 namespace {
 
 namespace bag = hallway::loaders::bag;
 using hallway::Error;
-using hallway::ErrorCode;
 namespace recorded = hallway::import;
-
-constexpr std::uint64_t kMaxRequestBytes = 1 << 20;
 
 recorded::BagHead head_of(const bag::BagFile& file, const bag::Topic& topic, const std::string& truth_topic) {
   const auto span_ns = file.span_ns(topic.name);
@@ -61,8 +54,7 @@ class Sender {
       throw Error(error.code(), error.message(), {.element = element});
     }
     if (frame_.t_ns < last_ns) {
-      throw Error(ErrorCode::kBadInput, "its stamp lies before that of the message before it",
-                  {.element = element});
+      hallway::loaders::refuse("its stamp lies before that of the message before it", element);
     }
     hallway::write_standard_output(recorded::encode_frame(frame_));
   }
@@ -73,7 +65,17 @@ class Sender {
   recorded::Frame frame_;
 };
 
-void answer(const recorded::BagRequest& request) {
+/// ROS's library looks for its plugins among all packages of ROS and keeps a list of these in the user's home; for encrypted bags it starts gpg. A
+/// reader of bags needs its own package, writes nothing and starts nothing.
+void keep_ros_at_home() {
+  ::setenv("ROS_PACKAGE_PATH", HALLWAY_ROSBAG_PACKAGE, 1);
+  constexpr std::uint64_t kMemoryBytes = std::uint64_t{4} << 30;
+  hallway::confine({.data_bytes = kMemoryBytes, .file_bytes = 0, .open_files = 64});
+}
+
+void answer(const std::string& text) {
+  keep_ros_at_home();
+  const recorded::BagRequest request = recorded::decode_request(text);
   const bag::BagFile file(request.file);
   const bag::Topic& topic = bag::choose_points(file.topics(), request.topic);
   hallway::write_standard_output(recorded::encode_head(head_of(file, topic, request.truth_topic)));
@@ -86,39 +88,8 @@ void answer(const recorded::BagRequest& request) {
   hallway::write_standard_output(recorded::encode_end());
 }
 
-void fail(const Error& failure) {
-  hallway::write_standard_output(recorded::encode_failure(failure));
-}
-
-void run() {
-  try {
-    answer(recorded::decode_request(hallway::read_standard_input(kMaxRequestBytes)));
-  } catch (const Error& failure) {
-    fail(failure);
-  } catch (const std::bad_alloc&) {
-    fail(Error(ErrorCode::kBadInput, "cannot be read: it needs more memory than the bag reader may use"));
-  } catch (const std::exception& failure) {
-    fail(Error(ErrorCode::kBadInput, "cannot be read: " + hallway::printable(failure.what(), 500)));
-  }
-}
-
-/// ROS's library looks for its plugins among all packages of ROS and keeps a list of these in the user's home; for encrypted bags it starts gpg. A
-/// reader of bags needs its own package, writes nothing and starts nothing.
-void keep_ros_at_home() {
-  ::setenv("ROS_PACKAGE_PATH", HALLWAY_ROSBAG_PACKAGE, 1);
-  constexpr std::uint64_t kMemoryBytes = std::uint64_t{4} << 30;
-  hallway::confine({.data_bytes = kMemoryBytes, .file_bytes = 0, .open_files = 64});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || !hallway::begin_helper(argv[1])) return 2;
-  keep_ros_at_home();
-  try {
-    run();
-  } catch (...) {
-    return 3;  // whoever started it no longer reads
-  }
-  std::_Exit(0);
+  return hallway::loaders::helper_main(argc, argv, "the bag reader", answer, recorded::encode_failure);
 }

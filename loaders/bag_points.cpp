@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
 #include "import/point_collector.hpp"
 #include "import/scalar.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders::bag {
 namespace {
@@ -24,15 +24,15 @@ Coordinate find(const Cloud& cloud, const char* name) {
   for (const CloudField& field : cloud.fields) {
     if (field.name != name) continue;
     if (field.datatype != kFloat32 && field.datatype != kFloat64) {
-      throw Error(ErrorCode::kBadInput, std::string("the points' ") + name + " is no float");
+      refuse(std::string("the points' ") + name + " is no float");
     }
     const Scalar type = field.datatype == kFloat32 ? Scalar::kFloat32 : Scalar::kFloat64;
     if (std::uint64_t{field.offset} + size_of(type) > cloud.point_step) {
-      throw Error(ErrorCode::kBadInput, std::string("the points' ") + name + " lies outside of a point");
+      refuse(std::string("the points' ") + name + " lies outside of a point");
     }
     return {type, field.offset};
   }
-  throw Error(ErrorCode::kBadInput, std::string("the points have no ") + name);
+  refuse(std::string("the points have no ") + name);
 }
 
 /// Bytes from row to row; a cloud of one row need not say them.
@@ -41,7 +41,7 @@ std::uint64_t checked_row_step(const Cloud& cloud) {
   const std::uint64_t step = cloud.height > 1 ? cloud.row_step : row;
   const bool fits = step >= row && cloud.height > 0 && row <= cloud.data.size() &&
                     (cloud.height == 1 || (cloud.data.size() - row) / step >= cloud.height - 1);
-  if (!fits) throw Error(ErrorCode::kBadInput, "its data is too short for its points");
+  if (!fits) refuse("its data is too short for its points");
   return step;
 }
 

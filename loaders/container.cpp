@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "loaders/container.hpp"
+#include "loaders/gltf_document.hpp"
 
 #include <cstdint>
 #include <cstring>
 #include <string>
 
-#include "base/error.hpp"
+#include "loaders/refuse.hpp"
 
-namespace hallway::loaders {
+namespace hallway::loaders::gltf {
 namespace {
 
 constexpr std::string_view kMagic = "glTF";
@@ -15,10 +15,6 @@ constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr int kMaxDepth = 256;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kBadInput, message);
-}
 
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -82,4 +78,4 @@ void check_gltf_container(std::string_view bytes) {
   check_depth(is_glb(bytes) ? check_glb(bytes) : bytes);
 }
 
-}  // namespace hallway::loaders
+}  // namespace hallway::loaders::gltf

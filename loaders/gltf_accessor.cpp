@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "base/error.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders::gltf {
 namespace {
@@ -17,10 +17,6 @@ constexpr std::int64_t kShort = 5122;
 constexpr std::int64_t kUnsignedShort = 5123;
 constexpr std::int64_t kUnsignedInt = 5125;
 constexpr std::int64_t kFloat = 5126;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kBadInput, message);
-}
 
 std::uint64_t component_bytes(std::int64_t type) {
   switch (type) {
@@ -65,6 +61,13 @@ Elements elements_in(std::string_view view, std::uint64_t offset, std::uint64_t 
            std::to_string(view.size()) + " bytes of their buffer view");
   }
   return {view.data() + offset, step, count};
+}
+
+/// @param view  bytes of the accessor's buffer view, which it has
+Elements elements_of(const Document& document, const Accessor& accessor, std::string_view view,
+                     std::uint64_t element_bytes) {
+  return elements_in(view, accessor.offset, document.views[static_cast<std::size_t>(accessor.view)].stride,
+                     accessor.count, element_bytes);
 }
 
 template <typename T>
@@ -184,13 +187,9 @@ std::vector<std::array<float, N>> AccessorReader::vectors(std::int64_t index, st
     if (accessor.count > most)
       refuse(std::to_string(accessor.count) + " elements are over the limit of vertices");
     const std::uint64_t step = component_bytes(accessor.component_type);
-    Elements elements;
-    if (accessor.view >= 0) {
-      const std::string_view bytes = view_bytes(accessor.view);
-      elements =
-          elements_in(bytes, accessor.offset, document_.views[static_cast<std::size_t>(accessor.view)].stride,
-                      accessor.count, N * step);
-    }
+    const Elements elements = accessor.view >= 0
+                                  ? elements_of(document_, accessor, view_bytes(accessor.view), N * step)
+                                  : Elements{};
     std::vector<std::array<float, N>> values(static_cast<std::size_t>(accessor.count));
     for (std::uint64_t i = 0; i < elements.count; ++i)
       values[i] = vector_at<N>(elements.at(i), accessor, step);
@@ -216,8 +215,7 @@ std::vector<std::uint32_t> AccessorReader::indices(std::int64_t index, std::uint
       refuse(std::to_string(accessor.count) + " elements are over the limit of indices");
     const std::string_view bytes = view_bytes(accessor.view);
     const Elements elements =
-        elements_in(bytes, accessor.offset, document_.views[static_cast<std::size_t>(accessor.view)].stride,
-                    accessor.count, component_bytes(accessor.component_type));
+        elements_of(document_, accessor, bytes, component_bytes(accessor.component_type));
     std::vector<std::uint32_t> values(static_cast<std::size_t>(accessor.count));
     for (std::uint64_t i = 0; i < elements.count; ++i)
       values[i] = whole(elements.at(i), accessor.component_type);

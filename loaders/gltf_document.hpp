@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "loaders/file_access.hpp"
+#include "loaders/scene.hpp"
 
 namespace hallway::loaders::gltf {
 
@@ -87,5 +91,22 @@ struct Document {
   std::vector<std::string> required_extensions{};
   std::vector<std::string> warnings{};
 };
+
+/// True for the bytes of a binary glTF file.
+bool is_glb(std::string_view bytes);
+
+/// Checks what the glTF parser relies on: lengths of a GLB header and its chunks within the file, and JSON that is nested no
+/// deeper than a recursive parser stands. Throws Error{kBadInput} with the cause.
+void check_gltf_container(std::string_view bytes);
+
+/// Parses a `.gltf` or `.glb` file by tinygltf. Files that it names are read through `access`; one that leads outside, or a
+/// buffer that is missing, is refused. Throws Error{kBadInput} or Error{kIo}, and whatever tinygltf throws.
+Document parse(const std::string& bytes, FileAccess& access);
+
+/// The scene that a document shows: the one it names, else the first, else all nodes that have no parent. Not recursive;
+/// nodes must form trees. Morph targets, skins, vertex colours, points and lines are left out. Images that are missing or
+/// broken become warnings.
+/// Throws Error{kBadInput} naming node, mesh, accessor or image and what is wrong.
+Scene convert(const Document& document, const mesh::ModelLimits& limits);
 
 }  // namespace hallway::loaders::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "loaders/gltf_parser.hpp"
+#include "loaders/gltf_document.hpp"
 
 #include <tiny_gltf.h>
 
@@ -7,9 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
-#include "loaders/container.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders::gltf {
 namespace {
@@ -162,8 +161,7 @@ Document document_of(tinygltf::Model& model) {
 }  // namespace
 
 Document parse(const std::string& bytes, FileAccess& access) {
-  if (bytes.size() > std::numeric_limits<unsigned>::max())
-    throw Error(ErrorCode::kBadInput, "is larger than 4 GB");
+  if (bytes.size() > std::numeric_limits<unsigned>::max()) refuse("is larger than 4 GB");
   check_gltf_container(bytes);
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(access));
@@ -176,8 +174,8 @@ Document parse(const std::string& bytes, FileAccess& access) {
       is_glb(bytes) ? parser.LoadBinaryFromMemory(&model, &message, &warning,
                                                   reinterpret_cast<const unsigned char*>(bytes.data()), size)
                     : parser.LoadASCIIFromString(&model, &message, &warning, bytes.data(), size, "");
-  if (!access.refused().empty()) throw Error(ErrorCode::kBadInput, access.refused().front());
-  if (!good) throw Error(ErrorCode::kBadInput, "is no glTF file that can be read: " + one_line(message));
+  if (!access.refused().empty()) refuse(access.refused().front());
+  if (!good) refuse("is no glTF file that can be read: " + one_line(message));
   return document_of(model);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "loaders/gltf_scene.hpp"
+#include "loaders/gltf_document.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,9 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "loaders/gltf_accessor.hpp"
+#include "loaders/image_decoder.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders::gltf {
 namespace {
@@ -18,10 +19,6 @@ namespace {
 constexpr std::int64_t kTriangles = 4;
 constexpr std::int64_t kStrip = 5;
 constexpr std::int64_t kFan = 6;
-
-[[noreturn]] void refuse(const std::string& message, const std::string& element = {}) {
-  throw Error(ErrorCode::kBadInput, message, {.element = element});
-}
 
 template <typename T>
 const T& at(const std::vector<T>& items, std::int64_t index, const char* what) {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
+#include "loaders/refuse.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -81,8 +81,8 @@ struct Free {
 
 void ImageDecoder::check_room(std::uint64_t width, std::uint64_t height, const std::string& name) const {
   if (width <= kMaxEdge_px && height <= kMaxEdge_px && 4 * width * height <= bytes_left_) return;
-  throw Error(ErrorCode::kBadInput, "the image " + printable(name) + " has " + std::to_string(width) + " x " +
-                                        std::to_string(height) + " pixels, which is over the limit");
+  refuse("the image " + printable(name) + " has " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels, which is over the limit");
 }
 
 void ImageDecoder::reserve(std::uint64_t width, std::uint64_t height, const std::string& name) {

@@ -5,14 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
+#include "loaders/refuse.hpp"
 
 namespace hallway::loaders {
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kBadInput, message);
-}
 
 void check_part(const MeshPart& part, std::size_t index, std::size_t materials) {
   const std::string name = "mesh part " + std::to_string(index);

@@ -11,8 +11,7 @@
 
 #include "base/error.hpp"
 #include "fuzz/mesh_bytes.hpp"
-#include "loaders/container.hpp"
-#include "loaders/gltf_scene.hpp"
+#include "loaders/gltf_document.hpp"
 
 namespace {
 
@@ -154,7 +153,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ByteSource from(bytes);
     switch (from.count(2)) {
       case 0:
-        loaders::check_gltf_container(bytes.substr(std::min<std::size_t>(1, bytes.size())));
+        gltf::check_gltf_container(bytes.substr(std::min<std::size_t>(1, bytes.size())));
         break;
       case 1:
         check_flat(loaders::flatten(scene(from), kLimits));
