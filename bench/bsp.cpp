@@ -93,7 +93,7 @@ std::vector<map::Brush> hall(std::uint32_t count) {
 map::World make_world(std::uint32_t count) {
   map::Document document;
   document.entities.emplace_back();
-  document.entities[0].keys.push_back({{}, "classname", "worldspawn", 0});
+  document.entities[0].add("classname", "worldspawn");
   document.entities[0].brushes = hall(count);
   return map::build_world(document);
 }

@@ -33,7 +33,7 @@ constexpr int kRounds = 9;
 std::string map_text(std::uint32_t count) {
   map::Document document;
   document.entities.emplace_back();
-  document.entities[0].keys = {{{}, "classname", "worldspawn", 0}, {{}, "_scale", "0.01", 0}};
+  document.entities[0].keys = {{"classname", "worldspawn"}, {"_scale", "0.01"}};
   const Random random(1, stream_id("crates"));
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto whole = [&](std::uint64_t n, double low, double high) {

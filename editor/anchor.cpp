@@ -2,6 +2,7 @@
 #include "editor/anchor.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
-#include "editor/commands/made.hpp"
 #include "editor/commands/shape_parts.hpp"
-#include "editor/refuse.hpp"
+#include "editor/made_line.hpp"
 #include "editor/selection.hpp"
 
 namespace hallway::editor {
@@ -32,8 +33,7 @@ constexpr std::array kAnchors{Anchor{"ne", "north-east corner at the foot; north
                               Anchor{"end", "where that ends"}};
 
 const Anchor* find_anchor(std::string_view name) {
-  const auto found = std::find_if(kAnchors.begin(), kAnchors.end(),
-                                  [&](const Anchor& anchor) { return anchor.name == name; });
+  const auto found = std::ranges::find(kAnchors, name, &Anchor::name);
   return found == kAnchors.end() ? nullptr : &*found;
 }
 
@@ -41,34 +41,14 @@ const Anchor* find_anchor(std::string_view name) {
 Box extent_of(const State& state, const Thing& thing) {
   const auto call = thing.brush ? std::nullopt : made_call(state, *state.entities[thing.entity]);
   if (call && call->command->name == "room") {
-    Edit as_made{.state = state, .file = {}};
-    as_made.state.desk.grid_m = 0.0;
-    return room_inside(as_made, call->arguments);
+    return room_inside(without_grid(state), call->arguments);
   }
   Box box;
   for (const Thing& part : with_members(state, {thing})) {
     if (!part.brush && state.entities[part.entity]->classname() == "hw_subtract" && part != thing) continue;
-    if (const Box one = bounds_of(state, part); !one.isEmpty()) box.extend(one);
+    box.extend(bounds_of(state, part));
   }
   return box;
-}
-
-/// The waypoints of a path, in their order, map units.
-std::vector<Vec3> waypoints_of(const State& state, const std::string& path) {
-  std::vector<std::pair<std::int64_t, Vec3>> found;
-  for (const auto& entity : state.entities) {
-    const std::string* of = entity->head->find("path");
-    const std::string* index = entity->head->find("index");
-    const auto origin = origin_of(*entity);
-    if (entity->classname() != "hw_waypoint" || of == nullptr || *of != path || index == nullptr || !origin)
-      continue;
-    if (const auto number = parse_int(*index)) found.emplace_back(*number, *origin);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Vec3> places;
-  for (const auto& [index, place] : found) places.push_back(place);
-  return places;
 }
 
 /// Both ends of what has ends, map units.
@@ -76,7 +56,11 @@ std::optional<std::pair<Vec3, Vec3>> ends_of(const State& state, const Thing& th
   const EntityItem& entity = *state.entities[thing.entity];
   if (thing.brush) return std::nullopt;
   if (entity.classname() == "hw_path") {
-    const auto places = waypoints_of(state, name_of(entity));
+    std::vector<Vec3> places;
+    for (const auto& [number, waypoint] : waypoints_of(state, name_of(entity))) {
+      const auto origin = origin_of(*state.entities[waypoint]);
+      if (number && origin) places.push_back(*origin);
+    }
     if (places.empty()) return std::nullopt;
     return std::pair(places.front(), places.back());
   }
@@ -84,9 +68,7 @@ std::optional<std::pair<Vec3, Vec3>> ends_of(const State& state, const Thing& th
   if (!call) return std::nullopt;
   const std::string_view command = call->command->name;
   if (command == "arc") {
-    Edit as_made{.state = state, .file = {}};
-    as_made.state.desk.grid_m = 0.0;
-    const auto stretches = arc_stretches(as_made, call->arguments);
+    const auto stretches = arc_stretches(without_grid(state), call->arguments);
     return std::pair(stretches.front().from, stretches.back().to);
   }
   if (command != "wall" && command != "stairs" && command != "ramp") return std::nullopt;
@@ -113,9 +95,7 @@ std::pair<std::string_view, std::string_view> split_name(const State& state, std
   std::size_t dot = text.find('.');
   while (dot != std::string_view::npos && text.find('.', dot + 1) != std::string_view::npos) {
     const std::string_view name = text.substr(0, dot);
-    if (std::any_of(state.entities.begin(), state.entities.end(),
-                    [&](const auto& entity) { return name_of(*entity) == name; }))
-      break;
+    if (find_entity(state, [&](const EntityItem& entity) { return name_of(entity) == name; })) break;
     dot = text.find('.', dot + 1);
   }
   if (dot == std::string_view::npos) return {text, {}};
@@ -129,9 +109,7 @@ std::span<const Anchor> anchors() {
 }
 
 std::string anchor_names() {
-  std::string names;
-  for (const Anchor& anchor : kAnchors) names += (names.empty() ? "" : ", ") + std::string(anchor.name);
-  return names;
+  return fmt::format("{}", fmt::join(names_in(kAnchors, &Anchor::name), ", "));
 }
 
 Vec3 anchor_place(const State& state, std::string_view text) {
@@ -139,24 +117,22 @@ Vec3 anchor_place(const State& state, std::string_view text) {
   const Thing thing = resolve_one(state, name);
   const Anchor* anchor = find_anchor(word);
   if (anchor == nullptr) {
-    std::vector<std::string> names;
-    for (const Anchor& each : kAnchors) names.emplace_back(each.name);
-    refuse(fmt::format("@{}: {}{}; there are {}", printable(name),
-                       word.empty() ? "an anchor is missing, as in `@" + printable(name) + ".ne`"
-                                    : "no anchor is called \"" + printable(word) + "\"",
-                       word.empty() ? "" : suggestion(word, names), anchor_names()));
+    refuse("@{}: {}{}; there are {}", printable(name),
+           word.empty() ? "an anchor is missing, as in `@" + printable(name) + ".ne`"
+                        : "no anchor is called \"" + printable(word) + "\"",
+           word.empty() ? "" : suggestion(word, names_in(kAnchors, &Anchor::name)), anchor_names());
   }
   const double scale = units_of(state).metres_per_unit;
   if (anchor->name == "start" || anchor->name == "end") {
     const auto ends = ends_of(state, thing);
     if (!ends)
-      refuse(fmt::format("@{}: {} has no {}; walls, arcs, stairs, ramps and paths do", printable(text),
-                         describe(state, thing), anchor->name));
+      refuse("@{}: {} has no {}; walls, arcs, stairs, ramps and paths do", printable(text),
+             describe(state, thing), anchor->name);
     return (anchor->name == "start" ? ends->first : ends->second) * scale;
   }
   const Box box = extent_of(state, thing);
   if (box.isEmpty())
-    refuse(fmt::format("@{}: {} has neither brushes nor an origin", printable(text), describe(state, thing)));
+    refuse("@{}: {} has neither brushes nor an origin", printable(text), describe(state, thing));
   return place_on(box, anchor->name) * scale;
 }
 

@@ -12,15 +12,15 @@
 #include <span>
 #include <utility>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/anchor.hpp"
 
 namespace hallway::editor {
 namespace {
 
-[[noreturn]] void refuse(const ArgSpec& spec, std::string_view word, const std::string& expected) {
-  throw Error(ErrorCode::kUsage, fmt::format("{}: \"{}\" is {}", spec.name, printable(word), expected));
+[[noreturn]] void refuse_word(const ArgSpec& spec, std::string_view word, const std::string& expected) {
+  refuse("{}: \"{}\" is {}", spec.name, printable(word), expected);
 }
 
 struct Unit {
@@ -51,27 +51,28 @@ std::optional<double> length_of(std::string_view word, const Units& units) {
 
 double in_range(const ArgSpec& spec, std::string_view word, double value) {
   if (value >= spec.low && value <= spec.high) return value;
-  refuse(spec, word, fmt::format("not from {} to {}", format_double(spec.low), format_double(spec.high)));
+  refuse_word(spec, word,
+              fmt::format("not from {} to {}", format_double(spec.low), format_double(spec.high)));
 }
 
 double read_number(const ArgSpec& spec, std::string_view word) {
   const auto number = parse_double(word);
-  if (!number) refuse(spec, word, "no number");
+  if (!number) refuse_word(spec, word, "no number");
   return in_range(spec, word, *number);
 }
 
 double read_length(const ArgSpec& spec, std::string_view word, const Units& units) {
   const auto length = length_of(word, units);
   if (!length)
-    refuse(spec, word,
-           "no length: a number in metres, or one with a unit (m, cm, mm, in, ft, u for map units)");
+    refuse_word(spec, word,
+                "no length: a number in metres, or one with a unit (m, cm, mm, in, ft, u for map units)");
   return in_range(spec, word, *length);
 }
 
 double read_angle(const ArgSpec& spec, std::string_view word) {
   const std::array<Unit, 2> known{{{"deg", 1.0}, {"rad", 180.0 / std::numbers::pi}}};
   const auto angle = with_unit(word, known);
-  if (!angle) refuse(spec, word, "no angle: a number in degrees, or one with `deg` or `rad`");
+  if (!angle) refuse_word(spec, word, "no angle: a number in degrees, or one with `deg` or `rad`");
   return in_range(spec, word, *angle) * std::numbers::pi / 180.0;
 }
 
@@ -90,7 +91,8 @@ std::optional<Vec3> lengths_of(std::string_view word, const Units& units) {
 
 /// "@NAME.ANCHOR", with "+DX,DY[,DZ]" behind it or "-DX,…" for an offset whose first number is negative.
 Vec3 read_anchor(const ArgSpec& spec, std::string_view word, const Units& units) {
-  if (units.state == nullptr) refuse(spec, word, "no place: there is no map in which it could be looked up");
+  if (units.state == nullptr)
+    refuse_word(spec, word, "no place: there is no map in which it could be looked up");
   const std::string_view text = word.substr(1);
   // Names may have signs in them: the offset begins at the last one behind which there are two or three lengths.
   for (std::size_t sign = text.find_first_of("+-"); sign != std::string_view::npos;
@@ -102,24 +104,25 @@ Vec3 read_anchor(const ArgSpec& spec, std::string_view word, const Units& units)
     return place;
   }
   if (text.find(',') != std::string_view::npos)
-    refuse(spec, word, "no place: behind an anchor there is +DX,DY[,DZ] or nothing");
+    refuse_word(spec, word, "no place: behind an anchor there is +DX,DY[,DZ] or nothing");
   return anchor_place(*units.state, text);
 }
 
 Vec3 read_place(const ArgSpec& spec, std::string_view word, const Units& units) {
   const auto place = lengths_of(word, units);
-  if (!place) refuse(spec, word, "no place: X,Y or X,Y,Z in metres, or @NAME.ANCHOR");
+  if (!place) refuse_word(spec, word, "no place: X,Y or X,Y,Z in metres, or @NAME.ANCHOR");
   for (const double x : *place) in_range(spec, word, x);
   return *place;
 }
 
 Vec3 read_factors(const ArgSpec& spec, std::string_view word) {
   const auto parts = split(word, ',');
-  if (parts.size() != 1 && parts.size() != 3) refuse(spec, word, "neither one number nor three as X,Y,Z");
+  if (parts.size() != 1 && parts.size() != 3)
+    refuse_word(spec, word, "neither one number nor three as X,Y,Z");
   Vec3 factors;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto number = parse_double(trim(parts[parts.size() == 1 ? 0 : static_cast<std::size_t>(i)]));
-    if (!number) refuse(spec, word, "neither one number nor three as X,Y,Z");
+    if (!number) refuse_word(spec, word, "neither one number nor three as X,Y,Z");
     factors[i] = in_range(spec, word, *number);
   }
   return factors;
@@ -136,21 +139,21 @@ std::vector<Vec3> read_places(const ArgSpec& spec, std::string_view word, const 
                                              : read_place(spec, part, units));
     at = end + 1;
   }
-  if (places.empty()) refuse(spec, word, "no list of places: X,Y;X,Y;...");
+  if (places.empty()) refuse_word(spec, word, "no list of places: X,Y;X,Y;...");
   return places;
 }
 
 std::string read_name(const ArgSpec& spec, std::string_view word) {
   if (word.empty() || word.find_first_of(" \t*?,=#\"\\;") != std::string_view::npos || parse_double(word) ||
       printable(word) != word) {
-    refuse(spec, word, "no name: one without blanks and none of *?,=#\";\\, and no number");
+    refuse_word(spec, word, "no name: one without blanks and none of *?,=#\";\\, and no number");
   }
   return std::string(word);
 }
 
 std::string read_text(const ArgSpec& spec, std::string_view word) {
   if (word.find_first_of(std::string_view("\n\0", 2)) != std::string_view::npos)
-    refuse(spec, word, "no text for a map: it has a line break or a NUL byte");
+    refuse_word(spec, word, "no text for a map: it has a line break or a NUL byte");
   return std::string(word);
 }
 
@@ -160,12 +163,13 @@ std::string read_choice(const ArgSpec& spec, std::string_view word) {
     if (choice == word) return std::string(word);
     choices.emplace_back(choice);
   }
-  refuse(spec, word, fmt::format("not one of {}{}", fmt::join(choices, ", "), suggestion(word, choices)));
+  refuse_word(spec, word,
+              fmt::format("not one of {}{}", fmt::join(choices, ", "), suggestion(word, choices)));
 }
 
-std::vector<std::pair<std::string, std::string>> read_keys(const ArgSpec& spec, std::string_view word) {
+Pairs read_keys(const ArgSpec& spec, std::string_view word) {
   const std::size_t equals = word.find('=');
-  if (equals == std::string_view::npos || equals == 0) refuse(spec, word, "no key=value");
+  if (equals == std::string_view::npos || equals == 0) refuse_word(spec, word, "no key=value");
   return {{read_text(spec, word.substr(0, equals)), read_text(spec, word.substr(equals + 1))}};
 }
 
@@ -219,7 +223,7 @@ Value read_value(const ArgSpec& spec, std::string_view word, const Units& units)
       return read_number(spec, word);
     case ArgKind::kWhole: {
       const auto whole = parse_int(word);
-      if (!whole) refuse(spec, word, "no whole number");
+      if (!whole) refuse_word(spec, word, "no whole number");
       in_range(spec, word, static_cast<double>(*whole));
       return *whole;
     }
@@ -246,7 +250,7 @@ Value read_value(const ArgSpec& spec, std::string_view word, const Units& units)
     case ArgKind::kMaterial:
       break;
   }
-  if (spec.kind != ArgKind::kText && word.empty()) refuse(spec, word, "empty");
+  if (spec.kind != ArgKind::kText && word.empty()) refuse_word(spec, word, "empty");
   return read_text(spec, word);
 }
 

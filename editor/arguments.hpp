@@ -36,20 +36,34 @@ enum class ArgKind {
 struct ArgSpec {
   std::string_view name{};
   ArgKind kind = ArgKind::kText;
-  bool required = false;
-  std::string_view fallback{};  ///< what counts where it is not given, as it would be typed; empty: nothing
   std::string_view help{};
-  std::string_view choices{};  ///< of a kChoice, between blanks
-  double low = -1e9;           ///< of numbers, lengths, angles
+  std::string_view fallback{};  ///< what counts where it is not given, as it would be typed; empty: nothing
+  std::string_view choices{};   ///< of a kChoice, between blanks
+  bool required = false;
+  double low = -1e9;  ///< of numbers, lengths, angles
   double high = 1e9;
+
+  /// The same argument, which must be given.
+  constexpr ArgSpec needed() const {
+    ArgSpec spec = *this;
+    spec.required = true;
+    return spec;
+  }
+  /// The same argument with limits, in the unit of a word without one.
+  constexpr ArgSpec within(double least, double most) const {
+    ArgSpec spec = *this;
+    spec.low = least;
+    spec.high = most;
+    return spec;
+  }
 };
 
 /// The kind as help texts name it: "LENGTH", "X,Y[,Z]", "a|b|c".
 std::string type_name(const ArgSpec& spec);
 
 /// One value, as its kind stores it. Lengths are metres, angles radians.
-using Value = std::variant<std::string, double, std::int64_t, Vec3, std::vector<Vec3>,
-                           std::vector<std::pair<std::string, std::string>>>;
+using Pairs = std::vector<std::pair<std::string, std::string>>;  ///< keys and their values
+using Value = std::variant<std::string, double, std::int64_t, Vec3, std::vector<Vec3>, Pairs>;
 
 struct State;
 
@@ -66,7 +80,9 @@ Value read_value(const ArgSpec& spec, std::string_view word, const Units& units)
 /// The values of a command's arguments. Those that were not given and have a fallback are there.
 class Arguments {
  public:
-  void set(const std::string& name, Value value) { values_[name] = std::move(value); }
+  void set(std::string_view name, Value value) {
+    values_.insert_or_assign(std::string(name), std::move(value));
+  }
   bool has(std::string_view name) const { return values_.find(name) != values_.end(); }
 
   // The value of an argument that is there; anything else is a bug and throws Error{kInternal}.
@@ -77,9 +93,7 @@ class Arguments {
   std::int64_t whole(std::string_view name) const { return get<std::int64_t>(name); }
   const Vec3& place(std::string_view name) const { return get<Vec3>(name); }
   const std::vector<Vec3>& places(std::string_view name) const { return get<std::vector<Vec3>>(name); }
-  const std::vector<std::pair<std::string, std::string>>& keys(std::string_view name) const {
-    return get<std::vector<std::pair<std::string, std::string>>>(name);
-  }
+  const Pairs& keys(std::string_view name) const { return get<Pairs>(name); }
   /// The text of a kName, kText or kMaterial that is there, else the empty one.
   std::string text_or_empty(std::string_view name) const { return has(name) ? text(name) : std::string(); }
 

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/made_line.hpp"
@@ -23,18 +23,13 @@
 namespace hallway::editor {
 namespace {
 
-constexpr std::array kNameKeys{"_tb_name", "name", "targetname"};
 constexpr std::array kReferenceKeys{"path", "target", "killtarget"};
-
-bool is_world(const EntityItem& entity) {
-  return entity.classname() == "worldspawn";
-}
 
 /// Things with their members; worldspawn as its brushes.
 std::vector<Thing> copied_things(const State& state, const std::vector<Thing>& meant) {
   std::vector<Thing> things;
   for (const Thing& thing : with_members(state, meant)) {
-    if (thing.brush || !is_world(*state.entities[thing.entity])) {
+    if (thing.brush || !state.entities[thing.entity]->is_world()) {
       things.push_back(thing);
       continue;
     }
@@ -64,10 +59,6 @@ void replace(map::Entity& head, std::string_view key, const std::string& value) 
   }
 }
 
-void unset(map::Entity& head, std::string_view key) {
-  std::erase_if(head.keys, [&](const map::KeyValue& pair) { return pair.key == key; });
-}
-
 /// Copies things into the state of an edit.
 class Copier {
  public:
@@ -77,7 +68,7 @@ class Copier {
     const State source = source_;  // what is copied may be part of what is changed
     auto things = copied_things(source, meant);
     leave_out_starts(source, things);
-    if (things.empty()) throw Error(ErrorCode::kUsage, "that leaves nothing to be copied");
+    if (things.empty()) refuse("that leaves nothing to be copied");
     choose_names(source, things);
     std::map<std::size_t, std::vector<BrushItem>> loose;
     for (const Thing& thing : things) {
@@ -97,33 +88,28 @@ class Copier {
 
  private:
   void leave_out_starts(const State& source, std::vector<Thing>& things) {
-    const bool there =
-        std::any_of(edit_.state.entities.begin(), edit_.state.entities.end(),
-                    [](const auto& entity) { return entity->classname() == "hw_robot_start"; });
-    const auto gone = std::erase_if(things, [&](const Thing& thing) {
-      return there && source.entities[thing.entity]->classname() == "hw_robot_start";
-    });
+    const auto is_start = [](const EntityItem& entity) { return entity.classname() == "hw_robot_start"; };
+    if (!find_entity(edit_.state, is_start)) return;
+    const auto gone =
+        std::erase_if(things, [&](const Thing& thing) { return is_start(*source.entities[thing.entity]); });
     if (gone > 0) copies_.notes.push_back("the robot's start is left out: a map has one");
   }
 
   void choose_names(const State& source, const std::vector<Thing>& things) {
     std::set<std::string> taken, mine;
-    for (const auto& entity : edit_.state.entities) {
+    const auto add_names = [](const EntityItem& entity, std::set<std::string>& names) {
       for (const char* key : kNameKeys) {
-        if (const std::string* name = entity->head->find(key); name != nullptr && !name->empty())
-          taken.insert(*name);
+        if (const std::string& name = entity.value(key); !name.empty()) names.insert(name);
       }
-    }
+    };
+    for (const auto& entity : edit_.state.entities) add_names(*entity, taken);
     int number = next_group_number(edit_.state);
     for (const Thing& thing : things) {
       if (thing.brush) continue;
       const EntityItem& entity = *source.entities[thing.entity];
       if (const auto group = group_number(entity)) groups_.emplace(*group, std::to_string(number++));
-      if (is_layer(entity)) layers_.emplace(value_of(entity, "_tb_id"), std::to_string(number++));
-      for (const char* key : kNameKeys) {
-        if (const std::string* name = entity.head->find(key); name != nullptr && !name->empty())
-          mine.insert(*name);
-      }
+      if (is_layer(entity)) layers_.emplace(entity.value("_tb_id"), std::to_string(number++));
+      add_names(entity, mine);
     }
     std::set<std::string> all = taken;
     all.insert(mine.begin(), mine.end());
@@ -135,12 +121,11 @@ class Copier {
   }
 
   void add_loose(std::size_t entity, const std::vector<BrushItem>& items) {
-    auto copy = std::make_shared<EntityItem>(*edit_.state.entities[entity]);
+    EntityItem& host = own(edit_.state, entity);
     for (const BrushItem& item : items) {
       copies_.ids.push_back(edit_.state.next_id++);
-      copy->brushes.push_back({copies_.ids.back(), item.brush});
+      host.brushes.push_back({copies_.ids.back(), item.brush});
     }
-    edit_.state.entities[entity] = std::move(copy);
     forget_made(edit_.state, {Thing{entity, {}}});
   }
 
@@ -151,19 +136,13 @@ class Copier {
     for (const BrushItem& brush : entity.brushes)
       item->brushes.push_back({edit_.state.next_id++, brush.brush});
     copies_.ids.push_back(item->id);
-    const std::string* in = item->head->find("_tb_group");
     const bool joins =
-        in != nullptr && *in == value_of(entity, "_tb_group") && item->head->find(kMadeKey) == nullptr;
+        item->has("_tb_group", entity.value("_tb_group")) && item->head->find(kMadeKey) == nullptr;
     edit_.state.entities.push_back(std::move(item));
     if (joins) forget_made(edit_.state, {Thing{edit_.state.entities.size() - 1, {}}});
   }
 
-  static bool is_layer(const EntityItem& entity) { return value_of(entity, "_tb_type") == "_tb_layer"; }
-
-  static std::string value_of(const EntityItem& entity, std::string_view key) {
-    const std::string* value = entity.head->find(key);
-    return value != nullptr ? *value : std::string();
-  }
+  static bool is_layer(const EntityItem& entity) { return entity.has("_tb_type", "_tb_layer"); }
 
   map::Entity head_of_copy(const EntityItem& entity) {
     map::Entity head = *entity.head;
@@ -179,8 +158,8 @@ class Copier {
     for (const char* key : kReferenceKeys) path_follows = follow(key, names_) || path_follows;
     if (head.classname() == "hw_waypoint" && !path_follows) make_last(head);
     follow("_tb_id", is_layer(entity) ? layers_ : groups_);
-    if (!follow("_tb_layer", layers_) && !same_map_) unset(head, "_tb_layer");
-    if (!follow("_tb_group", groups_) && !same_map_) unset(head, "_tb_group");
+    if (!follow("_tb_layer", layers_) && !same_map_) head.erase("_tb_layer");
+    if (!follow("_tb_group", groups_) && !same_map_) head.erase("_tb_group");
     if (const std::string* line = head.find(kMadeKey); line != nullptr && head.find("_tb_name") != nullptr)
       replace(head, kMadeKey, renamed_line(*line, *head.find("_tb_name"), units_of(edit_.state)));
     return head;
@@ -190,14 +169,10 @@ class Copier {
   void make_last(map::Entity& head) {
     const std::string* path = head.find("path");
     std::int64_t next = 0;
-    for (const auto& entity : edit_.state.entities) {
-      const std::string* of = entity->head->find("path");
-      const std::string* text = entity->head->find("index");
-      if (entity->classname() != "hw_waypoint" || path == nullptr || of == nullptr || *of != *path ||
-          text == nullptr)
-        continue;
-      if (const auto index = parse_int(*text); index && *index < 1'000'000'000)
-        next = std::max(next, *index + 1);
+    if (path != nullptr) {
+      for (const auto& [index, waypoint] : waypoints_of(edit_.state, *path)) {
+        if (index && *index < 1'000'000'000) next = std::max(next, *index + 1);
+      }
     }
     replace(head, "index", std::to_string(next));
   }
@@ -213,8 +188,7 @@ class Copier {
 
 const std::string& clipboard_of(const Edit& edit) {
   if (edit.clipboard.empty())
-    throw Error(ErrorCode::kUsage,
-                "there is no clipboard: neither XDG_CACHE_HOME nor HOME names a folder for its file");
+    refuse("there is no clipboard: neither XDG_CACHE_HOME nor HOME names a folder for its file");
   return edit.clipboard;
 }
 
@@ -239,9 +213,8 @@ std::string clipboard_text(const Edit& edit, const std::vector<Thing>& meant) {
   const auto things = copied_things(state, meant);
   map::Document document;
   map::Entity world;
-  world.keys = {{{}, "classname", "worldspawn", 0},
-                {{}, "_hallway", "1", 0},
-                {{}, "_scale", format_double(edit.metres_per_unit()), 0}};
+  world.keys = {
+      {"classname", "worldspawn"}, {"_hallway", "1"}, {"_scale", format_double(edit.metres_per_unit())}};
   std::set<std::string> groups;
   for (const Thing& thing : things) {
     const auto number = thing.brush ? std::nullopt : group_number(*state.entities[thing.entity]);
@@ -250,7 +223,7 @@ std::string clipboard_text(const Edit& edit, const std::vector<Thing>& meant) {
   std::map<std::size_t, std::size_t> places;  // of entities of which brushes only are copied
   for (const Thing& thing : things) {
     const EntityItem& entity = *state.entities[thing.entity];
-    if (thing.brush && (is_world(entity) || entity.classname() == "func_group")) {
+    if (thing.brush && (entity.is_world() || entity.classname() == "func_group")) {
       world.brushes.push_back(*entity.brushes[*thing.brush].brush);
     } else if (thing.brush) {
       const auto [place, is_new] = places.emplace(thing.entity, document.entities.size());
@@ -259,9 +232,9 @@ std::string clipboard_text(const Edit& edit, const std::vector<Thing>& meant) {
     } else {
       map::Entity& copy = document.entities.emplace_back(*entity.head);
       for (const BrushItem& item : entity.brushes) copy.brushes.push_back(*item.brush);
-      unset(copy, "_tb_layer");
+      copy.erase("_tb_layer");
       if (const std::string* in = copy.find("_tb_group"); in != nullptr && !groups.contains(*in))
-        unset(copy, "_tb_group");
+        copy.erase("_tb_group");
     }
   }
   document.entities.insert(document.entities.begin(), std::move(world));
@@ -283,21 +256,10 @@ State read_clipboard(const Edit& edit) {
   const std::string file = held ? std::string() : clipboard_of(edit);
   std::error_code none;
   if (!held && !std::filesystem::exists(file, none))
-    throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
+    refuse("the clipboard is empty; `copy` or `cut` fills it");
   State state = state_of(map::parse(held ? *edit.held_clipboard : read_file(file, map::kMaxMapBytes), file));
-  if (all_things(state).empty())
-    throw Error(ErrorCode::kUsage, "the clipboard is empty; `copy` or `cut` fills it");
+  if (all_things(state).empty()) refuse("the clipboard is empty; `copy` or `cut` fills it");
   return state;
-}
-
-std::vector<Thing> all_things(const State& state) {
-  std::vector<Thing> things;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const EntityItem& entity = *state.entities[e];
-    if (!is_world(entity)) things.push_back({e, {}});
-    for (std::size_t b = 0; is_world(entity) && b < entity.brushes.size(); ++b) things.push_back({e, b});
-  }
-  return things;
 }
 
 }  // namespace hallway::editor

@@ -35,7 +35,4 @@ void write_clipboard(const Edit& edit, const std::string& text);
 /// What the clipboard holds. Throws Error{kUsage} where there is none or nothing in it, Error{kBadInput} for what is no map.
 State read_clipboard(const Edit& edit);
 
-/// Everything of a map that can be copied: all entities but worldspawn, and worldspawn's brushes.
-std::vector<Thing> all_things(const State& state);
-
 }  // namespace hallway::editor

@@ -11,11 +11,20 @@ namespace hallway::editor {
 namespace {
 
 std::vector<CommandSpec> join() {
+  const std::pair<std::string_view, std::span<const CommandSpec>> topics[]{
+      {"the map", world_commands()},
+      {"shapes", shape_commands()},
+      {"cuts", cut_commands()},
+      {"things", things_commands()},
+      {"things", group_commands()},
+      {"moving and copying", moves_commands()},
+      {"robot, paths and lights", places_commands()},
+      {"checks and pictures", check_commands()},
+      {"output", output_commands()},
+      {"history", history_commands()}};
   std::vector<CommandSpec> all;
-  for (const auto& topic :
-       {world_commands(), shape_commands(), cut_commands(), things_commands(), group_commands(),
-        moves_commands(), places_commands(), check_commands(), output_commands(), history_commands()}) {
-    all.insert(all.end(), topic.begin(), topic.end());
+  for (const auto& [topic, commands] : topics) {
+    for (const CommandSpec& command : commands) all.emplace_back(command).topic = topic;
   }
   return all;
 }
@@ -29,20 +38,31 @@ std::span<const CommandSpec> commands() {
 
 const CommandSpec* find_command(std::string_view name) {
   const auto all = commands();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const CommandSpec& spec) { return spec.name == name; });
+  const auto found = std::ranges::find(all, name, &CommandSpec::name);
   return found == all.end() ? nullptr : &*found;
 }
 
+const ArgSpec* CommandSpec::argument(std::string_view argument_name) const {
+  const auto found = std::ranges::find(arguments, argument_name, &ArgSpec::name);
+  return found == arguments.end() ? nullptr : &*found;
+}
+
 Units units_of(const State& state) {
-  for (const auto& entity : state.entities) {
-    if (entity->classname() != "worldspawn") continue;
-    const std::string* scale = entity->head->find("_scale");
-    const auto value = scale != nullptr ? parse_double(*scale) : std::nullopt;
-    if (value && *value >= 1e-6 && *value <= 1e3) return {*value, &state};
-    break;
-  }
+  const auto world = find_entity(state, [](const EntityItem& entity) { return entity.is_world(); });
+  const auto scale = world ? parse_double(state.entities[*world]->value("_scale")) : std::nullopt;
+  if (scale && *scale >= 1e-6 && *scale <= 1e3) return {*scale, &state};
   return {map::kQuakeMetresPerUnit, &state};
+}
+
+void Report::note(const std::string& text) {
+  say("note: " + text);
+  data["notes"].push_back(text);
+}
+
+Edit without_grid(const State& state, const std::string& file) {
+  Edit plain{.state = state, .file = file};
+  plain.state.desk.grid_m = 0.0;
+  return plain;
 }
 
 double Edit::metres_per_unit() const {

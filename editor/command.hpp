@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,6 +24,15 @@ struct Report {
   std::vector<std::string> lines{};                                ///< for people, safe to print
   nlohmann::ordered_json data = nlohmann::ordered_json::object();  ///< the same for programs
   int status = 0;  ///< 1 where the command ran and its answer is no (a leak, a finding)
+
+  /// Adds a line.
+  void say(std::string line) { lines.push_back(std::move(line)); }
+  template <typename First, typename... Rest>
+  void say(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) {
+    say(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  /// Adds a line about something that the user may not expect; programs find it under "notes".
+  void note(const std::string& text);
 };
 
 /// How a map's lengths are read that are typed in map units: by `_scale` of worldspawn, Quake's where that is absent or wrong.
@@ -40,6 +52,9 @@ struct Edit {
   Vec3 units(const Vec3& place_m) const;
 };
 
+/// A map to work on that rounds no place to a grid.
+Edit without_grid(const State& state, const std::string& file = {});
+
 /// A command that changes or looks at a map and nothing else. Throws Error{kUsage, kBadInput} to refuse; nothing has happened then.
 using EditFunction = void (*)(Edit& edit, const Arguments& arguments);
 /// A command about the session itself: its history, its files.
@@ -48,7 +63,6 @@ using SessionFunction = void (*)(Session& session, const Arguments& arguments, R
 /// A command, as data. Parser, `help`, completion, docs/edit.md and the JSON form are made from it.
 struct CommandSpec {
   std::string_view name{};
-  std::string_view topic{};    ///< heading in lists of commands
   std::string_view summary{};  ///< one line
   std::string_view details{};  ///< paragraphs for `help NAME`; may be empty
   std::span<const ArgSpec> arguments{};
@@ -56,6 +70,10 @@ struct CommandSpec {
   std::string_view example{};
   std::string_view before{};  ///< lines that the example needs, with line ends between them
   std::variant<EditFunction, SessionFunction> run{};
+  std::string_view topic{};  ///< heading in lists of commands; commands() sets it
+
+  /// The argument of that name, or null.
+  const ArgSpec* argument(std::string_view argument_name) const;
 };
 
 /// All commands, by topic in the order in which one meets them.

@@ -11,13 +11,6 @@
 namespace hallway::editor {
 namespace {
 
-const ArgSpec* argument_of(const CommandSpec& command, std::string_view name) {
-  for (const ArgSpec& spec : command.arguments) {
-    if (spec.name == name) return &spec;
-  }
-  return nullptr;
-}
-
 void add_names(const State& state, std::set<std::string>& out) {
   for (const auto& entity : state.entities) {
     if (std::string name = name_of(*entity); !name.empty() && editor::quoted(name) == name)
@@ -76,7 +69,7 @@ std::set<std::string_view> given(const CommandSpec& command, const std::vector<s
   std::set<std::string_view> names;
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string_view word = words[i];
-    if (const ArgSpec* spec = argument_of(command, word.substr(0, word.find('=')))) names.insert(spec->name);
+    if (const ArgSpec* spec = command.argument(word.substr(0, word.find('=')))) names.insert(spec->name);
   }
   return names;
 }
@@ -106,8 +99,8 @@ std::vector<std::string> completions(const State& state, const std::vector<std::
   } else if (const CommandSpec* command = find_command(words.front())) {
     const std::size_t equals = current.find('=');
     const ArgSpec* named =
-        equals == std::string_view::npos ? nullptr : argument_of(*command, current.substr(0, equals));
-    const ArgSpec* before = words.size() > 1 ? argument_of(*command, words.back()) : nullptr;
+        equals == std::string_view::npos ? nullptr : command->argument(current.substr(0, equals));
+    const ArgSpec* before = words.size() > 1 ? command->argument(words.back()) : nullptr;
     if (named != nullptr) {
       prefix = current.substr(0, equals + 1);
       all = values(state, *named, current.substr(equals + 1));

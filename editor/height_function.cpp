@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 
 namespace hallway::editor {
@@ -22,16 +22,14 @@ struct HeightFunction::Formula {
     try {
       return parser.Eval();
     } catch (const mu::Parser::exception_type& error) {
-      throw Error(ErrorCode::kUsage, fmt::format("function: \"{}\" is no formula in x and y: {}",
-                                                 printable(text), printable(error.GetMsg())));
+      refuse("function: \"{}\" is no formula in x and y: {}", printable(text), printable(error.GetMsg()));
     }
   }
 };
 
 HeightFunction::HeightFunction(const std::string& formula) : formula_(std::make_unique<Formula>()) {
   constexpr std::size_t kLongest = 1000;
-  if (formula.size() > kLongest)
-    throw Error(ErrorCode::kUsage, "function: the formula is longer than 1000 characters");
+  if (formula.size() > kLongest) refuse("function: the formula is longer than 1000 characters");
   formula_->text = formula;
   formula_->parser.DefineConst("pi", std::numbers::pi);
   formula_->parser.DefineVar("x", &formula_->x);
@@ -39,8 +37,7 @@ HeightFunction::HeightFunction(const std::string& formula) : formula_(std::make_
   formula_->parser.SetExpr(formula);
   formula_->value();  // so that a mistake is found before there is a place for it
   if (formula_->parser.GetNumResults() != 1)
-    throw Error(ErrorCode::kUsage,
-                fmt::format("function: \"{}\" has more than one result", printable(formula)));
+    refuse("function: \"{}\" has more than one result", printable(formula));
 }
 
 HeightFunction::~HeightFunction() = default;
@@ -50,8 +47,8 @@ double HeightFunction::at(double x, double y) {
   formula_->y = y;
   const double height = formula_->value();
   if (std::isfinite(height)) return height;
-  throw Error(ErrorCode::kUsage, fmt::format("function: \"{}\" is no finite number at x={} y={}",
-                                             printable(formula_->text), format_double(x), format_double(y)));
+  refuse("function: \"{}\" is no finite number at x={} y={}", printable(formula_->text), format_double(x),
+         format_double(y));
 }
 
 }  // namespace hallway::editor

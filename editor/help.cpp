@@ -38,28 +38,24 @@ std::string wrapped(std::string_view text, std::string_view indent) {
   return out + std::string(indent) + line + "\n";
 }
 
-/// Commands in the order of the table, by topic in the order in which the topics come up.
-std::vector<std::string_view> topics() {
-  std::vector<std::string_view> all;
-  for (const CommandSpec& command : commands()) {
-    if (std::find(all.begin(), all.end(), command.topic) == all.end()) all.push_back(command.topic);
-  }
-  return all;
-}
-
-template <typename Visit>
-void for_topic(std::string_view topic, Visit&& visit) {
-  for (const CommandSpec& command : commands()) {
-    if (command.topic == topic) visit(command);
-  }
-}
-
 /// The lines of an example, those it needs first.
 std::vector<std::string_view> example_lines(const CommandSpec& command) {
   std::vector<std::string_view> lines;
   if (!command.before.empty()) lines = split(command.before, '\n');
   lines.push_back(command.example);
   return lines;
+}
+
+std::string example_text(const CommandSpec& command) {
+  std::string text;
+  for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
+  return text;
+}
+
+std::string capitalised(std::string_view text) {
+  std::string out(text);
+  out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  return out;
 }
 
 std::string escaped(std::string_view text) {
@@ -72,7 +68,7 @@ std::string escaped(std::string_view text) {
 }
 
 bool takes_places(const CommandSpec& command) {
-  return std::any_of(command.arguments.begin(), command.arguments.end(), [](const ArgSpec& spec) {
+  return std::ranges::any_of(command.arguments, [](const ArgSpec& spec) {
     return spec.kind == ArgKind::kPlace || spec.kind == ArgKind::kPlaces;
   });
 }
@@ -99,18 +95,17 @@ std::string help_text(const CommandSpec& command) {
     text += fmt::format("    {:<14} {:<14} {}\n", spec.name, type_name(spec), help_of(spec));
   if (takes_places(command)) text += wrapped(place_help(), "  ");
   text += "  Example:\n";
-  for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
+  text += example_text(command);
   text.pop_back();
   return text;
 }
 
 std::string help_overview() {
   std::string text;
-  for (const std::string_view topic : topics()) {
-    text += std::string(topic) + "\n";
-    for_topic(topic, [&](const CommandSpec& command) {
-      text += fmt::format("  {:<12} {}\n", command.name, command.summary);
-    });
+  std::string_view topic;
+  for (const CommandSpec& command : commands()) {
+    if (command.topic != topic) text += fmt::format("{}\n", topic = command.topic);
+    text += fmt::format("  {:<12} {}\n", command.name, command.summary);
   }
   return text +
          "`help NAME` explains one. Arguments are `name value`, `name=value`, or values in their order.\n" +
@@ -119,22 +114,18 @@ std::string help_overview() {
 
 std::string reference_markdown() {
   std::string text;
-  for (const std::string_view topic : topics()) {
-    text += fmt::format("\n### {}{}\n", static_cast<char>(std::toupper(static_cast<unsigned char>(topic[0]))),
-                        topic.substr(1));
-    for_topic(topic, [&](const CommandSpec& command) {
-      text += fmt::format("\n#### {}\n\n    {}\n\n{}{}.\n", command.name, usage(command),
-                          static_cast<char>(std::toupper(static_cast<unsigned char>(command.summary[0]))),
-                          command.summary.substr(1));
-      if (!command.details.empty()) text += fmt::format("\n{}\n", command.details);
-      if (!command.arguments.empty()) text += "\n| argument | type | what |\n|---|---|---|\n";
-      for (const ArgSpec& spec : command.arguments) {
-        text += fmt::format("| `{}`{} | {} | {} |\n", spec.name, spec.required ? "" : " (optional)",
-                            escaped(type_name(spec)), escaped(help_of(spec)));
-      }
-      text += "\nExample:\n\n";
-      for (const std::string_view line : example_lines(command)) text += fmt::format("    {}\n", line);
-    });
+  std::string_view topic;
+  for (const CommandSpec& command : commands()) {
+    if (command.topic != topic) text += fmt::format("\n### {}\n", capitalised(topic = command.topic));
+    text += fmt::format("\n#### {}\n\n    {}\n\n{}.\n", command.name, usage(command),
+                        capitalised(command.summary));
+    if (!command.details.empty()) text += fmt::format("\n{}\n", command.details);
+    if (!command.arguments.empty()) text += "\n| argument | type | what |\n|---|---|---|\n";
+    for (const ArgSpec& spec : command.arguments) {
+      text += fmt::format("| `{}`{} | {} | {} |\n", spec.name, spec.required ? "" : " (optional)",
+                          escaped(type_name(spec)), escaped(help_of(spec)));
+    }
+    text += "\nExample:\n\n" + example_text(command);
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/made_line.hpp"
 #include "map/writer.hpp"
@@ -61,7 +62,7 @@ Call renumbered(const Call& call, const Numbers& numbers) {
     for (const std::string_view term : split(call.arguments.text(spec.name), '+'))
       what += (what.empty() ? "" : "+") + with_numbers(trim(term), numbers);
     any = any || what != call.arguments.text(spec.name);
-    next.arguments.set(std::string(spec.name), std::move(what));
+    next.arguments.set(spec.name, std::move(what));
   }
   if (any) next.line = line_of(*call.command, next.arguments);
   return next;
@@ -84,8 +85,7 @@ class Writer {
     }
     for (const std::string& line : step.lines.empty() ? std::vector{step.line} : step.lines) run(line);
     apply(history_, step.patch);
-    if (!pair_up(history_, replay_.state, numbers_))
-      throw Error(ErrorCode::kUsage, "it makes something else now than it did then");
+    if (!pair_up(history_, replay_.state, numbers_)) refuse("it makes something else now than it did then");
   }
 
   const State& state() const { return replay_.state; }
@@ -96,7 +96,7 @@ class Writer {
     Call call = parse_script_line(line, units_of(replay_.state));
     if (call.command == nullptr || call.command->name == "save") return;
     const auto* edit = std::get_if<EditFunction>(&call.command->run);
-    if (edit == nullptr) throw Error(ErrorCode::kUsage, "its lines are not in the journal");
+    if (edit == nullptr) refuse("its lines are not in the journal");
     if (!are_same(numbers_)) call = renumbered(call, numbers_);
     replay_.report = {};
     (*edit)(replay_, call.arguments);
@@ -130,12 +130,12 @@ std::string history_script(const Session& session) {
     try {
       writer.add(step);
     } catch (const Error& error) {
-      throw Error(ErrorCode::kUsage, fmt::format("history: step {}, `{}`, cannot be repeated by a script: {}",
-                                                 i + 1, printable(step.line), error.what()));
+      refuse("history: step {}, `{}`, cannot be repeated by a script: {}", i + 1, printable(step.line),
+             error.what());
     }
   }
   if (map::print(document_of(writer.state(), file)) != session.text())
-    throw Error(ErrorCode::kUsage, "history: the steps make another map now than they did then");
+    refuse("history: the steps make another map now than they did then");
   const std::string begin =
       before.entities.empty() ? "an empty map" : fmt::format("the map as it was before step {}", first + 1);
   return fmt::format("# Begins with {}.\n", begin) + writer.text();

@@ -61,7 +61,7 @@ class Journal {
 
   std::filesystem::path path_;
   int file_ = -1;
-  int refusal_ = 0;  ///< errno of the attempt to open it for writing
+  int refusal_ = 0;       ///< errno of the attempt to open it for writing
   std::string checksum_;  ///< of the last line
   std::uint64_t size_ = 0;
   std::vector<nlohmann::ordered_json> records_;

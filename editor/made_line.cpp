@@ -44,8 +44,9 @@ std::string value_text(const ArgSpec& spec, const Arguments& arguments) {
     case ArgKind::kVector:
       return place_text(arguments.place(spec.name));
     case ArgKind::kFactors: {
-      const Vec3& factors = arguments.place(spec.name);
-      return format_double(factors.x()) + ',' + format_double(factors.y()) + ',' + format_double(factors.z());
+      std::string text = vector_text(arguments.place(spec.name));
+      std::ranges::replace(text, ' ', ',');
+      return text;
     }
     case ArgKind::kPlaces: {
       std::string text;
@@ -77,8 +78,8 @@ void add_parts(const EntityItem& entity, Id first, std::vector<Part>& parts) {
 bool same(const Part& a, const Part& b) {
   constexpr double kTurned = 1e-6, kMoved = 1e-4;  // map units
   if (a.added != b.added || a.planes.size() != b.planes.size()) return false;
-  return std::all_of(a.planes.begin(), a.planes.end(), [&](const Plane& plane) {
-    return std::any_of(b.planes.begin(), b.planes.end(), [&](const Plane& other) {
+  return std::ranges::all_of(a.planes, [&](const Plane& plane) {
+    return std::ranges::any_of(b.planes, [&](const Plane& other) {
       return (plane.normal - other.normal).norm() < kTurned && std::abs(plane.offset - other.offset) < kMoved;
     });
   });
@@ -101,9 +102,8 @@ bool same(const std::vector<Part>& a, const std::vector<Part>& b) {
 
 /// The argument of a line of an opening that says what it is in.
 bool names_host(const Call& call) {
-  return call.command != nullptr &&
-         std::any_of(call.command->arguments.begin(), call.command->arguments.end(),
-                     [](const ArgSpec& spec) { return spec.name == "in" && spec.kind == ArgKind::kWhat; });
+  const ArgSpec* host = call.command != nullptr ? call.command->argument("in") : nullptr;
+  return host != nullptr && host->kind == ArgKind::kWhat;
 }
 
 /// The call of a line that may be tried out: of a command that changes the map only and reads no file.
@@ -146,6 +146,40 @@ std::string line_of(const CommandSpec& command, const Arguments& arguments) {
   return line;
 }
 
+void map_places(const CommandSpec& command, Arguments& arguments,
+                const std::function<Vec3(const Vec3& place)>& change) {
+  for (const ArgSpec& spec : command.arguments) {
+    if (!arguments.has(spec.name)) continue;
+    if (spec.kind == ArgKind::kPlace) {
+      arguments.set(spec.name, change(arguments.place(spec.name)));
+    } else if (spec.kind == ArgKind::kPlaces) {
+      std::vector<Vec3> places = arguments.places(spec.name);
+      std::ranges::transform(places, places.begin(), change);
+      arguments.set(spec.name, std::move(places));
+    }
+  }
+}
+
+std::string made_line(const Edit& edit, std::string_view command, const Arguments& arguments) {
+  const CommandSpec& spec = *find_command(command);
+  const double scale = edit.metres_per_unit();
+  Arguments rounded = arguments;
+  map_places(spec, rounded, [&](const Vec3& place) -> Vec3 { return scale * edit.units(place); });
+  return line_of(spec, rounded);
+}
+
+std::optional<Call> made_call(const State& state, const EntityItem& entity) {
+  const std::string* line = entity.head->find(kMadeKey);
+  if (line == nullptr) return std::nullopt;
+  try {
+    Call call = parse_line(*line, units_of(state));
+    if (call.command == nullptr) return std::nullopt;
+    return call;
+  } catch (const Error&) {
+    return std::nullopt;  // a map is read whatever stands in it
+  }
+}
+
 std::optional<std::size_t> maker_of(const State& state, const Thing& thing) {
   if (is_fill(*state.entities[thing.entity])) return opening_of(state, thing.entity);
   if (state.entities[thing.entity]->head->find(kMadeKey) != nullptr) return thing.entity;
@@ -164,29 +198,37 @@ void forget_made(State& state, const std::vector<Thing>& things) {
   for (const std::size_t maker : makers) set_key(state, maker, kMadeKey, {});
 }
 
-std::string renamed_line(const std::string& line, const std::string& name, const Units& units) {
+std::optional<std::string> changed_line(const std::string& line, const Units& units,
+                                        const std::function<bool(Call& call)>& change) {
   try {
     Call call = parse_line(line, units);
-    if (call.command == nullptr || !call.arguments.has("name")) return line;
-    call.arguments.set("name", name);
-    return line_of(*call.command, call.arguments);
+    if (call.command != nullptr && change(call)) return line_of(*call.command, call.arguments);
   } catch (const Error&) {
-    return line;  // of another version, or of somebody else
+    // The line is of another version, or of somebody else.
   }
+  return std::nullopt;
+}
+
+std::string renamed_line(const std::string& line, const std::string& name, const Units& units) {
+  return changed_line(line, units,
+                      [&](Call& call) {
+                        if (!call.arguments.has("name")) return false;
+                        call.arguments.set("name", name);
+                        return true;
+                      })
+      .value_or(line);
 }
 
 void name_host(State& state, std::size_t entity) {
   const std::string* line = state.entities[entity]->head->find(kMadeKey);
   const std::string host = line != nullptr ? host_of(state, entity, true) : std::string();
   if (host.empty()) return;
-  try {
-    Call call = parse_line(*line, units_of(state));
-    if (!names_host(call)) return;
+  const auto next = changed_line(*line, units_of(state), [&](Call& call) {
+    if (!names_host(call)) return false;
     call.arguments.set("in", host);
-    set_key(state, entity, kMadeKey, line_of(*call.command, call.arguments));
-  } catch (const Error&) {
-    return;  // of another version, or of somebody else
-  }
+    return true;
+  });
+  if (next) set_key(state, entity, kMadeKey, *next);
 }
 
 bool makes(const Edit& edit, const std::string& line, std::size_t entity) {
@@ -194,7 +236,7 @@ bool makes(const Edit& edit, const std::string& line, std::size_t entity) {
   std::vector<Part> wanted, made;
   auto members = with_members(state, {Thing{entity, {}}});
   if (is_opening(*state.entities[entity])) {
-    for (const std::size_t fill : fills_of(state, entity)) members.push_back({fill, {}});
+    std::ranges::copy(fills_of(state, entity), std::back_inserter(members));
   }
   for (const Thing& thing : members) {
     if (thing.entity == entity || maker_of(state, thing) == entity)
@@ -205,10 +247,7 @@ bool makes(const Edit& edit, const std::string& line, std::size_t entity) {
     if (!call) return false;
     if (const std::string host = host_of(state, entity, false); names_host(*call) && !host.empty())
       call->arguments.set("in", host);
-    Edit trial;
-    trial.state = state;
-    trial.file = edit.file;
-    trial.state.desk.grid_m = 0.0;
+    Edit trial = without_grid(state, edit.file);
     remove(trial.state, members);
     const Id first = trial.state.next_id;
     std::get<EditFunction>(call->command->run)(trial, call->arguments);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/matching.hpp"
+#include "editor/state.hpp"
 
 #include <deque>
 #include <string>
@@ -38,15 +38,6 @@ void match_brushes(const EntityItem* before, const std::vector<map::Brush>& brus
   }
 }
 
-map::Entity head_of(const map::Entity& entity) {
-  map::Entity head;
-  head.comments = entity.comments;
-  head.keys = entity.keys;
-  head.closing_comments = entity.closing_comments;
-  head.line = entity.line;
-  return head;
-}
-
 }  // namespace
 
 State matched(const State& before, const map::Document& document) {
@@ -60,7 +51,7 @@ State matched(const State& before, const map::Document& document) {
   std::vector<std::optional<std::size_t>> origin;
   std::vector<bool> taken(before.entities.size(), false);
   for (const map::Entity& entity : document.entities) {
-    origin.push_back(take(heads, text_of(head_of(entity))));
+    origin.push_back(take(heads, text_of(without_brushes(entity))));
     if (origin.back()) taken[*origin.back()] = true;
   }
   for (std::size_t e = 0; e < origin.size() && e < before.entities.size(); ++e) {
@@ -74,7 +65,7 @@ State matched(const State& before, const map::Document& document) {
     const EntityItem* old = origin[e] ? before.entities[*origin[e]].get() : nullptr;
     auto item = std::make_shared<EntityItem>();
     item->id = old != nullptr ? old->id : state.next_id++;
-    map::Entity head = head_of(entity);
+    map::Entity head = without_brushes(entity);
     const bool same = old != nullptr && text_of(*old->head) == text_of(head);
     item->head = same ? old->head : std::make_shared<const map::Entity>(std::move(head));
     match_brushes(old, entity.brushes, *item, state.next_id);

@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
-#include "editor/refuse.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -18,10 +18,8 @@ using Json = nlohmann::ordered_json;
 
 const CommandSpec& known_command(const std::string& name) {
   if (const CommandSpec* command = find_command(name)) return *command;
-  std::vector<std::string> names;
-  for (const CommandSpec& command : commands()) names.emplace_back(command.name);
-  refuse(fmt::format("there is no command \"{}\"{}; `help` lists them", printable(name),
-                     suggestion(name, names)));
+  refuse("there is no command \"{}\"{}; `help` lists them", printable(name),
+         suggestion(name, names_in(commands(), &CommandSpec::name)));
 }
 
 /// Collects the values of one call.
@@ -31,12 +29,7 @@ class Reader {
     call_.command = &command;
   }
 
-  const ArgSpec* find(std::string_view name) const {
-    for (const ArgSpec& spec : command_.arguments) {
-      if (spec.name == name) return &spec;
-    }
-    return nullptr;
-  }
+  const ArgSpec* find(std::string_view name) const { return command_.argument(name); }
 
   bool is_given(const ArgSpec& spec) const { return given_.contains(spec.name); }
 
@@ -52,48 +45,41 @@ class Reader {
   const ArgSpec* takes_keys() const {
     const ArgSpec* first = next();
     if (first != nullptr && first->kind == ArgKind::kWhat) return nullptr;
-    for (const ArgSpec& spec : command_.arguments) {
-      if (spec.kind == ArgKind::kKeys) return &spec;
-    }
-    return nullptr;
+    const auto keys = std::ranges::find(command_.arguments, ArgKind::kKeys, &ArgSpec::kind);
+    return keys == command_.arguments.end() ? nullptr : &*keys;
   }
 
   void give(const ArgSpec& spec, std::string_view word) {
     Value value = read_value(spec, word, units_);
     if (spec.kind == ArgKind::kKeys) {
-      auto keys = is_given(spec) ? call_.arguments.keys(spec.name)
-                                 : std::vector<std::pair<std::string, std::string>>{};
-      for (auto& pair : std::get<std::vector<std::pair<std::string, std::string>>>(value))
-        keys.push_back(std::move(pair));
+      Pairs keys = is_given(spec) ? call_.arguments.keys(spec.name) : Pairs{};
+      std::ranges::move(std::get<Pairs>(value), std::back_inserter(keys));
       value = std::move(keys);
     } else if (is_given(spec)) {
-      refuse(fmt::format("{}: `{}` is given twice", command_.name, spec.name));
+      refuse("{}: `{}` is given twice", command_.name, spec.name);
     }
     given_.insert(spec.name);
-    call_.arguments.set(std::string(spec.name), std::move(value));
+    call_.arguments.set(spec.name, std::move(value));
   }
 
   Call finish(std::string line) {
     for (const ArgSpec& spec : command_.arguments) {
       if (is_given(spec)) continue;
       if (spec.required) {
-        refuse(fmt::format("{}: `{}` ({}) is missing; `help {}` shows what it takes", command_.name,
-                           spec.name, type_name(spec), command_.name));
+        refuse("{}: `{}` ({}) is missing; `help {}` shows what it takes", command_.name, spec.name,
+               type_name(spec), command_.name);
       }
-      if (!spec.fallback.empty())
-        call_.arguments.set(std::string(spec.name), read_value(spec, spec.fallback, units_));
+      if (!spec.fallback.empty()) call_.arguments.set(spec.name, read_value(spec, spec.fallback, units_));
     }
     call_.line = std::move(line);
     return std::move(call_);
   }
 
   [[noreturn]] void unknown(std::string_view name) const {
-    std::vector<std::string> names;
-    for (const ArgSpec& spec : command_.arguments) names.emplace_back(spec.name);
-    if (names.empty())
-      refuse(fmt::format("{}: takes no argument, and there is \"{}\"", command_.name, printable(name)));
-    refuse(fmt::format("{}: there is no argument \"{}\"{}; it takes: {}", command_.name, printable(name),
-                       suggestion(name, names), fmt::join(names, ", ")));
+    const auto names = names_in(command_.arguments, &ArgSpec::name);
+    if (names.empty()) refuse("{}: takes no argument, and there is \"{}\"", command_.name, printable(name));
+    refuse("{}: there is no argument \"{}\"{}; it takes: {}", command_.name, printable(name),
+           suggestion(name, names), fmt::join(names, ", "));
   }
 
  private:
@@ -112,10 +98,7 @@ const ArgSpec* named_in(const Reader& reader, std::string_view word) {
 
 std::string join(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) {
-    if (!line.empty()) line += ' ';
-    line += quoted(word);
-  }
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
   return line;
 }
 
@@ -230,7 +213,7 @@ Call parse_json(const Json& json, const Units& units) {
     const ArgSpec* spec = reader.find(name);
     if (spec == nullptr) reader.unknown(name);
     if (spec->kind == ArgKind::kKeys) {
-      if (!value.is_object()) refuse(fmt::format("{}: {} is no object of keys and values", words[0], name));
+      if (!value.is_object()) refuse("{}: {} is no object of keys and values", words[0], name);
       for (const auto& [key, text] : value.items()) {
         words.push_back(key + "=" + word_of(*spec, text));
         reader.give(*spec, words.back());

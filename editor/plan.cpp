@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
 #include "editor/selection.hpp"
@@ -64,7 +65,7 @@ std::optional<PlanLine> widest_gap(const Section& section, const PlanBox& box, E
           ends.push_back(a[axis] + (across - a[other]) / (b[other] - a[other]) * (b[axis] - a[axis]));
       }
     }
-    std::sort(ends.begin(), ends.end());
+    std::ranges::sort(ends);
     for (std::size_t i = 1; i + 1 < ends.size(); i += 2) {
       const bool within = ends[i] > box.min()[axis] && ends[i + 1] < box.max()[axis];
       if (!within || ends[i + 1] - ends[i] <= most + 1e-6) continue;
@@ -112,16 +113,16 @@ class PlanMaker {
  private:
   [[noreturn]] void refuse_height() const {
     if (surface_.vertices.empty())
-      throw Error(ErrorCode::kUsage, "height: there is nothing solid in the map, so there is no plan of it");
+      refuse("height: there is nothing solid in the map, so there is no plan of it");
     double low = surface_.vertices.front().z(), high = low;
     for (const Vec3& vertex : surface_.vertices) {
       low = std::min(low, vertex.z());
       high = std::max(high, vertex.z());
     }
-    throw Error(ErrorCode::kUsage,
-                fmt::format("height: nothing is solid at {} m; what is solid reaches from "
-                            "{} to {} m",
-                            sheet_number(plan_.height_m), sheet_number(low), sheet_number(high)));
+    refuse(
+        "height: nothing is solid at {} m; what is solid reaches from "
+        "{} to {} m",
+        sheet_number(plan_.height_m), sheet_number(low), sheet_number(high));
   }
 
   template <typename F>
@@ -156,10 +157,9 @@ class PlanMaker {
   void add_paths() {
     for (const auto& entity : state_.entities) {
       if (entity->classname() != "hw_path") continue;
-      const std::string* name = entity->head->find("name");
-      const std::string text = name != nullptr ? *name : std::string();
-      or_note(fmt::format("path \"{}\"", printable(text)),
-              [&] { add_path(map::find_path(document_, text)); });
+      const std::string& name = entity->value("name");
+      or_note(fmt::format("path \"{}\"", printable(name)),
+              [&] { add_path(map::find_path(document_, name)); });
     }
   }
 
@@ -197,8 +197,7 @@ class PlanMaker {
     for (const Thing& member : members) {
       const EntityItem& entity = *state_.entities[member.entity];
       if (entity.brushes.empty() || entity.classname() == "hw_subtract") continue;
-      const Box one = bounds_of(state_, member);
-      if (!one.isEmpty()) box.extend(one);
+      box.extend(bounds_of(state_, member));
     }
     if (!box.isEmpty()) box = Box(box.min() * scale_, box.max() * scale_);
     return box;
@@ -216,11 +215,11 @@ class PlanMaker {
     PlanName label{.text = printable(name, kLongestName), .at = flat.center()};
     const bool is_room = is_cut && add_widths(members, flat);
     const auto places = places_in(flat);
-    const auto open = std::find_if(places.begin(), places.end(),
-                                   [&](const Vec2& at) { return !is_inside(plan_.section, at); });
+    const auto open =
+        std::ranges::find_if(places, [&](const Vec2& at) { return !is_inside(plan_.section, at); });
     if (is_room && open != places.end()) {
       label.at = *open;
-    } else if (!is_cut && std::all_of(places.begin(), places.end(), [&](const Vec2& at) {
+    } else if (!is_cut && std::ranges::all_of(places, [&](const Vec2& at) {
                  return columns_->blocked(at, box.max().z() + 1e-6, plan_.height_m);
                })) {
       return;
@@ -244,7 +243,7 @@ class PlanMaker {
 
   /// Adds how wide a room is: a group that is no group of groups, and has walls on all sides. Whether it is one.
   bool add_widths(const std::vector<Thing>& members, const PlanBox& box) {
-    const auto groups = std::count_if(members.begin(), members.end(), [&](const Thing& member) {
+    const auto groups = std::ranges::count_if(members, [&](const Thing& member) {
       return !member.brush && group_number(*state_.entities[member.entity]);
     });
     const auto across = widest_gap(plan_.section, box, 0), along = widest_gap(plan_.section, box, 1);

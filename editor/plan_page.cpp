@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "editor/plan.hpp"
 
 namespace hallway::editor {
@@ -36,8 +37,7 @@ constexpr std::array kScales{1.0,   2.0,   5.0,    10.0,   20.0,   25.0,    50.0
                              250.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0, 50000.0, 100000.0};
 
 const PaperSize& paper_size(const std::string& name) {
-  const auto found =
-      std::find_if(kPapers.begin(), kPapers.end(), [&](const PaperSize& one) { return one.name == name; });
+  const auto found = std::ranges::find_if(kPapers, [&](const PaperSize& one) { return one.name == name; });
   if (found == kPapers.end()) throw Error(ErrorCode::kInternal, "no such paper");
   return *found;
 }
@@ -80,7 +80,7 @@ std::optional<Vec2> page_for(const PlanPaper& paper, const PaperSize& size, cons
       size_m.x(), size_m.y(), needed.x(), needed.y(), sheet_number(paper.scale), paper.name,
       paper.orientation == "auto" ? "" : " " + paper.orientation);
   for (std::size_t i = 0; i < ways.size(); ++i) message += (i == 0 ? "; it would with " : " or ") + ways[i];
-  throw Error(ErrorCode::kUsage, message);
+  refuse(message);
 }
 
 /// Metres to the millimetre, with two decimals where those are enough.
@@ -155,8 +155,8 @@ class PlanDrawer {
     const Vec2 step = one.upwards ? Vec2(-1.3 * one.size_mm, 0.0) : Vec2(0.0, -1.3 * one.size_mm);
     const Vec2 wanted = one.at;
     const auto is_free = [&] {
-      return std::none_of(labels_.begin(), labels_.end(),
-                          [box = box_of(one)](const PlanBox& other) { return box.intersects(other); });
+      return std::ranges::none_of(
+          labels_, [box = box_of(one)](const PlanBox& other) { return box.intersects(other); });
     };
     for (const double steps : {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0, -4.0}) {
       one.at = wanted + steps * step;
@@ -173,11 +173,11 @@ class PlanDrawer {
   void draw_grid() {
     const double cell = paper_.grid_m;
     if (cell * mm_per_m_ < 1.0) {
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("grid: lines {} m apart are {:.2f} mm apart at 1:{}; from {} m on they can be "
-                              "distinguished",
-                              sheet_number(cell), cell * mm_per_m_, sheet_number(paper_.scale),
-                              sheet_number(paper_.scale / 1000.0)));
+      refuse(
+          "grid: lines {} m apart are {:.2f} mm apart at 1:{}; from {} m on they can be "
+          "distinguished",
+          sheet_number(cell), cell * mm_per_m_, sheet_number(paper_.scale),
+          sheet_number(paper_.scale / 1000.0));
     }
     begin("grid");
     for (Eigen::Index axis = 0; axis < 2; ++axis) {

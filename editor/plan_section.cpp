@@ -34,7 +34,7 @@ std::vector<Piece> pieces_at(const csg::Surface& surface, double height) {
   std::vector<Piece> pieces;
   const auto above = [&](std::uint32_t v) { return surface.vertices[v].z() > height; };
   for (const csg::SurfacePolygon& polygon : surface.polygons) {
-    const auto some = std::count_if(polygon.vertices.begin(), polygon.vertices.end(), above);
+    const auto some = std::ranges::count_if(polygon.vertices, above);
     if (some == 0 || some == static_cast<std::ptrdiff_t>(polygon.vertices.size())) continue;
     for (const auto& corners : csg::triangulate(surface, polygon)) {
       std::optional<EdgeKey> rises, falls;
@@ -97,7 +97,7 @@ std::vector<Side> sides_of(const csg::Surface& surface) {
       sides.push_back({std::min(a, b), std::max(a, b), p});
     }
   }
-  std::sort(sides.begin(), sides.end());
+  std::ranges::sort(sides);
   return sides;
 }
 
@@ -140,8 +140,7 @@ class EdgeView {
       const auto whole = [](double x) { return std::llround(x / kSame); };
       return std::array{whole(line.from.x()), whole(line.from.y()), whole(line.to.x()), whole(line.to.y())};
     };
-    std::stable_sort(lines_.begin(), lines_.end(),
-                     [&](const PlanLine& a, const PlanLine& b) { return key(a) < key(b); });
+    std::ranges::stable_sort(lines_, [&](const PlanLine& a, const PlanLine& b) { return key(a) < key(b); });
     const auto end = std::unique(lines_.begin(), lines_.end(),
                                  [&](const PlanLine& a, const PlanLine& b) { return key(a) == key(b); });
     lines_.erase(end, lines_.end());
@@ -177,7 +176,7 @@ class EdgeView {
         }
       }
     }
-    std::sort(cuts.begin(), cuts.end());
+    std::ranges::sort(cuts);
     const auto end =
         std::unique(cuts.begin(), cuts.end(), [&](double a, double b) { return (b - a) * length <= kSame; });
     cuts.erase(end, cuts.end());
@@ -186,7 +185,7 @@ class EdgeView {
   }
 
   bool hidden(const Vec3& at, const std::vector<std::uint32_t>& polygons) const {
-    return std::any_of(polygons.begin(), polygons.end(), [&](std::uint32_t p) {
+    return std::ranges::any_of(polygons, [&](std::uint32_t p) {
       const double z = columns_.height_at(p, flat(at));
       return z > at.z() + kSame && z <= height_ && columns_.covers(p, flat(at));
     });
@@ -219,12 +218,10 @@ PlanBox Section::bounds() const {
 
 Section section_at(const csg::Surface& surface, double height_m) {
   std::vector<Piece> pieces = pieces_at(surface, height_m);
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.from < b.from; });
+  std::ranges::stable_sort(pieces, {}, &Piece::from);
   std::vector<bool> used(pieces.size(), false);
   const auto next_from = [&](const EdgeKey& key) {
-    auto found = std::lower_bound(pieces.begin(), pieces.end(), key,
-                                  [](const Piece& piece, const EdgeKey& k) { return piece.from < k; });
+    auto found = std::ranges::lower_bound(pieces, key, {}, &Piece::from);
     while (found != pieces.end() && found->from == key &&
            used[static_cast<std::size_t>(found - pieces.begin())])
       ++found;
@@ -284,7 +281,7 @@ std::vector<std::uint32_t> PlanColumns::near(const PlanBox& box) const {
       found.insert(found.end(), cell.begin(), cell.end());
     }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
@@ -310,7 +307,7 @@ bool PlanColumns::blocked(const Vec2& at, double low_m, double high_m) const {
   if (cells_.empty() || bounds_.isEmpty() || !bounds_.contains(at)) return false;
   const Eigen::Array2i cell = cell_of(at);
   const auto& polygons = cells_[static_cast<std::size_t>(cell.y() * side_ + cell.x())];
-  return std::any_of(polygons.begin(), polygons.end(), [&](std::uint32_t p) {
+  return std::ranges::any_of(polygons, [&](std::uint32_t p) {
     const double z = height_at(p, at);
     return z > low_m && z < high_m && covers(p, at);
   });

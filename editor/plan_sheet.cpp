@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "base/utf8.hpp"
 
 namespace hallway::editor {
 namespace {
@@ -135,29 +138,11 @@ class SvgWriter {
 
 std::vector<std::uint32_t> code_points(std::string_view utf8) {
   constexpr std::uint32_t kReplacement = 0xFFFD;
-  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
   std::vector<std::uint32_t> codes;
-  for (std::size_t i = 0; i < utf8.size();) {
-    const auto first = static_cast<std::uint8_t>(utf8[i]);
-    const std::size_t length = first < 0x80   ? 1
-                               : first < 0xC2 ? 0
-                               : first < 0xE0 ? 2
-                               : first < 0xF0 ? 3
-                               : first < 0xF5 ? 4
-                                              : 0;
-    std::uint32_t code = length == 1   ? first
-                         : length == 2 ? first & 0x1Fu
-                         : length == 3 ? first & 0x0Fu
-                                       : first & 0x07u;
-    bool good = length > 0 && i + length <= utf8.size();
-    for (std::size_t k = 1; good && k < length; ++k) {
-      const auto next = static_cast<std::uint8_t>(utf8[i + k]);
-      good = (next & 0xC0u) == 0x80u;
-      code = (code << 6) | (next & 0x3Fu);
-    }
-    good = good && code >= kLeast[length] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-    codes.push_back(good ? code : kReplacement);
-    i += good ? length : 1;
+  while (!utf8.empty()) {
+    const Utf8Code code = first_utf8_code(utf8);
+    codes.push_back(code.length > 0 ? static_cast<std::uint32_t>(code.value) : kReplacement);
+    utf8.remove_prefix(std::max<std::size_t>(code.length, 1));
   }
   return codes;
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/session.hpp"
 
@@ -25,7 +26,7 @@ std::optional<fs::path> sourced(const std::string& line) {
   constexpr std::string_view kKey = "file=";
   if (words.size() == 3 && words[1] == "file") return words[2];
   if (words.size() == 2) return words[1].starts_with(kKey) ? words[1].substr(kKey.size()) : words[1];
-  throw Error(ErrorCode::kUsage, "source: one file is wanted");
+  refuse("source: one file is wanted");
 }
 
 void add_lines(const std::string& text, const fs::path& file, int depth, std::vector<ScriptLine>& out) {

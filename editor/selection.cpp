@@ -8,20 +8,24 @@
 #include <set>
 #include <utility>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
-#include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
 namespace {
 
-bool is_world(const EntityItem& entity) {
-  return entity.classname() == "worldspawn";
-}
-
 bool inside(const Box& box, const Box& part) {
   return !part.isEmpty() && box.contains(part);
+}
+
+/// Without brushes whose entity is there too.
+std::vector<Thing> without_parts(std::set<Thing> things) {
+  std::erase_if(things, [&](const Thing& thing) {
+    return thing.brush && things.contains(Thing{thing.entity, {}});
+  });
+  return {things.begin(), things.end()};
 }
 
 /// Finds what the terms of a text mean in a state.
@@ -31,21 +35,19 @@ class Resolver {
 
   std::vector<Thing> resolve(std::string_view what) {
     for (const std::string_view term : split(what, '+')) add_term(trim(term));
-    std::vector<Thing> things;
-    for (const Thing& thing : found_) {
-      if (thing.brush && found_.contains(Thing{thing.entity, {}})) continue;
-      things.push_back(thing);
-    }
-    if (things.empty()) refuse(fmt::format("\"{}\" means nothing: the map is empty", printable(what)));
-    return things;
+    if (found_.empty()) refuse("\"{}\" means nothing: the map is empty", printable(what));
+    return without_parts(std::move(found_));
   }
 
  private:
   void add_term(std::string_view term) {
     if (term.empty()) refuse("a name, a number or another word for things is missing");
-    if (term == "all") return add_all();
-    if (term == "selected")
-      return add_numbers(state_.desk.selection, "nothing is selected; `select` chooses");
+    if (term == "all") {
+      const auto all = all_things(state_);
+      found_.insert(all.begin(), all.end());
+      return;
+    }
+    if (term == "selected") return add_selected();
     if (term.starts_with('#')) return add_range(term.substr(1), term);
     if (term[0] >= '0' && term[0] <= '9') return add_range(term, term);
     const std::size_t equals = term.find('=');
@@ -53,23 +55,11 @@ class Resolver {
     add_named(term);
   }
 
-  void add_all() {
-    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
-      if (is_world(*state_.entities[e])) {
-        add_brushes(e, [](const map::Brush&) { return true; });
-      } else {
-        found_.insert({e, {}});
-      }
-    }
-  }
-
-  void add_numbers(const std::vector<Id>& ids, const std::string& otherwise) {
-    const std::set<Id> wanted(ids.begin(), ids.end());
+  void add_selected() {
     const std::size_t before = found_.size();
-    for_each([&](const Thing& thing, Id id) {
-      if (wanted.contains(id)) found_.insert(thing);
-    });
-    if (found_.size() == before) refuse(otherwise);
+    const auto things = things_of(state_, state_.desk.selection);
+    found_.insert(things.begin(), things.end());
+    if (found_.size() == before) refuse("nothing is selected; `select` chooses");
   }
 
   void add_range(std::string_view range, std::string_view term) {
@@ -78,17 +68,15 @@ class Resolver {
     std::string_view end = dots == std::string_view::npos ? range : range.substr(dots + 2);
     if (end.starts_with('#')) end.remove_prefix(1);
     const auto last = parse_uint(end);
-    if (!first || !last)
-      refuse(fmt::format("\"{}\" is no number of a thing, nor two of them as 12..15", printable(term)));
+    if (!first || !last) refuse("\"{}\" is no number of a thing, nor two of them as 12..15", printable(term));
     const std::size_t before = found_.size();
     bool any = false;
-    for_each([&](const Thing& thing, Id id) {
+    for_each_thing(state_, [&](const Thing& thing, Id id) {
       if (id < *first || id > *last) return;
       any = true;
       found_.insert(thing);
     });
-    if (!any && found_.size() == before)
-      refuse(fmt::format("there is nothing of the number {}", printable(term)));
+    if (!any && found_.size() == before) refuse("there is nothing of the number {}", printable(term));
   }
 
   void add_filter(std::string_view kind, std::string_view value) {
@@ -98,8 +86,8 @@ class Resolver {
     } else if (kind == "material") {
       for (std::size_t e = 0; e < state_.entities.size(); ++e) {
         add_brushes(e, [&](const map::Brush& brush) {
-          return std::any_of(brush.faces.begin(), brush.faces.end(),
-                             [&](const map::Face& face) { return fits(face.material, value); });
+          return std::ranges::any_of(brush.faces,
+                                     [&](const map::Face& face) { return fits(face.material, value); });
         });
       }
     } else if (kind == "group") {
@@ -107,11 +95,11 @@ class Resolver {
     } else if (kind == "box") {
       add_box(value);
     } else {
-      refuse(fmt::format("\"{}=\" chooses nothing{}; there are class=, material=, group= and box=",
-                         printable(kind), suggestion(kind, {"class", "material", "group", "box"})));
+      refuse("\"{}=\" chooses nothing{}; there are class=, material=, group= and box=", printable(kind),
+             suggestion(kind, {"class", "material", "group", "box"}));
     }
     if (found_.size() == before)
-      refuse(fmt::format("there is nothing that \"{}={}\" fits", printable(kind), printable(value)));
+      refuse("there is nothing that \"{}={}\" fits", printable(kind), printable(value));
   }
 
   void add_group(std::string_view name) {
@@ -128,20 +116,17 @@ class Resolver {
   void add_box(std::string_view text) {
     const auto numbers = split(text, ',');
     Vec3 corner[2];
-    for (std::size_t i = 0; i < numbers.size() && numbers.size() == 6; ++i) {
-      const auto number = parse_double(trim(numbers[i]));
-      if (!number)
-        refuse(fmt::format("box={} is not six numbers: X,Y,Z of two corners in metres", printable(text)));
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto number = numbers.size() == 6 ? parse_double(trim(numbers[i])) : std::nullopt;
+      if (!number) refuse("box={} is not six numbers: X,Y,Z of two corners in metres", printable(text));
       corner[i / 3][static_cast<Eigen::Index>(i % 3)] = *number / units_of(state_).metres_per_unit;
     }
-    if (numbers.size() != 6)
-      refuse(fmt::format("box={} is not six numbers: X,Y,Z of two corners in metres", printable(text)));
     Box box(corner[0].cwiseMin(corner[1]), corner[0].cwiseMax(corner[1]));
     const Vec3 slack = Vec3::Constant(1e-6 * (1.0 + box.sizes().norm()));
     box = Box(box.min() - slack, box.max() + slack);
     for (std::size_t e = 0; e < state_.entities.size(); ++e) {
       const EntityItem& entity = *state_.entities[e];
-      if (!is_world(entity) && inside(box, bounds_of(state_, {e, {}}))) found_.insert({e, {}});
+      if (!entity.is_world() && inside(box, bounds_of(state_, {e, {}}))) found_.insert({e, {}});
       for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
         if (inside(box, bounds_of(*entity.brushes[b].brush))) found_.insert({e, b});
       }
@@ -163,7 +148,7 @@ class Resolver {
     for (const auto& entity : state_.entities) {
       if (std::string name = name_of(*entity); !name.empty()) names.push_back(std::move(name));
     }
-    refuse(fmt::format("there is nothing named \"{}\"{}", printable(pattern), suggestion(pattern, names)));
+    refuse("there is nothing named \"{}\"{}", printable(pattern), suggestion(pattern, names));
   }
 
   template <typename Test>
@@ -181,15 +166,6 @@ class Resolver {
     }
   }
 
-  template <typename Visit>
-  void for_each(Visit&& visit) {
-    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
-      visit(Thing{e, {}}, state_.entities[e]->id);
-      const auto& brushes = state_.entities[e]->brushes;
-      for (std::size_t b = 0; b < brushes.size(); ++b) visit(Thing{e, b}, brushes[b].id);
-    }
-  }
-
   const State& state_;
   std::set<Thing> found_;
 };
@@ -200,16 +176,35 @@ std::vector<Thing> resolve(const State& state, std::string_view what) {
   return Resolver(state).resolve(what);
 }
 
+std::vector<Thing> all_things(const State& state) {
+  std::vector<Thing> things;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    if (!entity.is_world()) things.push_back({e, {}});
+    for (std::size_t b = 0; entity.is_world() && b < entity.brushes.size(); ++b) things.push_back({e, b});
+  }
+  return things;
+}
+
+std::vector<Thing> things_of(const State& state, const std::vector<Id>& ids) {
+  const std::set<Id> wanted(ids.begin(), ids.end());
+  std::vector<Thing> things;
+  for_each_thing(state, [&](const Thing& thing, Id id) {
+    if (wanted.contains(id)) things.push_back(thing);
+  });
+  return things;
+}
+
 Thing resolve_one(const State& state, std::string_view what) {
   const auto things = resolve(state, what);
   if (things.size() != 1)
-    refuse(fmt::format("\"{}\" means {} things, where one is wanted", printable(what), things.size()));
+    refuse("\"{}\" means {} things, where one is wanted", printable(what), things.size());
   return things.front();
 }
 
 std::string name_of(const EntityItem& entity) {
-  for (const char* key : {"_tb_name", "name", "targetname"}) {
-    if (const std::string* name = entity.head->find(key); name != nullptr && !name->empty()) return *name;
+  for (const char* key : kNameKeys) {
+    if (const std::string& name = entity.value(key); !name.empty()) return name;
   }
   return {};
 }
@@ -228,9 +223,8 @@ std::string describe(const State& state, const Thing& thing) {
 }
 
 std::optional<std::string> group_number(const EntityItem& entity) {
-  const std::string* type = entity.head->find("_tb_type");
   const std::string* number = entity.head->find("_tb_id");
-  if (type == nullptr || *type != "_tb_group" || number == nullptr) return std::nullopt;
+  if (!entity.has("_tb_type", "_tb_group") || number == nullptr) return std::nullopt;
   return *number;
 }
 
@@ -260,27 +254,36 @@ std::vector<Thing> with_members(const State& state, const std::vector<Thing>& th
       if (belongs && all.insert({e, {}}).second) again = open(e) || again;
     }
   }
-  std::erase_if(all, [&](const Thing& thing) {
-    return thing.brush && all.contains(Thing{thing.entity, {}});
-  });
-  return {all.begin(), all.end()};
+  return without_parts(std::move(all));
+}
+
+State without_hidden(const State& state) {
+  std::vector<Thing> hidden;
+  for (const Id id : state.desk.hidden) {
+    if (const auto thing = find(state, id)) hidden.push_back(*thing);
+  }
+  std::erase_if(hidden,
+                [&](const Thing& thing) { return !thing.brush && state.entities[thing.entity]->is_world(); });
+  State shown = state;
+  remove(shown, with_members(shown, hidden));
+  return shown;
+}
+
+std::optional<std::size_t> find_group(const State& state, std::string_view number) {
+  return find_entity(state, [&](const EntityItem& entity) { return group_number(entity) == number; });
 }
 
 std::vector<std::size_t> groups_of(const State& state, const Thing& thing) {
-  const std::size_t none = state.entities.size();
   std::vector<std::size_t> groups;
-  std::size_t next = thing.entity;
-  while (next != none) {
-    const EntityItem& entity = *state.entities[next];
+  std::optional<std::size_t> next = thing.entity;
+  while (next) {
+    const EntityItem& entity = *state.entities[*next];
     if (group_number(entity)) {
-      if (std::find(groups.begin(), groups.end(), next) != groups.end()) break;  // groups in a circle
-      groups.push_back(next);
+      if (std::ranges::find(groups, *next) != groups.end()) break;  // groups in a circle
+      groups.push_back(*next);
     }
-    next = none;
     const std::string* above = entity.head->find("_tb_group");
-    for (std::size_t e = 0; above != nullptr && e < none && next == none; ++e) {
-      if (group_number(*state.entities[e]) == *above) next = e;
-    }
+    next = above != nullptr ? find_group(state, *above) : std::nullopt;
   }
   return groups;
 }
@@ -308,6 +311,14 @@ std::optional<Box> bounds_of_upright_box(const map::Brush& brush) {
 
 }  // namespace
 
+std::vector<const map::Brush*> brushes_of(const State& state, const Thing& thing) {
+  const EntityItem& entity = *state.entities[thing.entity];
+  if (thing.brush) return {&brush_at(state, thing)};
+  std::vector<const map::Brush*> brushes;
+  for (const BrushItem& item : entity.brushes) brushes.push_back(item.brush.get());
+  return brushes;
+}
+
 double volume_of(const map::Brush& brush) {
   if (const auto box = bounds_of_upright_box(brush)) return box->volume();
   const auto body = body_of(brush);
@@ -316,39 +327,52 @@ double volume_of(const map::Brush& brush) {
 
 Box bounds_of(const map::Brush& brush) {
   if (const auto box = bounds_of_upright_box(brush)) return *box;
-  Box box;
-  if (const auto body = body_of(brush)) {
-    for (const Vec3& corner : body->vertices) box.extend(corner);
-  }
-  return box;
+  const auto body = body_of(brush);
+  return body ? bounds_of(*body) : Box();
 }
 
 Box bounds_of(const State& state, const Thing& thing) {
   const EntityItem& entity = *state.entities[thing.entity];
-  if (thing.brush) return bounds_of(*entity.brushes[*thing.brush].brush);
   Box box;
-  for (const BrushItem& brush : entity.brushes) {
-    if (const Box part = bounds_of(*brush.brush); !part.isEmpty()) box.extend(part);
-  }
-  if (entity.brushes.empty()) {
-    if (const auto origin = origin_of(entity)) box.extend(*origin);
-  }
+  for (const map::Brush* brush : brushes_of(state, thing)) box.extend(bounds_of(*brush));
+  const auto origin = entity.brushes.empty() ? origin_of(entity) : std::nullopt;
+  if (origin) box.extend(*origin);
   return box;
 }
 
-std::optional<Vec3> origin_of(const EntityItem& entity) {
-  const std::string* text = entity.head->find("origin");
-  if (text == nullptr) return std::nullopt;
-  Vec3 origin;
+Box bounds_together(const State& state, const std::vector<Thing>& things) {
+  Box box;
+  for (const Thing& thing : with_members(state, things)) box.extend(bounds_of(state, thing));
+  return box;
+}
+
+std::vector<std::pair<std::optional<std::int64_t>, std::size_t>> waypoints_of(const State& state,
+                                                                              std::string_view path) {
+  std::vector<std::pair<std::optional<std::int64_t>, std::size_t>> waypoints;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    const EntityItem& entity = *state.entities[e];
+    if (entity.classname() == "hw_waypoint" && entity.has("path", path))
+      waypoints.emplace_back(parse_int(entity.value("index")), e);
+  }
+  std::ranges::sort(waypoints);
+  return waypoints;
+}
+
+std::optional<Vec3> three_numbers(std::string_view text) {
+  Vec3 numbers;
   Eigen::Index count = 0;
-  for (const std::string_view part : split(*text, ' ')) {
+  for (const std::string_view part : split(text, ' ')) {
     if (part.empty()) continue;
     const auto number = parse_double(part);
     if (!number || count == 3) return std::nullopt;
-    origin[count++] = *number;
+    numbers[count++] = *number;
   }
   if (count != 3) return std::nullopt;
-  return origin;
+  return numbers;
+}
+
+std::optional<Vec3> origin_of(const EntityItem& entity) {
+  return three_numbers(entity.value("origin"));
 }
 
 bool fits(std::string_view text, std::string_view pattern) {

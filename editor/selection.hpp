@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "editor/state.hpp"
@@ -25,8 +29,17 @@ namespace hallway::editor {
 /// where all together mean nothing.
 std::vector<Thing> resolve(const State& state, std::string_view what);
 
+/// Everything of a map that can be copied: all entities but worldspawn, and worldspawn's brushes.
+std::vector<Thing> all_things(const State& state);
+
+/// The things of those numbers, as far as they are there. O(things).
+std::vector<Thing> things_of(const State& state, const std::vector<Id>& ids);
+
 /// The one thing that is meant; Error{kUsage} if there are several.
 Thing resolve_one(const State& state, std::string_view what);
+
+/// The keys that name an entity, the first that is there before the others.
+inline constexpr std::array kNameKeys{"_tb_name", "name", "targetname"};
 
 /// The name of an entity, or the empty text.
 std::string name_of(const EntityItem& entity);
@@ -41,8 +54,17 @@ std::vector<Thing> with_members(const State& state, const std::vector<Thing>& th
 /// Whether an entity is a group as TrenchBroom and Hallway write it (`func_group` with `_tb_type` `_tb_group`), and its number there.
 std::optional<std::string> group_number(const EntityItem& entity);
 
+/// The state without what is hidden, as pictures and plans show it; worldspawn stays.
+State without_hidden(const State& state);
+
+/// The group of that number, by index in State::entities.
+std::optional<std::size_t> find_group(const State& state, std::string_view number);
+
 /// The groups that a thing is in, the innermost first; a group counts as in itself. Indices in State::entities.
 std::vector<std::size_t> groups_of(const State& state, const Thing& thing);
+
+/// The brushes of a thing: those of an entity, or the one that it is.
+std::vector<const map::Brush*> brushes_of(const State& state, const Thing& thing);
 
 /// The volume of a brush, cubic map units; 0 for one that is no body.
 double volume_of(const map::Brush& brush);
@@ -52,6 +74,16 @@ Box bounds_of(const map::Brush& brush);
 
 /// What a thing occupies, map units: an entity's brushes, else its origin.
 Box bounds_of(const State& state, const Thing& thing);
+
+/// What things occupy together with all that belongs to them (see with_members()), map units.
+Box bounds_together(const State& state, const std::vector<Thing>& things);
+
+/// The waypoints of a path in their order: their number, none where `index` is no whole number, and the entity.
+std::vector<std::pair<std::optional<std::int64_t>, std::size_t>> waypoints_of(const State& state,
+                                                                              std::string_view path);
+
+/// Three numbers with blanks between them, as keys have places and angles.
+std::optional<Vec3> three_numbers(std::string_view text);
 
 /// The value of `origin`, map units, if there is one that is three numbers.
 std::optional<Vec3> origin_of(const EntityItem& entity);

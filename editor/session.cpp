@@ -10,9 +10,9 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/item_text.hpp"
-#include "editor/matching.hpp"
 #include "map/reader.hpp"
 #include "map/writer.hpp"
 
@@ -50,12 +50,11 @@ bool fill(State& state, const map::Document& document) {
   if (state.entities.size() != document.entities.size()) return false;
   const State content = state_of(document);
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    auto copy = std::make_shared<EntityItem>(*state.entities[e]);
+    EntityItem& item = own(state, e);
     const EntityItem& from = *content.entities[e];
-    if (copy->brushes.size() != from.brushes.size()) return false;
-    copy->head = from.head;
-    for (std::size_t b = 0; b < from.brushes.size(); ++b) copy->brushes[b].brush = from.brushes[b].brush;
-    state.entities[e] = std::move(copy);
+    if (item.brushes.size() != from.brushes.size()) return false;
+    item.head = from.head;
+    for (std::size_t b = 0; b < from.brushes.size(); ++b) item.brushes[b].brush = from.brushes[b].brush;
   }
   state.closing_comments = content.closing_comments;
   return true;
@@ -69,6 +68,11 @@ std::optional<std::string> content_of(const fs::path& file) {
 
 std::string print(const State& state, const fs::path& file) {
   return map::print(document_of(state, file.string()));
+}
+
+[[noreturn]] void refuse_record(const Json::exception& fault, const std::string& file) {
+  throw Error(ErrorCode::kBadInput, std::string("a record of the journal cannot be read: ") + fault.what(),
+              {file, 0, {}});
 }
 
 /// A history as it is read from records.
@@ -124,8 +128,7 @@ Session::Session(fs::path map) : file_(std::move(map)), journal_(journal_path(fi
       continue_history(text ? &*text : nullptr);
     }
   } catch (const Json::exception& fault) {
-    throw Error(ErrorCode::kBadInput, std::string("a record of the journal cannot be read: ") + fault.what(),
-                {journal_.path().string(), 0, {}});
+    refuse_record(fault, journal_.path().string());
   }
   update_unsaved();
 }
@@ -150,8 +153,7 @@ std::vector<Session::Save> Session::saves() const {
 
 void Session::continue_history(const std::string* text) {
   const std::vector<Save> all = saves();
-  const bool ever_saved =
-      std::any_of(all.begin(), all.end(), [](const Save& save) { return save.acknowledged; });
+  const bool ever_saved = std::ranges::any_of(all, [](const Save& save) { return save.acknowledged; });
   if (text == nullptr || (text->empty() && !ever_saved)) {  // an empty file is a map to be
     if (ever_saved) {
       throw Error(ErrorCode::kBadInput,
@@ -265,8 +267,7 @@ std::vector<Report> Session::run_script(const std::vector<ScriptLine>& lines, co
       if (call.command == nullptr || call.command->name == "save") continue;
       const auto* run = std::get_if<EditFunction>(&call.command->run);
       if (run == nullptr) {
-        throw Error(ErrorCode::kUsage,
-                    "`" + std::string(call.command->name) + "` has no place in a script, which is one step");
+        refuse("`" + std::string(call.command->name) + "` has no place in a script, which is one step");
       }
       (*run)(edit, call.arguments);
       run_lines.push_back(call.line);
@@ -302,38 +303,29 @@ void Session::begin_journal() {
   journal_.start(std::move(first), std::move(base_text_));
 }
 
-std::vector<std::string> Session::undo(std::size_t count) {
-  count = std::min(count, done_);
-  std::vector<std::string> lines;
-  if (count == 0) return lines;
+std::vector<std::string> Session::go_to(std::size_t place, const char* record) {
+  std::vector<std::string> texts;
   State next = state_;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Step& step = steps_[done_ - 1 - i];
-    apply(next, inverse(step.patch));
-    lines.push_back(step.checkpoint.empty() ? step.line : "checkpoint " + step.checkpoint);
+  for (std::size_t at = done_; at != place;) {
+    const bool back = place < at;
+    const Step& step = steps_[back ? --at : at++];
+    apply(next, back ? inverse(step.patch) : step.patch);
+    texts.push_back(step.text());
   }
-  journal_.append({{"undo", count}});
-  done_ -= count;
+  if (texts.empty()) return texts;
+  journal_.append({{record, texts.size()}});
+  done_ = place;
   state_ = std::move(next);
   update_unsaved();
-  return lines;
+  return texts;
+}
+
+std::vector<std::string> Session::undo(std::size_t count) {
+  return go_to(done_ - std::min(count, done_), "undo");
 }
 
 std::vector<std::string> Session::redo(std::size_t count) {
-  count = std::min(count, steps_.size() - done_);
-  std::vector<std::string> lines;
-  if (count == 0) return lines;
-  State next = state_;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Step& step = steps_[done_ + i];
-    apply(next, step.patch);
-    lines.push_back(step.checkpoint.empty() ? step.line : "checkpoint " + step.checkpoint);
-  }
-  journal_.append({{"redo", count}});
-  done_ += count;
-  state_ = std::move(next);
-  update_unsaved();
-  return lines;
+  return go_to(done_ + std::min(count, steps_.size() - done_), "redo");
 }
 
 void Session::checkpoint(const std::string& name) {
@@ -383,8 +375,7 @@ std::string last_text(const Journal::Reading& reading, const std::string& file) 
     for (const Json& record : reading.records) history.play(record);
     return print(history.state, file);
   } catch (const Json::exception& fault) {
-    throw Error(ErrorCode::kBadInput, std::string("a record of the journal cannot be read: ") + fault.what(),
-                {file, 0, {}});
+    refuse_record(fault, file);
   }
 }
 

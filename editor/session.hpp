@@ -21,6 +21,9 @@ struct Step {
   std::string checkpoint{};  ///< its name, where it only marks a place
   Patch patch{};
   std::vector<std::string> lines{};  ///< those of a script, which is one step; empty for a command
+
+  /// The command, or the checkpoint as it was set.
+  std::string text() const { return checkpoint.empty() ? line : "checkpoint " + checkpoint; }
 };
 
 /// The line of a step that another program made.
@@ -101,6 +104,8 @@ class Session {
   void restore_from_journal();
   void take_outside_change(const std::string& text);
   void commit(const std::string& line, State next, std::vector<std::string> lines = {});
+  /// Goes to the place in the history where `place` steps are done; a record of that name has how many. Returns their texts.
+  std::vector<std::string> go_to(std::size_t place, const char* record);
   void update_unsaved();
 
   std::filesystem::path file_;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "editor/refuse.hpp"
+#include "base/refuse.hpp"
 #include "map/texture_axes.hpp"
 #include "map/world.hpp"
 
@@ -80,7 +80,7 @@ std::vector<Vec3> cleaned(std::span<const Vec3> polygon, double slack) {
     }
   }
   if (corners.size() < 3) refuse("the polygon has no area");
-  if (area_of(corners) < 0.0) std::reverse(corners.begin(), corners.end());
+  if (area_of(corners) < 0.0) std::ranges::reverse(corners);
   return corners;
 }
 
@@ -172,10 +172,10 @@ void add_side(map::Brush& brush, std::span<const Vec3> corners, const std::strin
 bool has_corners(const map::Brush& brush, std::span<const Vec3> points) {
   const auto body = body_of(brush);
   if (!body || body->sides.size() != brush.faces.size()) return false;
-  return std::all_of(points.begin(), points.end(), [&](const Vec3& point) {
+  return std::ranges::all_of(points, [&](const Vec3& point) {
     const double slack = 10.0 * kTolerance + 1e-9 * point.norm();
-    return std::any_of(body->vertices.begin(), body->vertices.end(),
-                       [&](const Vec3& vertex) { return (vertex - point).norm() <= slack; });
+    return std::ranges::any_of(body->vertices,
+                               [&](const Vec3& vertex) { return (vertex - point).norm() <= slack; });
   });
 }
 
@@ -293,6 +293,12 @@ double volume_of(const map::ConvexBody& body) {
   return volume;
 }
 
+Box bounds_of(const map::ConvexBody& body) {
+  Box box;
+  for (const Vec3& vertex : body.vertices) box.extend(vertex);
+  return box;
+}
+
 Vec3 tidied(const Vec3& point) {
   constexpr double kFine = 1e6, kNear = 1e-9;
   Vec3 result = point;
@@ -336,7 +342,7 @@ map::Brush extrusion(std::span<const Vec3> base, const Vec3& way, const std::str
   const double height = normal.norm() > 0.0 ? normal.normalized().dot(way) : 0.0;
   if (std::abs(height) <= kTolerance) refuse("the polygon, or what is made of it, has no extent");
   std::vector<Vec3> bottom(base.begin(), base.end());
-  if (height < 0.0) std::reverse(bottom.begin(), bottom.end());
+  if (height < 0.0) std::ranges::reverse(bottom);
   std::vector<Vec3> top;
   for (const Vec3& corner : bottom) top.push_back(tidied(corner + way));
   return column(bottom, top, material);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/box.hpp"
 #include "geom/plane.hpp"
 #include "map/convex_body.hpp"
 #include "map/document.hpp"
@@ -24,6 +25,9 @@ std::optional<map::ConvexBody> body_of(const map::Brush& brush);
 
 /// Volume of a body, in its unit cubed. O(corners of its sides).
 double volume_of(const map::ConvexBody& body);
+
+/// What a body occupies.
+Box bounds_of(const map::ConvexBody& body);
 
 /// A point whose coordinates are so near a millionth of a unit that only rounding can have moved them away, put there.
 Vec3 tidied(const Vec3& point);

@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace hallway::editor {
-namespace {
 
 map::Entity without_brushes(const map::Entity& entity) {
   map::Entity head;
@@ -16,15 +15,12 @@ map::Entity without_brushes(const map::Entity& entity) {
   return head;
 }
 
-/// The entity as a value of this state alone, to be changed and put back.
 EntityItem& own(State& state, std::size_t entity) {
   auto copy = std::make_shared<EntityItem>(*state.entities[entity]);
   EntityItem& result = *copy;
   state.entities[entity] = std::move(copy);
   return result;
 }
-
-}  // namespace
 
 State state_of(const map::Document& document) {
   State state;
@@ -90,7 +86,7 @@ void set_brush(State& state, const Thing& thing, map::Brush brush) {
 
 void remove(State& state, const std::vector<Thing>& things) {
   std::vector<Thing> sorted = things;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   std::vector<std::shared_ptr<const EntityItem>> kept;
   auto next = sorted.begin();
@@ -119,19 +115,16 @@ void remove(State& state, const std::vector<Thing>& things) {
 void set_key(State& state, std::size_t entity, const std::string& key, const std::string& value) {
   map::Entity head = *state.entities[entity]->head;
   // Where a key stands twice, the last one counts: the others would come back to light if it alone were removed.
+  const auto has_key = [&](const map::KeyValue& pair) { return pair.key == key; };
+  const auto last = std::find_if(head.keys.rbegin(), head.keys.rend(), has_key);
   if (value.empty()) {
-    std::erase_if(head.keys, [&](const map::KeyValue& pair) { return pair.key == key; });
+    head.erase(key);
+  } else if (last == head.keys.rend()) {
+    head.add(key, value);
   } else {
-    const auto last = std::find_if(head.keys.rbegin(), head.keys.rend(),
-                                   [&](const map::KeyValue& pair) { return pair.key == key; });
-    if (last != head.keys.rend()) {
-      last->value = value;
-      const auto keep = std::prev(last.base()) - head.keys.begin();
-      std::ptrdiff_t index = 0;
-      std::erase_if(head.keys, [&](const map::KeyValue& pair) { return index++ != keep && pair.key == key; });
-    } else {
-      head.keys.push_back({{}, key, value, 0});
-    }
+    last->value = value;
+    const auto kept = std::prev(last.base());
+    head.keys.erase(std::remove_if(head.keys.begin(), kept, has_key), kept);
   }
   set_head(state, entity, std::move(head));
 }

@@ -29,6 +29,10 @@ struct EntityItem {
   std::vector<BrushItem> brushes;
 
   std::string_view classname() const { return head->classname(); }
+  bool is_world() const { return classname() == "worldspawn"; }
+  /// The value of a key, or the empty text.
+  const std::string& value(std::string_view key) const { return head->value(key); }
+  bool has(std::string_view key, std::string_view value) const { return head->has(key, value); }
 };
 
 /// What an editor remembers beside the map's content; it is in no map file.
@@ -62,13 +66,53 @@ struct Thing {
   friend auto operator<=>(const Thing&, const Thing&) = default;
 };
 
+/// Calls `visit` with each thing and its number: each entity, then its brushes.
+template <typename Visit>
+void for_each_thing(const State& state, Visit&& visit) {
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    visit(Thing{e, {}}, state.entities[e]->id);
+    const auto& brushes = state.entities[e]->brushes;
+    for (std::size_t b = 0; b < brushes.size(); ++b) visit(Thing{e, b}, brushes[b].id);
+  }
+}
+
+/// The entities for which `test` holds, in their order.
+template <typename Test>
+std::vector<Thing> entities_where(const State& state, Test&& test) {
+  std::vector<Thing> things;
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    if (test(*state.entities[e])) things.push_back({e, {}});
+  }
+  return things;
+}
+
+/// The first entity for which `test` holds, by index.
+template <typename Test>
+std::optional<std::size_t> find_entity(const State& state, Test&& test) {
+  for (std::size_t e = 0; e < state.entities.size(); ++e) {
+    if (test(*state.entities[e])) return e;
+  }
+  return std::nullopt;
+}
+
 /// The thing of that number, or none. O(things).
 std::optional<Thing> find(const State& state, Id id);
+
+/// The brush that a thing is.
+inline const map::Brush& brush_at(const State& state, const Thing& thing) {
+  return *state.entities[thing.entity]->brushes[*thing.brush].brush;
+}
 
 /// The number of a thing.
 Id id_of(const State& state, const Thing& thing);
 
+/// An entity without its brushes.
+map::Entity without_brushes(const map::Entity& entity);
+
 // What changes a state. Each gives new things the next numbers.
+
+/// An entity to be changed, which no other state shares from now on. O(its brushes).
+EntityItem& own(State& state, std::size_t entity);
 
 /// Adds an entity at the end, its brushes included; returns its number.
 Id add_entity(State& state, map::Entity entity);
@@ -82,5 +126,10 @@ void set_brush(State& state, const Thing& thing, map::Brush brush);
 void remove(State& state, const std::vector<Thing>& things);
 /// Sets a key of an entity, which then stands once; an empty value removes it.
 void set_key(State& state, std::size_t entity, const std::string& key, const std::string& value);
+
+/// A document as the successor of a state: entities and brushes that were there keep their numbers and stay shared, the rest gets new
+/// ones. An entity is known again by its text without brushes, else by its place if its class there is the same; brushes by
+/// their text. O(size of the map).
+State matched(const State& before, const map::Document& document);
 
 }  // namespace hallway::editor

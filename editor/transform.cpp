@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/made_line.hpp"
@@ -44,6 +45,14 @@ Vec3 affine(const Eigen::Matrix3d& linear, const Vec3& x, const Vec3& shift) {
     result[i] = cleaned(sum, size);
   }
   return result;
+}
+
+/// Where a point of the map goes.
+Vec3 moved(const Vec3& point, const Transform& transform) {
+  const Vec3 there = transform(point);
+  if (!(there.cwiseAbs().maxCoeff() <= map::kMaxCoordinate))
+    refuse("that would put something beyond the largest coordinate of a map");
+  return there;
 }
 
 bool is_scaling(const Transform& transform) {
@@ -80,19 +89,6 @@ double turned_deg(double angle_deg, double by_deg) {
   return angle >= 360.0 ? 0.0 : angle + 0.0;
 }
 
-std::optional<Vec3> three_numbers(const std::string& text) {
-  Vec3 numbers;
-  Eigen::Index count = 0;
-  for (const std::string_view part : split(text, ' ')) {
-    if (part.empty()) continue;
-    const auto number = parse_double(part);
-    if (!number || count == 3) return std::nullopt;
-    numbers[count++] = *number;
-  }
-  if (count != 3) return std::nullopt;
-  return numbers;
-}
-
 /// The rotation of "pitch yaw roll" in degrees, and back.
 Eigen::Matrix3d rotation_of(const Vec3& angles) {
   return from_yaw_pitch_roll(angles.y() * kDegree, angles.x() * kDegree, angles.z() * kDegree)
@@ -100,10 +96,10 @@ Eigen::Matrix3d rotation_of(const Vec3& angles) {
 }
 
 Vec3 angles_of(const Eigen::Matrix3d& rotation) {
-  constexpr double kUpright = 1.0 - 1e-12;
+  constexpr double kStraightUp = 1.0 - 1e-12;
   const double sine = std::clamp(-rotation(2, 0), -1.0, 1.0);
   Vec3 angles(std::asin(sine), 0.0, 0.0);
-  if (std::abs(sine) > kUpright) {
+  if (std::abs(sine) > kStraightUp) {
     angles.y() = std::atan2(-rotation(0, 1), rotation(1, 1));
   } else {
     angles.y() = std::atan2(rotation(1, 0), rotation(0, 0));
@@ -137,19 +133,16 @@ class Keys {
     if (last != head_.keys.rend()) {
       last->value = value;
     } else {
-      head_.keys.push_back({{}, key, value, 0});
+      head_.add(key, value);
     }
   }
-  void unset(std::string_view key) {
-    std::erase_if(head_.keys, [&](const map::KeyValue& pair) { return pair.key == key; });
-  }
+
   /// Whether the class, as Hallway reads it, has the key in this variant.
   bool has_key(std::string_view key) const {
     if (spec_ == nullptr) return false;
     const std::string_view variant = map::variant_of(*spec_, head_);
-    return std::any_of(spec_->keys.begin(), spec_->keys.end(), [&](const map::KeySpec& one) {
-      return one.name == key && map::belongs(one, variant);
-    });
+    return std::ranges::any_of(
+        spec_->keys, [&](const map::KeySpec& one) { return one.name == key && map::belongs(one, variant); });
   }
 
   void place() {
@@ -157,13 +150,10 @@ class Keys {
     if (text == nullptr) return;
     const auto origin = three_numbers(*text);
     if (!origin) {
-      throw Error(ErrorCode::kUsage, fmt::format("the origin \"{}\" of a {} is not three numbers",
-                                                 printable(*text), printable(head_.classname())));
+      refuse("the origin \"{}\" of a {} is not three numbers", printable(*text),
+             printable(head_.classname()));
     }
-    const Vec3 there = transform_(*origin);
-    if (there.cwiseAbs().maxCoeff() > map::kMaxCoordinate)
-      throw Error(ErrorCode::kUsage, "that would put something beyond the largest coordinate of a map");
-    set("origin", vector_text(there));
+    set("origin", vector_text(moved(*origin, transform_)));
   }
 
   void turn() {
@@ -200,7 +190,7 @@ class Keys {
       if (head_.classname() == "hw_path")
         notes_.insert("a lemniscate goes round its first loop to the left, mirrored or not");
     } else if (has_key("angles")) {
-      unset("angle");
+      head_.erase("angle");
       return set("angles", vector_text(angles_of(transform_.linear * rotation_of({0.0, angle, 0.0}))));
     } else {
       const Vec3 heading =
@@ -239,7 +229,7 @@ class Keys {
     for (Eigen::Index i = 0; i < 3; ++i)
       scale[i] = cleaned(scale[i] * factors[i], std::abs(scale[i] * factors[i]));
     if (!is_even(scale)) return set("scale", vector_text(scale));
-    if (scale.x() == 1.0) return unset("scale");
+    if (scale.x() == 1.0) return head_.erase("scale");
     set("scale", format_double(scale.x()));
   }
 
@@ -249,9 +239,7 @@ class Keys {
     for (const char* key : {"corner_radius_m", "length_m", "rise_m", "sideways_m", "height_m"}) {
       if (!has_key(key)) continue;
       const std::string* text = head_.find(key);
-      const auto found = std::find_if(spec_->keys.begin(), spec_->keys.end(),
-                                      [&](const map::KeySpec& one) { return one.name == key; });
-      const auto length = parse_double(text != nullptr ? std::string_view(*text) : found->fallback);
+      const auto length = parse_double(text != nullptr ? std::string_view(*text) : spec_->key(key)->fallback);
       if (!length || *length == 0.0) continue;
       if (is_even(transform_.factors)) {
         const double product = *length * transform_.factors.x();
@@ -288,8 +276,8 @@ class Keys {
   /// TrenchBroom keeps linked groups alike by a matrix of where each stands.
   void unlink() {
     if (head_.find("_tb_linked_group_id") == nullptr) return;
-    unset("_tb_linked_group_id");
-    unset("_tb_transformation");
+    head_.erase("_tb_linked_group_id");
+    head_.erase("_tb_transformation");
     notes_.insert("a linked group is linked no longer");
   }
 
@@ -312,17 +300,12 @@ std::string moved_line(const std::string& line, const Transform& transform, cons
   Call call = parse_line(line, units);
   if (call.command == nullptr) return line;
   const double unit = units.metres_per_unit;
-  const auto moved = [&](const Vec3& place) -> Vec3 { return transform(place / unit) * unit; };
+  map_places(*call.command, call.arguments,
+             [&](const Vec3& place) -> Vec3 { return transform(place / unit) * unit; });
   for (const ArgSpec& spec : call.command->arguments) {
-    const std::string name(spec.name);
+    const std::string_view name = spec.name;
     if (!call.arguments.has(name)) continue;
-    if (spec.kind == ArgKind::kPlace) {
-      call.arguments.set(name, moved(call.arguments.place(name)));
-    } else if (spec.kind == ArgKind::kPlaces) {
-      std::vector<Vec3> places = call.arguments.places(name);
-      for (Vec3& place : places) place = moved(place);
-      call.arguments.set(name, std::move(places));
-    } else if (spec.kind == ArgKind::kVector) {
+    if (spec.kind == ArgKind::kVector) {
       call.arguments.set(name, affine(transform.linear, call.arguments.place(name), Vec3::Zero()));
     } else if (name == "open" && transform.kind == Kind::kMirror && transform.axis != 2) {
       call.arguments.set(name, -call.arguments.number(name));  // a door's leaf opens to the other side
@@ -357,7 +340,7 @@ void carry_lines(Edit& edit, const std::vector<Thing>& things, const Transform& 
   std::vector<std::pair<std::size_t, std::size_t>> by_depth;
   for (const std::size_t maker : makers)
     by_depth.emplace_back(groups_of(edit.state, {maker, {}}).size(), maker);
-  std::sort(by_depth.begin(), by_depth.end(), [&](const auto& a, const auto& b) {
+  std::ranges::sort(by_depth, [&](const auto& a, const auto& b) {
     const auto is_inside = [&](std::size_t e) { return !group_number(*edit.state.entities[e]); };
     return std::tuple(a.first, is_inside(a.second), a.second) <
            std::tuple(b.first, is_inside(b.second), b.second);
@@ -368,13 +351,10 @@ void carry_lines(Edit& edit, const std::vector<Thing>& things, const Transform& 
 }
 
 [[noreturn]] void refuse_unread(const EntityItem& entity, const map::Brush& brush) {
-  const auto item = std::find_if(entity.brushes.begin(), entity.brushes.end(),
-                                 [&](const BrushItem& one) { return one.brush.get() == &brush; });
-  throw Error(
-      ErrorCode::kUsage,
-      fmt::format(
-          "#{} is a shape that is kept as text, such as a patch, and cannot be changed so; leave it out",
-          item == entity.brushes.end() ? entity.id : item->id));
+  const auto item =
+      std::ranges::find_if(entity.brushes, [&](const BrushItem& one) { return one.brush.get() == &brush; });
+  refuse("#{} is a shape that is kept as text, such as a patch, and cannot be changed so; leave it out",
+         item == entity.brushes.end() ? entity.id : item->id);
 }
 
 bool is_identity(const Transform& transform) {
@@ -440,21 +420,19 @@ Transform change_units(double from, double to) {
 
 map::Brush transformed(const map::Brush& brush, const Transform& transform) {
   if (!brush.unread.empty()) {
-    throw Error(ErrorCode::kUsage, "a shape that is kept as text, such as a patch, cannot be changed so");
+    refuse("a shape that is kept as text, such as a patch, cannot be changed so");
   }
   map::Brush result = brush;
   for (map::Face& face : result.faces) {
     for (Vec3& point : face.points) {
-      point = transform(point);
-      if (!(point.cwiseAbs().maxCoeff() <= map::kMaxCoordinate))
-        throw Error(ErrorCode::kUsage, "that would put something beyond the largest coordinate of a map");
+      point = moved(point, transform);
     }
     if (transform.kind == Kind::kMirror) std::swap(face.points[1], face.points[2]);
     carry_axis(face.u_axis, face.u_scale, face.u_offset, transform);
     carry_axis(face.v_axis, face.v_scale, face.v_offset, transform);
   }
   if (transform.kind == Kind::kScale && body_of(brush) && !body_of(result))
-    throw Error(ErrorCode::kUsage, "a brush would be too thin to be a body");
+    refuse("a brush would be too thin to be a body");
   return result;
 }
 
@@ -505,24 +483,14 @@ void transform_things(Edit& edit, const std::vector<Thing>& meant, const Transfo
     if (thing.brush) continue;
     const map::Entity& head = *edit.state.entities[thing.entity]->head;
     map::Entity next = transformed(head, transform, notes);
-    const bool same =
-        next.keys.size() == head.keys.size() &&
-        std::equal(next.keys.begin(), next.keys.end(), head.keys.begin(),
-                   [](const auto& a, const auto& b) { return a.key == b.key && a.value == b.value; });
-    if (!same) set_head(edit.state, thing.entity, std::move(next));
+    if (next.keys != head.keys) set_head(edit.state, thing.entity, std::move(next));
   }
   carry_lines(edit, things, transform);
-  for (const std::string& note : notes) {
-    edit.report.lines.push_back("note: " + note);
-    edit.report.data["notes"].push_back(note);
-  }
+  for (const std::string& note : notes) edit.report.note(note);
 }
 
 Vec3 way_units(const Edit& edit, const Vec3& way_m) {
-  Edit plain;
-  plain.state = edit.state;
-  plain.state.desk.grid_m = 0.0;
-  return plain.units(way_m);
+  return without_grid(edit.state).units(way_m);
 }
 
 }  // namespace hallway::editor

@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/command.hpp"
 #include "editor/selection.hpp"
@@ -51,13 +52,7 @@ std::optional<Thing> thing_of(const State& state, const std::string& element) {
   return thing;
 }
 
-std::vector<std::string> class_names() {
-  std::vector<std::string> names;
-  for (const map::EntitySpec& spec : map::entity_schema()) names.emplace_back(spec.classname);
-  return names;
-}
-
-std::string key_command(Id id, const std::vector<std::pair<std::string, std::string>>& keys) {
+std::string key_command(Id id, const Pairs& keys) {
   std::string line = fmt::format("key #{}", id);
   for (const auto& [key, value] : keys) line += " " + editor::quoted(key + "=" + value);
   return line;
@@ -89,23 +84,21 @@ std::string entity_fix(const State& state, std::size_t e, const map::Finding& fi
     return name == nullptr ? "" : key_command(entity.id, {{key, unused_name(state, *name)}});
   }
   if (id == "unknown-class") {
-    const auto name = nearest_name(entity.classname(), class_names());
+    const auto name =
+        nearest_name(entity.classname(), names_in(map::entity_schema(), &map::EntitySpec::classname));
     return name ? key_command(entity.id, {{"classname", *name}}) : "";
   }
   if (id == "doubled-key") {
     std::set<std::string> seen;
     for (const map::KeyValue& pair : entity.head->keys) {
-      if (!seen.insert(pair.key).second)
-        return key_command(entity.id, {{pair.key, *entity.head->find(pair.key)}});
+      if (!seen.insert(pair.key).second) return key_command(entity.id, {{pair.key, entity.value(pair.key)}});
     }
   }
   if (id == "unknown-key" && spec != nullptr) {
-    std::vector<std::string> known;
-    for (const map::KeySpec& key : spec->keys) known.emplace_back(key.name);
+    auto known = names_in(spec->keys, &map::KeySpec::name);
     for (const std::string_view key : map::common_keys()) known.emplace_back(key);
     for (const map::KeyValue& pair : entity.head->keys) {
-      if (pair.key.starts_with('_') || std::find(known.begin(), known.end(), pair.key) != known.end())
-        continue;
+      if (pair.key.starts_with('_') || std::ranges::find(known, pair.key) != known.end()) continue;
       const bool is_meant = finding.message.starts_with("unknown key `" + printable(pair.key, 60) + "`");
       if (!is_meant) continue;
       const auto name = nearest_name(pair.key, known);
@@ -129,7 +122,7 @@ class Validator {
       for (std::size_t b = 0; b < state_.entities[e]->brushes.size(); ++b) look_at_brush({e, b});
       look_at_entity(e);
     }
-    std::sort(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) {
+    std::ranges::sort(faults_, [](const Fault& a, const Fault& b) {
       return std::tie(a.thing, a.id, a.message) < std::tie(b.thing, b.id, b.message);
     });
     return std::move(faults_);
@@ -158,8 +151,8 @@ class Validator {
 
   /// Puts the start where the path begins; of several paths none is the one.
   std::string start_fix() const {
-    const auto paths = std::count_if(state_.entities.begin(), state_.entities.end(),
-                                     [](const auto& entity) { return entity->classname() == "hw_path"; });
+    const auto paths = std::ranges::count_if(
+        state_.entities, [](const auto& entity) { return entity->classname() == "hw_path"; });
     const auto off = map::start_off_all_paths(document_of(state_, file_));
     if (paths != 1 || !off) return {};
     const auto fine = [](double x) { return format_double(std::round(x * 1e6) / 1e6 + 0.0); };
@@ -177,8 +170,7 @@ class Validator {
     const auto body = body_of(brush);
     if (!body) return;  // map::check() says so
     const std::string remove = fmt::format("delete #{}", id_of(state_, thing));
-    Box box;
-    for (const Vec3& corner : body->vertices) box.extend(corner);
+    const Box box = bounds_of(*body);
     const double scale = units_.metres_per_unit;
     if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() * scale > kFarthest_m) {
       add(thing, "out-of-bounds", Severity::kWarning, "the brush reaches farther than 10 km from the origin",
@@ -189,7 +181,7 @@ class Validator {
       add(thing, "sliver", Severity::kWarning,
           fmt::format("the brush is only {:.3g} mm thick", 1000.0 * thickness), remove);
     }
-    const auto bare = std::count_if(brush.faces.begin(), brush.faces.end(), [](const map::Face& face) {
+    const auto bare = std::ranges::count_if(brush.faces, [](const map::Face& face) {
       return face.material.empty() || face.material == "__TB_empty";
     });
     if (bare > 0) {
@@ -223,10 +215,8 @@ class Validator {
   static Shape shape_of(const EntityItem& entity, const map::Brush& brush) {
     constexpr double kFine = 1e6;
     Shape shape;
-    const std::string* order = entity.head->find("order");
     const bool ordered = entity.classname().starts_with("hw_");
-    shape.first =
-        std::string(ordered ? entity.classname() : "world") + (ordered && order != nullptr ? *order : "");
+    shape.first = ordered ? std::string(entity.classname()) + entity.value("order") : "world";
     for (const map::Face& face : brush.faces) {
       const auto plane = plane_of(face);
       const auto whole = [&](double x) { return static_cast<std::int64_t>(std::llround(x * kFine)); };
@@ -245,35 +235,24 @@ class Validator {
         add({e, {}}, "missing-file", Severity::kError, fmt::format("there is no file {}", printable(*model)),
             "");
     }
-    const std::string* target = entity.head->find("target");
-    if (target != nullptr && !target->empty() && !has_target(*target)) {
+    const std::string& target = entity.value("target");
+    const auto is_target = [&](const EntityItem& other) { return other.has("targetname", target); };
+    if (!target.empty() && !find_entity(state_, is_target)) {
       std::vector<std::string> names;
       for (const auto& other : state_.entities) {
         if (const std::string* name = other->head->find("targetname")) names.push_back(*name);
       }
-      const auto name = nearest_name(*target, names);
+      const auto name = nearest_name(target, names);
       add({e, {}}, "unknown-target", Severity::kWarning,
-          fmt::format("nothing has the targetname \"{}\"{}", printable(*target), suggestion(*target, names)),
+          fmt::format("nothing has the targetname \"{}\"{}", printable(target), suggestion(target, names)),
           key_command(entity.id, {{"target", name.value_or("")}}));
     }
     const std::string* group = entity.head->find("_tb_group");
-    if (group != nullptr && !has_group(*group)) {
+    if (group != nullptr && !find_group(state_, *group)) {
       add({e, {}}, "unknown-group", Severity::kWarning,
           fmt::format("the map has no group {}", printable(*group)),
           key_command(entity.id, {{"_tb_group", ""}}));
     }
-  }
-
-  bool has_target(const std::string& target) const {
-    return std::any_of(state_.entities.begin(), state_.entities.end(), [&](const auto& entity) {
-      const std::string* name = entity->head->find("targetname");
-      return name != nullptr && *name == target;
-    });
-  }
-
-  bool has_group(const std::string& number) const {
-    return std::any_of(state_.entities.begin(), state_.entities.end(),
-                       [&](const auto& entity) { return group_number(*entity) == number; });
   }
 
   const State& state_;

@@ -12,13 +12,12 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
-#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
-#include "editor/shown.hpp"
 #include "editor/validate.hpp"
 #include "map/writer.hpp"
 #include "render/map_layers.hpp"
@@ -32,39 +31,19 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kIds{
-    ArgSpec{.name = "id", .kind = ArgKind::kText, .help = "only faults of that id, such as `bad-brush`"}};
-constexpr std::array kPicture{ArgSpec{
-    .name = "picture", .kind = ArgKind::kFile, .help = "a PNG file to write: a plan with the leak path"}};
+constexpr std::array kIds{ArgSpec{"id", ArgKind::kText, "only faults of that id, such as `bad-brush`"}};
+constexpr std::array kPicture{
+    ArgSpec{"picture", ArgKind::kFile, "a PNG file to write: a plan with the leak path"}};
 constexpr std::array kRender{
-    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "a PNG file to write"},
-    ArgSpec{.name = "view",
-            .kind = ArgKind::kChoice,
-            .fallback = "top",
-            .help = "like a plan, or from a viewpoint",
-            .choices = "top perspective"},
-    ArgSpec{
-        .name = "eye", .kind = ArgKind::kPlace, .help = "perspective: from where [what shows everything]"},
-    ArgSpec{.name = "target", .kind = ArgKind::kPlace, .help = "perspective: the place looked at"},
-    ArgSpec{.name = "cut",
-            .kind = ArgKind::kLength,
-            .help = "cut away what is above this height [what opens a building]"},
-    ArgSpec{.name = "width",
-            .kind = ArgKind::kWhole,
-            .fallback = "1280",
-            .help = "pixels",
-            .low = 16,
-            .high = 16384},
-    ArgSpec{.name = "height",
-            .kind = ArgKind::kWhole,
-            .fallback = "800",
-            .help = "pixels",
-            .low = 16,
-            .high = 16384},
-    ArgSpec{.name = "show",
-            .kind = ArgKind::kChoice,
-            .help = "drawn over the map, or instead of its faces",
-            .choices = "portals leak wireframe bsp-depth"}};
+    ArgSpec{"file", ArgKind::kFile, "a PNG file to write"}.needed(),
+    ArgSpec{"view", ArgKind::kChoice, "like a plan, or from a viewpoint", "top", "top perspective"},
+    ArgSpec{"eye", ArgKind::kPlace, "perspective: from where [what shows everything]"},
+    ArgSpec{"target", ArgKind::kPlace, "perspective: the place looked at"},
+    ArgSpec{"cut", ArgKind::kLength, "cut away what is above this height [what opens a building]"},
+    ArgSpec{"width", ArgKind::kWhole, "pixels", "1280"}.within(16, 16384),
+    ArgSpec{"height", ArgKind::kWhole, "pixels", "800"}.within(16, 16384),
+    ArgSpec{"show", ArgKind::kChoice, "drawn over the map, or instead of its faces", "",
+            "portals leak wireframe bsp-depth"}};
 
 std::string line_of(const State& state, const Fault& fault) {
   std::string text = fault.severity == map::Severity::kError ? "error: " : "warning: ";
@@ -79,7 +58,7 @@ std::vector<Fault> faults_of(const Edit& edit, const Arguments& arguments) {
   if (arguments.has("id")) {
     const std::vector<std::string> ids = fault_ids();
     if (const std::string& id = arguments.text("id"); std::ranges::find(ids, id) == ids.end())
-      refuse(fmt::format("id: there is no finding \"{}\"{}", printable(id), suggestion(id, ids)));
+      refuse("id: there is no finding \"{}\"{}", printable(id), suggestion(id, ids));
   }
   if (arguments.has("id"))
     std::erase_if(faults, [&](const Fault& fault) { return fault.id != arguments.text("id"); });
@@ -90,8 +69,8 @@ void validate_map(Edit& edit, const Arguments& arguments) {
   const auto faults = faults_of(edit, arguments);
   edit.report.data["faults"] = Json::array();
   for (const Fault& fault : faults) {
-    edit.report.lines.push_back(line_of(edit.state, fault));
-    if (!fault.fix.empty()) edit.report.lines.push_back("  fix: " + printable(fault.fix));
+    edit.report.say(line_of(edit.state, fault));
+    if (!fault.fix.empty()) edit.report.say("  fix: " + printable(fault.fix));
     edit.report.data["faults"].push_back(
         {{"id", fault.id},
          {"severity", fault.severity == map::Severity::kError ? "error" : "warning"},
@@ -101,7 +80,7 @@ void validate_map(Edit& edit, const Arguments& arguments) {
          {"fix", fault.fix}});
     if (fault.severity == map::Severity::kError) edit.report.status = 1;
   }
-  if (faults.empty()) edit.report.lines.push_back("nothing is wrong");
+  if (faults.empty()) edit.report.say("nothing is wrong");
 }
 
 /// One fix after the other, each followed by another look: a fix may mend, or bring to light, what is next.
@@ -111,22 +90,20 @@ void fix_map(Edit& edit, const Arguments& arguments) {
   edit.report.data["fixed"] = Json::array();
   for (int i = 0; i < kMostFixes; ++i) {
     const auto faults = faults_of(edit, arguments);
-    const auto next = std::find_if(faults.begin(), faults.end(), [&](const Fault& fault) {
-      return !fault.fix.empty() && !tried.contains(fault.fix);
-    });
+    const auto next = std::ranges::find_if(
+        faults, [&](const Fault& fault) { return !fault.fix.empty() && !tried.contains(fault.fix); });
     if (next == faults.end()) break;
     tried.insert(next->fix);
     const Call call = parse_line(next->fix, units_of(edit.state));
     Edit one{edit.state, edit.file};
     std::get<EditFunction>(call.command->run)(one, call.arguments);
     edit.state = std::move(one.state);
-    edit.report.lines.push_back(fmt::format("{}: {}", next->id, printable(next->fix)));
+    edit.report.say("{}: {}", next->id, printable(next->fix));
     edit.report.data["fixed"].push_back({{"id", next->id}, {"command", next->fix}});
   }
   const auto left = faults_of(edit, arguments).size();
   edit.report.data["left"] = left;
-  edit.report.lines.push_back(
-      fmt::format("{} fixed, {} left for you", edit.report.data["fixed"].size(), left));
+  edit.report.say("{} fixed, {} left for you", edit.report.data["fixed"].size(), left);
 }
 
 world::CompiledWorld compiled(const Edit& edit, map::Document& document) {
@@ -145,13 +122,12 @@ void compile_map(Edit& edit, const Arguments&) {
   edit.report.data["polygons"] = world.partition.surface.polygons.size();
   edit.report.data["clusters"] = tree.clusters;
   edit.report.data["portals"] = world.partition.portals.portals.size();
-  edit.report.lines.push_back(fmt::format("{}; {} brushes, {} polygons, {} clusters, {} portals",
-                                          world.sealed()                   ? "sealed"
-                                          : world.partition.enclosure.leak ? "leaks"
-                                                                           : "encloses nothing",
-                                          world.brushes.solids.size(),
-                                          world.partition.surface.polygons.size(), tree.clusters,
-                                          world.partition.portals.portals.size()));
+  edit.report.say("{}; {} brushes, {} polygons, {} clusters, {} portals",
+                  world.sealed()                   ? "sealed"
+                  : world.partition.enclosure.leak ? "leaks"
+                                                   : "encloses nothing",
+                  world.brushes.solids.size(), world.partition.surface.polygons.size(), tree.clusters,
+                  world.partition.portals.portals.size());
   if (!world.sealed()) edit.report.status = 1;
 }
 
@@ -181,7 +157,7 @@ std::optional<Thing> cut_at(const Edit& edit, const bsp::Opening& opening) {
         const auto plane = plane_of(face);
         return plane && plane->distance(at) <= kRounding;
       };
-      if (std::all_of(brush.brush->faces.begin(), brush.brush->faces.end(), is_behind)) return Thing{e, {}};
+      if (std::ranges::all_of(brush.brush->faces, is_behind)) return Thing{e, {}};
     }
   }
   return std::nullopt;
@@ -203,7 +179,7 @@ void say_leak(Edit& edit, const map::Occupant& occupant, const bsp::Leak& leak) 
       edit.report.data["opening"]["thing"] = id_of(edit.state, *cut);
     }
   }
-  edit.report.lines.push_back(std::move(line));
+  edit.report.say(std::move(line));
   edit.report.status = 1;
 }
 
@@ -216,8 +192,8 @@ void show_leak(Edit& edit, const Arguments& arguments) {
   if (leak) {
     say_leak(edit, world.occupants[leak->occupant], *leak);
   } else {
-    edit.report.lines.push_back(
-        world.sealed() ? "sealed" : "encloses nothing: there is no start, light or other occupant inside");
+    edit.report.say(world.sealed() ? "sealed"
+                                   : "encloses nothing: there is no start, light or other occupant inside");
     edit.report.status = world.sealed() ? 0 : 1;
   }
   if (arguments.has("picture"))
@@ -232,11 +208,9 @@ void render_map(Edit& edit, const Arguments& arguments) {
   spec.width_px = static_cast<int>(arguments.whole("width"));
   spec.height_px = static_cast<int>(arguments.whole("height"));
   if (arguments.has("cut")) spec.cut_z_m = arguments.number("cut");
-  if (arguments.has("eye") != arguments.has("target"))
-    throw Error(ErrorCode::kUsage, "render: eye and target are given together");
+  if (arguments.has("eye") != arguments.has("target")) refuse("render: eye and target are given together");
   if (arguments.has("eye")) {
-    if (spec.view == sim::PictureView::kTop)
-      throw Error(ErrorCode::kUsage, "render: eye and target belong to view=perspective");
+    if (spec.view == sim::PictureView::kTop) refuse("render: eye and target belong to view=perspective");
     spec.eye_m = arguments.place("eye");
     spec.target_m = arguments.place("target");
   }
@@ -247,25 +221,22 @@ void render_map(Edit& edit, const Arguments& arguments) {
                           .bsp_depth = show == "bsp-depth"};
   write_file_atomically(arguments.text("file"), picture_of(edit, spec, view));
   edit.report.data["file"] = arguments.text("file");
-  edit.report.lines.push_back(fmt::format("drew {}", printable(arguments.text("file"))));
+  edit.report.say("drew {}", printable(arguments.text("file")));
 }
 
 constexpr std::array kChecksCommands{
     CommandSpec{.name = "validate",
-                .topic = "checks and pictures",
                 .summary = "list faults, and the commands that fix them",
                 .details = "Status 1 if there is an error.",
                 .arguments = kIds,
                 .example = "validate",
                 .run = &validate_map},
     CommandSpec{.name = "fix",
-                .topic = "checks and pictures",
                 .summary = "run the commands that `validate` proposes",
                 .arguments = kIds,
                 .example = "fix",
                 .run = &fix_map},
     CommandSpec{.name = "leak",
-                .topic = "checks and pictures",
                 .summary = "show the leak path on which something reaches the void outside",
                 .details =
                     "Names the thing that reaches the void, and the hole by which it does: size and middle. "
@@ -274,13 +245,11 @@ constexpr std::array kChecksCommands{
                 .example = "leak",
                 .run = &show_leak},
     CommandSpec{.name = "compile",
-                .topic = "checks and pictures",
                 .summary = "compile the map as it is now and count what comes of it",
                 .details = "Status 1 if it is not sealed.",
                 .example = "compile",
                 .run = &compile_map},
     CommandSpec{.name = "render",
-                .topic = "checks and pictures",
                 .summary = "draw the map as it is now, without what is hidden",
                 .arguments = kRender,
                 .example = "render plan.png",

@@ -6,6 +6,6 @@
 namespace hallway::editor {
 
 /// What a command works on.
-inline constexpr ArgSpec kThings{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "things"};
+inline constexpr ArgSpec kThings = ArgSpec{"what", ArgKind::kWhat, "things"}.needed();
 
 }  // namespace hallway::editor

@@ -10,201 +10,139 @@
 #include <set>
 #include <utility>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/openings.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/made_line.hpp"
-#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 
 namespace hallway::editor {
 namespace {
 
-constexpr ArgSpec kWhat{
-    .name = "what", .kind = ArgKind::kWhat, .required = true, .help = "brushes, or shapes"};
-constexpr ArgSpec kName{.name = "name", .kind = ArgKind::kName, .help = "what it is called from now on"};
+constexpr ArgSpec kWhat = ArgSpec{"what", ArgKind::kWhat, "brushes, or shapes"}.needed();
+constexpr ArgSpec kName{"name", ArgKind::kName, "what it is called from now on"};
 
 constexpr ArgSpec opening_size(std::string_view name, std::string_view fallback, std::string_view help) {
-  return {
-      .name = name, .kind = ArgKind::kLength, .fallback = fallback, .help = help, .low = 1e-3, .high = 1e5};
+  return ArgSpec{name, ArgKind::kLength, help, fallback}.within(1e-3, 1e5);
 }
 
-constexpr ArgSpec kIn{.name = "in",
-                      .kind = ArgKind::kWhat,
-                      .required = true,
-                      .help = "a wall, arc or room, or an upright block"};
-constexpr ArgSpec kAt{.name = "at",
-                      .kind = ArgKind::kLength,
-                      .required = true,
-                      .help = "its middle: how far along the wall, from where that begins",
-                      .low = 0,
-                      .high = 1e5};
-constexpr ArgSpec kSide{.name = "side",
-                        .kind = ArgKind::kChoice,
-                        .help = "of a room: which wall; north is y+",
-                        .choices = "north east south west"};
+constexpr ArgSpec kIn = ArgSpec{"in", ArgKind::kWhat, "a wall, arc or room, or an upright block"}.needed();
+constexpr ArgSpec kAt =
+    ArgSpec{"at", ArgKind::kLength, "its middle: how far along the wall, from where that begins"}
+        .needed()
+        .within(0, 1e5);
+constexpr ArgSpec kSide{"side", ArgKind::kChoice, "of a room: which wall; north is y+", "",
+                        "north east south west"};
 constexpr ArgSpec kRevealMaterial{
-    .name = "material",
-    .kind = ArgKind::kMaterial,
-    .help = "of the faces in the wall [the wall's; under a door of a room the floor's]"};
+    "material", ArgKind::kMaterial,
+    "of the faces in the wall [the wall's; under a door of a room the floor's]"};
 
-constexpr std::array kDoor{kIn,
-                           kAt,
-                           opening_size("width", "0.9", "along the wall"),
-                           opening_size("height", "2.1", "from the foot of the wall"),
-                           kSide,
-                           kRevealMaterial,
-                           ArgSpec{.name = "leaf",
-                                   .kind = ArgKind::kMaterial,
-                                   .help = "of a door leaf that hangs in it, 4 cm thick [no leaf]"},
-                           ArgSpec{.name = "open",
-                                   .kind = ArgKind::kAngle,
-                                   .help = "how far the leaf is open, counter-clockwise from above about the "
-                                           "jamb nearer to where the wall begins [0, closed]",
-                                   .low = -135,
-                                   .high = 135},
-                           kName};
+constexpr std::array kDoor{
+    kIn,
+    kAt,
+    opening_size("width", "0.9", "along the wall"),
+    opening_size("height", "2.1", "from the foot of the wall"),
+    kSide,
+    kRevealMaterial,
+    ArgSpec{"leaf", ArgKind::kMaterial, "of a door leaf that hangs in it, 4 cm thick [no leaf]"},
+    ArgSpec{"open", ArgKind::kAngle,
+            "how far the leaf is open, counter-clockwise from above about the "
+            "jamb nearer to where the wall begins [0, closed]"}
+        .within(-135, 135),
+    kName};
 constexpr std::array kWindow{
     kIn,
     kAt,
     opening_size("width", "1.2", "along the wall"),
     opening_size("height", "1.2", "from the sill up"),
-    ArgSpec{.name = "sill",
-            .kind = ArgKind::kLength,
-            .fallback = "0.9",
-            .help = "how high over the foot of the wall it begins",
-            .low = 0,
-            .high = 1e5},
+    ArgSpec{"sill", ArgKind::kLength, "how high over the foot of the wall it begins", "0.9"}.within(0, 1e5),
     kSide,
     kRevealMaterial,
-    ArgSpec{
-        .name = "pane", .kind = ArgKind::kMaterial, .help = "of a pane that fills it, 2 cm thick [no pane]"},
+    ArgSpec{"pane", ArgKind::kMaterial, "of a pane that fills it, 2 cm thick [no pane]"},
     kName};
-constexpr std::array kSubtract{kWhat,
-                               ArgSpec{.name = "order",
-                                       .kind = ArgKind::kWhole,
-                                       .help = "when it is cut out [after all that it is to cut]",
-                                       .low = -1e6,
-                                       .high = 1e6},
-                               kName};
-constexpr std::array kAdded{kWhat,
-                            ArgSpec{.name = "order",
-                                    .kind = ArgKind::kWhole,
-                                    .help = "when it is added [after all cuts that it is in]",
-                                    .low = -1e6,
-                                    .high = 1e6},
-                            kName};
-constexpr std::array kIntersect{
-    kWhat, ArgSpec{.name = "with", .kind = ArgKind::kWhat, .required = true, .help = "the other brushes"},
+constexpr std::array kSubtract{
+    kWhat,
+    ArgSpec{"order", ArgKind::kWhole, "when it is cut out [after all that it is to cut]"}.within(-1e6, 1e6),
     kName};
+constexpr std::array kAdded{
+    kWhat,
+    ArgSpec{"order", ArgKind::kWhole, "when it is added [after all cuts that it is in]"}.within(-1e6, 1e6),
+    kName};
+constexpr std::array kIntersect{kWhat, ArgSpec{"with", ArgKind::kWhat, "the other brushes"}.needed(), kName};
 constexpr std::array kHollow{
     kWhat,
-    ArgSpec{.name = "thickness",
-            .kind = ArgKind::kLength,
-            .fallback = "0.15",
-            .help = "of the walls, within the outer faces",
-            .low = 1e-4,
-            .high = 1e5},
-    ArgSpec{.name = "joints",
-            .kind = ArgKind::kChoice,
-            .fallback = "mitred",
-            .help = "how the walls meet: on the bisector, or each ending at another",
-            .choices = "mitred slabs"},
-    ArgSpec{.name = "material", .kind = ArgKind::kMaterial, .help = "of the inside [that of the outer face]"},
-    kName};
+    ArgSpec{"thickness", ArgKind::kLength, "of the walls, within the outer faces", "0.15"}.within(1e-4, 1e5),
+    ArgSpec{"joints", ArgKind::kChoice, "how the walls meet: on the bisector, or each ending at another",
+            "mitred", "mitred slabs"},
+    ArgSpec{"material", ArgKind::kMaterial, "of the inside [that of the outer face]"}, kName};
 constexpr std::array kClip{
     kWhat,
-    ArgSpec{.name = "axis",
-            .kind = ArgKind::kChoice,
-            .help = "with `at`: across which axis the plane is",
-            .choices = "x y z"},
-    ArgSpec{.name = "at",
-            .kind = ArgKind::kLength,
-            .help = "where on the axis; its front is the side of larger numbers",
-            .low = -1e5,
-            .high = 1e5},
-    ArgSpec{.name = "through",
-            .kind = ArgKind::kPlaces,
-            .help = "instead: three places in the plane, counter-clockwise as seen from its front"},
-    ArgSpec{.name = "keep",
-            .kind = ArgKind::kChoice,
-            .fallback = "back",
-            .help = "what stays of the brushes",
-            .choices = "front back both"},
-    ArgSpec{.name = "material", .kind = ArgKind::kMaterial, .help = "of the cut [that of the first face]"}};
+    ArgSpec{"axis", ArgKind::kChoice, "with `at`: across which axis the plane is", "", "x y z"},
+    ArgSpec{"at", ArgKind::kLength, "where on the axis; its front is the side of larger numbers"}.within(-1e5,
+                                                                                                         1e5),
+    ArgSpec{"through", ArgKind::kPlaces,
+            "instead: three places in the plane, counter-clockwise as seen from its front"},
+    ArgSpec{"keep", ArgKind::kChoice, "what stays of the brushes", "back", "front back both"},
+    ArgSpec{"material", ArgKind::kMaterial, "of the cut [that of the first face]"}};
 
-/// The brushes that things are, entity by entity; groups count with their members.
-using Brushes = std::map<std::size_t, std::set<std::size_t>>;
-
-Brushes brushes_of(const State& state, std::string_view command, std::string_view what) {
-  Brushes brushes;
+/// The brushes that things are, sorted; groups count with their members.
+std::vector<Thing> brushes_of(const State& state, std::string_view command, std::string_view what) {
+  std::vector<Thing> brushes;
   for (const Thing& thing : with_members(state, resolve(state, what))) {
     const EntityItem& entity = *state.entities[thing.entity];
     if (thing.brush) {
-      brushes[thing.entity].insert(*thing.brush);
-    } else if (entity.brushes.empty() && !group_number(entity)) {
-      refuse(fmt::format("{}: {} has no brushes", command, describe(state, thing)));
+      brushes.push_back(thing);
+      continue;
     }
-    for (std::size_t b = 0; !thing.brush && b < entity.brushes.size(); ++b) brushes[thing.entity].insert(b);
+    if (entity.brushes.empty() && !group_number(entity))
+      refuse("{}: {} has no brushes", command, describe(state, thing));
+    for (std::size_t b = 0; b < entity.brushes.size(); ++b) brushes.push_back({thing.entity, b});
   }
-  if (brushes.empty()) refuse(fmt::format("{}: {} has no brushes", command, printable(what)));
-  for (const auto& [e, indices] : brushes) {
-    for (const std::size_t b : indices) {
-      if (!body_of(*state.entities[e]->brushes[b].brush))
-        refuse(
-            fmt::format("{}: {} is no closed body; `validate` says why", command, describe(state, {e, b})));
-    }
+  if (brushes.empty()) refuse("{}: {} has no brushes", command, printable(what));
+  for (const Thing& thing : brushes) {
+    if (!body_of(brush_at(state, thing)))
+      refuse("{}: {} is no closed body; `validate` says why", command, describe(state, thing));
   }
   return brushes;
 }
 
 /// Refuses brushes that are cuts already.
-void check_solid(const State& state, std::string_view command, const Brushes& brushes) {
-  for (const auto& [e, indices] : brushes) {
-    if (state.entities[e]->classname() == "hw_subtract")
-      refuse(fmt::format("{}: {} is cut out, and no solid", command, describe(state, {e, {}})));
+void check_solid(const State& state, std::string_view command, const std::vector<Thing>& brushes) {
+  for (const Thing& thing : brushes) {
+    if (state.entities[thing.entity]->classname() == "hw_subtract")
+      refuse("{}: {} is cut out, and no solid", command, describe(state, {thing.entity, {}}));
   }
 }
 
-std::vector<Thing> things_of(const Brushes& brushes) {
-  std::vector<Thing> things;
-  for (const auto& [e, indices] : brushes) {
-    for (const std::size_t b : indices) things.push_back({e, b});
-  }
-  return things;
+std::vector<Thing> solids_of(const State& state, std::string_view command, std::string_view what) {
+  std::vector<Thing> brushes = brushes_of(state, command, what);
+  check_solid(state, command, brushes);
+  return brushes;
 }
 
-std::vector<map::Brush> copies_of(const State& state, const Brushes& brushes) {
+std::vector<map::Brush> copies_of(const State& state, const std::vector<Thing>& brushes) {
   std::vector<map::Brush> copies;
-  for (const Thing& thing : things_of(brushes))
-    copies.push_back(*state.entities[thing.entity]->brushes[*thing.brush].brush);
+  for (const Thing& thing : brushes) copies.push_back(brush_at(state, thing));
   return copies;
 }
 
-/// The group whose shape an entity is or is a part of.
-std::string group_of(const EntityItem& entity) {
-  if (const auto number = group_number(entity)) return *number;
-  const std::string* number = entity.head->find("_tb_group");
-  return number != nullptr ? *number : std::string();
-}
-
 /// Removes brushes, and what of the entities has nothing left in it; a group goes with the last of its parts.
-void take_away(State& state, const Brushes& brushes) {
-  forget_made(state, things_of(brushes));
+void take_away(State& state, const std::vector<Thing>& brushes) {
+  forget_made(state, brushes);
   std::set<Id> touched;
-  for (const auto& [e, indices] : brushes) {
-    touched.insert(state.entities[e]->id);
-    for (const std::size_t group : groups_of(state, {e, {}})) touched.insert(state.entities[group]->id);
+  for (const Thing& thing : brushes) {
+    touched.insert(state.entities[thing.entity]->id);
+    for (const std::size_t group : groups_of(state, thing)) touched.insert(state.entities[group]->id);
   }
-  remove(state, things_of(brushes));
+  remove(state, brushes);
   for (bool again = true; again;) {
     again = false;
     for (std::size_t e = state.entities.size(); e-- > 0;) {
       const EntityItem& entity = *state.entities[e];
-      if (!touched.contains(entity.id) || !entity.brushes.empty() || entity.classname() == "worldspawn")
-        continue;
+      if (!touched.contains(entity.id) || !entity.brushes.empty() || entity.is_world()) continue;
       if (const auto number = group_number(entity); number && !members_of(state, *number).empty()) continue;
       remove(state, {Thing{e, {}}});
       again = true;
@@ -213,22 +151,19 @@ void take_away(State& state, const Brushes& brushes) {
 }
 
 /// The numbers of things, before they go.
-nlohmann::ordered_json numbers_of(const State& state, const Brushes& brushes) {
-  auto numbers = nlohmann::ordered_json::array();
-  for (const Thing& thing : things_of(brushes)) numbers.push_back(id_of(state, thing));
-  return numbers;
+std::vector<Id> ids_of(const State& state, const std::vector<Thing>& things) {
+  std::vector<Id> ids;
+  for (const Thing& thing : things) ids.push_back(id_of(state, thing));
+  return ids;
 }
 
-void make_door(Edit& edit, const Arguments& arguments) {
-  say_made(edit, {cut_opening(edit, "door", arguments)});
-}
-
-void make_window(Edit& edit, const Arguments& arguments) {
-  say_made(edit, {cut_opening(edit, "window", arguments)});
+template <const auto& kCommand>
+void make_opening(Edit& edit, const Arguments& arguments) {
+  say_made(edit, {cut_opening(edit, kCommand, arguments)});
 }
 
 /// One more than the highest order of what is added where the cuts are.
-int order_after(const State& state, const Brushes& cuts) {
+int order_after(const State& state, const std::vector<Thing>& cuts) {
   const auto bodies = copies_of(state, cuts);
   const Box bounds = bounds_of(bodies);
   int order = 1;
@@ -237,11 +172,8 @@ int order_after(const State& state, const Brushes& cuts) {
     const bool solid = entity.classname() == "hw_add" || entity.classname() == "hw_detail";
     if (!solid || order_of(entity) < order) continue;
     for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
-      const auto own = cuts.find(e);
-      if (own != cuts.end() && own->second.contains(b)) continue;
-      if (!may_overlap(bounds, *entity.brushes[b].brush)) continue;
-      if (std::any_of(bodies.begin(), bodies.end(),
-                      [&](const map::Brush& body) { return overlap(body, *entity.brushes[b].brush); })) {
+      if (std::ranges::binary_search(cuts, Thing{e, b})) continue;
+      if (any_overlaps(bodies, bounds, *entity.brushes[b].brush)) {
         order = order_of(entity) + 1;
         break;
       }
@@ -256,45 +188,38 @@ std::string inherited_name(const State& state, const std::vector<Thing>& things)
   return name_of(*state.entities[things.front().entity]);
 }
 
-/// What `subtract` and `detail` share: brushes leave where they are and become one entity.
-void become_entity(Edit& edit, const Arguments& arguments, const char* classname, const Brushes& brushes,
-                   int order) {
+/// Makes brushes one entity of a class, with the order that is given or else `order`. They leave where they are.
+void become_entity(Edit& edit, const Arguments& arguments, const char* classname,
+                   const std::vector<Thing>& brushes, std::int64_t order) {
   State& state = edit.state;
+  if (arguments.has("order")) order = arguments.whole("order");
   std::string name = arguments.text_or_empty("name");
   if (name.empty()) name = inherited_name(state, resolve(state, arguments.text("what")));
   map::Entity entity;
-  entity.keys = {{{}, "classname", classname, 0}, {{}, "order", std::to_string(order), 0}};
+  entity.keys = {{"classname", classname}, {"order", std::to_string(order)}};
   entity.brushes = copies_of(state, brushes);
-  const std::string group = group_of(*state.entities[brushes.begin()->first]);
-  const bool one_group = std::all_of(brushes.begin(), brushes.end(), [&](const auto& entry) {
-    return group_of(*state.entities[entry.first]) == group;
-  });
+  const auto group_at = [&](const Thing& thing) { return group_of(*state.entities[thing.entity]); };
+  const std::string group = group_at(brushes.front());
+  const bool one_group =
+      std::ranges::all_of(brushes, [&](const Thing& thing) { return group_at(thing) == group; });
   take_away(state, brushes);
   check_new_name(state, name);
-  if (!name.empty()) entity.keys.push_back({{}, "targetname", name, 0});
+  if (!name.empty()) entity.add("targetname", name);
   // Brushes of a group of which something is left stay with it.
-  const bool group_lives = one_group && !group.empty() &&
-                           std::any_of(state.entities.begin(), state.entities.end(),
-                                       [&](const auto& e) { return group_number(*e) == group; });
-  if (group_lives) entity.keys.push_back({{}, "_tb_group", group, 0});
+  if (one_group && !group.empty() && find_group(state, group)) entity.add("_tb_group", group);
   say_made(edit, {add_entity(state, std::move(entity))});
 }
 
 void subtract(Edit& edit, const Arguments& arguments) {
-  const Brushes brushes = brushes_of(edit.state, "subtract", arguments.text("what"));
-  check_solid(edit.state, "subtract", brushes);
-  const int order =
-      arguments.has("order") ? static_cast<int>(arguments.whole("order")) : order_after(edit.state, brushes);
-  become_entity(edit, arguments, "hw_subtract", brushes, order);
+  const auto brushes = solids_of(edit.state, "subtract", arguments.text("what"));
+  become_entity(edit, arguments, "hw_subtract", brushes, order_after(edit.state, brushes));
 }
 
 /// Makes solid brushes one entity of a class, whose order is that of what stands in cuts.
 void make_added(Edit& edit, const Arguments& arguments, const char* command, const char* classname) {
-  const Brushes brushes = brushes_of(edit.state, command, arguments.text("what"));
-  check_solid(edit.state, command, brushes);
-  const int order = arguments.has("order") ? static_cast<int>(arguments.whole("order"))
-                                           : order_among_cuts(edit.state, copies_of(edit.state, brushes));
-  become_entity(edit, arguments, classname, brushes, order);
+  const auto brushes = solids_of(edit.state, command, arguments.text("what"));
+  become_entity(edit, arguments, classname, brushes,
+                order_among_cuts(edit.state, copies_of(edit.state, brushes)));
 }
 
 void make_solid(Edit& edit, const Arguments& arguments) {
@@ -307,26 +232,26 @@ void make_detail(Edit& edit, const Arguments& arguments) {
 
 void intersect(Edit& edit, const Arguments& arguments) {
   State& state = edit.state;
-  Brushes all = brushes_of(state, "intersect", arguments.text("what"));
-  const Brushes with = brushes_of(state, "intersect", arguments.text("with"));
+  std::vector<Thing> all = brushes_of(state, "intersect", arguments.text("what"));
+  const std::vector<Thing> with = brushes_of(state, "intersect", arguments.text("with"));
   check_solid(state, "intersect", all);
   check_solid(state, "intersect", with);
-  const auto one = copies_of(state, all), other = copies_of(state, with);
   Parts parts;
-  for (const map::Brush& a : one) {
-    for (const map::Brush& b : other) {
+  for (const Thing& one : all) {
+    for (const Thing& other : with) {
+      const map::Brush &a = brush_at(state, one), &b = brush_at(state, other);
       if (!overlap(a, b)) continue;
       if (auto common = intersection(a, b)) parts.added.push_back(std::move(*common));
     }
   }
   if (parts.added.empty()) refuse("intersect: the two have no volume in common");
-  for (const auto& [e, indices] : with) {
-    for (const std::size_t b : indices) {
-      if (!all[e].insert(b).second)
-        refuse(fmt::format("intersect: {} is in both `what` and `with`", describe(state, {e, b})));
-    }
+  for (const Thing& thing : with) {
+    if (std::ranges::binary_search(all, thing))
+      refuse("intersect: {} is in both `what` and `with`", describe(state, thing));
   }
-  edit.report.data["removed"] = numbers_of(state, all);
+  all.insert(all.end(), with.begin(), with.end());
+  std::ranges::sort(all);
+  edit.report.data["removed"] = ids_of(state, all);
   take_away(state, all);
   parts.added_order = order_among_cuts(state, parts.added);
   say_made(edit, {add_shape(edit, arguments.text_or_empty("name"), {}, std::move(parts))});
@@ -334,36 +259,34 @@ void intersect(Edit& edit, const Arguments& arguments) {
 
 void hollow(Edit& edit, const Arguments& arguments) {
   State& state = edit.state;
-  const Brushes brushes = brushes_of(state, "hollow", arguments.text("what"));
-  check_solid(state, "hollow", brushes);
+  const auto brushes = solids_of(state, "hollow", arguments.text("what"));
   const std::string name = arguments.text_or_empty("name");
-  if (!name.empty() && (brushes.size() != 1 || brushes.begin()->second.size() != 1))
-    refuse("name: several brushes cannot all have one name");
+  if (!name.empty() && brushes.size() != 1) refuse("name: several brushes cannot all have one name");
   const double thickness = arguments.number("thickness") / edit.metres_per_unit();
   const Joint joint = arguments.text("joints") == "slabs" ? Joint::kSlabs : Joint::kMitred;
-  std::vector<Id> made;
-  std::map<Id, std::vector<map::Brush>> walls;  // of each entity
-  for (const Thing& thing : things_of(brushes)) {
-    const EntityItem& entity = *state.entities[thing.entity];
-    auto pieces =
-        hollowed(*entity.brushes[*thing.brush].brush, thickness, joint, arguments.text_or_empty("material"));
-    const Id key = entity.classname() == "worldspawn" ? id_of(state, thing) : entity.id;
-    std::move(pieces.begin(), pieces.end(), std::back_inserter(walls[key]));
-  }
   // Brushes of entities become walls there; a plain brush becomes a group of its own.
-  forget_made(state, things_of(brushes));
+  std::map<Id, std::vector<map::Brush>> walls;  // of each entity, or plain brush
   std::vector<Thing> plain;
-  for (const auto& [e, indices] : brushes) {
-    const Id id = state.entities[e]->id;
-    if (state.entities[e]->classname() == "worldspawn") {
-      for (const std::size_t b : indices) plain.push_back({e, b});
-      continue;
+  std::set<std::size_t> entities;
+  for (const Thing& thing : brushes) {
+    const EntityItem& entity = *state.entities[thing.entity];
+    auto pieces = hollowed(brush_at(state, thing), thickness, joint, arguments.text_or_empty("material"));
+    std::ranges::move(pieces, std::back_inserter(walls[entity.is_world() ? id_of(state, thing) : entity.id]));
+    if (entity.is_world()) {
+      plain.push_back(thing);
+    } else {
+      entities.insert(thing.entity);
     }
+  }
+  forget_made(state, brushes);
+  std::vector<Id> made;
+  for (const std::size_t e : entities) {
+    const Id id = state.entities[e]->id;
     std::vector<map::Brush> next;
     for (std::size_t b = 0; b < state.entities[e]->brushes.size(); ++b) {
-      if (!indices.contains(b)) next.push_back(*state.entities[e]->brushes[b].brush);
+      if (!std::ranges::binary_search(brushes, Thing{e, b})) next.push_back(brush_at(state, {e, b}));
     }
-    std::move(walls[id].begin(), walls[id].end(), std::back_inserter(next));
+    std::ranges::move(walls[id], std::back_inserter(next));
     set_brushes(state, e, std::move(next));
     made.push_back(id);
     if (!name.empty()) {
@@ -371,8 +294,7 @@ void hollow(Edit& edit, const Arguments& arguments) {
       set_key(state, e, group_number(*state.entities[e]) ? "_tb_name" : "targetname", name);
     }
   }
-  std::vector<Id> plain_ids;
-  for (const Thing& thing : plain) plain_ids.push_back(id_of(state, thing));
+  const std::vector<Id> plain_ids = ids_of(state, plain);
   remove(state, plain);
   for (const Id id : plain_ids) made.push_back(add_shape(edit, name, {}, {.added = std::move(walls[id])}));
   say_made(edit, made);
@@ -385,7 +307,7 @@ map::Face cut_plane(const Edit& edit, const Arguments& arguments, const std::str
   if (across == arguments.has("through") || (any_across && !across))
     refuse("clip: the plane is either `axis` and `at`, or three places, `through`");
   if (across) {
-    const Eigen::Index axis = arguments.text("axis") == "x" ? 0 : arguments.text("axis") == "y" ? 1 : 2;
+    const int axis = axis_of(arguments.text("axis"));
     const Vec3 at = edit.units(arguments.number("at") * Vec3::Unit(axis));
     constexpr double kApart = 64.0;
     return face_through(at, at + kApart * Vec3::Unit((axis + 1) % 3),
@@ -398,18 +320,16 @@ map::Face cut_plane(const Edit& edit, const Arguments& arguments, const std::str
 
 /// What a clipping makes of the brushes.
 struct Clipped {
-  Brushes gone{};
+  std::vector<Thing> gone{};
   std::vector<std::pair<Thing, map::Brush>> smaller{};
   std::vector<std::pair<std::size_t, map::Brush>> more{};  ///< and the entity that they go to
-
-  bool empty() const { return gone.empty() && smaller.empty(); }
 };
 
-Clipped clipped(const Edit& edit, const Arguments& arguments, const Brushes& brushes) {
+Clipped clipped(const Edit& edit, const Arguments& arguments, const std::vector<Thing>& brushes) {
   const std::string& keep = arguments.text("keep");
   Clipped result;
-  for (const Thing& thing : things_of(brushes)) {
-    const map::Brush& brush = *edit.state.entities[thing.entity]->brushes[*thing.brush].brush;
+  for (const Thing& thing : brushes) {
+    const map::Brush& brush = brush_at(edit.state, thing);
     const std::string material =
         arguments.has("material") ? arguments.text("material") : brush.faces.front().material;
     Halves parts = halves(brush, cut_plane(edit, arguments, material));
@@ -417,7 +337,7 @@ Clipped clipped(const Edit& edit, const Arguments& arguments, const Brushes& bru
     const bool cut = parts.behind && parts.in_front;
     if (!cut && keep == "both") continue;
     if (!parts.behind) {
-      result.gone[thing.entity].insert(*thing.brush);
+      result.gone.push_back(thing);
     } else if (cut) {
       result.smaller.emplace_back(thing, std::move(*parts.behind));
       if (keep == "both") result.more.emplace_back(thing.entity, std::move(*parts.in_front));
@@ -428,14 +348,12 @@ Clipped clipped(const Edit& edit, const Arguments& arguments, const Brushes& bru
 
 void clip(Edit& edit, const Arguments& arguments) {
   State& state = edit.state;
-  const Brushes brushes = brushes_of(state, "clip", arguments.text("what"));
+  const auto brushes = brushes_of(state, "clip", arguments.text("what"));
   Clipped result = clipped(edit, arguments, brushes);
-  if (result.empty()) refuse("clip: the plane takes nothing away from them");
-  std::size_t kept = 0;
-  for (const auto& [e, indices] : brushes) kept += indices.size();
-  for (const auto& [e, indices] : result.gone) kept -= indices.size();
-  if (kept == 0) refuse("clip: nothing would be left of them; `delete` removes things");
-  forget_made(state, things_of(brushes));
+  if (result.gone.empty() && result.smaller.empty()) refuse("clip: the plane takes nothing away from them");
+  if (result.gone.size() == brushes.size())
+    refuse("clip: nothing would be left of them; `delete` removes things");
+  forget_made(state, brushes);
   std::set<Id> changed;
   std::vector<Id> made;
   for (auto& [thing, brush] : result.smaller) {
@@ -444,8 +362,8 @@ void clip(Edit& edit, const Arguments& arguments) {
   }
   for (auto& [entity, brush] : result.more) made.push_back(add_brush(state, entity, std::move(brush)));
   if (!result.gone.empty()) {
-    edit.report.data["removed"] = numbers_of(state, result.gone);
-    edit.report.lines.push_back(fmt::format("removed {} brushes in all", edit.report.data["removed"].size()));
+    edit.report.data["removed"] = ids_of(state, result.gone);
+    edit.report.say("removed {} brushes in all", result.gone.size());
     take_away(state, result.gone);
   }
   std::vector<Thing> things;
@@ -454,9 +372,10 @@ void clip(Edit& edit, const Arguments& arguments) {
   if (!made.empty()) say_made(edit, made);
 }
 
+constexpr std::string_view kDoorName = "door", kWindowName = "window";
+
 constexpr std::array kCutsCommands{
-    CommandSpec{.name = "door",
-                .topic = "cuts",
+    CommandSpec{.name = kDoorName,
                 .summary = "an opening in a wall, from its foot",
                 .details = "Where a wall begins: a `wall` and an `arc` where they were drawn from; the walls "
                            "of a room at the west or "
@@ -468,25 +387,22 @@ constexpr std::array kCutsCommands{
                 .arguments = kDoor,
                 .example = "door in north at 2 width 0.9 height 2.1 leaf=wood open=60",
                 .before = "wall from 0,0 to 6,0 name=north",
-                .run = &make_door},
+                .run = &make_opening<kDoorName>},
     CommandSpec{
-        .name = "window",
-        .topic = "cuts",
+        .name = kWindowName,
         .summary = "an opening in a wall, above its foot",
         .details = "Places are counted as `door` does. A pane is solid, of whatever material.",
         .arguments = kWindow,
         .example = "window in kitchen side=east at 2 width 1.2 height 1.1 sill 0.9 pane=glass name=view",
         .before = "room from 0,0 to 5,4 name=kitchen",
-        .run = &make_window},
+        .run = &make_opening<kWindowName>},
     CommandSpec{.name = "subtract",
-                .topic = "cuts",
                 .summary = "cut out of the map what solid brushes cover",
                 .arguments = kSubtract,
                 .example = "subtract niche",
                 .before = "box from 0,0 to 4,4,3\nbox from 1,1,1 to 2,4,2 name=niche",
                 .run = &subtract},
     CommandSpec{.name = "add",
-                .topic = "cuts",
                 .summary = "put solid brushes together, to be added after cuts",
                 .details = "Shapes in a room are added after it without this; `add` makes several one "
                            "thing with one order.",
@@ -497,7 +413,6 @@ constexpr std::array kCutsCommands{
                     "duplicate pillar by 2,0",
                 .run = &make_solid},
     CommandSpec{.name = "detail",
-                .topic = "cuts",
                 .summary = "make solid brushes detail, which does not divide the map",
                 .details =
                     "Furniture, door frames, and whatever else neither seals a room nor is worth a say in "
@@ -508,14 +423,12 @@ constexpr std::array kCutsCommands{
                 .before = "room from 0,0 to 5,4 name=kitchen\nbox from 1,1 to 2,2,0.7 name=table",
                 .run = &make_detail},
     CommandSpec{.name = "intersect",
-                .topic = "cuts",
                 .summary = "keep only what two sets of brushes have in common",
                 .arguments = kIntersect,
                 .example = "intersect pillar with block name=half",
                 .before = "cylinder at 0,0 radius 1 height 2 name=pillar\nbox from 0,-1 to 1,1,2 name=block",
                 .run = &intersect},
     CommandSpec{.name = "hollow",
-                .topic = "cuts",
                 .summary = "make brushes into walls around what was their inside",
                 .details = "The outer faces stay where they are. A plain brush becomes a group.",
                 .arguments = kHollow,
@@ -523,7 +436,6 @@ constexpr std::array kCutsCommands{
                 .before = "box from 0,0 to 1,1,1 name=crate",
                 .run = &hollow},
     CommandSpec{.name = "clip",
-                .topic = "cuts",
                 .summary = "cut brushes along a plane, and keep one side or both",
                 .arguments = kClip,
                 .example = "clip block axis=x at=1 keep=both",

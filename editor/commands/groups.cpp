@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/common_arguments.hpp"
 #include "editor/commands/making.hpp"
@@ -23,33 +23,17 @@ namespace hallway::editor {
 namespace {
 
 constexpr std::array kOnlyThings{kThings};
-constexpr std::array kRename{
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "one thing"},
-    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "its new name"}};
-constexpr std::array kGroup{
-    kThings, ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "of the group"}};
-constexpr std::array kShow{
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .fallback = "all", .help = "things"}};
+constexpr std::array kRename{ArgSpec{"what", ArgKind::kWhat, "one thing"}.needed(),
+                             ArgSpec{"name", ArgKind::kName, "its new name"}.needed()};
+constexpr std::array kGroup{kThings, ArgSpec{"name", ArgKind::kName, "of the group"}.needed()};
+constexpr std::array kShow{ArgSpec{"what", ArgKind::kWhat, "things", "all"}};
 constexpr std::array kMaterial{
-    kThings, ArgSpec{.name = "material", .kind = ArgKind::kMaterial, .required = true, .help = "the new one"},
-    ArgSpec{.name = "face",
-            .kind = ArgKind::kChoice,
-            .fallback = "all",
-            .help = "which faces of each brush; north is +y, east is +x",
-            .choices = "all top bottom sides north east south west"}};
-constexpr std::array kGrid{
-    ArgSpec{.name = "size", .kind = ArgKind::kText, .help = "a length, or `off`; nothing: says what it is"}};
+    kThings, ArgSpec{"material", ArgKind::kMaterial, "the new one"}.needed(),
+    ArgSpec{"face", ArgKind::kChoice, "which faces of each brush; north is +y, east is +x", "all",
+            "all top bottom sides north east south west"}};
+constexpr std::array kGrid{ArgSpec{"size", ArgKind::kText, "a length, or `off`; nothing: says what it is"}};
 
 // ---- Names and groups ---------------------------------------------------------------------------------------------
-
-map::Entity new_group(const State& state, const std::string& name) {
-  map::Entity group;
-  group.keys = {{{}, "classname", "func_group", 0},
-                {{}, "_tb_type", "_tb_group", 0},
-                {{}, "_tb_name", name, 0},
-                {{}, "_tb_id", std::to_string(next_group_number(state)), 0}};
-  return group;
-}
 
 /// Takes brushes out of the entities that they are in, with their numbers.
 std::vector<BrushItem> taken_out(State& state, const std::vector<Thing>& things) {
@@ -65,33 +49,27 @@ std::vector<BrushItem> taken_out(State& state, const std::vector<Thing>& things)
 }
 
 void put_in(State& state, std::size_t entity, const std::vector<BrushItem>& items) {
-  auto copy = std::make_shared<EntityItem>(*state.entities[entity]);
-  copy->brushes.insert(copy->brushes.end(), items.begin(), items.end());
-  state.entities[entity] = std::move(copy);
+  std::vector<BrushItem>& brushes = own(state, entity).brushes;
+  brushes.insert(brushes.end(), items.begin(), items.end());
 }
 
 void check_loose(const Edit& edit, const Thing& thing, const char* verb) {
   const EntityItem& entity = *edit.state.entities[thing.entity];
-  if (entity.classname() == "worldspawn") {
+  if (entity.is_world()) {
     if (thing.brush) return;
-    throw Error(ErrorCode::kUsage, fmt::format("{}: worldspawn is the world itself; name its brushes", verb));
+    refuse("{}: worldspawn is the world itself; name its brushes", verb);
   }
   if (thing.brush) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("{}: {} belongs to {}; take that as a whole", verb, describe(edit.state, thing),
-                            describe(edit.state, {thing.entity, {}})));
+    refuse("{}: {} belongs to {}; take that as a whole", verb, describe(edit.state, thing),
+           describe(edit.state, {thing.entity, {}}));
   }
 }
 
 /// A key for the name of an entity.
 const char* name_key(const EntityItem& entity) {
   if (group_number(entity)) return "_tb_name";
-  if (const map::EntitySpec* spec = map::find_entity_spec(entity.classname())) {
-    for (const map::KeySpec& key : spec->keys) {
-      if (key.name == "name") return "name";
-    }
-  }
-  return "targetname";
+  const map::EntitySpec* spec = map::find_entity_spec(entity.classname());
+  return spec != nullptr && spec->key("name") != nullptr ? "name" : "targetname";
 }
 
 /// References by a thing's old name follow.
@@ -102,8 +80,7 @@ void rename_references(State& state, const EntityItem& named, const std::string&
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
     const std::string classname(state.entities[e]->classname());
     const auto follow = [&](const char* reference) {
-      const std::string* value = state.entities[e]->head->find(reference);
-      if (value != nullptr && *value == from) set_key(state, e, reference, to);
+      if (state.entities[e]->has(reference, from)) set_key(state, e, reference, to);
     };
     if (path && (classname == "hw_waypoint" || classname == "hw_landmark_cloud")) follow("path");
     if (!path) follow("target");
@@ -115,7 +92,7 @@ void name_thing(Edit& edit, const Arguments& arguments) {
   const std::string& name = arguments.text("name");
   const Thing thing = resolve_one(edit.state, arguments.text("what"));
   if (!thing.brush && name_of(*edit.state.entities[thing.entity]) == name)
-    return edit.report.lines.push_back("it has that name");
+    return edit.report.say("it has that name");
   check_new_name(edit.state, name);
   check_loose(edit, thing, "name");
   if (thing.brush) {
@@ -127,8 +104,7 @@ void name_thing(Edit& edit, const Arguments& arguments) {
   }
   const EntityItem entity = *edit.state.entities[thing.entity];
   const std::string key = name_key(entity);
-  const std::string* old = entity.head->find(key);
-  rename_references(edit.state, entity, key, old != nullptr ? *old : std::string(), name);
+  rename_references(edit.state, entity, key, entity.value(key), name);
   set_key(edit.state, thing.entity, key, name);
   if (const std::string* line = entity.head->find(kMadeKey))
     set_key(edit.state, thing.entity, kMadeKey, renamed_line(*line, name, units_of(edit.state)));
@@ -142,8 +118,7 @@ void name_thing(Edit& edit, const Arguments& arguments) {
 std::string common_value(const State& state, const std::vector<Thing>& things, const char* key) {
   std::set<std::string> values;
   for (const Thing& thing : things) {
-    const std::string* value = state.entities[thing.entity]->head->find(key);
-    values.insert(value != nullptr ? *value : std::string());
+    values.insert(state.entities[thing.entity]->value(key));
   }
   return values.size() == 1 ? *values.begin() : std::string();
 }
@@ -154,10 +129,10 @@ void group_things(Edit& edit, const Arguments& arguments) {
   check_new_name(edit.state, name);
   for (const Thing& thing : things) check_loose(edit, thing, "group");
   map::Entity group = new_group(edit.state, name);
-  const std::string number = *group.find("_tb_id");
+  const std::string number = group.value("_tb_id");
   for (const char* key : {"_tb_group", "_tb_layer"}) {
     if (std::string value = common_value(edit.state, things, key); !value.empty())
-      group.keys.push_back({{}, key, std::move(value), 0});
+      group.add(key, std::move(value));
   }
   std::vector<Thing> parts;  // of what a line made, which are so no longer
   for (const Thing& thing : things) {
@@ -180,11 +155,10 @@ void group_things(Edit& edit, const Arguments& arguments) {
 std::size_t entity_around(const State& state, const EntityItem& group) {
   for (const char* key : {"_tb_group", "_tb_layer"}) {
     const std::string* wanted = group.head->find(key);
-    for (std::size_t e = 0; wanted != nullptr && e < state.entities.size(); ++e) {
-      const std::string* type = state.entities[e]->head->find("_tb_type");
-      const std::string* number = state.entities[e]->head->find("_tb_id");
-      if (type != nullptr && *type == key && number != nullptr && *number == *wanted) return e;
-    }
+    const auto around = find_entity(state, [&](const EntityItem& entity) {
+      return wanted != nullptr && entity.has("_tb_type", key) && entity.has("_tb_id", *wanted);
+    });
+    if (around) return *around;
   }
   return worldspawn(state);
 }
@@ -195,8 +169,7 @@ void ungroup_one(Edit& edit, std::size_t index) {
   const std::string number = *group_number(*group);
   while (maker_of(state, {index, {}})) forget_made(state, {{index, {}}});
   for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const std::string* in = state.entities[e]->head->find("_tb_group");
-    if (in == nullptr || *in != number) continue;
+    if (!state.entities[e]->has("_tb_group", number)) continue;
     set_key(state, e, "_tb_group", {});
     for (const char* key : {"_tb_group", "_tb_layer"}) {
       if (const std::string* around = group->head->find(key)) set_key(state, e, key, *around);
@@ -208,10 +181,10 @@ void ungroup_one(Edit& edit, std::size_t index) {
   };
   std::erase_if(rest.keys,
                 [&](const map::KeyValue& pair) { return pair.key.starts_with("_tb_") && !is_around(pair); });
-  const bool keys_left = !group->brushes.empty() &&
-                         std::any_of(rest.keys.begin(), rest.keys.end(), [&](const map::KeyValue& pair) {
-                           return pair.key != "classname" && !is_around(pair);
-                         });
+  const bool keys_left =
+      !group->brushes.empty() && std::ranges::any_of(rest.keys, [&](const map::KeyValue& pair) {
+        return pair.key != "classname" && !is_around(pair);
+      });
   if (keys_left) {
     set_head(state, index, std::move(rest));  // a density, say, which means these brushes
   } else {
@@ -223,12 +196,12 @@ void ungroup(Edit& edit, const Arguments& arguments) {
   const auto things = resolve(edit.state, arguments.text("what"));
   for (const Thing& thing : things) {
     if (thing.brush || !group_number(*edit.state.entities[thing.entity]))
-      throw Error(ErrorCode::kUsage, "ungroup: " + describe(edit.state, thing) + " is no group");
+      refuse("ungroup: " + describe(edit.state, thing) + " is no group");
   }
   say_removed(edit, things);
   // A group's brushes may go into another of these groups, which is dissolved after it.
   auto inner_first = things;
-  std::stable_sort(inner_first.begin(), inner_first.end(), [&](const Thing& a, const Thing& b) {
+  std::ranges::stable_sort(inner_first, [&](const Thing& a, const Thing& b) {
     return groups_of(edit.state, a).size() > groups_of(edit.state, b).size();
   });
   std::vector<Thing> gone;
@@ -241,13 +214,17 @@ void ungroup(Edit& edit, const Arguments& arguments) {
 
 // ---- What pictures show ---------------------------------------------------------------------------------------------
 
+void set_hidden(Edit& edit, const std::set<Id>& hidden) {
+  edit.state.desk.hidden.assign(hidden.begin(), hidden.end());
+  edit.report.data["hidden"] = hidden;
+  edit.report.say("{} hidden", hidden.size());
+}
+
 void hide(Edit& edit, const Arguments& arguments) {
   const auto things = resolve(edit.state, arguments.text("what"));
   std::set<Id> hidden(edit.state.desk.hidden.begin(), edit.state.desk.hidden.end());
   for (const Thing& thing : with_members(edit.state, things)) hidden.insert(id_of(edit.state, thing));
-  edit.state.desk.hidden.assign(hidden.begin(), hidden.end());
-  edit.report.data["hidden"] = hidden;
-  edit.report.lines.push_back(fmt::format("{} hidden", hidden.size()));
+  set_hidden(edit, hidden);
 }
 
 void show(Edit& edit, const Arguments& arguments) {
@@ -267,9 +244,7 @@ void show(Edit& edit, const Arguments& arguments) {
       hidden.erase(id_of(edit.state, thing));
     }
   }
-  edit.state.desk.hidden.assign(hidden.begin(), hidden.end());
-  edit.report.data["hidden"] = hidden;
-  edit.report.lines.push_back(fmt::format("{} hidden", hidden.size()));
+  set_hidden(edit, hidden);
 }
 
 // ---- Materials --------------------------------------------------------------------------------------------------------
@@ -293,19 +268,13 @@ bool is_meant(const map::Face& face, const std::string& which) {
 
 /// The line of a group that gets a material as a whole, if that is the one argument about it.
 std::string line_with_material(const std::string& line, const std::string& material, const Units& units) {
-  try {
-    Call call = parse_line(line, units);
-    std::vector<std::string> names;
-    for (const ArgSpec& spec :
-         call.command != nullptr ? call.command->arguments : std::span<const ArgSpec>{}) {
-      if (spec.kind == ArgKind::kMaterial) names.emplace_back(spec.name);
-    }
-    if (names.size() != 1) return {};
-    call.arguments.set(names.front(), material);
-    return line_of(*call.command, call.arguments);
-  } catch (const Error&) {
-    return {};
-  }
+  const auto changed = changed_line(line, units, [&](Call& call) {
+    const auto& specs = call.command->arguments;
+    if (std::ranges::count(specs, ArgKind::kMaterial, &ArgSpec::kind) != 1) return false;
+    call.arguments.set(std::ranges::find(specs, ArgKind::kMaterial, &ArgSpec::kind)->name, material);
+    return true;
+  });
+  return changed.value_or("");
 }
 
 void material(Edit& edit, const Arguments& arguments) {
@@ -326,10 +295,8 @@ void material(Edit& edit, const Arguments& arguments) {
                    }
                    return changed ? std::optional(std::move(next)) : std::nullopt;
                  });
-  if (faces == 0) {
-    throw Error(ErrorCode::kUsage, which == "all" ? std::string("material: that has no faces")
-                                                  : fmt::format("material: that has no face {}", which));
-  }
+  if (faces == 0 && which == "all") refuse("material: that has no faces");
+  if (faces == 0) refuse("material: that has no face {}", which);
   std::vector<std::pair<std::size_t, std::string>> lines;
   for (const Thing& thing : things) {
     if (thing.brush || which != "all") continue;
@@ -343,23 +310,21 @@ void material(Edit& edit, const Arguments& arguments) {
 }
 
 void grid(Edit& edit, const Arguments& arguments) {
-  constexpr ArgSpec kSize{.name = "size", .kind = ArgKind::kLength, .low = 1e-6, .high = 1e3};
+  constexpr ArgSpec kSize = ArgSpec{"size", ArgKind::kLength}.within(1e-6, 1e3);
   double& size = edit.state.desk.grid_m;
   if (arguments.has("size")) {
     const std::string& word = arguments.text("size");
     size = word == "off" ? 0.0 : std::get<double>(read_value(kSize, word, units_of(edit.state)));
   }
   edit.report.data["grid_m"] = size;
-  edit.report.lines.push_back(size > 0.0 ? fmt::format("grid of {} m", format_double(size)) : "no grid");
+  edit.report.say(size > 0.0 ? fmt::format("grid of {} m", format_double(size)) : "no grid");
 }
 
-constexpr std::string_view kGroupsTopic = "things";
 constexpr std::string_view kLampAlone = "entity light at 2,3,2.5 light=300 targetname=lamp";
 
 constexpr std::array kGroupsCommands{
     CommandSpec{
         .name = "name",
-        .topic = kGroupsTopic,
         .summary = "give a thing a name",
         .details = "What refers to it by its old name follows. A plain brush becomes a group of its own.",
         .arguments = kRename,
@@ -368,7 +333,6 @@ constexpr std::array kGroupsCommands{
         .run = &name_thing},
     CommandSpec{
         .name = "group",
-        .topic = kGroupsTopic,
         .summary = "make things a group, as TrenchBroom has them",
         .details = "Groups may be in groups. Brushes of the world go into the group; entities keep being "
                    "what they are.",
@@ -377,14 +341,12 @@ constexpr std::array kGroupsCommands{
         .before = "entity light at 2,3,2.5 targetname=lamp\nentity light at 4,3,2.5 targetname=second",
         .run = &group_things},
     CommandSpec{.name = "ungroup",
-                .topic = kGroupsTopic,
                 .summary = "dissolve groups; what is in them stays",
                 .arguments = kOnlyThings,
                 .example = "ungroup lamps",
                 .before = "entity light at 2,3,2.5 targetname=lamp\ngroup lamp lamps",
                 .run = &ungroup},
     CommandSpec{.name = "hide",
-                .topic = kGroupsTopic,
                 .summary = "leave things out of pictures",
                 .details = "The map's file says nothing of it.",
                 .arguments = kOnlyThings,
@@ -392,13 +354,11 @@ constexpr std::array kGroupsCommands{
                 .before = kLampAlone,
                 .run = &hide},
     CommandSpec{.name = "show",
-                .topic = kGroupsTopic,
                 .summary = "show hidden things again",
                 .arguments = kShow,
                 .example = "show all",
                 .run = &show},
     CommandSpec{.name = "material",
-                .topic = kGroupsTopic,
                 .summary = "put a material on the faces of things",
                 .details = "`top` is what looks up, `sides` what is steeper than 45 degrees. A room is cut "
                            "out of a block: its floor is the "
@@ -408,7 +368,6 @@ constexpr std::array kGroupsCommands{
                 .before = "box 0,0,0 2,2,2",
                 .run = &material},
     CommandSpec{.name = "grid",
-                .topic = kGroupsTopic,
                 .summary = "round the places that commands are given",
                 .arguments = kGrid,
                 .example = "grid 0.1",

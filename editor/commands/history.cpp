@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/help.hpp"
@@ -23,40 +24,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kCount{ArgSpec{.name = "count",
-                                    .kind = ArgKind::kWhole,
-                                    .fallback = "1",
-                                    .help = "how many steps",
-                                    .low = 1,
-                                    .high = 1e9}};
+constexpr std::array kCount{ArgSpec{"count", ArgKind::kWhole, "how many steps", "1"}.within(1, 1e9)};
 constexpr std::array kOptionalCheckpoint{
-    ArgSpec{.name = "count", .kind = ArgKind::kWhole, .help = "how many steps [1]", .low = 1, .high = 1e9},
-    ArgSpec{.name = "to", .kind = ArgKind::kName, .help = "back to that checkpoint"}};
-constexpr std::array kLast{ArgSpec{.name = "last",
-                                   .kind = ArgKind::kWhole,
-                                   .help = "only so many of the last steps",
-                                   .low = 1,
-                                   .high = 1e9}};
-constexpr std::array kCheckpointName{
-    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what the place is called"}};
-constexpr std::array kSince{
-    ArgSpec{.name = "since", .kind = ArgKind::kName, .help = "a checkpoint, instead of the last save"}};
-constexpr std::array kScript{
-    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "commands, one a line"}};
-constexpr std::array kTo{ArgSpec{.name = "to", .kind = ArgKind::kFile, .help = "a new file [the map's]"}};
-constexpr std::array kHistory{
-    ArgSpec{.name = "action",
-            .kind = ArgKind::kChoice,
-            .required = true,
-            .help = "save: as a script",
-            .choices = "save"},
-    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "a new file"}};
-constexpr std::array kHelpOn{ArgSpec{.name = "command", .kind = ArgKind::kText, .help = "a command's name"}};
+    ArgSpec{"count", ArgKind::kWhole, "how many steps [1]"}.within(1, 1e9),
+    ArgSpec{"to", ArgKind::kName, "back to that checkpoint"}};
+constexpr std::array kLast{ArgSpec{"last", ArgKind::kWhole, "only so many of the last steps"}.within(1, 1e9)};
+constexpr std::array kCheckpointName{ArgSpec{"name", ArgKind::kName, "what the place is called"}.needed()};
+constexpr std::array kSince{ArgSpec{"since", ArgKind::kName, "a checkpoint, instead of the last save"}};
+constexpr std::array kScript{ArgSpec{"file", ArgKind::kFile, "commands, one a line"}.needed()};
+constexpr std::array kTo{ArgSpec{"to", ArgKind::kFile, "a new file [the map's]"}};
+constexpr std::array kHistory{ArgSpec{"action", ArgKind::kChoice, "save: as a script", "", "save"}.needed(),
+                              ArgSpec{"file", ArgKind::kFile, "a new file"}.needed()};
+constexpr std::array kHelpOn{ArgSpec{"command", ArgKind::kText, "a command's name"}};
 
 void say_steps(const char* verb, const std::vector<std::string>& lines, Report& report) {
   report.data["steps"] = lines;
-  if (lines.empty()) report.lines.push_back(fmt::format("nothing to {}", verb));
-  for (const std::string& line : lines) report.lines.push_back(fmt::format("{}: {}", verb, printable(line)));
+  if (lines.empty()) report.say("nothing to {}", verb);
+  for (const std::string& line : lines) report.say("{}: {}", verb, printable(line));
 }
 
 /// The number of steps that stand before the last checkpoint of that name among the first `done`.
@@ -69,13 +53,11 @@ std::size_t place_of(const Session& session, const std::string& name) {
   for (std::size_t i = 0; i < session.done(); ++i) {
     if (!steps[i].checkpoint.empty()) names.push_back(steps[i].checkpoint);
   }
-  throw Error(ErrorCode::kUsage,
-              fmt::format("there is no checkpoint \"{}\"{}", printable(name), suggestion(name, names)));
+  refuse("there is no checkpoint \"{}\"{}", printable(name), suggestion(name, names));
 }
 
 void undo(Session& session, const Arguments& arguments, Report& report) {
-  if (arguments.has("to") && arguments.has("count"))
-    throw Error(ErrorCode::kUsage, "undo: either `count` or `to`, not both");
+  if (arguments.has("to") && arguments.has("count")) refuse("undo: either `count` or `to`, not both");
   std::size_t count = arguments.has("count") ? static_cast<std::size_t>(arguments.whole("count")) : 1;
   if (arguments.has("to")) count = session.done() - place_of(session, arguments.text("to"));
   say_steps("undo", session.undo(count), report);
@@ -93,12 +75,11 @@ void log(Session& session, const Arguments& arguments, Report& report) {
   report.data["steps"] = Json::array();
   for (std::size_t i = first; i < steps.size(); ++i) {
     const bool undone = i >= session.done();
-    const std::string text =
-        steps[i].checkpoint.empty() ? steps[i].line : "checkpoint " + steps[i].checkpoint;
+    const std::string text = steps[i].text();
     report.data["steps"].push_back({{"number", i + 1}, {"line", text}, {"undone", undone}});
-    report.lines.push_back(fmt::format("{:5}{} {}", i + 1, undone ? " (undone)" : "", printable(text, 1000)));
+    report.say("{:5}{} {}", i + 1, undone ? " (undone)" : "", printable(text, 1000));
   }
-  if (steps.empty()) report.lines.push_back("nothing has been done");
+  if (steps.empty()) report.say("nothing has been done");
 }
 
 void checkpoint(Session& session, const Arguments& arguments, Report& report) {
@@ -111,29 +92,30 @@ struct Counted {
   std::set<Id> removed, changed, added;
 };
 
-void count_entities(const Patch& patch, Counted& counted) {
+void count(const std::set<Id>& before, const std::set<Id>& after, Counted& counted) {
+  for (const Id id : before) (after.contains(id) ? counted.changed : counted.removed).insert(id);
+  std::ranges::set_difference(after, before, std::inserter(counted.added, counted.added.end()));
+}
+
+Counted counted_in(const Patch& patch) {
+  Counted counted;
   std::set<Id> before, after;
   for (const auto& change : patch.entities) {
     for (const auto& entity : change.before) before.insert(entity->id);
     for (const auto& entity : change.after) after.insert(entity->id);
   }
-  for (const Id id : before) (after.contains(id) ? counted.changed : counted.removed).insert(id);
-  for (const Id id : after) {
-    if (!before.contains(id)) counted.added.insert(id);
+  count(before, after, counted);
+  for (const EntityChange& change : patch.changes) {
+    if (change.head_after) counted.changed.insert(change.id);
+    before.clear();
+    after.clear();
+    for (const auto& splice : change.brushes) {
+      for (const BrushItem& brush : splice.before) before.insert(brush.id);
+      for (const BrushItem& brush : splice.after) after.insert(brush.id);
+    }
+    count(before, after, counted);
   }
-}
-
-void count_brushes(const EntityChange& change, Counted& counted) {
-  if (change.head_after) counted.changed.insert(change.id);
-  std::set<Id> before, after;
-  for (const auto& splice : change.brushes) {
-    for (const BrushItem& brush : splice.before) before.insert(brush.id);
-    for (const BrushItem& brush : splice.after) after.insert(brush.id);
-  }
-  for (const Id id : before) (after.contains(id) ? counted.changed : counted.removed).insert(id);
-  for (const Id id : after) {
-    if (!before.contains(id)) counted.added.insert(id);
-  }
+  return counted;
 }
 
 void diff(Session& session, const Arguments& arguments, Report& report) {
@@ -143,40 +125,41 @@ void diff(Session& session, const Arguments& arguments, Report& report) {
     for (std::size_t i = session.done(); i > place_of(session, arguments.text("since")); --i)
       apply(before, inverse(session.steps()[i - 1].patch));
   }
-  const Patch patch = difference(before, session.state());
-  Counted counted;
-  count_entities(patch, counted);
-  for (const EntityChange& change : patch.changes) count_brushes(change, counted);
+  const Counted counted = counted_in(difference(before, session.state()));
   const auto list = [&](const char* sign, const char* name, const std::set<Id>& ids, const State& state) {
     report.data[name] = ids;
     for (const Id id : ids) {
       const auto thing = find(state, id);
-      if (thing) report.lines.push_back(fmt::format("{} {}", sign, describe(state, *thing)));
+      if (thing) report.say("{} {}", sign, describe(state, *thing));
     }
   };
   list("-", "removed", counted.removed, before);
   list("~", "changed", counted.changed, session.state());
   list("+", "added", counted.added, session.state());
-  if (report.lines.empty()) report.lines.push_back("no difference");
+  if (report.lines.empty()) report.say("no difference");
 }
 
 void save(Session& session, const Arguments&, Report& report) {
   const bool was_unsaved = session.unsaved();
   session.save();
   report.data["saved"] = was_unsaved;
-  report.lines.push_back(was_unsaved ? fmt::format("saved {}", printable(session.file().string()))
-                                     : "the file is up to date");
+  report.say(was_unsaved ? fmt::format("saved {}", printable(session.file().string()))
+                         : "the file is up to date");
+}
+
+void check_new_file(const std::string& file) {
+  if (std::filesystem::exists(file))
+    throw Error(ErrorCode::kIo, "the file is there already", {printable(file), 0, {}});
 }
 
 void save_history(Session& session, const Arguments& arguments, Report& report) {
   const std::string& file = arguments.text("file");
-  if (std::filesystem::exists(file))
-    throw Error(ErrorCode::kIo, "the file is there already", {printable(file), 0, {}});
+  check_new_file(file);
   const std::string script = history_script(session);
   write_file_atomically(file, script);
-  const auto lines = std::count(script.begin(), script.end(), '\n');
+  const auto lines = std::ranges::count(script, '\n');
   report.data["file"] = file;
-  report.lines.push_back(fmt::format("wrote {} lines to {}", lines, printable(file)));
+  report.say("wrote {} lines to {}", lines, printable(file));
 }
 
 void source(Session& session, const Arguments& arguments, Report& report) {
@@ -193,10 +176,9 @@ void recover_journal(Session& session, const Arguments& arguments, Report& repor
   // The one-shot form, which needs no readable map, is the program's; in a session the journal has been read already.
   if (arguments.has("to")) {
     const std::string& file = arguments.text("to");
-    if (std::filesystem::exists(file))
-      throw Error(ErrorCode::kIo, "the file is there already", {printable(file), 0, {}});
+    check_new_file(file);
     write_file_atomically(file, session.text());
-    report.lines.push_back(fmt::format("{} has what the journal holds", printable(file)));
+    report.say("{} has what the journal holds", printable(file));
   } else {
     save(session, arguments, report);
   }
@@ -210,12 +192,9 @@ void help(Session&, const Arguments& arguments, Report& report) {
   if (arguments.has("command")) {
     const std::string& name = arguments.text("command");
     const CommandSpec* command = find_command(name);
-    if (command == nullptr) {
-      std::vector<std::string> names;
-      for (const CommandSpec& spec : commands()) names.emplace_back(spec.name);
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("there is no command \"{}\"{}", printable(name), suggestion(name, names)));
-    }
+    if (command == nullptr)
+      refuse("there is no command \"{}\"{}", printable(name),
+             suggestion(name, names_in(commands(), &CommandSpec::name)));
     return say_text(help_text(*command), report);
   }
   say_text(help_overview(), report);
@@ -224,7 +203,6 @@ void help(Session&, const Arguments& arguments, Report& report) {
 constexpr std::array kHistoryCommands{
     CommandSpec{
         .name = "undo",
-        .topic = "history",
         .summary = "take back the last steps",
         .details = "Works across shells: the journal beside the map (NAME.map.journal) keeps every step.",
         .arguments = kOptionalCheckpoint,
@@ -232,20 +210,17 @@ constexpr std::array kHistoryCommands{
         .before = "checkpoint start",
         .run = &undo},
     CommandSpec{.name = "redo",
-                .topic = "history",
                 .summary = "do again what was taken back",
                 .arguments = kCount,
                 .example = "redo",
                 .before = "checkpoint start\nundo",
                 .run = &redo},
     CommandSpec{.name = "log",
-                .topic = "history",
                 .summary = "list the steps, undone ones included",
                 .arguments = kLast,
                 .example = "log last=10",
                 .run = &log},
     CommandSpec{.name = "history",
-                .topic = "history",
                 .summary = "save the steps that count as a script",
                 .details = "On an empty map, or on the map that the history began with, `hallway edit MAP -f "
                            "FILE` then makes the same map, byte for byte. Steps that were undone are left "
@@ -256,24 +231,17 @@ constexpr std::array kHistoryCommands{
                 .before = "wall from 0,0 to 6,0 name=north",
                 .run = &save_history},
     CommandSpec{.name = "checkpoint",
-                .topic = "history",
                 .summary = "name this place in the history, for `undo to=NAME`",
                 .arguments = kCheckpointName,
                 .example = "checkpoint walls-done",
                 .run = &checkpoint},
     CommandSpec{.name = "diff",
-                .topic = "history",
                 .summary = "list what was removed (-), changed (~) and added (+) since the last save",
                 .arguments = kSince,
                 .example = "diff",
                 .run = &diff},
-    CommandSpec{.name = "save",
-                .topic = "history",
-                .summary = "write the map's file",
-                .example = "save",
-                .run = &save},
+    CommandSpec{.name = "save", .summary = "write the map's file", .example = "save", .run = &save},
     CommandSpec{.name = "recover",
-                .topic = "history",
                 .summary = "bring the map's file to what the journal holds, after a crash or a loss",
                 .details = "With `to` into another file, also from a journal whose end is damaged. An editor "
                            "that was killed needs no "
@@ -282,7 +250,6 @@ constexpr std::array kHistoryCommands{
                 .example = "recover",
                 .run = &recover_journal},
     CommandSpec{.name = "source",
-                .topic = "history",
                 .summary = "run a file of commands as one step: all of them or none",
                 .details = "One command a line, as typed or as a JSON object. `#` begins a comment. Paths "
                            "are relative to the script.",
@@ -290,7 +257,6 @@ constexpr std::array kHistoryCommands{
                 .example = "source house.hwe",
                 .run = &source},
     CommandSpec{.name = "help",
-                .topic = "history",
                 .summary = "list commands, or explain one",
                 .arguments = kHelpOn,
                 .example = "help undo",

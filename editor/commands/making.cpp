@@ -2,11 +2,14 @@
 #include "editor/commands/making.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/shapes.hpp"
 
@@ -17,14 +20,13 @@ constexpr std::size_t kMostNamed = 8;  ///< things that a line names one by one
 
 void say(Edit& edit, const char* verb, const std::vector<Thing>& things) {
   std::vector<Id> ids;
-  std::string line = verb;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    ids.push_back(id_of(edit.state, things[i]));
-    if (i < kMostNamed) line += (i == 0 ? " " : ", ") + describe(edit.state, things[i]);
+  std::vector<std::string> names;
+  for (const Thing& thing : things) {
+    ids.push_back(id_of(edit.state, thing));
+    if (names.size() < kMostNamed) names.push_back(describe(edit.state, thing));
   }
-  if (things.size() > kMostNamed) line += fmt::format(" and {} more", things.size() - kMostNamed);
   edit.report.data[verb] = ids;
-  edit.report.lines.push_back(line);
+  edit.report.say(names.empty() ? verb : fmt::format("{} {}", verb, listed(names, things.size())));
 }
 
 /// Marks a member of a group as a part of the group's shape.
@@ -33,10 +35,10 @@ constexpr const char* kPart = "_hw_part";
 map::Entity part_entity(const char* classname, int order, const std::string& number,
                         std::vector<map::Brush> brushes) {
   map::Entity part;
-  part.keys = {{{}, "classname", classname, 0}, {{}, "order", std::to_string(order), 0}};
+  part.keys = {{"classname", classname}, {"order", std::to_string(order)}};
   if (!number.empty()) {
-    part.keys.push_back({{}, "_tb_group", number, 0});
-    part.keys.push_back({{}, kPart, "1", 0});
+    part.add("_tb_group", number);
+    part.add(kPart, "1");
   }
   part.brushes = std::move(brushes);
   return part;
@@ -46,38 +48,48 @@ map::Entity part_entity(const char* classname, int order, const std::string& num
 void set_part(State& state, const std::string& number, const char* classname, int order,
               std::vector<map::Brush> brushes) {
   std::vector<Thing> gone;
-  for (const std::size_t member : members_of(state, number)) {
-    const EntityItem& entity = *state.entities[member];
+  for (const Thing& member : members_of(state, number)) {
+    const EntityItem& entity = *state.entities[member.entity];
     if (entity.classname() != classname || entity.head->find(kPart) == nullptr) continue;
     if (brushes.empty()) {
-      gone.push_back({member, {}});
+      gone.push_back(member);
       continue;
     }
-    set_brushes(state, member, std::move(brushes));
-    set_key(state, member, "order", std::to_string(order));
+    set_brushes(state, member.entity, std::move(brushes));
+    set_key(state, member.entity, "order", std::to_string(order));
     return;
   }
   remove(state, gone);
   if (!brushes.empty()) add_entity(state, part_entity(classname, order, number, std::move(brushes)));
 }
 
-std::string group_key(const EntityItem& entity) {
-  const std::string* group = entity.head->find("_tb_group");
-  return group != nullptr ? *group : std::string();
-}
-
 bool is_filled_by(const EntityItem& opening, const EntityItem& fill) {
-  if (group_key(opening) != group_key(fill)) return false;
-  return std::any_of(opening.brushes.begin(), opening.brushes.end(), [&](const BrushItem& cut) {
-    return std::any_of(fill.brushes.begin(), fill.brushes.end(),
-                       [&](const BrushItem& part) { return overlap(*part.brush, *cut.brush); });
+  if (opening.value("_tb_group") != fill.value("_tb_group")) return false;
+  return std::ranges::any_of(opening.brushes, [&](const BrushItem& cut) {
+    return std::ranges::any_of(fill.brushes,
+                               [&](const BrushItem& part) { return overlap(*part.brush, *cut.brush); });
   });
 }
 
 }  // namespace
 
+std::string listed(const std::vector<std::string>& names, std::size_t count) {
+  const std::size_t named = std::min(names.size(), kMostNamed);
+  return fmt::format("{}{}",
+                     fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+                     count > named ? fmt::format(" and {} more", count - named) : "");
+}
+
 std::string vector_text(const Vec3& vector) {
   return format_double(vector.x()) + ' ' + format_double(vector.y()) + ' ' + format_double(vector.z());
+}
+
+int axis_of(std::string_view choice) {
+  return choice == "x" ? 0 : choice == "y" ? 1 : 2;
+}
+
+double degrees(double angle_rad) {
+  return std::round(angle_rad * 180.0 / std::numbers::pi * 1e9) / 1e9;
 }
 
 void say_made(Edit& edit, const std::vector<Id>& ids) {
@@ -95,18 +107,16 @@ void say_removed(Edit& edit, const std::vector<Thing>& things) {
 }
 
 std::size_t worldspawn(const State& state) {
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    if (state.entities[e]->classname() == "worldspawn") return e;
-  }
-  throw Error(ErrorCode::kUsage, "the map has no worldspawn; `new` begins one");
+  if (const auto world = find_entity(state, [](const EntityItem& entity) { return entity.is_world(); }))
+    return *world;
+  refuse("the map has no worldspawn; `new` begins one");
 }
 
 int next_group_number(const State& state) {
   int next = 1;
   for (const auto& entity : state.entities) {
     for (const char* key : {"_tb_id", "_tb_group", "_tb_layer"}) {
-      const std::string* text = entity->head->find(key);
-      const auto number = text != nullptr ? parse_int(*text) : std::nullopt;
+      const auto number = parse_int(entity->value(key));
       if (number && *number >= next && *number < 1'000'000'000) next = static_cast<int>(*number) + 1;
     }
   }
@@ -114,10 +124,17 @@ int next_group_number(const State& state) {
 }
 
 void check_new_name(const State& state, const std::string& name) {
-  for (std::size_t e = 0; !name.empty() && e < state.entities.size(); ++e) {
-    if (name_of(*state.entities[e]) != name) continue;
-    throw Error(ErrorCode::kUsage, fmt::format("name: {} has that name already", describe(state, {e, {}})));
-  }
+  if (name.empty()) return;
+  const auto taken = find_entity(state, [&](const EntityItem& entity) { return name_of(entity) == name; });
+  if (taken) refuse("name: {} has that name already", describe(state, {*taken, {}}));
+}
+
+map::Entity new_group(const State& state, const std::string& name) {
+  map::Entity group;
+  group.keys = {{"classname", "func_group"}, {"_tb_type", "_tb_group"}};
+  if (!name.empty()) group.add("_tb_name", name);
+  group.add("_tb_id", std::to_string(next_group_number(state)));
+  return group;
 }
 
 Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts parts) {
@@ -128,12 +145,9 @@ Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts
     if (parts.added_order == 0) return add_brush(edit.state, world, std::move(parts.added.front()));
     return add_entity(edit.state, part_entity("hw_add", parts.added_order, {}, std::move(parts.added)));
   }
-  const std::string number = std::to_string(next_group_number(edit.state));
-  map::Entity group;
-  group.keys = {{{}, "classname", "func_group", 0}, {{}, "_tb_type", "_tb_group", 0}};
-  if (!name.empty()) group.keys.push_back({{}, "_tb_name", name, 0});
-  group.keys.push_back({{}, "_tb_id", number, 0});
-  if (!made.empty()) group.keys.push_back({{}, "_hw_made", made, 0});
+  map::Entity group = new_group(edit.state, name);
+  const std::string number = group.value("_tb_id");
+  if (!made.empty()) group.add("_hw_made", made);
   if (parts.added_order == 0) group.brushes = std::move(parts.added);
   const Id id = add_entity(edit.state, std::move(group));
   if (parts.added_order != 0 && !parts.added.empty())
@@ -144,14 +158,13 @@ Id add_shape(Edit& edit, const std::string& name, const std::string& made, Parts
 }
 
 void set_brushes(State& state, std::size_t entity, std::vector<map::Brush> brushes) {
-  auto item = std::make_shared<EntityItem>(*state.entities[entity]);
-  const std::size_t had = item->brushes.size();
-  item->brushes.resize(brushes.size());
+  std::vector<BrushItem>& items = own(state, entity).brushes;
+  const std::size_t had = items.size();
+  items.resize(brushes.size());
   for (std::size_t b = 0; b < brushes.size(); ++b) {
-    if (b >= had) item->brushes[b].id = state.next_id++;
-    item->brushes[b].brush = std::make_shared<const map::Brush>(std::move(brushes[b]));
+    if (b >= had) items[b].id = state.next_id++;
+    items[b].brush = std::make_shared<const map::Brush>(std::move(brushes[b]));
   }
-  state.entities[entity] = std::move(item);
 }
 
 void replace_shape(Edit& edit, Id group, Parts parts) {
@@ -165,15 +178,13 @@ void replace_shape(Edit& edit, Id group, Parts parts) {
 }
 
 int order_of(const EntityItem& entity) {
-  const std::string* text = entity.head->find("order");
-  const auto order = text != nullptr ? parse_int(*text) : std::nullopt;
+  const auto order = parse_int(entity.value("order"));
   return order ? static_cast<int>(std::clamp<std::int64_t>(*order, -1'000'000'000, 1'000'000'000)) : 0;
 }
 
 bool is_opening(const EntityItem& entity) {
-  const std::string* made = entity.head->find("_hw_made");
-  return entity.classname() == "hw_subtract" && made != nullptr &&
-         (made->starts_with("door ") || made->starts_with("window "));
+  const std::string& made = entity.value("_hw_made");
+  return entity.classname() == "hw_subtract" && (made.starts_with("door ") || made.starts_with("window "));
 }
 
 bool is_fill(const EntityItem& entity) {
@@ -190,54 +201,47 @@ bool is_filled(const EntityItem& entity) {
 
 }  // namespace
 
-std::vector<std::size_t> fills_of(const State& state, std::size_t opening) {
-  std::vector<std::size_t> fills;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    if (is_fill(*state.entities[e]) && is_filled_by(*state.entities[opening], *state.entities[e]))
-      fills.push_back(e);
-  }
-  return fills;
+std::vector<Thing> fills_of(const State& state, std::size_t opening) {
+  return entities_where(state, [&](const EntityItem& entity) {
+    return is_fill(entity) && is_filled_by(*state.entities[opening], entity);
+  });
 }
 
 std::optional<std::size_t> opening_of(const State& state, std::size_t fill) {
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    if (is_filled(*state.entities[e]) && is_filled_by(*state.entities[e], *state.entities[fill])) return e;
-  }
-  return std::nullopt;
+  return find_entity(state, [&](const EntityItem& entity) {
+    return is_filled(entity) && is_filled_by(entity, *state.entities[fill]);
+  });
 }
 
 void add_fills(const State& state, std::vector<Thing>& things) {
   std::vector<Thing> fills;
   for (const Thing& thing : things) {
     if (thing.brush || !is_filled(*state.entities[thing.entity])) continue;
-    for (const std::size_t fill : fills_of(state, thing.entity)) fills.push_back({fill, {}});
+    std::ranges::copy(fills_of(state, thing.entity), std::back_inserter(fills));
   }
   things.insert(things.end(), fills.begin(), fills.end());
-  std::sort(things.begin(), things.end());
+  std::ranges::sort(things);
   things.erase(std::unique(things.begin(), things.end()), things.end());
 }
 
-std::vector<std::size_t> members_of(const State& state, const std::string& number) {
-  std::vector<std::size_t> members;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const std::string* group = state.entities[e]->head->find("_tb_group");
-    if (group != nullptr && *group == number) members.push_back(e);
-  }
-  return members;
+std::string group_of(const EntityItem& entity) {
+  return group_number(entity).value_or(entity.value("_tb_group"));
+}
+
+std::vector<Thing> members_of(const State& state, const std::string& number) {
+  return entities_where(state, [&](const EntityItem& entity) { return entity.has("_tb_group", number); });
 }
 
 Box bounds_of(const std::vector<map::Brush>& brushes) {
   Box all;
-  for (const map::Brush& brush : brushes) {
-    if (const Box box = bounds_of(brush); !box.isEmpty()) all.extend(box);
-  }
+  for (const map::Brush& brush : brushes) all.extend(bounds_of(brush));
   return all;
 }
 
 bool may_overlap(const Box& box, const map::Brush& brush) {
   if (box.isEmpty()) return false;
   constexpr double kTouching = 1e-6;  // map units
-  return std::none_of(brush.faces.begin(), brush.faces.end(), [&](const map::Face& face) {
+  return std::ranges::none_of(brush.faces, [&](const map::Face& face) {
     const auto plane = plane_of(face);
     if (!plane) return false;
     const Vec3 deepest =
@@ -265,18 +269,19 @@ bool overlap(const map::Brush& a, const map::Brush& b) {
   return body && volume_of(*body) > kThin;
 }
 
+bool any_overlaps(const std::vector<map::Brush>& brushes, const Box& box, const map::Brush& other) {
+  return may_overlap(box, other) &&
+         std::ranges::any_of(brushes, [&](const map::Brush& brush) { return overlap(brush, other); });
+}
+
 int order_among_cuts(const State& state, const std::vector<map::Brush>& brushes, const std::string& but_of) {
   const Box all = bounds_of(brushes);
   int order = 0;
   for (const auto& entity : state.entities) {
     if (entity->classname() != "hw_subtract" || order_of(*entity) < order) continue;
-    const std::string* group = entity->head->find("_tb_group");
-    if (!but_of.empty() && group != nullptr && *group == but_of) continue;
-    const bool stands_in = std::any_of(entity->brushes.begin(), entity->brushes.end(), [&](const auto& cut) {
-      return may_overlap(all, *cut.brush) &&
-             std::any_of(brushes.begin(), brushes.end(),
-                         [&](const map::Brush& brush) { return overlap(brush, *cut.brush); });
-    });
+    if (!but_of.empty() && entity->value("_tb_group") == but_of) continue;
+    const bool stands_in = std::ranges::any_of(
+        entity->brushes, [&](const BrushItem& cut) { return any_overlaps(brushes, all, *cut.brush); });
     if (stands_in) order = order_of(*entity) + 1;
   }
   return order;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "editor/command.hpp"
@@ -12,6 +13,10 @@ namespace hallway::editor {
 
 /// Three numbers as maps write them: "1 2.5 3".
 std::string vector_text(const Vec3& vector);
+/// The axis that a choice "x y z" means.
+int axis_of(std::string_view choice);
+/// An angle in degrees, without what rounding left below 1e-9.
+double degrees(double angle_rad);
 
 // What commands say of the things that they touched: a line and the numbers under "made", "changed" or "removed" in the data.
 void say_made(Edit& edit, const std::vector<Id>& ids);
@@ -31,6 +36,9 @@ struct Parts {
   bool remembered =
       false;  ///< a group even where it is one brush without a name: others depend on what made it
 };
+
+/// A new group as TrenchBroom writes it, with the next free number. @param name  may be empty
+map::Entity new_group(const State& state, const std::string& name);
 
 /// Adds a shape: a brush alone without a name goes into worldspawn; all else becomes a group, which remembers under the key `_hw_made` the line that
 /// made it. Returns the number of the brush or group. @param name  may be empty
@@ -56,6 +64,10 @@ bool may_overlap(const Box& box, const map::Brush& brush);
 
 /// Whether two brushes have a volume in common.
 bool overlap(const map::Brush& a, const map::Brush& b);
+/// Whether one of the brushes, which occupy `box` together, has a volume in common with another brush.
+bool any_overlaps(const std::vector<map::Brush>& brushes, const Box& box, const map::Brush& other);
+/// The first of `count` things by name, and how many more there are: "a, b and 3 more".
+std::string listed(const std::vector<std::string>& names, std::size_t count);
 /// Whether all of a brush lies in another one, or on its faces.
 bool lies_within(const map::Brush& brush, const map::Brush& other);
 
@@ -66,13 +78,16 @@ bool is_opening(const EntityItem& entity);
 bool is_fill(const EntityItem& entity);
 /// The panes or leaves of a door or window, and the door or window that one of those is in, by index in State::entities. They overlap, and
 /// belong to the same group or to none.
-std::vector<std::size_t> fills_of(const State& state, std::size_t opening);
+std::vector<Thing> fills_of(const State& state, std::size_t opening);
 std::optional<std::size_t> opening_of(const State& state, std::size_t fill);
 /// Adds to things the panes and leaves of the doors and windows among them. The things are then sorted, none twice.
 void add_fills(const State& state, std::vector<Thing>& things);
 
-/// The entities that carry the number of a group, by index.
-std::vector<std::size_t> members_of(const State& state, const std::string& number);
+/// The number of the group that an entity is, or belongs to; or the empty text.
+std::string group_of(const EntityItem& entity);
+
+/// The entities that carry the number of a group.
+std::vector<Thing> members_of(const State& state, const std::string& number);
 
 /// Gives an entity other brushes; as many as it had keep their numbers. O(brushes).
 void set_brushes(State& state, std::size_t entity, std::vector<map::Brush> brushes);

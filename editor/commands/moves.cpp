@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <functional>
 #include <set>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/clipboard.hpp"
 #include "editor/commands/common_arguments.hpp"
@@ -23,100 +23,43 @@
 namespace hallway::editor {
 namespace {
 
-constexpr ArgSpec kBy{.name = "by", .kind = ArgKind::kVector, .help = "how far, along the axes"};
-constexpr ArgSpec kTo{.name = "to",
-                      .kind = ArgKind::kPlace,
-                      .help = "where the lowest corner of what they occupy goes, instead of `by`"};
+constexpr ArgSpec kBy{"by", ArgKind::kVector, "how far, along the axes"};
+constexpr ArgSpec kTo{"to", ArgKind::kPlace,
+                      "where the lowest corner of what they occupy goes, instead of `by`"};
 
 constexpr std::array kMove{kThings, kBy, kTo};
-constexpr std::array kRotate{kThings,
-                             ArgSpec{.name = "by",
-                                     .kind = ArgKind::kAngle,
-                                     .required = true,
-                                     .help = "counter-clockwise",
-                                     .low = -36000,
-                                     .high = 36000},
-                             ArgSpec{.name = "about",
-                                     .kind = ArgKind::kPlace,
-                                     .help = "a place on the axis [the middle of what they occupy]"},
-                             ArgSpec{.name = "axis",
-                                     .kind = ArgKind::kChoice,
-                                     .fallback = "z",
-                                     .help = "which way the axis runs",
-                                     .choices = "x y z"}};
-constexpr std::array kScale{kThings,
-                            ArgSpec{.name = "by",
-                                    .kind = ArgKind::kFactors,
-                                    .required = true,
-                                    .help = "how many times as large",
-                                    .low = 1e-3,
-                                    .high = 1e3},
-                            ArgSpec{.name = "about",
-                                    .kind = ArgKind::kPlace,
-                                    .help = "the place that stays [the middle of their bottom]"}};
+constexpr std::array kRotate{
+    kThings, ArgSpec{"by", ArgKind::kAngle, "counter-clockwise"}.needed().within(-36000, 36000),
+    ArgSpec{"about", ArgKind::kPlace, "a place on the axis [the middle of what they occupy]"},
+    ArgSpec{"axis", ArgKind::kChoice, "which way the axis runs", "z", "x y z"}};
+constexpr std::array kScale{
+    kThings, ArgSpec{"by", ArgKind::kFactors, "how many times as large"}.needed().within(1e-3, 1e3),
+    ArgSpec{"about", ArgKind::kPlace, "the place that stays [the middle of their bottom]"}};
 constexpr std::array kMirror{
-    kThings,
-    ArgSpec{.name = "axis",
-            .kind = ArgKind::kChoice,
-            .required = true,
-            .help = "the axis that is reversed",
-            .choices = "x y z"},
-    ArgSpec{
-        .name = "at", .kind = ArgKind::kLength, .help = "where on that axis the mirror is [their middle]"}};
+    kThings, ArgSpec{"axis", ArgKind::kChoice, "the axis that is reversed", "", "x y z"}.needed(),
+    ArgSpec{"at", ArgKind::kLength, "where on that axis the mirror is [their middle]"}};
 constexpr std::array kAlign{
     kThings,
-    ArgSpec{.name = "side",
-            .kind = ArgKind::kChoice,
-            .required = true,
-            .help = "what of each: left and right are along x, front and back along y",
-            .choices = "left right front back bottom top centre"},
-    ArgSpec{.name = "to",
-            .kind = ArgKind::kWhat,
-            .required = true,
-            .help = "the same side of these things, or a place"},
-    ArgSpec{.name = "edge",
-            .kind = ArgKind::kChoice,
-            .help = "another side of them, such as `top` to put on [the same]",
-            .choices = "left right front back bottom top centre"}};
-constexpr std::array kSnap{kThings, ArgSpec{.name = "size",
-                                            .kind = ArgKind::kLength,
-                                            .help = "the grid [that of `grid`]",
-                                            .low = 1e-6,
-                                            .high = 1e3}};
+    ArgSpec{"side", ArgKind::kChoice, "what of each: left and right are along x, front and back along y", "",
+            "left right front back bottom top centre"}
+        .needed(),
+    ArgSpec{"to", ArgKind::kWhat, "the same side of these things, or a place"}.needed(),
+    ArgSpec{"edge", ArgKind::kChoice, "another side of them, such as `top` to put on [the same]", "",
+            "left right front back bottom top centre"}};
+constexpr std::array kSnap{kThings,
+                           ArgSpec{"size", ArgKind::kLength, "the grid [that of `grid`]"}.within(1e-6, 1e3)};
 constexpr std::array kArray{
     kThings,
-    ArgSpec{.name = "kind",
-            .kind = ArgKind::kChoice,
-            .required = true,
-            .help = "in a row or in a circle",
-            .choices = "linear circular"},
-    ArgSpec{.name = "count",
-            .kind = ArgKind::kWhole,
-            .required = true,
-            .help = "how many there are in the end",
-            .low = 2,
-            .high = 1000},
-    ArgSpec{.name = "by", .kind = ArgKind::kVector, .help = "linear: from one to the next"},
-    ArgSpec{.name = "about", .kind = ArgKind::kPlace, .help = "circular: the centre, the axis being z"},
-    ArgSpec{.name = "through",
-            .kind = ArgKind::kAngle,
-            .help = "circular: from the first to the last [360, all round]",
-            .low = -360,
-            .high = 360}};
-constexpr std::array kDuplicate{
-    kThings,
-    ArgSpec{
-        .name = "by", .kind = ArgKind::kVector, .required = true, .help = "from the things to their copies"}};
+    ArgSpec{"kind", ArgKind::kChoice, "in a row or in a circle", "", "linear circular"}.needed(),
+    ArgSpec{"count", ArgKind::kWhole, "how many there are in the end"}.needed().within(2, 1000),
+    ArgSpec{"by", ArgKind::kVector, "linear: from one to the next"},
+    ArgSpec{"about", ArgKind::kPlace, "circular: the centre, the axis being z"},
+    ArgSpec{"through", ArgKind::kAngle, "circular: from the first to the last [360, all round]"}.within(-360,
+                                                                                                        360)};
+constexpr std::array kDuplicate{kThings,
+                                ArgSpec{"by", ArgKind::kVector, "from the things to their copies"}.needed()};
 constexpr std::array kWhat{kThings};
 constexpr std::array kPaste{kBy, kTo};
-
-int axis_of(const std::string& text) {
-  return text == "x" ? 0 : text == "y" ? 1 : 2;
-}
-
-double degrees(double angle) {
-  return std::round(angle * 180.0 / std::numbers::pi * 1e9) / 1e9;
-}
 
 /// The things, and the panes and leaves of the openings among them, which stay with their openings.
 std::vector<Thing> resolve_with_fills(const State& state, const std::string& what) {
@@ -125,41 +68,16 @@ std::vector<Thing> resolve_with_fills(const State& state, const std::string& wha
   return things;
 }
 
-/// What things occupy with all that belongs to them.
-Box bounds_together(const State& state, const std::vector<Thing>& things) {
-  Box box;
-  for (const Thing& thing : with_members(state, things)) {
-    if (const Box part = bounds_of(state, thing); !part.isEmpty()) box.extend(part);
-  }
-  return box;
-}
-
 Box bounds_needed(const State& state, const std::vector<Thing>& things, const char* command) {
   const Box box = bounds_together(state, things);
-  if (box.isEmpty())
-    throw Error(ErrorCode::kUsage,
-                fmt::format("{}: that has no place: neither brushes nor an origin", command));
+  if (box.isEmpty()) refuse("{}: that has no place: neither brushes nor an origin", command);
   return box;
-}
-
-std::vector<Thing> things_with(const State& state, const std::vector<Id>& ids) {
-  std::vector<Thing> things;
-  const std::set<Id> wanted(ids.begin(), ids.end());
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const EntityItem& entity = *state.entities[e];
-    if (wanted.contains(entity.id)) things.push_back({e, {}});
-    for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
-      if (wanted.contains(entity.brushes[b].id)) things.push_back({e, b});
-    }
-  }
-  return things;
 }
 
 /// The way that `by` or `to` asks for; none where neither is given.
 Vec3 way_of(const Edit& edit, const Arguments& arguments, const std::vector<Thing>& things,
             const char* command) {
-  if (arguments.has("by") && arguments.has("to"))
-    throw Error(ErrorCode::kUsage, fmt::format("{}: either `by` or `to`, not both", command));
+  if (arguments.has("by") && arguments.has("to")) refuse("{}: either `by` or `to`, not both", command);
   if (arguments.has("by")) return way_units(edit, arguments.place("by"));
   if (!arguments.has("to")) return Vec3::Zero();
   return edit.units(arguments.place("to")) - bounds_needed(edit.state, things, command).min();
@@ -168,47 +86,50 @@ Vec3 way_of(const Edit& edit, const Arguments& arguments, const std::vector<Thin
 void move(Edit& edit, const Arguments& arguments) {
   const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   if (!arguments.has("by") && !arguments.has("to"))
-    throw Error(ErrorCode::kUsage, "move: `by` (how far) or `to` (a place) is missing");
+    refuse("move: `by` (how far) or `to` (a place) is missing");
   bounds_needed(edit.state, things, "move");
   transform_things(edit, things, move_by(way_of(edit, arguments, things, "move")));
   say_changed(edit, things);
 }
 
-void rotate(Edit& edit, const Arguments& arguments) {
+/// Transforms things as `transform_of` says by what they occupy.
+void transform_meant(Edit& edit, const Arguments& arguments, const char* command,
+                     const std::function<Transform(const Box& box)>& transform_of) {
   const auto things = resolve_with_fills(edit.state, arguments.text("what"));
-  const Box box = bounds_needed(edit.state, things, "rotate");
-  const Vec3 centre = arguments.has("about") ? edit.units(arguments.place("about")) : Vec3(box.center());
-  transform_things(edit, things,
-                   turn_about(centre, axis_of(arguments.text("axis")), degrees(arguments.number("by"))));
+  transform_things(edit, things, transform_of(bounds_needed(edit.state, things, command)));
   say_changed(edit, things);
+}
+
+void rotate(Edit& edit, const Arguments& arguments) {
+  transform_meant(edit, arguments, "rotate", [&](const Box& box) {
+    const Vec3 centre = arguments.has("about") ? edit.units(arguments.place("about")) : Vec3(box.center());
+    return turn_about(centre, axis_of(arguments.text("axis")), degrees(arguments.number("by")));
+  });
 }
 
 void scale(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
-  const Box box = bounds_needed(edit.state, things, "scale");
-  Vec3 centre = box.center();
-  centre.z() = box.min().z();
-  if (arguments.has("about")) centre = edit.units(arguments.place("about"));
-  transform_things(edit, things, scale_about(centre, arguments.place("by")));
-  say_changed(edit, things);
+  transform_meant(edit, arguments, "scale", [&](const Box& box) {
+    Vec3 centre = box.center();
+    centre.z() = box.min().z();
+    if (arguments.has("about")) centre = edit.units(arguments.place("about"));
+    return scale_about(centre, arguments.place("by"));
+  });
 }
 
 void mirror(Edit& edit, const Arguments& arguments) {
-  const auto things = resolve_with_fills(edit.state, arguments.text("what"));
-  const Box box = bounds_needed(edit.state, things, "mirror");
-  const int axis = axis_of(arguments.text("axis"));
-  double at = box.center()[axis];
-  if (arguments.has("at")) at = edit.units(Vec3::Constant(arguments.number("at")))[axis];
-  transform_things(edit, things, mirror_at(axis, at));
-  say_changed(edit, things);
+  transform_meant(edit, arguments, "mirror", [&](const Box& box) {
+    const int axis = axis_of(arguments.text("axis"));
+    double at = box.center()[axis];
+    if (arguments.has("at")) at = edit.units(Vec3::Constant(arguments.number("at")))[axis];
+    return mirror_at(axis, at);
+  });
 }
 
 // ---- Aligning and snapping --------------------------------------------------------------------------------------------
 
 /// How far along each axis a side of a box must move to be where a side of another is.
 Vec3 way_between(const Box& from, const std::string& side, const Box& to, const std::string& edge) {
-  if ((side == "centre") != (edge == "centre"))
-    throw Error(ErrorCode::kUsage, "align: a centre is aligned to a centre");
+  if ((side == "centre") != (edge == "centre")) refuse("align: a centre is aligned to a centre");
   if (side == "centre") {
     Vec3 way = to.center() - from.center();
     way.z() = 0.0;
@@ -221,8 +142,7 @@ Vec3 way_between(const Box& from, const std::string& side, const Box& to, const 
     const bool low = one == "left" || one == "front" || one == "bottom";
     return (low ? box.min() : box.max())[axis(one)];
   };
-  if (axis(side) != axis(edge))
-    throw Error(ErrorCode::kUsage, fmt::format("align: {} and {} are not along the same axis", side, edge));
+  if (axis(side) != axis(edge)) refuse("align: {} and {} are not along the same axis", side, edge);
   Vec3 way = Vec3::Zero();
   way[axis(side)] = place(to, edge) - place(from, side);
   return way;
@@ -235,7 +155,7 @@ void align(Edit& edit, const Arguments& arguments) {
   const std::string edge = arguments.has("edge") ? arguments.text("edge") : side;
   Box target;
   if (to.find(',') != std::string::npos && to.find('=') == std::string::npos) {
-    constexpr ArgSpec kTarget{.name = "to", .kind = ArgKind::kPlace};
+    constexpr ArgSpec kTarget{"to", ArgKind::kPlace};
     target.extend(edit.units(std::get<Vec3>(read_value(kTarget, to, units_of(edit.state)))));
   } else {
     target = bounds_needed(edit.state, resolve(edit.state, to), "align");
@@ -257,7 +177,7 @@ Eigen::Index axis_across(const Plane& plane) {
 
 bool is_box(const map::Brush& brush) {
   return brush.faces.size() == 6 && body_of(brush) &&
-         std::all_of(brush.faces.begin(), brush.faces.end(), [](const map::Face& face) {
+         std::ranges::all_of(brush.faces, [](const map::Face& face) {
            const auto plane = plane_of(face);
            return plane && axis_across(*plane) >= 0;
          });
@@ -282,16 +202,14 @@ map::Brush snapped(const map::Brush& brush, double grid) {
     }
   }
   if (!is_box(result))
-    throw Error(ErrorCode::kUsage,
-                "snap: a box is too thin for this grid and would be no body; a finer one keeps it");
+    refuse("snap: a box is too thin for this grid and would be no body; a finer one keeps it");
   return result;
 }
 
 void snap(Edit& edit, const Arguments& arguments) {
   const auto meant = resolve(edit.state, arguments.text("what"));
   const double size = arguments.has("size") ? arguments.number("size") : edit.state.desk.grid_m;
-  if (size <= 0.0)
-    throw Error(ErrorCode::kUsage, "snap: there is no grid; `grid 0.1` sets one, or give `size`");
+  if (size <= 0.0) refuse("snap: there is no grid; `grid 0.1` sets one, or give `size`");
   const double grid = size / edit.metres_per_unit();
   const auto things = with_members(edit.state, meant);
   std::size_t snapped_things = 0, left = 0;
@@ -310,12 +228,11 @@ void snap(Edit& edit, const Arguments& arguments) {
     set_key(edit.state, thing.entity, "origin", vector_text(place));
   }
   if (snapped_things == 0)
-    throw Error(ErrorCode::kUsage,
-                "snap: that has neither upright boxes nor an origin; other shapes have no corners to spare");
+    refuse("snap: that has neither upright boxes nor an origin; other shapes have no corners to spare");
   forget_made(edit.state, things);
   if (left > 0)
-    edit.report.lines.push_back(fmt::format("note: {} brush{} no upright box and stay{} as it is", left,
-                                            left == 1 ? " is" : "es are", left == 1 ? "s" : ""));
+    edit.report.say("note: {} brush{} no upright box and stay{} as it is", left, left == 1 ? " is" : "es are",
+                    left == 1 ? "s" : "");
   edit.report.data["left"] = left;
   say_changed(edit, meant);
 }
@@ -323,14 +240,11 @@ void snap(Edit& edit, const Arguments& arguments) {
 // ---- Copies ---------------------------------------------------------------------------------------------------------
 
 void say_copies(Edit& edit, const Copies& copies) {
-  for (const std::string& note : copies.notes) {
-    edit.report.lines.push_back("note: " + note);
-    edit.report.data["notes"].push_back(note);
-  }
+  for (const std::string& note : copies.notes) edit.report.note(note);
   // A group stands for its members.
   std::vector<Id> ids;
   std::set<Thing> members;
-  const auto made = things_with(edit.state, copies.ids);
+  const auto made = things_of(edit.state, copies.ids);
   for (const Thing& thing : made) {
     if (thing.brush) continue;
     for (const Thing& member : with_members(edit.state, {thing})) {
@@ -347,8 +261,7 @@ void duplicate(Edit& edit, const Arguments& arguments) {
   const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   bounds_needed(edit.state, things, "duplicate");
   const Copies copies = add_copies(edit, edit.state, things);
-  transform_things(edit, things_with(edit.state, copies.ids),
-                   move_by(way_units(edit, arguments.place("by"))));
+  transform_things(edit, things_of(edit.state, copies.ids), move_by(way_units(edit, arguments.place("by"))));
   say_copies(edit, copies);
 }
 
@@ -366,10 +279,9 @@ void check_array(const Arguments& arguments) {
   const bool linear = arguments.text("kind") == "linear";
   const bool other = linear ? arguments.has("about") || arguments.has("through") : arguments.has("by");
   if (linear && (!arguments.has("by") || other))
-    throw Error(ErrorCode::kUsage,
-                "array: a linear one takes `by`, the way from one to the next, and nothing else");
+    refuse("array: a linear one takes `by`, the way from one to the next, and nothing else");
   if (!linear && (!arguments.has("about") || other))
-    throw Error(ErrorCode::kUsage, "array: a circular one takes `about`, its centre, and may take `through`");
+    refuse("array: a circular one takes `about`, its centre, and may take `through`");
 }
 
 void array(Edit& edit, const Arguments& arguments) {
@@ -379,13 +291,13 @@ void array(Edit& edit, const Arguments& arguments) {
   bounds_needed(edit.state, things, "array");
   const auto count = arguments.whole("count");
   if (with_members(edit.state, things).size() * static_cast<std::size_t>(count) > kMostMade)
-    throw Error(ErrorCode::kUsage, fmt::format("array: that makes more than {} things", kMostMade));
+    refuse("array: that makes more than {} things", kMostMade);
   std::vector<Id> originals;
   for (const Thing& thing : things) originals.push_back(id_of(edit.state, thing));
   Copies all;
   for (std::int64_t step = 1; step < count; ++step) {
-    const Copies copies = add_copies(edit, edit.state, things_with(edit.state, originals));
-    transform_things(edit, things_with(edit.state, copies.ids), step_of(edit, arguments, step));
+    const Copies copies = add_copies(edit, edit.state, things_of(edit.state, originals));
+    transform_things(edit, things_of(edit.state, copies.ids), step_of(edit, arguments, step));
     all.ids.insert(all.ids.end(), copies.ids.begin(), copies.ids.end());
     all.notes = copies.notes;
   }
@@ -396,16 +308,15 @@ void copy_to_clipboard(Edit& edit, const Arguments& arguments) {
   const auto things = resolve_with_fills(edit.state, arguments.text("what"));
   write_clipboard(edit, clipboard_text(edit, things));
   edit.report.data["copied"] = things.size();
-  edit.report.lines.push_back(
-      fmt::format("{} thing{} in the clipboard", things.size(), things.size() == 1 ? "" : "s"));
+  edit.report.say("{} thing{} in the clipboard", things.size(), things.size() == 1 ? "" : "s");
 }
 
 void cut_to_clipboard(Edit& edit, const Arguments& arguments) {
   auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
   add_fills(edit.state, things);
   for (const Thing& thing : things) {
-    if (!thing.brush && edit.state.entities[thing.entity]->classname() == "worldspawn")
-      throw Error(ErrorCode::kUsage, "cut: worldspawn stays; `cut all` takes its brushes");
+    if (!thing.brush && edit.state.entities[thing.entity]->is_world())
+      refuse("cut: worldspawn stays; `cut all` takes its brushes");
   }
   write_clipboard(edit, clipboard_text(edit, things));
   say_removed(edit, things);
@@ -418,18 +329,16 @@ void paste(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
   const Copies copies = add_copies(edit, source, all_things(source));
   const double from = units_of(source).metres_per_unit, to = edit.metres_per_unit();
-  const auto made = things_with(edit.state, copies.ids);
+  const auto made = things_of(edit.state, copies.ids);
   if (from != to) transform_things(edit, made, change_units(from, to));
   transform_things(edit, made, move_by(way_of(edit, arguments, made, "paste")));
   say_copies(edit, copies);
 }
 
-constexpr std::string_view kMovesTopic = "moving and copying";
 constexpr std::string_view kTable = "box from 0,0 to 2,1,1 name=table";
 
 constexpr std::array kMovesCommands{
     CommandSpec{.name = "move",
-                .topic = kMovesTopic,
                 .summary = "move things, by so much or to a place",
                 .details = "Textures stay where they are on the faces, here and with all that follows. "
                            "Groups move with their members, "
@@ -439,7 +348,6 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &move},
     CommandSpec{.name = "rotate",
-                .topic = kMovesTopic,
                 .summary = "turn things about an axis",
                 .details = "Quarter turns are exact. What has a heading is turned too.",
                 .arguments = kRotate,
@@ -447,7 +355,6 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &rotate},
     CommandSpec{.name = "scale",
-                .topic = kMovesTopic,
                 .summary = "make things larger or smaller",
                 .details = "Textures are scaled with them. Lengths of paths and clouds follow where all "
                            "factors are the same.",
@@ -456,14 +363,12 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &scale},
     CommandSpec{.name = "mirror",
-                .topic = kMovesTopic,
                 .summary = "mirror things at a plane across an axis",
                 .arguments = kMirror,
                 .example = "mirror table x at 3",
                 .before = kTable,
                 .run = &mirror},
     CommandSpec{.name = "align",
-                .topic = kMovesTopic,
                 .summary = "move things until one side is level with something",
                 .details = "Each thing by itself, a group as one. `centre` is the middle in x and y.",
                 .arguments = kAlign,
@@ -472,7 +377,6 @@ constexpr std::array kMovesCommands{
                 .run = &align},
     CommandSpec{
         .name = "snap",
-        .topic = kMovesTopic,
         .summary = "put corners of upright boxes, and origins, on the grid",
         .details = "Other shapes stay as they are. A box that would have no thickness left is refused.",
         .arguments = kSnap,
@@ -480,7 +384,6 @@ constexpr std::array kMovesCommands{
         .before = kTable,
         .run = &snap},
     CommandSpec{.name = "array",
-                .topic = kMovesTopic,
                 .summary = "repeat things in a row or in a circle",
                 .details = "All round, the copies are spread evenly; through less, the last is at the "
                            "end. Copies are turned with the circle.",
@@ -489,7 +392,6 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &array},
     CommandSpec{.name = "duplicate",
-                .topic = kMovesTopic,
                 .summary = "copy things to another place",
                 .details = "Names of copies get a number behind: `table` becomes `table-2`. What refers to "
                            "each other within what is copied keeps doing so.",
@@ -498,7 +400,6 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &duplicate},
     CommandSpec{.name = "copy",
-                .topic = kMovesTopic,
                 .summary = "put copies of things into the clipboard",
                 .details = "The clipboard is a file in the map format, for all maps and shells of a user: "
                            "`hallway/clipboard.map` in $XDG_CACHE_HOME, or else in "
@@ -508,14 +409,12 @@ constexpr std::array kMovesCommands{
                 .before = kTable,
                 .run = &copy_to_clipboard},
     CommandSpec{.name = "cut",
-                .topic = kMovesTopic,
                 .summary = "take things out of the map into the clipboard",
                 .arguments = kWhat,
                 .example = "cut table",
                 .before = kTable,
                 .run = &cut_to_clipboard},
     CommandSpec{.name = "paste",
-                .topic = kMovesTopic,
                 .summary = "put what is in the clipboard into the map",
                 .details = "Where it was in its map, unless `by` or `to` says otherwise. Maps of other units "
                            "get it in the same size.",

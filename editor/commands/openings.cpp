@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
-#include "editor/commands/made.hpp"
 #include "editor/commands/shape_parts.hpp"
-#include "editor/refuse.hpp"
+#include "editor/made_line.hpp"
 #include "editor/selection.hpp"
 #include "editor/shapes.hpp"
 
@@ -50,7 +50,7 @@ WallStretch side_of(const Box& inside, const std::string& side, double thickness
   const double least = std::min(inner, outer), most = std::max(inner, outer), middle = (inner + outer) / 2.0;
   WallStretch stretch{point(low[a], middle), point(high[a], middle), {}};
   stretch.outline = {point(low[a], least), point(high[a], least), point(high[a], most), point(low[a], most)};
-  if (!along_x) std::reverse(stretch.outline.begin(), stretch.outline.end());
+  if (!along_x) std::ranges::reverse(stretch.outline);
   return stretch;
 }
 
@@ -59,16 +59,14 @@ WallStretch side_of(const Box& inside, const std::string& side, double thickness
 std::optional<Wall> block_wall(const map::Brush& brush) {
   const auto body = body_of(brush);
   if (!body || body->sides.size() != 6 || body->vertices.size() != 8) return std::nullopt;
-  Box box;
-  for (const Vec3& vertex : body->vertices) box.extend(vertex);
+  const Box box = bounds_of(*body);
   for (const map::ConvexBody::Side& side : body->sides) {
     std::vector<Vec3> base;
     for (const std::uint32_t v : side.loop) base.push_back(tidied(body->vertices[v]));
-    const bool at_foot = std::all_of(base.begin(), base.end(), [&](const Vec3& corner) {
-      return std::abs(corner.z() - box.min().z()) <= kTolerance;
-    });
+    const bool at_foot = std::ranges::all_of(
+        base, [&](const Vec3& corner) { return std::abs(corner.z() - box.min().z()) <= kTolerance; });
     if (!at_foot || base.size() != 4) continue;
-    std::reverse(base.begin(), base.end());  // it is seen from below
+    std::ranges::reverse(base);  // it is seen from below
     Vec3 one = base[1] - base[0], other = base[3] - base[0];
     if (std::abs(one.dot(other)) > kTolerance * one.norm() * other.norm()) return std::nullopt;
     if (other.norm() > one.norm()) {
@@ -95,23 +93,20 @@ std::optional<Wall> block_wall(const map::Brush& brush) {
 /// it but doors and windows.
 std::vector<const map::Brush*> own_brushes(const State& state, const Thing& thing) {
   const EntityItem& entity = *state.entities[thing.entity];
-  if (thing.brush) return {entity.brushes[*thing.brush].brush.get()};
-  std::vector<const map::Brush*> brushes;
-  for (const BrushItem& brush : entity.brushes) brushes.push_back(brush.brush.get());
-  if (const auto number = group_number(entity)) {
-    for (const std::size_t member : members_of(state, *number)) {
-      const EntityItem& part = *state.entities[member];
+  std::vector<const map::Brush*> brushes = brushes_of(state, thing);
+  if (const auto number = group_number(entity); number && !thing.brush) {
+    for (const Thing& member : members_of(state, *number)) {
+      const EntityItem& part = *state.entities[member.entity];
       if (is_opening(part) || is_fill(part)) continue;
       if (part.classname() == "hw_subtract") return {};
-      for (const BrushItem& brush : part.brushes) brushes.push_back(brush.brush.get());
+      std::ranges::copy(brushes_of(state, member), std::back_inserter(brushes));
     }
   }
   return brushes;
 }
 
 Wall made_wall(const Edit& edit, const Call& call, const Arguments& opening) {
-  Edit as_made{.state = edit.state, .file = edit.file};
-  as_made.state.desk.grid_m = 0.0;  // the line has its places rounded already
+  const Edit as_made = without_grid(edit.state, edit.file);  // the line has its places rounded already
   const Arguments& made = call.arguments;
   Wall wall{.stretches = {},
             .height = made.number("height") / edit.metres_per_unit(),
@@ -139,13 +134,13 @@ Wall wall_of(const Edit& edit, const Thing& host, const Arguments& opening) {
   const auto call = host.brush ? std::nullopt : made_call(state, entity);
   const std::string_view made = call ? call->command->name : std::string_view();
   if (made != "room" && opening.has("side"))
-    refuse(fmt::format("side: {} is no room; `side` says which wall of a room", describe(state, host)));
+    refuse("side: {} is no room; `side` says which wall of a room", describe(state, host));
   if (made == "wall" || made == "arc" || made == "room") return made_wall(edit, *call, opening);
   const auto brushes = own_brushes(state, host);
   auto wall = brushes.size() == 1 ? block_wall(*brushes.front()) : std::nullopt;
   if (!wall) {
-    refuse(fmt::format("in: {} is no wall: a `wall`, `arc` or `room` as it was made, or one upright block",
-                       describe(state, host)));
+    refuse("in: {} is no wall: a `wall`, `arc` or `room` as it was made, or one upright block",
+           describe(state, host));
   }
   return std::move(*wall);
 }
@@ -172,12 +167,12 @@ Gap gap_of(const Edit& edit, const Wall& wall, std::string_view command, const A
   const double length = wall.length() * scale, height = wall.height * scale;
   constexpr double kSlack_m = 1e-9;
   if (at - half < -kSlack_m || at + half > length + kSlack_m) {
-    refuse(fmt::format("{}: it reaches from {} m to {} m along a wall that is {} m long", command,
-                       length_text(at - half), length_text(at + half), length_text(length)));
+    refuse("{}: it reaches from {} m to {} m along a wall that is {} m long", command, length_text(at - half),
+           length_text(at + half), length_text(length));
   }
   if (high > height + kSlack_m) {
-    refuse(fmt::format("{}: it reaches {} m high in a wall that is {} m high", command, length_text(high),
-                       length_text(height)));
+    refuse("{}: it reaches {} m high in a wall that is {} m high", command, length_text(high),
+           length_text(height));
   }
   return {(at - half) / scale, (at + half) / scale, low / scale, std::min(high / scale, wall.height)};
 }
@@ -260,8 +255,8 @@ int order_for(const State& state, const Thing& host) {
   const EntityItem& entity = *state.entities[host.entity];
   int order = host.brush || !group_number(entity) ? order_of(entity) : 0;
   if (const auto number = group_number(entity); number && !host.brush) {
-    for (const std::size_t member : members_of(state, *number)) {
-      const EntityItem& part = *state.entities[member];
+    for (const Thing& member : members_of(state, *number)) {
+      const EntityItem& part = *state.entities[member.entity];
       if (part.classname().starts_with("hw_") && !part.brushes.empty() && !is_opening(part) && !is_fill(part))
         order = std::max(order, order_of(part));
     }
@@ -270,24 +265,14 @@ int order_for(const State& state, const Thing& host) {
 }
 
 void check_free(const State& state, std::string_view command, const std::vector<map::Brush>& cuts, Id but) {
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const EntityItem& entity = *state.entities[e];
-    if (entity.id == but || !is_opening(entity)) continue;
-    for (const BrushItem& brush : entity.brushes) {
-      if (std::none_of(cuts.begin(), cuts.end(),
-                       [&](const map::Brush& cut) { return overlap(cut, *brush.brush); }))
-        continue;
-      refuse(fmt::format("{}: it overlaps {}", command, describe(state, {e, {}})));
-    }
-  }
-}
-
-/// The group that a thing is, or belongs to.
-std::string group_of(const State& state, const Thing& host) {
-  const EntityItem& entity = *state.entities[host.entity];
-  if (const auto number = group_number(entity)) return *number;
-  const std::string* number = entity.head->find("_tb_group");
-  return number != nullptr ? *number : std::string();
+  const Box bounds = bounds_of(cuts);
+  const auto overlapped = find_entity(state, [&](const EntityItem& entity) {
+    return entity.id != but && is_opening(entity) &&
+           std::ranges::any_of(entity.brushes, [&](const BrushItem& brush) {
+             return any_overlaps(cuts, bounds, *brush.brush);
+           });
+  });
+  if (overlapped) refuse("{}: it overlaps {}", command, describe(state, {*overlapped, {}}));
 }
 
 /// Says what is gone altogether because it stood where the opening is.
@@ -311,8 +296,7 @@ void say_vanished(Edit& edit, const std::vector<map::Brush>& cuts, const Thing& 
     }
   }
   if (!names.empty())
-    edit.report.lines.push_back(fmt::format("it cuts away all of {}; what is put into the opening now stays",
-                                            fmt::join(names, ", ")));
+    edit.report.say("it cuts away all of {}; what is put into the opening now stays", fmt::join(names, ", "));
 }
 
 void set_floor(std::vector<map::Brush>& cuts, const std::string& material) {
@@ -340,39 +324,35 @@ OpeningParts opening_entities(const Edit& edit, std::string_view command, const 
       cut_brushes(wall, gap, arguments.has("material") ? arguments.text("material") : wall.material);
   if (command == "door" && !arguments.has("material") && !wall.floor.empty())
     set_floor(cut.brushes, wall.floor);
-  if (cut.brushes.empty()) refuse(fmt::format("{}: nothing of the wall is in it", command));
+  if (cut.brushes.empty()) refuse("{}: nothing of the wall is in it", command);
   check_free(edit.state, command, cut.brushes, but);
-  cut.keys.push_back({{}, "classname", "hw_subtract", 0});
+  cut.add("classname", "hw_subtract");
   const int order = order_for(edit.state, host);
-  cut.keys.push_back({{}, "order", std::to_string(order), 0});
+  cut.add("order", std::to_string(order));
   made.fill.brushes = fill_brushes(edit, wall, gap, arguments);
-  if (!made.fill.brushes.empty()) cut.keys.push_back({{}, "_hw_opening", "1", 0});
+  if (!made.fill.brushes.empty()) cut.add("_hw_opening", "1");
   const int among = order_among_cuts(edit.state, made.fill.brushes);
-  made.fill.keys = {{{}, "classname", "hw_add", 0},
-                    {{}, "order", std::to_string(std::max(order + 1, among)), 0},
-                    {{}, "_hw_fill", "1", 0}};
+  made.fill.keys = {
+      {"classname", "hw_add"}, {"order", std::to_string(std::max(order + 1, among))}, {"_hw_fill", "1"}};
   return made;
 }
 
 void add_fill(State& state, map::Entity fill, const std::string& group) {
   if (fill.brushes.empty()) return;
-  if (!group.empty()) fill.keys.push_back({{}, "_tb_group", group, 0});
+  if (!group.empty()) fill.add("_tb_group", group);
   add_entity(state, std::move(fill));
 }
 
 void remove_fills(State& state, Id opening) {
-  std::vector<Thing> fills;
-  for (const std::size_t fill : fills_of(state, find(state, opening)->entity)) fills.push_back({fill, {}});
-  remove(state, fills);
+  remove(state, fills_of(state, find(state, opening)->entity));
 }
 
 Thing host_of(const State& state, const Thing& opening) {
   const std::string* number = state.entities[opening.entity]->head->find("_tb_group");
-  for (std::size_t e = 0; number != nullptr && e < state.entities.size(); ++e) {
-    if (group_number(*state.entities[e]) == *number) return {e, {}};
-  }
-  refuse(fmt::format("{} belongs to no wall that has a name; make it again with `door` or `window`",
-                     describe(state, opening)));
+  const auto group = number != nullptr ? find_group(state, *number) : std::nullopt;
+  if (group) return {*group, {}};
+  refuse("{} belongs to no wall that has a name; make it again with `door` or `window`",
+         describe(state, opening));
 }
 
 }  // namespace
@@ -381,12 +361,12 @@ Id cut_opening(Edit& edit, std::string_view command, const Arguments& arguments)
   const std::string name = arguments.text_or_empty("name");
   check_new_name(edit.state, name);
   const Thing host = resolve_one(edit.state, arguments.text("in"));
-  const std::string group = group_of(edit.state, host);
+  const std::string group = group_of(*edit.state.entities[host.entity]);
   OpeningParts made = opening_entities(edit, command, arguments, host, 0);
   map::Entity& cut = made.cut;
-  if (!name.empty()) cut.keys.push_back({{}, "targetname", name, 0});
-  if (!group.empty()) cut.keys.push_back({{}, "_tb_group", group, 0});
-  cut.keys.push_back({{}, "_hw_made", made_line(edit, command, arguments), 0});
+  if (!name.empty()) cut.add("targetname", name);
+  if (!group.empty()) cut.add("_tb_group", group);
+  cut.add("_hw_made", made_line(edit, command, arguments));
   say_vanished(edit, cut.brushes, host);
   const Id id = add_entity(edit.state, std::move(cut));
   add_fill(edit.state, std::move(made.fill), group);
@@ -402,14 +382,14 @@ void recut_opening(Edit& edit, Id opening, std::string_view command, const Argum
   set_key(edit.state, thing.entity, "order", *cut.find("order"));
   set_key(edit.state, thing.entity, "_hw_made", made_line(edit, command, arguments));
   set_brushes(edit.state, thing.entity, std::move(cut.brushes));
-  add_fill(edit.state, std::move(made.fill), group_of(edit.state, host));
+  add_fill(edit.state, std::move(made.fill), group_of(*edit.state.entities[host.entity]));
 }
 
 void recut_openings(Edit& edit, Id group) {
   const std::string number = *group_number(*edit.state.entities[find(edit.state, group)->entity]);
   std::vector<Id> openings;
-  for (const std::size_t member : members_of(edit.state, number)) {
-    if (is_opening(*edit.state.entities[member])) openings.push_back(edit.state.entities[member]->id);
+  for (const Thing& member : members_of(edit.state, number)) {
+    if (is_opening(*edit.state.entities[member.entity])) openings.push_back(id_of(edit.state, member));
   }
   // Each is checked against the others where they are to be: so they all leave before the first comes back.
   for (const Id id : openings) remove_fills(edit.state, id);
@@ -418,12 +398,11 @@ void recut_openings(Edit& edit, Id group) {
     const Thing thing = *find(edit.state, id);
     const auto call = made_call(edit.state, *edit.state.entities[thing.entity]);
     if (!call)
-      refuse(fmt::format("{} cannot be cut again: its key _hw_made does not say how",
-                         describe(edit.state, thing)));
+      refuse("{} cannot be cut again: its key _hw_made does not say how", describe(edit.state, thing));
     try {
       recut_opening(edit, id, call->command->name, call->arguments);
     } catch (const Error& error) {
-      refuse(fmt::format("{}, which is in it: {}", describe(edit.state, thing), error.what()));
+      refuse("{}, which is in it: {}", describe(edit.state, thing), error.what());
     }
   }
 }

@@ -12,14 +12,13 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/clipboard.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/plan.hpp"
-#include "editor/refuse.hpp"
 #include "editor/selection.hpp"
-#include "editor/shown.hpp"
 #include "editor/transform.hpp"
 #include "map/reader.hpp"
 #include "mesh/placement.hpp"
@@ -31,58 +30,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kPrint{ArgSpec{.name = "file",
-                                    .kind = ArgKind::kFile,
-                                    .required = true,
-                                    .help = "a file to write that ends in .svg or .pdf"},
-                            ArgSpec{.name = "height",
-                                    .kind = ArgKind::kLength,
-                                    .fallback = "1.2",
-                                    .help = "where the building is cut; what is lower is seen from there"},
-                            ArgSpec{.name = "scale",
-                                    .kind = ArgKind::kNumber,
-                                    .fallback = "50",
-                                    .help = "50 means 1:50: a metre is 20 mm long",
-                                    .low = 0.1,
-                                    .high = 1e6},
-                            ArgSpec{.name = "paper",
-                                    .kind = ArgKind::kChoice,
-                                    .fallback = "a4",
-                                    .help = "its size",
-                                    .choices = "a4 a3 a2 a1 letter"},
-                            ArgSpec{.name = "orientation",
-                                    .kind = ArgKind::kChoice,
-                                    .fallback = "auto",
-                                    .help = "how the paper lies",
-                                    .choices = "landscape portrait auto"},
-                            ArgSpec{.name = "dimensions",
-                                    .kind = ArgKind::kChoice,
-                                    .fallback = "on",
-                                    .help = "the overall size, and rooms that have a name from wall to wall",
-                                    .choices = "on off"},
-                            ArgSpec{.name = "grid",
-                                    .kind = ArgKind::kLength,
-                                    .help = "lines so far apart, through the origin [none]",
-                                    .low = 1e-3,
-                                    .high = 1e6}};
-constexpr std::array kExport{ArgSpec{.name = "file",
-                                     .kind = ArgKind::kFile,
-                                     .required = true,
-                                     .help = "a file to write that ends in .glb, .obj or .ply"},
-                             ArgSpec{.name = "all",
-                                     .kind = ArgKind::kChoice,
-                                     .fallback = "off",
-                                     .help = "also the faces of a sealed map that nothing inside can see",
-                                     .choices = "on off"}};
+constexpr std::array kPrint{
+    ArgSpec{"file", ArgKind::kFile, "a file to write that ends in .svg or .pdf"}.needed(),
+    ArgSpec{"height", ArgKind::kLength, "where the building is cut; what is lower is seen from there", "1.2"},
+    ArgSpec{"scale", ArgKind::kNumber, "50 means 1:50: a metre is 20 mm long", "50"}.within(0.1, 1e6),
+    ArgSpec{"paper", ArgKind::kChoice, "its size", "a4", "a4 a3 a2 a1 letter"},
+    ArgSpec{"orientation", ArgKind::kChoice, "how the paper lies", "auto", "landscape portrait auto"},
+    ArgSpec{"dimensions", ArgKind::kChoice, "the overall size, and rooms that have a name from wall to wall",
+            "on", "on off"},
+    ArgSpec{"grid", ArgKind::kLength, "lines so far apart, through the origin [none]"}.within(1e-3, 1e6)};
+constexpr std::array kExport{
+    ArgSpec{"file", ArgKind::kFile, "a file to write that ends in .glb, .obj or .ply"}.needed(),
+    ArgSpec{"all", ArgKind::kChoice, "also the faces of a sealed map that nothing inside can see", "off",
+            "on off"}};
 constexpr std::array kImport{
-    ArgSpec{.name = "file", .kind = ArgKind::kFile, .required = true, .help = "another map"},
-    ArgSpec{.name = "name",
-            .kind = ArgKind::kName,
-            .help = "of the group that its loose brushes become [the file's name]"},
-    ArgSpec{.name = "at",
-            .kind = ArgKind::kPlace,
-            .fallback = "0,0,0",
-            .help = "where the other map's origin comes to be"}};
+    ArgSpec{"file", ArgKind::kFile, "another map"}.needed(),
+    ArgSpec{"name", ArgKind::kName, "of the group that its loose brushes become [the file's name]"},
+    ArgSpec{"at", ArgKind::kPlace, "where the other map's origin comes to be", "0,0,0"}};
 
 std::string lower_ending(const std::string& file) {
   std::string ending = fs::path(file).extension().string();
@@ -92,16 +56,11 @@ std::string lower_ending(const std::string& file) {
   return ending;
 }
 
-void add_note(Edit& edit, const std::string& note) {
-  edit.report.lines.push_back("note: " + note);
-  edit.report.data["notes"].push_back(note);
-}
-
 void print_plan(Edit& edit, const Arguments& arguments) {
   const std::string& file = arguments.text("file");
   const std::string ending = lower_ending(file);
   if (ending != ".svg" && ending != ".pdf")
-    refuse(fmt::format("file: a plan is a file that ends in .svg or .pdf, not \"{}\"", printable(file)));
+    refuse("file: a plan is a file that ends in .svg or .pdf, not \"{}\"", printable(file));
   const FloorPlan plan = make_plan(without_hidden(edit.state), edit.file, arguments.number("height"));
   const PlanPaper paper{.name = arguments.text("paper"),
                         .orientation = arguments.text("orientation"),
@@ -114,18 +73,16 @@ void print_plan(Edit& edit, const Arguments& arguments) {
   edit.report.data["width_mm"] = sheet.width_mm;
   edit.report.data["height_mm"] = sheet.height_mm;
   edit.report.data["solid_m2"] = plan.section.area_m2();
-  edit.report.lines.push_back(
-      fmt::format("drew {}: {} {} at 1:{}, {:.2f} m² solid at {} m", printable(file), paper.name,
+  edit.report.say("drew {}: {} {} at 1:{}, {:.2f} m² solid at {} m", printable(file), paper.name,
                   sheet.width_mm > sheet.height_mm ? "landscape" : "portrait", sheet_number(paper.scale),
-                  plan.section.area_m2(), sheet_number(plan.height_m)));
-  for (const std::string& note : plan.notes) add_note(edit, note);
+                  plan.section.area_m2(), sheet_number(plan.height_m));
+  for (const std::string& note : plan.notes) edit.report.note(note);
 }
 
 void export_model(Edit& edit, const Arguments& arguments) {
   const std::string& file = arguments.text("file");
   if (!run::model_ending(file)) {
-    refuse(
-        fmt::format("file: a model is a file that ends in .glb, .obj or .ply, not \"{}\"", printable(file)));
+    refuse("file: a model is a file that ends in .glb, .obj or .ply, not \"{}\"", printable(file));
   }
   const map::Document document = document_of(edit.state, edit.file);
   run::check_replaces_no_model(file, document, fs::absolute(edit.file).parent_path());
@@ -140,8 +97,8 @@ void export_model(Edit& edit, const Arguments& arguments) {
   edit.report.data["triangles"] = model.triangles.size();
   std::string names = printable(files.front());
   for (std::size_t i = 1; i < files.size(); ++i) names += ", " + printable(files[i]);
-  edit.report.lines.push_back(fmt::format("wrote {}: {} triangles", names, model.triangles.size()));
-  for (const Error& fault : faults) add_note(edit, std::string(fault.what()) + "; left out");
+  edit.report.say("wrote {}: {} triangles", names, model.triangles.size());
+  for (const Error& fault : faults) edit.report.note(std::string(fault.what()) + "; left out");
 }
 
 /// A text with what a name cannot have left out.
@@ -182,16 +139,11 @@ class Guest {
   State take() { return std::move(state_); }
 
  private:
-  static std::string value(const EntityItem& entity, std::string_view key) {
-    const std::string* found = entity.head->find(key);
-    return found != nullptr ? *found : std::string();
-  }
-
   void layer_to_group(std::size_t index) {
     const EntityItem& entity = *state_.entities[index];
-    if (entity.classname() != "func_group" || value(entity, "_tb_type") != "_tb_layer") return;
+    if (entity.classname() != "func_group" || entity.value("_tb_type") != "_tb_layer") return;
     const std::string number = std::to_string(next_group_number(state_));
-    layers_.emplace(value(entity, "_tb_id"), number);
+    layers_.emplace(entity.value("_tb_id"), number);
     set_key(state_, index, "_tb_type", "_tb_group");
     set_key(state_, index, "_tb_id", number);
     for (const char* key : {"_tb_layer_sort_index", "_tb_layer_hidden", "_tb_layer_locked"})
@@ -199,30 +151,21 @@ class Guest {
   }
 
   void join_layer(std::size_t index) {
-    const std::string layer = value(*state_.entities[index], "_tb_layer");
+    const std::string layer = state_.entities[index]->value("_tb_layer");
     if (layer.empty()) return;
     set_key(state_, index, "_tb_layer", "");
     const auto found = layers_.find(layer);
-    if (found != layers_.end() && value(*state_.entities[index], "_tb_group").empty())
+    if (found != layers_.end() && state_.entities[index]->value("_tb_group").empty())
       set_key(state_, index, "_tb_group", found->second);
   }
 
   void gather_brushes(const std::string& name) {
-    map::Entity group;
-    for (std::size_t e = 0; e < state_.entities.size(); ++e) {
-      if (state_.entities[e]->classname() != "worldspawn" || state_.entities[e]->brushes.empty()) continue;
-      std::vector<Thing> gone;
-      for (std::size_t b = 0; b < state_.entities[e]->brushes.size(); ++b) {
-        group.brushes.push_back(*state_.entities[e]->brushes[b].brush);
-        gone.push_back({e, b});
-      }
-      remove(state_, gone);
-    }
-    if (group.brushes.empty()) return;
-    group.keys = {{{}, "classname", "func_group", 0},
-                  {{}, "_tb_type", "_tb_group", 0},
-                  {{}, "_tb_name", name_in(state_, name), 0},
-                  {{}, "_tb_id", std::to_string(next_group_number(state_)), 0}};
+    std::vector<Thing> loose = all_things(state_);
+    std::erase_if(loose, [](const Thing& thing) { return !thing.brush; });
+    if (loose.empty()) return;
+    map::Entity group = new_group(state_, name_in(state_, name));
+    for (const Thing& thing : loose) group.brushes.push_back(brush_at(state_, thing));
+    remove(state_, loose);
     add_entity(state_, std::move(group));
   }
 
@@ -240,21 +183,12 @@ void follow_models(Edit& edit, State& source, const std::string& file) {
       continue;
     const std::string now = (from / *model).lexically_relative(to).generic_string();
     if (now.starts_with("..")) {
-      add_note(edit, fmt::format("the model \"{}\" is not in the folder of this map; put it there",
-                                 printable(*model)));
+      edit.report.note(
+          fmt::format("the model \"{}\" is not in the folder of this map; put it there", printable(*model)));
     } else {
       set_key(source, e, "model", now);
     }
   }
-}
-
-std::vector<Thing> things_of(const State& state, const std::vector<Id>& ids) {
-  const std::set<Id> wanted(ids.begin(), ids.end());
-  std::vector<Thing> things;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    if (wanted.contains(state.entities[e]->id)) things.push_back({e, {}});
-  }
-  return things;
 }
 
 void import_map(Edit& edit, const Arguments& arguments) {
@@ -264,11 +198,10 @@ void import_map(Edit& edit, const Arguments& arguments) {
   check_new_name(edit.state, name);
   State source = Guest(file, name.empty() ? as_name(fs::path(file).stem().string()) : name).take();
   const auto things = all_things(source);
-  if (things.empty())
-    refuse(fmt::format("import: there is nothing in {} but an empty world", printable(file)));
+  if (things.empty()) refuse("import: there is nothing in {} but an empty world", printable(file));
   follow_models(edit, source, file);
   const Copies copies = add_copies(edit, source, things);
-  for (const std::string& note : copies.notes) add_note(edit, note);
+  for (const std::string& note : copies.notes) edit.report.note(note);
   const auto made = things_of(edit.state, copies.ids);
   const double from = units_of(source).metres_per_unit, to = edit.metres_per_unit();
   if (from != to) transform_things(edit, made, change_units(from, to));
@@ -277,12 +210,9 @@ void import_map(Edit& edit, const Arguments& arguments) {
   say_made(edit, copies.ids);
 }
 
-constexpr std::string_view kOutputTopic = "output";
-
 constexpr std::array kOutputCommands{
     CommandSpec{
         .name = "print",
-        .topic = kOutputTopic,
         .summary = "draw a floor plan to scale, as SVG or PDF",
         .details =
             "What is solid at the height is filled; edges of what is lower are drawn thin, as one sees them "
@@ -296,7 +226,6 @@ constexpr std::array kOutputCommands{
         .before = "room from 0,0 to 4,3 height 2.7 name=kitchen\ndoor in kitchen side south at 1.5",
         .run = &print_plan},
     CommandSpec{.name = "export",
-                .topic = kOutputTopic,
                 .summary = "write the map as it is now as a model for other programs",
                 .details =
                     "The same as `hallway map export`: binary glTF (y up), OBJ with its materials or PLY "
@@ -308,7 +237,6 @@ constexpr std::array kOutputCommands{
                 .run = &export_model},
     CommandSpec{
         .name = "import",
-        .topic = kOutputTopic,
         .summary = "add another map's brushes and entities to this one",
         .details =
             "They keep their size in metres. Brushes of the other map's world become a group; names that are "

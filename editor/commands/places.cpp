@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
@@ -25,159 +26,86 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ArgSpec kAt{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "where it is"};
-constexpr ArgSpec kHeading{.name = "heading",
-                           .kind = ArgKind::kAngle,
-                           .fallback = "0",
-                           .help = "counter-clockwise from above, 0 along x",
-                           .low = -3600,
-                           .high = 3600};
-constexpr ArgSpec kOptionalName{.name = "name", .kind = ArgKind::kName, .help = "what it is called"};
+constexpr ArgSpec kAt = ArgSpec{"at", ArgKind::kPlace, "where it is"}.needed();
+constexpr ArgSpec kHeading =
+    ArgSpec{"heading", ArgKind::kAngle, "counter-clockwise from above, 0 along x", "0"}.within(-3600, 3600);
+constexpr ArgSpec kOptionalName{"name", ArgKind::kName, "what it is called"};
 
 constexpr std::array kStart{kAt, kHeading};
 
-/// An argument without a fallback: what is not given stays as it is, or is left to the class's default.
-constexpr ArgSpec part(std::string_view name, ArgKind kind, std::string_view help) {
-  return {.name = name, .kind = kind, .help = help};
-}
-
 constexpr std::array kSensor{
-    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
-    ArgSpec{.name = "kind",
-            .kind = ArgKind::kChoice,
-            .help = "what it sees [points]",
-            .choices = "points planes"},
-    part("horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"),
-    part("vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"),
-    part("min_range", ArgKind::kLength, "nearest distance seen [0]"),
-    part("max_range", ArgKind::kLength, "farthest distance seen [100]"),
-    part("noise", ArgKind::kLength, "standard deviation along each axis [0]"),
-    part("at", ArgKind::kVector, "where on the robot: forward, left, up [0,0,0]"),
-    part("yaw", ArgKind::kAngle, "turn on the robot about z, to the left [0]"),
-    part("pitch", ArgKind::kAngle, "then about its y, down [0]"),
-    part("roll", ArgKind::kAngle, "then about its x [0]")};
+    ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
+    ArgSpec{"kind", ArgKind::kChoice, "what it sees [points]", "", "points planes"},
+    ArgSpec{"horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"},
+    ArgSpec{"vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"},
+    ArgSpec{"min_range", ArgKind::kLength, "nearest distance seen [0]"},
+    ArgSpec{"max_range", ArgKind::kLength, "farthest distance seen [100]"},
+    ArgSpec{"noise", ArgKind::kLength, "standard deviation along each axis [0]"},
+    ArgSpec{"at", ArgKind::kVector, "where on the robot: forward, left, up [0,0,0]"},
+    ArgSpec{"yaw", ArgKind::kAngle, "turn on the robot about z, to the left [0]"},
+    ArgSpec{"pitch", ArgKind::kAngle, "then about its y, down [0]"},
+    ArgSpec{"roll", ArgKind::kAngle, "then about its x [0]"}};
 constexpr std::array kPath{
-    ArgSpec{.name = "name", .kind = ArgKind::kName, .required = true, .help = "what it is called"},
-    ArgSpec{
-        .name = "places", .kind = ArgKind::kPlaces, .required = true, .help = "its waypoints, two or more"},
-    ArgSpec{.name = "closed",
-            .kind = ArgKind::kChoice,
-            .fallback = "no",
-            .help = "whether it leads back to the first",
-            .choices = "yes no"},
-    ArgSpec{.name = "corner_radius",
-            .kind = ArgKind::kLength,
-            .fallback = "0.5",
-            .help = "of the arcs that round its corners",
-            .low = 1e-3,
-            .high = 1e6}};
+    ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
+    ArgSpec{"places", ArgKind::kPlaces, "its waypoints, two or more"}.needed(),
+    ArgSpec{"closed", ArgKind::kChoice, "whether it leads back to the first", "no", "yes no"},
+    ArgSpec{"corner_radius", ArgKind::kLength, "of the arcs that round its corners", "0.5"}.within(1e-3,
+                                                                                                   1e6)};
 constexpr std::array kWaypoint{
-    ArgSpec{.name = "path", .kind = ArgKind::kName, .required = true, .help = "a path's name"},
-    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .required = true, .help = "the new waypoint"},
-    ArgSpec{.name = "index",
-            .kind = ArgKind::kWhole,
-            .help = "which one it becomes, the first being 0 [the last]",
-            .low = 0,
-            .high = 1e6}};
+    ArgSpec{"path", ArgKind::kName, "a path's name"}.needed(),
+    ArgSpec{"at", ArgKind::kPlace, "the new waypoint"}.needed(),
+    ArgSpec{"index", ArgKind::kWhole, "which one it becomes, the first being 0 [the last]"}.within(0, 1e6)};
 constexpr std::array kLandmarks{
-    ArgSpec{.name = "path", .kind = ArgKind::kName, .help = "a cloud of landmarks around that path"},
-    ArgSpec{.name = "per_100m",
-            .kind = ArgKind::kNumber,
-            .help = "points on 100 m of path",
-            .low = 0,
-            .high = 1e6},
-    ArgSpec{
-        .name = "sideways", .kind = ArgKind::kLength, .help = "how far from the path", .low = 0, .high = 1e5},
-    ArgSpec{
-        .name = "height", .kind = ArgKind::kLength, .help = "how far above and below", .low = 0, .high = 1e5},
-    ArgSpec{.name = "name", .kind = ArgKind::kName, .help = "of the cloud [the path's with `_cloud`]"},
-    ArgSpec{.name = "per_m2",
-            .kind = ArgKind::kNumber,
-            .help = "points on a square metre of surface, instead of a cloud",
-            .low = 0,
-            .high = 1e6},
-    ArgSpec{.name = "on", .kind = ArgKind::kWhat, .help = "on which things [the whole map]"},
-    ArgSpec{.name = "seed",
-            .kind = ArgKind::kWhole,
-            .help = "another seed puts them elsewhere",
-            .low = 0,
-            .high = 9e15},
-    ArgSpec{.name = "moving_share",
-            .kind = ArgKind::kNumber,
-            .help = "how many of a cloud's points move, 0 to 1 [0]",
-            .low = 0,
-            .high = 1},
-    ArgSpec{.name = "speed",
-            .kind = ArgKind::kNumber,
-            .help = "of those, in m/s, root mean square over time [1]",
-            .low = 0,
-            .high = 1e3},
-    ArgSpec{.name = "motion",
-            .kind = ArgKind::kChoice,
-            .help = "of those: each on a way of its own, or in groups that keep their shape [independent]",
-            .choices = "independent group"},
-    ArgSpec{.name = "groups",
-            .kind = ArgKind::kWhole,
-            .help = "how many groups they move in [4]",
-            .low = 1,
-            .high = 1e6}};
-constexpr std::array kLight{kAt,
-                            ArgSpec{.name = "brightness",
-                                    .kind = ArgKind::kNumber,
-                                    .fallback = "300",
-                                    .help = "as in Quake",
-                                    .low = 0,
-                                    .high = 1e6},
-                            ArgSpec{.name = "colour",
-                                    .kind = ArgKind::kFactors,
-                                    .help = "red, green and blue, each 0 to 1 [white]",
-                                    .low = 0,
-                                    .high = 1},
-                            kOptionalName};
+    ArgSpec{"path", ArgKind::kName, "a cloud of landmarks around that path"},
+    ArgSpec{"per_100m", ArgKind::kNumber, "points on 100 m of path"}.within(0, 1e6),
+    ArgSpec{"sideways", ArgKind::kLength, "how far from the path"}.within(0, 1e5),
+    ArgSpec{"height", ArgKind::kLength, "how far above and below"}.within(0, 1e5),
+    ArgSpec{"name", ArgKind::kName, "of the cloud [the path's with `_cloud`]"},
+    ArgSpec{"per_m2", ArgKind::kNumber, "points on a square metre of surface, instead of a cloud"}.within(
+        0, 1e6),
+    ArgSpec{"on", ArgKind::kWhat, "on which things [the whole map]"},
+    ArgSpec{"seed", ArgKind::kWhole, "another seed puts them elsewhere"}.within(0, 9e15),
+    ArgSpec{"moving_share", ArgKind::kNumber, "how many of a cloud's points move, 0 to 1 [0]"}.within(0, 1),
+    ArgSpec{"speed", ArgKind::kNumber, "of those, in m/s, root mean square over time [1]"}.within(0, 1e3),
+    ArgSpec{"motion", ArgKind::kChoice,
+            "of those: each on a way of its own, or in groups that keep their shape [independent]", "",
+            "independent group"},
+    ArgSpec{"groups", ArgKind::kWhole, "how many groups they move in [4]"}.within(1, 1e6)};
+constexpr std::array kLight{
+    kAt, ArgSpec{"brightness", ArgKind::kNumber, "as in Quake", "300"}.within(0, 1e6),
+    ArgSpec{"colour", ArgKind::kFactors, "red, green and blue, each 0 to 1 [white]"}.within(0, 1),
+    kOptionalName};
 constexpr std::array kMesh{
-    ArgSpec{.name = "file",
-            .kind = ArgKind::kFile,
-            .required = true,
-            .help = "a model; a relative name counts from the map's folder, in which it must stand"},
+    ArgSpec{"file", ArgKind::kFile,
+            "a model; a relative name counts from the map's folder, in which it must stand"}
+        .needed(),
     kAt, kHeading,
-    ArgSpec{.name = "scale",
-            .kind = ArgKind::kFactors,
-            .fallback = "1",
-            .help = "its size, or that along each of its axes; negative ones mirror",
-            .low = -1e6,
-            .high = 1e6},
+    ArgSpec{"scale", ArgKind::kFactors, "its size, or that along each of its axes; negative ones mirror", "1"}
+        .within(-1e6, 1e6),
     kOptionalName};
 
-std::string degrees_text(double angle) {
-  return format_double(std::round(angle * 180.0 / std::numbers::pi * 1e9) / 1e9 + 0.0);
+std::string degrees_text(double angle_rad) {
+  return format_double(degrees(angle_rad) + 0.0);
 }
 
 map::Entity point_entity(const Edit& edit, const char* classname, const Vec3& at) {
   map::Entity entity;
-  entity.keys = {{{}, "classname", classname, 0}, {{}, "origin", vector_text(edit.units(at)), 0}};
+  entity.keys = {{"classname", classname}, {"origin", vector_text(edit.units(at))}};
   return entity;
-}
-
-void add_key(map::Entity& entity, const char* key, std::string value) {
-  entity.keys.push_back({{}, key, std::move(value), 0});
 }
 
 void start(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
-  std::vector<Thing> starts;
-  for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
-    if (edit.state.entities[e]->classname() == "hw_robot_start") starts.push_back({e, {}});
-  }
+  const auto starts = entities_where(
+      edit.state, [](const EntityItem& entity) { return entity.classname() == "hw_robot_start"; });
   if (starts.size() > 1) {
-    throw Error(
-        ErrorCode::kUsage,
-        fmt::format("start: there are {} robot starts, and a map has one; `delete` the others than {}",
-                    starts.size(), describe(edit.state, starts.front())));
+    refuse("start: there are {} robot starts, and a map has one; `delete` the others than {}", starts.size(),
+           describe(edit.state, starts.front()));
   }
   const std::string heading = degrees_text(arguments.number("heading"));
   if (starts.empty()) {
     map::Entity entity = point_entity(edit, "hw_robot_start", arguments.place("at"));
-    add_key(entity, "angle", heading);
+    entity.add("angle", heading);
     return say_made(edit, {add_entity(edit.state, std::move(entity))});
   }
   set_key(edit.state, starts[0].entity, "origin", vector_text(edit.units(arguments.place("at"))));
@@ -188,8 +116,8 @@ void start(Edit& edit, const Arguments& arguments) {
 // ---- Sensors --------------------------------------------------------------------------------------------------------
 
 /// The keys of a sensor that the arguments give.
-std::vector<std::pair<std::string, std::string>> sensor_keys(const Arguments& arguments) {
-  std::vector<std::pair<std::string, std::string>> keys;
+Pairs sensor_keys(const Arguments& arguments) {
+  Pairs keys;
   if (arguments.has("kind")) keys.emplace_back("kind", arguments.text("kind"));
   for (const char* angle : {"horizontal_fov", "vertical_fov", "yaw", "pitch", "roll"}) {
     if (arguments.has(angle))
@@ -211,43 +139,33 @@ void check_sensor(const Edit& edit, std::size_t sensor) {
   try {
     map::sensors(document);
   } catch (const Error& error) {
-    throw Error(ErrorCode::kUsage, "sensor: " + error.message());
+    refuse("sensor: " + error.message());
   }
-}
-
-std::vector<Thing> sensors_named(const State& state, const std::string& name) {
-  std::vector<Thing> found;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const std::string* own = state.entities[e]->head->find("name");
-    if (state.entities[e]->classname() == "hw_sensor" && own != nullptr && *own == name)
-      found.push_back({e, {}});
-  }
-  return found;
 }
 
 void sensor(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
   const std::string& name = arguments.text("name");
   const auto keys = sensor_keys(arguments);
-  const std::vector<Thing> there = sensors_named(edit.state, name);
+  const auto there = entities_where(edit.state, [&](const EntityItem& entity) {
+    return entity.classname() == "hw_sensor" && entity.has("name", name);
+  });
   if (there.empty()) {
     check_new_name(edit.state, name);
     map::Entity entity;
-    entity.keys = {{{}, "classname", "hw_sensor", 0}, {{}, "name", name, 0}};
-    if (!arguments.has("kind")) add_key(entity, "kind", "points");
-    for (const auto& [key, value] : keys) add_key(entity, key.c_str(), value);
+    entity.keys = {{"classname", "hw_sensor"}, {"name", name}};
+    if (!arguments.has("kind")) entity.add("kind", "points");
+    for (const auto& [key, value] : keys) entity.add(key, value);
     const Id id = add_entity(edit.state, std::move(entity));
     check_sensor(edit, edit.state.entities.size() - 1);
     return say_made(edit, {id});
   }
   if (there.size() > 1) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("sensor: there are {} sensors named {}; `delete` the others than {}",
-                            there.size(), name, describe(edit.state, there.front())));
+    refuse("sensor: there are {} sensors named {}; `delete` the others than {}", there.size(), name,
+           describe(edit.state, there.front()));
   }
   if (keys.empty()) {
-    throw Error(ErrorCode::kUsage, fmt::format("sensor: {} is there already; say what of it is to change",
-                                               describe(edit.state, there.front())));
+    refuse("sensor: {} is there already; say what of it is to change", describe(edit.state, there.front()));
   }
   for (const auto& [key, value] : keys) set_key(edit.state, there.front().entity, key, value);
   check_sensor(edit, there.front().entity);
@@ -275,10 +193,10 @@ std::string fault_of_path(const Edit& edit, const std::string& name) {
 
 map::Entity waypoint_entity(const Edit& edit, const std::string& path, std::size_t index, const Vec3& at) {
   map::Entity entity;
-  entity.keys = {{{}, "classname", "hw_waypoint", 0},
-                 {{}, "path", path, 0},
-                 {{}, "index", std::to_string(index), 0},
-                 {{}, "origin", vector_text(edit.units(at)), 0}};
+  entity.keys = {{"classname", "hw_waypoint"},
+                 {"path", path},
+                 {"index", std::to_string(index)},
+                 {"origin", vector_text(edit.units(at))}};
   return entity;
 }
 
@@ -287,39 +205,18 @@ void make_path(Edit& edit, const Arguments& arguments) {
   const std::string& name = arguments.text("name");
   const auto& places = arguments.places("places");
   check_new_name(edit.state, name);
-  if (places.size() < 2)
-    throw Error(ErrorCode::kUsage, "path: one waypoint leads nowhere; name two places or more");
+  if (places.size() < 2) refuse("path: one waypoint leads nowhere; name two places or more");
   map::Entity path;
-  path.keys = {{{}, "classname", "hw_path", 0},
-               {{}, "name", name, 0},
-               {{}, "closed", arguments.text("closed") == "yes" ? "1" : "0", 0},
-               {{}, "corner_radius_m", format_double(arguments.number("corner_radius")), 0}};
+  path.keys = {{"classname", "hw_path"},
+               {"name", name},
+               {"closed", arguments.text("closed") == "yes" ? "1" : "0"},
+               {"corner_radius_m", format_double(arguments.number("corner_radius"))}};
   const Id id = add_entity(edit.state, std::move(path));
   for (std::size_t i = 0; i < places.size(); ++i)
     add_entity(edit.state, waypoint_entity(edit, name, i, places[i]));
-  if (const std::string fault = fault_of_path(edit, name); !fault.empty())
-    throw Error(ErrorCode::kUsage, "path: " + fault);
+  if (const std::string fault = fault_of_path(edit, name); !fault.empty()) refuse("path: " + fault);
   say_made(edit, {id});
   edit.report.data["waypoints"] = places.size();
-}
-
-/// The waypoints of a path in their order: entity and index.
-std::vector<std::pair<std::int64_t, std::size_t>> waypoints_of(const State& state, const std::string& path) {
-  std::vector<std::pair<std::int64_t, std::size_t>> waypoints;
-  for (std::size_t e = 0; e < state.entities.size(); ++e) {
-    const EntityItem& entity = *state.entities[e];
-    const std::string* of = entity.head->find("path");
-    if (entity.classname() != "hw_waypoint" || of == nullptr || *of != path) continue;
-    const std::string* text = entity.head->find("index");
-    const auto index = text != nullptr ? parse_int(*text) : std::nullopt;
-    if (!index) {
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("waypoint: {} has no index that is a whole number", describe(state, {e, {}})));
-    }
-    waypoints.emplace_back(*index, e);
-  }
-  std::sort(waypoints.begin(), waypoints.end());
-  return waypoints;
 }
 
 /// The `hw_path` of that name, which may be one of waypoints only.
@@ -333,25 +230,25 @@ std::size_t path_named(const State& state, const std::string& name, bool of_wayp
     if (*own != name) continue;
     const std::string* shape = entity.head->find("shape");
     if (of_waypoints && shape != nullptr && *shape != "waypoints")
-      throw Error(ErrorCode::kUsage, fmt::format("{}: the path {} is a {} and has no waypoints", command,
-                                                 name, printable(*shape)));
+      refuse("{}: the path {} is a {} and has no waypoints", command, name, printable(*shape));
     return e;
   }
-  throw Error(ErrorCode::kUsage,
-              fmt::format("{}: there is no path \"{}\"{}{}", command, printable(name),
-                          suggestion(name, names), names.empty() ? "; `path` makes one" : ""));
+  refuse("{}: there is no path \"{}\"{}{}", command, printable(name), suggestion(name, names),
+         names.empty() ? "; `path` makes one" : "");
 }
 
 void waypoint(Edit& edit, const Arguments& arguments) {
   const std::string& path = arguments.text("path");
   path_named(edit.state, path, true, "waypoint");
   const auto others = waypoints_of(edit.state, path);
+  if (!others.empty() && !others.front().first)
+    refuse("waypoint: {} has no index that is a whole number",
+           describe(edit.state, {others.front().second, {}}));
   const std::size_t index =
       arguments.has("index") ? static_cast<std::size_t>(arguments.whole("index")) : others.size();
   if (index > others.size()) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("waypoint: index {} is too high; the path {} has {} waypoints, from 0 on", index,
-                            path, others.size()));
+    refuse("waypoint: index {} is too high; the path {} has {} waypoints, from 0 on", index, path,
+           others.size());
   }
   for (std::size_t i = 0; i < others.size(); ++i) {
     const auto number = static_cast<std::int64_t>(i < index ? i : i + 1);
@@ -360,7 +257,7 @@ void waypoint(Edit& edit, const Arguments& arguments) {
   say_made(edit, {add_entity(edit.state, waypoint_entity(edit, path, index, arguments.place("at")))});
   edit.report.data["index"] = index;
   if (const std::string fault = fault_of_path(edit, path); !fault.empty()) {
-    edit.report.lines.push_back("note: as it is the path cannot be followed: " + fault);
+    edit.report.say("note: as it is the path cannot be followed: " + fault);
     edit.report.data["notes"].push_back(fault);
   }
 }
@@ -371,24 +268,19 @@ void scatter(Edit& edit, const Arguments& arguments) {
   const std::string density = format_double(arguments.number("per_m2"));
   std::vector<Thing> things{{worldspawn(edit.state), {}}};
   if (arguments.has("on")) {
-    if (arguments.has("seed"))
-      throw Error(ErrorCode::kUsage, "landmarks: `seed` is the whole map's; leave out `on`");
+    if (arguments.has("seed")) refuse("landmarks: `seed` is the whole map's; leave out `on`");
     things = resolve(edit.state, arguments.text("on"));
   }
   for (const Thing& thing : with_members(edit.state, things)) {
     const EntityItem& entity = *edit.state.entities[thing.entity];
     const map::EntitySpec* spec = map::find_entity_spec(entity.classname());
-    const bool surface =
-        spec != nullptr && std::any_of(spec->keys.begin(), spec->keys.end(),
-                                       [](const map::KeySpec& key) { return key.name == "_points_per_m2"; });
+    const bool surface = spec != nullptr && spec->key("_points_per_m2") != nullptr;
     if (thing.brush) {
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("landmarks: {} has no density of its own; `name` makes it a group, which can",
-                              describe(edit.state, thing)));
+      refuse("landmarks: {} has no density of its own; `name` makes it a group, which can",
+             describe(edit.state, thing));
     }
-    const bool meant = std::find(things.begin(), things.end(), thing) != things.end();
-    if (!surface && meant)
-      throw Error(ErrorCode::kUsage, "landmarks: " + describe(edit.state, thing) + " has no surface");
+    const bool meant = std::ranges::find(things, thing) != things.end();
+    if (!surface && meant) refuse("landmarks: " + describe(edit.state, thing) + " has no surface");
     if (surface) set_key(edit.state, thing.entity, "_points_per_m2", density);
   }
   if (arguments.has("seed"))
@@ -398,35 +290,34 @@ void scatter(Edit& edit, const Arguments& arguments) {
 
 void add_motion(const Arguments& arguments, map::Entity& entity) {
   for (const char* key : {"moving_share", "speed"}) {
-    if (arguments.has(key)) add_key(entity, key, format_double(arguments.number(key)));
+    if (arguments.has(key)) entity.add(key, format_double(arguments.number(key)));
   }
-  if (arguments.has("motion")) add_key(entity, "motion", arguments.text("motion"));
-  if (arguments.has("groups")) add_key(entity, "groups", std::to_string(arguments.whole("groups")));
+  if (arguments.has("motion")) entity.add("motion", arguments.text("motion"));
+  if (arguments.has("groups")) entity.add("groups", std::to_string(arguments.whole("groups")));
 }
 
 void cloud(Edit& edit, const Arguments& arguments) {
   for (const char* needed : {"path", "per_100m", "sideways", "height"}) {
     if (!arguments.has(needed)) {
-      throw Error(
-          ErrorCode::kUsage,
-          fmt::format("landmarks: `{}` is missing; a cloud takes path, per_100m, sideways and height, "
-                      "and surfaces take per_m2",
-                      needed));
+      refuse(
+          "landmarks: `{}` is missing; a cloud takes path, per_100m, sideways and height, "
+          "and surfaces take per_m2",
+          needed);
     }
   }
-  if (arguments.has("on")) throw Error(ErrorCode::kUsage, "landmarks: `on` goes with `per_m2`");
+  if (arguments.has("on")) refuse("landmarks: `on` goes with `per_m2`");
   const std::string& path = arguments.text("path");
   path_named(edit.state, path, false, "landmarks");
   const std::string name = arguments.has("name") ? arguments.text("name") : path + "_cloud";
   check_new_name(edit.state, name);
   map::Entity entity;
-  entity.keys = {{{}, "classname", "hw_landmark_cloud", 0},
-                 {{}, "name", name, 0},
-                 {{}, "path", path, 0},
-                 {{}, "per_100m", format_double(arguments.number("per_100m")), 0},
-                 {{}, "sideways_m", format_double(arguments.number("sideways")), 0},
-                 {{}, "height_m", format_double(arguments.number("height")), 0}};
-  if (arguments.has("seed")) add_key(entity, "seed", std::to_string(arguments.whole("seed")));
+  entity.keys = {{"classname", "hw_landmark_cloud"},
+                 {"name", name},
+                 {"path", path},
+                 {"per_100m", format_double(arguments.number("per_100m"))},
+                 {"sideways_m", format_double(arguments.number("sideways"))},
+                 {"height_m", format_double(arguments.number("height"))}};
+  if (arguments.has("seed")) entity.add("seed", std::to_string(arguments.whole("seed")));
   add_motion(arguments, entity);
   say_made(edit, {add_entity(edit.state, std::move(entity))});
 }
@@ -436,10 +327,7 @@ void landmarks(Edit& edit, const Arguments& arguments) {
   for (const char* other :
        {"path", "per_100m", "sideways", "height", "name", "moving_share", "speed", "motion", "groups"}) {
     if (arguments.has(other)) {
-      throw Error(
-          ErrorCode::kUsage,
-          fmt::format("landmarks: `{}` belongs to a cloud and `per_m2` to surfaces; make one, then the other",
-                      other));
+      refuse("landmarks: `{}` belongs to a cloud and `per_m2` to surfaces; make one, then the other", other);
     }
   }
   scatter(edit, arguments);
@@ -447,16 +335,21 @@ void landmarks(Edit& edit, const Arguments& arguments) {
 
 // ---- Lights and models --------------------------------------------------------------------------------------------------
 
+/// Adds an entity under the name that the arguments may have.
+void add_named(Edit& edit, const Arguments& arguments, map::Entity entity) {
+  if (const std::string name = arguments.text_or_empty("name"); !name.empty()) {
+    check_new_name(edit.state, name);
+    entity.add("targetname", name);
+  }
+  say_made(edit, {add_entity(edit.state, std::move(entity))});
+}
+
 void light(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
   map::Entity entity = point_entity(edit, "light", arguments.place("at"));
-  add_key(entity, "light", format_double(arguments.number("brightness")));
-  if (arguments.has("colour")) add_key(entity, "_color", vector_text(arguments.place("colour")));
-  if (const std::string name = arguments.text_or_empty("name"); !name.empty()) {
-    check_new_name(edit.state, name);
-    add_key(entity, "targetname", name);
-  }
-  say_made(edit, {add_entity(edit.state, std::move(entity))});
+  entity.add("light", format_double(arguments.number("brightness")));
+  if (arguments.has("colour")) entity.add("_color", vector_text(arguments.place("colour")));
+  add_named(edit, arguments, std::move(entity));
 }
 
 /// A model's file as maps name it: relative to the map's folder, with slashes.
@@ -466,14 +359,13 @@ std::string model_name(const Edit& edit, const std::string& file) {
   const fs::path folder = fs::weakly_canonical(map_file.parent_path(), none);
   const fs::path given = fs::path(file).is_absolute() ? fs::path(file) : folder / file;
   if (!fs::is_regular_file(given, none)) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("mesh: there is no file {}; a relative name counts from the map's folder",
-                            printable(given.string())));
+    refuse("mesh: there is no file {}; a relative name counts from the map's folder",
+           printable(given.string()));
   }
   const fs::path inside = fs::weakly_canonical(given, none).lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..") {
-    throw Error(ErrorCode::kUsage, fmt::format("mesh: {} is not in the map's folder {}; copy it there",
-                                               printable(file), printable(folder.string())));
+    refuse("mesh: {} is not in the map's folder {}; copy it there", printable(file),
+           printable(folder.string()));
   }
   return inside.generic_string();
 }
@@ -483,30 +375,22 @@ void mesh(Edit& edit, const Arguments& arguments) {
   const Vec3& scale = arguments.place("scale");
   for (const double factor : scale) {
     if (std::abs(factor) < 1e-6)
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("mesh: a scale of {} is too small; 1e-6 is the least", format_double(factor)));
+      refuse("mesh: a scale of {} is too small; 1e-6 is the least", format_double(factor));
   }
   map::Entity entity = point_entity(edit, "hw_mesh", arguments.place("at"));
-  add_key(entity, "model", model_name(edit, arguments.text("file")));
-  add_key(entity, "angle", degrees_text(arguments.number("heading")));
+  entity.add("model", model_name(edit, arguments.text("file")));
+  entity.add("angle", degrees_text(arguments.number("heading")));
   const bool even = scale.x() == scale.y() && scale.y() == scale.z();
   if (!even) {
-    add_key(entity, "scale", vector_text(scale));
+    entity.add("scale", vector_text(scale));
   } else if (scale.x() != 1.0) {
-    add_key(entity, "scale", format_double(scale.x()));
+    entity.add("scale", format_double(scale.x()));
   }
-  if (const std::string name = arguments.text_or_empty("name"); !name.empty()) {
-    check_new_name(edit.state, name);
-    add_key(entity, "targetname", name);
-  }
-  say_made(edit, {add_entity(edit.state, std::move(entity))});
+  add_named(edit, arguments, std::move(entity));
 }
-
-constexpr std::string_view kPlacesTopic = "robot, paths and lights";
 
 constexpr std::array kPlacesCommands{
     CommandSpec{.name = "start",
-                .topic = kPlacesTopic,
                 .summary = "put the robot's start somewhere; a map has one",
                 .details =
                     "A robot that follows a path begins where the path does; `validate` warns where no "
@@ -515,7 +399,6 @@ constexpr std::array kPlacesCommands{
                 .example = "start at 1,1,0.2 heading 90",
                 .run = &start},
     CommandSpec{.name = "sensor",
-                .topic = kPlacesTopic,
                 .summary = "put a sensor on the robot, or change the one of that name",
                 .details = "Scenarios without sensors of their own take those of their map. Of a sensor that "
                            "is there already only "
@@ -525,14 +408,12 @@ constexpr std::array kPlacesCommands{
                 .run = &sensor},
     CommandSpec{
         .name = "path",
-        .topic = kPlacesTopic,
         .summary = "make a path through waypoints",
         .details = "A path that no robot can follow, because a corner's arc has no room, say, is refused.",
         .arguments = kPath,
         .example = "path round 0,0,0.7;5,0,0.7;5,4,0.7;0,4,0.7 closed=yes corner_radius=0.5",
         .run = &make_path},
     CommandSpec{.name = "waypoint",
-                .topic = kPlacesTopic,
                 .summary = "add a waypoint to a path; those behind it are numbered anew",
                 .details = "`move` moves one, `delete` takes one away.",
                 .arguments = kWaypoint,
@@ -541,7 +422,6 @@ constexpr std::array kPlacesCommands{
                 .run = &waypoint},
     CommandSpec{
         .name = "landmarks",
-        .topic = kPlacesTopic,
         .summary = "scatter landmarks around a path or on surfaces",
         .details = "With `per_m2` on the surfaces of the map or of things, else as a cloud around a path.",
         .arguments = kLandmarks,
@@ -549,14 +429,12 @@ constexpr std::array kPlacesCommands{
         .before = "path way 0,0;10,0",
         .run = &landmarks},
     CommandSpec{.name = "light",
-                .topic = kPlacesTopic,
                 .summary = "put a light somewhere",
                 .arguments = kLight,
                 .example = "light at 2,3,2.5 brightness=300 colour=1,0.9,0.8 name=lamp",
                 .run = &light},
     CommandSpec{
         .name = "mesh",
-        .topic = kPlacesTopic,
         .summary = "put a model somewhere",
         .details = "glTF, GLB, OBJ, STL, PLY and others. The map names the file relative to its own folder.",
         .arguments = kMesh,

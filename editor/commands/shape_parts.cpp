@@ -10,8 +10,8 @@
 #include <numbers>
 #include <optional>
 
+#include "base/refuse.hpp"
 #include "editor/height_function.hpp"
-#include "editor/refuse.hpp"
 #include "editor/shapes.hpp"
 #include "image/grey_picture.hpp"
 
@@ -42,7 +42,7 @@ std::pair<Vec3, Vec3> level_line(const Edit& edit, const Arguments& arguments, c
   const Vec3 from = place(edit, arguments, "from");
   Vec3 to = place(edit, arguments, "to");
   if (to.z() != from.z() && arguments.place("to").z() != 0.0)
-    refuse(fmt::format("{}: `from` and `to` are not at one height", command));
+    refuse("{}: `from` and `to` are not at one height", command);
   to.z() = from.z();
   return {from, to};
 }
@@ -131,13 +131,11 @@ Grid grid_of(const Edit& edit, const Arguments& arguments) {
           : std::max<std::int64_t>(
                 1, std::llround(std::min(1e6, static_cast<double>(columns) * size.y() / size.x())));
   if (2 * columns * rows > kMostColumns)
-    refuse(fmt::format("terrain: {} x {} cells are {} brushes; {} are the most", columns, rows,
-                       2 * columns * rows, kMostColumns));
+    refuse("terrain: {} x {} cells are {} brushes; {} are the most", columns, rows, 2 * columns * rows,
+           kMostColumns);
   Grid grid{static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), {}};
   Heights heights(edit, arguments);
-  Edit no_grid{.state = {}, .file = {}};
-  no_grid.state = edit.state;
-  no_grid.state.desk.grid_m = 0.0;
+  const Edit no_grid = without_grid(edit.state);
   const Vec3 at = edit.metres_per_unit() * place(edit, arguments, "at");
   for (std::size_t row = 0; row <= grid.rows; ++row) {
     for (std::size_t column = 0; column <= grid.columns; ++column) {
@@ -195,8 +193,7 @@ Parts cylinder_parts(const Edit& edit, const Arguments& arguments) {
   const Vec3 at = place(edit, arguments, "at");
   const double radius = length(edit, arguments, "radius"), height = length(edit, arguments, "height");
   const auto sides = static_cast<int>(arguments.whole("sides"));
-  const std::string& axis = arguments.text("axis");
-  const Eigen::Index along = axis == "x" ? 0 : axis == "y" ? 1 : 2;
+  const Eigen::Index along = axis_of(arguments.text("axis"));
   const Eigen::Index first = (along + 1) % 3, second = (along + 2) % 3;
   std::vector<Vec3> base;
   for (int i = 0; i < sides; ++i) {

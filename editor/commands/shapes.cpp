@@ -8,9 +8,8 @@
 #include <array>
 #include <utility>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
-#include "editor/commands/made.hpp"
 #include "editor/commands/making.hpp"
 #include "editor/commands/openings.hpp"
 #include "editor/commands/shape_parts.hpp"
@@ -26,81 +25,53 @@ constexpr double kShortest_m = 1e-4;
 constexpr double kLongest_m = 1e5;
 
 constexpr ArgSpec place(std::string_view name, std::string_view help) {
-  return {.name = name, .kind = ArgKind::kPlace, .required = true, .help = help};
+  return ArgSpec{name, ArgKind::kPlace, help}.needed();
 }
 
 /// A length above 0; without a fallback and not required it may be left out.
 constexpr ArgSpec size(std::string_view name, std::string_view fallback, std::string_view help) {
-  return {.name = name,
-          .kind = ArgKind::kLength,
-          .fallback = fallback,
-          .help = help,
-          .low = kShortest_m,
-          .high = kLongest_m};
+  return ArgSpec{name, ArgKind::kLength, help, fallback}.within(kShortest_m, kLongest_m);
 }
 
 constexpr ArgSpec corner(std::string_view name, std::string_view help) {
-  return {.name = name, .kind = ArgKind::kLength, .help = help, .low = 0.0, .high = kLongest_m};
-}
-
-constexpr ArgSpec needed(ArgSpec spec) {
-  spec.required = true;
-  return spec;
+  return ArgSpec{name, ArgKind::kLength, help}.within(0.0, kLongest_m);
 }
 
 constexpr ArgSpec whole(std::string_view name, std::string_view fallback, std::string_view help, double low,
                         double high) {
-  return {
-      .name = name, .kind = ArgKind::kWhole, .fallback = fallback, .help = help, .low = low, .high = high};
+  return ArgSpec{name, ArgKind::kWhole, help, fallback}.within(low, high);
 }
 
 constexpr ArgSpec material(std::string_view fallback) {
-  return {.name = "material",
-          .kind = ArgKind::kMaterial,
-          .fallback = fallback,
-          .help = "of all its faces: wall, floor, wood, brick, glass, ..."};
+  return {"material", ArgKind::kMaterial, "of all its faces: wall, floor, wood, brick, glass, ...", fallback};
 }
 
-constexpr ArgSpec kName{.name = "name", .kind = ArgKind::kName, .help = "what it is called from now on"};
+constexpr ArgSpec kName{"name", ArgKind::kName, "what it is called from now on"};
 
-constexpr std::array kBox{
-    ArgSpec{.name = "from", .kind = ArgKind::kPlace, .help = "a corner"},
-    ArgSpec{.name = "to", .kind = ArgKind::kPlace, .help = "the opposite corner"},
-    ArgSpec{.name = "at", .kind = ArgKind::kPlace, .help = "instead of corners: the middle of its floor"},
-    ArgSpec{.name = "size", .kind = ArgKind::kVector, .help = "with `at`: how large it is"},
-    material("wall"),
+constexpr std::array kBox{ArgSpec{"from", ArgKind::kPlace, "a corner"},
+                          ArgSpec{"to", ArgKind::kPlace, "the opposite corner"},
+                          ArgSpec{"at", ArgKind::kPlace, "instead of corners: the middle of its floor"},
+                          ArgSpec{"size", ArgKind::kVector, "with `at`: how large it is"},
+                          material("wall"),
+                          kName};
+constexpr std::array kWedge{
+    place("from", "a corner of the block that it is half of"), place("to", "the opposite corner"),
+    ArgSpec{"high", ArgKind::kChoice, "the side at which it has its full height; north is y+", "north",
+            "north east south west"},
+    material("wall"), kName};
+constexpr std::array kCylinder{
+    place("at", "the middle of the disc at its lower end"),
+    size("radius", "", "from the middle to the corners").needed(),
+    size("height", "", "its length along the axis").needed(),
+    whole("sides", "16", "how many flat sides it has", 3, 256),
+    ArgSpec{"axis", ArgKind::kChoice, "along which it stands or lies", "z", "x y z"},
+    material("pillar"),
     kName};
-constexpr std::array kWedge{place("from", "a corner of the block that it is half of"),
-                            place("to", "the opposite corner"),
-                            ArgSpec{.name = "high",
-                                    .kind = ArgKind::kChoice,
-                                    .fallback = "north",
-                                    .help = "the side at which it has its full height; north is y+",
-                                    .choices = "north east south west"},
-                            material("wall"), kName};
-constexpr std::array kCylinder{place("at", "the middle of the disc at its lower end"),
-                               needed(size("radius", "", "from the middle to the corners")),
-                               needed(size("height", "", "its length along the axis")),
-                               whole("sides", "16", "how many flat sides it has", 3, 256),
-                               ArgSpec{.name = "axis",
-                                       .kind = ArgKind::kChoice,
-                                       .fallback = "z",
-                                       .help = "along which it stands or lies",
-                                       .choices = "x y z"},
-                               material("pillar"),
-                               kName};
-constexpr std::array kPrism{ArgSpec{.name = "polygon",
-                                    .kind = ArgKind::kPlaces,
-                                    .required = true,
-                                    .help = "the corners of its floor, one way round"},
-                            needed(size("height", "", "how high it is")),
-                            ArgSpec{.name = "z",
-                                    .kind = ArgKind::kLength,
-                                    .fallback = "0",
-                                    .help = "how far over its corners it begins",
-                                    .low = -kLongest_m,
-                                    .high = kLongest_m},
-                            material("wall"), kName};
+constexpr std::array kPrism{
+    ArgSpec{"polygon", ArgKind::kPlaces, "the corners of its floor, one way round"}.needed(),
+    size("height", "", "how high it is").needed(),
+    ArgSpec{"z", ArgKind::kLength, "how far over its corners it begins", "0"}.within(-kLongest_m, kLongest_m),
+    material("wall"), kName};
 constexpr std::array kWall{
     place("from", "where its middle line begins, at the foot"),
     place("to", "where that ends"),
@@ -110,45 +81,33 @@ constexpr std::array kWall{
     corner("behind", "how much longer it is behind `to` [the same]"),
     material("wall"),
     kName};
-constexpr std::array kArc{place("centre", "the middle of the circle, at the foot of the wall"),
-                          needed(size("radius", "", "of the middle line")),
-                          ArgSpec{.name = "from",
-                                  .kind = ArgKind::kAngle,
-                                  .required = true,
-                                  .help = "where it begins: 0 is along x, 90 along y",
-                                  .low = -3600,
-                                  .high = 3600},
-                          ArgSpec{.name = "to",
-                                  .kind = ArgKind::kAngle,
-                                  .required = true,
-                                  .help = "where it ends, counter-clockwise from there",
-                                  .low = -3600,
-                                  .high = 3600},
-                          whole("segments", "8", "how many straight stretches it has", 1, 1024),
-                          size("height", "2.7", "how high it is"),
-                          size("thickness", "0.15", "half of it to either side of the middle line"),
-                          material("wall"),
-                          kName};
-constexpr std::array kRoom{
-    place("from", "a corner of its inside, on the floor"),
-    place("to", "the opposite corner of the floor"),
-    size("height", "2.7", "from the floor to the ceiling"),
-    size("wall", "0.15", "thickness of the walls"),
-    size("floor", "", "thickness of the floor [as the walls]"),
-    size("ceiling", "", "thickness of the ceiling [as the walls]"),
+constexpr std::array kArc{
+    place("centre", "the middle of the circle, at the foot of the wall"),
+    size("radius", "", "of the middle line").needed(),
+    ArgSpec{"from", ArgKind::kAngle, "where it begins: 0 is along x, 90 along y"}.needed().within(-3600,
+                                                                                                  3600),
+    ArgSpec{"to", ArgKind::kAngle, "where it ends, counter-clockwise from there"}.needed().within(-3600,
+                                                                                                  3600),
+    whole("segments", "8", "how many straight stretches it has", 1, 1024),
+    size("height", "2.7", "how high it is"),
+    size("thickness", "0.15", "half of it to either side of the middle line"),
     material("wall"),
-    ArgSpec{
-        .name = "floor_material", .kind = ArgKind::kMaterial, .fallback = "floor", .help = "of the floor"},
-    ArgSpec{.name = "ceiling_material",
-            .kind = ArgKind::kMaterial,
-            .fallback = "ceiling",
-            .help = "of the ceiling"},
     kName};
+constexpr std::array kRoom{place("from", "a corner of its inside, on the floor"),
+                           place("to", "the opposite corner of the floor"),
+                           size("height", "2.7", "from the floor to the ceiling"),
+                           size("wall", "0.15", "thickness of the walls"),
+                           size("floor", "", "thickness of the floor [as the walls]"),
+                           size("ceiling", "", "thickness of the ceiling [as the walls]"),
+                           material("wall"),
+                           ArgSpec{"floor_material", ArgKind::kMaterial, "of the floor", "floor"},
+                           ArgSpec{"ceiling_material", ArgKind::kMaterial, "of the ceiling", "ceiling"},
+                           kName};
 constexpr std::array kStairs{place("from", "the middle of the lowest edge"),
                              place("to", "below the middle of the highest edge: direction and length"),
                              size("width", "1", "across"),
-                             needed(size("rise", "", "of all steps together")),
-                             needed(whole("steps", "", "how many", 1, 1000)),
+                             size("rise", "", "of all steps together").needed(),
+                             whole("steps", "", "how many", 1, 1000).needed(),
                              material("stone"),
                              kName};
 constexpr std::array kRamp{place("from", "the middle of one end, on top"),
@@ -159,44 +118,23 @@ constexpr std::array kRamp{place("from", "the middle of one end, on top"),
                            kName};
 constexpr std::array kTerrain{
     place("at", "its south-west corner, at height 0"),
-    ArgSpec{.name = "size", .kind = ArgKind::kVector, .required = true, .help = "X,Y: how large it is"},
+    ArgSpec{"size", ArgKind::kVector, "X,Y: how large it is"}.needed(),
     whole("cells", "16", "squares along x", 1, 1000),
-    ArgSpec{.name = "rows",
-            .kind = ArgKind::kWhole,
-            .help = "squares along y [so many that they are nearly square]",
-            .low = 1,
-            .high = 1000},
-    ArgSpec{.name = "function",
-            .kind = ArgKind::kText,
-            .help = "height in metres as a formula in x and y, metres from the corner"},
-    ArgSpec{.name = "file",
-            .kind = ArgKind::kFile,
-            .help = "instead: a grey PNG picture, north on top; relative to the map's folder"},
-    ArgSpec{.name = "low",
-            .kind = ArgKind::kLength,
-            .fallback = "0",
-            .help = "height where the picture is black",
-            .low = -kLongest_m,
-            .high = kLongest_m},
-    ArgSpec{.name = "high",
-            .kind = ArgKind::kLength,
-            .fallback = "1",
-            .help = "height where it is white",
-            .low = -kLongest_m,
-            .high = kLongest_m},
+    ArgSpec{"rows", ArgKind::kWhole, "squares along y [so many that they are nearly square]"}.within(1, 1000),
+    ArgSpec{"function", ArgKind::kText, "height in metres as a formula in x and y, metres from the corner"},
+    ArgSpec{"file", ArgKind::kFile,
+            "instead: a grey PNG picture, north on top; relative to the map's folder"},
+    ArgSpec{"low", ArgKind::kLength, "height where the picture is black", "0"}.within(-kLongest_m,
+                                                                                      kLongest_m),
+    ArgSpec{"high", ArgKind::kLength, "height where it is white", "1"}.within(-kLongest_m, kLongest_m),
     size("depth", "0.5", "how thick it is where it is lowest"),
     material("grass"),
     kName};
 constexpr std::array kRemake{
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "one shape, door or window"},
-    ArgSpec{.name = "changes",
-            .kind = ArgKind::kKeys,
-            .required = true,
-            .help = "arguments of its command with their new values; an empty value leaves one out"}};
-
-constexpr std::string_view kBoxName = "box", kWedgeName = "wedge", kCylinderName = "cylinder",
-                           kPrismName = "prism", kWallName = "wall", kArcName = "arc", kRoomName = "room",
-                           kStairsName = "stairs", kRampName = "ramp", kTerrainName = "terrain";
+    ArgSpec{"what", ArgKind::kWhat, "one shape, door or window"}.needed(),
+    ArgSpec{"changes", ArgKind::kKeys,
+            "arguments of its command with their new values; an empty value leaves one out"}
+        .needed()};
 
 using MakeParts = Parts (*)(const Edit& edit, const Arguments& arguments);
 
@@ -217,17 +155,15 @@ constexpr std::array<Maker, 10> kMakers{{{"box", &box_parts},
                                          {"terrain", &terrain_parts}}};
 
 const Maker* maker_of(std::string_view command) {
-  const auto found = std::find_if(kMakers.begin(), kMakers.end(),
-                                  [&](const Maker& maker) { return maker.command == command; });
+  const auto found = std::ranges::find(kMakers, command, &Maker::command);
   return found == kMakers.end() ? nullptr : &*found;
 }
 
 /// Whether all of a room lies inside of one other room: then it would be cut away whole.
 bool is_inside_a_room(const State& state, const std::vector<map::Brush>& inside, const std::string& but_of) {
   return std::ranges::any_of(state.entities, [&](const auto& entity) {
-    const std::string* group = entity->head->find("_tb_group");
     if (entity->classname() != "hw_subtract" || is_opening(*entity)) return false;
-    if (!but_of.empty() && group != nullptr && *group == but_of) return false;
+    if (!but_of.empty() && entity->value("_tb_group") == but_of) return false;
     return std::ranges::any_of(entity->brushes, [&](const BrushItem& cut) {
       return std::ranges::all_of(inside,
                                  [&](const map::Brush& brush) { return lies_within(brush, *cut.brush); });
@@ -254,37 +190,28 @@ void say_order(Edit& edit, int order) {
 void say_cut_away(Edit& edit, const std::vector<map::Brush>& cuts, int order) {
   std::vector<std::string> names;
   const Box bounds = bounds_of(cuts);
-  const auto touched = [&](const BrushItem& brush) {
-    return may_overlap(bounds, *brush.brush) &&
-           std::any_of(cuts.begin(), cuts.end(),
-                       [&](const map::Brush& cut) { return overlap(cut, *brush.brush); });
-  };
   for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
     const EntityItem& entity = *edit.state.entities[e];
     const std::string_view name = entity.classname();
     const bool first = name == "worldspawn" || name == "func_group";
     if (!first && !(name == "hw_add" && order_of(entity) < order)) continue;
     for (std::size_t b = 0; b < entity.brushes.size(); ++b) {
-      if (!touched(entity.brushes[b])) continue;
+      if (!any_overlaps(cuts, bounds, *entity.brushes[b].brush)) continue;
       names.push_back(describe(edit.state, name == "worldspawn" ? Thing{e, b} : Thing{e, {}}));
       if (name != "worldspawn") break;
     }
   }
-  constexpr std::size_t kMost = 8;
-  const std::size_t count = names.size();
-  if (count == 0) return;
-  names.resize(std::min(count, kMost));
-  edit.report.lines.push_back(fmt::format("its inside cuts away parts of {}{}", fmt::join(names, ", "),
-                                          count > kMost ? fmt::format(" and {} more", count - kMost) : ""));
+  if (!names.empty()) edit.report.say("its inside cuts away parts of " + listed(names, names.size()));
 }
 
-template <const auto& kCommand>
+template <MakeParts kMake>
 void make(Edit& edit, const Arguments& arguments) {
-  Parts parts = parts_of(edit, *maker_of(kCommand), arguments, {});
+  const Maker& maker = *std::ranges::find(kMakers, kMake, &Maker::make);
+  Parts parts = parts_of(edit, maker, arguments, {});
   const int order = parts.added_order;
   const auto cuts = parts.subtracted;
   if (!cuts.empty() && order == 0) say_cut_away(edit, cuts, parts.order);
-  const Id id = add_shape(edit, arguments.text_or_empty("name"), made_line(edit, kCommand, arguments),
+  const Id id = add_shape(edit, arguments.text_or_empty("name"), made_line(edit, maker.command, arguments),
                           std::move(parts));
   say_made(edit, {id});
   say_order(edit, order);
@@ -313,14 +240,13 @@ void make_wall(Edit& edit, const Arguments& arguments) {
     const double corner = corner_of(edit, edit.units(arguments.place(end)) * edit.metres_per_unit());
     if (corner > 0.0) all.set(more, corner);
   }
-  make<kWallName>(edit, all);
+  make<&wall_parts>(edit, all);
 }
 
 /// The words of the line that made a thing, without those of the arguments for which `left_out` holds.
 template <typename Test>
 std::vector<std::string> words_without(const Edit& edit, const Call& call, Test&& left_out) {
-  Edit as_made{.state = edit.state, .file = edit.file};
-  as_made.state.desk.grid_m = 0.0;
+  const Edit as_made = without_grid(edit.state, edit.file);
   std::vector<std::string> words;
   for (std::string& word : words_of(made_line(as_made, call.command->name, call.arguments))) {
     if (!left_out(std::string_view(word).substr(0, word.find('=')))) words.push_back(std::move(word));
@@ -332,14 +258,12 @@ std::vector<std::string> words_without(const Edit& edit, const Call& call, Test&
 Arguments changed_arguments(const Edit& edit, const Call& call, const Arguments& remake) {
   const auto& changes = remake.keys("changes");
   const auto is_changed = [&](std::string_view name) {
-    return std::any_of(changes.begin(), changes.end(), [&](const auto& pair) { return pair.first == name; });
+    return std::ranges::any_of(changes, [&](const auto& pair) { return pair.first == name; });
   };
   const auto& known = call.command->arguments;
-  const auto is_known = [&](std::string_view name) {
-    return std::any_of(known.begin(), known.end(), [&](const ArgSpec& spec) { return spec.name == name; });
-  };
+  const auto is_known = [&](std::string_view name) { return call.command->argument(name) != nullptr; };
   if (is_known("in") && is_changed("in"))
-    throw Error(ErrorCode::kUsage, "remake: a door or window stays in its wall; make it again in another");
+    refuse("remake: a door or window stays in its wall; make it again in another");
   auto words =
       words_without(edit, call, [&](std::string_view name) { return is_changed(name) || name == "name"; });
   for (const auto& [name, value] : changes) {
@@ -349,7 +273,7 @@ Arguments changed_arguments(const Edit& edit, const Call& call, const Arguments&
   for (const ArgSpec& spec : known) {
     if (spec.kind != ArgKind::kPlace || !is_changed(spec.name) || !arguments.has(spec.name)) continue;
     const Vec3 rounded = edit.metres_per_unit() * edit.units(arguments.place(spec.name));
-    arguments.set(std::string(spec.name), rounded);
+    arguments.set(spec.name, rounded);
   }
   return arguments;
 }
@@ -392,100 +316,87 @@ void remake(Edit& edit, const Arguments& arguments) {
   const Thing thing = resolve_one(edit.state, arguments.text("what"));
   const EntityItem& entity = *edit.state.entities[thing.entity];
   const Id id = entity.id;
-  const auto refuse = [&](const char* why) {
-    throw Error(ErrorCode::kUsage, fmt::format("remake: {} {}", describe(edit.state, thing), why));
-  };
-  if (thing.brush) refuse("is a brush, which does not know what made it; shapes with a name do");
+  const auto cannot = [&](const char* why) { refuse("remake: {} {}", describe(edit.state, thing), why); };
+  if (thing.brush) cannot("is a brush, which does not know what made it; shapes with a name do");
   if (entity.head->find(kMadeKey) == nullptr)
-    refuse("does not know what made it: it was made by hand, or changed in another way since");
+    cannot("does not know what made it: it was made by hand, or changed in another way since");
   const auto call = made_call(edit.state, entity);
-  if (!call) refuse("cannot be remade: its key _hw_made is no command");
+  if (!call) cannot("cannot be remade: its key _hw_made is no command");
   if (is_opening(entity)) {
     remake_opening(edit, id, *call, arguments);
   } else if (maker_of(call->command->name) != nullptr && group_number(entity)) {
     remake_shape(edit, id, *call, arguments);
   } else {
-    refuse("cannot be remade: its key _hw_made is no command that makes a shape");
+    cannot("cannot be remade: its key _hw_made is no command that makes a shape");
   }
   say_changed(edit, {*find(edit.state, id)});
 }
 
 constexpr std::array kShapesCommands{
-    CommandSpec{.name = kBoxName,
-                .topic = "shapes",
+    CommandSpec{.name = "box",
                 .summary = "a block, by two corners or by its middle and size",
                 .details =
                     "A shape in a room, a door, a window or anything else that is cut out is added after "
                     "that cut, so that it is there.",
                 .arguments = kBox,
                 .example = "box from 0,0 to 1,2,0.5 material=wood name=table",
-                .run = &make<kBoxName>},
-    CommandSpec{.name = kWedgeName,
-                .topic = "shapes",
+                .run = &make<&box_parts>},
+    CommandSpec{.name = "wedge",
                 .summary = "a block that is cut in half, so that its top slopes",
                 .arguments = kWedge,
                 .example = "wedge from 0,0 to 2,1,0.5 high=east",
-                .run = &make<kWedgeName>},
-    CommandSpec{.name = kCylinderName,
-                .topic = "shapes",
+                .run = &make<&wedge_parts>},
+    CommandSpec{.name = "cylinder",
                 .summary = "a round pillar or pipe",
                 .arguments = kCylinder,
                 .example = "cylinder at 3,2 radius 0.3 height 2.7 sides=12",
-                .run = &make<kCylinderName>},
+                .run = &make<&cylinder_parts>},
     CommandSpec{
-        .name = kPrismName,
-        .topic = "shapes",
+        .name = "prism",
         .summary = "a block on any polygon, also a concave one",
         .details = "A polygon with inward corners becomes several brushes, which together are the block.",
         .arguments = kPrism,
         .example = "prism 0,0;4,0;4,1;1,1;1,3;0,3 height 0.9 name=counter",
-        .run = &make<kPrismName>},
-    CommandSpec{.name = kWallName,
-                .topic = "shapes",
+        .run = &make<&prism_parts>},
+    CommandSpec{.name = "wall",
                 .summary = "a straight wall",
                 .arguments = kWall,
                 .example = "wall from 0,0 to 6,0 height 2.7 thickness 0.15 name=north",
                 .run = &make_wall},
-    CommandSpec{.name = kArcName,
-                .topic = "shapes",
+    CommandSpec{.name = "arc",
                 .summary = "a curved wall",
                 .details = "Its stretches are chords of the circle. Where the two angles are alike it goes "
                            "all the way round.",
                 .arguments = kArc,
                 .example = "arc centre=0,0 radius=3 from=0 to=90 segments=6 name=bay",
-                .run = &make<kArcName>},
-    CommandSpec{.name = kRoomName,
-                .topic = "shapes",
+                .run = &make<&arc_parts>},
+    CommandSpec{.name = "room",
                 .summary = "a room: floor, walls and ceiling around an inside",
                 .details = "It is a block and an `hw_subtract` of the inside. Rooms whose distance is the "
                            "thickness of a wall share it; a room inside of another one keeps its walls. "
                            "What stood there before is cut away; shapes that are made in it afterwards stay.",
                 .arguments = kRoom,
                 .example = "room from 0,0 to 5,4 height=2.5 wall=0.2 floor_material=wood name=kitchen",
-                .run = &make<kRoomName>},
-    CommandSpec{.name = kStairsName,
-                .topic = "shapes",
+                .run = &make<&room_parts>},
+    CommandSpec{.name = "stairs",
                 .summary = "a flight of steps, solid down to the floor",
                 .arguments = kStairs,
                 .example = "stairs from 0,0 to 3,0 width=1.2 rise=1.8 steps=10",
-                .run = &make<kStairsName>},
-    CommandSpec{.name = kRampName,
-                .topic = "shapes",
+                .run = &make<&stairs_parts>},
+    CommandSpec{.name = "ramp",
                 .summary = "a slope from one height to another",
                 .arguments = kRamp,
                 .example = "ramp from 0,0,0 to 4,0,0.6 width=1.5",
-                .run = &make<kRampName>},
-    CommandSpec{.name = kTerrainName,
-                .topic = "shapes",
+                .run = &make<&ramp_parts>},
+    CommandSpec{.name = "terrain",
                 .summary = "ground with heights from a formula or a picture",
                 .details = "Each square is two triangles, and each triangle a column down to the foot. "
                            "Formulas know + - * / ^, "
                            "`a ? b : c`, pi, and functions such as sin, cos, sqrt, abs, exp, ln, min, max.",
                 .arguments = kTerrain,
                 .example = "terrain at=0,0 size=8,6 cells=8 function=\"0.3*sin(x) * cos(y)\" name=garden",
-                .run = &make<kTerrainName>},
+                .run = &make<&terrain_parts>},
     CommandSpec{.name = "remake",
-                .topic = "shapes",
                 .summary = "make a shape, door or window again with other measures",
                 .details = "It keeps its number and name, and its doors and windows are cut again "
                            "where they were along it.",

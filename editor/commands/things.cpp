@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "editor/commands/common_arguments.hpp"
 #include "editor/commands/topics.hpp"
@@ -25,32 +25,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr ArgSpec kLimit{.name = "limit",
-                         .kind = ArgKind::kWhole,
-                         .fallback = "100",
-                         .help = "how many are shown at most",
-                         .low = 1,
-                         .high = 1e6};
+constexpr ArgSpec kLimit =
+    ArgSpec{"limit", ArgKind::kWhole, "how many are shown at most", "100"}.within(1, 1e6);
 
 constexpr std::array kSelect{
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .required = true, .help = "things, or `none`"},
-    ArgSpec{.name = "how",
-            .kind = ArgKind::kChoice,
-            .fallback = "only",
-            .help = "these alone, these too, or all but these",
-            .choices = "only add remove"}};
-constexpr std::array kList{
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .fallback = "all", .help = "things"}, kLimit};
+    ArgSpec{"what", ArgKind::kWhat, "things, or `none`"}.needed(),
+    ArgSpec{"how", ArgKind::kChoice, "these alone, these too, or all but these", "only", "only add remove"}};
+constexpr std::array kList{ArgSpec{"what", ArgKind::kWhat, "things", "all"}, kLimit};
 constexpr std::array kInfo{kThings};
-constexpr std::array kMeasure{
-    ArgSpec{.name = "from", .kind = ArgKind::kPlace, .help = "one place"},
-    ArgSpec{.name = "to", .kind = ArgKind::kPlace, .help = "another"},
-    ArgSpec{.name = "what", .kind = ArgKind::kWhat, .help = "things, instead of two places"}};
-constexpr std::array kFind{ArgSpec{.name = "text",
-                                   .kind = ArgKind::kText,
-                                   .required = true,
-                                   .help = "part of a key, a value or a material; capitals do not matter"},
-                           kLimit};
+constexpr std::array kMeasure{ArgSpec{"from", ArgKind::kPlace, "one place"},
+                              ArgSpec{"to", ArgKind::kPlace, "another"},
+                              ArgSpec{"what", ArgKind::kWhat, "things, instead of two places"}};
+constexpr std::array kFind{
+    ArgSpec{"text", ArgKind::kText, "part of a key, a value or a material; capitals do not matter"}.needed(),
+    kLimit};
 
 // ---- Texts ------------------------------------------------------------------------------------------------------
 
@@ -81,23 +69,6 @@ Json where_json(const Edit& edit, const Box& box) {
   return {{"min_m", json_of(metres(edit, box.min()))}, {"max_m", json_of(metres(edit, box.max()))}};
 }
 
-std::vector<const map::Brush*> brushes_of(const State& state, const Thing& thing) {
-  const EntityItem& entity = *state.entities[thing.entity];
-  if (thing.brush) return {entity.brushes[*thing.brush].brush.get()};
-  std::vector<const map::Brush*> brushes;
-  for (const BrushItem& item : entity.brushes) brushes.push_back(item.brush.get());
-  return brushes;
-}
-
-/// What a thing occupies with all that belongs to it.
-Box whole_bounds(const State& state, const Thing& thing) {
-  Box box;
-  for (const Thing& member : with_members(state, {thing})) {
-    if (const Box part = bounds_of(state, member); !part.isEmpty()) box.extend(part);
-  }
-  return box;
-}
-
 double cubic_metres(const Edit& edit, double volume) {
   constexpr double kFine = 1e9;
   return std::round(volume * std::pow(edit.metres_per_unit(), 3) * kFine) / kFine;
@@ -105,8 +76,7 @@ double cubic_metres(const Edit& edit, double volume) {
 
 void say_rest(Edit& edit, std::size_t count, std::size_t limit) {
   edit.report.data["count"] = count;
-  if (count > limit)
-    edit.report.lines.push_back(fmt::format("… and {} more of {}; `limit` shows more", count - limit, count));
+  if (count > limit) edit.report.say("… and {} more of {}; `limit` shows more", count - limit, count);
 }
 
 // ---- Choosing and looking -----------------------------------------------------------------------------------------
@@ -116,9 +86,8 @@ void select(Edit& edit, const Arguments& arguments) {
   const std::string& how = arguments.text("how");
   std::set<Id> chosen;
   if (how != "only") {
-    for (const Id id : edit.state.desk.selection) {
-      if (find(edit.state, id)) chosen.insert(id);
-    }
+    for (const Thing& thing : things_of(edit.state, edit.state.desk.selection))
+      chosen.insert(id_of(edit.state, thing));
   }
   if (what != "none") {
     for (const Thing& thing : resolve(edit.state, what)) {
@@ -131,14 +100,14 @@ void select(Edit& edit, const Arguments& arguments) {
   }
   edit.state.desk.selection.assign(chosen.begin(), chosen.end());
   edit.report.data["selected"] = chosen;
-  edit.report.lines.push_back(fmt::format("{} selected", chosen.size()));
+  edit.report.say("{} selected", chosen.size());
 }
 
 void list_one(Edit& edit, const Thing& thing) {
   const EntityItem& entity = *edit.state.entities[thing.entity];
-  const Box box = whole_bounds(edit.state, thing);
+  const Box box = bounds_together(edit.state, {thing});
   const std::string where = where_text(edit, box);
-  edit.report.lines.push_back(describe(edit.state, thing) + (where.empty() ? "" : "  " + where));
+  edit.report.say(describe(edit.state, thing) + (where.empty() ? "" : "  " + where));
   Json one = {{"id", id_of(edit.state, thing)}, {"kind", thing.brush ? "brush" : "entity"}};
   if (thing.brush) {
     one["entity"] = entity.id;
@@ -153,11 +122,11 @@ void list_one(Edit& edit, const Thing& thing) {
 void list(Edit& edit, const Arguments& arguments) {
   edit.report.data["things"] = Json::array();
   const auto& entities = edit.state.entities;
-  const bool nothing = std::all_of(entities.begin(), entities.end(), [](const auto& entity) {
+  const bool nothing = std::ranges::all_of(entities, [](const auto& entity) {
     return entity->classname() == "worldspawn" && entity->brushes.empty();
   });
   if (nothing && arguments.text("what") == "all") {
-    edit.report.lines.push_back("the map is empty");
+    edit.report.say("the map is empty");
     edit.report.data["count"] = 0;
     return;
   }
@@ -170,7 +139,7 @@ void list(Edit& edit, const Arguments& arguments) {
 void info_one(Edit& edit, const Thing& thing) {
   const EntityItem& entity = *edit.state.entities[thing.entity];
   auto& lines = edit.report.lines;
-  const Box box = whole_bounds(edit.state, thing);
+  const Box box = bounds_together(edit.state, {thing});
   double volume = 0.0;
   std::set<std::string> materials;
   const auto brushes = brushes_of(edit.state, thing);
@@ -223,30 +192,30 @@ void measure_places(Edit& edit, const Arguments& arguments) {
                       {"horizontal_m", level},
                       {"way_m", json_of(along)},
                       {"distance_units", rounded(way.norm() / scale)}};
-  edit.report.lines.push_back(fmt::format("{} m, horizontally {} m, along the axes {}",
-                                          format_double(distance), format_double(level), place_text(along)));
+  edit.report.say("{} m, horizontally {} m, along the axes {}", format_double(distance), format_double(level),
+                  place_text(along));
 }
 
 void measure(Edit& edit, const Arguments& arguments) {
   const bool places = arguments.has("from") && arguments.has("to");
   const bool one_place = arguments.has("from") != arguments.has("to");
   if (one_place || places == arguments.has("what"))
-    throw Error(ErrorCode::kUsage, "measure: either two places, `from` and `to`, or things, `what`");
+    refuse("measure: either two places, `from` and `to`, or things, `what`");
   if (places) return measure_places(edit, arguments);
-  Box box;
+  const auto things = with_members(edit.state, resolve(edit.state, arguments.text("what")));
+  const Box box = bounds_together(edit.state, things);
   double volume = 0.0;
-  for (const Thing& thing : with_members(edit.state, resolve(edit.state, arguments.text("what")))) {
-    if (const Box part = bounds_of(edit.state, thing); !part.isEmpty()) box.extend(part);
+  for (const Thing& thing : things) {
     const bool solid = edit.state.entities[thing.entity]->classname() != "hw_subtract";
     for (const map::Brush* brush : brushes_of(edit.state, thing)) volume += solid ? volume_of(*brush) : 0.0;
   }
-  if (box.isEmpty()) throw Error(ErrorCode::kUsage, "measure: that has neither brushes nor an origin");
+  if (box.isEmpty()) refuse("measure: that has neither brushes nor an origin");
   const Vec3 size = metres(edit, box.sizes());
   edit.report.data = {{"bounds", where_json(edit, box)},
                       {"size_m", json_of(size)},
                       {"volume_m3", cubic_metres(edit, volume)}};
-  edit.report.lines.push_back(fmt::format("{} m: {} m, {} m3 solid", where_text(edit, box), place_text(size),
-                                          format_double(cubic_metres(edit, volume))));
+  edit.report.say("{} m: {} m, {} m3 solid", where_text(edit, box), place_text(size),
+                  format_double(cubic_metres(edit, volume)));
 }
 
 std::string lower(std::string_view text) {
@@ -257,7 +226,7 @@ std::string lower(std::string_view text) {
 
 void find_text(Edit& edit, const Arguments& arguments) {
   const std::string wanted = lower(arguments.text("text"));
-  if (wanted.empty()) throw Error(ErrorCode::kUsage, "find: the text is empty");
+  if (wanted.empty()) refuse("find: the text is empty");
   const auto has = [&](const std::string& text) { return lower(text).find(wanted) != std::string::npos; };
   std::vector<std::pair<Thing, std::string>> found;
   for (std::size_t e = 0; e < edit.state.entities.size(); ++e) {
@@ -278,27 +247,24 @@ void find_text(Edit& edit, const Arguments& arguments) {
   for (std::size_t i = 0; i < std::min(limit, found.size()); ++i) {
     const auto& [thing, text] = found[i];
     edit.report.data["found"].push_back({{"id", id_of(edit.state, thing)}, {"text", text}});
-    edit.report.lines.push_back(describe(edit.state, thing) + "  " + printable(text));
+    edit.report.say(describe(edit.state, thing) + "  " + printable(text));
   }
   say_rest(edit, found.size(), limit);
   if (!found.empty()) return;
-  edit.report.lines.push_back(fmt::format("\"{}\" is nowhere in the map", printable(arguments.text("text"))));
+  edit.report.say("\"{}\" is nowhere in the map", printable(arguments.text("text")));
   edit.report.status = 1;
 }
 
-constexpr std::string_view kThingsTopic = "things";
 constexpr std::string_view kLamp = "entity light at 2,3,2.5 light=300 targetname=lamp";
 
 constexpr std::array kThingsCommands{
     CommandSpec{.name = "select",
-                .topic = kThingsTopic,
                 .summary = "choose things, which `selected` then means",
                 .arguments = kSelect,
                 .example = "select lamp",
                 .before = kLamp,
                 .run = &select},
     CommandSpec{.name = "list",
-                .topic = kThingsTopic,
                 .summary = "number, class, name and place of things",
                 .details = "Places are in metres: the lowest and the highest corner of what a thing occupies "
                            "with all that is in it.",
@@ -307,7 +273,6 @@ constexpr std::array kThingsCommands{
                 .before = kLamp,
                 .run = &list},
     CommandSpec{.name = "info",
-                .topic = kThingsTopic,
                 .summary = "all there is to know of things",
                 .details = "Keys, bounds, volume, materials, members, and for shapes the line that made them "
                            "(`_hw_made`). The volume is the sum "
@@ -317,7 +282,6 @@ constexpr std::array kThingsCommands{
                 .before = kLamp,
                 .run = &info},
     CommandSpec{.name = "measure",
-                .topic = kThingsTopic,
                 .summary = "the distance of two places, or the size of things",
                 .details = "Of things with what is in them; brushes that take away count for the size and "
                            "not for the volume.",
@@ -325,7 +289,6 @@ constexpr std::array kThingsCommands{
                 .example = "measure from 0,0 to 3,4",
                 .run = &measure},
     CommandSpec{.name = "find",
-                .topic = kThingsTopic,
                 .summary = "look for a text in keys, values and materials",
                 .details = "Ends with status 1 where there is none.",
                 .arguments = kFind,

@@ -94,9 +94,7 @@ class Checker {
     }
   }
 
-  static bool is_in(const EntitySpec& spec, std::string_view key) {
-    return std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return k.name == key; });
-  }
+  static bool is_in(const EntitySpec& spec, std::string_view key) { return spec.key(key) != nullptr; }
 
   void check_class(const Entity& entity) {
     const EntityKeys keys(document_, entity);

@@ -13,9 +13,19 @@ const std::string* Entity::find(std::string_view key) const {
   return last == keys.rend() ? nullptr : &last->value;
 }
 
-std::string_view Entity::classname() const {
-  const std::string* name = find("classname");
-  return name ? std::string_view(*name) : std::string_view();
+const std::string& Entity::value(std::string_view key) const {
+  static const std::string none;
+  const std::string* found = find(key);
+  return found != nullptr ? *found : none;
+}
+
+bool Entity::has(std::string_view key, std::string_view value) const {
+  const std::string* found = find(key);
+  return found != nullptr && *found == value;
+}
+
+void Entity::erase(std::string_view key) {
+  std::erase_if(keys, [&](const KeyValue& pair) { return pair.key == key; });
 }
 
 const Entity* Document::worldspawn() const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geometry/se3.hpp"
@@ -14,10 +15,12 @@ namespace hallway::map {
 
 /// One `"key" "value"` line. Both are the decoded text: `\"` stands for a quotation mark, every other backslash for itself.
 struct KeyValue {
-  std::vector<std::string> comments{};  ///< comment lines that stand before it, without the slashes
   std::string key{};
   std::string value{};
+  std::vector<std::string> comments{};  ///< comment lines before it, without the slashes
   int line = 0;  ///< 1-based line of the key, 0 where the document was not read from a file
+
+  friend bool operator==(const KeyValue&, const KeyValue&) = default;
 };
 
 /// The three numbers that some games put at the end of a face; kept, not interpreted.
@@ -67,8 +70,17 @@ struct Entity {
 
   /// The value of `key`, or null. Where a key stands twice the last one counts, as in Quake's tools.
   const std::string* find(std::string_view key) const;
+  /// The value of `key`, or the empty text.
+  const std::string& value(std::string_view key) const;
+  /// Whether `key` is there and has that value.
+  bool has(std::string_view key, std::string_view value) const;
   /// The value of `classname`, or the empty text.
-  std::string_view classname() const;
+  std::string_view classname() const { return value("classname"); }
+
+  /// Adds a line after the others, whatever they say.
+  void add(std::string key, std::string value) { keys.push_back({std::move(key), std::move(value)}); }
+  /// Removes every line of `key`.
+  void erase(std::string_view key);
 };
 
 /// A whole map file, as a value: everything that parse() read and print() writes.

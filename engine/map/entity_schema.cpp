@@ -145,18 +145,20 @@ std::span<const EntitySpec> entity_schema() {
   return kSchema;
 }
 
+const KeySpec* EntitySpec::key(std::string_view name) const {
+  const auto found = std::ranges::find(keys, name, &KeySpec::name);
+  return found == keys.end() ? nullptr : &*found;
+}
+
 const EntitySpec* find_entity_spec(std::string_view classname) {
-  const auto found = std::find_if(kSchema.begin(), kSchema.end(),
-                                  [&](const EntitySpec& spec) { return spec.classname == classname; });
+  const auto found = std::ranges::find(kSchema, classname, &EntitySpec::classname);
   return found == kSchema.end() ? nullptr : &*found;
 }
 
 std::string_view variant_of(const EntitySpec& spec, const Entity& entity) {
   if (spec.selector.empty()) return {};
   if (const std::string* value = entity.find(spec.selector)) return *value;
-  const auto selector = std::find_if(spec.keys.begin(), spec.keys.end(),
-                                     [&](const KeySpec& key) { return key.name == spec.selector; });
-  return selector->fallback;
+  return spec.key(spec.selector)->fallback;
 }
 
 bool belongs(const KeySpec& key, std::string_view variant) {

@@ -50,6 +50,9 @@ struct EntitySpec {
   std::string_view
       selector{};  ///< key whose value (or fallback) names the variant; empty where there are none
   std::span<const KeySpec> keys{};
+
+  /// The key of that name, or null; where variants have their own, the first.
+  const KeySpec* key(std::string_view name) const;
 };
 
 /// All classes, as docs/formats.md and maps/trenchbroom/hallway.fgd have them; in a fixed order.

@@ -75,7 +75,7 @@ std::vector<std::string> cloud_names(const map::Document& document) {
 std::vector<map::KeyValue> read_cloud_keys(TableReader& cloud) {
   std::vector<map::KeyValue> keys;
   for (const std::string& key : kCloudKeys) {
-    if (cloud.has(key)) keys.push_back({{}, key, read_value(cloud, key), 0});
+    if (cloud.has(key)) keys.push_back({key, read_value(cloud, key)});
   }
   return keys;
 }

@@ -126,8 +126,8 @@ class MapMaker {
   MapMaker& entity(const std::string& classname, std::vector<map::Brush> brushes,
                    const std::vector<std::pair<std::string, std::string>>& keys = {}) {
     map::Entity& made = document_.entities.emplace_back();
-    made.keys.push_back({{}, "classname", classname, 0});
-    for (const auto& [key, value] : keys) made.keys.push_back({{}, key, value, 0});
+    made.add("classname", classname);
+    for (const auto& [key, value] : keys) made.add(key, value);
     made.brushes = std::move(brushes);
     return *this;
   }

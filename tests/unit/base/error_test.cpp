@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "base/refuse.hpp"
 
 namespace hallway {
 namespace {
@@ -40,6 +44,29 @@ TEST(Error, EachCodeHasANameOfItsOwn) {
     names.insert(error_code_name(code));
   }
   EXPECT_EQ(names.size(), 7u);
+}
+
+TEST(Refuse, ThrowsAWrongUsageWithTheTextAsItStandsOrFilledIn) {
+  const auto refused = [](auto&& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      return error_code_name(error.code()) + std::string(": ") + error.what();
+    }
+    return std::string();
+  };
+  const std::string code = error_code_name(ErrorCode::kUsage);
+  EXPECT_EQ(refused([] { refuse("no {} here"); }), code + ": no {} here");
+  EXPECT_EQ(refused([] { refuse("no {} here", "map"); }), code + ": no map here");
+}
+
+TEST(Refuse, NamesInListsOneMemberOfATable) {
+  struct Entry {
+    const char* name;
+    int value;
+  };
+  EXPECT_EQ(names_in(std::array{Entry{"a", 1}, Entry{"b", 2}}, &Entry::name),
+            (std::vector<std::string>{"a", "b"}));
 }
 
 }  // namespace

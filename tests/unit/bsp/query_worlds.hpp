@@ -22,14 +22,14 @@ class WorldMaker {
  public:
   WorldMaker() {
     document_.entities.emplace_back();
-    document_.entities[0].keys = {{{}, "classname", "worldspawn", 0}, {{}, "_scale", "0.03125", 0}};
+    document_.entities[0].keys = {{"classname", "worldspawn"}, {"_scale", "0.03125"}};
   }
 
   /// The entity that the following brushes belong to; `order` counts for hw_add and hw_subtract.
   WorldMaker& begin(const std::string& classname, int order = 0) {
     document_.entities.emplace_back();
-    document_.entities.back().keys.push_back({{}, "classname", classname, 0});
-    if (order != 0) document_.entities.back().keys.push_back({{}, "order", std::to_string(order), 0});
+    document_.entities.back().add("classname", classname);
+    if (order != 0) document_.entities.back().add("order", std::to_string(order));
     return *this;
   }
 

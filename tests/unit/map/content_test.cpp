@@ -22,7 +22,7 @@ Brush brush_of(const std::vector<std::string>& materials) {
 
 Entity entity_of(const std::string& classname) {
   Entity entity;
-  entity.keys.push_back({{}, "classname", classname, 0});
+  entity.add("classname", classname);
   return entity;
 }
 
@@ -112,7 +112,7 @@ TEST(Content, Classes) {
 
 TEST(Content, OmittedEntitiesAreLeftOut) {
   Entity entity = entity_of("func_group");
-  entity.keys.push_back({{}, "_omitbrushes", "1", 0});
+  entity.add("_omitbrushes", "1");
   const BrushContent found = brush_content(entity, brush_of({"wall"}));
   EXPECT_FALSE(found.role);
   EXPECT_EQ(found.left_out, LeftOut::kOmitted);

@@ -146,7 +146,7 @@ TEST(EntitySchema, VariantsFollowTheSelector) {
   ASSERT_TRUE(path);
   Entity entity;
   EXPECT_EQ(variant_of(*path, entity), "waypoints");
-  entity.keys.push_back({{}, "shape", "lemniscate", 0});
+  entity.add("shape", "lemniscate");
   EXPECT_EQ(variant_of(*path, entity), "lemniscate");
   EXPECT_FALSE(find_entity_spec("hw_nothing"));
 }

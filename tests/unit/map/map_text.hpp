@@ -54,8 +54,8 @@ inline Document document_of(Brush brush) {
   Document document;
   document.file = "test.map";
   Entity& world = document.entities.emplace_back();
-  world.keys.push_back({{}, "classname", "worldspawn", 0});
-  world.keys.push_back({{}, "_scale", "1", 0});
+  world.add("classname", "worldspawn");
+  world.add("_scale", "1");
   world.brushes.push_back(std::move(brush));
   return document;
 }

@@ -77,7 +77,7 @@ void expect_unprintable(const Document& document, const std::string& cause) {
 
 Document with_key(const std::string& key, const std::string& value) {
   Document document;
-  document.entities.emplace_back().keys.push_back({{}, key, value, 0});
+  document.entities.emplace_back().add(key, value);
   return document;
 }
 
