@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "align_output.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "cloud_options.hpp"
 #include "command.hpp"
@@ -38,7 +38,7 @@ struct AlignCommand {
 
 AlignedCloud read_cloud(const std::string& file, const CloudInput& input) {
   planes::Cloud cloud = planes::read_cloud(file, cloud_options(input));
-  return {printable(file, 4096), std::move(cloud.points), cloud.not_finite};
+  return {path_text(file), std::move(cloud.points), cloud.not_finite};
 }
 
 /// "x y z yaw pitch roll", in metres and degrees; commas may part them too.
@@ -51,14 +51,11 @@ Pose parse_guess(const std::string& text) {
     if (word.empty()) continue;
     const std::optional<double> value = parse_double(word);
     if (!value || count == values.size())
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("--guess takes \"x y z yaw pitch roll\" in metres and degrees, not \"{}\"",
-                              printable(text)));
+      refuse("--guess takes \"x y z yaw pitch roll\" in metres and degrees, not \"{}\"", printable(text));
     values[count++] = *value;
   }
   if (count != 0 && count != values.size())
-    throw Error(ErrorCode::kUsage,
-                fmt::format("--guess has {} numbers; it takes six: \"x y z yaw pitch roll\"", count));
+    refuse("--guess has {} numbers; it takes six: \"x y z yaw pitch roll\"", count);
   return pose_of(values);
 }
 
@@ -74,22 +71,21 @@ void check_outputs(const AlignCommand& command) {
   check_output_file(command.out);
   check_replaces_no_input(command.out, std::array{command.a, command.b});
   if (!command.out.ends_with(".ply"))
-    throw Error(ErrorCode::kUsage,
-                fmt::format("--out writes a file that ends in .ply, not \"{}\"", printable(command.out)));
+    refuse("--out writes a file that ends in .ply, not \"{}\"", printable(command.out));
 }
 
-int align_clouds(AlignCommand command) {
+int align_clouds(const AlignCommand& command) {
   check_outputs(command);
   const Pose guess = parse_guess(command.guess);
-  command.options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
-  command.options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));
+  icp::AlignOptions options = command.options;
+  options.metric = static_cast<icp::Metric>(index_of(kMethods, command.method));
+  options.kernel = static_cast<icp::Kernel>(index_of(kWeights, command.weights));
   const AlignedCloud a = read_cloud(command.a, command.input), b = read_cloud(command.b, command.input);
   for (const AlignedCloud* cloud : {&a, &b}) {
     if (cloud->not_finite > 0)
-      print_warning(
-          fmt::format("{}: {} points that are not finite were left out", cloud->file, cloud->not_finite));
+      print_warning("{}: {} points that are not finite were left out", cloud->file, cloud->not_finite);
   }
-  const icp::Alignment found = icp::align(a.points, b.points, guess, command.options);
+  const icp::Alignment found = icp::align(a.points, b.points, guess, options);
   const bool good = found.registration.outcome == icp::Outcome::converged;
   if (good && !command.out.empty()) write_file_atomically(command.out, print_moved_ply(b, found));
   if (good && !command.picture.empty()) write_file_atomically(command.picture, draw_alignment(a, b, found));
@@ -134,32 +130,31 @@ void add_numbers(Command& command, icp::AlignOptions& options) {
 void add_align_command(Command& app) {
   Command& command =
       app.command("align", "Register two point clouds: find the transform that registers B to A");
-  const auto options = std::make_shared<AlignCommand>();
+  AlignCommand& options = command.runs(&align_clouds);
   command
-      .argument("a", &options->a,
+      .argument("a", &options.a,
                 "Cloud that stays: PLY, PCD, CSV with a header (x, y, z), OBJ, or a depth image in PNG")
       .required()
       .value("CLOUD");
-  command.argument("b", &options->b, "Cloud that is registered to it").required().value("CLOUD");
-  add_cloud_options(command, options->input);
+  command.argument("b", &options.b, "Cloud that is registered to it").required().value("CLOUD");
+  add_cloud_options(command, options.input);
   command
-      .option("--guess", &options->guess,
+      .option("--guess", &options.guess,
               "Where B is about: \"x y z yaw pitch roll\" in metres and degrees [where it stands]")
       .value("POSE");
-  command.option("--method", &options->method, "What is made small: distances of points, or from planes")
+  command.option("--method", &options.method, "What is made small: distances of points, or from planes")
       .choices({"point_to_point", "point_to_plane"})
       .show_default();
-  command.option("--weights", &options->weights, "How matches that do not fit are weighted")
+  command.option("--weights", &options.weights, "How matches that do not fit are weighted")
       .choices({"none", "huber", "cauchy", "tukey"})
       .show_default();
-  add_numbers(command, options->options);
-  add_shared(command, Shared::kOutFile, &options->out).fallback("none");
-  add_shared(command, Shared::kPicture, &options->picture).fallback("none");
-  add_shared(command, Shared::kJson, &options->json);
+  add_numbers(command, options.options);
+  add_shared(command, Shared::kOutFile, &options.out).fallback("none");
+  add_shared(command, Shared::kPicture, &options.picture).fallback("none");
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Exit status 1 when it did not converge; no file is written then.\n"
       "Example: hallway align scan1.pcd scan2.pcd --guess \"1.8 0.7 0 40 0 0\" --out scan2_moved.ply");
-  command.action([options] { return align_clouds(*options); });
 }
 
 }  // namespace hallway::cli

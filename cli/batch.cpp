@@ -21,18 +21,12 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-struct BatchOptions {
+struct BatchOptions : OutputOptions {
   std::string plan;
   std::string out;
   unsigned jobs = 1;
   std::optional<std::string> renderer;
   bool resume = false;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 /// Draws errors longer by one power of ten in all pictures of a batch: the smallest of those that the runs would have each by itself.
@@ -40,7 +34,7 @@ void share_error_scale(const batch::Plan& plan, const batch::RunnerSetup& setup,
                        const std::vector<batch::Result>& results) {
   if (plan.pictures.empty()) return;
   std::optional<double> common;
-  bool alike = std::none_of(results.begin(), results.end(), [](const auto& result) { return result.reused; });
+  bool alike = std::ranges::none_of(results, [](const auto& result) { return result.reused; });
   for (const batch::Result& result : results) {
     const fs::path cell = setup.folder / "cells" / result.name;
     if (!run::is_run_folder(cell)) continue;
@@ -58,8 +52,7 @@ void share_error_scale(const batch::Plan& plan, const batch::RunnerSetup& setup,
 int run_batch(const BatchOptions& options) {
   const render::Renderer renderer = chosen_renderer(options.renderer);
   const batch::Plan plan = batch::read_plan(options.plan);
-  const fs::path folder =
-      options.out.empty() ? fs::path("out") / fs::path(options.plan).stem() : fs::path(options.out);
+  const fs::path folder = output_folder(options.out, fs::path(options.plan).stem());
   check_output_folder(folder, batch::kDocumentFile, options.force || options.resume);
   catch_interrupts();
   Progress progress("runs", plan.cells.size(), options.quiet || options.json);
@@ -83,21 +76,20 @@ int run_batch(const BatchOptions& options) {
   document["violations"] = violations;
   write_file_atomically(folder / batch::kTableFile, batch::print_csv(results));
   write_file_atomically(folder / batch::kDocumentFile, document.dump(1) + "\n");
-  const auto reused =
-      std::count_if(results.begin(), results.end(), [](const auto& result) { return result.reused; });
+  const auto reused = std::ranges::count_if(results, [](const auto& result) { return result.reused; });
   if (options.json) {
     document["reused"] = reused;  // of this batch, not of what it gave: not in the file
     print_json(document);
   } else if (!options.quiet) {
     print_result(results_table(results) + failures_text(results, violations) +
                  fmt::format("{} of {} runs, {} of them reused, in {}\n", results.size(), plan.cells.size(),
-                             reused, printable(folder.string(), 4096)));
+                             reused, path_text(folder)));
   } else if (const std::string failures = failures_text(results, violations); !failures.empty()) {
     print_notice(failures);
   }
   if (results.size() < plan.cells.size()) return interrupt_status();
-  const bool good = violations.empty() && std::all_of(results.begin(), results.end(),
-                                                      [](const auto& result) { return result.good(); });
+  const bool good =
+      violations.empty() && std::ranges::all_of(results, [](const auto& result) { return result.good(); });
   return good ? 0 : 1;
 }
 
@@ -106,23 +98,20 @@ int run_batch(const BatchOptions& options) {
 void add_batch_command(Command& app) {
   Command& command = app.command(
       "batch", "Run every combination of scenarios, seeds, plugins and parameters, and tabulate the results");
-  const auto options = std::make_shared<BatchOptions>();
-  command.argument("plan", &options->plan, "What to run (docs/formats.md, Batches)").required().value("PLAN");
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<plan>");
-  add_shared(command, Shared::kJobs, &options->jobs).show_default();
-  add_renderer_option(command, options->renderer);
+  BatchOptions& options = command.runs(&run_batch);
+  command.argument("plan", &options.plan, "What to run (docs/formats.md, Batches)").required().value("PLAN");
+  add_shared(command, Shared::kOutFolder, &options.out).fallback("out/<plan>");
+  add_shared(command, Shared::kJobs, &options.jobs).show_default();
+  add_renderer_option(command, options.renderer);
   command.flag(
-      "--resume", &options->resume,
+      "--resume", &options.resume,
       "Keep results of an earlier batch in the folder where program, arguments and input files are the same");
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  add_output_options(command, options);
   command.footer(
       "Writes results.csv, results.json, and a run folder and a log of each run in cells/.\n"
       "Exit status: 0 all runs are good and keep the plan's thresholds; 1 one is not or does not; 130 "
       "interrupted, and --resume goes on.\n"
       "Example: hallway batch sweep.toml --jobs 4 --resume");
-  command.action([options] { return run_batch(*options); });
 }
 
 }  // namespace hallway::cli

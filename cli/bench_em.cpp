@@ -7,34 +7,27 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "bench_em_report.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "isolation_options.hpp"
+#include "finder_options.hpp"
 #include "output_file.hpp"
-#include "plane_view.hpp"
 #include "planes/files.hpp"
-#include "planes/finder.hpp"
 #include "planes/oracle.hpp"
 #include "planes/picture.hpp"
 #include "planes/scene_files.hpp"
-#include "plugin_argument.hpp"
-#include "plugin_report.hpp"
 #include "render/png.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kDocumentFile = "results.json";
 
 struct BenchOptions {
   std::vector<std::string> plugins;
-  std::vector<std::string> settings;
   std::uint32_t scenes = 20;
   std::uint64_t seed = 1;
   std::string planes = "3..40";
@@ -43,16 +36,9 @@ struct BenchOptions {
   std::string half_size = "0.5..2";
   double outliers = 0.1;
   std::string scenes_dir;
-  unsigned repeat = 1;
-  std::string out;
   std::uint32_t pictures = 3;
   bool write_scenes = false;
-  std::string view = "perspective";
-  std::vector<std::string> plugin_path;
-  IsolationOptions isolation;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
+  FinderOptions finder;
 };
 
 /// "LOW..HIGH", or one number for both.
@@ -61,7 +47,7 @@ planes::Range<double> parse_range(const char* option, const std::string& text) {
   const auto low = parse_double(text.substr(0, dots));
   const auto high = dots == std::string::npos ? low : parse_double(text.substr(dots + 2));
   if (low && high && *low <= *high) return {*low, *high};
-  throw Error(ErrorCode::kUsage, fmt::format("{} takes LOW..HIGH, not \"{}\"", option, printable(text)));
+  refuse("{} takes LOW..HIGH, not \"{}\"", option, printable(text));
 }
 
 planes::Range<std::uint32_t> parse_counts(const char* option, const std::string& text) {
@@ -71,7 +57,7 @@ planes::Range<std::uint32_t> parse_counts(const char* option, const std::string&
     return static_cast<double>(static_cast<std::uint32_t>(number)) == number;
   };
   if (range.low < 1 || range.high > kMost || !whole(range.low) || !whole(range.high))
-    throw Error(ErrorCode::kUsage, fmt::format("{} takes whole numbers from 1 to 5000000", option));
+    refuse("{} takes whole numbers from 1 to 5000000", option);
   return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
 }
 
@@ -122,18 +108,11 @@ struct Contender {
 
 std::vector<Contender> contenders(const BenchOptions& options) {
   std::vector<Contender> list;
-  std::vector<host::StageSpec> stages;
-  for (const std::string& plugin : options.plugins) stages.push_back(parse_plugin(plugin));
-  for (const std::string& setting : options.settings) set_parameter(stages, setting);
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    Contender contender{.finder = std::make_unique<planes::PlaneFinder>(
-                            stages[i], plugin_folders(options.plugin_path), print_plugin_log,
-                            isolation_of(options.isolation, apply(options.isolation, {}))),
-                        .result = {}};
-    contender.result = {.plugin = printable(options.plugins[i]),
-                        .id = contender.finder->info().id,
-                        .version = contender.finder->info().version};
-    list.push_back(std::move(contender));
+  for (auto& finder : finders_of(options.plugins, options.finder)) {
+    const host::PluginInfo& info = finder->info();
+    PluginResult result{
+        .plugin = printable(options.plugins[list.size()]), .id = info.id, .version = info.version};
+    list.push_back({std::move(finder), std::move(result)});
   }
   return list;
 }
@@ -162,7 +141,7 @@ void try_scene(Contender& contender, const std::string& name, const planes::Labe
 std::vector<std::uint32_t> worst(const PluginResult& result, std::size_t most) {
   std::vector<std::uint32_t> order(result.scenes.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return result.scenes[a].score.faults.size() > result.scenes[b].score.faults.size();
   });
   order.resize(std::min(order.size(), most));
@@ -189,10 +168,10 @@ void draw_worst(const BenchOptions& options, const Scenes& scenes, Contender& co
         planes::draw_comparison({scene.cloud.points, answer.planes, contender.result.plugin,
                                  fmt::format("{} · {} of {} planes at IoU 0.8 · {} faults", scenes.name(i),
                                              score.matched[0], score.truths, score.faults.size())},
-                                scene.truth, score, plane_view(options.view), {});
-    write_file_atomically(
-        fs::path(options.out) / fmt::format("{}-{}.png", scenes.name(i), file_name(contender.result.plugin)),
-        render::encode_png(image));
+                                scene.truth, score, plane_view(options.finder), {});
+    write_file_atomically(fs::path(options.finder.out) /
+                              fmt::format("{}-{}.png", scenes.name(i), file_name(contender.result.plugin)),
+                          render::encode_png(image));
   }
 }
 
@@ -207,7 +186,7 @@ Json document_of(const BenchOptions& options, const Scenes& scenes, const std::v
                        {"half_size", options.half_size},
                        {"outliers", options.outliers}};
   } else {
-    json["scenes_dir"] = printable(options.scenes_dir, 4096);
+    json["scenes_dir"] = path_text(options.scenes_dir);
   }
   json["plugins"] = bench_em_json(results);
   if (!known.empty()) json["planes_known"] = planes::scores_json(known);
@@ -215,25 +194,26 @@ Json document_of(const BenchOptions& options, const Scenes& scenes, const std::v
 }
 
 int bench_em(const BenchOptions& options) {
-  if (options.write_scenes && (options.out.empty() || !options.scenes_dir.empty()))
-    throw Error(ErrorCode::kUsage, "--write-scenes writes generated scenes to the folder of --out");
+  if (options.write_scenes && (options.finder.out.empty() || !options.scenes_dir.empty()))
+    refuse("--write-scenes writes generated scenes to the folder of --out");
   const Scenes scenes(options);
   std::vector<Contender> plugins = contenders(options);
-  if (!options.out.empty()) {
-    check_output_folder(options.out, kDocumentFile, options.force);
-    make_folder(options.out);
+  if (!options.finder.out.empty()) {
+    check_output_folder(options.finder.out, kDocumentFile, options.finder.force);
+    make_folder(options.finder.out);
   }
   catch_interrupts();
   std::vector<planes::Score> known;  // of all scenes, or none
   {
-    Progress progress("scenes", scenes.count(), options.quiet || options.json);
+    Progress progress("scenes", scenes.count(), options.finder.quiet || options.finder.json);
     for (std::uint32_t i = 0; i < scenes.count(); ++i) {
       if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
       const planes::LabelledCloud scene = scenes.get(i);
       const std::optional<planes::Score> best = score_knowing(scene);
       if (best) known.push_back(*best);
-      for (Contender& contender : plugins) try_scene(contender, scenes.name(i), scene, options.repeat, best);
-      if (options.write_scenes) scenes.write(i, options.out);
+      for (Contender& contender : plugins)
+        try_scene(contender, scenes.name(i), scene, options.finder.repeat, best);
+      if (options.write_scenes) scenes.write(i, options.finder.out);
       progress.update(i + 1);
     }
   }
@@ -241,15 +221,11 @@ int bench_em(const BenchOptions& options) {
   std::vector<PluginResult> results;
   for (Contender& contender : plugins) results.push_back(contender.result);
   const Json document = document_of(options, scenes, results, known);
-  if (!options.out.empty()) {
+  if (!options.finder.out.empty()) {
     for (Contender& contender : plugins) draw_worst(options, scenes, contender);
-    write_file_atomically(fs::path(options.out) / kDocumentFile, document.dump(1) + "\n");
+    write_file_atomically(fs::path(options.finder.out) / kDocumentFile, document.dump(1) + "\n");
   }
-  if (options.json) {
-    print_json(document);
-  } else if (!options.quiet) {
-    print_result(bench_em_table(results, known));
-  }
+  options.finder.print(document, bench_em_table(results, known));
   return 0;
 }
 
@@ -282,28 +258,21 @@ void add_scene_options(Command& command, BenchOptions& options) {
 void add_bench_em_command(Command& app) {
   Command& command =
       app.command("bench-em", "Score plugins that find planes on scenes whose planes are known");
-  const auto options = std::make_shared<BenchOptions>();
-  add_shared(command, Shared::kPlugin, &options->plugins).required().repeatable();
-  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
-  add_scene_options(command, *options);
-  add_shared(command, Shared::kRepeat, &options->repeat).show_default();
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
+  BenchOptions& options = command.runs(&bench_em);
+  add_shared(command, Shared::kPlugin, &options.plugins).required().repeatable();
+  add_shared(command, Shared::kSetPlugin, &options.finder.settings).repeatable();
+  add_scene_options(command, options);
+  add_finder_options(command, options.finder);
   command
-      .option("--pictures", &options->pictures, "Of how many scenes, those with most faults, for each plugin")
+      .option("--pictures", &options.pictures, "Of how many scenes, those with most faults, for each plugin")
       .value("N")
       .show_default();
-  command.flag("--write-scenes", &options->write_scenes, "Write the scenes too");
-  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
-  add_plugin_path_option(command, options->plugin_path);
-  add_limit_options(command, options->isolation);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  command.flag("--write-scenes", &options.write_scenes, "Write the scenes too");
+  add_finder_output_options(command, options.finder);
   command.footer(
       "Planes of fewer than 20 points, and parallel ones nearer than 5 sigma, are counted apart.\n"
       "Decidable are the planes that a labelling which knows all of them gets right.\n"
       "Example: hallway bench-em --plugin em --plugin em2 --scenes 200 --seed 7 --out out/bench");
-  command.action([options] { return bench_em(*options); });
 }
 
 }  // namespace hallway::cli

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json spread(std::vector<double> values) {
   if (values.empty()) return nullptr;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   double sum = 0;
   for (const double value : values) sum += value;
   return {{"mean", sum / static_cast<double>(values.size())},

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 
 namespace hallway::cli {
@@ -18,8 +18,7 @@ for (const std::string_view part : split(text, ',')) {
   if (number) numbers.push_back(*number);
 }
 if (numbers.size() != 4 || split(text, ',').size() != 4 || numbers[0] <= 0 || numbers[1] <= 0) {
-  throw Error(ErrorCode::kUsage,
-              fmt::format("--intrinsics takes fx,fy,cx,cy in pixels, not \"{}\"", printable(text)));
+  refuse("--intrinsics takes fx,fy,cx,cy in pixels, not \"{}\"", printable(text));
 }
 return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }  // namespace
@@ -28,7 +27,7 @@ planes::CloudColumns parse_columns(const std::string& text) {
   std::vector<std::string> names;
   for (const std::string_view name : split(text, ',')) names.emplace_back(trim(name));
   if (names.size() < 3 || names.size() > 4)
-    throw Error(ErrorCode::kUsage, "--columns takes the names of x, y, z and, where there is one, the label");
+    refuse("--columns takes the names of x, y, z and, where there is one, the label");
   return {names[0], names[1], names[2], names.size() == 4 ? names[3] : "label"};
 }
 

@@ -34,4 +34,18 @@ void add_plugin_info_command(Command& plugin);
 void add_plugin_new_command(Command& plugin);
 void add_plugin_validate_command(Command& plugin);
 
+/// Each adds its subcommand to the group `hallway log`.
+void add_log_info_command(Command& group);
+void add_log_cut_command(Command& group);
+void add_log_recover_command(Command& group);
+void add_log_convert_command(Command& group);
+
+/// Each adds its subcommand to the group `hallway map`.
+void add_map_check_command(Command& group);
+void add_map_info_command(Command& group);
+void add_map_leak_command(Command& group);
+void add_map_pvs_command(Command& group);
+void add_map_ray_command(Command& group);
+void add_map_export_command(Command& group);
+
 }  // namespace hallway::cli

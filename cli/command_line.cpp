@@ -88,8 +88,8 @@ Option& Command::argument(std::string name, Target target, std::string help) {
 }
 
 const Command* Command::find(const std::string& name) const {
-  const auto at = std::find_if(commands_.begin(), commands_.end(),
-                               [&](const auto& command) { return command->name_ == name; });
+  const auto at =
+      std::ranges::find_if(commands_, [&](const auto& command) { return command->name_ == name; });
   return at != commands_.end() ? at->get() : nullptr;
 }
 

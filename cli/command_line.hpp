@@ -111,6 +111,13 @@ class Command {
   void version(std::string text) { version_ = std::move(text); }
   /// What the command does.
   void action(Action action) { action_ = std::move(action); }
+  /// What it does, with the options that it fills: they live as long as the command.
+  template <typename Options>
+  Options& runs(int (*run)(const Options& options)) {
+    const auto options = std::make_shared<Options>();
+    action([options, run] { return run(*options); });
+    return *options;
+  }
 
   const std::string& name() const { return name_; }
   const std::string& about() const { return about_; }  ///< what help says first

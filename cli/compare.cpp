@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "batch/table.hpp"
 #include "batch_table.hpp"
@@ -27,13 +28,10 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kPictureFile = "comparison.png";
 constexpr const char* kRunsFolder = "cells";
 
-struct CompareOptions {
+struct CompareOptions : OutputOptions {
   std::string input;
   std::vector<std::string> plugins;
   std::vector<std::string> settings;
@@ -44,11 +42,8 @@ struct CompareOptions {
   std::vector<std::string> plugin_path;
   std::optional<unsigned> threads;
   IsolationOptions isolation;
-  bool force = false;
   std::optional<std::string> renderer;
   unsigned jobs = 1;
-  bool json = false;
-  bool quiet = false;
 };
 
 bool is_log(const fs::path& input) {
@@ -65,8 +60,7 @@ std::vector<std::string> common_arguments(const CompareOptions& options) {
   const auto add_of_scenario = [&](const char* option, auto value) {
     if (!value) return;
     if (is_log(options.input))
-      throw Error(ErrorCode::kUsage, fmt::format("{} is for a scenario, and {} is a log", option,
-                                                 printable(options.input, 4096)));
+      refuse("{} is for a scenario, and {} is a log", option, path_text(options.input));
     add(option, fmt::to_string(*value));
   };
   add_of_scenario("--seed", options.seed);
@@ -159,7 +153,7 @@ class WorkingFolder {
       if (fs::exists(path_ / name)) fs::rename(path_ / name, folder_ / name);
     }
   } catch (const fs::filesystem_error& failure) {
-    throw Error(ErrorCode::kIo, failure.code().message(), {.file = printable(folder_.string(), 4096)});
+    throw Error(ErrorCode::kIo, failure.code().message(), {.file = path_text(folder_)});
   }
 
  private:
@@ -171,11 +165,9 @@ int compare(const CompareOptions& options) {
   const render::Renderer renderer = chosen_renderer(options.renderer);
   render::demand(renderer);
   const batch::Plan plan = plan_of(options);
-  const fs::path folder = options.out.empty()
-                              ? fs::path("out") / (fs::path(options.input).stem().string() + "-compared")
-                              : fs::path(options.out);
+  const fs::path folder = output_folder(options.out, fs::path(options.input).stem().string() + "-compared");
   if (std::error_code none; !fs::exists(options.input, none))
-    throw Error(ErrorCode::kBadInput, "is not there", {.file = printable(options.input, 4096)});
+    throw Error(ErrorCode::kBadInput, "is not there", {.file = path_text(options.input)});
   check_output_folder(folder, batch::kDocumentFile, options.force);
   check_replaces_no_input((folder / kRunsFolder).string(), std::array{options.input});
   catch_interrupts();
@@ -210,7 +202,7 @@ int compare(const CompareOptions& options) {
   }
   Json document = batch::to_json(results);
   document["picture"] = nullptr;
-  if (!picture.empty()) document["picture"] = printable(picture.string(), 4096);
+  if (!picture.empty()) document["picture"] = path_text(picture);
   write_file_atomically(working.path() / batch::kTableFile, batch::print_csv(results));
   write_file_atomically(working.path() / batch::kDocumentFile, document.dump(1) + "\n");
   working.commit();
@@ -218,7 +210,7 @@ int compare(const CompareOptions& options) {
     print_json(document);
   } else if (!options.quiet) {
     print_result(results_table(results) + failures_text(results, {}) +
-                 (picture.empty() ? "" : printable(picture.string(), 4096) + "\n"));
+                 (picture.empty() ? "" : path_text(picture) + "\n"));
   } else if (const std::string failures = failures_text(results, {}); !failures.empty()) {
     print_notice(failures);
   }
@@ -235,24 +227,22 @@ void add_compare_command(Command& app) {
   Command& command = app.command(
       "compare",
       "Run several plugins, or one with several parameters, on the same input, and compare their maps");
-  const auto options = std::make_shared<CompareOptions>();
-  command.argument("input", &options->input, "A scenario, a log (.csv, .mcap), or the folder of a run")
+  CompareOptions& options = command.runs(&compare);
+  command.argument("input", &options.input, "A scenario, a log (.csv, .mcap), or the folder of a run")
       .required()
       .value("SCENARIO|LOG");
-  add_shared(command, Shared::kPlugin, &options->plugins).required().repeatable();
-  add_shared(command, Shared::kSet, &options->settings).repeatable();
-  add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
-  add_shared(command, Shared::kSteps, &options->steps).fallback("the input's");
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/<input>-compared");
-  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
-  add_shared(command, Shared::kJobs, &options->jobs).show_default();
-  add_plugin_path_option(command, options->plugin_path);
-  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
-  add_isolation_options(command, options->isolation);
-  add_renderer_option(command, options->renderer);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  add_shared(command, Shared::kPlugin, &options.plugins).required().repeatable();
+  add_shared(command, Shared::kSet, &options.settings).repeatable();
+  add_shared(command, Shared::kSeed, &options.seed).fallback("the scenario's");
+  add_shared(command, Shared::kSteps, &options.steps).fallback("the input's");
+  add_shared(command, Shared::kOutFolder, &options.out).fallback("out/<input>-compared");
+  add_shared(command, Shared::kView, &options.view).choices({"top", "perspective"}).show_default();
+  add_shared(command, Shared::kJobs, &options.jobs).show_default();
+  add_plugin_path_option(command, options.plugin_path);
+  add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
+  add_isolation_options(command, options.isolation);
+  add_renderer_option(command, options.renderer);
+  add_output_options(command, options);
   command.footer(
       "Several values of a parameter are tried each with each: --plugin "
       "slam_point:noise_m=0.01,0.05,mode=thesis.\n"
@@ -261,7 +251,6 @@ void add_compare_command(Command& app) {
       "Exit status: 0, or that of the first run that failed.\n"
       "Example: hallway compare maps/office.toml --plugin slam_point:noise_m=0.01,0.05 --plugin "
       "build/my_slam.so");
-  command.action([options] { return compare(*options); });
 }
 
 }  // namespace hallway::cli

@@ -19,9 +19,6 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct CompileOptions {
   std::string map;
   std::string level = "full";
@@ -71,8 +68,7 @@ std::string size_text(std::uint64_t bytes) {
 
 std::size_t bad_brushes(const map::World& brushes) {
   return static_cast<std::size_t>(
-      std::count_if(brushes.problems.begin(), brushes.problems.end(),
-                    [](const map::Problem& problem) { return problem.left_out; }));
+      std::ranges::count_if(brushes.problems, [](const map::Problem& problem) { return problem.left_out; }));
 }
 
 std::string left_out_text(const map::World& brushes) {
@@ -161,7 +157,7 @@ Json document_of(const CompiledMap& compiled, const std::string& way_file, int s
   }
   return {{"schema", "hallway.compile/1"},
           {"status", status},
-          {"map", printable(compiled.document.file, 4096)},
+          {"map", path_text(compiled.document.file)},
           {"sealed", world.sealed()},
           {"brushes",
            {{"used", counts.brushes}, {"left_out", left_out}, {"no_solids", bad_brushes(world.brushes)}}},
@@ -177,7 +173,7 @@ Json document_of(const CompiledMap& compiled, const std::string& way_file, int s
           {"from_cache", world.from_cache},
           {"stages", stages},
           {"leak", leak_json(world)},
-          {"points_file", way_file.empty() ? Json(nullptr) : Json(printable(way_file, 4096))},
+          {"points_file", way_file.empty() ? Json(nullptr) : Json(path_text(way_file))},
           {"warnings", compiled.warnings}};
 }
 
@@ -213,9 +209,8 @@ std::string keep_way_file(const std::string& map, CompiledMap& compiled) {
   std::error_code code;
   if (fs::exists(file, code) && !is_way_file(file)) {
     if (leak) {
-      compiled.warnings.push_back(
-          fmt::format("the leak path is not kept: {} holds something else", printable(file.string(), 4096)));
-      print_warning(compiled.warnings.back());
+      print_warning(compiled.warnings,
+                    fmt::format("the leak path is not kept: {} holds something else", path_text(file)));
     }
     return {};
   }
@@ -227,19 +222,17 @@ std::string keep_way_file(const std::string& map, CompiledMap& compiled) {
     write_file_atomically(file, way_points(*leak, compiled.world.brushes.metres_per_unit));
     return file.string();
   } catch (const Error& error) {
-    compiled.warnings.push_back(fmt::format("the leak path is not kept: {}", error.what()));
-    print_warning(compiled.warnings.back());
+    print_warning(compiled.warnings, fmt::format("the leak path is not kept: {}", error.what()));
     return {};
   }
 }
 
 int compile(const CompileOptions& options) {
-  CompiledMap compiled =
-      compile_map({.file = options.map,
-                   .level = options.level == "full" ? pvs::Level::kFull : pvs::Level::kFast,
-                   .threads = options.threads,
-                   .use_cache = !options.no_cache,
-                   .strict = options.strict});
+  CompiledMap compiled = compile_map({.file = options.map,
+                                      .level = level_named(options.level),
+                                      .threads = options.threads,
+                                      .use_cache = !options.no_cache,
+                                      .strict = options.strict});
   const std::string way_file = keep_way_file(options.map, compiled);
   const int status = compiled.world.sealed() ? 0 : 1;
   if (options.json) {
@@ -255,17 +248,16 @@ int compile(const CompileOptions& options) {
 void add_compile_command(Command& app) {
   Command& command = app.command(
       "compile", "Compile a map: its surface, its clusters and potentially visible sets; find leaks");
-  const auto options = std::make_shared<CompileOptions>();
-  command.argument("map", &options->map, "A .map file").required().value("MAP");
-  add_shared(command, Shared::kLevel, &options->level);
-  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
-  command.flag("--no-cache", &options->no_cache, "Neither read nor write the folder .hallway beside the map");
-  add_shared(command, Shared::kStrict, &options->strict);
-  add_shared(command, Shared::kJson, &options->json);
+  CompileOptions& options = command.runs(&compile);
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  add_shared(command, Shared::kLevel, &options.level);
+  add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
+  command.flag("--no-cache", &options.no_cache, "Neither read nor write the folder .hallway beside the map");
+  add_shared(command, Shared::kStrict, &options.strict);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Status 1: the map leaks; the leak path is then written beside it, in a file with the ending .pts.\n"
       "Example: hallway compile maps/office.map --level full --threads 2");
-  command.action([options] { return compile(*options); });
 }
 
 }  // namespace hallway::cli

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
 #include "map/reader.hpp"
@@ -13,8 +14,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Shows how far the visible sets are; ends them when the user asks for it.
 class VisibilityProgress {
@@ -37,7 +36,7 @@ std::vector<Error> problems_of(const MapRequest& request, const world::CompiledW
   std::vector<Error> problems;
   for (const map::Problem& problem : world.brushes.problems) {
     problems.emplace_back(ErrorCode::kBadInput, map::problem_text(problem),
-                          Where{.file = printable(request.file, 4096),
+                          Where{.file = path_text(request.file),
                                 .line = problem.line,
                                 .element = map::brush_name(problem.entity, problem.brush)});
   }
@@ -46,7 +45,7 @@ std::vector<Error> problems_of(const MapRequest& request, const world::CompiledW
     problems.emplace_back(ErrorCode::kBadInput,
                           fmt::format("{} is in solid, at {}", run::occupant_text(occupant),
                                       run::place_text(occupant.position_m)),
-                          Where{.file = printable(request.file, 4096),
+                          Where{.file = path_text(request.file),
                                 .line = occupant.line,
                                 .element = fmt::format("entity {}", occupant.entity)});
   }
@@ -59,7 +58,7 @@ map::Document load_map(const std::string& file) {
   map::Document document = map::load(file);
   if (document.worldspawn() == nullptr) {
     throw Error(ErrorCode::kBadInput, "holds no map: it has no entity of class worldspawn",
-                {.file = printable(file, 4096)});
+                {.file = path_text(file)});
   }
   return document;
 }
@@ -86,14 +85,28 @@ CompiledMap compile_map(const MapRequest& request) {
 
 std::vector<render::Surface> model_faces(CompiledMap& compiled, bool strict) {
   std::vector<Error> faults;
-  const fs::path folder = fs::absolute(compiled.document.file).parent_path();
-  std::vector<render::Surface> faces = run::model_faces(compiled.document, folder, faults);
+  std::vector<render::Surface> faces = run::model_faces(compiled.document, models_folder(compiled), faults);
+  warn_of_models(compiled, faults, strict);
+  return faces;
+}
+
+fs::path models_folder(const CompiledMap& compiled) {
+  return fs::absolute(compiled.document.file).parent_path();
+}
+
+void warn_of_models(CompiledMap& compiled, const std::vector<Error>& faults, bool strict) {
   for (const Error& fault : faults) {
     if (strict) throw fault;
-    compiled.warnings.push_back(std::string(fault.what()) + "; left out");
-    print_warning(compiled.warnings.back());
+    print_warning(compiled.warnings, std::string(fault.what()) + "; left out");
   }
-  return faces;
+}
+
+pvs::Level level_named(const std::string& name) {
+  return name == "full" ? pvs::Level::kFull : pvs::Level::kFast;
+}
+
+Json place_json(const Vec3& place) {
+  return {place.x(), place.y(), place.z()};
 }
 
 Vec3 parse_place(const std::string& what, const std::string& text) {
@@ -106,8 +119,7 @@ Vec3 parse_place(const std::string& what, const std::string& text) {
     if (good) place[static_cast<Eigen::Index>(i)] = *number;
   }
   if (!good) {
-    throw Error(ErrorCode::kUsage,
-                fmt::format("{} takes X,Y,Z in metres, not \"{}\"", what, printable(text)));
+    refuse("{} takes X,Y,Z in metres, not \"{}\"", what, printable(text));
   }
   return place;
 }

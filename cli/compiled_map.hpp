@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +41,16 @@ CompiledMap compile_map(const MapRequest& request);
 /// The models that stand in a map, as faces of a picture. One that cannot be read is left out with a warning, shown on standard error and
 /// added to the map's, or with `strict` thrown.
 std::vector<render::Surface> model_faces(CompiledMap& compiled, bool strict);
+/// The folder that the names of a map's models count from.
+std::filesystem::path models_folder(const CompiledMap& compiled);
+/// Warns of models that were left out, as model_faces() does.
+void warn_of_models(CompiledMap& compiled, const std::vector<Error>& faults, bool strict);
+
+/// What --level names.
+pvs::Level level_named(const std::string& name);
+
+/// A place or direction in a document.
+nlohmann::ordered_json place_json(const Vec3& place);
 
 /// `X,Y,Z` in metres. Throws Error{kUsage} naming `what` for anything else.
 Vec3 parse_place(const std::string& what, const std::string& text);

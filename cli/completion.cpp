@@ -68,8 +68,7 @@ void add_values(Completion& completion, const Option& option, std::span<const fs
 const Option* find_option(const Command& command, std::string_view name) {
   for (const auto& option : command.options()) {
     const auto names = option->name_list();
-    if (!option->is_argument() && std::find(names.begin(), names.end(), name) != names.end())
-      return option.get();
+    if (!option->is_argument() && std::ranges::find(names, name) != names.end()) return option.get();
   }
   return nullptr;
 }

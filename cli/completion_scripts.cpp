@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "completion.hpp"
 
@@ -119,9 +119,7 @@ std::string completion_script(const std::string& program, std::string_view shell
   if (shell == "bash") return filled_in(kBash, program);
   if (shell == "zsh") return filled_in(kZsh, program);
   if (shell == "fish") return filled_in(kFish, program);
-  throw Error(ErrorCode::kUsage,
-              fmt::format("there is no completion for the shell \"{}\"; there are bash, zsh and fish",
-                          printable(shell)));
+  refuse("there is no completion for the shell \"{}\"; there are bash, zsh and fish", printable(shell));
 }
 
 }  // namespace hallway::cli

@@ -37,8 +37,8 @@ std::int64_t now_ns() {
       .count();
 }
 
-nlohmann::ordered_json failure_json(const std::exception& failure, int status) {
-  nlohmann::ordered_json error;
+Json failure_json(const std::exception& failure, int status) {
+  Json error;
   if (const auto* known = dynamic_cast<const Error*>(&failure)) {
     error["kind"] = error_code_name(known->code());
     error["message"] = known->message();
@@ -84,8 +84,16 @@ void print_result(const std::string& text) {
   }
 }
 
-void print_json(const nlohmann::ordered_json& document) {
+void print_json(const Json& document) {
   print_result(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void OutputOptions::print(const Json& document, const std::string& text) const {
+  if (json) {
+    print_json(document);
+  } else if (!quiet) {
+    print_result(text);
+  }
 }
 
 void print_notice(const std::string& text) {
@@ -94,6 +102,22 @@ void print_notice(const std::string& text) {
 
 void print_warning(const std::string& text) {
   fmt::print(stderr, "hallway: warning: {}\n", text);
+}
+
+void print_warning(std::vector<std::string>& warnings, std::string text) {
+  print_warning(text);
+  warnings.push_back(std::move(text));
+}
+
+std::string path_text(const fs::path& path) {
+  constexpr std::size_t kLongest = 4096;
+  return printable(path.string(), kLongest);
+}
+
+std::vector<std::string> path_texts(const std::vector<fs::path>& paths) {
+  std::vector<std::string> texts;
+  for (const fs::path& path : paths) texts.push_back(path_text(path));
+  return texts;
 }
 
 void prepare_standard_streams() {

@@ -32,9 +32,6 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct DoctorOptions {
   std::vector<std::string> plugin_path;
   std::string picture;
@@ -138,7 +135,7 @@ void look_at_picture(Check& result, render::Renderer renderer, const std::string
                                   : render::kRendererNames[static_cast<std::size_t>(renderer)]);
     if (file.empty()) return;
     write_file_atomically(file, render::encode_png(image));
-    result.text += ", " + printable(file, 4096);
+    result.text += ", " + path_text(file);
   } catch (const render::NoRenderer&) {
     if (renderer != render::Renderer::kAuto) throw;
     result.health = Health::kLacking;
@@ -148,10 +145,10 @@ void look_at_picture(Check& result, render::Renderer renderer, const std::string
 
 void look_at_helpers(Check& result) {
   for (const char* name : {"hallway-plugin", "hallway-mesh-loader"}) {
-    result.text += (result.text.empty() ? "" : ", ") + printable(find_helper(name).string(), 4096);
+    result.text += (result.text.empty() ? "" : ", ") + path_text(find_helper(name));
   }
   try {
-    result.text += ", " + printable(find_helper("hallway-bag").string(), 4096);
+    result.text += ", " + path_text(find_helper("hallway-bag"));
   } catch (const Error&) {
     result.text += "; built without ROS 1: bags are not read";
   }
@@ -169,10 +166,8 @@ void look_at_plugins(Check& result, const std::vector<fs::path>& folders) {
     result.health = Health::kLacking;
     found += fmt::format("{}{}", found.empty() ? "" : ", ", listed.problem);
   }
-  std::vector<std::string> searched;
-  for (const fs::path& folder : folders) searched.push_back(printable(folder.string(), 4096));
   if (loadable == 0) result.health = Health::kLacking;
-  result.text = fmt::format("{} in {}", found.empty() ? "none" : found, fmt::join(searched, ", "));
+  result.text = fmt::format("{} in {}", found.empty() ? "none" : found, fmt::join(path_texts(folders), ", "));
 }
 
 void look_at_isolation(Check& result, const std::vector<fs::path>& folders) {
@@ -227,11 +222,11 @@ int doctor(const DoctorOptions& options) {
 
 void add_doctor_command(Command& app) {
   Command& command = app.command("doctor", "Check the installation");
-  const auto options = std::make_shared<DoctorOptions>();
-  add_plugin_path_option(command, options->plugin_path);
-  add_shared(command, Shared::kPicture, &options->picture);
-  add_renderer_option(command, options->renderer);
-  add_shared(command, Shared::kJson, &options->json);
+  DoctorOptions& options = command.runs(&doctor);
+  add_plugin_path_option(command, options.plugin_path);
+  add_shared(command, Shared::kPicture, &options.picture);
+  add_renderer_option(command, options.renderer);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Draws a small picture with each renderer, starts a plugin in a process of its own, and says what the "
       "kernel does not "
@@ -240,7 +235,6 @@ void add_doctor_command(Command& app) {
       "something is "
       "broken.\n"
       "Example: hallway doctor --picture test.png");
-  command.action([options] { return doctor(*options); });
 }
 
 }  // namespace hallway::cli

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "compiled_map.hpp"
@@ -28,11 +29,9 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using editor::Report;
 using editor::ScriptLine;
 using editor::Session;
-using Json = nlohmann::ordered_json;
 
 struct EditOptions {
   std::string map;
@@ -66,7 +65,7 @@ void finish_json(const EditOptions& options, int status, Json reports) {
   if (!options.json) return;
   print_json({{"schema", "hallway.edit/1"},
               {"status", status},
-              {"map", printable(options.map, 4096)},
+              {"map", path_text(options.map)},
               {"reports", std::move(reports)}});
 }
 
@@ -126,7 +125,7 @@ int run_one(Session& session, const EditOptions& options) {
   const bool from_nothing = session.steps().empty() && !fs::exists(options.map);
   const Report report = session.run(call);
   if (from_nothing && session.steps().empty() && call.command->name != "help")
-    print_warning(fmt::format("{} is not there: this is an empty map", printable(options.map, 4096)));
+    print_warning("{} is not there: this is an empty map", path_text(options.map));
   session.save();
   show(report, options.json);
   finish_json(options, report.status, Json::array({json_of(report)}));
@@ -185,13 +184,13 @@ std::string clipboard_file() {
 }
 
 int edit(EditOptions options) {
-  const auto json = std::find(options.words.begin(), options.words.end(), "--json");
+  const auto json = std::ranges::find(options.words, "--json");
   if (json != options.words.end()) {
     options.json = true;
     options.words.erase(json);
   }
   if (!options.words.empty() && !options.script.empty())
-    throw Error(ErrorCode::kUsage, "either a command or a script (-f), not both");
+    refuse("either a command or a script (-f), not both");
   if (!options.words.empty() && options.words[0] == "recover") {
     const Report report{.lines = {recover_map(options)}};
     show(report, options.json);
@@ -247,7 +246,7 @@ void add_edit_command(Command& app) {
         print_result(editor::reference_markdown());
       return 0;
     }
-    if (options->map.empty()) throw Error(ErrorCode::kUsage, "which map? `hallway edit --help` says more");
+    if (options->map.empty()) refuse("which map? `hallway edit --help` says more");
     return edit(*options);
   });
 }

@@ -84,9 +84,9 @@ int run_edit_console(editor::Session& session) {
   prepare(session);
   const std::string name = printable(session.file().filename().string());
   print_result(
-      fmt::format("Editing {}. `help` lists the commands, `help NAME` explains one, TAB completes; `quit` or "
-                  "Ctrl-D leaves.\n",
-                  name));
+      "Editing {}. `help` lists the commands, `help NAME` explains one, TAB completes; `quit` or "
+      "Ctrl-D leaves.\n",
+      name);
   for (;;) {
     const std::string prompt = fmt::format("{}{}> ", name, session.unsaved() ? " (unsaved)" : "");
     const std::unique_ptr<char, decltype(&std::free)> typed(::readline(prompt.c_str()), &std::free);

@@ -17,9 +17,6 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 Json option_json(const Option& option) {
   Json json{{"names", option.name_list()},
             {"kind", option.is_argument() ? "argument"

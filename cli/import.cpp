@@ -4,20 +4,19 @@
 #include <memory>
 #include <optional>
 
-#include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "map/writer.hpp"
 #include "mesh/import.hpp"
 #include "mesh/load.hpp"
+#include "output_file.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ImportCommand {
   std::string model;
@@ -37,12 +36,8 @@ fs::path read_folder(const ImportCommand& command, const fs::path& map_folder) {
 }
 
 void check_options(const ImportCommand& command) {
-  if (!command.root.empty() && !command.copy) throw Error(ErrorCode::kUsage, "--root belongs to --copy");
-  std::error_code code;
-  if (!command.force && fs::exists(fs::symlink_status(command.out, code))) {
-    throw Error(ErrorCode::kIo, "is there already; --force replaces it",
-                {.file = printable(command.out, 4096)});
-  }
+  if (!command.root.empty() && !command.copy) refuse("--root belongs to --copy");
+  check_new_file(command.out, command.force);
 }
 
 void print_summary(const ImportCommand& command, const mesh::Model& model, const std::string& name) {
@@ -50,16 +45,16 @@ void print_summary(const ImportCommand& command, const mesh::Model& model, const
   const double scale = command.units ? *command.units / model.metres_per_unit : 1.0;
   const Vec3 size = scale * bounds.sizes();
   if (!command.json) {
-    print_result(fmt::format("{}: {} triangles, {} materials, {} images, {:.2f} x {:.2f} x {:.2f} m, as {}\n",
-                             printable(command.out, 4096), model.triangles.size(), model.materials.size(),
-                             model.images.size(), size.x(), size.y(), size.z(), printable(name, 4096)));
+    print_result("{}: {} triangles, {} materials, {} images, {:.2f} x {:.2f} x {:.2f} m, as {}\n",
+                 path_text(command.out), model.triangles.size(), model.materials.size(), model.images.size(),
+                 size.x(), size.y(), size.z(), path_text(name));
     return;
   }
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  Json warnings = Json::array();
   for (const std::string& warning : model.warnings) warnings.push_back(warning);
   print_json({{"schema", "hallway.import/1"},
-              {"map", printable(command.out, 4096)},
-              {"model", printable(name, 4096)},
+              {"map", path_text(command.out)},
+              {"model", path_text(name)},
               {"triangles", model.triangles.size()},
               {"vertices", model.vertices.size()},
               {"materials", model.materials.size()},
@@ -90,33 +85,32 @@ int import_model(const ImportCommand& command) {
 void add_import_command(Command& app) {
   Command& command =
       app.command("import", "Make a map around a model: glTF, COLLADA, OBJ, STL, PLY, FBX, ...");
-  const auto options = std::make_shared<ImportCommand>();
-  command.argument("model", &options->model, "Model file, in the folder of the map or below it")
+  ImportCommand& options = command.runs(&import_model);
+  command.argument("model", &options.model, "Model file, in the folder of the map or below it")
       .required()
       .value("MODEL");
-  add_shared(command, Shared::kOutFile, &options->out).required();
-  command.option("--units", &options->units, "Metres in one unit of the file [what the file says, else 1]")
+  add_shared(command, Shared::kOutFile, &options.out).required();
+  command.option("--units", &options.units, "Metres in one unit of the file [what the file says, else 1]")
       .range(1e-6, 1e6)
       .value("M");
-  command.option("--margin", &options->margin_m, "Metres between the model and the walls around it")
+  command.option("--margin", &options.margin_m, "Metres between the model and the walls around it")
       .range(1.0, 1e4)
       .value("M")
       .show_default();
-  command.flag("--copy", &options->copy,
+  command.flag("--copy", &options.copy,
                "Copy the model, and the files that it names, into the folder of the map");
   command
-      .option("--root", &options->root,
+      .option("--root", &options.root,
               "With --copy: folder that the model may name files in; they keep their paths below it "
               "[the model's folder]")
       .value("DIR");
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kForce, &options.force);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "The map is closed by six blocks outside the model, which is detail geometry: it is seen and blocks "
       "sight.\n"
       "Example: hallway import models/willowgarage.dae --out garage.map && hallway render garage.map --out "
       "garage.png");
-  command.action([options] { return import_model(*options); });
 }
 
 }  // namespace hallway::cli

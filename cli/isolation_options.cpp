@@ -39,7 +39,7 @@ host::PluginLimits apply(const IsolationOptions& options, host::PluginLimits lim
   if (options.call_timeout_s) limits.call_timeout_s = *options.call_timeout_s;
   if (options.memory_limit_mib) limits.memory_mib = *options.memory_limit_mib;
   if (options.on_failure) {
-    const auto at = std::find(host::kOnFailure.begin(), host::kOnFailure.end(), *options.on_failure);
+    const auto at = std::ranges::find(host::kOnFailure, *options.on_failure);
     limits.on_failure = static_cast<host::OnFailure>(at - host::kOnFailure.begin());
   }
   return limits;

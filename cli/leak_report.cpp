@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "compiled_map.hpp"
+#include "console.hpp"
 #include "render/map_layers.hpp"
 #include "run/map_view.hpp"
 
@@ -17,10 +19,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kPointSpacing_m = 0.5;
 constexpr double kMostPointsOnLine = 1e5;
-
-Json place_json(const Vec3& place) {
-  return Json::array({place.x(), place.y(), place.z()});
-}
 
 Json occupant_json(const map::Occupant& occupant) {
   return {{"classname", printable(occupant.classname)},
@@ -51,17 +49,16 @@ void add_line(std::string& out, const Vec3& point_m, double metres_per_unit) {
 std::string leak_text(const world::CompiledWorld& world, const std::string& way_file) {
   const bsp::Enclosure& enclosure = world.partition.enclosure;
   const bsp::Leak& leak = *enclosure.leak;
-  const auto row = [](const char* label, const std::string& value) {
-    return fmt::format("  {:<12} {}\n", label, value);
-  };
-  std::string text = row("leak", fmt::format("{} of {} occupants reach the void; the nearest to it:",
-                                             enclosure.leaking.size(), world.occupants.size()));
+  std::string text;
+  const Rows row{text, 12};
+  row("leak", fmt::format("{} of {} occupants reach the void; the nearest to it:", enclosure.leaking.size(),
+                          world.occupants.size()));
   const map::Occupant& occupant = world.occupants[leak.occupant];
-  text += row("from", run::occupant_text(occupant) + " at " + run::place_text(occupant.position_m));
-  text += row("leak path", fmt::format("{}, to {}", render::measure_text(leak.length_m),
-                                       run::place_text(leak.way.back())));
-  text += row("through", run::opening_text(leak.narrowest));
-  if (!way_file.empty()) text += row("points", printable(way_file, 4096));
+  row("from", run::occupant_text(occupant) + " at " + run::place_text(occupant.position_m));
+  row("leak path",
+      fmt::format("{}, to {}", render::measure_text(leak.length_m), run::place_text(leak.way.back())));
+  row("through", run::opening_text(leak.narrowest));
+  if (!way_file.empty()) row("points", path_text(way_file));
   return text;
 }
 

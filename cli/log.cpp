@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "log_command.hpp"
+#include "command.hpp"
 
 namespace hallway::cli {
 

@@ -5,13 +5,14 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
+#include "command.hpp"
 #include "console.hpp"
 #include "log/landmarks.hpp"
 #include "log/plane_observations.hpp"
 #include "log/poses.hpp"
 #include "log/true_planes.hpp"
-#include "log_command.hpp"
 #include "log_foxglove.hpp"
 #include "log_import.hpp"
 #include "log_input.hpp"
@@ -27,9 +28,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct ConvertOptions {
   LogChoice choice;
@@ -96,10 +94,10 @@ log::IterationPose pose_of(std::uint32_t iteration, const run::SourceFrame& fram
 
 void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::int64_t period_ns) {
   if (frame.t_ns == period_ns * static_cast<std::int64_t>(iteration)) return;
-  print_warning(fmt::format(
+  print_warning(
       "frame {} lies at {} ns and not at {} periods of {} ns: CSV files have no times, and those of "
       "the log are lost",
-      iteration, frame.t_ns, iteration, period_ns));
+      iteration, frame.t_ns, iteration, period_ns);
 }
 
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
@@ -167,14 +165,13 @@ Converted copy_with_view(const ConvertOptions& options, const fs::path& log) {
 void add_missing(OpenedLog& opened) {
   if (!opened.missing) return;
   for (std::string& line : opened.missing()) {
-    print_warning(line);
-    opened.warnings.push_back(std::move(line));
+    print_warning(opened.warnings, std::move(line));
   }
 }
 
 Converted convert_input(const ConvertOptions& options) {
   const bool to_mcap = fs::path(options.out).extension() == ".mcap";
-  if (options.foxglove && !to_mcap) throw Error(ErrorCode::kUsage, "--foxglove is for an .mcap file");
+  if (options.foxglove && !to_mcap) refuse("--foxglove is for an .mcap file");
   check_replaces_no_input(options.out, inputs_of(options));
   if (options.foxglove && !kind_of(options)) {
     if (const auto log = recorded_log(options.choice.log)) return copy_with_view(options, *log);
@@ -195,11 +192,11 @@ int convert(const ConvertOptions& options) {
   if (options.json) {
     print_json({{"schema", "hallway.log_convert/1"},
                 {"status", 0},
-                {"written", printable(options.out, 4096)},
+                {"written", path_text(options.out)},
                 {"frames", converted.frames},
                 {"warnings", converted.warnings}});
   } else {
-    print_result(fmt::format("{}: {} frames\n", printable(options.out, 4096), converted.frames));
+    print_result("{}: {} frames\n", path_text(options.out), converted.frames);
   }
   return 0;
 }
@@ -210,9 +207,9 @@ void add_log_convert_command(Command& group) {
   Command& command = group.command("convert",
                                    "Turn an MCAP log into the CSV files of replay, and those or a "
                                    "recording of other programs into an MCAP log");
-  const auto options = std::make_shared<ConvertOptions>();
+  ConvertOptions& options = command.runs(&convert);
   command
-      .argument("log", &options->choice.log,
+      .argument("log", &options.choice.log,
                 "An .mcap file, a CSV file of observations, or a run folder; a folder of point clouds "
                 "(.ply, .pcd) or one "
                 "of them, a TUM RGB-D folder, the folder of Victoria Park, a table of stereo tracks or of "
@@ -220,24 +217,23 @@ void add_log_convert_command(Command& group) {
                 "bearings, a ROS 1 .bag")
       .required()
       .value("LOG");
-  command.option("--from", &options->from, "What it is [what it looks like]")
+  command.option("--from", &options.from, "What it is [what it looks like]")
       .value("KIND")
       .choices({"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"});
-  add_shared(command, Shared::kOutLog, &options->out).required();
-  add_shared(command, Shared::kTruePoses, &options->choice.true_poses).fallback("those of the log");
-  add_shared(command, Shared::kTrueLandmarks, &options->choice.true_landmarks).fallback("those of the log");
-  add_shared(command, Shared::kPeriod, &options->choice.period_s).fallback("the run's, else 0.1");
-  add_shared(command, Shared::kFoxglove, &options->foxglove);
-  add_import_options(command, options->import);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kOutLog, &options.out).required();
+  add_shared(command, Shared::kTruePoses, &options.choice.true_poses).fallback("those of the log");
+  add_shared(command, Shared::kTrueLandmarks, &options.choice.true_landmarks).fallback("those of the log");
+  add_shared(command, Shared::kPeriod, &options.choice.period_s).fallback("the run's, else 0.1");
+  add_shared(command, Shared::kFoxglove, &options.foxglove);
+  add_import_options(command, options.import);
+  add_shared(command, Shared::kForce, &options.force);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Without --foxglove, what plugins answered is not carried over: it is the replay that answers anew.\n"
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
       "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
       "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap\n"
       "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap");
-  command.action([options] { return convert(*options); });
 }
 
 }  // namespace hallway::cli

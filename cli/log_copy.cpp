@@ -9,12 +9,13 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
+#include "command.hpp"
 #include "console.hpp"
 #include "log/mcap_copy.hpp"
 #include "log/run_log.hpp"
 #include "log/unfinished_input.hpp"
-#include "log_command.hpp"
 #include "log_input.hpp"
 #include "log_output.hpp"
 #include "output_file.hpp"
@@ -22,9 +23,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct CopyOptions {
   std::string log;
@@ -79,7 +77,7 @@ Span span_of(const CopyOptions& options) {
   const bool by_time = options.from_s || options.to_s;
   const bool by_iteration = options.from_iteration || options.to_iteration;
   if (by_time == by_iteration) {
-    throw Error(ErrorCode::kUsage, "cut takes --from and --to, or --from-iteration and --to-iteration");
+    refuse("cut takes --from and --to, or --from-iteration and --to-iteration");
   }
   Span span;
   if (options.from_s) span.from_ns = nanoseconds(*options.from_s);
@@ -87,7 +85,7 @@ Span span_of(const CopyOptions& options) {
   span.from_iteration = options.from_iteration.value_or(0);
   span.to_iteration = options.to_iteration.value_or(UINT32_MAX);
   if (span.from_ns > span.to_ns || span.from_iteration > span.to_iteration) {
-    throw Error(ErrorCode::kUsage, "the cut ends before it begins");
+    refuse("the cut ends before it begins");
   }
   if (by_iteration) find_times(mcap_file(options.log), span);
   return span;
@@ -111,14 +109,14 @@ void print_copy(const CopyOptions& options, const fs::path& out, const log::Mcap
     if (copy.damage) damage = {{"byte", copy.damage->offset}, {"cause", copy.damage->cause}};
     print_json({{"schema", "hallway.log_copy/1"},
                 {"status", 0},
-                {"written", printable(out.string(), 4096)},
+                {"written", path_text(out)},
                 {"messages", copy.messages},
                 {"left_out", copy.left_out},
                 {"damage", damage}});
     return;
   }
-  print_result(fmt::format("{}: {} messages{}\n", printable(out.string(), 4096), copy.messages,
-                           copy.left_out > 0 ? fmt::format(", {} left out", copy.left_out) : ""));
+  print_result("{}: {} messages{}\n", path_text(out), copy.messages,
+               copy.left_out > 0 ? fmt::format(", {} left out", copy.left_out) : "");
 }
 
 /// Copies from one file to a new one.
@@ -129,21 +127,28 @@ int copy(const CopyOptions& options, const fs::path& out, const CopyBytes& copy_
   check_replaces_no_input(out.string(), std::array{path.string()});
   const log::UnfinishedInput input(path);
   NewFile file(out, options.force);
-  log::McapCopy copied;
-  try {
-    copied = copy_bytes(input, file.output());
-  } catch (const Error& error) {
-    if (!error.where().file.empty()) throw;
-    throw Error(error.code(), error.message(), {.file = printable(path.string())});
-  }
+  const log::McapCopy copied = in_file(path, [&] { return copy_bytes(input, file.output()); });
   file.commit();
   if (copied.damage) {
-    print_warning(fmt::format("{}: byte {} of {}: {}; what stands before it is kept",
-                              printable(path.string()), copied.damage->offset, input.size(),
-                              copied.damage->cause));
+    print_warning("{}: byte {} of {}: {}; what stands before it is kept", printable(path.string()),
+                  copied.damage->offset, input.size(), copied.damage->cause);
   }
   print_copy(options, out, copied);
   return 0;
+}
+
+int cut(const CopyOptions& options) {
+  const log::McapSpan span = mcap_span(span_of(options));
+  return copy(options, options.out, [&span](const log::ByteInput& input, log::ByteOutput& output) {
+    return log::copy_mcap_span(input, output, span);
+  });
+}
+
+int recover(const CopyOptions& options) {
+  const fs::path beside = mcap_file(options.log).replace_extension(".recovered.mcap");
+  return copy(
+      options, options.out.empty() ? beside : fs::path(options.out),
+      [](const log::ByteInput& input, log::ByteOutput& output) { return log::copy_mcap(input, output); });
 }
 
 void add_common_options(Command& command, CopyOptions& options) {
@@ -156,42 +161,28 @@ void add_common_options(Command& command, CopyOptions& options) {
 
 void add_log_cut_command(Command& group) {
   Command& command = group.command("cut", "Copy a part of an MCAP log, by time or by iteration");
-  const auto options = std::make_shared<CopyOptions>();
-  add_common_options(command, *options);
-  add_shared(command, Shared::kOutFile, &options->out).required();
+  CopyOptions& options = command.runs(&cut);
+  add_common_options(command, options);
+  add_shared(command, Shared::kOutFile, &options.out).required();
   constexpr double kMost_s = 9e9;
-  command.option("--from", &options->from_s, "First log time, seconds [start]")
-      .value("S")
-      .range(0.0, kMost_s);
-  command.option("--to", &options->to_s, "Last log time, seconds [end]").value("S").range(0.0, kMost_s);
-  command.option("--from-iteration", &options->from_iteration, "First iteration [first]").value("N");
-  command.option("--to-iteration", &options->to_iteration, "Last iteration [last]").value("N");
+  command.option("--from", &options.from_s, "First log time, seconds [start]").value("S").range(0.0, kMost_s);
+  command.option("--to", &options.to_s, "Last log time, seconds [end]").value("S").range(0.0, kMost_s);
+  command.option("--from-iteration", &options.from_iteration, "First iteration [first]").value("N");
+  command.option("--to-iteration", &options.to_iteration, "Last iteration [last]").value("N");
   command.footer(
       "The facts of the whole log (sensors, true landmarks, metadata, attachments) are kept.\n"
       "Example: hallway log cut out/office/run.mcap --from 10 --to 20.5 --out ten_seconds.mcap");
-  command.action([options] {
-    const log::McapSpan span = mcap_span(span_of(*options));
-    return copy(*options, options->out, [&span](const log::ByteInput& input, log::ByteOutput& output) {
-      return log::copy_mcap_span(input, output, span);
-    });
-  });
 }
 
 void add_log_recover_command(Command& group) {
   Command& command = group.command(
       "recover", "Write what can be read of a damaged or unfinished MCAP log as a whole one, with an index");
-  const auto options = std::make_shared<CopyOptions>();
-  add_common_options(command, *options);
-  add_shared(command, Shared::kOutFile, &options->out).fallback("LOG with .recovered.mcap at its end");
+  CopyOptions& options = command.runs(&recover);
+  add_common_options(command, options);
+  add_shared(command, Shared::kOutFile, &options.out).fallback("LOG with .recovered.mcap at its end");
   command.footer(
       "A run that was killed leaves its folder as NAME.part-PID.\n"
       "Example: hallway log recover out/office.part-4711 --out office.mcap");
-  command.action([options] {
-    const fs::path beside = mcap_file(options->log).replace_extension(".recovered.mcap");
-    return copy(
-        *options, options->out.empty() ? beside : fs::path(options->out),
-        [](const log::ByteInput& input, log::ByteOutput& output) { return log::copy_mcap(input, output); });
-  });
 }
 
 }  // namespace hallway::cli

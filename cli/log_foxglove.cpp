@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
@@ -14,15 +13,13 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The pictures of a run folder, by name.
 std::vector<run::Attachment> pictures_of(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && entry.path().extension() == ".png") files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   std::vector<run::Attachment> pictures;
   for (const fs::path& file : files) pictures.push_back({file.filename().string(), read_file(file)});
   return pictures;
@@ -43,19 +40,14 @@ std::uint32_t write_with_foxglove(const LogChoice& choice, const fs::path& log, 
   check_no_csv_options(choice);
   const log::FileInput input(log);
   const bool in_run_folder = log.filename() == run::files::kLog && run::is_run_folder(log.parent_path());
-  run::FoxgloveCopy copy;
-  try {
-    copy = run::copy_with_foxglove(
+  const run::FoxgloveCopy copy = in_file(log, [&] {
+    return run::copy_with_foxglove(
         input, output, in_run_folder ? pictures_of(log.parent_path()) : std::vector<run::Attachment>{});
-  } catch (const Error& error) {
-    if (!error.where().file.empty()) throw;
-    throw Error(error.code(), error.message(), {.file = printable(log.string())});
-  }
+  });
   if (copy.damage) {
-    warnings.push_back(fmt::format("{}: byte {}: {}; kept what stands before: {} frames",
-                                   printable(log.string()), copy.damage->offset, copy.damage->cause,
-                                   copy.frames));
-    print_warning(warnings.back());
+    print_warning(warnings,
+                  fmt::format("{}: byte {}: {}; kept what stands before: {} frames", printable(log.string()),
+                              copy.damage->offset, copy.damage->cause, copy.frames));
   }
   return copy.frames;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "import/bag.hpp"
 #include "import/cloud_folder.hpp"
 #include "import/landmark_tables.hpp"
@@ -87,10 +87,9 @@ std::string name_of(const fs::path& path) {
 
 std::optional<import::Camera> camera_of(const ImportChoice& choice) {
   if (choice.camera.empty()) return std::nullopt;
-  const bool finite =
-      std::all_of(choice.camera.begin(), choice.camera.end(), [](double v) { return std::isfinite(v); });
+  const bool finite = std::ranges::all_of(choice.camera, [](double v) { return std::isfinite(v); });
   if (choice.camera.size() != 4 || !finite || choice.camera[0] <= 0.0 || choice.camera[1] <= 0.0) {
-    throw Error(ErrorCode::kUsage, "--camera takes fx,fy,cx,cy in pixels, the first two above 0");
+    refuse("--camera takes fx,fy,cx,cy in pixels, the first two above 0");
   }
   return import::Camera{choice.camera[0], choice.camera[1], choice.camera[2], choice.camera[3]};
 }
@@ -179,8 +178,8 @@ void check_import_options(std::optional<Kind> kind, const LogChoice& log, const 
   };
   for (const Rule& rule : rules) {
     if (!rule.given || (kind && rule.kinds.contains(*kind))) continue;
-    throw Error(ErrorCode::kUsage, fmt::format("{} does not belong to a log of kind {}", rule.option,
-                                               kind ? import::kind_name(*kind) : "csv or mcap"));
+    refuse("{} does not belong to a log of kind {}", rule.option,
+           kind ? import::kind_name(*kind) : "csv or mcap");
   }
 }
 

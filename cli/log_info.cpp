@@ -5,20 +5,16 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
+#include "command.hpp"
 #include "console.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/unfinished_input.hpp"
-#include "log_command.hpp"
 #include "log_input.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// The messages of one channel.
 struct ChannelFacts {
@@ -36,8 +32,8 @@ struct Facts {
   log::McapHeader header{};
   std::uint64_t chunks = 0;
   std::map<std::uint16_t, ChannelFacts> channels;
-  std::vector<std::string> attachments;
-  std::vector<std::string> metadata;
+  std::vector<std::string> attachments;  ///< names, safe to print
+  std::vector<std::string> metadata;     ///< the same
   std::optional<log::McapDamage> damage;
   bool all_data_read = false;
 };
@@ -53,7 +49,7 @@ void count(ChannelFacts& facts, const log::McapMessage& message) {
 Facts facts_of(const fs::path& path) {
   const log::UnfinishedInput input(path);
   Facts facts;
-  facts.file = printable(path.string(), 4096);
+  facts.file = path_text(path);
   facts.bytes = input.size();
   log::McapReader reader(input);
   while (const log::McapItem* item = reader.next()) {
@@ -62,23 +58,15 @@ Facts facts_of(const fs::path& path) {
     if (const auto* message = std::get_if<log::McapMessage>(item))
       count(facts.channels[message->channel_id], *message);
     if (const auto* attachment = std::get_if<log::McapAttachment>(item))
-      facts.attachments.push_back(attachment->name);
-    if (const auto* metadata = std::get_if<log::McapMetadata>(item)) facts.metadata.push_back(metadata->name);
+      facts.attachments.push_back(printable(attachment->name));
+    if (const auto* metadata = std::get_if<log::McapMetadata>(item))
+      facts.metadata.push_back(printable(metadata->name));
   }
   facts.header = reader.header();
   facts.chunks = reader.chunks();
   facts.damage = reader.damage();
   facts.all_data_read = reader.all_data_read();
   return facts;
-}
-
-Facts checked_facts_of(const fs::path& path) {
-  try {
-    return facts_of(path);
-  } catch (const Error& error) {
-    if (!error.where().file.empty()) throw;
-    throw Error(error.code(), error.message(), {.file = printable(path.string())});
-  }
 }
 
 std::uint64_t messages_of(const Facts& facts) {
@@ -99,16 +87,12 @@ std::string damage_text(const Facts& facts) {
 }
 
 std::string names_of(const std::vector<std::string>& names) {
-  std::vector<std::string> safe;
-  for (const std::string& name : names) safe.push_back(printable(name));
-  return safe.empty() ? "none" : fmt::format("{}", fmt::join(safe, ", "));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string text_of(const Facts& facts) {
   std::string text = facts.file + "\n";
-  const auto row = [&](const char* label, const std::string& value) {
-    text += fmt::format("  {:<12} {}\n", label, value);
-  };
+  const Rows row{text, 12};
   row("bytes", fmt::to_string(facts.bytes));
   row("written by", printable(facts.header.library));
   row("chunks", fmt::to_string(facts.chunks));
@@ -124,12 +108,6 @@ std::string text_of(const Facts& facts) {
   row("attachments", names_of(facts.attachments));
   row("damage", damage_text(facts));
   return text;
-}
-
-Json names_json(const std::vector<std::string>& names) {
-  Json list = Json::array();
-  for (const std::string& name : names) list.push_back(printable(name));
-  return list;
 }
 
 Json document_of(const Facts& facts) {
@@ -158,30 +136,36 @@ Json document_of(const Facts& facts) {
           {"chunks", facts.chunks},
           {"messages", messages_of(facts)},
           {"channels", channels},
-          {"metadata", names_json(facts.metadata)},
-          {"attachments", names_json(facts.attachments)},
+          {"metadata", facts.metadata},
+          {"attachments", facts.attachments},
           {"damage", damage}};
+}
+
+struct InfoOptions {
+  std::string log;
+  bool json = false;
+};
+
+int show_info(const InfoOptions& options) {
+  const fs::path path = mcap_file(options.log);
+  const Facts facts = in_file(path, [&] { return facts_of(path); });
+  if (options.json) {
+    print_json(document_of(facts));
+  } else {
+    print_result(text_of(facts));
+  }
+  return facts.damage ? 1 : 0;
 }
 
 }  // namespace
 
 void add_log_info_command(Command& group) {
   Command& command = group.command("info", "List what an MCAP log contains, and whether it is complete");
-  const auto file = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
-  command.argument("log", file.get(), "An .mcap file, or a run folder").required().value("LOG");
-  add_shared(command, Shared::kJson, json.get());
+  InfoOptions& options = command.runs(&show_info);
+  command.argument("log", &options.log, "An .mcap file, or a run folder").required().value("LOG");
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Exit status 1 says that the log is damaged.\nExample: hallway log info out/office/run.mcap");
-  command.action([file, json] {
-    const Facts facts = checked_facts_of(mcap_file(*file));
-    if (*json) {
-      print_json(document_of(facts));
-    } else {
-      print_result(text_of(facts));
-    }
-    return facts.damage ? 1 : 0;
-  });
 }
 
 }  // namespace hallway::cli

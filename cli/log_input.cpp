@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
 #include "log/landmarks.hpp"
@@ -21,14 +22,12 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kDefaultPeriod_s = 0.1;
 
 /// A log of text files and what stands beside it.
 struct Files {
   fs::path observations;
-  std::optional<nlohmann::ordered_json> manifest;  ///< run.json of its folder
+  std::optional<Json> manifest;  ///< run.json of its folder
   std::optional<fs::path> true_poses;
   std::optional<fs::path> true_landmarks;
   std::optional<fs::path> true_planes;
@@ -75,13 +74,13 @@ Files find_files(const LogChoice& choice, const fs::path& observations) {
   return files;
 }
 
-std::int64_t period_of(const LogChoice& choice, const std::optional<nlohmann::ordered_json>& manifest) {
+std::int64_t period_of(const LogChoice& choice, const std::optional<Json>& manifest) {
   if (choice.period_s) return static_cast<std::int64_t>(*choice.period_s * 1e9 + 0.5);
   if (manifest && manifest->contains("period_ns")) return manifest->at("period_ns").get<std::int64_t>();
   return static_cast<std::int64_t>(kDefaultPeriod_s * 1e9);
 }
 
-host::SensorInfo sensor_of(const std::optional<nlohmann::ordered_json>& manifest) {
+host::SensorInfo sensor_of(const std::optional<Json>& manifest) {
   if (manifest && manifest->contains("sensors") && !manifest->at("sensors").empty()) {
     return record::read_sensor(manifest->at("sensors").front());
   }
@@ -99,11 +98,6 @@ std::string plain_name(std::string name) {
   }
   constexpr std::size_t kMaxName = 100;
   return name.empty() ? "log" : name.substr(0, kMaxName);
-}
-
-void warn(OpenedLog& opened, std::string warning) {
-  opened.warnings.push_back(std::move(warning));
-  print_warning(opened.warnings.back());
 }
 
 OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
@@ -127,7 +121,7 @@ OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
   if (files.true_planes)
     truth.planes = log::parse_true_planes(read_input(*files.true_planes), files.true_planes->string());
   const auto take = [&](auto read) {
-    if (read.damage) warn(opened, log::describe(*read.damage, read.log, path.string()));
+    if (read.damage) print_warning(opened.warnings, log::describe(*read.damage, read.log, path.string()));
     try {
       opened.source = std::make_unique<run::LogSource>(
           std::move(read.log), std::move(truth), sensor_of(files.manifest), opened.period_ns, choice.steps);
@@ -155,8 +149,9 @@ OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string c
     throw Error(error.code(), error.message(), {.file = printable(path.string())});
   }
   if (run.damage) {
-    warn(opened, fmt::format("{}: byte {}: {}; kept what stands before: {} frames", printable(path.string()),
-                             run.damage->offset, run.damage->cause, run.frames.size()));
+    print_warning(opened.warnings,
+                  fmt::format("{}: byte {}: {}; kept what stands before: {} frames", printable(path.string()),
+                              run.damage->offset, run.damage->cause, run.frames.size()));
   }
   opened.manifest = run.manifest;
   opened.name = run.manifest ? plain_name(run.manifest->at("name").get<std::string>()) : name_of(path);
@@ -180,9 +175,9 @@ OpenedLog open_log(const LogChoice& choice) {
 
 void check_no_csv_options(const LogChoice& choice) {
   if (!choice.true_poses.empty() || !choice.true_landmarks.empty() || choice.period_s) {
-    throw Error(ErrorCode::kUsage,
-                "an MCAP log holds its own truth and times: --truth-poses, --truth-landmarks and --period "
-                "are for CSV");
+    refuse(
+        "an MCAP log holds its own truth and times: --truth-poses, --truth-landmarks and --period "
+        "are for CSV");
   }
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "run/run.hpp"
 #include "run/source.hpp"
 
@@ -46,5 +48,16 @@ void check_no_csv_options(const LogChoice& choice);
 
 /// The MCAP file that a path names: itself, or the log of a run folder.
 std::filesystem::path mcap_file(const std::string& path);
+
+/// Does something with a file; an Error that names none gets it.
+template <typename Work>
+auto in_file(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (!error.where().file.empty()) throw;
+    throw Error(error.code(), error.message(), {.file = printable(file.string())});
+  }
+}
 
 }  // namespace hallway::cli

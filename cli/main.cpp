@@ -28,37 +28,38 @@ bool end_with_starter() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hallway::cli::prepare_standard_streams();
+  using namespace hallway::cli;
+  prepare_standard_streams();
   if (!end_with_starter()) return 1;
-  const bool json = hallway::cli::asks_for_json(argc, argv);
+  const bool json = asks_for_json(argc, argv);
   try {
-    hallway::cli::Command app("hallway", kAbout);
+    Command app("hallway", kAbout);
     app.summary("headless map editor, simulator and plugin host for robot mapping algorithms");
-    app.footer(hallway::cli::kExitStatusHelp);
+    app.footer(kExitStatusHelp);
     app.version("hallway " + hallway::record::version());
-    hallway::cli::add_run_command(app);
-    hallway::cli::add_replay_command(app);
-    hallway::cli::add_serve_command(app);
-    hallway::cli::add_score_command(app);
-    hallway::cli::add_compare_command(app);
-    hallway::cli::add_batch_command(app);
-    hallway::cli::add_study_command(app);
-    hallway::cli::add_log_command(app);
-    hallway::cli::add_render_command(app);
-    hallway::cli::add_plugin_command(app);
-    hallway::cli::add_driver_command(app);
-    hallway::cli::add_planes_command(app);
-    hallway::cli::add_bench_em_command(app);
-    hallway::cli::add_scenario_command(app);
-    hallway::cli::add_import_command(app);
-    hallway::cli::add_align_command(app);
-    hallway::cli::add_compile_command(app);
-    hallway::cli::add_map_command(app);
-    hallway::cli::add_edit_command(app);
-    hallway::cli::add_doctor_command(app);
-    hallway::cli::add_help_commands(app);
-    return hallway::cli::run_program(app, argc, argv);
+    add_run_command(app);
+    add_replay_command(app);
+    add_serve_command(app);
+    add_score_command(app);
+    add_compare_command(app);
+    add_batch_command(app);
+    add_study_command(app);
+    add_log_command(app);
+    add_render_command(app);
+    add_plugin_command(app);
+    add_driver_command(app);
+    add_planes_command(app);
+    add_bench_em_command(app);
+    add_scenario_command(app);
+    add_import_command(app);
+    add_align_command(app);
+    add_compile_command(app);
+    add_map_command(app);
+    add_edit_command(app);
+    add_doctor_command(app);
+    add_help_commands(app);
+    return run_program(app, argc, argv);
   } catch (const std::exception& failure) {
-    return hallway::cli::report_failure(failure, json);
+    return report_failure(failure, json);
   }
 }

@@ -76,7 +76,7 @@ std::string filled(std::string_view text) {
 
 std::string page_of(const Command& command) {
   std::string name = command.path();
-  std::replace(name.begin(), name.end(), ' ', '-');
+  std::ranges::replace(name, ' ', '-');
   return name;
 }
 
@@ -187,7 +187,7 @@ std::string print_man_page(const Command& command) {
   const Command* program = &command;
   while (program->parent() != nullptr) program = program->parent();
   std::string title = page_of(command);
-  std::transform(title.begin(), title.end(), title.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::ranges::transform(title, title.begin(), [](unsigned char c) { return std::toupper(c); });
   std::string text = fmt::format(".\\\" SPDX-License-Identifier: MIT\n.TH {} 1 {} \"{}\" \"Hallway\"\n",
                                  escaped(title), kDate, program->version());
   text += ".SH NAME\n" + escaped(page_of(command)) + " \\- " + filled(command.summary());
@@ -195,14 +195,14 @@ std::string print_man_page(const Command& command) {
   const Footer footer = footer_of(command);
   text += ".SH DESCRIPTION\n";
   std::string about = command.about();
-  std::replace(about.begin(), about.end(), '\n', ' ');
+  std::ranges::replace(about, '\n', ' ');
   text += filled(about.ends_with('.') ? about : about + ".");
   for (const std::string& line : footer.text) {
     if (!line.empty() && &command != program) text += ".PP\n" + filled(line);
   }
   text += commands_section(command) + options_section(command);
   std::string statuses = kExitStatusHelp;
-  std::replace(statuses.begin(), statuses.end(), '\n', ' ');
+  std::ranges::replace(statuses, '\n', ' ');
   text += ".SH EXIT STATUS\n" + filled(statuses.substr(statuses.find(": ") + 2));
   if (!footer.examples.empty()) {
     text += ".SH EXAMPLES\n.nf\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "map_command.hpp"
+#include "command.hpp"
 
 namespace hallway::cli {
 

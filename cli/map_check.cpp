@@ -7,20 +7,19 @@
 #include <memory>
 
 #include "base/text.hpp"
+#include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
-#include "map_command.hpp"
 #include "run/map_findings.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using map::Finding;
 using map::Severity;
 
-struct CheckOptions {
+struct MapCheckOptions {
   std::string map;
   bool strict = false;
   bool json = false;
@@ -32,7 +31,7 @@ const char* severity_name(Severity severity) {
 
 /// "file:12: error: entity 3: cause [id]".
 std::string line_of(const std::string& map, const Finding& finding) {
-  std::string text = printable(map, 4096);
+  std::string text = path_text(map);
   if (finding.where.line > 0) text += fmt::format(":{}", finding.where.line);
   text += fmt::format(": {}: ", severity_name(finding.severity));
   if (!finding.where.element.empty()) text += finding.where.element + ": ";
@@ -47,12 +46,11 @@ Json json_of(const Finding& finding) {
           {"message", finding.message}};
 }
 
-int check(const CheckOptions& options) {
+int check_map(const MapCheckOptions& options) {
   const map::Document document = load_map(options.map);
   const std::vector<Finding> findings = run::find_faults(document);
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::kError;
-  });
+  const auto errors = std::ranges::count_if(
+      findings, [](const Finding& finding) { return finding.severity == Severity::kError; });
   const auto warnings = static_cast<std::ptrdiff_t>(findings.size()) - errors;
   const int status = errors > 0 || (options.strict && warnings > 0) ? 1 : 0;
   if (options.json) {
@@ -60,7 +58,7 @@ int check(const CheckOptions& options) {
     for (const Finding& finding : findings) list.push_back(json_of(finding));
     print_json({{"schema", "hallway.check/1"},
                 {"status", status},
-                {"map", printable(options.map, 4096)},
+                {"map", path_text(options.map)},
                 {"errors", errors},
                 {"warnings", warnings},
                 {"findings", list}});
@@ -77,14 +75,13 @@ int check(const CheckOptions& options) {
 
 void add_map_check_command(Command& group) {
   Command& command = group.command("check", "List the problems of a map");
-  const auto options = std::make_shared<CheckOptions>();
-  command.argument("map", &options->map, "A .map file").required().value("MAP");
-  add_shared(command, Shared::kStrict, &options->strict);
-  add_shared(command, Shared::kJson, &options->json);
+  MapCheckOptions& options = command.runs(&check_map);
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  add_shared(command, Shared::kStrict, &options.strict);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Status 1 if there is an error, 0 if there are warnings at most.\n"
       "Example: hallway map check maps/office.map --strict");
-  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::cli

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
+#include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
-#include "map_command.hpp"
 #include "mesh/export.hpp"
 #include "output_file.hpp"
 #include "run/map_export.hpp"
@@ -18,8 +19,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ExportOptions {
   std::string map;
@@ -36,16 +35,11 @@ struct Written {
   std::size_t points = 0;
 };
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
-
 /// Throws Error{kUsage} for an ending that is not written.
 void check_format(const ExportOptions& options) {
   const auto ending = run::model_ending(options.out);
   if (!ending) {
-    refuse(fmt::format("--out takes a file that ends in .glb, .obj or .ply, not \"{}\"",
-                       printable(options.out)));
+    refuse("--out takes a file that ends in .glb, .obj or .ply, not \"{}\"", printable(options.out));
   }
   if (options.points && *ending != ".ply") refuse("--points writes a .ply file");
 }
@@ -54,11 +48,8 @@ void check_format(const ExportOptions& options) {
 mesh::Model model_of(CompiledMap& compiled, bool all) {
   mesh::Model model = run::surface_model(compiled.world, all);
   std::vector<Error> faults;
-  run::add_models(model, compiled.document, fs::absolute(compiled.document.file).parent_path(), faults);
-  for (const Error& fault : faults) {
-    compiled.warnings.push_back(std::string(fault.what()) + "; left out");
-    print_warning(compiled.warnings.back());
-  }
+  run::add_models(model, compiled.document, models_folder(compiled), faults);
+  warn_of_models(compiled, faults, false);
   return model;
 }
 
@@ -66,7 +57,7 @@ Written write_points(const ExportOptions& options, const map::Document& document
   const std::vector<Vec3> points = sense::make_landmarks(document, brushes, csg::build_surface(brushes));
   if (points.empty()) {
     throw Error(ErrorCode::kBadInput, "has no points: neither `_points_per_m2` nor a hw_landmark_cloud",
-                {.file = printable(options.map, 4096)});
+                {.file = path_text(options.map)});
   }
   write_file_atomically(options.out, mesh::points_to_ply(points));
   return {.files = {options.out}, .points = points.size()};
@@ -76,23 +67,21 @@ int export_map(const ExportOptions& options) {
   check_format(options);
   check_output_file(options.out);
   CompiledMap compiled = compile_map({.file = options.map});
-  run::check_replaces_no_model(options.out, compiled.document, fs::absolute(options.map).parent_path());
+  run::check_replaces_no_model(options.out, compiled.document, models_folder(compiled));
   Written written;
   if (options.points) {
     written = write_points(options, compiled.document, compiled.world.brushes);
   } else {
     const mesh::Model model = model_of(compiled, options.all);
     if (model.triangles.empty()) {
-      throw Error(ErrorCode::kBadInput, "has no faces to export", {.file = printable(options.map, 4096)});
+      throw Error(ErrorCode::kBadInput, "has no faces to export", {.file = path_text(options.map)});
     }
     written = {.files = run::write_model(options.out, model), .triangles = model.triangles.size()};
   }
   if (options.json) {
-    nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    for (const std::string& file : written.files) files.push_back(printable(file, 4096));
     print_json({{"schema", "hallway.export/1"},
                 {"status", 0},
-                {"files", files},
+                {"files", path_texts({written.files.begin(), written.files.end()})},
                 {"triangles", written.triangles},
                 {"points", written.points},
                 {"warnings", compiled.warnings}});
@@ -100,7 +89,7 @@ int export_map(const ExportOptions& options) {
   }
   const std::string what = options.points ? fmt::format("{} points", written.points)
                                           : fmt::format("{} triangles", written.triangles);
-  print_result(fmt::format("{}: {}\n", printable(options.out, 4096), what));
+  print_result("{}: {}\n", path_text(options.out), what);
   return 0;
 }
 
@@ -109,14 +98,13 @@ int export_map(const ExportOptions& options) {
 void add_map_export_command(Command& group) {
   Command& command =
       group.command("export", "Write a map's surface and its models, or its points, for other programs");
-  const auto options = std::make_shared<ExportOptions>();
-  command.argument("map", &options->map, "A .map file").required().value("MAP");
-  add_shared(command, Shared::kOutFile, &options->out).required();
-  command.flag("--all", &options->all, "Also the faces of a sealed map that nothing inside can see");
-  command.flag("--points", &options->points, "The points that a point sensor can see, as .ply");
-  add_shared(command, Shared::kJson, &options->json);
+  ExportOptions& options = command.runs(&export_map);
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  add_shared(command, Shared::kOutFile, &options.out).required();
+  command.flag("--all", &options.all, "Also the faces of a sealed map that nothing inside can see");
+  command.flag("--points", &options.points, "The points that a point sensor can see, as .ply");
+  add_shared(command, Shared::kJson, &options.json);
   command.footer("Example: hallway map export maps/office.map --out office.glb");
-  command.action([options] { return export_map(*options); });
 }
 
 }  // namespace hallway::cli

@@ -7,18 +7,16 @@
 #include <memory>
 
 #include "base/text.hpp"
+#include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
 #include "map/world.hpp"
-#include "map_command.hpp"
 #include "sense/landmarks.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Counts = std::map<std::string, std::size_t>;
 
 /// What a map holds.
@@ -69,15 +67,10 @@ Facts facts_of(const map::Document& document) {
 
 // ---- text -----------------------------------------------------------------------------------------------------------
 
-std::string row(const std::string& label, const std::string& value) {
-  return fmt::format("  {:<12} {}\n", label, value);
-}
-
 /// "12 a, 3 b, 3 c and 40 others", the most frequent first.
 std::string list_of(const Counts& counts, std::size_t most) {
   std::vector<std::pair<std::string, std::size_t>> sorted(counts.begin(), counts.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
   for (std::size_t i = 0; i < sorted.size() && i < most; ++i) {
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", sorted[i].second,
@@ -101,17 +94,18 @@ std::string text_of(const std::string& map, const Facts& facts) {
   for (const map::LeftOutCount& entry : facts.left_out)
     left_out[std::string(map::to_string(entry.reason))] = entry.brushes;
   std::string text = printable(fs::path(map).filename().string()) + "\n";
+  const Rows row{text, 12};
   std::size_t entities = 0;
   for (const auto& [name, count] : facts.classes) entities += count;
-  text += row("entities", fmt::format("{}: {}", entities, list_of(facts.classes, kMostNames)));
-  text += row("brushes", fmt::format("{}: {}", facts.brushes, list_of(facts.roles, kMostNames)));
-  if (!left_out.empty()) text += row("left out", list_of(left_out, kMostNames));
-  if (facts.bad_brushes > 0) text += row("no solids", fmt::to_string(facts.bad_brushes));
-  text += row("materials",
-              fmt::format("{}: {} faces", facts.materials.size(), list_of(facts.materials, kMostNames)));
-  text += row("bounds", bounds_text(facts.bounds));
-  text += row("scale", fmt::format("{} m per unit", format_double(facts.metres_per_unit)));
-  return text + row("points", fmt::to_string(facts.points));
+  row("entities", fmt::format("{}: {}", entities, list_of(facts.classes, kMostNames)));
+  row("brushes", fmt::format("{}: {}", facts.brushes, list_of(facts.roles, kMostNames)));
+  if (!left_out.empty()) row("left out", list_of(left_out, kMostNames));
+  if (facts.bad_brushes > 0) row("no solids", fmt::to_string(facts.bad_brushes));
+  row("materials", fmt::format("{}: {} faces", facts.materials.size(), list_of(facts.materials, kMostNames)));
+  row("bounds", bounds_text(facts.bounds));
+  row("scale", fmt::format("{} m per unit", format_double(facts.metres_per_unit)));
+  row("points", fmt::to_string(facts.points));
+  return text;
 }
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
@@ -126,13 +120,12 @@ Json document_of(const std::string& map, const Facts& facts) {
   Json left_out = Json::object();
   for (const map::LeftOutCount& entry : facts.left_out)
     left_out[std::string(map::to_string(entry.reason))] = entry.brushes;
-  const auto place = [](const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); };
   Json bounds = nullptr;
   if (!facts.bounds.isEmpty())
-    bounds = {{"low", place(facts.bounds.min())}, {"high", place(facts.bounds.max())}};
+    bounds = {{"low", place_json(facts.bounds.min())}, {"high", place_json(facts.bounds.max())}};
   return {{"schema", "hallway.map/1"},
           {"status", 0},
-          {"map", printable(map, 4096)},
+          {"map", path_text(map)},
           {"entities", json_of(facts.classes)},
           {"brushes",
            {{"in_file", facts.brushes},
@@ -145,24 +138,29 @@ Json document_of(const std::string& map, const Facts& facts) {
           {"points", facts.points}};
 }
 
+struct InfoOptions {
+  std::string map;
+  bool json = false;
+};
+
+int show_info(const InfoOptions& options) {
+  const Facts facts = facts_of(load_map(options.map));
+  if (options.json) {
+    print_json(document_of(options.map, facts));
+  } else {
+    print_result(text_of(options.map, facts));
+  }
+  return 0;
+}
+
 }  // namespace
 
 void add_map_info_command(Command& group) {
   Command& command = group.command("info", "List what is in a map");
-  const auto file = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
-  command.argument("map", file.get(), "A .map file").required().value("MAP");
-  add_shared(command, Shared::kJson, json.get());
+  InfoOptions& options = command.runs(&show_info);
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  add_shared(command, Shared::kJson, &options.json);
   command.footer("Example: hallway map info maps/office.map");
-  command.action([file, json] {
-    const Facts facts = facts_of(load_map(*file));
-    if (*json) {
-      print_json(document_of(*file, facts));
-    } else {
-      print_result(text_of(*file, facts));
-    }
-    return 0;
-  });
 }
 
 }  // namespace hallway::cli

@@ -7,10 +7,10 @@
 
 #include "base/file.hpp"
 #include "base/text.hpp"
+#include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
 #include "leak_report.hpp"
-#include "map_command.hpp"
 #include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "run/pictures.hpp"
@@ -18,9 +18,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct LeakOptions {
   std::string map;
@@ -65,7 +62,7 @@ int leak(const LeakOptions& options) {
   if (options.json) {
     print_json({{"schema", "hallway.leak/1"},
                 {"status", status},
-                {"map", printable(options.map, 4096)},
+                {"map", path_text(options.map)},
                 {"sealed", world.sealed()},
                 {"leak", leak_json(world)},
                 {"warnings", compiled.warnings}});
@@ -79,17 +76,16 @@ int leak(const LeakOptions& options) {
 
 void add_map_leak_command(Command& group) {
   Command& command = group.command("leak", "Show the leak path from inside the map to the outside");
-  const auto options = std::make_shared<LeakOptions>();
-  command.argument("map", &options->map, "A .map file").required().value("MAP");
-  add_shared(command, Shared::kPicture, &options->picture);
-  command.option("--pts", &options->points, "File to write the leak path to, as Quake editors read it")
+  LeakOptions& options = command.runs(&leak);
+  command.argument("map", &options.map, "A .map file").required().value("MAP");
+  add_shared(command, Shared::kPicture, &options.picture);
+  command.option("--pts", &options.points, "File to write the leak path to, as Quake editors read it")
       .value("FILE");
-  add_shared(command, Shared::kJson, &options->json);
-  add_renderer_option(command, options->renderer);
+  add_shared(command, Shared::kJson, &options.json);
+  add_renderer_option(command, options.renderer);
   command.footer(
       "Status 1 if the map leaks, 0 if it is sealed.\n"
       "Example: hallway map leak maps/office.map --picture leak.png");
-  command.action([options] { return leak(*options); });
 }
 
 }  // namespace hallway::cli

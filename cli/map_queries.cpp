@@ -7,10 +7,10 @@
 #include "base/text.hpp"
 #include "bsp/point_location.hpp"
 #include "bsp/segment.hpp"
+#include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
 #include "csg/surface.hpp"
-#include "map_command.hpp"
 #include "render/map_layers.hpp"
 #include "run/map_view.hpp"
 #include "sense/occluders.hpp"
@@ -21,10 +21,6 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-using Json = nlohmann::ordered_json;
-
 struct QueryOptions {
   std::string map;
   std::string from;
@@ -32,10 +28,6 @@ struct QueryOptions {
   std::string level = "full";
   bool json = false;
 };
-
-Json place_json(const Vec3& place) {
-  return Json::array({place.x(), place.y(), place.z()});
-}
 
 void add_places(Command& command, QueryOptions& options) {
   command.argument("map", &options.map, "A .map file").required().value("MAP");
@@ -65,12 +57,11 @@ std::string sight_text(const Vec3& from, const Vec3& to, const std::optional<bsp
 int ask_pvs(const QueryOptions& options) {
   const Vec3 from = parse_place("FROM", options.from);
   const Vec3 to = parse_place("TO", options.to);
-  const CompiledMap compiled = compile_map(
-      {.file = options.map, .level = options.level == "full" ? pvs::Level::kFull : pvs::Level::kFast});
+  const CompiledMap compiled = compile_map({.file = options.map, .level = level_named(options.level)});
   if (!compiled.world.visible) {
     throw Error(ErrorCode::kBadInput,
                 "leaks, so nothing is known of what can see what; `hallway map leak` shows where",
-                {.file = printable(options.map, 4096)});
+                {.file = path_text(options.map)});
   }
   const bsp::Tree& tree = compiled.world.partition.tree;
   const std::uint32_t from_cluster = cluster_of(tree, "FROM", from);
@@ -89,11 +80,11 @@ int ask_pvs(const QueryOptions& options) {
                 {"ray_hit_m", hit ? place_json(hit->point) : Json(nullptr)}});
     return status;
   }
-  print_result(fmt::format(
-      "{}\n  from         cluster {} at {}\n  to           cluster {} at {}\n  line         {}\n",
-      visible ? "visible: somewhere the clusters may see each other"
-              : "hidden: nowhere can the clusters see each other",
-      from_cluster, run::place_text(from), to_cluster, run::place_text(to), sight_text(from, to, hit)));
+  print_result("{}\n  from         cluster {} at {}\n  to           cluster {} at {}\n  line         {}\n",
+               visible ? "visible: somewhere the clusters may see each other"
+                       : "hidden: nowhere can the clusters see each other",
+               from_cluster, run::place_text(from), to_cluster, run::place_text(to),
+               sight_text(from, to, hit));
   return status;
 }
 
@@ -104,7 +95,7 @@ class Obstacles {
  public:
   explicit Obstacles(const CompiledMap& compiled)
       : world_(compiled.world),
-        models_(sim::load_models(compiled.document, fs::absolute(compiled.document.file).parent_path())),
+        models_(sim::load_models(compiled.document, models_folder(compiled))),
         mesh_(sense::make_occluders(world_.partition.surface, sim::triangles_of(models_))) {
     const csg::Surface& surface = world_.partition.surface;
     for (std::uint32_t i = 0; i < surface.polygons.size(); ++i) {
@@ -197,21 +188,19 @@ int ask_ray(const QueryOptions& options) {
 void add_map_pvs_command(Command& group) {
   Command& command = group.command(
       "pvs", "Test whether one place can see another, by the potentially visible sets and by a ray");
-  const auto options = std::make_shared<QueryOptions>();
-  add_places(command, *options);
-  add_shared(command, Shared::kLevel, &options->level);
+  QueryOptions& options = command.runs(&ask_pvs);
+  add_places(command, options);
+  add_shared(command, Shared::kLevel, &options.level);
   command.footer(
       "Status 0 if the sets say visible, 1 if they say hidden.\n"
       "Example: hallway map pvs maps/office.map 1,2,1.5 9,2,1.5");
-  command.action([options] { return ask_pvs(*options); });
 }
 
 void add_map_ray_command(Command& group) {
   Command& command = group.command("ray", "Find the first face or model that a ray hits");
-  const auto options = std::make_shared<QueryOptions>();
-  add_places(command, *options);
+  QueryOptions& options = command.runs(&ask_ray);
+  add_places(command, options);
   command.footer("Example: hallway map ray maps/office.map 1,2,1.5 9,2,1.5");
-  command.action([options] { return ask_ray(*options); });
 }
 
 }  // namespace hallway::cli

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "console.hpp"
 #include "run/pictures.hpp"
 #include "run/record.hpp"
 
@@ -25,7 +26,7 @@ bool lies_in(fs::path path, const fs::path& folder) {
 void check_output_file(const std::string& file) {
   std::error_code code;
   if (fs::exists(file, code) && !fs::is_regular_file(file, code)) {
-    throw Error(ErrorCode::kIo, "is not a file that can be replaced", {.file = printable(file, 4096)});
+    throw Error(ErrorCode::kIo, "is not a file that can be replaced", {.file = path_text(file)});
   }
 }
 
@@ -41,12 +42,22 @@ void check_replaces_no_input(const std::string& out, std::span<const std::string
   for (const std::string& input : inputs) {
     const fs::path read = fs::canonical(input, none);
     if (!none && (lies_in(read, place) || lies_in(place, read)))
-      throw Error(ErrorCode::kUsage, "--out would replace what is read", {.file = printable(out, 4096)});
+      throw Error(ErrorCode::kUsage, "--out would replace what is read", {.file = path_text(out)});
   }
 }
 
+void check_new_file(const fs::path& file, bool replace) {
+  std::error_code none;
+  if (!replace && fs::exists(fs::symlink_status(file, none)))
+    throw Error(ErrorCode::kIo, "is there already; --force replaces it", {.file = path_text(file)});
+}
+
+fs::path output_folder(const std::string& out, const std::string& name) {
+  return out.empty() ? fs::path("out") / name : fs::path(out);
+}
+
 void check_output_folder(const fs::path& folder, const char* document, bool replace) {
-  const Where where{.file = printable(folder.string(), 4096)};
+  const Where where{.file = path_text(folder)};
   if (run::is_run_folder(folder))
     throw Error(ErrorCode::kIo, "is the folder of a run; --out names another one", where);
   std::error_code none;

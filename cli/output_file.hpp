@@ -22,4 +22,10 @@ void check_replaces_no_input(const std::string& out, std::span<const std::string
 /// @param document  the file that each result of the command has, by which it is known
 void check_output_folder(const std::filesystem::path& folder, const char* document, bool replace);
 
+/// Throws Error{kIo} where a file is there already and may not be replaced.
+void check_new_file(const std::filesystem::path& file, bool replace);
+
+/// The folder of --out; where it is not given out/NAME.
+std::filesystem::path output_folder(const std::string& out, const std::string& name);
+
 }  // namespace hallway::cli

@@ -3,47 +3,32 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "cloud_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "isolation_options.hpp"
+#include "finder_options.hpp"
 #include "output_file.hpp"
-#include "plane_view.hpp"
 #include "planes/files.hpp"
-#include "planes/finder.hpp"
 #include "planes/picture.hpp"
-#include "plugin_argument.hpp"
-#include "plugin_report.hpp"
 #include "render/png.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kDocumentFile = "planes.json";
 
 struct PlanesOptions {
   std::string cloud;
   std::string plugin;
-  std::vector<std::string> settings;
   CloudInput input;
   std::string labels;
   std::int64_t unlabelled = planes::kNoLabel;
-  unsigned repeat = 1;
-  std::string out;
-  std::string view = "perspective";
-  std::vector<std::string> plugin_path;
-  IsolationOptions isolation;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
+  FinderOptions finder;
 };
 
 /// A cloud, what a plugin made of it, and how well, where labels are known.
@@ -61,12 +46,9 @@ Found find(const PlanesOptions& options) {
   Found found{.cloud = planes::read_cloud(options.cloud, reading)};
   if (!options.labels.empty())
     found.cloud.labels = planes::read_labels(options.labels, found.cloud, options.unlabelled);
-  std::vector<host::StageSpec> stages{parse_plugin(options.plugin)};
-  for (const std::string& setting : options.settings) set_parameter(stages, setting);
-  planes::PlaneFinder finder(stages.front(), plugin_folders(options.plugin_path), print_plugin_log,
-                             isolation_of(options.isolation, apply(options.isolation, {})));
-  found.plugin = finder.info();
-  found.answer = finder.find(found.cloud.points, options.repeat, found.cloud.image);
+  const auto finder = std::move(finders_of({options.plugin}, options.finder).front());
+  found.plugin = finder->info();
+  found.answer = finder->find(found.cloud.points, options.finder.repeat, found.cloud.image);
   if (!found.cloud.labels.empty()) {
     found.truth = planes::truth_of_labels(found.cloud);
     found.score = planes::score_planes(found.cloud.points, *found.truth, found.answer.planes);
@@ -76,7 +58,7 @@ Found find(const PlanesOptions& options) {
 
 Json document_of(const PlanesOptions& options, const Found& found) {
   return {{"schema", "hallway.planes/1"},
-          {"cloud", printable(options.cloud, 4096)},
+          {"cloud", path_text(options.cloud)},
           {"rows", found.cloud.n_rows},
           {"points", found.cloud.points.size()},
           {"not_finite", found.cloud.not_finite},
@@ -92,14 +74,14 @@ std::string draw(const PlanesOptions& options, const Found& found) {
                                        printable(fs::path(options.cloud).filename().string()),
                                        fmt::format("{} · {} planes of {} points", found.plugin.id,
                                                    found.answer.planes.size(), found.cloud.points.size())};
-  const render::View view = plane_view(options.view);
+  const render::View view = plane_view(options.finder);
   return render::encode_png(found.score
                                 ? planes::draw_comparison(content, *found.truth, *found.score, view, {})
                                 : planes::draw_planes(content, view, {}));
 }
 
 void write_files(const PlanesOptions& options, const Found& found, const Json& document) {
-  const fs::path folder = options.out;
+  const fs::path folder = options.finder.out;
   make_folder(folder);
   write_file_atomically(folder / kDocumentFile, document.dump(1) + "\n");
   write_file_atomically(folder / "planes.ply", planes::print_ply(found.cloud, found.answer.planes));
@@ -135,18 +117,15 @@ std::string table(const Found& found) {
 }
 
 int planes_of(const PlanesOptions& options) {
-  if (!options.out.empty()) check_output_folder(options.out, kDocumentFile, options.force);
+  if (!options.finder.out.empty())
+    check_output_folder(options.finder.out, kDocumentFile, options.finder.force);
   const Found found = find(options);
   const Json document = document_of(options, found);
-  if (!options.out.empty()) write_files(options, found, document);
+  if (!options.finder.out.empty()) write_files(options, found, document);
   if (found.cloud.not_finite > 0)
-    print_warning(fmt::format("{} of {} rows are no points: a coordinate is not finite",
-                              found.cloud.not_finite, found.cloud.n_rows));
-  if (options.json) {
-    print_json(document);
-  } else if (!options.quiet) {
-    print_result(table(found));
-  }
+    print_warning("{} of {} rows are no points: a coordinate is not finite", found.cloud.not_finite,
+                  found.cloud.n_rows);
+  options.finder.print(document, table(found));
   return 0;
 }
 
@@ -172,24 +151,17 @@ void add_input_options(Command& command, PlanesOptions& options) {
 
 void add_planes_command(Command& app) {
   Command& command = app.command("planes", "Find planes in a point cloud with a plugin");
-  const auto options = std::make_shared<PlanesOptions>();
-  add_input_options(command, *options);
-  add_shared(command, Shared::kPlugin, &options->plugin).required();
-  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
-  add_shared(command, Shared::kRepeat, &options->repeat).show_default();
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
-  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective"}).show_default();
-  add_plugin_path_option(command, options->plugin_path);
-  add_limit_options(command, options->isolation);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  PlanesOptions& options = command.runs(&planes_of);
+  add_input_options(command, options);
+  add_shared(command, Shared::kPlugin, &options.plugin).required();
+  add_shared(command, Shared::kSetPlugin, &options.finder.settings).repeatable();
+  add_finder_options(command, options.finder);
+  add_finder_output_options(command, options.finder);
   command.footer(
       "With labels (a column of the file, or --labels) the planes are scored, and the picture shows the "
       "labelled ones beside "
       "them.\n"
       "Example: hallway planes room.pcd --plugin em --out out/room");
-  command.action([options] { return planes_of(*options); });
 }
 
 }  // namespace hallway::cli

@@ -14,9 +14,6 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct ListOptions {
   std::vector<std::string> plugin_path;
   bool json = false;
@@ -37,7 +34,7 @@ Json describe(const host::Listed& listed) {
                        {"inputs", inputs},
                        {"outputs", outputs}});
   }
-  Json entry{{"file", printable(listed.file.string(), 4096)}, {"plugins", plugins}};
+  Json entry{{"file", path_text(listed.file)}, {"plugins", plugins}};
   if (!listed.problem.empty()) entry["problem"] = listed.problem;
   if (listed.verdict) entry["verdict"] = record::print_verdict(*listed.verdict, std::nullopt);
   return entry;
@@ -48,7 +45,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
   for (const host::Listed& listed : files) {
     for (const host::PluginInfo& info : listed.plugins) {
       text += fmt::format("{:<20} {:<10} {}\n{:<31} {}\n", info.id, info.version, info.description, "",
-                          printable(listed.file.string(), 4096));
+                          path_text(listed.file));
     }
     if (listed.problem.empty()) continue;
     const std::string what = listed.verdict ? host::misdeed_name(listed.verdict->what) : "not loadable";
@@ -56,7 +53,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
   }
   if (!text.empty()) return text;
   text = "no plugins found; searched:\n";
-  for (const fs::path& folder : folders) text += "  " + printable(folder.string(), 4096) + "\n";
+  for (const fs::path& folder : folders) text += "  " + path_text(folder) + "\n";
   return text;
 }
 
@@ -67,11 +64,9 @@ int list(const ListOptions& options) {
     print_result(table(files, folders));
     return 0;
   }
-  Json searched = Json::array();
-  for (const fs::path& folder : folders) searched.push_back(printable(folder.string(), 4096));
   Json entries = Json::array();
   for (const host::Listed& listed : files) entries.push_back(describe(listed));
-  print_json({{"schema", "hallway.plugins/1"}, {"searched", searched}, {"files", entries}});
+  print_json({{"schema", "hallway.plugins/1"}, {"searched", path_texts(folders)}, {"files", entries}});
   return 0;
 }
 
@@ -81,10 +76,9 @@ void add_plugin_command(Command& app) {
   Command& command = app.command("plugin", "List plugins, check them, and start new ones");
   Command& listing =
       command.command("list", "List the plugins on the search path, with their inputs and outputs");
-  const auto options = std::make_shared<ListOptions>();
-  add_plugin_path_option(listing, options->plugin_path);
-  add_shared(listing, Shared::kJson, &options->json);
-  listing.action([options] { return list(*options); });
+  ListOptions& options = listing.runs(&list);
+  add_plugin_path_option(listing, options.plugin_path);
+  add_shared(listing, Shared::kJson, &options.json);
   add_plugin_info_command(command);
   add_plugin_check_command(command);
   add_plugin_validate_command(command);

@@ -6,21 +6,19 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "host/plugin_table.hpp"
 
 namespace hallway::cli {
 namespace {
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw Error(ErrorCode::kUsage,
-              fmt::format("--plugin {}: {}; it takes NAME|FILE[:KEY=VALUE,...]", printable(text), why));
+[[noreturn]] void refuse_plugin(const std::string& text, const std::string& why) {
+  refuse("--plugin {}: {}; it takes NAME|FILE[:KEY=VALUE,...]", printable(text), why);
 }
 
 [[noreturn]] void refuse_second_value(const std::string& name) {
-  throw Error(ErrorCode::kUsage,
-              fmt::format("{} has a value by --plugin and by --set: leave out one", printable(name)));
+  refuse("{} has a value by --plugin and by --set: leave out one", printable(name));
 }
 
 /// Where the plugin's name ends: before the ":" of its parameters, if it has any.
@@ -41,14 +39,14 @@ PluginArgument parse_plugin_argument(const std::string& text) {
   PluginArgument argument;
   const std::size_t end = end_of_name(text);
   argument.plugin = text.substr(0, end);
-  if (argument.plugin.empty()) refuse(text, "a plugin has a name");
+  if (argument.plugin.empty()) refuse_plugin(text, "a plugin has a name");
   if (end == text.size()) return argument;
   for (const std::string_view group : split(std::string_view(text).substr(end + 1), ':')) {
     bool first = true;
     for (const std::string_view part : split(group, ',')) {
       const std::size_t equals = part.find('=');
       if (equals == 0 || (first && equals == std::string_view::npos))
-        refuse(text, fmt::format("\"{}\" is not KEY=VALUE", printable(part)));
+        refuse_plugin(text, fmt::format("\"{}\" is not KEY=VALUE", printable(part)));
       if (equals == std::string_view::npos) {
         argument.parameters.back().values.emplace_back(part);
       } else {
@@ -66,8 +64,8 @@ host::StageSpec parse_plugin(const std::string& text) {
   host::StageSpec spec{.plugin = argument.plugin, .parameters = {}};
   for (const PluginArgument::Values& parameter : argument.parameters) {
     if (parameter.values.size() != 1)
-      refuse(text, fmt::format("{} has {} values; `hallway compare` tries several", printable(parameter.name),
-                               parameter.values.size()));
+      refuse_plugin(text, fmt::format("{} has {} values; `hallway compare` tries several",
+                                      printable(parameter.name), parameter.values.size()));
     spec.parameters.push_back({parameter.name, parameter.values.front(), {.file = "--plugin"}});
   }
   return spec;
@@ -84,7 +82,7 @@ std::vector<Override> plugin_overrides(const std::string& text) {
 Override parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw Error(ErrorCode::kUsage, fmt::format("--set takes KEY=VALUE, not \"{}\"", printable(text)));
+    refuse("--set takes KEY=VALUE, not \"{}\"", printable(text));
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -100,10 +98,8 @@ void refuse_second_values(const std::string& plugin, const std::vector<std::stri
 }
 
 void refuse_whose(const Override& setting, const std::vector<std::string>& plugins) {
-  throw Error(ErrorCode::kUsage,
-              fmt::format("--set {}={}: which plugin's? Several run: {}; write PLUGIN.{}=VALUE",
-                          printable(setting.key), printable(setting.value), fmt::join(plugins, ", "),
-                          printable(setting.key)));
+  refuse("--set {}={}: which plugin's? Several run: {}; write PLUGIN.{}=VALUE", printable(setting.key),
+         printable(setting.value), fmt::join(plugins, ", "), printable(setting.key));
 }
 
 std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::StageSpec> stages,
@@ -120,9 +116,8 @@ std::pair<const host::StageSpec*, std::string> set_parameter(std::span<host::Sta
   }
   if (stage == nullptr && wanted.empty()) refuse_whose(setting, names);
   if (stage == nullptr)
-    throw Error(ErrorCode::kUsage,
-                fmt::format("--set {}: no plugin \"{}\" runs{}; there is: {}", printable(text),
-                            printable(wanted), suggestion(wanted, names), fmt::join(names, ", ")));
+    refuse("--set {}: no plugin \"{}\" runs{}; there is: {}", printable(text), printable(wanted),
+           suggestion(wanted, names), fmt::join(names, ", "));
   for (const host::ParameterSetting& parameter : stage->parameters) {
     if (parameter.name == name && parameter.where.file == "--plugin") refuse_second_value(name);
   }

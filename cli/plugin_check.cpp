@@ -16,12 +16,9 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t kMaxProfileBytes = std::size_t{8} << 20;
 
-struct CheckOptions {
+struct PluginCheckOptions {
   std::string file;
   std::string profile;
   bool json = false;
@@ -35,8 +32,8 @@ std::vector<std::string> newest_versions(const host::LibraryFacts& facts) {
     const std::size_t end = version.rfind('_');
     if (end == std::string::npos) continue;
     const std::string family = version.substr(0, end + 1);
-    const auto same = std::find_if(newest.begin(), newest.end(),
-                                   [&](const auto& other) { return other.starts_with(family); });
+    const auto same =
+        std::ranges::find_if(newest, [&](const auto& other) { return other.starts_with(family); });
     if (same == newest.end()) {
       newest.push_back(version);
     } else if (host::compare_versions(version.substr(end + 1), same->substr(end + 1)) > 0) {
@@ -66,10 +63,8 @@ std::string list_text(const std::vector<std::string>& names) {
 
 std::string report(const host::LibraryFacts& facts, const host::MachineProfile& machine,
                    const host::Loadability& result) {
-  std::string text = printable(facts.file.string(), 4096) + "\n";
-  const auto line = [&](const char* name, const std::string& value) {
-    text += fmt::format("  {:<12} {}\n", name, value);
-  };
+  std::string text = path_text(facts.file) + "\n";
+  const Rows line{text, 12};
   if (!facts.machine.empty()) line("machine", facts.machine);
   if (facts.whole) {
     line("plugin ABI", facts.abi ? fmt::format("{}.{}", facts.abi->abi_major, facts.abi->abi_minor) : "none");
@@ -92,7 +87,7 @@ Json json_of(const host::LibraryFacts& facts, const host::MachineProfile& machin
     return list;
   };
   Json json{{"schema", "hallway.plugin_check/1"},
-            {"file", printable(facts.file.string(), 4096)},
+            {"file", path_text(facts.file)},
             {"loads", result.problems.empty()},
             {"on",
              {{"name", machine.name},
@@ -110,7 +105,7 @@ Json json_of(const host::LibraryFacts& facts, const host::MachineProfile& machin
   return json;
 }
 
-int check(const CheckOptions& options) {
+int check_plugin(const PluginCheckOptions& options) {
   const host::MachineProfile machine =
       options.profile.empty()
           ? host::this_machine()
@@ -130,20 +125,19 @@ int check(const CheckOptions& options) {
 void add_plugin_check_command(Command& plugin) {
   Command& command = plugin.command(
       "check", "Check that a plugin's file loads, here or on a robot, without running any of its code");
-  const auto options = std::make_shared<CheckOptions>();
-  command.argument("file", &options->file, "A plugin's shared object").value("LIBRARY").required();
+  PluginCheckOptions& options = command.runs(&check_plugin);
+  command.argument("file", &options.file, "A plugin's shared object").value("LIBRARY").required();
   command
-      .option("--profile", &options->profile,
+      .option("--profile", &options.profile,
               "The robot, as `hallway-robot profile` described it [this machine]")
       .value("PROFILE");
-  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Reads machine, needed libraries, versions of glibc and libstdc++, entry symbol and other exported "
       "symbols from the file.\n"
       "Exit status: 0 it will load; 1 it will not, and why; 3 the profile cannot be read; 4 there is no such "
       "file.\n"
       "Example: hallway plugin check build/my_slam.so --profile robot.toml");
-  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::cli

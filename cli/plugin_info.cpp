@@ -14,9 +14,7 @@
 namespace hallway::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct InfoOptions {
+struct PluginInfoOptions {
   std::string plugin;
   std::vector<std::string> plugin_path;
   bool json = false;
@@ -47,7 +45,7 @@ std::string text_of(const host::Stage& plugin) {
   };
   line("name", info.name);
   line("vendor", info.vendor);
-  line("file", printable(plugin.file().string(), 4096));
+  line("file", path_text(plugin.file()));
   line("takes", fmt::format("{}", fmt::join(names_of(info.inputs, &host::sample_kind_name), ", ")));
   line("gives", fmt::format("{}", fmt::join(names_of(info.outputs, &host::output_kind_name), ", ")));
   if (plugin.parameters().empty()) return text + "no parameters\n";
@@ -86,13 +84,13 @@ Json json_of(const host::Stage& plugin) {
           {"version", info.version},
           {"vendor", info.vendor},
           {"description", info.description},
-          {"file", printable(plugin.file().string(), 4096)},
+          {"file", path_text(plugin.file())},
           {"inputs", names_of(info.inputs, &host::sample_kind_name)},
           {"outputs", names_of(info.outputs, &host::output_kind_name)},
           {"parameters", std::move(parameters)}};
 }
 
-int show(const InfoOptions& options) {
+int show(const PluginInfoOptions& options) {
   const auto isolation = isolation_of({}, {});
   host::IsolatedPlugin plugin(options.plugin, plugin_folders(options.plugin_path), *isolation);
   if (options.json) {
@@ -108,12 +106,11 @@ int show(const InfoOptions& options) {
 
 void add_plugin_info_command(Command& plugin) {
   Command& command = plugin.command("info", "Show a plugin's inputs, outputs and parameters");
-  const auto options = std::make_shared<InfoOptions>();
-  command.argument("plugin", &options->plugin, "A plugin's id, or its file").value("NAME|FILE").required();
-  add_plugin_path_option(command, options->plugin_path);
-  add_shared(command, Shared::kJson, &options->json);
+  PluginInfoOptions& options = command.runs(&show);
+  command.argument("plugin", &options.plugin, "A plugin's id, or its file").value("NAME|FILE").required();
+  add_plugin_path_option(command, options.plugin_path);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer("Example: hallway plugin info slam_point");
-  command.action([options] { return show(*options); });
 }
 
 }  // namespace hallway::cli

@@ -15,15 +15,20 @@ void add_plugin_path_option(Command& command, std::vector<std::string>& folders)
   add_shared(command, Shared::kPluginPath, &folders).repeatable();
 }
 
-std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
+std::vector<fs::path> search_folders(const std::vector<std::string>& given, const char* variable,
+                                     const fs::path& own) {
   std::vector<fs::path> folders(given.begin(), given.end());
-  if (const char* from_environment = std::getenv("HALLWAY_PLUGIN_PATH")) {
+  if (const char* from_environment = std::getenv(variable)) {
     for (const std::string_view folder : split(from_environment, ':')) {
       if (!folder.empty()) folders.emplace_back(folder);
     }
   }
-  folders.push_back(host::default_plugin_folder());
+  folders.push_back(own);
   return folders;
+}
+
+std::vector<fs::path> plugin_folders(const std::vector<std::string>& given) {
+  return search_folders(given, "HALLWAY_PLUGIN_PATH", host::default_plugin_folder());
 }
 
 }  // namespace hallway::cli

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "conformance/suite.hpp"
@@ -18,11 +19,9 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using conformance::Result;
 using conformance::SuiteSetup;
 using conformance::Verdict;
-using Json = nlohmann::ordered_json;
 
 struct ValidateOptions {
   std::string file;
@@ -76,12 +75,12 @@ SuiteSetup setup_of(const ValidateOptions& options) {
 }
 
 std::size_t count(const std::vector<Result>& results, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(
-      results.begin(), results.end(), [&](const Result& result) { return result.verdict == verdict; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(results, [&](const Result& result) { return result.verdict == verdict; }));
 }
 
 bool all_good(const std::vector<Result>& results) {
-  return std::all_of(results.begin(), results.end(), [](const Result& result) { return result.good(); });
+  return std::ranges::all_of(results, [](const Result& result) { return result.good(); });
 }
 
 /// "failed" as people read it.
@@ -123,7 +122,7 @@ Json document(const std::vector<Result>& results, const SuiteSetup& setup, const
     counts[conformance::verdict_name(verdict)] = count(results, verdict);
   }
   return {{"schema", "hallway.plugin_validate/1"},
-          {"file", printable(setup.subject.file.string(), 4096)},
+          {"file", path_text(setup.subject.file)},
           {"plugin", plugin},
           {"seed", setup.subject.seed},
           {"good", all_good(results)},
@@ -141,7 +140,7 @@ std::string inspect(const SuiteSetup& setup) try {
 
 int validate(const ValidateOptions& options) {
   if (options.list) return list_tests(options.json);
-  if (options.file.empty()) throw Error(ErrorCode::kUsage, "which FILE is to be validated?");
+  if (options.file.empty()) refuse("which FILE is to be validated?");
   SuiteSetup setup = setup_of(options);
   const std::string plugin = inspect(setup);
   std::vector<Result> results;
@@ -169,24 +168,23 @@ int validate(const ValidateOptions& options) {
 void add_plugin_validate_command(Command& plugin) {
   Command& command =
       plugin.command("validate", "Test a plugin against every rule of the ABI, each in its own process");
-  const auto options = std::make_shared<ValidateOptions>();
-  command.argument("file", &options->file, "A plugin's shared object; FILE.so:ID names one of several in it")
+  ValidateOptions& options = command.runs(&validate);
+  command.argument("file", &options.file, "A plugin's shared object; FILE.so:ID names one of several in it")
       .value("LIBRARY[:ID]");
-  command.option("--test", &options->tests, "Only this test").value("NAME").repeatable();
-  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
-  add_shared(command, Shared::kSeed, &options->seed).show_default();
-  command.option("--timeout", &options->timeout_s, "Seconds after which a test has hung")
+  command.option("--test", &options.tests, "Only this test").value("NAME").repeatable();
+  add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
+  add_shared(command, Shared::kSeed, &options.seed).show_default();
+  command.option("--timeout", &options.timeout_s, "Seconds after which a test has hung")
       .value("S")
       .range(0.1, 1e6)
       .show_default();
-  add_shared(command, Shared::kJobs, &options->jobs).fallback("all processors");
-  command.flag("--list", &options->list, "Say what each test demands, and run none");
-  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kJobs, &options.jobs).fallback("all processors");
+  command.flag("--list", &options.list, "Say what each test demands, and run none");
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Exit status: 0 every test passed or had nothing to try; 4 the file cannot be loaded; 5 a test "
       "failed.\n"
       "Example: hallway plugin validate build/my_slam.so");
-  command.action([options] { return validate(*options); });
 }
 
 }  // namespace hallway::cli

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "completion.hpp"
 #include "console.hpp"
@@ -174,7 +175,7 @@ std::string correction(const Command& command, int argc, char** argv) {
   }
   for (int i = 1; i < argc; ++i) {
     const std::string word(argv[i], std::strcspn(argv[i], "="));
-    if (word.starts_with("--") && std::find(names.begin(), names.end(), word) == names.end())
+    if (word.starts_with("--") && std::ranges::find(names, word) == names.end())
       return suggestion(word, names);
   }
   return "";
@@ -209,12 +210,10 @@ const Command& command_below(const Command& group, const std::string& name) {
   const std::string path = group.path();
   const std::size_t space = path.find(' ');
   if (names.empty())
-    throw Error(ErrorCode::kUsage, fmt::format("`{}` has no command \"{}\"; `{} --help` says what it takes",
-                                               path, printable(name), path));
-  throw Error(ErrorCode::kUsage,
-              fmt::format("there is no command \"{}{}\"{}; there are: {}",
-                          space == std::string::npos ? "" : path.substr(space + 1) + " ", printable(name),
-                          suggestion(name, names), fmt::join(names, ", ")));
+    refuse("`{}` has no command \"{}\"; `{} --help` says what it takes", path, printable(name), path);
+  refuse("there is no command \"{}{}\"{}; there are: {}",
+         space == std::string::npos ? "" : path.substr(space + 1) + " ", printable(name),
+         suggestion(name, names), fmt::join(names, ", "));
 }
 
 int run_program(const Command& program, int argc, char** argv) {

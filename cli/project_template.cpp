@@ -8,7 +8,9 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
+#include "console.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -21,14 +23,12 @@ constexpr std::size_t kMaxTemplateBytes = std::size_t{1} << 20;
 void check_name(const std::string& name) {
   constexpr std::size_t kLongest = 64;
   const auto lower = [](char c) { return c >= 'a' && c <= 'z'; };
-  const bool good = !name.empty() && name.size() <= kLongest && lower(name[0]) &&
-                    std::all_of(name.begin(), name.end(),
-                                [&](char c) { return lower(c) || (c >= '0' && c <= '9') || c == '_'; });
+  const bool good =
+      !name.empty() && name.size() <= kLongest && lower(name[0]) &&
+      std::ranges::all_of(name, [&](char c) { return lower(c) || (c >= '0' && c <= '9') || c == '_'; });
   if (good) return;
-  throw Error(
-      ErrorCode::kUsage,
-      fmt::format("\"{}\" is no name for a project: small letters, digits and _, a letter first, at most {}",
-                  printable(name), kLongest));
+  refuse("\"{}\" is no name for a project: small letters, digits and _, a letter first, at most {}",
+         printable(name), kLongest);
 }
 
 /// my_slam becomes MySlam.
@@ -81,10 +81,9 @@ std::string write_project(std::span<const TemplateFile> files, const std::string
   for (const auto& [from, to] : files) {
     const fs::path file = folder / filled_in(to, name);
     write_file_atomically(file, filled_in(read_file(templates / from, kMaxTemplateBytes), name));
-    text += "wrote " + printable(file.string(), 4096) + "\n";
+    text += "wrote " + path_text(file) + "\n";
   }
-  text +=
-      fmt::format("build it: cd {} && cmake --workflow --preset release\n", printable(folder.string(), 4096));
+  text += fmt::format("build it: cd {} && cmake --workflow --preset release\n", path_text(folder));
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "compiled_map.hpp"
@@ -21,8 +22,6 @@
 
 namespace hallway::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RenderOptions {
   std::string input;
@@ -42,17 +41,13 @@ struct RenderOptions {
   bool json = false;
 };
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kUsage, message);
-}
-
 void parse_size(const std::string& text, sim::PictureSpec& spec) {
   const auto parts = split(text, 'x');
   const auto width = parts.size() == 2 ? parse_int(parts[0]) : std::nullopt;
   const auto height = parts.size() == 2 ? parse_int(parts[1]) : std::nullopt;
   constexpr std::int64_t kLargest = 100'000;  // what can be drawn is the renderer's to say
   if (!width || !height || *width < 0 || *height < 0 || *width > kLargest || *height > kLargest) {
-    refuse(fmt::format("--size takes WIDTHxHEIGHT in pixels, e.g. 1280x800, not \"{}\"", printable(text)));
+    refuse("--size takes WIDTHxHEIGHT in pixels, e.g. 1280x800, not \"{}\"", printable(text));
   }
   spec.width_px = static_cast<int>(*width);
   spec.height_px = static_cast<int>(*height);
@@ -92,7 +87,7 @@ Eigen::AlignedBox2d parse_area(const std::string& text) {
     area.extend(Vec2(numbers[2], numbers[3]));
   }
   if (area.isEmpty() || !(area.sizes().minCoeff() > 0.0))
-    refuse(fmt::format("--area takes X0,Y0,X1,Y1, two corners in metres, not \"{}\"", printable(text)));
+    refuse("--area takes X0,Y0,X1,Y1, two corners in metres, not \"{}\"", printable(text));
   return area;
 }
 
@@ -122,8 +117,8 @@ void warn_of_area(const Drawing& drawing, const world::CompiledWorld& world) {
   if (!drawing.options.area || bounds.isEmpty()) return;
   const Eigen::AlignedBox2d ground(bounds.min().head<2>(), bounds.max().head<2>());
   if (ground.intersects(*drawing.options.area)) return;
-  print_warning(fmt::format("--area shows no brush: they are between {:.1f},{:.1f} and {:.1f},{:.1f}",
-                            ground.min().x(), ground.min().y(), ground.max().x(), ground.max().y()));
+  print_warning("--area shows no brush: they are between {:.1f},{:.1f} and {:.1f},{:.1f}", ground.min().x(),
+                ground.min().y(), ground.max().x(), ground.max().y());
 }
 
 std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
@@ -142,10 +137,10 @@ std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
 
 std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
   if (!drawing.show.thing.empty())
-    refuse(fmt::format("--show {} is of a map, not of the folder of a run", drawing.show.thing));
+    refuse("--show {} is of a map, not of the folder of a run", drawing.show.thing);
   run::Record record = run::read_record(options.input);
   if (drawing.show.map.anything() && !record.world) {
-    throw Error(ErrorCode::kBadInput, "has no map to show", {.file = printable(options.input, 4096)});
+    throw Error(ErrorCode::kBadInput, "has no map to show", {.file = path_text(options.input)});
   }
   if (drawing.show.map.pvs_from_m) {
     const std::string map = (fs::path(options.input) / run::files::kMap).string();
@@ -167,12 +162,12 @@ int render(const RenderOptions& options) {
   if (!is_run && (ending == ".toml" || ending == ".mcap" || ending == ".csv"))
     throw Error(ErrorCode::kBadInput,
                 "is neither a map nor the folder of a run; `hallway run` makes such a folder",
-                {.file = printable(options.input, 4096)});
+                {.file = path_text(options.input)});
   const std::string png = is_run ? draw_run(options, drawing) : draw_map(options, drawing);
   write_file_atomically(options.out, png);
   if (options.json) {
     print_json({{"schema", "hallway.picture/1"},
-                {"file", printable(options.out, 4096)},
+                {"file", path_text(options.out)},
                 {"width_px", spec.width_px},
                 {"height_px", spec.height_px},
                 {"bytes", png.size()}});
@@ -184,48 +179,47 @@ int render(const RenderOptions& options) {
 
 void add_render_command(Command& app) {
   Command& command = app.command("render", "Draw a map, or the map that a run estimated, as a PNG picture");
-  const auto options = std::make_shared<RenderOptions>();
-  command.argument("input", &options->input, "A .map file, or the folder of a run")
+  RenderOptions& options = command.runs(&render);
+  command.argument("input", &options.input, "A .map file, or the folder of a run")
       .required()
       .value("MAP|RUN");
-  add_shared(command, Shared::kView, &options->view).choices({"top", "perspective", "panels"}).show_default();
-  add_shared(command, Shared::kOutFile, &options->out).required();
-  command.option("--size", &options->size, "Width and height in pixels").value("WxH").show_default();
+  add_shared(command, Shared::kView, &options.view).choices({"top", "perspective", "panels"}).show_default();
+  add_shared(command, Shared::kOutFile, &options.out).required();
+  command.option("--size", &options.size, "Width and height in pixels").value("WxH").show_default();
   command
-      .option("--cut", &options->cut_z_m,
+      .option("--cut", &options.cut_z_m,
               "Cut away everything above this height (metres) [what opens a closed building]")
       .value("Z");
-  command.option("--eye", &options->eye, "perspective: viewpoint in metres [what shows everything]")
+  command.option("--eye", &options.eye, "perspective: viewpoint in metres [what shows everything]")
       .value("X,Y,Z");
-  command.option("--target", &options->target, "perspective: the place looked at").value("X,Y,Z");
+  command.option("--target", &options.target, "perspective: the place looked at").value("X,Y,Z");
   command
-      .option("--fov", &options->fov_deg,
+      .option("--fov", &options.fov_deg,
               "perspective: angle from the lower to the upper edge, degrees [34.4]")
       .value("DEG")
       .range(1.0, 170.0);
-  command.option("--area", &options->area, "top: the ground to show, by two corners in metres [everything]")
+  command.option("--area", &options.area, "top: the ground to show, by two corners in metres [everything]")
       .value("X0,Y0,X1,Y1");
   command
-      .option("--show", &options->show,
+      .option("--show", &options.show,
               "Show more. Of a run: " + run_layer_names() + " [all but submaps]. Of a map alone: " +
                   thing_layer_names() + " [all]. Of the map of either: " + map_layer_names() + " [none]")
       .value("LAYER,...")
       .repeatable();
-  command.option("--hide", &options->hide, "Show less: layers as of --show, or all; --show counts after it")
+  command.option("--hide", &options.hide, "Show less: layers as of --show, or all; --show counts after it")
       .value("LAYER,...")
       .repeatable();
   command
-      .option("--error-scale", &options->error_scale,
+      .option("--error-scale", &options.error_scale,
               "Of a run: draw errors of landmarks longer by this factor [a power of ten that shows them]")
       .value("X")
       .range(1e-6, 1e9);
-  add_renderer_option(command, options->renderer);
-  add_shared(command, Shared::kStrict, &options->strict);
-  add_shared(command, Shared::kJson, &options->json);
+  add_renderer_option(command, options.renderer);
+  add_shared(command, Shared::kStrict, &options.strict);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Examples: hallway render out/office --view perspective --out office.png --hide errors\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
-  command.action([options] { return render(*options); });
 }
 
 }  // namespace hallway::cli

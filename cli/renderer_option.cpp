@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "shared_options.hpp"
 
@@ -23,9 +23,8 @@ render::Renderer chosen_renderer(const std::optional<std::string>& name) {
   if (!named) return render::Renderer::kAuto;
   const std::string wanted = name ? *name : variable;
   if (const auto renderer = render::parse_renderer(wanted)) return *renderer;
-  throw Error(ErrorCode::kUsage, fmt::format("{}: there is no renderer \"{}\"; there are: {}",
-                                             name ? "--renderer" : kRendererVariable, printable(wanted),
-                                             fmt::join(render::kRendererNames, ", ")));
+  refuse("{}: there is no renderer \"{}\"; there are: {}", name ? "--renderer" : kRendererVariable,
+         printable(wanted), fmt::join(render::kRendererNames, ", "));
 }
 
 std::vector<std::string> renderer_environment(render::Renderer renderer) {

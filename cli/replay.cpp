@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/origin.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
@@ -30,9 +31,7 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct ReplayOptions {
+struct ReplayOptions : OutputOptions {
   std::string observations;
   std::string plugin;
   std::vector<std::string> settings;
@@ -46,9 +45,6 @@ struct ReplayOptions {
   IsolationOptions isolation;
   bool ids_as_tracks = false;
   bool foxglove = false;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 /// A parameter that names a file or folder in the log's run.
@@ -66,7 +62,7 @@ struct Stages {
 
 /// Of a plugin that a log names only the id counts: a log must not make this program load a file of its choice.
 void check_recorded_id(const std::string& id) {
-  const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
+  const bool plain = std::ranges::all_of(id, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
   });
@@ -77,13 +73,13 @@ void check_recorded_id(const std::string& id) {
 }
 
 /// A log must not choose what a plugin reads and writes either.
-bool names_path(const nlohmann::ordered_json& parameter) {
+bool names_path(const Json& parameter) {
   const std::string type = parameter.value("type", "");
   return type == "file" || type == "folder";
 }
 
 /// What the run that wrote the log used, as far as it had been set.
-void add_recorded(Stages& stages, const nlohmann::ordered_json& manifest, const std::string& wanted) {
+void add_recorded(Stages& stages, const Json& manifest, const std::string& wanted) {
   for (const auto& plugin : manifest.at("plugins")) {
     const std::string id = plugin.at("id").get<std::string>();
     if (wanted.empty()) check_recorded_id(id);
@@ -124,7 +120,7 @@ Stages stages_of(const ReplayOptions& options, const OpenedLog& input) {
                 {.file = run::files::kRun, .element = "plugins"});
   }
   if (stages.specs.empty() && wanted.plugin.empty()) {
-    throw Error(ErrorCode::kUsage, "--plugin is needed: the log is not in a run folder that names one");
+    refuse("--plugin is needed: the log is not in a run folder that names one");
   }
   if (stages.specs.empty()) stages.specs.push_back({.plugin = wanted.plugin, .parameters = {}});
   for (const host::ParameterSetting& parameter : wanted.parameters)
@@ -166,8 +162,7 @@ int replay(const ReplayOptions& options) {
   OpenedLog input = open_input(options);
   if (options.ids_as_tracks) {
     input.source = std::make_unique<run::TrackedSource>(std::move(input.source));
-    input.warnings.push_back("the plugins were given the landmark of each point (--ids-as-tracks)");
-    print_warning(input.warnings.back());
+    print_warning(input.warnings, "the plugins were given the landmark of each point (--ids-as-tracks)");
   }
   std::optional<run::PacedSource> paced;
   if (options.rate) {
@@ -176,10 +171,7 @@ int replay(const ReplayOptions& options) {
   }
   run::Source& source = paced ? *paced : *input.source;
   Stages stages = stages_of(options, input);
-  for (const std::string& warning : warnings_of(stages)) {
-    print_warning(warning);
-    input.warnings.push_back(warning);
-  }
+  for (const std::string& warning : warnings_of(stages)) print_warning(input.warnings, warning);
   const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
@@ -195,7 +187,7 @@ int replay(const ReplayOptions& options) {
                                  .warnings = input.warnings,
                                  .period_ns = input.period_ns};
   const run::RunPlan plan{
-      .folder = options.out.empty() ? fs::path("out") / ("replay-" + input.name) : fs::path(options.out),
+      .folder = output_folder(options.out, "replay-" + input.name),
       .replace = options.force,
       .manifest = run::make_manifest(facts, pipeline),
       .attachments = {},
@@ -207,16 +199,16 @@ int replay(const ReplayOptions& options) {
       .start_failures = std::move(start_failures),
       .foxglove = plugin_log};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},
-                            {.json = options.json, .quiet = options.quiet});
+                            options);
 }
 
 }  // namespace
 
 void add_replay_command(Command& app) {
   Command& command = app.command("replay", "Run a plugin on recorded observations, and score its map");
-  const auto options = std::make_shared<ReplayOptions>();
+  ReplayOptions& options = command.runs(&replay);
   command
-      .argument("observations", &options->observations,
+      .argument("observations", &options.observations,
                 "CSV file with the columns iteration,x,y,z and perhaps landmark_id (for scoring only), or of "
                 "observed planes, an .mcap log, "
                 "or a run folder; an .mcap log, and a CSV file in a run folder, bring the run's plugin, "
@@ -224,25 +216,22 @@ void add_replay_command(Command& app) {
                 "truth with them")
       .required()
       .value("LOG");
-  add_shared(command, Shared::kPlugin, &options->plugin).fallback("the run's that wrote the log");
-  add_shared(command, Shared::kSetPlugin, &options->settings).repeatable();
-  add_shared(command, Shared::kSteps, &options->steps).fallback("all");
-  add_shared(command, Shared::kTruePoses, &options->true_poses).fallback("those of the log");
-  add_shared(command, Shared::kTrueLandmarks, &options->true_landmarks).fallback("those of the log");
-  add_shared(command, Shared::kPeriod, &options->period_s).fallback("the run's, else 0.1");
-  add_shared(command, Shared::kRate, &options->rate).fallback("as fast as the plugin answers");
-  command.flag("--ids-as-tracks", &options->ids_as_tracks,
+  add_shared(command, Shared::kPlugin, &options.plugin).fallback("the run's that wrote the log");
+  add_shared(command, Shared::kSetPlugin, &options.settings).repeatable();
+  add_shared(command, Shared::kSteps, &options.steps).fallback("all");
+  add_shared(command, Shared::kTruePoses, &options.true_poses).fallback("those of the log");
+  add_shared(command, Shared::kTrueLandmarks, &options.true_landmarks).fallback("those of the log");
+  add_shared(command, Shared::kPeriod, &options.period_s).fallback("the run's, else 0.1");
+  add_shared(command, Shared::kRate, &options.rate).fallback("as fast as the plugin answers");
+  command.flag("--ids-as-tracks", &options.ids_as_tracks,
                "Give plugins the true landmark of each point as the sensor's track of it, for those "
                "that need it");
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("out/replay-<name>");
-  add_plugin_path_option(command, options->plugin_path);
-  add_isolation_options(command, options->isolation, false);
-  add_shared(command, Shared::kFoxglove, &options->foxglove);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  add_shared(command, Shared::kOutFolder, &options.out).fallback("out/replay-<name>");
+  add_plugin_path_option(command, options.plugin_path);
+  add_isolation_options(command, options.isolation, false);
+  add_shared(command, Shared::kFoxglove, &options.foxglove);
+  add_output_options(command, options);
   command.footer("Example: hallway replay out/office/run.mcap --plugin ./my_slam.so --out out/mine");
-  command.action([options] { return replay(*options); });
 }
 
 }  // namespace hallway::cli

@@ -17,18 +17,6 @@ namespace {
 
 using eval::Metrics;
 
-/// Builds "label   value" lines.
-class Table {
- public:
-  void row(const std::string& label, const std::string& value) {
-    text_ += fmt::format("  {:<28} {}\n", label, value);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
 /// "1 submap", "2 submaps".
 std::string counted(std::uint64_t count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
@@ -55,45 +43,41 @@ std::string verdict_text(const Metrics& metrics) {
   return text;
 }
 
-void add_path(Table& table, const Metrics& metrics) {
-  table.row("verdict", verdict_text(metrics));
-  table.row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
+void add_path(const Rows& row, const Metrics& metrics) {
+  row("verdict", verdict_text(metrics));
+  row("iterations", fmt::format("{}, {} without a pose", metrics.iterations, metrics.lost_iterations));
   if (metrics.parts.count > 1 || metrics.parts.restarts > 0)
-    table.row("parts of the map",
-              fmt::format("{} with {}; scored is the one with most poses, {} of {} iterations{}",
-                          metrics.parts.count, counted(metrics.parts.restarts, "restart"),
-                          metrics.parts.scored_iterations, metrics.iterations,
-                          metrics.parts.ends_in_scored ? "" : "; the map at the end is another one"));
+    row("parts of the map",
+        fmt::format("{} with {}; scored is the one with most poses, {} of {} iterations{}",
+                    metrics.parts.count, counted(metrics.parts.restarts, "restart"),
+                    metrics.parts.scored_iterations, metrics.iterations,
+                    metrics.parts.ends_in_scored ? "" : "; the map at the end is another one"));
 }
 
-void add_landmarks(Table& table, const Metrics& metrics, std::uint64_t submaps) {
+void add_landmarks(const Rows& row, const Metrics& metrics, std::uint64_t submaps) {
   // Plugins that give a path alone, and associate nothing, have nothing to be missed.
   const bool path_alone = metrics.landmarks_mapped == 0 && metrics.associations_none == metrics.observations;
   if (!metrics.landmarks_true || path_alone) {
-    table.row("landmarks mapped",
-              fmt::format("{} in {}", metrics.landmarks_mapped, counted(submaps, "submap")));
+    row("landmarks mapped", fmt::format("{} in {}", metrics.landmarks_mapped, counted(submaps, "submap")));
     return;
   }
-  table.row(
-      "landmarks mapped",
+  row("landmarks mapped",
       fmt::format("{} of {} seen, in {}; {} duplicated, {} missed, {} that are none",
                   *metrics.landmarks_true - metrics.landmarks_missed.value_or(0), *metrics.landmarks_true,
                   counted(submaps, "submap"), metrics.landmarks_duplicated.value_or(0),
                   metrics.landmarks_missed.value_or(0), metrics.landmarks_unmatched.value_or(0)));
 }
 
-void add_associations(Table& table, const Metrics& metrics) {
+void add_associations(const Rows& row, const Metrics& metrics) {
   if (!metrics.association_errors) {
-    table.row("observations",
-              fmt::format("{}, {} unassociated", metrics.observations, metrics.associations_none));
+    row("observations", fmt::format("{}, {} unassociated", metrics.observations, metrics.associations_none));
     return;
   }
   const double share = metrics.observations == 0 ? 0.0
                                                  : 100.0 * static_cast<double>(*metrics.association_errors) /
                                                        static_cast<double>(metrics.observations);
-  table.row("observations",
-            fmt::format("{}, {} unassociated, {} misassociated ({:.4f} %)", metrics.observations,
-                        metrics.associations_none, *metrics.association_errors, share));
+  row("observations", fmt::format("{}, {} unassociated, {} misassociated ({:.4f} %)", metrics.observations,
+                                  metrics.associations_none, *metrics.association_errors, share));
 }
 
 std::string errors_text(const std::optional<eval::ErrorSummary>& errors, const char* unit) {
@@ -102,101 +86,100 @@ std::string errors_text(const std::optional<eval::ErrorSummary>& errors, const c
                      unit);
 }
 
-void add_planes(Table& table, const Metrics& metrics, std::uint64_t submaps) {
+void add_planes(const Rows& row, const Metrics& metrics, std::uint64_t submaps) {
   const eval::PlaneMetrics& planes = *metrics.planes;
   const std::string walls = coverage_text(metrics.wall_coverage(), "walls");
   const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
   const eval::PlaneMapMetrics& map = planes.refined;
-  table.row("planes seen", fmt::format("{}, {} unassociated, {} misassociated", planes.observations,
-                                       planes.associations_none, planes.association_errors));
-  table.row("walls mapped", fmt::format("{} of {} in {}; {} duplicated, {} in parts, {} that are none",
-                                        map.walls_mapped, planes.walls_true, counted(submaps, "submap"),
-                                        map.duplicated, map.parts, map.unmatched));
-  if (map.corner_m) table.row("certain corners", fmt::format("{}", map.corner_m->count));
-  table.row("corner error", errors_text(map.corner_m, "m") + walls);
-  table.row("wall error, across it", errors_text(map.offset_m, "m") + walls);
-  table.row("wall error, direction", errors_text(map.angle_deg, "deg") + walls);
+  row("planes seen", fmt::format("{}, {} unassociated, {} misassociated", planes.observations,
+                                 planes.associations_none, planes.association_errors));
+  row("walls mapped",
+      fmt::format("{} of {} in {}; {} duplicated, {} in parts, {} that are none", map.walls_mapped,
+                  planes.walls_true, counted(submaps, "submap"), map.duplicated, map.parts, map.unmatched));
+  if (map.corner_m) row("certain corners", fmt::format("{}", map.corner_m->count));
+  row("corner error", errors_text(map.corner_m, "m") + walls);
+  row("wall error, across it", errors_text(map.offset_m, "m") + walls);
+  row("wall error, direction", errors_text(map.angle_deg, "deg") + walls);
   if (map.extent_iou_mean)
-    table.row("wall extent, IoU", fmt::format("{:.4f} mean, {:.4f} least", *map.extent_iou_mean,
-                                              map.extent_iou_least.value_or(0)));
-  table.row("position error, online", errors_text(planes.position_m, "m") + poses);
-  table.row("position error, re-fitted", errors_text(planes.position_refitted_m, "m"));
-  table.row("heading error, online", errors_text(planes.heading_deg, "deg") + poses);
-  table.row("heading error, re-fitted", errors_text(planes.heading_refitted_deg, "deg"));
+    row("wall extent, IoU",
+        fmt::format("{:.4f} mean, {:.4f} least", *map.extent_iou_mean, map.extent_iou_least.value_or(0)));
+  row("position error, online", errors_text(planes.position_m, "m") + poses);
+  row("position error, re-fitted", errors_text(planes.position_refitted_m, "m"));
+  row("heading error, online", errors_text(planes.heading_deg, "deg") + poses);
+  row("heading error, re-fitted", errors_text(planes.heading_refitted_deg, "deg"));
 }
 
-void add_relative(Table& table, const Metrics& metrics) {
+void add_relative(const Rows& row, const Metrics& metrics) {
   const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
   const auto add = [&](const char* label, const eval::PathError& error) {
     if (!error.translation_m || !error.rotation_deg) return;
-    table.row(label, fmt::format("{:.4f} m, {:.4f} deg RMSE{}", error.translation_m->rmse,
-                                 error.rotation_deg->rmse, poses));
+    row(label, fmt::format("{:.4f} m, {:.4f} deg RMSE{}", error.translation_m->rmse, error.rotation_deg->rmse,
+                           poses));
   };
   add("RPE, per frame", metrics.rpe_frame);
   add("RPE, per metre", metrics.rpe_metre);
   add("RPE, per second", metrics.rpe_second);
 }
 
-void add_errors(Table& table, const Metrics& metrics) {
+void add_errors(const Rows& row, const Metrics& metrics) {
   const std::string landmarks = coverage_text(metrics.landmark_coverage(), "landmarks");
   const std::string poses = coverage_text(metrics.pose_coverage(), "frames");
   if (metrics.landmark_rmse_m.aligned) {
-    table.row("landmark RMSE, aligned",
-              fmt::format("{} online, {} as re-solved at the end{}", metres(metrics.landmark_rmse_m.aligned),
-                          metres(metrics.landmark_rmse_final_aligned_m), landmarks));
-    table.row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose) + landmarks);
+    row("landmark RMSE, aligned",
+        fmt::format("{} online, {} as re-solved at the end{}", metres(metrics.landmark_rmse_m.aligned),
+                    metres(metrics.landmark_rmse_final_aligned_m), landmarks));
+    row("landmark RMSE, first pose", metres(metrics.landmark_rmse_m.first_pose) + landmarks);
   }
   if (metrics.position_rmse_m.aligned) {
-    table.row("position RMSE, aligned", fmt::format("{} online, {} as re-fitted to the map at the end{}",
-                                                    metres(metrics.position_rmse_m.aligned),
-                                                    metres(metrics.position_rmse_refitted_aligned_m), poses));
+    row("position RMSE, aligned", fmt::format("{} online, {} as re-fitted to the map at the end{}",
+                                              metres(metrics.position_rmse_m.aligned),
+                                              metres(metrics.position_rmse_refitted_aligned_m), poses));
   }
   if (metrics.position_rmse_m.first_pose) {
-    table.row("position RMSE, first pose",
-              fmt::format("{}, {} at the end{}", metres(metrics.position_rmse_m.first_pose),
-                          metres(metrics.position_final_m), poses));
+    row("position RMSE, first pose",
+        fmt::format("{}, {} at the end{}", metres(metrics.position_rmse_m.first_pose),
+                    metres(metrics.position_final_m), poses));
   }
 }
 
-void add_times(Table& table, const char* label, const std::optional<eval::TimeSummary>& times) {
+void add_times(const Rows& row, const char* label, const std::optional<eval::TimeSummary>& times) {
   if (!times) return;
-  table.row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean,
-                               times->p50, times->p99, times->max));
+  row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean, times->p50,
+                         times->p99, times->max));
 }
 
 /// What is printed of a run that has ended.
 struct Outcome {
   const Report& report;
   std::vector<std::string> plugins;
-  std::filesystem::path folder;
+  fs::path folder;
   const run::RunResult& result;
 };
 
 std::string table_of(const Outcome& outcome) {
   const run::RunResult& result = outcome.result;
   const Metrics& metrics = result.metrics;
-  Table table;
-  add_path(table, metrics);
-  if (metrics.planes) add_planes(table, metrics, result.submaps);
+  std::string text = fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
+                                 result.stopped ? " (stopped early)" : "");
+  const Rows row{text, 28};
+  add_path(row, metrics);
+  if (metrics.planes) add_planes(row, metrics, result.submaps);
   if (!metrics.planes || metrics.landmarks_mapped > 0) {
-    add_associations(table, metrics);
-    add_landmarks(table, metrics, result.submaps);
-    add_errors(table, metrics);
+    add_associations(row, metrics);
+    add_landmarks(row, metrics, result.submaps);
+    add_errors(row, metrics);
   }
-  add_relative(table, metrics);
-  add_times(table, "iteration, wall clock", metrics.iteration_ms);
-  add_times(table, "iteration, thread CPU", metrics.iteration_cpu_ms);
-  table.row("written to", printable(outcome.folder.string(), 4096));
-  for (const auto& picture : result.pictures) table.row("picture", printable(picture.string(), 4096));
+  add_relative(row, metrics);
+  add_times(row, "iteration, wall clock", metrics.iteration_ms);
+  add_times(row, "iteration, thread CPU", metrics.iteration_cpu_ms);
+  row("written to", path_text(outcome.folder));
+  for (const auto& picture : result.pictures) row("picture", path_text(picture));
   if (!result.missing_pictures.empty())
-    table.row("pictures not drawn", fmt::to_string(result.missing_pictures.size()));
+    row("pictures not drawn", fmt::to_string(result.missing_pictures.size()));
   if (result.failures.count != 0) {
-    table.row("plugin failures",
-              fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
+    row("plugin failures", fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
   }
-  return fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
-                     result.stopped ? " (stopped early)" : "") +
-         table.text();
+  return text;
 }
 
 /// 5 where a plugin failed, whatever became of the run then.
@@ -205,20 +188,18 @@ int status_of(const run::RunResult& result) {
   return result.stopped ? interrupt_status() : 0;
 }
 
-nlohmann::ordered_json print_first(const record::Failures& failures) {
+Json print_first(const record::Failures& failures) {
   if (failures.verdicts.empty()) return nullptr;
   return record::print_verdict(failures.verdicts.front().verdict, failures.verdicts.front().iteration);
 }
 
-nlohmann::ordered_json document_of(const Outcome& outcome) {
-  nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
-  for (const auto& picture : outcome.result.pictures) pictures.push_back(printable(picture.string(), 4096));
+Json document_of(const Outcome& outcome) {
   return {{"schema", "hallway.result/1"},
           {"status", status_of(outcome.result)},
           {"name", outcome.report.name},
           {"plugins", outcome.plugins},
-          {"folder", printable(outcome.folder.string(), 4096)},
-          {"pictures", pictures},
+          {"folder", path_text(outcome.folder)},
+          {"pictures", path_texts(outcome.result.pictures)},
           {"missing_pictures", run::to_json(outcome.result.missing_pictures)},
           {"warnings", outcome.report.warnings},
           {"verdict", print_first(outcome.result.failures)},
@@ -242,11 +223,11 @@ void warn_of_missing(const std::vector<run::MissingPicture>& missing) {
 }  // namespace
 
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
-                       const Report& report, const OutputStyle& style) {
+                       const Report& report, const OutputOptions& output) {
   catch_interrupts();
   run::RunResult result;
   {
-    Progress progress(report.name, source.iterations(), style.quiet);
+    Progress progress(report.name, source.iterations(), output.quiet);
     result =
         run::execute(source, pipeline, plan,
                      {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
@@ -254,11 +235,7 @@ int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run:
   print_failures(result.failures);
   warn_of_missing(result.missing_pictures);
   const Outcome outcome{report, plugin_names(plan.manifest), plan.folder, result};
-  if (style.json) {
-    print_json(document_of(outcome));
-  } else if (!style.quiet) {
-    print_result(table_of(outcome));
-  }
+  output.print(document_of(outcome), table_of(outcome));
   return status_of(result);
 }
 

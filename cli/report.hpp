@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "console.hpp"
 #include "host/pipeline.hpp"
 #include "plugin_report.hpp"
 #include "run/run.hpp"
@@ -16,15 +17,9 @@ struct Report {
   std::vector<std::string> warnings;  ///< already shown on standard error
 };
 
-/// How results are printed.
-struct OutputStyle {
-  bool json = false;   ///< one document with all metrics instead of the table
-  bool quiet = false;  ///< no progress and no table
-};
-
 /// Runs a plan with a progress bar, ended in good order by Ctrl-C or SIGTERM, and prints the short table or the document.
 /// @return the exit status
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
-                       const Report& report, const OutputStyle& style);
+                       const Report& report, const OutputOptions& output);
 
 }  // namespace hallway::cli

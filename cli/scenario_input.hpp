@@ -1,29 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "run/manifest.hpp"
 #include "run/run.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {
 
-/// A scenario, and the text that it was read from.
-struct ScenarioInput {
-  sim::Scenario scenario{};
-  std::string text{};
-  std::vector<std::string> assumed{};  ///< of a map that has no scenario: what it does not say
+/// A scenario that is about to run.
+struct OpenedScenario {
+  std::unique_ptr<sim::Simulator> simulator{};
+  run::ManifestFacts facts{};                  ///< all but the command and the plugins' parameters
+  std::vector<run::Attachment> attachments{};  ///< scenario, map and models
 };
 
-/// Reads a scenario file, or makes a scenario for a `.map` file and prints what it assumes. Throws what sim::load_scenario() throws.
-ScenarioInput read_scenario_input(const std::string& file, std::span<const Override> overrides);
+/// Reads a scenario file, or makes a scenario for a `.map` file and prints what it assumes, and loads its map. What the user should know of the
+/// map is printed too; with `strict` the first of it is thrown. Throws what sim::load_scenario() and sim::Simulator throw.
+OpenedScenario open_scenario(const std::string& file, std::span<const Override> overrides, unsigned threads,
+                             bool strict);
 
-/// What the user should know of the map, printed too. Throws the first of it if `strict`.
-std::vector<std::string> take_warnings(const sim::Simulator& simulator, bool strict);
-
-/// The files of the map's models, named as the map names them.
-std::vector<run::Attachment> model_files(const sim::Simulator& simulator);
+/// The values that --seed and --steps give, and those of --set.
+std::vector<Override> scenario_overrides(const std::vector<std::string>& settings,
+                                         const std::optional<std::uint64_t>& seed,
+                                         const std::optional<std::uint32_t>& steps);
 
 }  // namespace hallway::cli

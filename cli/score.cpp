@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
@@ -20,7 +21,6 @@
 namespace hallway::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using eval::Alignment;
 using eval::PosePair;
 using import::ForeignTrajectory;
@@ -70,13 +70,13 @@ ScoredFile read_input(const std::string& file, const std::string& format, const 
                    .trajectory = import::read_trajectory(
                        file, import::trajectory_format(format.empty() ? options.format : format))};
   if (input.trajectory.cut_off)
-    print_warning(printable(file, 4096) + ": the last line has no line end: the file may be cut off");
+    print_warning(path_text(file) + ": the last line has no line end: the file may be cut off");
   input.has_times = input.trajectory.format != TrajectoryFormat::kKitti;
   if (input.has_times || options.times.empty()) return input;
   const std::vector<double> times = import::read_times(options.times);
   if (times.size() != input.trajectory.poses.size())
     throw Error(ErrorCode::kBadInput,
-                fmt::format("{} times, and {} has {} poses", times.size(), printable(file, 4096),
+                fmt::format("{} times, and {} has {} poses", times.size(), path_text(file),
                             input.trajectory.poses.size()),
                 {.file = options.times});
   for (std::size_t i = 0; i < times.size(); ++i) input.trajectory.poses[i].t_s = times[i];
@@ -125,12 +125,11 @@ std::vector<eval::Match> match(const ScoredFile& reference, const ScoredFile& es
   std::vector<double> theirs = estimate.times();
   if (!reference.has_times || !estimate.has_times) {
     if (reference.has_times != estimate.has_times)
-      throw Error(ErrorCode::kUsage,
-                  "a KITTI file has no times, and the other file has: --pose-times gives them");
+      refuse("a KITTI file has no times, and the other file has: --pose-times gives them");
     if (reference.trajectory.poses.size() != estimate.trajectory.poses.size())
       throw Error(ErrorCode::kBadInput,
                   fmt::format("{} poses, and {} has {}: KITTI files are paired line by line",
-                              estimate.trajectory.poses.size(), printable(reference.file, 4096),
+                              estimate.trajectory.poses.size(), path_text(reference.file),
                               reference.trajectory.poses.size()),
                   {.file = estimate.file});
     return eval::associate(reference.times(), theirs, 0.0);
@@ -142,7 +141,7 @@ std::vector<eval::Match> match(const ScoredFile& reference, const ScoredFile& es
     throw Error(
         ErrorCode::kBadInput,
         fmt::format("no pose is within {} s of one of {}: times are {} to {} s here and {} to {} s there",
-                    format_double(options.max_difference_s), printable(reference.file, 4096),
+                    format_double(options.max_difference_s), path_text(reference.file),
                     format_double(theirs.front()), format_double(theirs.back()), format_double(times.front()),
                     format_double(times.back())),
         {.file = estimate.file});
@@ -231,7 +230,7 @@ Score score_of(const ScoredFile& reference, const ScoredFile& estimate, const Sc
 }
 
 Json describe(const ScoredFile& input) {
-  return {{"file", printable(input.file, 4096)},
+  return {{"file", path_text(input.file)},
           {"format", import::name_of(input.trajectory.format)},
           {"poses", input.trajectory.poses.size()}};
 }
@@ -273,7 +272,7 @@ std::string errors_text(const std::optional<eval::ErrorStatistics>& errors, cons
 }
 
 std::string input_text(const ScoredFile& input) {
-  return fmt::format("{}, {} poses ({})", printable(input.file, 4096), input.trajectory.poses.size(),
+  return fmt::format("{}, {} poses ({})", path_text(input.file), input.trajectory.poses.size(),
                      import::name_of(input.trajectory.format));
 }
 
@@ -287,11 +286,8 @@ std::string verdict_text(const Score& score, const char* alignment) {
 }
 
 std::string table_of(const Score& score, const ScoreOptions& options) {
-  std::string text;
-  const auto row = [&](const std::string& label, const std::string& value) {
-    text += fmt::format("  {:<28} {}\n", label, value);
-  };
-  text += "score\n";
+  std::string text = "score\n";
+  const Rows row{text, 28};
   row("reference", input_text(score.reference));
   row("estimate", input_text(score.estimate));
   row("verdict", verdict_text(score, options.align == "sim3" ? "sim3" : "se3"));
@@ -318,10 +314,8 @@ int score(const ScoreOptions& options) {
   const bool any_kitti = reference.trajectory.format == TrajectoryFormat::kKitti ||
                          estimate.trajectory.format == TrajectoryFormat::kKitti;
   if (!options.times.empty() && !any_kitti)
-    throw Error(ErrorCode::kUsage,
-                "--pose-times gives a KITTI file its times, and both files have their own");
-  if (!std::isfinite(options.time_offset_s))
-    throw Error(ErrorCode::kUsage, "--time-offset takes a number of seconds");
+    refuse("--pose-times gives a KITTI file its times, and both files have their own");
+  if (!std::isfinite(options.time_offset_s)) refuse("--time-offset takes a number of seconds");
   const Score result = score_of(reference, estimate, options);
   if (options.json) {
     print_json(document_of(result, options));
@@ -336,44 +330,42 @@ int score(const ScoreOptions& options) {
 void add_score_command(Command& app) {
   Command& command = app.command(
       "score", "Compare an estimated trajectory with a reference: absolute (ATE) and relative errors (RPE)");
-  const auto options = std::make_shared<ScoreOptions>();
+  ScoreOptions& options = command.runs(&score);
   const std::vector<std::string> formats{"tum", "kitti", "euroc"};
-  command.argument("reference", &options->reference, "Trajectory that counts as the truth")
+  command.argument("reference", &options.reference, "Trajectory that counts as the truth")
       .required()
       .value("REFERENCE");
-  command.argument("estimate", &options->estimate, "Trajectory that is scored").required().value("ESTIMATE");
-  command.option("--format", &options->format, "Format of both files [by their content]").choices(formats);
-  command.option("--reference-format", &options->reference_format, "Format of the reference")
-      .choices(formats);
-  command.option("--estimate-format", &options->estimate_format, "Format of the estimate").choices(formats);
-  command.option("--pose-times", &options->times, "Times of KITTI poses: a line of seconds for each [none]")
+  command.argument("estimate", &options.estimate, "Trajectory that is scored").required().value("ESTIMATE");
+  command.option("--format", &options.format, "Format of both files [by their content]").choices(formats);
+  command.option("--reference-format", &options.reference_format, "Format of the reference").choices(formats);
+  command.option("--estimate-format", &options.estimate_format, "Format of the estimate").choices(formats);
+  command.option("--pose-times", &options.times, "Times of KITTI poses: a line of seconds for each [none]")
       .value("FILE");
   command
-      .option("--max-difference", &options->max_difference_s,
+      .option("--max-difference", &options.max_difference_s,
               "Largest difference between the times of two poses that are a pair")
       .value("S")
       .range(0.0, 1e9)
       .show_default();
-  command.option("--time-offset", &options->time_offset_s, "Seconds to add to the times of the estimate [0]")
+  command.option("--time-offset", &options.time_offset_s, "Seconds to add to the times of the estimate [0]")
       .value("S");
   command
-      .option("--align", &options->align,
+      .option("--align", &options.align,
               "Motion that is no error: none; first: the first poses coincide; se3: best rigid fit; sim3: "
               "best fit with scale")
       .choices({"none", "first", "se3", "sim3"})
       .show_default();
   command
-      .option("--delta", &options->delta,
+      .option("--delta", &options.delta,
               "Lengths of the relative errors: frames (f), metres (m), seconds (s)")
       .value("LENGTH,...")
       .show_default();
-  add_shared(command, Shared::kJson, &options->json);
+  add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Reads TUM (t x y z qx qy qz qw), KITTI (12 numbers a line) and EuRoC ground truth (CSV with a "
       "header).\n"
       "Exit status: 0 scored, whatever the verdict; 3 a file cannot be read or no poses can be paired.\n"
       "Example: hallway score groundtruth.txt estimate.txt --align sim3 --delta 1m,10m");
-  command.action([options] { return score(*options); });
 }
 
 }  // namespace hallway::cli

@@ -7,9 +7,9 @@
 #include <optional>
 #include <random>
 
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/parallel.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
@@ -18,7 +18,6 @@
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
 #include "log_input.hpp"
-#include "plugin_argument.hpp"
 #include "run/manifest.hpp"
 #include "run/record.hpp"
 #include "run/simulated_source.hpp"
@@ -30,11 +29,9 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kGiveUpSeconds = 10;
 
-struct ServeOptions {
+struct ServeOptions : OutputOptions {
   std::string input;
   std::string udp;
   bool lock_step = false;
@@ -48,56 +45,33 @@ struct ServeOptions {
   unsigned threads = hardware_threads();
   std::string out;
   bool strict = false;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
 };
 
-/// What is served, with all that it stands on.
+/// What is served: frames, and what manifest and log have of where they come from.
 struct Input {
-  std::unique_ptr<sim::Simulator> simulator{};
+  OpenedScenario scenario{};  ///< of a log: its facts alone
   std::unique_ptr<run::Source> source{};
-  run::ManifestFacts facts{};
-  std::vector<run::Attachment> attachments{};
 };
 
-Input open_scenario(const ServeOptions& options) {
-  std::vector<sim::Override> overrides;
-  for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
-  if (options.seed) overrides.push_back({"seed", fmt::to_string(*options.seed)});
-  if (options.steps) overrides.push_back({"steps", fmt::to_string(*options.steps)});
-  const ScenarioInput read = read_scenario_input(options.input, overrides);
-  const sim::Scenario& scenario = read.scenario;
-  Input input;
-  input.simulator = std::make_unique<sim::Simulator>(scenario, options.threads, trace::Backend::kEmbree);
-  input.facts.warnings = take_warnings(*input.simulator, options.strict);
-  input.source = std::make_unique<run::SimulatedSource>(*input.simulator);
-  input.facts.name = fs::path(scenario.file).stem().string();
-  input.facts.settings = input.simulator->scenario().settings;
-  input.facts.period_ns = scenario.period_ns;
-  input.facts.threads = options.threads;
-  input.facts.inputs = {{fs::path(scenario.file).filename().string(), read.text},
-                        {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
-  input.attachments = {{run::files::kScenario, input.facts.inputs[0].content},
-                       {run::files::kMap, input.facts.inputs[1].content}};
-  for (const run::Attachment& model : model_files(*input.simulator)) {
-    input.facts.inputs.push_back(model);
-    input.attachments.push_back(model);
-  }
+Input open_simulation(const ServeOptions& options) {
+  Input input{.scenario = open_scenario(options.input,
+                                        scenario_overrides(options.settings, options.seed, options.steps),
+                                        options.threads, options.strict)};
+  input.source = std::make_unique<run::SimulatedSource>(*input.scenario.simulator);
   return input;
 }
 
 Input open_recording(const ServeOptions& options) {
   if (options.seed || !options.settings.empty()) {
-    throw Error(ErrorCode::kUsage, "--seed and --set are for scenarios, not for logs");
+    refuse("--seed and --set are for scenarios, not for logs");
   }
   OpenedLog log = open_log({.log = options.input, .steps = options.steps.value_or(0)});
   Input input;
   input.source = std::move(log.source);
-  input.facts.name = log.name;
-  input.facts.warnings = log.warnings;
-  input.facts.period_ns = log.period_ns;
-  input.facts.inputs = std::move(log.inputs);
+  input.scenario.facts.name = log.name;
+  input.scenario.facts.warnings = log.warnings;
+  input.scenario.facts.period_ns = log.period_ns;
+  input.scenario.facts.inputs = std::move(log.inputs);
   return input;
 }
 
@@ -130,9 +104,7 @@ std::string rmse_text(const eval::Metrics& metrics) {
 
 std::string table_of(const std::string& name, const ServeOptions& options, const run::ServeResult& result) {
   std::string text = fmt::format("{}{}\n", name, end_text(result, options.give_up_s));
-  const auto row = [&](const char* label, const std::string& value) {
-    text += fmt::format("  {:<28} {}\n", label, value);
-  };
+  const Rows row{text, 28};
   const link::RobotCounters& counters = result.counters;
   row("frames", fmt::format("{} sent, {} answered, {} with a command", result.frames, result.answered,
                             result.commands));
@@ -143,7 +115,7 @@ std::string table_of(const std::string& name, const ServeOptions& options, const
   if (!options.lock_step) row("sent late", fmt::format("{} frames", result.sent_late));
   row("round trip", round_trip_text(result.round_trip_ms));
   if (result.metrics) row("position RMSE, aligned", rmse_text(*result.metrics));
-  if (!options.out.empty()) row("written to", printable(options.out, 4096));
+  if (!options.out.empty()) row("written to", path_text(options.out));
   return text;
 }
 
@@ -157,43 +129,44 @@ int serve(const ServeOptions& options) {
   const link::Address listen = link::parse_address(options.udp);
   const bool is_scenario =
       fs::path(options.input).extension() == ".toml" || fs::path(options.input).extension() == ".map";
-  Input input = is_scenario ? open_scenario(options) : open_recording(options);
-  input.facts.command = "serve";
+  Input input = is_scenario ? open_simulation(options) : open_recording(options);
+  run::ManifestFacts& facts = input.scenario.facts;
+  facts.command = "serve";
   run::ServePlan plan{.lock_step = options.lock_step, .rate = options.rate, .replace = options.force};
   if (!options.out.empty()) plan.folder = options.out;
-  plan.manifest = run::make_manifest(input.facts);
-  plan.attachments = std::move(input.attachments);
+  plan.manifest = run::make_manifest(facts);
+  plan.attachments = std::move(input.scenario.attachments);
 
   link::UdpWire socket(listen);
   link::LossyWire lossy(socket, options.loss, options.loss_seed);
   std::random_device random;
-  link::RobotEnd robot(lossy, run::describe_robot(*input.source, plan, input.facts.name), random(),
+  link::RobotEnd robot(lossy, run::describe_robot(*input.source, plan, facts.name), random(),
                        std::chrono::milliseconds(static_cast<std::int64_t>(options.give_up_s * 1000)));
   const std::string address = link::print_address(socket.address());
   catch_interrupts();
-  if (!options.quiet) fmt::print(stderr, "hallway: serving {} on {}\n", input.facts.name, address);
+  if (!options.quiet) fmt::print(stderr, "hallway: serving {} on {}\n", facts.name, address);
   run::ServeResult result;
   {
-    Progress progress(input.facts.name, input.source->iterations(), options.quiet);
+    Progress progress(facts.name, input.source->iterations(), options.quiet);
     result =
         run::serve(*input.source, robot, plan,
                    {.progress = [&](std::uint32_t done) { progress.update(done); }, .stop = interrupted});
   }
   if (options.json) {
-    nlohmann::ordered_json document{{"schema", "hallway.serve/1"},
-                                    {"status", status_of(result)},
-                                    {"name", input.facts.name},
-                                    {"address", address},
-                                    {"lock_step", options.lock_step}};
+    Json document{{"schema", "hallway.serve/1"},
+                  {"status", status_of(result)},
+                  {"name", facts.name},
+                  {"address", address},
+                  {"lock_step", options.lock_step}};
     document["folder"] = nullptr;
-    if (!options.out.empty()) document["folder"] = printable(options.out, 4096);
-    document["warnings"] = input.facts.warnings;
+    if (!options.out.empty()) document["folder"] = path_text(options.out);
+    document["warnings"] = facts.warnings;
     document["serving"] = run::print_serving(result);
     document["metrics"] = nullptr;
     if (result.metrics) document["metrics"] = eval::to_json(*result.metrics);
     print_json(document);
   } else if (!options.quiet) {
-    print_result(table_of(input.facts.name, options, result));
+    print_result(table_of(facts.name, options, result));
   }
   return status_of(result);
 }
@@ -202,42 +175,39 @@ int serve(const ServeOptions& options) {
 
 void add_serve_command(Command& app) {
   Command& command = app.command("serve", "Serve a simulated or recorded robot over UDP to a robot program");
-  const auto options = std::make_shared<ServeOptions>();
+  ServeOptions& options = command.runs(&serve);
   command
-      .argument("input", &options->input,
+      .argument("input", &options.input,
                 "Scenario file (.toml), a .map file, or a log as of `replay`: .mcap, .csv, a run folder")
       .required()
       .value("SCENARIO|MAP|LOG");
   command
-      .option("--udp", &options->udp,
+      .option("--udp", &options.udp,
               "Address to listen to: 127.0.0.1:7000, [::1]:7000; port 0: any, which is printed")
       .required()
       .value("IP:PORT");
   const Option& lock_step =
-      command.flag("--lockstep", &options->lock_step,
+      command.flag("--lockstep", &options.lock_step,
                    "Wait for the answer to each frame, and lose nothing; else in real time");
-  add_shared(command, Shared::kRate, &options->rate).fallback("1").excludes(lock_step);
-  command.option("--loss", &options->loss, "Share of datagrams to lose on purpose [0]")
+  add_shared(command, Shared::kRate, &options.rate).fallback("1").excludes(lock_step);
+  command.option("--loss", &options.loss, "Share of datagrams to lose on purpose [0]")
       .value("P")
       .range(0.0, 1.0);
-  command.option("--loss-seed", &options->loss_seed, "Seed of what is lost on purpose [1]").value("N");
+  command.option("--loss-seed", &options.loss_seed, "Seed of what is lost on purpose [1]").value("N");
   command
       .option(
-          "--give-up", &options->give_up_s,
+          "--give-up", &options.give_up_s,
           "Seconds without a datagram, once the robot program has come, after which to stop; 0: never [10]")
       .value("S")
       .range(0.0, 1e6);
-  add_shared(command, Shared::kSteps, &options->steps).fallback("the input's");
-  add_shared(command, Shared::kSeed, &options->seed).fallback("the scenario's");
-  add_shared(command, Shared::kSetScenario, &options->settings).repeatable();
-  add_shared(command, Shared::kThreads, &options->threads).fallback("all processors");
-  add_shared(command, Shared::kOutFolder, &options->out).fallback("none");
-  add_shared(command, Shared::kStrict, &options->strict);
-  add_shared(command, Shared::kForce, &options->force);
-  add_shared(command, Shared::kJson, &options->json);
-  add_shared(command, Shared::kQuiet, &options->quiet);
+  add_shared(command, Shared::kSteps, &options.steps).fallback("the input's");
+  add_shared(command, Shared::kSeed, &options.seed).fallback("the scenario's");
+  add_shared(command, Shared::kSetScenario, &options.settings).repeatable();
+  add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
+  add_shared(command, Shared::kOutFolder, &options.out).fallback("none");
+  add_shared(command, Shared::kStrict, &options.strict);
+  add_output_options(command, options);
   command.footer("Example: hallway serve maps/office.toml --udp 127.0.0.1:7000 --lockstep --out out/served");
-  command.action([options] { return serve(*options); });
 }
 
 }  // namespace hallway::cli

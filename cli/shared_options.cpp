@@ -90,4 +90,10 @@ Option& add_shared(Command& command, Shared which, Target target) {
   return option;
 }
 
+void add_output_options(Command& command, OutputOptions& options) {
+  add_shared(command, Shared::kForce, &options.force);
+  add_shared(command, Shared::kJson, &options.json);
+  add_shared(command, Shared::kQuiet, &options.quiet);
+}
+
 }  // namespace hallway::cli

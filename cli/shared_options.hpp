@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command_line.hpp"
+#include "console.hpp"
 
 namespace hallway::cli {
 
@@ -45,5 +46,8 @@ enum class Shared {
 /// Adds that option with its name, value, help and limits. What may differ between commands is said of what is returned: whether it is required or
 /// may be repeated, and what counts without it.
 Option& add_shared(Command& command, Shared which, Target target);
+
+/// Adds --force, --json and --quiet.
+void add_output_options(Command& command, OutputOptions& options);
 
 }  // namespace hallway::cli

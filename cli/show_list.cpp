@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "base/error.hpp"
+#include "base/refuse.hpp"
 #include "base/text.hpp"
 #include "compiled_map.hpp"
 
@@ -49,15 +49,14 @@ std::vector<std::string> thing_names() {
 [[noreturn]] void refuse_name(const char* option, std::string_view name) {
   std::vector<std::string> names = sim::picture_layer_names();
   for (const auto& more : {thing_names(), map_layers()}) names.insert(names.end(), more.begin(), more.end());
-  throw Error(ErrorCode::kUsage,
-              fmt::format("{} knows no layer \"{}\"{}; there are: {}", option, printable(name),
-                          suggestion(name, names), fmt::join(names, ", ")));
+  refuse("{} knows no layer \"{}\"{}; there are: {}", option, printable(name), suggestion(name, names),
+         fmt::join(names, ", "));
 }
 
 /// The layer of a run of that name.
 std::optional<sim::PictureLayer> run_layer(std::string_view name) {
   const std::vector<std::string>& names = sim::picture_layer_names();
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found == names.end()) return std::nullopt;
   return static_cast<sim::PictureLayer>(found - names.begin());
 }
@@ -75,7 +74,7 @@ bool set(Of& layers, const std::array<Switch<Of>, N>& switches, std::string_view
 
 void add_layer(ShowList& show, std::string_view name) {
   if (const auto layer = run_layer(name)) {
-    if (std::find(show.run.begin(), show.run.end(), *layer) == show.run.end()) show.run.push_back(*layer);
+    if (std::ranges::find(show.run, *layer) == show.run.end()) show.run.push_back(*layer);
   } else if (set(show.things, kThings, name, true)) {
     if (show.thing.empty()) show.thing = name;
   } else if (!set(show.map, kViews, name, true)) {
@@ -120,7 +119,7 @@ ShowList parse_show(const std::vector<std::string>& show, const std::vector<std:
   }
   for (const std::string& value : show) add_value(list, value);
   if (list.map.bsp_depth && list.map.pvs_from_m) {
-    throw Error(ErrorCode::kUsage, "--show colours the faces by bsp-depth or by pvs-from, not by both");
+    refuse("--show colours the faces by bsp-depth or by pvs-from, not by both");
   }
   return list;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
+#include "base/refuse.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,9 +27,7 @@
 namespace hallway::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct StudyOptions {
+struct StudyOptions : OutputOptions {
   std::vector<std::string> plugins;
   std::vector<std::string> settings;
   std::vector<std::string> plugin_path;
@@ -40,9 +39,6 @@ struct StudyOptions {
   std::string data;
   unsigned threads = hardware_threads();
   IsolationOptions isolation;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 /// Every combination of the values that a sweep has.
@@ -78,9 +74,8 @@ void set_parameters(const StudyOptions& options, std::vector<study::PluginChoice
       found = true;
     }
     if (!found)
-      throw Error(ErrorCode::kUsage,
-                  fmt::format("--set {}: no plugin \"{}\" runs{}", printable(text), printable(wanted),
-                              suggestion(wanted, {names.begin(), names.end()})));
+      refuse("--set {}: no plugin \"{}\" runs{}", printable(text), printable(wanted),
+             suggestion(wanted, {names.begin(), names.end()}));
   }
 }
 
@@ -124,7 +119,7 @@ std::string summary(const study::Outcome& outcome, const fs::path& folder) {
   for (const study::Chart& chart : outcome.charts)
     text += fmt::format("figure {:<16} {}\n", chart.figures,
                         printable((folder / (chart.file + ".svg")).string(), 4096));
-  return text + fmt::format("written to {}\n", printable(folder.string(), 4096));
+  return text + fmt::format("written to {}\n", path_text(folder));
 }
 
 /// One line for each run in which a plugin failed.
@@ -133,15 +128,13 @@ bool report_plugin_failures(const std::vector<study::StudyRun>& runs) {
   for (const study::StudyRun& run : runs) {
     if (run.trace.failure.empty()) continue;
     any = true;
-    print_warning(
-        fmt::format("{}, seed {}: {}", run.spec.group(), run.spec.seed, printable(run.trace.failure, 500)));
+    print_warning("{}, seed {}: {}", run.spec.group(), run.spec.seed, printable(run.trace.failure, 500));
   }
   return any;
 }
 
 int run_study(const study::Study& study, const StudyOptions& options) {
-  const fs::path folder =
-      options.out.empty() ? fs::path("out") / ("study-" + std::string(study.name)) : fs::path(options.out);
+  const fs::path folder = output_folder(options.out, "study-" + std::string(study.name));
   check_output_folder(folder, "study.json", options.force);
   const study::Request request = request_of(study, options);
   const std::vector<study::RunSpec> specs = study.plan(request);
@@ -159,9 +152,9 @@ int run_study(const study::Study& study, const StudyOptions& options) {
   if (interrupted()) throw Error(ErrorCode::kInterrupted, "interrupted");
   study::Outcome outcome = study.conclude(runs, request);
   for (study::Table& table : study::common_tables(runs)) outcome.tables.push_back(std::move(table));
-  nlohmann::ordered_json document = study::write_outcome(study, request, outcome, folder);
+  Json document = study::write_outcome(study, request, outcome, folder);
   if (options.json) {
-    document["folder"] = printable(folder.string(), 4096);
+    document["folder"] = path_text(folder);
     print_json(document);
   } else if (!options.quiet) {
     print_result(summary(outcome, folder));
@@ -196,9 +189,7 @@ void add_options(const study::Study& study, Command& command, StudyOptions& opti
   command.option("--data", &options.data, "Folder of recorded data [$HALLWAY_DATA]").value("DIR");
   add_shared(command, Shared::kThreads, &options.threads).fallback("all processors");
   add_limit_options(command, options.isolation);
-  add_shared(command, Shared::kForce, &options.force);
-  add_shared(command, Shared::kJson, &options.json);
-  add_shared(command, Shared::kQuiet, &options.quiet);
+  add_output_options(command, options);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
-#include <memory>
 
 #include "base/text.hpp"
 #include "console.hpp"
@@ -15,7 +14,7 @@
 namespace hallway::robot {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using cli::Json;
 
 /// What is found out about a configuration, and all that is wrong with it.
 struct Findings {
@@ -70,24 +69,21 @@ std::string time_text(const Timing& timing, const host::RobotInfo& robot) {
                                  ? fmt::format("{:g} ms", static_cast<double>(timing.period_ns) * 1e-6)
                                  : "not known";
   return fmt::format("real time{}; period {}; watchdog {:g} ms", timing.tick ? ", on a schedule" : "", period,
-                     std::chrono::duration<double, std::milli>(timing.watchdog).count());
+                     milliseconds(timing.watchdog));
 }
 
 std::string table_of(const Findings& findings) {
-  const auto row = [](const char* label, const std::string& value) {
-    return fmt::format("  {:<10} {}\n", label, value);
-  };
   std::string text;
-  if (!findings.driver.empty()) text += row("driver", findings.driver);
+  const cli::Rows row{text, 10};
+  if (!findings.driver.empty()) row("driver", findings.driver);
   if (findings.robot) {
-    text += row("robot", findings.robot->name);
-    text += row("time", time_text(findings.timing, *findings.robot));
+    row("robot", findings.robot->name);
+    row("time", time_text(findings.timing, *findings.robot));
     for (const host::SensorInfo& sensor : findings.robot->sensors) {
-      text += row("sensor",
-                  fmt::format("{}: {} ({})", sensor.id, sensor.name, host::sample_kind_name(sensor.kind)));
+      row("sensor", fmt::format("{}: {} ({})", sensor.id, sensor.name, host::sample_kind_name(sensor.kind)));
     }
   }
-  for (const std::string& plugin : findings.plugins) text += row("plugin", plugin);
+  for (const std::string& plugin : findings.plugins) row("plugin", plugin);
   return text;
 }
 
@@ -135,10 +131,9 @@ void add_check_command(cli::Command& app) {
   cli::Command& command = app.command(
       "check",
       "Say all that is wrong with a configuration: opens the robot, reads no frame and writes no command");
-  const auto options = std::make_shared<ConfigOptions>();
-  add_config_options(command, *options);
+  ConfigOptions& options = command.runs(&check);
+  add_config_options(command, options);
   command.footer("Example: hallway-robot check robot.toml");
-  command.action([options] { return check(*options); });
 }
 
 }  // namespace hallway::robot

@@ -82,7 +82,7 @@ class ConfigReader {
 };
 
 bool holds(const std::vector<std::string>& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 /// Every key that could have been meant, for suggestions.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
 
-#include <cstdlib>
-
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "host/search.hpp"
 #include "isolation_options.hpp"
 #include "plugin_argument.hpp"
@@ -40,23 +37,14 @@ void add_driver_path_option(cli::Command& command, std::vector<std::string>& fol
 std::vector<Override> overrides_of(const ConfigOptions& options) {
   std::vector<Override> overrides;
   if (!options.driver.empty()) overrides.push_back({"driver", options.driver});
-  if (!options.plugin.empty()) {
-    for (Override& of_plugin : cli::plugin_overrides(options.plugin))
-      overrides.push_back(std::move(of_plugin));
-  }
+  if (!options.plugin.empty())
+    std::ranges::move(cli::plugin_overrides(options.plugin), std::back_inserter(overrides));
   for (const std::string& text : options.settings) overrides.push_back(cli::parse_setting(text));
   return overrides;
 }
 
 std::vector<std::filesystem::path> driver_folders(const std::vector<std::string>& given) {
-  std::vector<std::filesystem::path> folders(given.begin(), given.end());
-  if (const char* from_environment = std::getenv("HALLWAY_DRIVER_PATH")) {
-    for (const std::string_view folder : split(from_environment, ':')) {
-      if (!folder.empty()) folders.emplace_back(folder);
-    }
-  }
-  folders.push_back(host::default_driver_folder());
-  return folders;
+  return cli::search_folders(given, "HALLWAY_DRIVER_PATH", host::default_driver_folder());
 }
 
 Surroundings surroundings_of(const ConfigOptions& options, const host::PluginLimits& limits) {

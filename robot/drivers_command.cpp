@@ -3,9 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 
-#include "base/text.hpp"
 #include "console.hpp"
 #include "host/machine_profile.hpp"
 #include "host/search.hpp"
@@ -16,7 +14,7 @@ namespace hallway::robot {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using cli::Json;
 
 struct DriversOptions {
   std::vector<std::string> driver_path;
@@ -37,7 +35,7 @@ Json describe(const host::Listed& listed) {
                        {"description", info.description},
                        {"settings", settings}});
   }
-  Json entry{{"file", printable(listed.file.string(), 4096)}, {"drivers", drivers}};
+  Json entry{{"file", cli::path_text(listed.file)}, {"drivers", drivers}};
   if (!listed.problem.empty()) entry["problem"] = listed.problem;
   return entry;
 }
@@ -47,7 +45,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
   for (const host::Listed& listed : files) {
     for (const host::DriverInfo& info : listed.drivers) {
       text += fmt::format("{:<12} {:<8} {}\n{:<21} {}\n", info.id, info.version, info.description, "",
-                          printable(listed.file.string(), 4096));
+                          cli::path_text(listed.file));
       std::size_t width = 0;
       for (const host::DriverSettingInfo& setting : info.settings)
         width = std::max(width, setting.key.size());
@@ -60,7 +58,7 @@ std::string table(const std::vector<host::Listed>& files, const std::vector<fs::
   }
   if (!text.empty()) return text;
   text = "no drivers found; searched:\n";
-  for (const fs::path& folder : folders) text += "  " + printable(folder.string(), 4096) + "\n";
+  for (const fs::path& folder : folders) text += "  " + cli::path_text(folder) + "\n";
   return text;
 }
 
@@ -81,10 +79,9 @@ int list(const DriversOptions& options) {
 
 void add_drivers_command(cli::Command& app) {
   cli::Command& command = app.command("drivers", "List the drivers that are found, with their settings");
-  const auto options = std::make_shared<DriversOptions>();
-  add_driver_path_option(command, options->driver_path);
-  cli::add_shared(command, cli::Shared::kJson, &options->json);
-  command.action([options] { return list(*options); });
+  DriversOptions& options = command.runs(&list);
+  add_driver_path_option(command, options.driver_path);
+  cli::add_shared(command, cli::Shared::kJson, &options.json);
 }
 
 void add_profile_command(cli::Command& app) {

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t kMaxMessages = 100;
 
-double milliseconds(Clock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 }  // namespace
 
 Gate::Gate(Write write, Clock::duration limit, Clock::time_point now)
@@ -34,28 +30,16 @@ bool Gate::answer(hw_answer_t answer, Clock::time_point now) {
   waiting_ = false;
   if (ended_) return false;
   late_ = late_ || (limit_ > Clock::duration::zero() && now - last_frame_ > limit_);
-  answer.sequence = sequence_;
-  answer.t_ns = t_ns_;
   if (!late_) {
-    answer.status = HW_ANSWER_DONE;
-    write_(answer);
+    write(answer, HW_ANSWER_DONE);
     stopped_ = false;
     return true;
   }
   ++counts_.late_answers;
-  hw_drive_command_t still{};
-  still.size = sizeof still;
   const std::string message = fmt::format("the answer to frame {} came {:.1f} ms after it", sequence_,
                                           milliseconds(now - last_frame_));
-  answer.status = HW_ANSWER_LATE;
-  answer.command = &still;
-  answer.message = message.c_str();
-  write_(answer);
-  if (!std::exchange(stopped_, true)) {  // the watchdog has not looked yet
-    ++counts_.trips;
-    note_stop(last_frame_);
-    if (messages_.size() < kMaxMessages) messages_.push_back("watchdog: stopped, for " + message);
-  }
+  stop(answer, HW_ANSWER_LATE, message);
+  if (!stopped_) note_trip(message);  // the watchdog has not looked yet
   return false;
 }
 
@@ -63,14 +47,14 @@ void Gate::fail(const std::string& message, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   waiting_ = false;
   if (ended_) return;
-  stop(HW_ANSWER_FAILED, message);
+  stop({}, HW_ANSWER_FAILED, message);
   if (!std::exchange(stopped_, true)) note_stop(now);
 }
 
 void Gate::end(const std::string& message) {
   const std::lock_guard lock(mutex_);
   if (std::exchange(ended_, true)) return;
-  stop(HW_ANSWER_END, message);
+  stop({}, HW_ANSWER_END, message);
 }
 
 Clock::time_point Gate::watch(Clock::time_point now) {
@@ -84,29 +68,36 @@ Clock::time_point Gate::watch(Clock::time_point now) {
         waiting_ ? fmt::format("no answer to frame {} within {:g} ms", sequence_, milliseconds(limit_))
                  : fmt::format("no frame within {:g} ms", milliseconds(limit_));
     try {
-      stop(HW_ANSWER_LATE, message);
+      stop({}, HW_ANSWER_LATE, message);
     } catch (...) {
       failure_ = std::current_exception();
     }
-    stopped_ = true;
-    ++counts_.trips;
-    note_stop(last_frame_);
-    if (messages_.size() < kMaxMessages) messages_.push_back("watchdog: stopped, for " + message);
+    note_trip(message);
   }
   return now + limit_;
 }
 
-void Gate::stop(std::uint32_t status, const std::string& message) {
-  hw_drive_command_t still{};
-  still.size = sizeof still;
-  hw_answer_t answer{};
+void Gate::write(hw_answer_t& answer, std::uint32_t status) {
   answer.size = sizeof answer;
   answer.status = status;
   answer.sequence = sequence_;
   answer.t_ns = t_ns_;
+  write_(answer);
+}
+
+void Gate::stop(hw_answer_t answer, std::uint32_t status, const std::string& message) {
+  hw_drive_command_t still{};
+  still.size = sizeof still;
   answer.command = &still;
   answer.message = message.c_str();
-  write_(answer);
+  write(answer, status);
+}
+
+void Gate::note_trip(const std::string& message) {
+  stopped_ = true;
+  ++counts_.trips;
+  note_stop(last_frame_);
+  if (messages_.size() < kMaxMessages) messages_.push_back("watchdog: stopped, for " + message);
 }
 
 void Gate::note_stop(Clock::time_point since) {

@@ -15,6 +15,10 @@ namespace hallway::robot {
 
 using Clock = std::chrono::steady_clock;
 
+inline double milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
 /// What a gate has let through and what not.
 struct GateCounts {
   std::uint64_t trips = 0;         ///< how often the watchdog stopped the robot
@@ -54,7 +58,10 @@ class Gate {
   void check() const;
 
  private:
-  void stop(std::uint32_t status, const std::string& message);
+  void write(hw_answer_t& answer, std::uint32_t status);
+  /// Hands on an answer with a command that stops the robot instead of its own.
+  void stop(hw_answer_t answer, std::uint32_t status, const std::string& message);
+  void note_trip(const std::string& message);
   void note_stop(Clock::time_point since);
 
   Write write_;

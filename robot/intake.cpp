@@ -75,8 +75,8 @@ const char* Intake::problem_of(const hw_frame_t& frame) const {
 }
 
 const char* Intake::problem_of(const hw_sample_t& sample) const {
-  const auto sensor = std::find_if(robot_.sensors.begin(), robot_.sensors.end(),
-                                   [&](const auto& info) { return info.id == sample.sensor_id; });
+  const auto sensor =
+      std::ranges::find_if(robot_.sensors, [&](const auto& info) { return info.id == sample.sensor_id; });
   if (sensor == robot_.sensors.end()) return "a sample of a sensor that was not described";
   if (sensor->kind != sample.kind) return "a sample of another kind than its sensor gives";
   if (sample.kind != HW_SAMPLE_POINTS) return nullptr;

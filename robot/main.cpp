@@ -14,20 +14,21 @@ constexpr const char* kAbout =
 }  // namespace
 
 int main(int argc, char** argv) {
-  hallway::cli::prepare_standard_streams();
-  const bool json = hallway::cli::asks_for_json(argc, argv);
+  using namespace hallway::cli;
+  prepare_standard_streams();
+  const bool json = asks_for_json(argc, argv);
   try {
-    hallway::cli::Command app("hallway-robot", kAbout);
+    Command app("hallway-robot", kAbout);
     app.summary("run mapping plugins on a robot");
-    app.footer(hallway::cli::kExitStatusHelp);
+    app.footer(kExitStatusHelp);
     app.version("hallway-robot " + hallway::record::version());
     hallway::robot::add_run_command(app);
     hallway::robot::add_check_command(app);
     hallway::robot::add_drivers_command(app);
     hallway::robot::add_profile_command(app);
-    hallway::cli::add_help_commands(app);
-    return hallway::cli::run_program(app, argc, argv);
+    add_help_commands(app);
+    return run_program(app, argc, argv);
   } catch (const std::exception& failure) {
-    return hallway::cli::report_failure(failure, json);
+    return report_failure(failure, json);
   }
 }

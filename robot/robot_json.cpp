@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double milliseconds(Clock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 Json print_timing(const RobotFacts& facts) {
   const LoopCounts& counts = facts.loop.counts();
   const auto share = [&] {

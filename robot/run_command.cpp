@@ -3,9 +3,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <memory>
-
-#include "base/text.hpp"
 #include "console.hpp"
 #include "plugin_report.hpp"
 #include "robot/command.hpp"
@@ -16,7 +13,7 @@ namespace hallway::robot {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using cli::Json;
 
 struct RunOptions {
   ConfigOptions config;
@@ -30,10 +27,6 @@ int status_of(const SessionResult& result) {
   if (result.driver_failure) return exit_status(result.driver_failure->code());
   if (result.failures.count != 0) return exit_status(ErrorCode::kPluginFault);
   return result.end == LoopEnd::kInterrupt ? cli::interrupt_status() : 0;
-}
-
-void add_row(std::string& text, const char* label, const std::string& value) {
-  text += fmt::format("  {:<28} {}\n", label, value);
 }
 
 std::string deadline_text(const Json& timing) {
@@ -50,32 +43,31 @@ std::string table_of(const SessionResult& result, const std::string& name, const
   std::string text = fmt::format("{}: {} on {}{}\n", name, fmt::join(result.plugins, " + "),
                                  result.manifest.at("driver").at("id").get<std::string>(),
                                  result.end == LoopEnd::kInterrupt ? " (stopped early)" : "");
+  const cli::Rows row{text, 28};
   const auto count = [&](const char* key) { return frames.at(key).get<std::uint64_t>(); };
-  add_row(
-      text, "frames",
+  row("frames",
       fmt::format("{} given, {} answered; {} lost, {} dropped, {} refused, {} unrecorded", count("given"),
                   count("answered"), count("lost"), count("dropped"), count("refused"), count("unrecorded")));
-  add_row(text, "landmarks mapped",
-          fmt::format("{} in {} submap{}", result.landmarks, result.submaps, result.submaps == 1 ? "" : "s"));
-  if (result.planes > 0) add_row(text, "planes mapped", fmt::to_string(result.planes));
+  row("landmarks mapped",
+      fmt::format("{} in {} submap{}", result.landmarks, result.submaps, result.submaps == 1 ? "" : "s"));
+  if (result.planes > 0) row("planes mapped", fmt::to_string(result.planes));
   if (const Json& latency = timing.at("latency_ms"); !latency.is_null()) {
-    add_row(text, "latency",
-            fmt::format("{:.4f} ms median, {:.4f} p99, {:.4f} worst", latency.at("median").get<double>(),
-                        latency.at("p99").get<double>(), latency.at("worst").get<double>()));
+    row("latency",
+        fmt::format("{:.4f} ms median, {:.4f} p99, {:.4f} worst", latency.at("median").get<double>(),
+                    latency.at("p99").get<double>(), latency.at("worst").get<double>()));
   }
-  add_row(text, "deadlines", deadline_text(timing));
+  row("deadlines", deadline_text(timing));
   if (!robot.at("watchdog_ms").is_null()) {
-    add_row(text, "watchdog",
-            fmt::format("stopped the robot {} times; {:g} ms, {:.1f} ms at the worst; {} late answers",
-                        timing.at("watchdog_trips").get<std::uint64_t>(),
-                        robot.at("watchdog_ms").get<double>(), timing.at("worst_stop_ms").get<double>(),
-                        timing.at("late_answers").get<std::uint64_t>()));
+    row("watchdog",
+        fmt::format("stopped the robot {} times; {:g} ms, {:.1f} ms at the worst; {} late answers",
+                    timing.at("watchdog_trips").get<std::uint64_t>(), robot.at("watchdog_ms").get<double>(),
+                    timing.at("worst_stop_ms").get<double>(),
+                    timing.at("late_answers").get<std::uint64_t>()));
   }
   if (result.failures.count != 0) {
-    add_row(text, "plugin failures",
-            fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
+    row("plugin failures", fmt::format("{}, {} restarts", result.failures.count, result.failures.restarts));
   }
-  add_row(text, "written to", printable(folder.string(), 4096));
+  row("written to", cli::path_text(folder));
   return text;
 }
 
@@ -84,7 +76,7 @@ Json document_of(const SessionResult& result, const std::string& name, const fs:
                 {"status", status_of(result)},
                 {"name", name},
                 {"plugins", result.plugins},
-                {"folder", printable(folder.string(), 4096)},
+                {"folder", cli::path_text(folder)},
                 {"landmarks", result.landmarks},
                 {"mapped_planes", result.planes},
                 {"submaps", result.submaps}};
@@ -108,11 +100,8 @@ int run(const RunOptions& options) {
                    .stop = cli::interrupted,
                    .notice = [](const std::string& message) { cli::print_warning(message); }});
   cli::print_failures(result.failures);
-  if (options.config.json) {
-    cli::print_json(document_of(result, config.name(), plan.folder));
-  } else if (!options.quiet) {
-    cli::print_result(table_of(result, config.name(), plan.folder));
-  }
+  cli::OutputOptions{.json = options.config.json, .quiet = options.quiet}.print(
+      document_of(result, config.name(), plan.folder), table_of(result, config.name(), plan.folder));
   if (result.driver_failure) fmt::print(stderr, "hallway: {}\n", result.driver_failure->what());
   return status_of(result);
 }
@@ -122,16 +111,15 @@ int run(const RunOptions& options) {
 void add_run_command(cli::Command& app) {
   cli::Command& command = app.command(
       "run", "Run plugins on a robot: its frames in, their commands out, until the robot ends or Ctrl-C");
-  const auto options = std::make_shared<RunOptions>();
-  add_config_options(command, options->config);
-  cli::add_shared(command, cli::Shared::kOutFolder, &options->out).fallback("out/<config>");
-  command.option("--duration", &options->duration_s, "Seconds after which to end [until the robot ends]")
+  RunOptions& options = command.runs(&run);
+  add_config_options(command, options.config);
+  cli::add_shared(command, cli::Shared::kOutFolder, &options.out).fallback("out/<config>");
+  command.option("--duration", &options.duration_s, "Seconds after which to end [until the robot ends]")
       .value("S")
       .range(0.001, 1e9);
-  cli::add_shared(command, cli::Shared::kForce, &options->force);
-  cli::add_shared(command, cli::Shared::kQuiet, &options->quiet);
+  cli::add_shared(command, cli::Shared::kForce, &options.force);
+  cli::add_shared(command, cli::Shared::kQuiet, &options.quiet);
   command.footer("Example: hallway-robot run robot.toml --out out/monday");
-  command.action([options] { return run(*options); });
 }
 
 }  // namespace hallway::robot
