@@ -13,12 +13,10 @@
 
 namespace hallway::bench {
 
-using slam_plane::cross;
 using slam_plane::left_of;
 using slam_plane::Noise;
-using slam_plane::Piece;
 using slam_plane::Pose2;
-using slam_plane::Vec2;
+using slam_plane::WallObservation;
 
 inline constexpr double kStep_m = 0.1;
 inline constexpr double kRange_m = 12.0;     // depth
@@ -47,11 +45,11 @@ class Road {
   double walls() const { return static_cast<double>(columns_ * rows_); }
   double lap_m() const { return static_cast<double>(columns_) * cell_; }
 
-  const std::vector<Piece>& see(std::uint32_t step) {
+  const std::vector<WallObservation>& see(std::uint32_t step) {
     double s = kStep_m * static_cast<double>(step);
     if (stretch_ > 0.0) s = stretch_ - std::abs(std::fmod(s, 2.0 * stretch_) - stretch_);
     const Pose2 inverse = place(s).inverse();
-    pieces_.clear();
+    observations_.clear();
     const double reach = kRange_m * std::numbers::sqrt2;
     const auto first = static_cast<std::int64_t>(std::floor((s - reach) / cell_));
     const auto last = static_cast<std::int64_t>(std::floor((s + reach) / cell_));
@@ -60,7 +58,7 @@ class Road {
       for (std::int64_t row = 0; row < rows_; ++row)
         tell(wall(column, row), inverse, step, named(column) * rows_ + row);
     }
-    return pieces_;
+    return observations_;
   }
 
  private:
@@ -107,8 +105,8 @@ class Road {
     const Vec2 middle = 0.5 * (a + b) + noise.normal * random_.normal(step, key + 4) * left_of(d);
     const Vec2 turned = Pose2::at(Vec2::Zero(), noise.angle * random_.normal(step, key + 5)).rotate(d);
     const double half = 0.5 * (b - a).norm();
-    pieces_.push_back({middle - (half + noise.end * random_.normal(step, key + 6)) * turned,
-                       middle + (half + noise.end * random_.normal(step, key + 7)) * turned, 0.0, 2.5});
+    observations_.push_back({middle - (half + noise.end * random_.normal(step, key + 6)) * turned,
+                             middle + (half + noise.end * random_.normal(step, key + 7)) * turned, 0.0, 2.5});
   }
 
   /// Keeps the part of a->b where a linear function, f at its ends, is not below 0.
@@ -126,7 +124,7 @@ class Road {
   std::int64_t rows_ = 0;
   std::int64_t columns_ = 0;  // of a lap; 0: it never returns
   double radius_ = 0.0;
-  std::vector<Piece> pieces_;
+  std::vector<WallObservation> observations_;
 };
 
 }  // namespace hallway::bench

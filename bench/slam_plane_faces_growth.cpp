@@ -18,12 +18,15 @@
 namespace {
 
 using namespace hallway::slam_plane::spatial;
+using hallway::Pose;
+using hallway::Quat;
+using hallway::rotation_by;
+using hallway::Vec3;
 using hallway::bench::cpu_us;
 using hallway::bench::GrowthTable;
 using hallway::bench::mean_of;
 using hallway::slam_plane::Noise;
 using hallway::slam_plane::Options;
-using hallway::slam_plane::Vec3;
 
 constexpr int kRuns = 3;
 constexpr double kStep_m = 0.1;
@@ -42,10 +45,10 @@ class Way {
 
   double faces_per_m() const { return per_m_; }
 
-  const std::vector<Face>& see(std::uint32_t step) {
+  const std::vector<PlaneObservation>& see(std::uint32_t step) {
     const double s = kStep_m * static_cast<double>(step);
     const double sway = 0.2 * std::sin(0.3 * s);
-    const Pose3 T{rotation_by(Vec3(0.5 * sway, 0.3 * sway, sway)), Vec3(s, sway, 0.5 * sway)};
+    const Pose T{rotation_by(Vec3(0.5 * sway, 0.3 * sway, sway)), Vec3(s, sway, 0.5 * sway)};
     faces_.clear();
     const auto first = static_cast<std::int64_t>(std::ceil(s * per_m_));
     const auto last = static_cast<std::int64_t>(std::floor((s + kRange_m) * per_m_));
@@ -74,7 +77,7 @@ class Way {
   }
 
   /// What of a panel is within 45 degrees of the way ahead, with noise.
-  void tell(std::uint32_t key, const Pose3& T_robot_world, std::uint32_t step) {
+  void tell(std::uint32_t key, const Pose& T_robot_world, std::uint32_t step) {
     Panel of = panel(key);
     const Vec3 normal = T_robot_world.q * of.normal;
     for (Vec3& p : of.corners) p = T_robot_world * p;
@@ -93,7 +96,7 @@ class Way {
     const Quat tilt = rotation_by(
         noise.angle * (random_.normal(step, stream + 8) * u + random_.normal(step, stream + 9) * v));
     const Vec3 shift = noise.normal * random_.normal(step, stream + 10) * normal;
-    Face& face = faces_.emplace_back();
+    PlaneObservation& face = faces_.emplace_back();
     face.normal = tilt * normal;
     face.centre = middle + shift;
     for (std::size_t i = 0; i < of.corners.size(); ++i) {
@@ -117,7 +120,7 @@ class Way {
 
   hallway::Random random_;
   double per_m_;
-  std::vector<Face> faces_;
+  std::vector<PlaneObservation> faces_;
 };
 
 struct Drive {
@@ -137,12 +140,12 @@ Drive drive(double visible, std::size_t steps) {
     Way way(visible);
     Mapper mapper{Options()};
     for (std::size_t i = 0; i < steps; ++i) {
-      const std::vector<Face>& faces = way.see(static_cast<std::uint32_t>(i));
+      const std::vector<PlaneObservation>& faces = way.see(static_cast<std::uint32_t>(i));
       const double start = cpu_us();
       result.counters = mapper.process(faces, view).counters;
       result.us[i] = std::min(result.us[i], cpu_us() - start);
       result.visible[i] = static_cast<double>(faces.size());
-      result.faces[i] = static_cast<double>(result.counters.faces);
+      result.faces[i] = static_cast<double>(result.counters.landmarks);
     }
   }
   return result;

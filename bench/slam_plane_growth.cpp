@@ -19,12 +19,13 @@
 
 namespace {
 
+using namespace hallway;
 using namespace hallway::slam_plane;
 using hallway::bench::cpu_us;
 using hallway::bench::GrowthTable;
-using hallway::bench::mean_of;
 using hallway::bench::kRange_m;
 using hallway::bench::kStep_m;
+using hallway::bench::mean_of;
 using hallway::bench::resident_mb;
 using hallway::bench::Road;
 
@@ -58,11 +59,11 @@ Drive drive(double visible, double stretch_m, std::size_t steps) {
     Road road(visible, 0.0, stretch_m);
     auto mapper = made<AnyMapper>();
     for (std::size_t i = 0; i < steps; ++i) {
-      const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
+      const std::vector<WallObservation>& observations = road.see(static_cast<std::uint32_t>(i));
       const double start = cpu_us();
-      result.counters = mapper.process(pieces, View{}).counters;
+      result.counters = mapper.process(observations, View{}).counters;
       result.us[i] = std::min(result.us[i], cpu_us() - start);
-      result.visible[i] = static_cast<double>(pieces.size());
+      result.visible[i] = static_cast<double>(observations.size());
     }
   }
   return result;
@@ -75,7 +76,7 @@ std::span<const double> from(const std::vector<double>& values, std::size_t firs
 
 void print_row(GrowthTable& table, double asked, const Drive& drive, std::size_t first) {
   const Counters& counters = drive.counters;
-  table.row(std::array{asked, static_cast<double>(counters.walls), static_cast<double>(counters.submaps)},
+  table.row(std::array{asked, static_cast<double>(counters.landmarks), static_cast<double>(counters.submaps)},
             {from(drive.us, first), from(drive.visible, first), static_cast<double>(counters.lost)});
 }
 
@@ -139,14 +140,14 @@ void known_ground(std::uint64_t iterations) {
   std::uint64_t next = 1000;
   std::size_t since = 0;
   for (std::uint64_t i = 1; i <= iterations; ++i) {
-    const std::vector<Piece>& pieces = road.see(static_cast<std::uint32_t>(i));
+    const std::vector<WallObservation>& observations = road.see(static_cast<std::uint32_t>(i));
     const double start = cpu_us();
-    const Counters& counters = mapper.process(pieces, View{}).counters;
+    const Counters& counters = mapper.process(observations, View{}).counters;
     us[since] = cpu_us() - start;
-    visible[since++] = static_cast<double>(pieces.size());
+    visible[since++] = static_cast<double>(observations.size());
     if (i != next && i != iterations) continue;
     table.row(
-        std::array{static_cast<double>(i), static_cast<double>(counters.walls),
+        std::array{static_cast<double>(i), static_cast<double>(counters.landmarks),
                    static_cast<double>(counters.submaps)},
         {std::span(us).first(since), std::span(visible).first(since), static_cast<double>(counters.lost)},
         std::array{resident_mb() - before_mb});

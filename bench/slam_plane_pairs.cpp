@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one more iteration of a pair of planes costs, in slam_plane's thesis mode, by how many shared sightings are stored: with the sums that are kept, and from the sightings themselves. Both
+// What one more iteration of a pair of planes costs, in slam_plane's thesis mode, by how many shared observations are stored: with the sums that are kept, and from the observations themselves. Both
 // see the planes, which grow, stand still and shrink, and compare them; pushing is part of both. Times are of the thread's CPU, the least of five runs; results have to be equal.
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 
 namespace {
 
+using namespace hallway;
 using namespace hallway::slam_plane;
 using namespace hallway::slam_plane::thesis;
 
@@ -26,14 +27,14 @@ double cpu_us() {
 }
 
 /// A wall ahead and one on the left, of which more and more and then less and less is seen, from a robot on a winding path.
-Sighting wall(int which, Iteration k) {
+TimedObservation wall(int which, Iteration k) {
   const auto t = static_cast<double>(k);
   const Pose2 T_robot_world =
       Pose2::at(Vec2(0.005 * t, 0.2 * std::sin(0.05 * t)), 0.3 * std::sin(0.03 * t)).inverse();
   const double hidden = 1.5 * (1.0 + std::cos(0.01 * t));
   const Vec2 a = which == 0 ? Vec2(-2 + hidden, 2) : Vec2(15, 3),
              b = which == 0 ? Vec2(6, 2) : Vec2(15, -3 + hidden);
-  return *make_sighting({T_robot_world * a, T_robot_world * b, 0.0, 2.5}, k);
+  return *make_observation({T_robot_world * a, T_robot_world * b, 0.0, 2.5}, k);
 }
 
 struct Timing {
@@ -44,10 +45,10 @@ struct Timing {
 Timing run(Iteration stored, bool kept) {
   TrackOptions options;
   options.capacity = static_cast<int>(stored);
-  Track a(0, options), b(1, options);
+  PlaneTrack a(0, options), b(1, options);
   const CompareOptions compare;
   PairComparer comparer(compare);
-  std::vector<Sighting> seen[2];
+  std::vector<TimedObservation> seen[2];
   for (Iteration k = 0; k < 2 * stored + kMeasured; ++k) {
     for (int i = 0; i < 2; ++i) seen[i].push_back(wall(i, k));
   }

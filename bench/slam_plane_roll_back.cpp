@@ -13,6 +13,7 @@
 
 namespace {
 
+using namespace hallway;
 using namespace hallway::slam_plane;
 using hallway::bench::cpu_us;
 using hallway::bench::Road;
@@ -34,9 +35,9 @@ RollBack drive(std::size_t back) {
   Road road(kInView, 0.0);
   RollBack result;
   for (std::uint32_t i = 0; i < kSteps; ++i) {
-    const std::vector<Piece>& pieces = road.see(i);
+    const std::vector<WallObservation>& observations = road.see(i);
     const double start = cpu_us();
-    mapper.process(pieces, View{});
+    mapper.process(observations, View{});
     if (i + back >= kSteps) result.first_us += cpu_us() - start;
   }
   mapper.refined_map();

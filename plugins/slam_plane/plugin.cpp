@@ -6,14 +6,15 @@
 
 #include "adapter/option_rows.hpp"
 #include "slam_plane/core/mapper.hpp"
-#include "slam_plane/plane_adapter.hpp"
+#include "slam_plane/spatial/mapper.hpp"
 #include "slam_plane/spatial_adapter.hpp"
 #include "slam_plane/thesis/thesis_mapper.hpp"
+#include "slam_plane/wall_adapter.hpp"
 
 namespace hallway::slam_plane {
 namespace {
 
-static_assert(kNoWall == HW_NO_LANDMARK);
+static_assert(kNoLandmark == HW_NO_LANDMARK);
 
 enum class Mode : int { relative = 0, thesis = 1 };
 constexpr const char* kModeNames[] = {"relative", "thesis"};
@@ -82,16 +83,10 @@ class SlamPlane final : public sdk::Plugin {
       host().put_map_epoch(0);  // it never begins anew
       return;
     }
-    const std::vector<Piece>& pieces = adapter_.gather(frame);
-    const Answer& answer =
-        thesis_ ? thesis_->process(pieces, adapter_.view()) : mapper_->process(pieces, adapter_.view());
-    if (answer.has_pose) {
-      const Eigen::Matrix<double, 6, 6> covariance =
-          adapter_.body_covariance(answer.T_map_robot, answer.covariance);
-      host().put_pose(PlaneAdapter::to_c(adapter_.body_pose(answer.T_map_robot)), covariance.data());
-    } else {
-      host().put_lost();
-    }
+    const std::vector<WallObservation>& observations = adapter_.gather(frame);
+    const Answer& answer = thesis_ ? thesis_->process(observations, adapter_.view())
+                                   : mapper_->process(observations, adapter_.view());
+    adapter_.put_pose(host(), answer);
     adapter_.put_associations(host(), answer.associations);
     if (thesis_) {
       put_thesis_counters(answer);
@@ -107,19 +102,12 @@ class SlamPlane final : public sdk::Plugin {
       return;
     }
     const Map map = thesis_ ? map_of(*thesis_, refine) : map_of(*mapper_, refine);
-    std::vector<hw_submap_t> submaps;
-    std::vector<std::uint64_t> members;
-    for (const Submap& submap : map.submaps) {
-      submaps.push_back({submap.id, PlaneAdapter::to_c(adapter_.body_pose(submap.T_map_submap)),
-                         members.size(), submap.members.size()});
-      members.insert(members.end(), submap.members.begin(), submap.members.end());
-    }
-    adapter_.put_walls(host(), map.walls);
+    adapter_.put_landmarks(host(), map.walls);
     if (mapper_) {
       for (const JoinedPart& joined : mapper_->joined_parts())
         host().put_joined_epoch(joined.part, joined.into);
     }
-    host().put_submaps(submaps, members);
+    adapter_.put_submaps(host(), map.submaps);
   }
 
  private:
@@ -137,20 +125,20 @@ class SlamPlane final : public sdk::Plugin {
   void put_counters(const Answer& answer) const {
     const Counters& counters = answer.counters;
     const hw_counter_t list[] = {
-        {"lost", static_cast<double>(counters.lost)},
-        {"walls", static_cast<double>(counters.walls)},
-        {"submaps", static_cast<double>(counters.submaps)},
-        {"closes", static_cast<double>(counters.closes)},
-        {"reopened", static_cast<double>(counters.reopened)},
-        {"degenerate", static_cast<double>(counters.degenerate)},
-        {"gaps", static_cast<double>(counters.gaps)},
-        {"gaps_closed", static_cast<double>(counters.gaps_closed)},
-        {"global_steps", static_cast<double>(counters.global_steps)},
-        {"merged", static_cast<double>(counters.merged)},
-        {"dynamic", static_cast<double>(counters.dynamic)},
-        {"corners_revoked", static_cast<double>(counters.corners_revoked)},
-        {"undetermined_x", answer.undetermined.x()},
-        {"undetermined_y", answer.undetermined.y()},
+        {"lost", number(counters.lost)},
+        {"walls", number(counters.landmarks)},
+        {"submaps", number(counters.submaps)},
+        {"closes", number(counters.closes)},
+        {"reopened", number(counters.reopened)},
+        {"degenerate", number(counters.degenerate)},
+        {"gaps", number(counters.gaps)},
+        {"gaps_closed", number(counters.gaps_closed)},
+        {"global_steps", number(counters.global_steps)},
+        {"merged", number(counters.merged)},
+        {"dynamic", number(counters.dynamic)},
+        {"corners_revoked", number(counters.corners_revoked)},
+        {"undetermined_x", answer.unobservable.x()},
+        {"undetermined_y", answer.unobservable.y()},
         {"untied_x", answer.untied.x()},
         {"untied_y", answer.untied.y()},
     };
@@ -161,17 +149,17 @@ class SlamPlane final : public sdk::Plugin {
     const Counters& counters = answer.counters;
     const thesis::ThesisCounters own = thesis_->counters();
     const hw_counter_t list[] = {
-        {"lost", static_cast<double>(counters.lost)},
-        {"walls", static_cast<double>(counters.walls)},
-        {"submaps", static_cast<double>(counters.submaps)},
-        {"degenerate", static_cast<double>(counters.degenerate)},
-        {"comparisons", static_cast<double>(own.comparisons)},
-        {"cache_hits", static_cast<double>(own.cache_hits)},
-        {"roll_backs", static_cast<double>(own.roll_backs)},
-        {"replayed", static_cast<double>(own.replayed)},
-        {"submaps_after_motion", static_cast<double>(own.submaps_after_motion)},
-        {"undetermined_x", answer.undetermined.x()},
-        {"undetermined_y", answer.undetermined.y()},
+        {"lost", number(counters.lost)},
+        {"walls", number(counters.landmarks)},
+        {"submaps", number(counters.submaps)},
+        {"degenerate", number(counters.degenerate)},
+        {"comparisons", number(own.comparisons)},
+        {"cache_hits", number(own.cache_hits)},
+        {"roll_backs", number(own.roll_backs)},
+        {"replayed", number(own.replayed)},
+        {"submaps_after_motion", number(own.submaps_after_motion)},
+        {"undetermined_x", answer.unobservable.x()},
+        {"undetermined_y", answer.unobservable.y()},
     };
     host().put_counters(list);
   }
@@ -181,7 +169,7 @@ class SlamPlane final : public sdk::Plugin {
   thesis::Options thesis_options_;
   int mode_ = static_cast<int>(Mode::relative);
   int dof_ = static_cast<int>(Dof::three);
-  PlaneAdapter adapter_;
+  WallAdapter adapter_;
   SpatialAdapter spatial_adapter_;
   std::optional<Mapper> mapper_;  // one of the three while active
   std::optional<thesis::ThesisMapper> thesis_;

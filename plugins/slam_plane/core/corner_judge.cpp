@@ -40,17 +40,10 @@ bool crosses_a_wall(const WallMap& map, Index own, const Vec2& from, const Vec2&
 }  // namespace
 
 CornerJudge::CornerJudge(const Options& options)
-    : noise_(options.noise()),
-      sigmas_(options.corner_sigmas),
-      margin_(options.border_margin_deg * std::numbers::pi / 180.0) {}
+    : noise_(options.noise()), sigmas_(options.corner_sigmas), margin_(radians(options.border_margin_deg)) {}
 
-CornerJudge::EndView CornerJudge::view_end(const Sighting& sighting, int end) const {
-  const Vec2& p = sighting.end[end];
-  const Vec2& d = sighting.direction;
-  double across = std::hypot(noise_.normal, 0.5 * sighting.length * noise_.angle);
-  double along = std::hypot(noise_.end, noise_.along);
-  if (along > kMostEnd_m)
-    across = along = std::hypot(across, along);  // wherever the last points happen to lie
+/// A place of the robot's frame on a wall of direction d, of which the standard deviations across and along the wall are given.
+CornerJudge::EndView CornerJudge::view_of(const Vec2& p, const Vec2& d, double across, double along) {
   const double range = std::max(p.norm(), kLeastRange_m);
   const double cosine = d.dot(p) / range,
                sine = cross(d, p) / range;  // of the wall against the line of sight
@@ -62,14 +55,23 @@ CornerJudge::EndView CornerJudge::view_end(const Sighting& sighting, int end) co
           Vec3::Zero()};
 }
 
-bool CornerJudge::at_border(const View& view, const Sighting& sighting, int end, const EndView& seen) const {
+CornerJudge::EndView CornerJudge::view_end(const AssociatedObservation& observation, int end) const {
+  double across = std::hypot(noise_.normal, 0.5 * observation.length * noise_.angle);
+  double along = std::hypot(noise_.end, noise_.along);
+  if (along > kMostEnd_m)
+    across = along = std::hypot(across, along);  // wherever the last points happen to lie
+  return view_of(observation.end[end], observation.direction, across, along);
+}
+
+bool CornerJudge::at_border(const View& view, const AssociatedObservation& observation, int end,
+                            const EndView& seen) const {
   if (view.horizontal_fov_rad < 2.0 * std::numbers::pi) {
     const double inside = 0.5 * view.horizontal_fov_rad - std::abs(seen.bearing);
     if (inside < margin_ + sigmas_ * seen.bearing_sigma) return true;
   }
   if (view.max_range_m <= 0.0) return false;
   if (view.range_bounds_sides) return seen.range > view.max_range_m - sigmas_ * seen.range_sigma;
-  return sighting.end[end].x() > view.max_range_m - sigmas_ * seen.depth_sigma;
+  return observation.end[end].x() > view.max_range_m - sigmas_ * seen.depth_sigma;
 }
 
 bool CornerJudge::behind_end(const EndView& seen, const EndView& other) const {
@@ -79,7 +81,7 @@ bool CornerJudge::behind_end(const EndView& seen, const EndView& other) const {
   return std::abs(turn) < sigmas_ * std::hypot(seen.bearing_sigma, other.bearing_sigma);
 }
 
-/// Whether `hides(other)` is true of an end of another piece, of those next to it by bearing, as far as `reach`.
+/// Whether `hides(other)` is true of an end of another observation, of those next to it by bearing, as far as `reach`.
 template <typename Hides>
 bool CornerJudge::any_beside(std::size_t end, double reach, Hides hides) const {
   const EndView& seen = ends_[end];
@@ -97,7 +99,7 @@ bool CornerJudge::any_beside(std::size_t end, double reach, Hides hides) const {
   return false;
 }
 
-/// Whether an end lies behind that of another piece.
+/// Whether an end lies behind that of another observation.
 bool CornerJudge::is_hidden(std::size_t end) const {
   const EndView& seen = ends_[end];
   // As far as the widest doubt about any bearing reaches.
@@ -105,39 +107,38 @@ bool CornerJudge::is_hidden(std::size_t end) const {
   return any_beside(end, reach, [&](std::size_t other) { return behind_end(seen, ends_[other]); });
 }
 
-void CornerJudge::judge(const View& view, std::vector<Sighting>& frame) const {
+void CornerJudge::judge(const View& view, std::vector<AssociatedObservation>& frame) const {
   ends_.clear();
   widest_ = 0.0;
-  for (const Sighting& sighting : frame) {
+  for (const AssociatedObservation& observation : frame) {
     for (const int end : {kEndA, kEndB}) {
-      ends_.push_back(view_end(sighting, end));
+      ends_.push_back(view_end(observation, end));
       widest_ = std::max(widest_, ends_.back().bearing_sigma);
     }
   }
   by_bearing_.resize(ends_.size());
   std::iota(by_bearing_.begin(), by_bearing_.end(), std::size_t{0});
-  std::sort(by_bearing_.begin(), by_bearing_.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(by_bearing_, [&](std::size_t a, std::size_t b) {
     return std::pair(ends_[a].bearing, a) < std::pair(ends_[b].bearing, b);
   });
   place_.resize(ends_.size());
   for (std::size_t i = 0; i < by_bearing_.size(); ++i) place_[by_bearing_[i]] = i;
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    Sighting& sighting = frame[i / 2];
+    AssociatedObservation& observation = frame[i / 2];
     const int end = static_cast<int>(i % 2);
-    const bool cut = at_border(view, sighting, end, ends_[i]);
-    sighting.hidden[end] = !cut && is_hidden(i);
-    sighting.corner[end] = !cut && !sighting.hidden[end];
+    const bool cut = at_border(view, observation, end, ends_[i]);
+    observation.hidden[end] = !cut && is_hidden(i);
+    observation.corner[end] = !cut && !observation.hidden[end];
   }
 }
 
 /// Whether an end is seen where the wall has its corner.
-bool CornerJudge::agrees(const Sighting& sighting, int end, const WallEstimate& wall,
+bool CornerJudge::agrees(const AssociatedObservation& observation, int end, const WallEstimate& wall,
                          const Located& at) const {
-  const Vec2 place = at.T_map_robot * sighting.end[end];
+  const Vec2 place = at.T_map_robot * observation.end[end];
   const Vec2& d = wall.basis.direction;
   const Vec3 row(d.x(), d.y(), d.dot(left_of(place - at.T_map_robot.t)));
-  const double variance = noise_.end * noise_.end + noise_.along * noise_.along + wall.variance[end] +
-                          row.dot(at.covariance * row);
+  const double variance = noise_.end_variance() + wall.variance[end] + row.dot(at.covariance * row);
   const double off = wall.basis.along(place) - wall.end[end];
   return off * off <= kAgreeSigmas * kAgreeSigmas * variance;
 }
@@ -146,17 +147,9 @@ bool CornerJudge::agrees(const Sighting& sighting, int end, const WallEstimate& 
 CornerJudge::EndView CornerJudge::expect_end(const Vec2& corner, int end, const WallEstimate& wall,
                                              const Located& at) const {
   const Vec2 p = at.T_map_robot.inverse() * corner;
-  const Vec2 d = at.T_map_robot.unrotate(wall.basis.direction);
-  const double range = std::max(p.norm(), kLeastRange_m);
-  const double cosine = d.dot(p) / range, sine = cross(d, p) / range;
-  const double across = std::sqrt(wall.variance_at(wall.end[end])), along = std::sqrt(wall.variance[end]);
-  EndView expected{std::atan2(p.y(), p.x()),
-                   range,
-                   std::hypot(cosine * across, sine * along) / range,
-                   std::hypot(sine * across, cosine * along),
-                   std::hypot(d.y() * across, d.x() * along),
-                   Vec3::Zero()};
-  const Vec2 sideways = at.T_map_robot.rotate(left_of(p)) / (range * range);
+  EndView expected = view_of(p, at.T_map_robot.unrotate(wall.basis.direction),
+                             std::sqrt(wall.variance_at(wall.end[end])), std::sqrt(wall.variance[end]));
+  const Vec2 sideways = at.T_map_robot.rotate(left_of(p)) / (expected.range * expected.range);
   expected.lever = Vec3(-sideways.x(), -sideways.y(), -1.0);
   return expected;
 }
@@ -188,34 +181,35 @@ bool CornerJudge::is_in_front(std::size_t end, const Located& at) const {
     const double variance = seen.bearing_sigma * seen.bearing_sigma +
                             other.bearing_sigma * other.bearing_sigma + lever.dot(at.covariance * lever);
     const double turn = std::remainder(seen.bearing - other.bearing, 2.0 * std::numbers::pi);
-    const double outside = i % 2 == kEndA ? turn : -turn;  // of the piece that the other one is an end of
+    const double outside =
+        i % 2 == kEndA ? turn : -turn;  // of the observation that the other one is an end of
     return outside < kRecallSigmas * std::sqrt(variance);
   });
 }
 
 bool CornerJudge::recall(const View& view, const WallMap& map, const Located& at,
-                         std::vector<Sighting>& frame) const {
+                         std::vector<AssociatedObservation>& frame) const {
   if (std::hypot(noise_.end, noise_.along) > kMostEnd_m) return false;
-  told_.assign(ends_.size(), false);
+  mapped_.assign(ends_.size(), false);
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const Sighting& sighting = frame[i / 2];
+    const AssociatedObservation& observation = frame[i / 2];
     const int end = static_cast<int>(i % 2);
-    if (sighting.wall == kNone || sighting.stray) continue;
-    const WallEstimate& wall = map.walls[sighting.wall].estimate;
-    if (!wall.known[end] || !agrees(sighting, end, wall, at)) continue;
+    if (!observation.is_evidence()) continue;
+    const WallEstimate& wall = map.walls[observation.wall].estimate;
+    if (!wall.known[end] || !agrees(observation, end, wall, at)) continue;
     ends_[i] = expect_end(wall.basis.point(wall.end[end]), end, wall, at);
-    told_[i] = true;
+    mapped_[i] = true;
   }
   bool any = false;
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    Sighting& sighting = frame[i / 2];
+    AssociatedObservation& observation = frame[i / 2];
     const std::size_t end = i % 2;
-    if (!told_[i] || sighting.corner[end] || !is_in_view(view, i, at) || !is_in_front(i, at)) continue;
-    const WallEstimate& wall = map.walls[sighting.wall].estimate;
+    if (!mapped_[i] || observation.corner[end] || !is_in_view(view, i, at) || !is_in_front(i, at)) continue;
+    const WallEstimate& wall = map.walls[observation.wall].estimate;
     // What hides may be seen too little of to be told, as at the border of the view.
-    if (crosses_a_wall(map, sighting.wall, at.T_map_robot.t, wall.basis.point(wall.end[end]))) continue;
-    sighting.corner[end] = any = true;
-    sighting.hidden[end] = false;
+    if (crosses_a_wall(map, observation.wall, at.T_map_robot.t, wall.basis.point(wall.end[end]))) continue;
+    observation.corner[end] = any = true;
+    observation.hidden[end] = false;
   }
   return any;
 }

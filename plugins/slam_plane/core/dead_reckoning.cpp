@@ -16,9 +16,7 @@ constexpr double kUnmeasured_m2 = 1e4;
 
 /// Covariance of the place by a frame alone; large in the direction that it leaves open.
 Mat2 measured(const PoseInformation& information) {
-  const Mat3& h = information.matrix;
-  Mat2 place = h.topLeftCorner<2, 2>();
-  if (h(2, 2) > 0.0) place -= h.topRightCorner<2, 1>() * h.bottomLeftCorner<1, 2>() / h(2, 2);
+  Mat2 place = information.position();
   if (information.open > 0) {
     const Vec2 other = left_of(information.direction);
     place = information.open == 2 ? Mat2(Mat2::Zero())

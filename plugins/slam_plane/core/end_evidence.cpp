@@ -6,7 +6,7 @@
 namespace hallway::slam_plane {
 namespace {
 
-constexpr std::uint32_t kLeastAgainst = 3;  // sightings beyond a corner that disprove it
+constexpr std::uint32_t kLeastAgainst = 3;  // observations beyond a corner that disprove it
 constexpr double kAgainstSigmas = 4.0;
 constexpr double kBeyond_m = 0.03;
 constexpr double kSamePlace_m = 0.15;  // of ends that are seen in one place
@@ -16,40 +16,40 @@ constexpr double kSamePlace_m = 0.15;  // of ends that are seen in one place
 EndEvidence::Against EndEvidence::compare(const WallEstimate& wall, const Vec2& place, int end,
                                           double slack) const {
   if (!wall.known[end]) return {};
-  const double own2 = noise_.end * noise_.end + noise_.along * noise_.along;
+  const double own2 = noise_.end_variance();
   const double off = wall.basis.along(place) - wall.end[end];
   const double gate = kAgainstSigmas * std::sqrt(own2 + wall.variance[end]) + slack;
-  const double sign = end == kEndA ? -1.0 : 1.0;
-  return {sign * off > gate + kBeyond_m, std::abs(off) > gate};
+
+  return {outward(end) * off > gate + kBeyond_m, std::abs(off) > gate};
 }
 
 /// Of the end where the wall was seen farthest.
-void EndEvidence::note_hidden(const Frame& frame, const Sighting& sighting, WallRecord& wall) {
+void EndEvidence::note_hidden(const Frame& frame, const AssociatedObservation& observation,
+                              WallRecord& wall) {
   if (wall.count == 0) return;
   for (int k = 0; k < 2; ++k) {
-    const double sign = k == kEndA ? -1.0 : 1.0;
-    const double place = wall.estimate.basis.along(frame.T_map_robot * sighting.end[k]);
-    const double beyond = sign * (place - wall.estimate.reach[k]);
+    const double place = wall.estimate.basis.along(frame.T_map_robot * observation.end[k]);
+    const double beyond = outward(k) * (place - wall.estimate.reach[k]);
     if (beyond > kSamePlace_m) wall.hidden[k] = 0;
-    if (sighting.hidden[k] && beyond > -kSamePlace_m) ++wall.hidden[k];
+    if (observation.hidden[k] && beyond > -kSamePlace_m) ++wall.hidden[k];
   }
 }
 
-void EndEvidence::judge(const OpenGaps& gaps, const Frame& frame, const Sighting& sighting, WallMap& map,
-                        bool (&corner)[2]) const {
-  WallRecord& wall = map.walls[sighting.wall];
-  note_hidden(frame, sighting, wall);
+void EndEvidence::judge(const OpenGaps& gaps, const Frame& frame, const AssociatedObservation& observation,
+                        WallMap& map, bool (&corner)[2]) const {
+  WallRecord& wall = map.walls[observation.wall];
+  note_hidden(frame, observation, wall);
   const SubmapRecord& submap = map.submaps[map.active()];
   corner[kEndA] = corner[kEndB] = false;
   if (submap.lines_only) return;
   const Member& member = submap.members[wall.active_member];
   for (int k = 0; k < 2; ++k) {
-    corner[k] = sighting.corner[k];
+    corner[k] = observation.corner[k];
     Against local, global;
     if (member.evidence.count() > 0)
-      local = compare(member.estimate, frame.T_submap_robot * sighting.end[k], k, 0.0);
+      local = compare(member.estimate, frame.T_submap_robot * observation.end[k], k, 0.0);
     if (gaps.empty() || wall.epoch >= gaps.last().epoch)
-      global = compare(wall.estimate, frame.T_map_robot * sighting.end[k], k, map_bound_m_);
+      global = compare(wall.estimate, frame.T_map_robot * observation.end[k], k, map_bound_m_);
     if (local.beyond || global.beyond) ++wall.against[k];
     if (!gaps.empty() && gaps.last().is_wide() && wall.corners[k] > 0 &&
         wall.corner_epoch[k] < gaps.last().epoch)

@@ -21,6 +21,13 @@ void add_row(const Vec3& gradient, double residual, double weight, Mat3& h, Vec3
 
 }  // namespace
 
+Mat2 PoseInformation::position() const {
+  Mat2 position = matrix.topLeftCorner<2, 2>();
+  if (matrix(2, 2) > 0.0)
+    position -= matrix.topRightCorner<2, 1>() * matrix.bottomLeftCorner<1, 2>() / matrix(2, 2);
+  return position;
+}
+
 FrameFit::FrameFit(const Options& options) : noise_(options.noise()), undetermined_(options.undetermined_m) {}
 
 bool FrameFit::end_row(const Pair& pair, const Pose2& T, Ends ends, Row& row) const {
@@ -33,8 +40,8 @@ bool FrameFit::end_row(const Pair& pair, const Pose2& T, Ends ends, Row& row) co
   Vec2 arm[2];
   double doubt = 1.0;
   for (int k = 0; k < 2; ++k) {
-    if (!pair.end[k] || !pair.sighting->corner[k] || !wall.known[k]) continue;
-    arm[k] = T.rotate(pair.sighting->end[k]);
+    if (!pair.end[k] || !pair.observation->corner[k] || !wall.known[k]) continue;
+    arm[k] = T.rotate(pair.observation->end[k]);
     residual[k] = wall.basis.along(arm[k] + T.t) - wall.end[k];
     variance[k] = own + shared + wall.variance[k];
     const double ratio2 = residual[k] * residual[k] / (kEndGateSigmas * kEndGateSigmas * variance[k]);
@@ -70,9 +77,9 @@ void FrameFit::step(Pose2& T, Ends ends, PoseInformation& information) const {
   for (const Pair& pair : pairs_) {
     const WallBasis& basis = pair.wall->basis;
     const Vec2 l = left_of(basis.direction);
-    const Vec2 arm = T.rotate(pair.sighting->middle);
+    const Vec2 arm = T.rotate(pair.observation->middle);
     const double s = basis.along(arm + T.t);
-    const double turn = angle_between(basis.direction, T.rotate(pair.sighting->direction));
+    const double turn = angle_between(basis.direction, T.rotate(pair.observation->direction));
     add_row(Vec3(0.0, 0.0, 1.0), turn, 1.0 / (noise_.angle * noise_.angle + pair.wall->p_tt), h, g);
     add_row(Vec3(l.x(), l.y(), l.dot(left_of(arm))), basis.across(arm + T.t),
             1.0 / (noise_.normal * noise_.normal + pair.wall->variance_at(s)), h, g);
@@ -93,10 +100,8 @@ void FrameFit::step(Pose2& T, Ends ends, PoseInformation& information) const {
 
 /// What of the position is open once the heading is free too.
 void FrameFit::judge(PoseInformation& information) const {
-  const Mat3& h = information.matrix;
-  information.heading = h(2, 2) * kWorstHeading_rad * kWorstHeading_rad > 1.0;
-  Mat2 position = h.topLeftCorner<2, 2>();
-  if (h(2, 2) > 0.0) position -= h.topRightCorner<2, 1>() * h.bottomLeftCorner<1, 2>() / h(2, 2);
+  information.heading = information.matrix(2, 2) * kWorstHeading_rad * kWorstHeading_rad > 1.0;
+  const Mat2 position = information.position();
   const double middle = 0.5 * (position(0, 0) + position(1, 1));
   const double half = 0.5 * (position(0, 0) - position(1, 1));
   const double spread = std::hypot(half, position(0, 1));
@@ -115,37 +120,28 @@ PoseInformation FrameFit::solve(Pose2& T) const {
 }
 
 double FrameFit::line_distance2(std::size_t pair, const Pose2& T) const {
-  const Sighting& sighting = *pairs_[pair].sighting;
+  const AssociatedObservation& observation = *pairs_[pair].observation;
   const WallEstimate& wall = *pairs_[pair].wall;
-  const Vec2 p = T * sighting.middle;
-  const double turn = angle_between(wall.basis.direction, T.rotate(sighting.direction));
+  const Vec2 p = T * observation.middle;
+  const double turn = angle_between(wall.basis.direction, T.rotate(observation.direction));
   const double offset = wall.basis.across(p);
   return turn * turn / (noise_.angle * noise_.angle + wall.p_tt) +
          offset * offset / (noise_.normal * noise_.normal + wall.variance_at(wall.basis.along(p)));
 }
 
-bool FrameFit::end_agrees(std::size_t pair, int end, const Pose2& T) const {
-  const Sighting& sighting = *pairs_[pair].sighting;
-  const WallEstimate& wall = *pairs_[pair].wall;
-  if (!sighting.corner[end] || !wall.known[end]) return false;
-  const double residual = wall.basis.along(T * sighting.end[end]) - wall.end[end];
-  const double variance = noise_.end * noise_.end + noise_.along * noise_.along + wall.variance[end];
-  return residual * residual <= kEndGateSigmas * kEndGateSigmas * variance;
-}
-
-PoseInformation FrameFit::own_information(const std::vector<Sighting>& frame) const {
+PoseInformation FrameFit::own_information(const std::vector<AssociatedObservation>& frame) const {
   PoseInformation information;
   Vec3 unused = Vec3::Zero();
-  for (const Sighting& sighting : frame) {
-    const Vec2 l = left_of(sighting.direction);
+  for (const AssociatedObservation& observation : frame) {
+    const Vec2 l = left_of(observation.direction);
     add_row(Vec3(0.0, 0.0, 1.0), 0.0, 1.0 / (noise_.angle * noise_.angle), information.matrix, unused);
-    add_row(Vec3(l.x(), l.y(), l.dot(left_of(sighting.middle))), 0.0, 1.0 / (noise_.normal * noise_.normal),
-            information.matrix, unused);
+    add_row(Vec3(l.x(), l.y(), l.dot(left_of(observation.middle))), 0.0,
+            1.0 / (noise_.normal * noise_.normal), information.matrix, unused);
     for (int k = 0; k < 2; ++k) {
-      if (!sighting.corner[k]) continue;
-      const Vec2& d = sighting.direction;
-      add_row(Vec3(d.x(), d.y(), d.dot(left_of(sighting.end[k]))), 0.0,
-              1.0 / (noise_.end * noise_.end + noise_.along * noise_.along), information.matrix, unused);
+      if (!observation.corner[k]) continue;
+      const Vec2& d = observation.direction;
+      add_row(Vec3(d.x(), d.y(), d.dot(left_of(observation.end[k]))), 0.0, 1.0 / (noise_.end_variance()),
+              information.matrix, unused);
     }
   }
   judge(information);

@@ -15,22 +15,24 @@ struct PoseInformation {
   bool heading = false;           ///< that the heading is determined
 
   bool determined() const { return heading && open == 0; }
+  /// Information of the position alone, the heading being free.
+  Mat2 position() const;
 };
 
-/// Finds the pose of a frame whose pieces were given walls: lines always count, ends where both the frame and the wall have
+/// Finds the pose of a frame whose observations were given walls: lines always count, ends where both the frame and the wall have
 /// a corner. Gauss-Newton steps with weights that do not trust ends far from where they should be.
 class FrameFit {
  public:
   explicit FrameFit(const Options& options);
 
   void clear() { pairs_.clear(); }
-  /// A piece and its wall. `wall` must live until the fit is over. Estimates are in the frame that the pose is sought in.
-  void add(const Sighting& sighting, const WallEstimate& wall) {
-    pairs_.push_back({&sighting, &wall, {true, true}});
+  /// An observation and its wall. `wall` must live until the fit is over. Estimates are in the frame that the pose is sought in.
+  void add(const AssociatedObservation& observation, const WallEstimate& wall) {
+    pairs_.push_back({&observation, &wall, {true, true}});
   }
   /// The same without the ends that are not to count.
-  void add(const Sighting& sighting, const WallEstimate& wall, bool end_a, bool end_b) {
-    pairs_.push_back({&sighting, &wall, {end_a, end_b}});
+  void add(const AssociatedObservation& observation, const WallEstimate& wall, bool end_a, bool end_b) {
+    pairs_.push_back({&observation, &wall, {end_a, end_b}});
   }
   std::size_t pairs() const { return pairs_.size(); }
 
@@ -38,19 +40,16 @@ class FrameFit {
   /// stays as it is given. Returns what the pairs tell.
   PoseInformation solve(Pose2& T_frame_robot) const;
 
-  /// How far from its wall a piece lies at a pose: the square of its distance in standard deviations, of line and angle; two
+  /// How far from its wall an observation lies at a pose: the square of its distance in standard deviations, of line and angle; two
   /// degrees of freedom.
   double line_distance2(std::size_t pair, const Pose2& T_frame_robot) const;
 
-  /// Whether an end agrees with its wall's corner at a pose: false for ends that do not, or that have no corner to agree with.
-  bool end_agrees(std::size_t pair, int end, const Pose2& T_frame_robot) const;
-
   /// What a frame's own lines and corners tell of its pose, were all of its walls known.
-  PoseInformation own_information(const std::vector<Sighting>& frame) const;
+  PoseInformation own_information(const std::vector<AssociatedObservation>& frame) const;
 
  private:
   struct Pair {
-    const Sighting* sighting;
+    const AssociatedObservation* observation;
     const WallEstimate* wall;
     bool end[2];  // that it may count
   };

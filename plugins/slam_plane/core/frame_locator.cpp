@@ -9,10 +9,10 @@ namespace {
 
 constexpr std::uint64_t kRecentFrames = 15;  // for which a wall out of view is still looked for first
 constexpr double kLeastCrossing =
-    0.5;                          // sine between the heading and a direction in which nothing is measured
-constexpr double kStray2 = 36.0;  // squared distance of a piece that is not its wall's, in variances
-constexpr double kStrayTurn_rad = 0.05;
-constexpr double kStrayBound_m = 0.05;  // below which none strays
+    0.5;                            // sine between the heading and a direction in which nothing is measured
+constexpr double kOutlier2 = 36.0;  // squared distance of an observation that is not its wall's, in variances
+constexpr double kOutlierTurn_rad = 0.05;
+constexpr double kOutlierBound_m = 0.05;  // below which none outliers
 
 }  // namespace
 
@@ -29,64 +29,66 @@ void FrameLocator::locate(const WallMap& map, std::uint32_t since, Frame& frame)
 void FrameLocator::reckon(const Pose2& T_map_submap, Frame& frame) {
   if (known_ == 0) return reckoning_.reset();
   reckoning_.predict(T_map_submap, frame.T_map_robot.r, fastest_);
-  const PoseInformation& told = frame.in_map;
-  if (!reckoning_.is_running() || !told.heading || told.open != 1) return;
-  if (std::abs(cross(told.direction, frame.T_map_robot.r)) <= kLeastCrossing) return reckoning_.reset();
-  frame.T_map_robot.t += told.direction.dot(reckoning_.place() - frame.T_map_robot.t) * told.direction;
+  const PoseInformation& report_map = frame.in_map;
+  if (!reckoning_.is_running() || !report_map.heading || report_map.open != 1) return;
+  if (std::abs(cross(report_map.direction, frame.T_map_robot.r)) <= kLeastCrossing) return reckoning_.reset();
+  frame.T_map_robot.t +=
+      report_map.direction.dot(reckoning_.place() - frame.T_map_robot.t) * report_map.direction;
 }
 
 void FrameLocator::locate_from(const Pose2& T_map_robot, const WallMap& map, std::uint32_t since,
                                Frame& frame) {
   Pose2& T = frame.T_map_robot;
   T = T_map_robot;
-  matcher_.correct_heading(map, recent_, frame.sightings, T);
-  matcher_.match_recent(map, recent_, frame.iteration, T, frame.sightings);
-  fit_map(map, frame, kNone, T);
-  matcher_.match_map(map, since, T, frame.sightings);
-  frame.in_map = fit_map(map, frame, kNone, T);
+  matcher_.correct_heading(map, recent_, frame.observations, T);
+  matcher_.match_recent(map, recent_, frame.iteration, T, frame.observations);
+  fit_map(map, frame, kAllEpochs, T);
+  matcher_.match_map(map, since, T, frame.observations);
+  frame.in_map = fit_map(map, frame, kAllEpochs, T);
   known_ = fit_.pairs();
 }
 
 PoseInformation FrameLocator::fit_map(const WallMap& map, const Frame& frame, std::uint32_t before_epoch,
                                       Pose2& T) {
   fit_.clear();
-  for (const Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone || sighting.stray || map.walls[sighting.wall].epoch >= before_epoch) continue;
-    const WallRecord& wall = map.walls[sighting.wall];
-    fit_.add(sighting, wall.estimate, wall.corner_epoch[kEndA] < before_epoch,
+  for (const AssociatedObservation& observation : frame.observations) {
+    if (!observation.is_evidence() || map.walls[observation.wall].epoch >= before_epoch) continue;
+    const WallRecord& wall = map.walls[observation.wall];
+    fit_.add(observation, wall.estimate, wall.corner_epoch[kEndA] < before_epoch,
              wall.corner_epoch[kEndB] < before_epoch);
   }
   return fit_.solve(T);
 }
 
-void FrameLocator::find_strays(const WallMap& map, Frame& frame) {
+void FrameLocator::find_outliers(const WallMap& map, Frame& frame) {
   std::size_t pair = 0;
   bool any = false;
-  for (Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone || sighting.stray) continue;
-    const WallRecord& wall = map.walls[sighting.wall];
+  for (AssociatedObservation& observation : frame.observations) {
+    if (!observation.is_evidence()) continue;
+    const WallRecord& wall = map.walls[observation.wall];
     const bool recent = wall.last_seen + kRecentFrames >= frame.iteration;
-    const double offset = std::abs(wall.estimate.basis.across(frame.T_map_robot * sighting.middle));
+    const double offset = std::abs(wall.estimate.basis.across(frame.T_map_robot * observation.middle));
     const double distance2 = fit_.line_distance2(pair++, frame.T_map_robot);
-    const Vec2 direction = frame.T_map_robot.rotate(sighting.direction);
+    const Vec2 direction = frame.T_map_robot.rotate(observation.direction);
     const double turn = std::abs(cross(wall.estimate.basis.direction, direction));
-    sighting.stray = recent && (offset > kStrayBound_m || turn > kStrayTurn_rad) && distance2 > kStray2;
-    any = any || sighting.stray;
+    observation.outlier =
+        recent && (offset > kOutlierBound_m || turn > kOutlierTurn_rad) && distance2 > kOutlier2;
+    any = any || observation.outlier;
   }
   any = trust_most(map, frame) || any;
-  if (any) frame.in_map = fit_map(map, frame, kNone, frame.T_map_robot);
+  if (any) frame.in_map = fit_map(map, frame, kAllEpochs, frame.T_map_robot);
 }
 
-/// What most pieces agree on stands: where half of them or more stray, it is the pose that was wrong. Returns whether that is so.
+/// What most observations agree on stands: where half of them or more outlier, it is the pose that was wrong. Returns whether that is so.
 bool FrameLocator::trust_most(const WallMap& map, Frame& frame) const {
-  std::size_t standing = 0, straying = 0;
-  for (const Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone || map.walls[sighting.wall].is_dynamic) continue;
-    ++(sighting.stray ? straying : standing);
+  std::size_t inliers = 0, outliers = 0;
+  for (const AssociatedObservation& observation : frame.observations) {
+    if (observation.wall == kNone || map.walls[observation.wall].is_dynamic) continue;
+    ++(observation.outlier ? outliers : inliers);
   }
-  if (straying == 0 || straying < standing) return false;
-  for (Sighting& sighting : frame.sightings) {
-    if (sighting.wall != kNone && !map.walls[sighting.wall].is_dynamic) sighting.stray = false;
+  if (outliers == 0 || outliers < inliers) return false;
+  for (AssociatedObservation& observation : frame.observations) {
+    if (observation.wall != kNone && !map.walls[observation.wall].is_dynamic) observation.outlier = false;
   }
   return true;
 }
@@ -94,10 +96,10 @@ bool FrameLocator::trust_most(const WallMap& map, Frame& frame) const {
 void FrameLocator::locate_in_submap(const WallMap& map, Frame& frame) {
   const SubmapRecord& submap = map.submaps[map.active()];
   fit_.clear();
-  for (const Sighting& sighting : frame.sightings) {
-    if (sighting.wall == kNone || sighting.stray) continue;
-    const Index member = map.walls[sighting.wall].active_member;
-    if (member != kNone) fit_.add(sighting, submap.members[member].estimate);
+  for (const AssociatedObservation& observation : frame.observations) {
+    if (!observation.is_evidence()) continue;
+    const Index member = map.walls[observation.wall].active_member;
+    if (member != kNone) fit_.add(observation, submap.members[member].estimate);
   }
   frame.T_submap_robot = submap.T_map_submap.inverse() * frame.T_map_robot;
   frame.in_submap = fit_.solve(frame.T_submap_robot);
@@ -123,16 +125,15 @@ void FrameLocator::note_motion(const Pose2& before, const Frame& frame, const Ve
 
 void FrameLocator::note_seen(const WallMap& map, const Frame& frame) {
   reckoning_.keep(map.submaps[map.active()].T_map_submap, frame.T_map_robot);
-  for (const Sighting& sighting : frame.sightings) {
-    if (std::find(recent_.begin(), recent_.end(), sighting.wall) == recent_.end())
-      recent_.push_back(sighting.wall);
+  for (const AssociatedObservation& observation : frame.observations) {
+    add_new(recent_, observation.wall);
   }
   std::erase_if(recent_, [&](Index w) { return map.walls[w].last_seen + kRecentFrames < frame.iteration; });
 }
 
 void FrameLocator::replace(Index gone, Index kept) {
   std::erase(recent_, gone);
-  if (std::find(recent_.begin(), recent_.end(), kept) == recent_.end()) recent_.push_back(kept);
+  add_new(recent_, kept);
 }
 
 }  // namespace hallway::slam_plane

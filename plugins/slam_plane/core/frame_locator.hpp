@@ -11,7 +11,7 @@
 
 namespace hallway::slam_plane {
 
-/// Finds the walls and the pose of a frame: where the motion so far puts it, the walls that its pieces are there, and the pose that these
+/// Finds the walls and the pose of a frame: where the motion so far puts it, the walls that its observations are there, and the pose that these
 /// tell, first in the map and then in the active submap alone.
 class FrameLocator {
  public:
@@ -19,23 +19,26 @@ class FrameLocator {
       : matcher_(options), fit_(options), smoothing_(options.smoothing) {}
 
   /// Sets the pose that constant velocity predicts, and the walls and the pose found from there. `since`: no walls of epochs before that
-  /// one are looked for by place. Along a direction that the walls leave open the frame is where dead reckoning has it. O(pieces * walls seen just before), flat in the size of the map.
+  /// one are looked for by place. Along a direction that the walls leave open the frame is where dead reckoning has it. O(observations * walls seen just before), flat in the size of the map.
   void locate(const WallMap& map, std::uint32_t since, Frame& frame);
-  /// How many pieces locate() found a wall for.
+  /// How many observations locate() found a wall for.
   std::size_t known() const { return known_; }
 
-  /// Sets Sighting::stray of pieces that do not lie on their walls at the pose that locate() found, and finds it anew without them.
-  void find_strays(const WallMap& map, Frame& frame);
+  /// Sets Observation::outlier of observations that do not lie on their walls at the pose that locate() found, and finds it anew without them.
+  void find_outliers(const WallMap& map, Frame& frame);
 
   /// Sets Frame::T_submap_robot and in_submap from the active submap alone.
   void locate_in_submap(const WallMap& map, Frame& frame);
 
+  static constexpr std::uint32_t kAllEpochs = ~std::uint32_t{0};
   /// Fits a pose to the map as it was known before an epoch.
   PoseInformation fit_map(const WallMap& map, const Frame& frame, std::uint32_t before_epoch,
                           Pose2& T_map_robot);
 
   /// What a frame's own lines and corners tell of its pose, were all of its walls known.
-  PoseInformation own_information(const Frame& frame) const { return fit_.own_information(frame.sightings); }
+  PoseInformation own_information(const Frame& frame) const {
+    return fit_.own_information(frame.observations);
+  }
 
   /// Takes note of the motion from `before` (T_submap_robot of the last frame) to the frame. `untied`: a direction in the map in which
   /// nothing was measured, or zero.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastOverlap = 0.5;  // of the shorter one
 constexpr double kWideAngle_rad =
-    0.35;  // between a piece and what it may be, before the heading is corrected
+    0.35;  // between an observation and what it may be, before the heading is corrected
 constexpr double kWideBound_m = 0.5;
 constexpr double kQueryStep_m = 1.5;  // less than twice the reach of the index
 constexpr double kRivalOverlap = 0.3;
@@ -40,14 +40,13 @@ struct Overlap {
 FrameMatcher::FrameMatcher(const Options& options)
     : near_bound_(options.match_bound_m),
       map_bound_(options.map_bound_m),
-      angle_(options.match_angle_deg * std::numbers::pi / 180.0),
+      angle_(radians(options.match_angle_deg)),
       sine_(std::sin(angle_)) {}
 
 double FrameMatcher::score(const WallEstimate& wall, const Vec2& a, const Vec2& b, const Vec2& direction,
                            double bound) const {
   const WallBasis& basis = wall.basis;
-  if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > sine_)
-    return 0.0;
+  if (basis.differs(direction, sine_)) return 0.0;
   const Overlap overlap(wall, a, b);
   const double shorter = std::min(overlap.length, wall.reach[kEndB] - wall.reach[kEndA]);
   if (overlap.shared <= kLeastOverlap * shorter || overlap.shared <= 0.0) return 0.0;
@@ -58,11 +57,11 @@ double FrameMatcher::score(const WallEstimate& wall, const Vec2& a, const Vec2& 
 }
 
 void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>& recent,
-                                   const std::vector<Sighting>& frame, Pose2& T) {
+                                   const std::vector<AssociatedObservation>& frame, Pose2& T) {
   turns_.clear();
-  for (const Sighting& sighting : frame) {
-    const Vec2 end[2] = {T * sighting.end[kEndA], T * sighting.end[kEndB]};
-    const Vec2 direction = T.rotate(sighting.direction);
+  for (const AssociatedObservation& observation : frame) {
+    const Vec2 end[2] = {T * observation.end[kEndA], T * observation.end[kEndB]};
+    const Vec2 direction = T.rotate(observation.direction);
     double nearest = kWideBound_m;
     double turn = 0.0;
     for (const Index w : recent) {
@@ -86,77 +85,78 @@ void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>&
 }
 
 void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, std::uint64_t iteration,
-                                const Pose2& T, std::vector<Sighting>& frame) {
+                                const Pose2& T, std::vector<AssociatedObservation>& frame) {
   scores_.assign(frame.size(), 0.0);
-  strayed_.clear();
+  displaced_.clear();
   for (const Index w : recent) {
     const WallRecord& wall = map.walls[w];
     if (wall.trail_is_off && !wall.is_dynamic && wall.trail_seen + kTrailFrames >= iteration)
-      strayed_.push_back(w);
+      displaced_.push_back(w);
   }
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    Sighting& sighting = frame[i];
-    const Vec2 a = T * sighting.end[kEndA];
-    const Vec2 b = T * sighting.end[kEndB];
-    const Vec2 direction = T.rotate(sighting.direction);
+    AssociatedObservation& observation = frame[i];
+    const Vec2 a = T * observation.end[kEndA];
+    const Vec2 b = T * observation.end[kEndB];
+    const Vec2 direction = T.rotate(observation.direction);
     for (const Index w : recent) {
       const WallRecord& wall = map.walls[w];
       const double fit = score(wall.estimate, a, b, direction, near_bound_);
       if (fit <= scores_[i]) continue;
       scores_[i] = fit;
-      sighting.wall = w;
-      sighting.stray = wall.is_dynamic;
+      observation.wall = w;
+      observation.outlier = wall.is_dynamic;
     }
-    for (const Index w : strayed_) {
+    for (const Index w : displaced_) {
       const WallRecord& wall = map.walls[w];
       if (score(wall.estimate, a, b, direction, near_bound_) > 0.0) continue;
-      const double stray_fit = score(wall.trail, a, b, direction, kTrailShare * near_bound_);
-      if (stray_fit <= scores_[i]) continue;
-      scores_[i] = stray_fit;
-      sighting.wall = w;
-      sighting.stray = true;
+      const double trail_score = score(wall.trail, a, b, direction, kTrailShare * near_bound_);
+      if (trail_score <= scores_[i]) continue;
+      scores_[i] = trail_score;
+      observation.wall = w;
+      observation.outlier = true;
     }
   }
   resolve_rivals(map, T, frame);
 }
 
-bool FrameMatcher::contradicts(const WallEstimate& wall, const Sighting& sighting,
+bool FrameMatcher::contradicts(const WallEstimate& wall, const AssociatedObservation& observation,
                                const Vec2 (&end)[2]) const {
   for (int k = 0; k < 2; ++k) {
     if (!wall.known[k]) continue;
-    const double beyond = (k == kEndA ? -1.0 : 1.0) * (wall.basis.along(end[k]) - wall.end[k]);
-    if (beyond > 2.0 * map_bound_ || (sighting.corner[k] && beyond < -2.0 * map_bound_)) return true;
+    const double beyond = outward(k) * (wall.basis.along(end[k]) - wall.end[k]);
+    if (beyond > 2.0 * map_bound_ || (observation.corner[k] && beyond < -2.0 * map_bound_)) return true;
   }
   return false;
 }
 
 void FrameMatcher::match_map(const WallMap& map, std::uint32_t since, const Pose2& T,
-                             std::vector<Sighting>& frame) {
+                             std::vector<AssociatedObservation>& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    Sighting& sighting = frame[i];
-    if (sighting.wall != kNone) continue;
-    const Vec2 end[2] = {T * sighting.end[kEndA], T * sighting.end[kEndB]};
-    const Vec2 direction = T.rotate(sighting.direction);
+    AssociatedObservation& observation = frame[i];
+    if (observation.wall != kNone) continue;
+    const Vec2 end[2] = {T * observation.end[kEndA], T * observation.end[kEndB]};
+    const Vec2 direction = T.rotate(observation.direction);
     scores_[i] = 0.0;
-    const int steps = 1 + static_cast<int>(sighting.length / kQueryStep_m);
+    const int steps = 1 + static_cast<int>(observation.length / kQueryStep_m);
     for (int step = 0; step <= steps; ++step) {
       map.visit_near(end[0] + (end[1] - end[0]) * (static_cast<double>(step) / steps), [&](Index w) {
         const WallRecord& wall = map.walls[w];
         if (wall.epoch < since) return;
         const double fit = score(wall.estimate, end[0], end[1], direction, map_bound_);
-        if (fit == 0.0 || fit < scores_[i] || (fit == scores_[i] && w >= sighting.wall)) return;
-        if (contradicts(wall.estimate, sighting, end)) return;
+        if (fit == 0.0 || fit < scores_[i] || (fit == scores_[i] && w >= observation.wall)) return;
+        if (contradicts(wall.estimate, observation, end)) return;
         scores_[i] = fit;
-        sighting.wall = w;
-        sighting.stray = wall.is_dynamic;
+        observation.wall = w;
+        observation.outlier = wall.is_dynamic;
       });
     }
   }
   resolve_rivals(map, T, frame);
 }
 
-/// Two pieces may be parts of one wall, but not the same part.
-void FrameMatcher::resolve_rivals(const WallMap& map, const Pose2& T, std::vector<Sighting>& frame) {
+/// Two observations may be parts of one wall, but not the same part.
+void FrameMatcher::resolve_rivals(const WallMap& map, const Pose2& T,
+                                  std::vector<AssociatedObservation>& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     for (std::size_t k = i + 1; k < frame.size() && frame[i].wall != kNone; ++k) {
       if (frame[k].wall != frame[i].wall) continue;
@@ -164,9 +164,9 @@ void FrameMatcher::resolve_rivals(const WallMap& map, const Pose2& T, std::vecto
       const auto [a, b] = std::pair(basis.along(T * frame[i].end[0]), basis.along(T * frame[i].end[1]));
       const auto [c, d] = std::pair(basis.along(T * frame[k].end[0]), basis.along(T * frame[k].end[1]));
       if (std::min(b, d) - std::max(a, c) < kRivalOverlap * std::min(b - a, d - c)) continue;
-      Sighting& loser = frame[scores_[i] >= scores_[k] ? k : i];
+      AssociatedObservation& loser = frame[scores_[i] >= scores_[k] ? k : i];
       loser.wall = kNone;
-      loser.stray = false;
+      loser.outlier = false;
     }
   }
 }

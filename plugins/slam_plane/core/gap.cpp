@@ -52,7 +52,7 @@ void OpenGaps::erase(const Gap& gap) {
 }
 
 bool OpenGaps::is_open(std::uint32_t epoch) const {
-  return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) { return gap.epoch == epoch; });
+  return std::ranges::any_of(gaps_, [&](const Gap& gap) { return gap.epoch == epoch; });
 }
 
 std::uint32_t OpenGaps::part() const {

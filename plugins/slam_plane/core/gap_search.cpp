@@ -20,10 +20,7 @@ constexpr int kTies = 3;                     // looks in a row that agree
 
 void GapSearch::note_seen(const OpenGaps& gaps, const Frame& frame) {
   if (gaps.empty()) return;
-  for (const Sighting& sighting : frame.sightings) {
-    if (std::find(young_.begin(), young_.end(), sighting.wall) == young_.end())
-      young_.push_back(sighting.wall);
-  }
+  for (const AssociatedObservation& observation : frame.observations) add_new(young_, observation.wall);
 }
 
 std::optional<GapShift> GapSearch::find(const WallMap& map, const OpenGaps& gaps, const Frame& frame) {
@@ -42,7 +39,7 @@ std::optional<GapShift> GapSearch::find(const WallMap& map, const OpenGaps& gaps
     if (!gap->is_wide()) continue;
     const std::vector<Index> young = walls_since(map, *gap);
     GapShift found{*gap, Vec2::Zero(), {}};
-    if (young.empty() || !search_.find(map, young, *gap, found.step, found.twins)) continue;
+    if (young.empty() || !search_.find(map, young, *gap, found.step, found.duplicates)) continue;
     const double shift = found.step.dot(gap->direction);
     const bool again = has_seen_shift_ && std::abs(shift - seen_shift_) < Gap::kBridged_m;
     has_seen_shift_ = !again;
@@ -62,8 +59,8 @@ std::vector<Index> GapSearch::walls_since(const WallMap& map, const Gap& gap) co
       young.push_back(w);
   }
   if (young.size() > kMostYoung) {
-    std::stable_sort(young.begin(), young.end(),
-                     [&](Index a, Index b) { return map.walls[a].last_seen > map.walls[b].last_seen; });
+    std::ranges::stable_sort(
+        young, [&](Index a, Index b) { return map.walls[a].last_seen > map.walls[b].last_seen; });
     young.resize(kMostYoung);
   }
   return young;
@@ -74,13 +71,13 @@ std::vector<Index> GapSearch::walls_since(const WallMap& map, const Gap& gap) co
 std::optional<GapShift> GapSearch::tie_by_corner(const WallMap& map, const Gap& gap, const Frame& frame) {
   const double most = gap.range_m + Gap::kBridged_m;
   double nearest = most;
-  for (const Sighting& sighting : frame.sightings) {
-    const WallRecord& wall = map.walls[sighting.wall];
+  for (const AssociatedObservation& observation : frame.observations) {
+    const WallRecord& wall = map.walls[observation.wall];
     const double along = wall.estimate.basis.direction.dot(gap.direction);
-    if (sighting.stray || wall.epoch >= gap.epoch || std::abs(along) < kAlongGap) continue;
+    if (observation.outlier || wall.epoch >= gap.epoch || std::abs(along) < kAlongGap) continue;
     for (int k = 0; k < 2; ++k) {
-      if (!wall.estimate.known[k] || !sighting.corner[k] || wall.corner_epoch[k] >= gap.epoch) continue;
-      const double place = wall.estimate.basis.along(frame.T_map_robot * sighting.end[k]);
+      if (!wall.estimate.known[k] || !observation.corner[k] || wall.corner_epoch[k] >= gap.epoch) continue;
+      const double place = wall.estimate.basis.along(frame.T_map_robot * observation.end[k]);
       const double shift = (wall.estimate.end[k] - place) / along;
       if (std::abs(shift) < std::abs(nearest)) nearest = shift;
     }
@@ -100,27 +97,27 @@ std::optional<GapShift> GapSearch::tie_by_corner(const WallMap& map, const Gap& 
 /// frames agree, the two are one.
 std::optional<GapShift> GapSearch::tie_by_wall(const WallMap& map, const Gap& gap, const Frame& frame) {
   if (!gap.is_wide() || frame.iteration % kWallPeriod != 0) return std::nullopt;
-  Twins twins;
+  Duplicates duplicates;
   double nearest = expected_;
-  for (const Sighting& sighting : frame.sightings) {
-    const WallRecord& wall = map.walls[sighting.wall];
+  for (const AssociatedObservation& observation : frame.observations) {
+    const WallRecord& wall = map.walls[observation.wall];
     const WallEstimate& estimate = wall.estimate;
-    if (sighting.stray || wall.epoch < gap.epoch || wall.count < least_count_) continue;
+    if (observation.outlier || wall.epoch < gap.epoch || wall.count < least_count_) continue;
     if (std::abs(cross(estimate.basis.direction, gap.direction)) < kAcrossGap) continue;
     bool corner = false;
-    for (int k = 0; k < 2; ++k) corner = corner || (estimate.known[k] && sighting.corner[k]);
+    for (int k = 0; k < 2; ++k) corner = corner || (estimate.known[k] && observation.corner[k]);
     double shift = 0.0;
-    const Index old = corner ? search_.only_twin(map, sighting.wall, gap, shift) : kNone;
+    const Index old = corner ? search_.only_duplicate(map, observation.wall, gap, shift) : kNone;
     if (old == kNone || std::abs(shift) >= std::abs(nearest)) continue;
     nearest = shift;
-    twins = {old, sighting.wall};
+    duplicates = {old, observation.wall};
   }
   const bool again = wall_ties_ > 0 && std::abs(nearest - wall_tie_) < Gap::kBridged_m;
-  wall_ties_ = twins.gone == kNone ? 0 : again ? wall_ties_ + 1 : 1;
+  wall_ties_ = duplicates.gone == kNone ? 0 : again ? wall_ties_ + 1 : 1;
   wall_tie_ = nearest;
   if (wall_ties_ < kTies) return std::nullopt;
   wall_ties_ = 0;
-  return GapShift{gap, nearest * gap.direction, {twins}};
+  return GapShift{gap, nearest * gap.direction, {duplicates}};
 }
 
 }  // namespace hallway::slam_plane

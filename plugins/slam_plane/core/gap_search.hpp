@@ -13,7 +13,7 @@ namespace hallway::slam_plane {
 struct GapShift {
   Gap gap;
   Vec2 step = Vec2::Zero();  ///< [m], map frame
-  std::vector<Twins> twins;
+  std::vector<Duplicates> duplicates;
 };
 
 /// Looks for the end of open gaps: where what was seen since lies among what was seen before.

@@ -41,9 +41,9 @@ void MapSolver::plan(const WallMap& map) {
   if (is_whole_) {
     step_.begin(map);
   } else if (has_closed_) {
-    step_.begin(map, surroundings(map, kNear));
+    step_.begin(map, neighbourhood(map, kNear));
   } else if (is_active_due_) {
-    step_.begin(map, surroundings(map, kBeside));
+    step_.begin(map, neighbourhood(map, kBeside));
   } else {
     return;
   }
@@ -81,7 +81,7 @@ WallMap MapSolver::refreshed(WallMap map) const {
   return map;
 }
 
-WallMap settled(WallMap map) {
+WallMap optimised(WallMap map) {
   MapStep step;
   step.set_tolerance(kSettleTolerance);
   for (int i = 0; i < kSettleSteps && !map.submaps.empty(); ++i) {

@@ -50,7 +50,7 @@ class MapSolver {
   bool is_urgent_ = false;
 };
 
-/// The map after steps over all submaps, until they settle.
-WallMap settled(WallMap map);
+/// The map after steps over all submaps, until they converge.
+WallMap optimised(WallMap map);
 
 }  // namespace hallway::slam_plane

@@ -31,22 +31,23 @@ Eigen::Matrix<double, 4, 3> motion(const WallBasis& basis, const Vec2& origin) {
   return m;
 }
 
-Eigen::Matrix4d matrix(const WallForm& form) {
+Eigen::Matrix4d matrix(const Mat2& line, const Mat2& ends) {
   Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
-  h.topLeftCorner<2, 2>() << form.h_tt, form.h_to, form.h_to, form.h_oo;
-  h.bottomRightCorner<2, 2>() << form.e_aa, form.e_ab, form.e_ab, form.e_bb;
+  h.topLeftCorner<2, 2>() = line;
+  h.bottomRightCorner<2, 2>() = ends;
   return h;
 }
 
 Eigen::Vector4d vector(const WallForm& form) {
-  return {form.b_t, form.b_o, form.f_a, form.f_b};
+  return {form.b[0], form.b[1], form.f[0], form.f[1]};
 }
 
 void scale_end(WallForm& form, int end, double scale) {
   const double root = std::sqrt(scale);
-  (end == kEndA ? form.e_aa : form.e_bb) *= scale;
-  form.e_ab *= root;
-  (end == kEndA ? form.f_a : form.f_b) *= scale;
+  form.e(end, end) *= scale;
+  form.e(0, 1) *= root;
+  form.e(1, 0) *= root;
+  form.f[end] *= scale;
 }
 
 Mat2 inverse_or_zero(const Mat2& m) {
@@ -61,7 +62,7 @@ Mat2 inverse_or_zero(const Mat2& m) {
 
 }  // namespace
 
-void MapStep::begin(const WallMap& map, Surroundings part) {
+void MapStep::begin(const WallMap& map, SubmapNeighbourhood part) {
   part_ = std::move(part);
   const std::size_t n = part_.submaps.size();
   slots_.assign(map.submaps.size(), kNone);
@@ -77,7 +78,7 @@ void MapStep::begin(const WallMap& map, Surroundings part) {
     diagonal_[slot].diagonal() = reduced_[slot].diagonal() = Vec3(position, position, kHoldHeading);
   }
   first_slot_ = slots_.empty() ? kNone : slots_[0];
-  active_ = map.active() != kNone ? map.active() : static_cast<Index>(map.submaps.size() - 1);
+  active_ = map.active() != kNone ? map.active() : map.submaps.size() - 1;
   r_.assign(n, Vec3::Zero());
   x_.assign(n, Vec3::Zero());
   links_.clear();
@@ -109,9 +110,9 @@ void MapStep::gather(const WallMap& map, Index w) {
         form.drop_end(k);
         continue;
       }
-      const double e = k == kEndA ? form.e_aa : form.e_bb;
-      if (e <= 0.0 || form.e_ab != 0.0) continue;
-      const double off = std::abs((k == kEndA ? form.f_a : form.f_b) / e - wall.estimate.end[k]);
+      const double e = form.e(k, k);
+      if (e <= 0.0 || form.e(0, 1) != 0.0) continue;
+      const double off = std::abs(form.f[k] / e - wall.estimate.end[k]);
       if (off > kHuber_m) scale_end(form, k, kHuber_m / off);
     }
     sum.add(form);
@@ -127,17 +128,15 @@ void MapStep::gather(const WallMap& map, Index w) {
     links_.resize(column.first);
     return;
   }
-  column.line_inverse = inverse_or_zero((Mat2() << sum.h_tt, sum.h_to, sum.h_to, sum.h_oo).finished());
-  column.ends_inverse = inverse_or_zero((Mat2() << sum.e_aa, sum.e_ab, sum.e_ab, sum.e_bb).finished());
-  Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
-  inverse.topLeftCorner<2, 2>() = column.line_inverse;
-  inverse.bottomRightCorner<2, 2>() = column.ends_inverse;
+  column.line_inverse = inverse_or_zero(sum.h);
+  column.ends_inverse = inverse_or_zero(sum.e);
+  const Eigen::Matrix4d inverse = matrix(column.line_inverse, column.ends_inverse);
   const Vec4 solution = inverse * vector(sum);
   for (std::size_t i = column.first; i < column.end; ++i) {
     Link& link = links_[i];
     const WallForm& form = forms_[i - column.first];
     const Eigen::Matrix<double, 4, 3> D = motion(basis, poses_[link.slot].t);
-    const Eigen::Matrix4d h = matrix(form);
+    const Eigen::Matrix4d h = matrix(form.h, form.e);
     link.coupling = D.transpose() * h;
     const Mat3 own = link.coupling * D;
     diagonal_[link.slot] += own;

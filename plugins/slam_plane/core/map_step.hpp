@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam_plane/core/surroundings.hpp"
+#include "slam_plane/core/submap_neighbourhood.hpp"
 
 namespace hallway::slam_plane {
 
@@ -18,7 +18,7 @@ class MapStep {
   /// Starts a step of the whole map as it is. O(map), little of each part.
   void begin(const WallMap& map) { begin(map, whole_map(map)); }
   /// Starts one of these submaps alone, by the walls in them; all others stay.
-  void begin(const WallMap& map, Surroundings part);
+  void begin(const WallMap& map, SubmapNeighbourhood part);
   bool under_way() const { return stage_ != Stage::idle; }
   void abandon() { stage_ = Stage::idle; }
 
@@ -33,8 +33,7 @@ class MapStep {
 
   /// The walls of the submaps that apply() moved: those whose estimates are to be refreshed, nearest to the active submap first.
   const std::vector<Index>& walls() const { return part_.walls; }
-  /// Conjugate-gradient iterations of the last step.
-  int iterations() const { return iterations_; }
+
   /// The longest way and the largest turn that apply() moved a submap by [m, rad].
   double largest_move() const { return largest_move_; }
 
@@ -64,7 +63,7 @@ class MapStep {
 
   Stage stage_ = Stage::idle;
   double tolerance_ = 1e-5;
-  Surroundings part_;         // what is moved
+  SubmapNeighbourhood part_;  // what is moved
   std::vector<Index> slots_;  // by submap: its place in part_, kNone for those that stay
   Index first_slot_ = kNone;  // of the first submap
   Index active_ = kNone;      // submap when the step began

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "slam_plane/core/corner_judge.hpp"
+#include "slam_plane/core/duplicate_finder.hpp"
 #include "slam_plane/core/end_evidence.hpp"
 #include "slam_plane/core/frame_locator.hpp"
 #include "slam_plane/core/gap_search.hpp"
-#include "slam_plane/core/map_report.hpp"
 #include "slam_plane/core/map_solver.hpp"
 #include "slam_plane/core/submap_choice.hpp"
-#include "slam_plane/core/twin_finder.hpp"
+#include "slam_plane/core/wall_map.hpp"
 
 namespace hallway::slam_plane {
 namespace {
@@ -34,12 +34,14 @@ class Mapper::State {
         locator_(options),
         ends_(options),
         gap_search_(options),
-        twins_(options),
+        duplicates_(options),
         map_(options) {}
 
-  const Answer& process(std::span<const Piece> pieces, const View& view);
-  Map map() const { return told(solver_.refreshed(map_), options_.min_observations); }
-  Map refined_map() const { return told(settled(solver_.refreshed(map_)), options_.min_observations); }
+  const Answer& process(std::span<const WallObservation> observations, const View& view);
+  Map map() const { return report_map(solver_.refreshed(map_), options_.min_observations); }
+  Map refined_map() const {
+    return report_map(optimised(solver_.refreshed(map_)), options_.min_observations);
+  }
   std::vector<JoinedPart> joined_parts() const { return gaps_.joined_parts(); }
   const Options& options() const { return options_; }
 
@@ -47,7 +49,7 @@ class Mapper::State {
   void start_map();
   void place(const View& view);
   void recall_corners(const View& view);
-  void follow_strays();
+  void follow_outliers();
   void watch_gaps();
   void add_walls();
   void choose_submap();
@@ -58,9 +60,9 @@ class Mapper::State {
   void note_seen();
   void search_gap();
   void bridge(const GapShift& shift);
-  void merge_twin(Index wall);
-  void merge_twins(Index submap);
-  void look_for_twins();
+  void merge_duplicate(Index wall);
+  void merge_duplicates(Index submap);
+  void look_for_duplicates();
   void merge(Index kept, Index gone);
   void lose(Lost reason);
   const Answer& answer();
@@ -70,7 +72,7 @@ class Mapper::State {
   FrameLocator locator_;
   EndEvidence ends_;
   GapSearch gap_search_;
-  TwinFinder twins_;
+  DuplicateFinder duplicates_;
   WallMap map_;
   MapSolver solver_;
   OpenGaps gaps_;
@@ -80,20 +82,20 @@ class Mapper::State {
   bool has_pose_ = false;
   Lost lost_ = Lost::nothing_seen;
   bool first_of_submap_ = false;
-  Index next_twin_ = 0;  // wall that is looked at for twins
-  int frames_lost_ = 0;  // in a row
+  Index next_duplicate_ = 0;  // wall that is looked at for duplicates
+  int frames_lost_ = 0;       // in a row
   Answer answer_;
 };
 
-const Answer& Mapper::State::process(std::span<const Piece> pieces, const View& view) {
+const Answer& Mapper::State::process(std::span<const WallObservation> observations, const View& view) {
   if (solver_.advance(map_)) ++answer_.counters.global_steps;
   frame_.iteration = ++answer_.counters.iterations;
-  take_pieces(pieces, frame_.sightings);
-  judge_.judge(view, frame_.sightings);
-  answer_.associations.assign(pieces.size(), kNoWall);
+  frame_.observations = unassociated(observations);
+  judge_.judge(view, frame_.observations);
+  answer_.associations.assign(observations.size(), kNoLandmark);
   if (started_) {
     place(view);
-  } else if (!frame_.sightings.empty()) {
+  } else if (!frame_.observations.empty()) {
     start_map();
   }
   return answer();
@@ -115,14 +117,14 @@ void Mapper::State::start_map() {
 void Mapper::State::place(const View& view) {
   const Pose2 before = frame_.T_submap_robot;
   locator_.locate(map_, gaps_.epochs_known(), frame_);
-  if (frame_.sightings.empty()) return lose(Lost::nothing_seen);
+  if (frame_.observations.empty()) return lose(Lost::nothing_seen);
   if (locator_.known() == 0 && ++frames_lost_ <= OpenGaps::kBridgeFrames) return lose(Lost::nothing_known);
   frames_lost_ = 0;
   has_pose_ = true;
   lost_ = Lost::no;
   recall_corners(view);
-  follow_strays();
-  if (frame_.sightings.empty()) return lose(Lost::nothing_known);
+  follow_outliers();
+  if (frame_.observations.empty()) return lose(Lost::nothing_known);
   locator_.locate_in_submap(map_, frame_);
   locator_.note_motion(before, frame_, gaps_.untied());
   watch_gaps();
@@ -131,34 +133,35 @@ void Mapper::State::place(const View& view) {
   integrate();
   note_seen();
   search_gap();
-  look_for_twins();
+  look_for_duplicates();
 }
 
 /// Ends that were taken for cuts may be where the map has corners.
 void Mapper::State::recall_corners(const View& view) {
   if (!frame_.in_map.determined() || (!gaps_.empty() && gaps_.last().is_wide())) return;
   const CornerJudge::Located at{frame_.T_map_robot, frame_.in_map.matrix.inverse()};
-  if (judge_.recall(view, map_, at, frame_.sightings))
-    frame_.in_map = locator_.fit_map(map_, frame_, kNone, frame_.T_map_robot);
+  if (judge_.recall(view, map_, at, frame_.observations))
+    frame_.in_map = locator_.fit_map(map_, frame_, FrameLocator::kAllEpochs, frame_.T_map_robot);
 }
 
-/// Pieces that do not lie where their walls do are no evidence: their walls may move, or they are of none.
-void Mapper::State::follow_strays() {
-  locator_.find_strays(map_, frame_);
-  for (const Sighting& sighting : frame_.sightings) {
-    if (!sighting.stray) continue;
-    map_.note_trail(sighting.wall, frame_.iteration, frame_.T_map_robot, sighting);
-    if (map_.note_stray(sighting.wall)) {
+/// Observations that do not lie where their walls do are no evidence: their walls may move, or they are of none.
+void Mapper::State::follow_outliers() {
+  locator_.find_outliers(map_, frame_);
+  for (const AssociatedObservation& observation : frame_.observations) {
+    if (!observation.outlier) continue;
+    map_.note_trail(observation.wall, frame_.iteration, frame_.T_map_robot, observation);
+    if (map_.note_outlier(observation.wall)) {
       solver_.abandon();
       ++answer_.counters.dynamic;
     }
-    WallRecord& wall = map_.walls[sighting.wall];
+    WallRecord& wall = map_.walls[observation.wall];
     wall.last_seen = frame_.iteration;
     if (!wall.is_dynamic) continue;
     ++wall.count;
-    answer_.associations[sighting.given] = sighting.wall;
+    answer_.associations[observation.given] = observation.wall;
   }
-  std::erase_if(frame_.sightings, [](const Sighting& sighting) { return sighting.stray; });
+  std::erase_if(frame_.observations,
+                [](const AssociatedObservation& observation) { return observation.outlier; });
 }
 
 void Mapper::State::watch_gaps() {
@@ -170,8 +173,8 @@ void Mapper::State::watch_gaps() {
 }
 
 void Mapper::State::add_walls() {
-  for (Sighting& sighting : frame_.sightings) {
-    if (sighting.wall == kNone) sighting.wall = map_.add_wall(gaps_.epoch(), frame_.iteration);
+  for (AssociatedObservation& observation : frame_.observations) {
+    if (observation.wall == kNone) observation.wall = map_.add_wall(gaps_.epoch(), frame_.iteration);
   }
 }
 
@@ -184,7 +187,7 @@ void Mapper::State::choose_submap() {
 void Mapper::State::change_submap(bool lines_only) {
   ++answer_.counters.closes;
   solver_.note_closed();
-  merge_twins(map_.active());
+  merge_duplicates(map_.active());
   const Index old = lines_only ? kNone : old_submap(map_, frame_, options_);
   if (old == kNone || !take_up(old)) {
     map_.activate(map_.add_submap(frame_.T_map_robot, lines_only, gaps_.epoch()));
@@ -205,18 +208,18 @@ bool Mapper::State::take_up(Index submap) {
 
 void Mapper::State::integrate() {
   const Index active = map_.active();
-  for (const Sighting& sighting : frame_.sightings) {
-    WallRecord& wall = map_.walls[sighting.wall];
-    if (wall.active_member == kNone) map_.join(active, sighting.wall, first_of_submap_);
+  for (const AssociatedObservation& observation : frame_.observations) {
+    WallRecord& wall = map_.walls[observation.wall];
+    if (wall.active_member == kNone) map_.join(active, observation.wall, first_of_submap_);
     bool corner[2];
-    ends_.judge(gaps_, frame_, sighting, map_, corner);
-    map_.observe(wall.active_member, frame_.T_submap_robot, sighting, corner);
+    ends_.judge(gaps_, frame_, observation, map_, corner);
+    map_.observe(wall.active_member, frame_.T_submap_robot, observation, corner);
   }
   ++map_.submaps[active].frames;
   first_of_submap_ = false;
-  for (const Sighting& sighting : frame_.sightings) {
-    revoke_corners(sighting.wall);
-    map_.update(sighting.wall);
+  for (const AssociatedObservation& observation : frame_.observations) {
+    revoke_corners(observation.wall);
+    map_.update(observation.wall);
   }
   solver_.plan(map_);
 }
@@ -231,12 +234,12 @@ void Mapper::State::revoke_corners(Index wall) {
 }
 
 void Mapper::State::note_seen() {
-  for (const Sighting& sighting : frame_.sightings) {
-    WallRecord& wall = map_.walls[sighting.wall];
+  for (const AssociatedObservation& observation : frame_.observations) {
+    WallRecord& wall = map_.walls[observation.wall];
     if (wall.last_seen + kOldFrames < frame_.iteration) solver_.note_old_ground();
     wall.last_seen = frame_.iteration;
-    wall.strays = 0;
-    map_.note_trail(sighting.wall, frame_.iteration, frame_.T_map_robot, sighting);
+    wall.outliers = 0;
+    map_.note_trail(observation.wall, frame_.iteration, frame_.T_map_robot, observation);
   }
   locator_.note_seen(map_, frame_);
   gap_search_.note_seen(gaps_, frame_);
@@ -254,27 +257,27 @@ void Mapper::State::bridge(const GapShift& shift) {
   map_.shift(shift.gap.epoch, shift.step);
   frame_.T_map_robot.t += shift.step;
   solver_.note_loop(map_);
-  for (const Twins& pair : shift.twins) merge(pair.kept, pair.gone);
+  for (const Duplicates& pair : shift.duplicates) merge(pair.kept, pair.gone);
   ++answer_.counters.gaps_closed;
 }
 
-void Mapper::State::merge_twin(Index wall) {
-  const Index twin = twins_.twin_of(map_, wall, gaps_.epochs_known(), frame_.iteration);
-  if (twin != kNone) merge(std::min(wall, twin), std::max(wall, twin));
+void Mapper::State::merge_duplicate(Index wall) {
+  const Index duplicate = duplicates_.duplicate_of(map_, wall, gaps_.epochs_known(), frame_.iteration);
+  if (duplicate != kNone) merge(std::min(wall, duplicate), std::max(wall, duplicate));
 }
 
-void Mapper::State::merge_twins(Index submap) {
+void Mapper::State::merge_duplicates(Index submap) {
   for (std::size_t m = 0; m < map_.submaps[submap].members.size(); ++m) {
     const Index wall = map_.submaps[submap].members[m].wall;
-    if (wall != kNone) merge_twin(wall);
+    if (wall != kNone) merge_duplicate(wall);
   }
 }
 
-/// Each frame looks at one wall: some turn out to have twins only once the map has settled.
-void Mapper::State::look_for_twins() {
+/// Each frame looks at one wall: some turn out to have duplicates only once the map has converged.
+void Mapper::State::look_for_duplicates() {
   if (map_.walls.empty()) return;
-  if (next_twin_ >= map_.walls.size()) next_twin_ = 0;
-  merge_twin(next_twin_++);
+  if (next_duplicate_ >= map_.walls.size()) next_duplicate_ = 0;
+  merge_duplicate(next_duplicate_++);
 }
 
 void Mapper::State::merge(Index kept, Index gone) {
@@ -284,8 +287,8 @@ void Mapper::State::merge(Index kept, Index gone) {
   solver_.abandon();
   map_.merge(kept, gone);
   ++answer_.counters.merged;
-  for (Sighting& sighting : frame_.sightings) {
-    if (sighting.wall == gone) sighting.wall = kept;
+  for (AssociatedObservation& observation : frame_.observations) {
+    if (observation.wall == gone) observation.wall = kept;
   }
   locator_.replace(gone, kept);
 }
@@ -293,7 +296,7 @@ void Mapper::State::merge(Index kept, Index gone) {
 void Mapper::State::lose(Lost reason) {
   has_pose_ = false;
   lost_ = reason;
-  for (Sighting& sighting : frame_.sightings) sighting.wall = kNone;
+  for (AssociatedObservation& observation : frame_.observations) observation.wall = kNone;
   // The prediction goes on from here.
   frame_.T_submap_robot = map_.submaps[map_.active()].T_map_submap.inverse() * frame_.T_map_robot;
 }
@@ -302,7 +305,7 @@ const Answer& Mapper::State::answer() {
   answer_.has_pose = has_pose_;
   answer_.lost = lost_;
   answer_.part = gaps_.part();
-  answer_.undetermined = answer_.untied = Vec2::Zero();
+  answer_.unobservable = answer_.untied = Vec2::Zero();
   answer_.covariance.setZero();
   if (has_pose_) {
     answer_.T_map_robot = frame_.T_map_robot;
@@ -312,26 +315,24 @@ const Answer& Mapper::State::answer() {
     information.topLeftCorner<2, 2>() += Mat2::Identity() / (1.0 + range * range);
     information(2, 2) += 1.0;
     answer_.covariance = information.inverse();
-    if (frame_.in_map.open > 0) answer_.undetermined = frame_.in_map.direction;
+    if (frame_.in_map.open > 0) answer_.unobservable = frame_.in_map.direction;
     if (!gaps_.empty()) answer_.untied = gaps_.last().direction;
   } else {
     ++answer_.counters.lost;
   }
-  for (const Sighting& sighting : frame_.sightings) {
-    if (sighting.wall != kNone) answer_.associations[sighting.given] = sighting.wall;
+  for (const AssociatedObservation& observation : frame_.observations) {
+    if (observation.wall != kNone) answer_.associations[observation.given] = observation.wall;
   }
-  answer_.counters.walls = map_.walls.size() - answer_.counters.merged;
+  answer_.counters.landmarks = map_.walls.size() - answer_.counters.merged;
   answer_.counters.submaps = map_.submaps.size();
   return answer_;
 }
 
 Mapper::Mapper(const Options& options) : state_(std::make_unique<State>(options)) {}
 Mapper::~Mapper() = default;
-Mapper::Mapper(Mapper&&) noexcept = default;
-Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-const Answer& Mapper::process(std::span<const Piece> pieces, const View& view) {
-  return state_->process(pieces, view);
+const Answer& Mapper::process(std::span<const WallObservation> observations, const View& view) {
+  return state_->process(observations, view);
 }
 
 Map Mapper::map() const {
@@ -348,10 +349,6 @@ std::vector<JoinedPart> Mapper::joined_parts() const {
 
 void Mapper::reset() {
   state_ = std::make_unique<State>(Options(state_->options()));
-}
-
-const Options& Mapper::options() const {
-  return state_->options();
 }
 
 }  // namespace hallway::slam_plane

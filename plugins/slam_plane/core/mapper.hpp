@@ -20,20 +20,18 @@ class Mapper {
   /// Throws std::invalid_argument when an option is out of range.
   explicit Mapper(const Options& options);
   ~Mapper();
-  Mapper(Mapper&&) noexcept;
-  Mapper& operator=(Mapper&&) noexcept;
 
-  /// Takes one frame: the pieces of walls that `view` showed, robot frame, any number, in any order. Pieces that are not finite, farther
+  /// Takes one frame: the wall observations that `view` showed, robot frame, any number, in any order. Observations that are not finite, farther
   /// than 1e6 m, shorter than 1 mm, or that turn their back to the robot (b left of a) are skipped and belong to no wall.
   ///
-  /// The first frame with a piece starts the map and has the identity pose. The answer lives until the next call.
-  /// Cost: proportional to the pieces and independent of the size of the map, but for bounded slices of the step over all submaps.
-  const Answer& process(std::span<const Piece> pieces, const View& view);
+  /// The first frame with an observation starts the map and has the identity pose. The answer lives until the next call.
+  /// Cost: proportional to the observations and independent of the size of the map, but for bounded slices of the step over all submaps.
+  const Answer& process(std::span<const WallObservation> observations, const View& view);
 
   /// The map as it stands. O(map).
   Map map() const;
 
-  /// The map after further steps over all submaps, until they settle. The online state is not changed.
+  /// The map after further steps over all submaps, until they converge. The online state is not changed.
   Map refined_map() const;
 
   /// Parts of the map are what lies between times in which no wall that was in view was known, so that the prediction alone ties them. Those
@@ -42,8 +40,6 @@ class Mapper {
 
   /// Forgets everything but the options.
   void reset();
-
-  const Options& options() const;
 
  private:
   class State;

@@ -18,9 +18,9 @@ constexpr int kLeastWalls = 3;
 constexpr double kLeastShare = 0.45;  // of the young walls that are to be found among the old ones
 constexpr double kWide_m = 2.0;       // range from which on that is asked for; of narrower gaps less
 constexpr double kSampleStep_m = 2.0;
-constexpr double kTwinOverlap = 0.5;
+constexpr double kDuplicateOverlap = 0.5;
 constexpr double kCornerBound_m = 0.15;
-constexpr double kTwinAngle_rad = 0.03;
+constexpr double kDuplicateAngle_rad = 0.03;
 
 /// Agreements that are asked for: the more displacements there are to choose from, the more agree by chance.
 int least_support(const Gap& gap) {
@@ -34,27 +34,23 @@ double least_share(const Gap& gap) {
 
 }  // namespace
 
-bool are_twins(const WallEstimate& wall, const WallEstimate& other, const Vec2& step, double bound_m,
-               double sine, bool& contradict) {
+bool are_duplicates(const WallEstimate& wall, const WallEstimate& other, const Vec2& step, double bound_m,
+                    double sine, bool& contradict) {
   const WallBasis& basis = wall.basis;
-  const Vec2& direction = other.basis.direction;
-  if (basis.direction.dot(direction) <= 0.0 || std::abs(cross(basis.direction, direction)) > sine)
-    return false;
-  const Vec2 a = other.basis.point(other.reach[kEndA]) + step;
-  const Vec2 b = other.basis.point(other.reach[kEndB]) + step;
+  if (basis.differs(other.basis.direction, sine)) return false;
+  const Vec2 a = other.extent(kEndA) + step;
+  const Vec2 b = other.extent(kEndB) + step;
   const double from = std::max(basis.along(a), wall.reach[kEndA]);
   const double to = std::min(basis.along(b), wall.reach[kEndB]);
   const double shorter =
       std::min(other.reach[kEndB] - other.reach[kEndA], wall.reach[kEndB] - wall.reach[kEndA]);
-  if (to - from <= kTwinOverlap * shorter || to <= from) return false;
+  if (to - from <= kDuplicateOverlap * shorter || to <= from) return false;
   // Where both were seen.
   const Vec2 middle = basis.point(0.5 * (from + to));
   const Vec2 there = other.basis.point(other.basis.along(middle - step)) + step;
   if (std::abs(basis.across(there)) > bound_m) return false;
   for (int k = 0; k < 2; ++k) {
-    const double sign = k == kEndA ? -1.0 : 1.0;
-    const double end = basis.along(other.basis.point(other.reach[k]) + step);
-    const double beyond = sign * (end - wall.reach[k]);
+    const double beyond = outward(k) * (basis.along(other.extent(k) + step) - wall.reach[k]);
     const bool off =
         (wall.known[k] && beyond > kCornerBound_m) || (other.known[k] && beyond < -kCornerBound_m);
     if (off) contradict = true;
@@ -64,19 +60,19 @@ bool are_twins(const WallEstimate& wall, const WallEstimate& other, const Vec2& 
 
 ShiftSearch::ShiftSearch(const Options& options)
     : bound_(options.match_bound_m),
-      sine_(std::sin(kTwinAngle_rad)),
+      sine_(std::sin(kDuplicateAngle_rad)),
       least_count_(static_cast<std::uint32_t>(options.min_observations)) {}
 
 void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& gap) {
   const WallEstimate& y = map.walls[young].estimate;
   const WallEstimate& o = map.walls[old].estimate;
   const Vec2& d = o.basis.direction;
-  if (d.dot(y.basis.direction) <= 0.0 || std::abs(cross(d, y.basis.direction)) > sine_) return;
+  if (o.basis.differs(y.basis.direction, sine_)) return;
   const double crossing = cross(d, gap.direction);
   const auto take = [&](double shift, Kind kind) {
     bool contradict = false;
     if (std::abs(shift) > gap.range_m ||
-        !are_twins(o, y, shift * gap.direction + across_, bound_, sine_, contradict))
+        !are_duplicates(o, y, shift * gap.direction + across_, bound_, sine_, contradict))
       return false;
     votes_.push_back({shift, young, old, kind});
     return true;
@@ -102,8 +98,7 @@ void ShiftSearch::vote(const WallMap& map, Index young, Index old, const Gap& ga
 void ShiftSearch::vote(const WallMap& map, Index young, const Gap& gap) {
   const WallEstimate& y = map.walls[young].estimate;
   seen_.clear();
-  const Vec2 a = y.basis.point(y.reach[kEndA]);
-  const Vec2 b = y.basis.point(y.reach[kEndB]);
+  const Vec2 a = y.extent(kEndA), b = y.extent(kEndB);
   const int steps = 1 + static_cast<int>((b - a).norm() / kSampleStep_m);
   const int shifts = 1 + static_cast<int>(gap.range_m / kSampleStep_m);
   for (int i = 0; i <= steps; ++i) {
@@ -117,24 +112,23 @@ void ShiftSearch::vote(const WallMap& map, Index young, const Gap& gap) {
       });
     }
   }
-  std::sort(seen_.begin(), seen_.end());
-  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+  make_set(seen_);
   for (const Index old : seen_) vote(map, young, old, gap);
 }
 
-Index ShiftSearch::only_twin(const WallMap& map, Index young, const Gap& gap, double& shift) {
+Index ShiftSearch::only_duplicate(const WallMap& map, Index young, const Gap& gap, double& shift) {
   across_.setZero();
   votes_.clear();
   vote(map, young, gap);
-  Index twin = kNone;
+  Index duplicate = kNone;
   for (const Vote& v : votes_) {
-    if (twin != kNone && v.old != twin) return kNone;
-    twin = v.old;
+    if (duplicate != kNone && v.old != duplicate) return kNone;
+    duplicate = v.old;
   }
   for (const Vote& v : votes_) {
     if (v.kind != Kind::corner) continue;
     shift = v.shift;
-    return twin;
+    return duplicate;
   }
   return kNone;
 }
@@ -143,7 +137,7 @@ Index ShiftSearch::only_twin(const WallMap& map, Index young, const Gap& gap, do
 int ShiftSearch::support(std::size_t first, std::size_t end) const {
   voters_.clear();
   for (std::size_t i = first; i < end; ++i) voters_.emplace_back(votes_[i].young, votes_[i].kind);
-  std::sort(voters_.begin(), voters_.end());
+  std::ranges::sort(voters_);
   return static_cast<int>(std::unique(voters_.begin(), voters_.end()) - voters_.begin());
 }
 
@@ -161,20 +155,20 @@ int ShiftSearch::rival_support(double shift) const {
 }
 
 bool ShiftSearch::find(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
-                       std::vector<Twins>& twins) {
+                       std::vector<Duplicates>& duplicates) {
   // On the way through a gap some drift across it comes together too.
   for (const double across : {0.0, 1.0, -1.0, 2.0, -2.0}) {
     across_ = across * bound_ * left_of(gap.direction);
-    if (find_beside(map, young, gap, step, twins)) return true;
+    if (find_beside(map, young, gap, step, duplicates)) return true;
   }
   return false;
 }
 
 bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
-                              std::vector<Twins>& twins) {
+                              std::vector<Duplicates>& duplicates) {
   votes_.clear();
   for (const Index w : young) vote(map, w, gap);
-  std::sort(votes_.begin(), votes_.end(), [](const Vote& a, const Vote& b) {
+  std::ranges::sort(votes_, [](const Vote& a, const Vote& b) {
     return std::tie(a.shift, a.young, a.old) < std::tie(b.shift, b.young, b.old);
   });
   int most = 0;
@@ -188,7 +182,7 @@ bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& youn
   }
   if (most < least_support(gap) || rival_support(best) > kRivalShare * most) return false;
   step = best * gap.direction + across_;
-  twins.clear();
+  duplicates.clear();
   int against = 0;
   for (const Index y : young) {
     seen_.clear();
@@ -196,23 +190,24 @@ bool ShiftSearch::find_beside(const WallMap& map, const std::vector<Index>& youn
       if (v.young == y && std::abs(v.shift - best) <= kWindow_m) seen_.push_back(v.old);
     }
     if (!seen_.empty()) {
-      twins.push_back({seen_.front(), y});
+      duplicates.push_back({seen_.front(), y});
       continue;
     }
     const WallEstimate& wall = map.walls[y].estimate;
-    Index twin = kNone;
+    Index duplicate = kNone;
     bool any_contradicts = false;
     map.visit_near(wall.basis.point(0.5 * (wall.reach[kEndA] + wall.reach[kEndB])) + step, [&](Index w) {
       const WallRecord& other = map.walls[w];
       if (other.epoch >= gap.epoch || other.count < least_count_ || other.is_dynamic) return;
       bool contradict = false;
-      if (are_twins(map.walls[w].estimate, wall, step, bound_, sine_, contradict)) twin = std::min(twin, w);
+      if (are_duplicates(map.walls[w].estimate, wall, step, bound_, sine_, contradict))
+        duplicate = std::min(duplicate, w);
       any_contradicts = any_contradicts || contradict;
     });
-    if (twin != kNone) twins.push_back({twin, y});
-    if (twin == kNone && any_contradicts) ++against;
+    if (duplicate != kNone) duplicates.push_back({duplicate, y});
+    if (duplicate == kNone && any_contradicts) ++against;
   }
-  const auto found = static_cast<double>(twins.size());
+  const auto found = static_cast<double>(duplicates.size());
   return found >= kLeastWalls && found >= least_share(gap) * static_cast<double>(young.size()) &&
          2 * against < most;
 }

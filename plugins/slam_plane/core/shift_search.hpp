@@ -9,7 +9,7 @@
 namespace hallway::slam_plane {
 
 /// Two walls that are one.
-struct Twins {
+struct Duplicates {
   Index kept = kNone;
   Index gone = kNone;
 };
@@ -24,13 +24,13 @@ class ShiftSearch {
   explicit ShiftSearch(const Options& options);
 
   /// Looks for the displacement of `young` walls (of the gap's epoch or later). True: `step` moves them onto the old ones [m, map
-  /// frame], and `twins` says which are one then. O(young * range), flat in the size of the map.
+  /// frame], and `duplicates` says which are one then. O(young * range), flat in the size of the map.
   bool find(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
-            std::vector<Twins>& twins);
+            std::vector<Duplicates>& duplicates);
 
   /// Looks for the one old wall that a young wall across the direction can be: whose line and corner lie where the young one's do, if no other old wall's do at any displacement
   /// that the gap allows. `shift`: along the gap's direction [m]. kNone if there is none, or more than one. O(range), flat in the size of the map.
-  Index only_twin(const WallMap& map, Index young, const Gap& gap, double& shift);
+  Index only_duplicate(const WallMap& map, Index young, const Gap& gap, double& shift);
 
  private:
   enum class Kind { line, corner };
@@ -42,7 +42,7 @@ class ShiftSearch {
   };
 
   bool find_beside(const WallMap& map, const std::vector<Index>& young, const Gap& gap, Vec2& step,
-                   std::vector<Twins>& twins);
+                   std::vector<Duplicates>& duplicates);
   void vote(const WallMap& map, Index young, const Gap& gap);
   void vote(const WallMap& map, Index young, Index old, const Gap& gap);
   int support(std::size_t first, std::size_t end) const;
@@ -59,7 +59,7 @@ class ShiftSearch {
 
 /// Whether two walls of the map, the second moved by `step`, have lines and extents that agree. `contradict`: their lines and extents do, but
 /// corners do not, so that they are two.
-bool are_twins(const WallEstimate& wall, const WallEstimate& other, const Vec2& step, double bound_m,
-               double sine, bool& contradict);
+bool are_duplicates(const WallEstimate& wall, const WallEstimate& other, const Vec2& step, double bound_m,
+                    double sine, bool& contradict);
 
 }  // namespace hallway::slam_plane

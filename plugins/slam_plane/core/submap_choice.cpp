@@ -11,11 +11,11 @@ namespace {
 bool overlap_is_low(const WallMap& map, const Frame& frame, double least) {
   const SubmapRecord& submap = map.submaps[map.active()];
   std::uint32_t shared = 0;
-  for (const Sighting& sighting : frame.sightings) {
-    const Index member = map.walls[sighting.wall].active_member;
+  for (const AssociatedObservation& observation : frame.observations) {
+    const Index member = map.walls[observation.wall].active_member;
     if (member != kNone && submap.members[member].in_first_frame) ++shared;
   }
-  const double all = static_cast<double>(frame.sightings.size() + submap.first_frame_size - shared);
+  const double all = static_cast<double>(frame.observations.size() + submap.first_frame_size - shared);
   return shared < least * all;
 }
 
@@ -34,8 +34,7 @@ std::vector<Index> candidates(const WallMap& map, std::vector<Index> walls, doub
       if (at.submap != map.active() && !map.submaps[at.submap].lines_only) found.push_back(at.submap);
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  make_set(found);
   return found;
 }
 
@@ -55,8 +54,8 @@ SubmapChoice choose_submap(const WallMap& map, const Frame& frame, const PoseInf
 
 Index old_submap(const WallMap& map, const Frame& frame, const Options& options) {
   std::vector<Index> seen;
-  for (const Sighting& sighting : frame.sightings) seen.push_back(sighting.wall);
-  std::sort(seen.begin(), seen.end());
+  for (const AssociatedObservation& observation : frame.observations) seen.push_back(observation.wall);
+  std::ranges::sort(seen);
   const auto n = static_cast<double>(seen.size());
   Index best = kNone;
   double best_overlap = options.overlap;

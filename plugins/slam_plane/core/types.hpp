@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "geometry/convex2.hpp"
+
 namespace hallway::slam_plane {
 
-using Vec2 = Eigen::Vector2d;
-using Vec3 = Eigen::Vector3d;
 using Mat2 = Eigen::Matrix2d;
-using Mat3 = Eigen::Matrix3d;
+
+/// Index of a landmark or of a submap.
+using Index = std::size_t;
+inline constexpr Index kNone = ~std::size_t{0};
+
+/// Sorts a list and leaves one of equal ones.
+template <typename T>
+void make_set(std::vector<T>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// An angle in radians.
+constexpr double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
 
 /// A vector turned by 90 degrees to the left.
 inline Vec2 left_of(const Vec2& v) {
   return {-v.y(), v.x()};
-}
-
-/// z component of the cross product of two vectors.
-inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 /// The angle from direction a to direction b, in (-pi, pi] [rad].
@@ -52,16 +63,34 @@ struct Pose2 {
   }
 };
 
-/// The two ends of a wall; a index into pairs of things.
+/// The two ends of a wall; an index into pairs of things.
 enum End : int { kEndA = 0, kEndB = 1 };
 
-/// One part of a wall that one frame saw, in the robot's frame (x forward, y left, z up) [m]. The robot sees `a` on the left.
-struct Piece {
+/// The direction along a wall in which it ends there: -1 at a, 1 at b.
+constexpr double outward(int end) {
+  return end == kEndA ? -1.0 : 1.0;
+}
+
+/// The part of a wall, which is an upright plane, that one frame saw: a plane observation laid into the level of the robot, in the robot's frame (x forward, y left, z
+/// up) [m]. The robot sees `a` on the left.
+struct WallObservation {
   Vec2 a = Vec2::Zero();
   Vec2 b = Vec2::Zero();
   double z_low = 0.0;
   double z_high = 0.0;
 };
+
+/// Where a landmark is in the map's submaps.
+struct Membership {
+  Index submap = kNone;
+  Index member = kNone;  ///< of that one's members
+};
+
+/// Appends a value that a list does not have yet. O(list).
+template <typename T>
+void add_new(std::vector<T>& list, const T& value) {
+  if (std::ranges::find(list, value) == list.end()) list.push_back(value);
+}
 
 /// What bounds a frame.
 struct View {
@@ -70,53 +99,55 @@ struct View {
   bool range_bounds_sides = false;                 ///< the bound is one of the range, not of the depth
 };
 
-/// Names one wall for the life of a mapper.
-using WallId = std::uint64_t;
-/// "This piece belongs to no wall."
-inline constexpr WallId kNoWall = ~std::uint64_t{0};
+/// Names a landmark for the life of a mapper.
+using LandmarkId = std::uint64_t;
+/// No landmark: of an unassociated observation.
+inline constexpr LandmarkId kNoLandmark = ~std::uint64_t{0};
 
-/// How far a wall is trusted.
-enum class WallStatus {
+/// How far a landmark is trusted.
+enum class LandmarkStatus {
   temporary,  ///< seen too seldom
   mapped,
   dynamic,  ///< it moves: it is where it was seen last, and tells nothing of any pose
 };
 
-/// One wall of the map: a facing segment.
-struct Wall {
-  WallId id = kNoWall;
+/// A wall of the map: a plane landmark that is upright, as a facing segment.
+struct WallLandmark {
+  LandmarkId id = kNoLandmark;
   Vec2 a = Vec2::Zero();             ///< map frame [m]; on the left for who sees the wall
   Vec2 b = Vec2::Zero();             ///< likewise, on the right
   bool certain[2] = {false, false};  ///< that the end is a true corner; else the wall was seen up to there
   double z_low = 0.0;                ///< lowest seen, averaged [m]
   double z_high = 0.0;               ///< highest seen, averaged [m]
-  std::uint32_t observations = 0;    ///< pieces it was made from
-  WallStatus status = WallStatus::temporary;  ///< mapped from Options::min_observations on
+  std::uint32_t observations = 0;    ///< that it was made from
+  LandmarkStatus status = LandmarkStatus::temporary;  ///< mapped from Options::min_observations on
 };
 
-/// One submap: what was seen from about one place.
-struct Submap {
+/// One submap of a map that is reported: what was seen from about one place.
+template <typename Pose>
+struct SubmapAt {
   std::uint64_t id = 0;
-  Pose2 T_map_submap;           ///< the pose of its first frame, as the map now has it
-  bool lines_only = false;      ///< of frames that left a direction undetermined
-  std::vector<WallId> members;  ///< in the order in which they joined
+  Pose T_map_submap;                ///< the pose of its first frame, as the map now has it
+  bool lines_only = false;          ///< of frames that left a direction unobservable
+  std::vector<LandmarkId> members;  ///< in the order in which they joined
 };
+using Submap = SubmapAt<Pose2>;
 
 /// The whole map. Its frame is the robot's at the frame that started it.
 struct Map {
-  std::vector<Wall> walls;      ///< by id
-  std::vector<Submap> submaps;  ///< by id
+  std::vector<WallLandmark> walls;  ///< by id
+  std::vector<Submap> submaps;      ///< by id
 };
 
 /// Totals since the mapper was made or reset.
 struct Counters {
   std::uint64_t iterations = 0;       ///< calls of process()
   std::uint64_t lost = 0;             ///< iterations without a pose
-  std::uint64_t walls = 0;            ///< in the map, temporary ones included
+  std::uint64_t landmarks = 0;        ///< in the map, temporary ones included
   std::uint64_t submaps = 0;          ///< in the map
   std::uint64_t closes = 0;           ///< times a submap was closed
   std::uint64_t reopened = 0;         ///< times an old submap was taken up again
-  std::uint64_t degenerate = 0;       ///< iterations that left a direction undetermined
+  std::uint64_t degenerate = 0;       ///< iterations that left a direction unobservable
   std::uint64_t gaps = 0;             ///< times the place along a direction was lost
   std::uint64_t gaps_closed = 0;      ///< times it was found again
   std::uint64_t global_steps = 0;     ///< times all submaps were placed together
@@ -126,7 +157,12 @@ struct Counters {
 };
 
 /// Why a frame has no pose.
-enum class Lost { no, nothing_seen, nothing_known };
+enum class Lost {
+  no,
+  nothing_seen,
+  nothing_known,  ///< too little of the map is in view
+  unobservable,   ///< what is in view of it leaves directions of the pose open
+};
 
 /// What one frame gave.
 struct Answer {
@@ -136,11 +172,11 @@ struct Answer {
   /// Of x, y [m] and heading [rad], in the map's frame, given the walls as they are.
   Mat3 covariance = Mat3::Zero();
   /// Unit vector of the map's frame along which the frame does not tell where the robot is, or zero.
-  Vec2 undetermined = Vec2::Zero();
+  Vec2 unobservable = Vec2::Zero();
   /// Unit vector of the map's frame along which the ground about the robot is not tied to that seen earlier, or zero.
   Vec2 untied = Vec2::Zero();
-  std::uint32_t part = 0;            ///< of the map, that the pose is in; see Mapper::joined_parts()
-  std::vector<WallId> associations;  ///< one per piece given, in their order; kNoWall for none
+  std::uint32_t part = 0;                ///< of the map, that the pose is in; see Mapper::joined_parts()
+  std::vector<LandmarkId> associations;  ///< one per observation given, in their order; kNoLandmark for none
   Counters counters;
 };
 

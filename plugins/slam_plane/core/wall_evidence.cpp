@@ -6,7 +6,7 @@
 namespace hallway::slam_plane {
 namespace {
 
-/// Information of the places of a piece's ends along its wall, those that count.
+/// Information of the places of an observation's ends along its wall, those that count.
 Mat2 end_information(const bool (&corner)[2], const Noise& noise) {
   const double shared = noise.along * noise.along;
   const double own = noise.end * noise.end;
@@ -22,37 +22,37 @@ Mat2 end_information(const bool (&corner)[2], const Noise& noise) {
   return information;
 }
 
+/// Takes an end out of the information of both, and of its product with their places. The end's own product is left.
+template <typename Product>
+void take_out(int end, Mat2& information, const Product& own, Product& others) {
+  const int other = 1 - end;
+  if (information(end, end) > 0.0) {
+    const double share = information(other, end) / information(end, end);
+    information(other, other) -= share * information(end, other);
+    others -= share * own;
+  }
+  information(end, end) = information(end, other) = information(other, end) = 0.0;
+}
+
 }  // namespace
 
 void WallForm::add(const WallForm& other) {
-  h_tt += other.h_tt;
-  h_to += other.h_to;
-  h_oo += other.h_oo;
-  b_t += other.b_t;
-  b_o += other.b_o;
-  e_aa += other.e_aa;
-  e_ab += other.e_ab;
-  e_bb += other.e_bb;
-  f_a += other.f_a;
-  f_b += other.f_b;
+  h += other.h;
+  b += other.b;
+  e += other.e;
+  f += other.f;
 }
 
 void WallForm::drop_end(int end) {
-  double& e = end == kEndA ? e_aa : e_bb;
-  double& f = end == kEndA ? f_a : f_b;
-  if (e > 0.0) {
-    const double share = e_ab / e;
-    (end == kEndA ? e_bb : e_aa) -= share * e_ab;
-    (end == kEndA ? f_b : f_a) -= share * f;
-  }
-  e = f = e_ab = 0.0;
+  take_out(end, e, f[end], f[1 - end]);
+  f[end] = 0.0;
 }
 
-void WallEvidence::add(const Pose2& T_submap_robot, const Sighting& sighting, const bool (&corner)[2],
-                       const Noise& noise) {
-  const Vec2 middle = T_submap_robot * sighting.middle;
-  const Vec2 direction = T_submap_robot.rotate(sighting.direction);
-  const Vec2 end[2] = {T_submap_robot * sighting.end[kEndA], T_submap_robot * sighting.end[kEndB]};
+void WallEvidence::add(const Pose2& T_submap_robot, const AssociatedObservation& observation,
+                       const bool (&corner)[2], const Noise& noise) {
+  const Vec2 middle = T_submap_robot * observation.middle;
+  const Vec2 direction = T_submap_robot.rotate(observation.direction);
+  const Vec2 end[2] = {T_submap_robot * observation.end[kEndA], T_submap_robot * observation.end[kEndB]};
   if (count_ == 0) {
     origin_ = middle;
     direction_ = direction;
@@ -64,8 +64,7 @@ void WallEvidence::add(const Pose2& T_submap_robot, const Sighting& sighting, co
   sum_ += m;
   square_ += m * m.transpose();
   turn_ += angle_between(direction_, direction);
-  if (direction_.dot(end[kEndA] - reach_[kEndA]) < 0.0) reach_[kEndA] = end[kEndA];
-  if (direction_.dot(end[kEndB] - reach_[kEndB]) > 0.0) reach_[kEndB] = end[kEndB];
+  extend(end);
   if (!corner[kEndA] && !corner[kEndB]) return;
   const Mat2 information = end_information(corner, noise);
   const Vec2 a = end[kEndA] - origin_;
@@ -73,7 +72,6 @@ void WallEvidence::add(const Pose2& T_submap_robot, const Sighting& sighting, co
   ends_ += information;
   place_[kEndA] += information(0, 0) * a + information(0, 1) * b;
   place_[kEndB] += information(1, 0) * a + information(1, 1) * b;
-  for (int k = 0; k < 2; ++k) corners_[k] += corner[k] ? 1u : 0u;
 }
 
 void WallEvidence::add(const Pose2& T_this_other, const WallEvidence& other) {
@@ -95,24 +93,21 @@ void WallEvidence::add(const Pose2& T_this_other, const WallEvidence& other) {
   square_ += square + o * sum.transpose() + sum * o.transpose() + n * o * o.transpose();
   turn_ += other.turn_ + n * angle_between(direction_, T_this_other.rotate(other.direction_));
   ends_ += other.ends_;
-  place_[kEndA] += T_this_other.rotate(other.place_[kEndA]) + other.ends_.row(0).sum() * o;
-  place_[kEndB] += T_this_other.rotate(other.place_[kEndB]) + other.ends_.row(1).sum() * o;
-  if (direction_.dot(reach[kEndA] - reach_[kEndA]) < 0.0) reach_[kEndA] = reach[kEndA];
-  if (direction_.dot(reach[kEndB] - reach_[kEndB]) > 0.0) reach_[kEndB] = reach[kEndB];
+  for (int k = 0; k < 2; ++k)
+    place_[k] += T_this_other.rotate(other.place_[k]) + other.ends_.row(k).sum() * o;
+  extend(reach);
   count_ += other.count_;
-  for (int k = 0; k < 2; ++k) corners_[k] += other.corners_[k];
+}
+
+/// Takes note that the wall was seen as far as two places.
+void WallEvidence::extend(const Vec2 (&seen)[2]) {
+  if (direction_.dot(seen[kEndA] - reach_[kEndA]) < 0.0) reach_[kEndA] = seen[kEndA];
+  if (direction_.dot(seen[kEndB] - reach_[kEndB]) > 0.0) reach_[kEndB] = seen[kEndB];
 }
 
 void WallEvidence::forget_end(int end) {
-  const int other = 1 - end;
-  if (ends_(end, end) > 0.0) {
-    const double share = ends_(other, end) / ends_(end, end);
-    ends_(other, other) -= share * ends_(end, other);
-    place_[other] -= share * place_[end];
-  }
-  ends_(end, end) = ends_(end, other) = ends_(other, end) = 0.0;
+  take_out(end, ends_, place_[end], place_[1 - end]);
   place_[end].setZero();
-  corners_[end] = 0;
 }
 
 WallForm WallEvidence::form(const WallBasis& basis, const Noise& noise) const {
@@ -129,52 +124,39 @@ WallForm WallEvidence::form(const WallBasis& basis, const Noise& noise) const {
   const double sr = d.dot(square_ * l) + dd * dls + ds * dl + n * dd * dl;
   const double turn = turn_ + n * angle_between(d, direction_);
   WallForm form;
-  form.h_tt = w_line * ss + w_angle * n;
-  form.h_to = w_line * d.dot(sum);
-  form.h_oo = w_line * n;
-  form.b_t = w_line * sr + w_angle * turn;
-  form.b_o = w_line * l.dot(sum);
-  form.e_aa = ends_(0, 0);
-  form.e_ab = ends_(0, 1);
-  form.e_bb = ends_(1, 1);
-  form.f_a = d.dot(place_[kEndA] + (ends_(0, 0) + ends_(0, 1)) * o);
-  form.f_b = d.dot(place_[kEndB] + (ends_(1, 0) + ends_(1, 1)) * o);
+  const double along = w_line * d.dot(sum);
+  form.h << w_line * ss + w_angle * n, along, along, w_line * n;
+  form.b << w_line * sr + w_angle * turn, w_line * l.dot(sum);
+  form.e = ends_;
+  for (int k = 0; k < 2; ++k) form.f[k] = d.dot(place_[k] + (ends_(k, 0) + ends_(k, 1)) * o);
   return form;
 }
 
 bool solve(const WallForm& form, const WallBasis& basis, const bool (&use_end)[2], WallEstimate& estimate) {
-  const double determinant = form.h_tt * form.h_oo - form.h_to * form.h_to;
+  const double determinant = form.h(0, 0) * form.h(1, 1) - form.h(0, 1) * form.h(0, 1);
   if (!(determinant > 0.0)) return false;
-  estimate.p_tt = form.h_oo / determinant;
-  estimate.p_oo = form.h_tt / determinant;
-  estimate.p_to = -form.h_to / determinant;
-  const double turn = estimate.p_tt * form.b_t + estimate.p_to * form.b_o;
-  const double offset = estimate.p_to * form.b_t + estimate.p_oo * form.b_o;
+  estimate.p_tt = form.h(1, 1) / determinant;
+  estimate.p_oo = form.h(0, 0) / determinant;
+  estimate.p_to = -form.h(0, 1) / determinant;
+  const double turn = estimate.p_tt * form.b[0] + estimate.p_to * form.b[1];
+  const double offset = estimate.p_to * form.b[0] + estimate.p_oo * form.b[1];
   estimate.basis.origin = basis.origin + offset * left_of(basis.direction);
   estimate.basis.direction = Pose2::at(Vec2::Zero(), turn).rotate(basis.direction).normalized();
   WallForm ends = form;
   for (int k = 0; k < 2; ++k) {
     if (!use_end[k]) ends.drop_end(k);
   }
-  const double d = ends.e_aa * ends.e_bb - ends.e_ab * ends.e_ab;
-  estimate.known[kEndA] = ends.e_aa > 0.0;
-  estimate.known[kEndB] = ends.e_bb > 0.0;
-  if (estimate.known[kEndA] && estimate.known[kEndB]) {
-    estimate.variance[kEndA] = ends.e_bb / d;
-    estimate.variance[kEndB] = ends.e_aa / d;
-    estimate.covariance = -ends.e_ab / d;
-    estimate.end[kEndA] = (ends.e_bb * ends.f_a - ends.e_ab * ends.f_b) / d;
-    estimate.end[kEndB] = (ends.e_aa * ends.f_b - ends.e_ab * ends.f_a) / d;
-    return true;
-  }
-  estimate.covariance = 0.0;
-  if (estimate.known[kEndA]) {
-    estimate.variance[kEndA] = 1.0 / ends.e_aa;
-    estimate.end[kEndA] = ends.f_a / ends.e_aa;
-  }
-  if (estimate.known[kEndB]) {
-    estimate.variance[kEndB] = 1.0 / ends.e_bb;
-    estimate.end[kEndB] = ends.f_b / ends.e_bb;
+  const Mat2& e = ends.e;
+  const Vec2& f = ends.f;
+  for (int k = 0; k < 2; ++k) estimate.known[k] = e(k, k) > 0.0;
+  const bool both = estimate.known[kEndA] && estimate.known[kEndB];
+  const double d = e(0, 0) * e(1, 1) - e(0, 1) * e(0, 1);
+  estimate.covariance = both ? -e(0, 1) / d : 0.0;
+  for (int k = 0; k < 2; ++k) {
+    if (!estimate.known[k]) continue;
+    const int other = 1 - k;
+    estimate.variance[k] = both ? e(other, other) / d : 1.0 / e(k, k);
+    estimate.end[k] = both ? (e(other, other) * f[k] - e(0, 1) * f[other]) / d : f[k] / e(k, k);
   }
   return true;
 }

@@ -42,8 +42,7 @@ void WallIndex::put(Index wall, const Vec2& a, const Vec2& b) {
         entry.cells.push_back(key(x, y));
     }
   }
-  std::sort(entry.cells.begin(), entry.cells.end());
-  entry.cells.erase(std::unique(entry.cells.begin(), entry.cells.end()), entry.cells.end());
+  make_set(entry.cells);
   for (const std::uint64_t k : entry.cells) cells_[k].push_back(wall);
 }
 
@@ -52,7 +51,7 @@ void WallIndex::remove(Index wall) {
   Entry& entry = entries_[wall];
   for (const std::uint64_t k : entry.cells) {
     std::vector<Index>& walls = cells_[k];
-    walls.erase(std::find(walls.begin(), walls.end(), wall));
+    walls.erase(std::ranges::find(walls, wall));
     if (walls.empty()) cells_.erase(k);
   }
   entry.cells.clear();

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "slam_plane/core/sighting.hpp"
+#include "slam_plane/core/observation.hpp"
 
 namespace hallway::slam_plane {
 

@@ -8,11 +8,11 @@
 namespace hallway::slam_plane {
 namespace {
 
-constexpr double kOff_m = 0.05;              // of a sighting from its wall, more than noise is likely to do
-constexpr double kOff_rad = 0.05;            // likewise
-constexpr std::uint32_t kDynamicStrays = 8;  // in a row
-constexpr double kDynamicMove_m = 0.15;      // across the line, between the first and the last of them
-constexpr double kDynamicTurn_rad = 0.15;    // or that much turned
+constexpr double kOff_m = 0.05;    // of an observation from its wall, more than noise is likely to do
+constexpr double kOff_rad = 0.05;  // likewise
+constexpr std::uint32_t kDynamicOutliers = 8;  // in a row
+constexpr double kDynamicMove_m = 0.15;        // across the line, between the first and the last of them
+constexpr double kDynamicTurn_rad = 0.15;      // or that much turned
 constexpr bool kBoth[2] = {true, true};
 constexpr double kLargestTurn_rad = 1e-3;  // of a wall against the basis of its sums, which is for small ones
 
@@ -33,26 +33,24 @@ WallMap::WallMap(const Options& options)
     : noise_(options.noise()), corner_sightings_(static_cast<std::uint32_t>(options.corner_sightings)) {}
 
 Index WallMap::add_submap(const Pose2& T_map_submap, bool lines_only, std::uint32_t epoch) {
-  submaps.emplace_back();
-  submaps.back().T_map_submap = T_map_submap;
-  submaps.back().lines_only = lines_only;
-  submaps.back().epoch = epoch;
-  return static_cast<Index>(submaps.size() - 1);
+  SubmapRecord& submap = submaps.emplace_back();
+  submap.T_map_submap = T_map_submap;
+  submap.lines_only = lines_only;
+  submap.epoch = epoch;
+  return submaps.size() - 1;
 }
 
 Index WallMap::add_wall(std::uint32_t epoch, std::uint64_t iteration) {
-  walls.emplace_back();
-  walls.back().epoch = epoch;
-  walls.back().last_seen = iteration;
-  return static_cast<Index>(walls.size() - 1);
+  WallRecord& wall = walls.emplace_back();
+  wall.epoch = epoch;
+  wall.last_seen = iteration;
+  return walls.size() - 1;
 }
 
 Index WallMap::join(Index submap, Index wall, bool in_first_frame) {
   SubmapRecord& record = submaps[submap];
-  const auto member = static_cast<Index>(record.members.size());
-  record.members.emplace_back();
-  record.members.back().wall = wall;
-  record.members.back().in_first_frame = in_first_frame;
+  const Index member = record.members.size();
+  record.members.push_back({wall, in_first_frame, {}, {}});
   if (in_first_frame) ++record.first_frame_size;
   walls[wall].memberships.push_back({submap, member});
   if (submap == active_) walls[wall].active_member = member;
@@ -62,7 +60,7 @@ Index WallMap::join(Index submap, Index wall, bool in_first_frame) {
 void WallMap::activate(Index submap) {
   if (active_ != kNone) {
     for (const Member& member : submaps[active_].members) {
-      if (member.wall != kNone) settle_active(walls[member.wall]);
+      if (member.wall != kNone) deactivate(walls[member.wall]);
     }
   }
   active_ = submap;
@@ -71,7 +69,7 @@ void WallMap::activate(Index submap) {
   for (Index m = 0; m < members.size(); ++m) {
     if (members[m].wall == kNone) continue;
     walls[members[m].wall].active_member = m;
-    settle(walls[members[m].wall]);
+    sum_inactive(walls[members[m].wall]);
   }
 }
 
@@ -89,43 +87,43 @@ void WallMap::add_form(const Membership& at, const WallBasis& basis, WallForm& f
 }
 
 /// Sums up all but the active submap.
-void WallMap::settle(WallRecord& wall) {
-  wall.settled = WallForm{};
-  wall.settled_basis = wall.estimate.basis;
-  wall.has_settled = false;
+void WallMap::sum_inactive(WallRecord& wall) {
+  wall.inactive = WallForm{};
+  wall.inactive_basis = wall.estimate.basis;
+  wall.has_inactive = false;
   bool first = true;
   for (const Membership& at : wall.memberships) {
     if (at.submap == active_) continue;
-    add_form(at, wall.settled_basis, wall.settled, wall.settled_reach, first);
+    add_form(at, wall.inactive_basis, wall.inactive, wall.inactive_reach, first);
   }
-  wall.has_settled = !first;
+  wall.has_inactive = !first;
 }
 
 /// Takes what the active submap tells into the sum of what the others do; that submap is no longer active.
-void WallMap::settle_active(WallRecord& wall) {
+void WallMap::deactivate(WallRecord& wall) {
   const Membership at{active_, wall.active_member};
   wall.active_member = kNone;
-  const double turn = cross(wall.settled_basis.direction, wall.estimate.basis.direction);
-  if (!wall.has_settled || std::abs(turn) > kLargestTurn_rad) {
+  const double turn = cross(wall.inactive_basis.direction, wall.estimate.basis.direction);
+  if (!wall.has_inactive || std::abs(turn) > kLargestTurn_rad) {
     const Index active = std::exchange(active_, kNone);
-    settle(wall);
+    sum_inactive(wall);
     active_ = active;
     return;
   }
   bool first = false;
-  add_form(at, wall.settled_basis, wall.settled, wall.settled_reach, first);
+  add_form(at, wall.inactive_basis, wall.inactive, wall.inactive_reach, first);
 }
 
-void WallMap::observe(Index m, const Pose2& T_submap_robot, const Sighting& sighting,
+void WallMap::observe(Index m, const Pose2& T_submap_robot, const AssociatedObservation& observation,
                       const bool (&corner)[2]) {
   Member& member = submaps[active_].members[m];
   WallRecord& wall = walls[member.wall];
-  member.evidence.add(T_submap_robot, sighting, corner, noise_);
+  member.evidence.add(T_submap_robot, observation, corner, noise_);
   estimate_member(member, noise_);
   ++wall.count;
   const double share = 1.0 / wall.count;
-  wall.z_low += share * (sighting.z_low - wall.z_low);
-  wall.z_high += share * (sighting.z_high - wall.z_high);
+  wall.z_low += share * (observation.z_low - wall.z_low);
+  wall.z_high += share * (observation.z_high - wall.z_high);
   for (int k = 0; k < 2; ++k) {
     if (corner[k] && wall.corners[k]++ == 0) wall.corner_epoch[k] = submaps[active_].epoch;
   }
@@ -133,25 +131,24 @@ void WallMap::observe(Index m, const Pose2& T_submap_robot, const Sighting& sigh
 
 void WallMap::update(Index w) {
   WallRecord& wall = walls[w];
-  if (!wall.has_settled) {  // nothing else to go by yet: the active submap's own line is the basis
+  if (!wall.has_inactive) {  // nothing else to go by yet: the active submap's own line is the basis
     for (const Membership& at : wall.memberships) {
       const Member& member = submaps[at.submap].members[at.member];
       if (at.submap == active_ && member.evidence.count() > 0)
-        wall.settled_basis = moved(submaps[active_].T_map_submap, member.estimate.basis);
+        wall.inactive_basis = moved(submaps[active_].T_map_submap, member.estimate.basis);
     }
   }
-  WallForm form = wall.settled;
-  double reach[2] = {wall.settled_reach[kEndA], wall.settled_reach[kEndB]};
-  bool first = !wall.has_settled;
+  WallForm form = wall.inactive;
+  double reach[2] = {wall.inactive_reach[kEndA], wall.inactive_reach[kEndB]};
+  bool first = !wall.has_inactive;
   if (wall.active_member != kNone) {
-    add_form({active_, wall.active_member}, wall.settled_basis, form, reach, first);
+    add_form({active_, wall.active_member}, wall.inactive_basis, form, reach, first);
   }
   const bool use[2] = {is_corner(wall, kEndA), is_corner(wall, kEndB)};
-  if (first || !solve(form, wall.settled_basis, use, wall.estimate)) return;
+  if (first || !solve(form, wall.inactive_basis, use, wall.estimate)) return;
   for (int k = 0; k < 2; ++k)
     wall.estimate.reach[k] = wall.estimate.known[k] ? wall.estimate.end[k] : reach[k];
-  index_.put(w, wall.estimate.basis.point(wall.estimate.reach[kEndA]),
-             wall.estimate.basis.point(wall.estimate.reach[kEndB]));
+  index_.put(w, wall.estimate.extent(kEndA), wall.estimate.extent(kEndB));
 }
 
 void WallMap::refresh(Index w) {
@@ -161,9 +158,9 @@ void WallMap::refresh(Index w) {
   const Membership& at = wall.memberships.front();
   wall.estimate.basis =
       moved(submaps[at.submap].T_map_submap, submaps[at.submap].members[at.member].estimate.basis);
-  settle(wall);
+  sum_inactive(wall);
   update(w);
-  settle(wall);
+  sum_inactive(wall);
   update(w);
 }
 
@@ -172,24 +169,24 @@ void WallMap::refresh_all() {
 }
 
 void WallMap::note_trail(Index w, std::uint64_t iteration, const Pose2& T_map_robot,
-                         const Sighting& sighting) {
+                         const AssociatedObservation& observation) {
   WallRecord& wall = walls[w];
   wall.trail_seen = iteration;
-  wall.trail.basis = {T_map_robot * sighting.middle, T_map_robot.rotate(sighting.direction)};
-  wall.trail.reach[kEndA] = -0.5 * sighting.length;
-  wall.trail.reach[kEndB] = 0.5 * sighting.length;
+  wall.trail.basis = {T_map_robot * observation.middle, T_map_robot.rotate(observation.direction)};
+  wall.trail.reach[kEndA] = -0.5 * observation.length;
+  wall.trail.reach[kEndB] = 0.5 * observation.length;
   const WallBasis& basis = wall.estimate.basis;
   wall.trail_is_off = std::abs(basis.across(wall.trail.basis.origin)) > kOff_m ||
                       std::abs(cross(basis.direction, wall.trail.basis.direction)) > kOff_rad;
 }
 
-bool WallMap::note_stray(Index w) {
+bool WallMap::note_outlier(Index w) {
   WallRecord& wall = walls[w];
-  if (wall.strays++ == 0) wall.strays_begin = wall.trail.basis;
+  if (wall.outliers++ == 0) wall.outliers_begin = wall.trail.basis;
   bool turns_dynamic = false;
-  if (!wall.is_dynamic && wall.strays >= kDynamicStrays) {
-    const double move = wall.strays_begin.across(wall.trail.basis.origin);
-    const double turn = angle_between(wall.strays_begin.direction, wall.trail.basis.direction);
+  if (!wall.is_dynamic && wall.outliers >= kDynamicOutliers) {
+    const double move = wall.outliers_begin.across(wall.trail.basis.origin);
+    const double turn = angle_between(wall.outliers_begin.direction, wall.trail.basis.direction);
     turns_dynamic = std::abs(move) > kDynamicMove_m || std::abs(turn) > kDynamicTurn_rad;
   }
   if (turns_dynamic) make_dynamic(w);
@@ -208,8 +205,8 @@ void WallMap::make_dynamic(Index w) {
   }
   wall.memberships.clear();
   wall.active_member = kNone;
-  wall.settled = WallForm{};
-  wall.has_settled = false;
+  wall.inactive = WallForm{};
+  wall.has_inactive = false;
 }
 
 void WallMap::place_dynamic(Index w) {
@@ -217,8 +214,7 @@ void WallMap::place_dynamic(Index w) {
   wall.estimate = wall.trail;
   wall.estimate.p_tt = noise_.angle * noise_.angle;
   wall.estimate.p_oo = noise_.normal * noise_.normal;
-  index_.put(w, wall.estimate.basis.point(wall.estimate.reach[kEndA]),
-             wall.estimate.basis.point(wall.estimate.reach[kEndB]));
+  index_.put(w, wall.estimate.extent(kEndA), wall.estimate.extent(kEndB));
 }
 
 void WallMap::revoke_corner(Index w, int end) {
@@ -229,7 +225,7 @@ void WallMap::revoke_corner(Index w, int end) {
     estimate_member(member, noise_);
   }
   wall.corners[end] = wall.against[end] = wall.astray[end] = 0;
-  settle(wall);
+  sum_inactive(wall);
   update(w);
 }
 
@@ -239,8 +235,7 @@ void WallMap::merge(Index into, Index from) {
   for (const Membership& at : gone.memberships) {
     SubmapRecord& submap = submaps[at.submap];
     Member& member = submap.members[at.member];
-    const auto same = std::find_if(kept.memberships.begin(), kept.memberships.end(),
-                                   [&](const Membership& m) { return m.submap == at.submap; });
+    const auto same = std::ranges::find(kept.memberships, at.submap, &Membership::submap);
     if (same == kept.memberships.end()) {
       member.wall = into;
       kept.memberships.push_back(at);
@@ -267,9 +262,8 @@ void WallMap::merge(Index into, Index from) {
     kept.corners[k] += gone.corners[k];
   }
   for (int k = 0; k < 2; ++k) {  // what is known of the end that is farther out
-    const double sign = k == kEndA ? -1.0 : 1.0;
-    const Vec2 end = gone.estimate.basis.point(gone.estimate.reach[k]);
-    if (sign * (kept.estimate.basis.along(end) - kept.estimate.reach[k]) > 0.0)
+
+    if (outward(k) * (kept.estimate.basis.along(gone.estimate.extent(k)) - kept.estimate.reach[k]) > 0.0)
       kept.hidden[k] = gone.hidden[k];
   }
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);

@@ -27,24 +27,18 @@ struct SubmapRecord {
   std::vector<Member> members;
 };
 
-/// Where a wall stands in a submap.
-struct Membership {
-  Index submap = kNone;
-  Index member = kNone;
-};
-
 /// One wall of the map: what all submaps tell of it together.
 struct WallRecord {
   WallEstimate estimate;              ///< map frame
-  std::uint32_t count = 0;            ///< sightings in all submaps
+  std::uint32_t count = 0;            ///< observations in all submaps
   std::uint32_t corners[2] = {0, 0};  ///< of an end as a corner, in determined frames
-  std::uint32_t against[2] = {0, 0};  ///< sightings of more wall beyond the corner
+  std::uint32_t against[2] = {0, 0};  ///< observations of more wall beyond the corner
   std::uint32_t astray[2] = {0, 0};   ///< of the end as a corner elsewhere
   std::uint32_t hidden[2] = {0, 0};   ///< of the end where it was seen farthest, hidden by something in front
   double z_low = 0.0;                 ///< means [m]
   double z_high = 0.0;
   std::uint32_t epoch = 0;                 ///< how many gaps there had been when it was first seen; see Gap
-  std::uint32_t corner_epoch[2] = {0, 0};  ///< the same of the first sighting of an end as a corner
+  std::uint32_t corner_epoch[2] = {0, 0};  ///< the same of the first observation of an end as a corner
   std::uint64_t last_seen = 0;             ///< iteration
   Index merged_into = kNone;               ///< set when it turned out to be another wall
   std::vector<Membership> memberships;     ///< in the order of joining
@@ -52,15 +46,15 @@ struct WallRecord {
   WallEstimate trail;            ///< where it was seen last
   std::uint64_t trail_seen = 0;  ///< iteration of that
   bool trail_is_off = false;     ///< that is not where it is
-  std::uint32_t strays = 0;      ///< sightings in a row that did not lie where the wall is
-  WallBasis strays_begin;        ///< where the first of them lay
+  std::uint32_t outliers = 0;    ///< observations in a row that did not lie where the wall is
+  WallBasis outliers_begin;      ///< where the first of them lay
   bool is_dynamic = false;       ///< it moves; its estimate is where it was seen last, and it is in no submap
 
   Index active_member = kNone;  ///< its place in the active submap
-  WallBasis settled_basis;      ///< of `settled`
-  WallForm settled;             ///< what all submaps but the active one tell
-  double settled_reach[2] = {0.0, 0.0};
-  bool has_settled = false;
+  WallBasis inactive_basis;     ///< of `inactive`
+  WallForm inactive;            ///< what all submaps but the active one tell
+  double inactive_reach[2] = {0.0, 0.0};
+  bool has_inactive = false;
 };
 
 /// Submaps, the walls that link them, and where both lie in the map. One submap is active: it takes up what frames see.
@@ -77,7 +71,8 @@ class WallMap {
   Index active() const { return active_; }
 
   /// Adds what a frame at T_submap_robot saw to the active submap. `corner`: which ends are evidence. O(1).
-  void observe(Index member, const Pose2& T_submap_robot, const Sighting& sighting, const bool (&corner)[2]);
+  void observe(Index member, const Pose2& T_submap_robot, const AssociatedObservation& observation,
+               const bool (&corner)[2]);
   /// Brings a wall's estimate up to date after observe(). O(1).
   void update(Index wall);
   /// Sums a wall up again from all its submaps, after these have moved. O(its submaps).
@@ -85,10 +80,11 @@ class WallMap {
   void refresh_all();
 
   /// Takes note of where a wall was seen last.
-  void note_trail(Index wall, std::uint64_t iteration, const Pose2& T_map_robot, const Sighting& sighting);
+  void note_trail(Index wall, std::uint64_t iteration, const Pose2& T_map_robot,
+                  const AssociatedObservation& observation);
   /// Takes note that a wall was last seen, by note_trail(), where it does not lie. True if that has gone on so long and so far that the wall is dynamic
   /// from now on. A dynamic wall is moved to where it was seen.
-  bool note_stray(Index wall);
+  bool note_outlier(Index wall);
 
   /// Takes back that an end is a corner, in all submaps.
   void revoke_corner(Index wall, int end);
@@ -115,15 +111,18 @@ class WallMap {
  private:
   void add_form(const Membership& at, const WallBasis& basis, WallForm& form, double (&reach)[2],
                 bool& first) const;
-  void settle(WallRecord& wall);
+  void sum_inactive(WallRecord& wall);
   void make_dynamic(Index wall);
   void place_dynamic(Index wall);
-  void settle_active(WallRecord& wall);
+  void deactivate(WallRecord& wall);
 
   Noise noise_;
   std::uint32_t corner_sightings_;
   WallIndex index_;
   Index active_ = kNone;
 };
+
+/// The map as it is reported. A wall is mapped from `min_observations` on. O(map).
+Map report_map(const WallMap& map, int min_observations);
 
 }  // namespace hallway::slam_plane

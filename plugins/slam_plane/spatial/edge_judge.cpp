@@ -11,7 +11,7 @@ namespace {
 constexpr double kNearerSigmas = 2.0;    // that something is nearer by, if it hides
 constexpr double kOnPlane_m = 0.01;      // and nearer to a plane than this nothing is behind it
 constexpr double kLeastLength_m = 0.15;  // of an edge that is clear
-constexpr double kSameDirection = 0.99;  // cosine between normals of faces that may lie in one plane
+constexpr double kSameDirection = 0.99;  // cosine between normals of planes that may lie in one plane
 
 /// Whether both values are below a bound.
 bool both_below(double a, double b, double bound_a, double bound_b) {
@@ -32,21 +32,19 @@ void EdgeJudge::Part::keep(double a, double b) {
 }
 
 EdgeJudge::EdgeJudge(const Options& options)
-    : noise_(options.noise()),
-      sigmas_(options.corner_sigmas),
-      margin_(options.border_margin_deg * std::numbers::pi / 180.0) {}
+    : noise_(options.noise()), sigmas_(options.corner_sigmas), margin_(radians(options.border_margin_deg)) {}
 
 /// Of where an edge is seen, in any direction.
-double EdgeJudge::sigma(const Sighting& sighting) const {
-  return std::hypot(std::hypot(noise_.normal, sighting.reach_m * noise_.angle), noise_.end, noise_.along);
+double EdgeJudge::sigma(const AssociatedObservation& observation) const {
+  return std::hypot(std::hypot(noise_.normal, observation.reach_m * noise_.angle), noise_.end, noise_.along);
 }
 
-/// Of a face's plane at a point of it.
-double EdgeJudge::sigma_across(const Sighting& sighting, const Vec3& p) const {
-  return std::hypot(noise_.normal, (p - sighting.centre).norm() * noise_.angle);
+/// Of a landmark's plane at a point of it.
+double EdgeJudge::sigma_across(const AssociatedObservation& observation, const Vec3& p) const {
+  return std::hypot(noise_.normal, (p - observation.centre).norm() * noise_.angle);
 }
 
-bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigma) const {
+bool EdgeJudge::at_border(const View& view, const ObservedEdge& edge, double sigma) const {
   const double reach = sigmas_ * sigma;
   const Vec3 &a = edge.end[0], &b = edge.end[1];
   const double near_a = reach + margin_ * a.norm(), near_b = reach + margin_ * b.norm();
@@ -67,12 +65,12 @@ bool EdgeJudge::at_border(const View& view, const SightedEdge& edge, double sigm
          both_below(depth(a), depth(b), reach + view.min_range_m, reach + view.min_range_m);
 }
 
-/// Whether a point of an edge, seen next to a nearer face, is farther away than the side of that face next to which it is seen. What lies
-/// on the side itself touches the face there.
-bool EdgeJudge::beyond_side(const Vec3& p, double doubt, const Sighting& nearer) {
-  const SightedEdge* next = nullptr;
+/// Whether a point of an edge, seen next to a nearer plane, is farther away than the side of that plane next to which it is seen. What lies
+/// on the side itself touches the plane there.
+bool EdgeJudge::beyond_side(const Vec3& p, double doubt, const AssociatedObservation& nearer) {
+  const ObservedEdge* next = nullptr;
   double least = 0.0;
-  for (const SightedEdge& side : nearer.edges) {
+  for (const ObservedEdge& side : nearer.edges) {
     const Vec3 normal = side.end[0].cross(side.end[1]);
     if (normal.norm() < 1e-12) continue;
     const double off = std::abs(normal.normalized().dot(p));
@@ -86,17 +84,17 @@ bool EdgeJudge::beyond_side(const Vec3& p, double doubt, const Sighting& nearer)
   return away.norm() > doubt && away.dot(p) > 0.0;
 }
 
-/// What of an edge may be the border of a face's shadow: what lies within its outline as seen from the robot, widened by what noise may do, if any
-/// of that is behind it: behind its plane, or past the side by which it is seen. A shadow begins where what casts it touches the face, and is
+/// What of an edge may be the border of a plane's shadow: what lies within its outline as seen from the robot, widened by what noise may do, if any
+/// of that is behind it: behind its plane, or past the side by which it is seen. A shadow begins where what casts it touches the plane, and is
 /// a shadow there too, so that one place that is clearly behind tells of all of it.
-EdgeJudge::Part EdgeJudge::hidden_part(const Sighting& own, const SightedEdge& edge, double sigma,
-                                       const Sighting& nearer) const {
+EdgeJudge::Part EdgeJudge::hidden_part(const AssociatedObservation& own, const ObservedEdge& edge,
+                                       double sigma, const AssociatedObservation& nearer) const {
   constexpr Part kNothing{1.0, 0.0};
   const Vec3 &a = edge.end[0], &b = edge.end[1];
   Part part;
   const double of_nearer = EdgeJudge::sigma(nearer);
   const double range = std::max(a.norm(), b.norm());
-  for (const SightedEdge& side : nearer.edges) {
+  for (const ObservedEdge& side : nearer.edges) {
     // The plane through the robot's eye and the side; inward.
     const Vec3 normal = side.end[0].cross(side.end[1]);
     if (normal.norm() < 1e-12) continue;
@@ -122,38 +120,39 @@ EdgeJudge::Part EdgeJudge::hidden_part(const Sighting& own, const SightedEdge& e
   return part;
 }
 
-/// Whether two faces may lie in one plane, at a point of one of them.
-bool EdgeJudge::may_share_plane(const Sighting& own, const Sighting& other, const Vec3& p) const {
+/// Whether two planes may lie in one plane, at a point of one of them.
+bool EdgeJudge::may_share_plane(const AssociatedObservation& own, const AssociatedObservation& other,
+                                const Vec3& p) const {
   const double doubt = sigmas_ * std::hypot(sigma_across(own, p), sigma_across(other, p));
   return own.normal.dot(other.normal) >= kSameDirection &&
          std::abs(other.normal.dot(p) - other.offset()) <= doubt;
 }
 
-/// Where another face of the same plane begins where an edge is.
-EdgeJudge::Part EdgeJudge::continued_part(const Sighting& own, const SightedEdge& edge,
-                                          const Sighting& other) const {
+/// Where another plane of the same plane begins where an edge is.
+EdgeJudge::Part EdgeJudge::continued_part(const AssociatedObservation& own, const ObservedEdge& edge,
+                                          const AssociatedObservation& other) const {
   constexpr Part kNothing{1.0, 0.0};
   if (!may_share_plane(own, other, 0.5 * (edge.end[0] + edge.end[1]))) return kNothing;
   const double reach = sigmas_ * std::hypot(noise_.end, noise_.along) * 2.0 + 0.01;
-  // What of the edge, moved outwards by that, lies in the other face or beside it.
+  // What of the edge, moved outwards by that, lies in the other plane or beside it.
   Part part;
   const Vec3 a = edge.end[0] + reach * edge.outward, b = edge.end[1] + reach * edge.outward;
-  for (const SightedEdge& side : other.edges)
+  for (const ObservedEdge& side : other.edges)
     part.keep(reach + side.outward.dot(side.end[0] - a), reach + side.outward.dot(side.end[0] - b));
   return part;
 }
 
-bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own,
-                         const SightedEdge& edge) const {
+bool EdgeJudge::is_clear(const std::vector<AssociatedObservation>& frame, const AssociatedObservation& own,
+                         const ObservedEdge& edge) const {
   const double length = (edge.end[1] - edge.end[0]).norm(), doubt = sigma(own);
   std::vector<Part> taken;
-  for (const Sighting& other : frame) {
+  for (const AssociatedObservation& other : frame) {
     if (&other == &own) continue;
     for (const Part& part : {hidden_part(own, edge, doubt, other), continued_part(own, edge, other)}) {
       if (!part.empty()) taken.push_back(part);
     }
   }
-  std::sort(taken.begin(), taken.end(), [](const Part& a, const Part& b) { return a.from < b.from; });
+  std::ranges::sort(taken, [](const Part& a, const Part& b) { return a.from < b.from; });
   double clear_from = 0.0;
   for (const Part& part : taken) {
     if ((part.from - clear_from) * length >= kLeastLength_m) return true;
@@ -162,10 +161,10 @@ bool EdgeJudge::is_clear(const std::vector<Sighting>& frame, const Sighting& own
   return (1.0 - clear_from) * length >= kLeastLength_m;
 }
 
-void EdgeJudge::judge(const View& view, std::vector<Sighting>& frame) const {
-  for (Sighting& own : frame) {
+void EdgeJudge::judge(const View& view, std::vector<AssociatedObservation>& frame) const {
+  for (AssociatedObservation& own : frame) {
     const double doubt = sigma(own);
-    for (SightedEdge& edge : own.edges)
+    for (ObservedEdge& edge : own.edges)
       edge.is_true = !at_border(view, edge, doubt) && is_clear(frame, own, edge);
   }
 }

@@ -2,7 +2,7 @@
 #include "slam_plane/spatial/evidence.hpp"
 
 #include "geometry/symmetric.hpp"
-#include "slam_plane/spatial/polygon.hpp"
+#include "slam_plane/spatial/outline.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -28,7 +28,7 @@ Vec3 middle_of(const Mat4& q) {
 
 }  // namespace
 
-Mat4 plane_transform(const Pose3& T_a_b) {
+Mat4 plane_transform(const Pose& T_a_b) {
   Mat4 g = Mat4::Zero();
   g.topLeftCorner<3, 3>() = T_a_b.q.toRotationMatrix().transpose();
   g.bottomLeftCorner<1, 3>() = -T_a_b.t.transpose();
@@ -36,18 +36,18 @@ Mat4 plane_transform(const Pose3& T_a_b) {
   return g;
 }
 
-Mat4 plane_evidence(const Sighting& sighting, const Noise& noise) {
-  const Vec4 centre = with_point(sighting.centre);
+Mat4 plane_evidence(const AssociatedObservation& observation, const Noise& noise) {
+  const Vec4 centre = with_point(observation.centre);
   Mat4 q = centre * centre.transpose() / (noise.normal * noise.normal);
   q.topLeftCorner<3, 3>() +=
-      (Mat3::Identity() - sighting.normal * sighting.normal.transpose()) / (noise.angle * noise.angle);
+      (Mat3::Identity() - observation.normal * observation.normal.transpose()) / (noise.angle * noise.angle);
   return q;
 }
 
-Mat4 edge_evidence(const SightedEdge& edge, const Noise& noise) {
+Mat4 edge_evidence(const ObservedEdge& edge, const Noise& noise) {
   Mat4 q = Mat4::Zero();
   for (const Vec3& end : edge.end) q += with_point(end) * with_point(end).transpose();
-  return q / (noise.end * noise.end + noise.along * noise.along);
+  return q / noise.end_variance();
 }
 
 double Feature::variance_at(const Vec3& p) const {

@@ -2,23 +2,23 @@
 #pragma once
 
 #include "slam_plane/core/options.hpp"
-#include "slam_plane/spatial/sighting.hpp"
+#include "slam_plane/spatial/observation.hpp"
 
 namespace hallway::slam_plane::spatial {
 
-// A plane is p = (n, d), n unit, of the points where n . x = d. The line in which a face ends is the plane through it that is
-// perpendicular to the face, with n pointing away from the face. What was observed of either is a 4 x 4 matrix Q such that p' Q p is the sum of squared,
+// A plane is p = (n, d), n unit, of the points where n . x = d. The line in which a plane ends is the plane through it that is
+// perpendicular to the plane, with n pointing away from the plane. What was observed of either is a 4 x 4 matrix Q such that p' Q p is the sum of squared,
 // weighted errors of p: of a plane the distances of the centres from it and the angles of the normals to it, of an edge the distances of
 // its ends. Such matrices add up, in any order, and nothing of the observations is lost.
 
 /// The matrix that takes planes of frame a to frame b, of T_a_b: p_b = G p_a. What was observed in b is G' Q G in a.
-Mat4 plane_transform(const Pose3& T_a_b);
+Mat4 plane_transform(const Pose& T_a_b);
 
-/// What a sighting tells of its plane; robot's frame.
-Mat4 plane_evidence(const Sighting& sighting, const Noise& noise);
+/// What an observation tells of its plane; robot's frame.
+Mat4 plane_evidence(const AssociatedObservation& observation, const Noise& noise);
 
-/// What an edge tells of where its face ends; robot's frame.
-Mat4 edge_evidence(const SightedEdge& edge, const Noise& noise);
+/// What an edge tells of where its plane ends; robot's frame.
+Mat4 edge_evidence(const ObservedEdge& edge, const Noise& noise);
 
 /// A plane, or a line in one, as evidence has it.
 struct Feature {
@@ -41,8 +41,8 @@ struct Feature {
 /// @param towards  about the normal, which tells the sign
 Feature fit_plane(const Mat4& evidence, const Vec3& towards);
 
-/// The edge of a face that fits evidence best.
-/// @param normal  of the face
+/// The edge of a plane that fits evidence best.
+/// @param normal  of the plane
 Feature fit_edge(const Mat4& evidence, const Vec3& normal, const Vec3& towards);
 
 }  // namespace hallway::slam_plane::spatial

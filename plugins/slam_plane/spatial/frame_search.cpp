@@ -8,32 +8,32 @@
 #include <utility>
 
 #include "geometry/rigid_fit.hpp"
-#include "slam_plane/spatial/polygon.hpp"
+#include "slam_plane/spatial/outline.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
 
 constexpr std::size_t kMostTriples = 4;  // of the frame that are tried
-constexpr std::size_t kLargest = 8;      // of these faces of it
+constexpr std::size_t kLargest = 8;      // of these planes of it
 constexpr double kLeastVolume = 0.4;     // that three normals span
 constexpr double kAngleSigmas = 5.0;     // by which angles between normals may differ, and
 constexpr double kAngle_rad = 0.01;      // what the map may be wrong by
 constexpr double kSamePlace_m = 0.3;     // poses so near to each other are one place
 constexpr double kSamePlace_rad = 0.15;
-constexpr double kMostSigmas = 6.0;  // between a sighting and the face on which it lies
-constexpr double kGoesOn_m = 0.1;    // and 4 sigma: a face that goes on so far beyond a certain edge
+constexpr double kMostSigmas = 6.0;  // between an observation and the plane on which it lies
+constexpr double kGoesOn_m = 0.1;    // and 4 sigma: a plane that goes on so far beyond a certain edge
 constexpr double kGoesOnSigmas = 4.0;
 constexpr PoseFit::EdgeBounds kEdge{.distance_m = 0.05, .angle_rad = 0.02};
-constexpr int kLeastFaces = 5;  // that agree where a frame is believed to have been made,
+constexpr int kLeastPlanes = 5;  // that agree where a frame is believed to have been made,
 constexpr int kLeastEdges = 4;
 constexpr double kLeastAgreeing = 0.7;  // and of all that it saw
 constexpr double kMostRival = 0.7;      // that any other place reaches of it
 
-double extent_of(const Sighting& sighting) {
-  return area(flattened(sighting.outline, PlaneAxes(sighting.normal)));
+double extent_of(const AssociatedObservation& observation) {
+  return area(PlaneAxes(observation.normal).flat(observation.outline));
 }
 
-bool same_place(const Pose3& a, const Pose3& b) {
+bool same_place(const Pose& a, const Pose& b) {
   return (a.t - b.t).norm() < kSamePlace_m && a.q.angularDistance(b.q) < kSamePlace_rad;
 }
 
@@ -46,11 +46,11 @@ FrameSearch::FrameSearch(const Options& options)
       angle_(kAngle_rad + kAngleSigmas * options.noise().angle),
       least_observations_(static_cast<std::uint32_t>(options.min_observations)) {}
 
-/// Those of large faces that span most.
-std::vector<FrameSearch::Triple> FrameSearch::triples(const std::vector<Sighting>& frame) {
+/// Those of large planes that span most.
+std::vector<FrameSearch::Triple> FrameSearch::triples(const std::vector<AssociatedObservation>& frame) {
   std::vector<std::pair<double, Index>> sizes;
   for (Index i = 0; i < frame.size(); ++i) sizes.emplace_back(-extent_of(frame[i]), i);
-  std::sort(sizes.begin(), sizes.end());
+  std::ranges::sort(sizes);
   if (sizes.size() > kLargest) sizes.resize(kLargest);
   std::vector<std::pair<double, Triple>> ranked;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -63,40 +63,40 @@ std::vector<FrameSearch::Triple> FrameSearch::triples(const std::vector<Sighting
       }
     }
   }
-  std::sort(ranked.begin(), ranked.end());
+  std::ranges::sort(ranked);
   if (ranked.size() > kMostTriples) ranked.resize(kMostTriples);
   std::vector<Triple> triples;
   for (const auto& [rank, triple] : ranked) triples.push_back(triple);
   return triples;
 }
 
-/// Faces that share a submap with one, ascending.
-std::vector<Index> FrameSearch::seen_about(const FaceMap& map, Index face) {
+/// Planes that share a submap with one, ascending.
+std::vector<Index> FrameSearch::seen_about(const PlaneMap& map, Index landmark) {
   std::vector<Index> about;
-  for (const MemberAt& at : map.faces[face].members) {
+  for (const Membership& at : map.landmarks[landmark].members) {
     for (const Member& member : map.submaps[at.submap].members) {
-      if (member.face != kNone && member.face != face) about.push_back(member.face);
+      if (member.landmark != kNone && member.landmark != landmark) about.push_back(member.landmark);
     }
   }
-  std::sort(about.begin(), about.end());
-  about.erase(std::unique(about.begin(), about.end()), about.end());
+  make_set(about);
   return about;
 }
 
-/// Lays three sightings on all faces of the map whose normals make the same
+/// Lays three observations on all planes of the map whose normals make the same
 /// angles.
-void FrameSearch::lay(const FaceMap& map, const std::vector<Sighting>& frame, const Triple& seen) {
+void FrameSearch::lay(const PlaneMap& map, const std::vector<AssociatedObservation>& frame,
+                      const Triple& seen) {
   const auto normal = [&](int i) -> const Vec3& { return frame[seen[static_cast<std::size_t>(i)]].normal; };
-  const auto known = [&](Index face) { return map.faces[face].plane.normal(); };
-  const auto usable = [&](Index face) {
-    return map.faces[face].alive() && map.faces[face].observations >= least_observations_;
+  const auto known = [&](Index landmark) { return map.landmarks[landmark].plane.normal(); };
+  const auto usable = [&](Index landmark) {
+    return map.landmarks[landmark].alive() && map.landmarks[landmark].observations >= least_observations_;
   };
   const auto turned = [&](const Vec3& a, const Vec3& b, int i, int k) {
     return std::abs(std::acos(std::clamp(a.dot(b), -1.0, 1.0)) -
                     std::acos(std::clamp(normal(i).dot(normal(k)), -1.0, 1.0))) > angle_;
   };
   const double side = normal(0).cross(normal(1)).dot(normal(2));
-  for (Index first = 0; first < map.faces.size(); ++first) {
+  for (Index first = 0; first < map.landmarks.size(); ++first) {
     if (!usable(first)) continue;
     const std::vector<Index> about = seen_about(map, first);
     for (const Index second : about) {
@@ -112,89 +112,86 @@ void FrameSearch::lay(const FaceMap& map, const std::vector<Sighting>& frame, co
   }
 }
 
-void FrameSearch::try_place(const FaceMap& map, const std::vector<Sighting>& frame, const Triple& seen,
-                            const Triple& known) {
+void FrameSearch::try_place(const PlaneMap& map, const std::vector<AssociatedObservation>& frame,
+                            const Triple& seen, const Triple& known) {
   Mat3 sum = Mat3::Zero(), normals;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    normals.row(i) = map.faces[known[at]].plane.normal().transpose();
-    sum += map.faces[known[at]].plane.normal() * frame[seen[at]].normal.transpose();
+    normals.row(i) = map.landmarks[known[at]].plane.normal().transpose();
+    sum += map.landmarks[known[at]].plane.normal() * frame[seen[at]].normal.transpose();
   }
   const Singular svd = singular(sum);
   Mat3 right = Mat3::Identity();
   right(2, 2) = (svd.left * svd.right.transpose()).determinant();
-  Pose3 T;
+  Pose T;
   T.q = Quat(svd.left * right * svd.right.transpose()).normalized();
   Vec3 offsets;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    offsets(i) = -map.faces[known[at]].plane.distance(T.q * frame[seen[at]].centre);
+    offsets(i) = -map.landmarks[known[at]].plane.distance(T.q * frame[seen[at]].centre);
   }
   T.t = normals.partialPivLu().solve(offsets);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (matcher_.score(map.faces[known[i]], frame[seen[i]], T, bound_) == 0.0) return;
+    if (matcher_.score(map.landmarks[known[i]], frame[seen[i]], T, bound_) == 0.0) return;
   }
-  if (std::any_of(tried_.begin(), tried_.end(), [&](const Pose3& other) { return same_place(other, T); }))
-    return;
+  if (std::ranges::any_of(tried_, [&](const Pose& other) { return same_place(other, T); })) return;
   tried_.push_back(T);
   if (const auto place = judge(map, frame, T)) places_.push_back(*place);
 }
 
-bool FrameSearch::fit(const FaceMap& map, const std::vector<Sighting>& frame, Pose3& T) {
+bool FrameSearch::fit(const PlaneMap& map, const std::vector<AssociatedObservation>& frame, Pose& T) {
   fit_.clear();
-  for (const Sighting& sighting : frame) {
-    if (sighting.face != kNone && !sighting.stray)
-      fit_.add(sighting, map.faces[sighting.face].plane, map.lines(sighting.face, false));
+  for (const AssociatedObservation& observation : frame) {
+    if (observation.is_evidence())
+      fit_.add(observation, map.landmarks[observation.landmark].plane,
+               map.lines(observation.landmark, false));
   }
   return fit_.solve(T).determined();
 }
 
 /// What agrees if the frame was made there.
-std::optional<FrameSearch::Place> FrameSearch::judge(const FaceMap& map, const std::vector<Sighting>& frame,
-                                                     const Pose3& T) {
+std::optional<FrameSearch::Place> FrameSearch::judge(const PlaneMap& map,
+                                                     const std::vector<AssociatedObservation>& frame,
+                                                     const Pose& T) {
   Place place{.T = T};
-  std::vector<Sighting> laid = frame;
+  std::vector<AssociatedObservation> laid = frame;
   for (int round = 0; round < 2; ++round) {
-    for (Sighting& sighting : laid) {
-      sighting.face = kNone;
-      sighting.stray = false;
-    }
+    dissociate(laid);
     matcher_.match_map(map, place.T, laid);
     if (!fit(map, laid, place.T)) return std::nullopt;
   }
-  for (const Sighting& sighting : laid) {
-    if (sighting.face != kNone && !sighting.stray) count(map, sighting, place);
+  for (const AssociatedObservation& observation : laid) {
+    if (observation.is_evidence()) count(map, observation, place);
   }
   return place;
 }
 
-void FrameSearch::count(const FaceMap& map, const Sighting& sighting, Place& place) const {
-  const FaceRecord& face = map.faces[sighting.face];
-  if (fit_.distance2(sighting, face.plane, place.T) > kMostSigmas * kMostSigmas) return;
-  const std::vector<const Feature*> lines = map.lines(sighting.face, false);
+void FrameSearch::count(const PlaneMap& map, const AssociatedObservation& observation, Place& place) const {
+  const PlaneRecord& landmark = map.landmarks[observation.landmark];
+  if (fit_.distance2(observation, landmark.plane, place.T) > kMostSigmas * kMostSigmas) return;
+  const std::vector<const Feature*> lines = map.lines(observation.landmark, false);
   for (const Feature* line : lines) {
     if (line == nullptr) continue;
-    for (const Vec3& p : sighting.outline) {
+    for (const Vec3& p : observation.outline) {
       const Vec3 at = place.T * p;
       if (line->distance(at) <= kGoesOn_m + kGoesOnSigmas * std::sqrt(line->variance_at(at))) continue;
       ++place.contradictions;
       return;
     }
   }
-  ++place.faces;
-  const std::vector<Index> found = fit_.find_edges(sighting, lines, place.T, kEdge);
-  place.edges +=
-      static_cast<int>(std::count_if(found.begin(), found.end(), [](Index edge) { return edge != kNone; }));
+  ++place.planes;
+  const std::vector<Index> found = fit_.find_edges(observation, lines, place.T, kEdge);
+  place.edges += static_cast<int>(std::ranges::count_if(found, [](Index edge) { return edge != kNone; }));
 }
 
-std::optional<Pose3> FrameSearch::find(const FaceMap& map, const std::vector<Sighting>& frame) {
+std::optional<Pose> FrameSearch::find(const PlaneMap& map, const std::vector<AssociatedObservation>& frame) {
   tried_.clear();
   places_.clear();
   for (const Triple& triple : triples(frame)) lay(map, frame, triple);
   const auto better = [](const Place& a, const Place& b) { return a.score() < b.score(); };
-  const auto best = std::max_element(places_.begin(), places_.end(), better);
-  if (best == places_.end() || best->faces < kLeastFaces || best->edges < kLeastEdges ||
-      best->faces < kLeastAgreeing * static_cast<double>(frame.size()))
+  const auto best = std::ranges::max_element(places_, better);
+  if (best == places_.end() || best->planes < kLeastPlanes || best->edges < kLeastEdges ||
+      best->planes < kLeastAgreeing * static_cast<double>(frame.size()))
     return std::nullopt;
   for (const Place& other : places_) {
     if (!same_place(other.T, best->T) && other.score() > kMostRival * best->score()) return std::nullopt;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/spatial/map_report.hpp"
+#include "slam_plane/spatial/plane_map.hpp"
 
 #include <cmath>
 #include <optional>
 
-#include "slam_plane/spatial/polygon.hpp"
+#include "slam_plane/spatial/outline.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -41,25 +41,26 @@ Vec2 snapped(const Vec2& p, const std::vector<Line>& lines) {
   return first == nullptr ? p : Vec2(p - first->distance(p) * first->normal);
 }
 
-MappedFace told(const FaceMap& map, Index index, int min_observations) {
-  const FaceRecord& face = map.faces[index];
-  const PlaneAxes axes(face.plane.normal());
-  Polygon outline = flattened(face.outline, axes);
+PlaneLandmark reported(const PlaneMap& map, Index index, int min_observations) {
+  const PlaneRecord& landmark = map.landmarks[index];
+  const PlaneAxes axes(landmark.plane.normal());
+  Convex outline = axes.flat(landmark.outline);
   std::vector<Line> lines;
-  for (const EdgeRecord& edge : face.edges) {
+  for (const EdgeRecord& edge : landmark.edges) {
     if (map.is_certain(edge)) lines.push_back({axes.flat(edge.line.normal()), edge.line.offset()});
   }
   for (const Line& line : lines) outline = clip(outline, line.normal, line.offset);
   for (Vec2& p : outline) p = snapped(p, lines);
   outline = convex_hull(outline);
-  MappedFace out;
+  PlaneLandmark out;
   out.id = index;
-  out.normal = face.plane.normal();
-  out.offset = face.plane.offset();
-  out.observations = face.observations;
-  out.status = face.observations >= static_cast<std::uint32_t>(min_observations) ? WallStatus::mapped
-                                                                                 : WallStatus::temporary;
-  if (face.is_dynamic) out.status = WallStatus::dynamic;
+  out.normal = landmark.plane.normal();
+  out.offset = landmark.plane.offset();
+  out.observations = landmark.observations;
+  out.status = landmark.observations >= static_cast<std::uint32_t>(min_observations)
+                   ? LandmarkStatus::mapped
+                   : LandmarkStatus::temporary;
+  if (landmark.is_dynamic) out.status = LandmarkStatus::dynamic;
   const std::size_t n = outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     out.outline.push_back(axes.lift(outline[i], out.offset));
@@ -75,19 +76,19 @@ MappedFace told(const FaceMap& map, Index index, int min_observations) {
 
 }  // namespace
 
-Map report_map(const FaceMap& map, int min_observations) {
+Map report_map(const PlaneMap& map, int min_observations) {
   Map report;
-  for (Index i = 0; i < map.faces.size(); ++i) {
-    if (!map.faces[i].alive()) continue;
-    MappedFace face = told(map, i, min_observations);
-    if (face.outline.size() >= 3) report.faces.push_back(std::move(face));
+  for (Index i = 0; i < map.landmarks.size(); ++i) {
+    if (!map.landmarks[i].alive()) continue;
+    PlaneLandmark landmark = reported(map, i, min_observations);
+    if (landmark.outline.size() >= 3) report.landmarks.push_back(std::move(landmark));
   }
   for (Index i = 0; i < map.submaps.size(); ++i) {
-    MappedSubmap& submap = report.submaps.emplace_back();
+    SubmapAt<Pose>& submap = report.submaps.emplace_back();
     submap.id = i;
     submap.T_map_submap = map.submaps[i].T_map_submap;
     for (const Member& member : map.submaps[i].members) {
-      if (member.face != kNone) submap.members.push_back(member.face);
+      if (member.landmark != kNone) submap.members.push_back(member.landmark);
     }
   }
   return report;

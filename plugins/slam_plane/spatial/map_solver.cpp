@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/spatial/map_solver.hpp"
+#include "slam_plane/spatial/plane_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ struct Observed {
 
 class Problem {
  public:
-  Problem(const FaceMap& map, const std::vector<Index>& free) : map_(map), slot_(map.submaps.size(), kNone) {
+  Problem(const PlaneMap& map, const std::vector<Index>& free) : map_(map), slot_(map.submaps.size(), kNone) {
     for (Index i = 0; i < free.size(); ++i) slot_[free[i]] = i;
     const auto n = static_cast<Eigen::Index>(6 * free.size());
     h_ = Eigen::MatrixXd::Zero(n, n);
@@ -99,34 +99,33 @@ class Problem {
     return gradient;
   }
 
-  const FaceMap& map_;
+  const PlaneMap& map_;
   std::vector<Index> slot_;
   Eigen::MatrixXd h_;
   Eigen::VectorXd g_;
 };
 
-std::vector<Index> faces_of(const FaceMap& map, const std::vector<Index>& free) {
-  std::vector<Index> faces;
+std::vector<Index> landmarks_of(const PlaneMap& map, const std::vector<Index>& free) {
+  std::vector<Index> landmarks;
   for (const Index submap : free) {
     for (const Member& member : map.submaps[submap].members) {
-      if (member.face != kNone) faces.push_back(member.face);
+      if (member.landmark != kNone) landmarks.push_back(member.landmark);
     }
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
+  make_set(landmarks);
+  return landmarks;
 }
 
-/// The plane and the certain edges of a face.
-void collect(const FaceMap& map, const FaceRecord& face, std::vector<Observed>& all) {
-  Observed plane{&face.plane, false, {}};
-  for (const MemberAt& at : face.members)
+/// The plane and the certain edges of a plane.
+void collect(const PlaneMap& map, const PlaneRecord& landmark, std::vector<Observed>& all) {
+  Observed plane{&landmark.plane, false, {}};
+  for (const Membership& at : landmark.members)
     plane.terms.push_back({at.submap, &map.submaps[at.submap].members[at.member].evidence});
   all.push_back(std::move(plane));
-  for (const EdgeRecord& edge : face.edges) {
+  for (const EdgeRecord& edge : landmark.edges) {
     if (!map.is_certain(edge)) continue;
     Observed line{&edge.line, true, {}};
-    for (const MemberAt& at : face.members) {
+    for (const Membership& at : landmark.members) {
       for (const EdgeSum& sum : map.submaps[at.submap].members[at.member].edges) {
         if (sum.id == edge.id) line.terms.push_back({at.submap, &sum.evidence});
       }
@@ -135,7 +134,7 @@ void collect(const FaceMap& map, const FaceRecord& face, std::vector<Observed>& 
   }
 }
 
-double cost_of(const FaceMap& map, const std::vector<Observed>& all) {
+double cost_of(const PlaneMap& map, const std::vector<Observed>& all) {
   double cost = 0.0;
   for (const Observed& observed : all) {
     for (const Term& term : observed.terms) {
@@ -151,27 +150,27 @@ double cost_of(const FaceMap& map, const std::vector<Observed>& all) {
 
 }  // namespace
 
-int solve(FaceMap& map, const std::vector<Index>& free, int steps) {
+int solve(PlaneMap& map, const std::vector<Index>& free, int steps) {
   if (free.empty()) return 0;
-  const std::vector<Index> faces = faces_of(map, free);
-  for (const Index face : faces) map.update(face);
+  const std::vector<Index> landmarks = landmarks_of(map, free);
+  for (const Index landmark : landmarks) map.update(landmark);
   int taken = 0;
   for (; taken < steps; ++taken) {
     std::vector<Observed> all;
-    for (const Index face : faces) collect(map, map.faces[face], all);
+    for (const Index landmark : landmarks) collect(map, map.landmarks[landmark], all);
     const double before = cost_of(map, all);
     Problem problem(map, free);
     for (const Observed& observed : all) problem.add(observed);
     const Eigen::VectorXd step = problem.step();
     if (!step.allFinite()) break;
-    std::vector<Pose3> old;
+    std::vector<Pose> old;
     for (Index i = 0; i < free.size(); ++i) {
-      Pose3& T = map.submaps[free[i]].T_map_submap;
+      Pose& T = map.submaps[free[i]].T_map_submap;
       old.push_back(T);
       const Vec6 move = step.segment<6>(static_cast<Eigen::Index>(6 * i));
-      T = T * Pose3{rotation_by(move.tail<3>()), move.head<3>()};
+      T = T * Pose{rotation_by(move.tail<3>()), move.head<3>()};
     }
-    for (const Index face : faces) map.update(face);
+    for (const Index landmark : landmarks) map.update(landmark);
     const double after = cost_of(map, all);
     if (after <= before) {
       if (before - after > kSettled * before) continue;
@@ -181,7 +180,7 @@ int solve(FaceMap& map, const std::vector<Index>& free, int steps) {
     for (Index i = 0; i < free.size(); ++i) map.submaps[free[i]].T_map_submap = old[i];
     break;
   }
-  for (const Index face : faces) map.rebuild(face);
+  for (const Index landmark : landmarks) map.rebuild(landmark);
   return taken;
 }
 

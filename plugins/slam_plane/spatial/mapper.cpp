@@ -5,17 +5,15 @@
 #include <numeric>
 
 #include "slam_plane/spatial/edge_judge.hpp"
-#include "slam_plane/spatial/face_map.hpp"
-#include "slam_plane/spatial/face_matcher.hpp"
 #include "slam_plane/spatial/frame_locator.hpp"
-#include "slam_plane/spatial/map_report.hpp"
-#include "slam_plane/spatial/map_solver.hpp"
+#include "slam_plane/spatial/plane_map.hpp"
+#include "slam_plane/spatial/plane_matcher.hpp"
 #include "slam_plane/spatial/submap_fit.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
 
-constexpr std::uint64_t kOldGround = 100;  // frames after which a face that comes back is old ground
+constexpr std::uint64_t kOldGround = 100;  // frames after which a plane that comes back is old ground
 constexpr int kCloseSteps = 2;             // over all submaps, when one closes
 constexpr int kRefineSteps = 20;
 constexpr std::size_t kWindow = 12;  // submaps that are placed anew when one closes on new ground
@@ -36,19 +34,19 @@ class Mapper::State {
 
   const Options& options() const { return options_; }
 
-  const Answer& process(std::span<const Face> faces, const View& view) {
-    begin(faces, view);
+  const Answer& process(std::span<const PlaneObservation> observations, const View& view) {
+    begin(observations, view);
     if (map_.submaps.empty()) {
       start();
     } else {
       lost_ = locator_.locate(map_, frame_);
       if (lost_ == Lost::no) {
         if (locator_.found_again()) ++answer_.counters.found_again;
-        follow_strays();
-        add_faces();
+        follow_outliers();
+        add_landmarks();
         if (choose_submap()) {
           integrate();
-          merge_twins();
+          merge_duplicates();
         }
         locator_.note_motion(map_, frame_);
       } else {
@@ -61,34 +59,34 @@ class Mapper::State {
   Map map() const { return report_map(map_, options_.min_observations); }
 
   Map refined_map() const {
-    FaceMap refined = map_;
+    PlaneMap refined = map_;
     solve(refined, all_but_first(refined), kRefineSteps);
     return report_map(refined, options_.min_observations);
   }
 
  private:
-  void begin(std::span<const Face> faces, const View& view);
+  void begin(std::span<const PlaneObservation> observations, const View& view);
   void start();
-  void follow_strays();
-  void add_faces();
+  void follow_outliers();
+  void add_landmarks();
   bool choose_submap();
   bool change_submap();
   void close();
   void integrate();
   void set_apart();
-  void merge_twins();
+  void merge_duplicates();
   const Answer& answer();
 
-  static std::vector<Index> all_but_first(const FaceMap& map) {
+  static std::vector<Index> all_but_first(const PlaneMap& map) {
     std::vector<Index> all(map.submaps.empty() ? 0 : map.submaps.size() - 1);
     std::iota(all.begin(), all.end(), Index{1});
     return all;
   }
 
   Options options_;
-  FaceMap map_;
+  PlaneMap map_;
   EdgeJudge judge_;
-  FaceMatcher matcher_;
+  PlaneMatcher matcher_;
   FrameLocator locator_;
   SubmapFit submap_fit_;
 
@@ -99,15 +97,17 @@ class Mapper::State {
   Answer answer_;
 };
 
-void Mapper::State::begin(std::span<const Face> faces, const View& view) {
+void Mapper::State::begin(std::span<const PlaneObservation> observations, const View& view) {
   ++frame_.iteration;
-  frame_.sightings.clear();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i].outline.size() >= 3) frame_.sightings.push_back(sighting_of(faces[i], i));
+  frame_.observations.clear();
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (observations[i].outline.size() >= 3)
+      frame_.observations.push_back(observation_of(observations[i], i));
   }
-  judge_.judge(view, frame_.sightings);
-  std::erase_if(frame_.sightings, [this](const Sighting& s) { return is_sliver(s, options_.noise()); });
-  answer_.associations.assign(faces.size(), kNoWall);
+  judge_.judge(view, frame_.observations);
+  std::erase_if(frame_.observations,
+                [this](const AssociatedObservation& s) { return is_sliver(s, options_.noise()); });
+  answer_.associations.assign(observations.size(), kNoLandmark);
   lost_ = Lost::no;
 }
 
@@ -115,31 +115,32 @@ void Mapper::State::begin(std::span<const Face> faces, const View& view) {
 void Mapper::State::start() {
   frame_.known = locator_.own_information(frame_);
   if (!frame_.known.determined()) {
-    lost_ = frame_.known.open == 6 ? Lost::nothing_known : Lost::undetermined;
+    lost_ = frame_.known.open == 6 ? Lost::nothing_known : Lost::unobservable;
     return;
   }
-  map_.activate(map_.add_submap(Pose3{}));
+  map_.activate(map_.add_submap(Pose{}));
   first_of_submap_ = true;
-  add_faces();
+  add_landmarks();
   integrate();
   locator_.note_motion(map_, frame_);
 }
 
-/// What lies beside its face is no evidence: the face may move.
-void Mapper::State::follow_strays() {
-  for (const Sighting& sighting : frame_.sightings) {
-    if (sighting.face == kNone) continue;
-    if (map_.follow(frame_.T_map_robot, sighting, sighting.stray, frame_.iteration))
+/// What lies beside its plane is no evidence: the plane may move.
+void Mapper::State::follow_outliers() {
+  for (const AssociatedObservation& observation : frame_.observations) {
+    if (observation.landmark == kNone) continue;
+    if (map_.follow(frame_.T_map_robot, observation, observation.outlier, frame_.iteration))
       ++answer_.counters.dynamic;
-    if (sighting.stray && map_.faces[sighting.face].is_dynamic)
-      answer_.associations[sighting.given] = sighting.face;
+    if (observation.outlier && map_.landmarks[observation.landmark].is_dynamic)
+      answer_.associations[observation.given] = observation.landmark;
   }
-  std::erase_if(frame_.sightings, [](const Sighting& sighting) { return sighting.stray; });
+  std::erase_if(frame_.observations,
+                [](const AssociatedObservation& observation) { return observation.outlier; });
 }
 
-void Mapper::State::add_faces() {
-  for (Sighting& sighting : frame_.sightings) {
-    if (sighting.face == kNone) sighting.face = map_.add_face();
+void Mapper::State::add_landmarks() {
+  for (AssociatedObservation& observation : frame_.observations) {
+    if (observation.landmark == kNone) observation.landmark = map_.add_landmark();
   }
 }
 
@@ -148,18 +149,18 @@ bool Mapper::State::choose_submap() {
   frame_.T_submap_robot = map_.submaps[map_.active()].T_map_submap.inverse() * frame_.T_map_robot;
   const SubmapRecord& active = map_.submaps[map_.active()];
   const bool stays = active.frames < options_.max_submap_frames &&
-                     overlap_of(active.first_seen, frame_.faces()) >= options_.overlap;
-  if (stays && submap_fit_.locate(map_, frame_.sightings, frame_.T_submap_robot)) return true;
+                     overlap_of(active.first_seen, frame_.landmarks()) >= options_.overlap;
+  if (stays && submap_fit_.locate(map_, frame_.observations, frame_.T_submap_robot)) return true;
   return change_submap();
 }
 
 bool Mapper::State::change_submap() {
   close();
   const Index before = map_.active();
-  if (const Index old = submap_fit_.find_old(map_, frame_.faces(), options_.overlap); old != kNone) {
+  if (const Index old = submap_fit_.find_old(map_, frame_.landmarks(), options_.overlap); old != kNone) {
     map_.activate(old);
     frame_.T_submap_robot = map_.submaps[old].T_map_submap.inverse() * frame_.T_map_robot;
-    if (submap_fit_.locate(map_, frame_.sightings, frame_.T_submap_robot)) {
+    if (submap_fit_.locate(map_, frame_.observations, frame_.T_submap_robot)) {
       map_.submaps[old].frames = 0;
       ++answer_.counters.reopened;
       return true;
@@ -167,55 +168,56 @@ bool Mapper::State::change_submap() {
   }
   if (locator_.own_information(frame_).determined()) {
     map_.activate(map_.add_submap(frame_.T_map_robot));
-    frame_.T_submap_robot = Pose3{};
+    frame_.T_submap_robot = Pose{};
     first_of_submap_ = true;
     return true;
   }
   map_.activate(before);
   frame_.T_submap_robot = map_.submaps[before].T_map_submap.inverse() * frame_.T_map_robot;
-  return submap_fit_.locate(map_, frame_.sightings, frame_.T_submap_robot);
+  return submap_fit_.locate(map_, frame_.observations, frame_.T_submap_robot);
 }
 
 /// Places submaps anew: those about the robot, or all of them where old ground was met.
 void Mapper::State::close() {
   ++answer_.counters.closes;
   std::vector<Index> free = all_but_first(map_);
-  if (!old_ground_ && free.size() > kWindow) free = submap_fit_.nearest(map_, frame_.faces(), kWindow);
+  if (!old_ground_ && free.size() > kWindow) free = submap_fit_.nearest(map_, frame_.landmarks(), kWindow);
   old_ground_ = false;
-  const Pose3 T_active = map_.submaps[map_.active()].T_map_submap;
+  const Pose T_active = map_.submaps[map_.active()].T_map_submap;
   answer_.counters.global_steps += static_cast<std::uint64_t>(solve(map_, free, kCloseSteps));
-  const Pose3 moved = map_.submaps[map_.active()].T_map_submap * T_active.inverse();
+  const Pose moved = map_.submaps[map_.active()].T_map_submap * T_active.inverse();
   frame_.T_map_robot = moved * frame_.T_map_robot;
   locator_.carry(moved);
 }
 
-void Mapper::State::merge_twins() {
-  for (Sighting& sighting : frame_.sightings) {
-    if (sighting.face == kNone) continue;
-    for (const Index other : matcher_.twins_of(map_, sighting.face)) {
-      const Index own = sighting.face;
-      if (!map_.faces[other].alive() || !matcher_.are_twins(map_, own, other)) continue;  // no longer
+void Mapper::State::merge_duplicates() {
+  for (AssociatedObservation& observation : frame_.observations) {
+    if (observation.landmark == kNone) continue;
+    for (const Index other : matcher_.duplicates_of(map_, observation.landmark)) {
+      const Index own = observation.landmark;
+      if (!map_.landmarks[other].alive() || !matcher_.are_duplicates(map_, own, other))
+        continue;  // no longer
       const Index kept = std::min(own, other), gone = std::max(own, other);
       map_.merge(kept, gone);
       ++answer_.counters.merged;
-      for (Sighting& s : frame_.sightings) {
-        if (s.face == gone) s.face = kept;
+      for (AssociatedObservation& s : frame_.observations) {
+        if (s.landmark == gone) s.landmark = kept;
       }
     }
   }
 }
 
 void Mapper::State::integrate() {
-  if (first_of_submap_) map_.submaps[map_.active()].first_seen = frame_.faces();
+  if (first_of_submap_) map_.submaps[map_.active()].first_seen = frame_.landmarks();
   first_of_submap_ = false;
-  for (const Sighting& sighting : frame_.sightings) {
-    if (sighting.face == kNone) continue;
-    map_.observe(frame_.T_submap_robot, sighting, frame_.iteration);
+  for (const AssociatedObservation& observation : frame_.observations) {
+    if (observation.landmark == kNone) continue;
+    map_.observe(frame_.T_submap_robot, observation, frame_.iteration);
     answer_.counters.edges_revoked +=
-        static_cast<std::uint64_t>(map_.revoke_edges(sighting.face, frame_.iteration));
-    FaceRecord& face = map_.faces[sighting.face];
-    if (face.observations > 1 && face.last_seen + kOldGround < frame_.iteration) old_ground_ = true;
-    face.last_seen = frame_.iteration;
+        static_cast<std::uint64_t>(map_.revoke_edges(observation.landmark, frame_.iteration));
+    PlaneRecord& landmark = map_.landmarks[observation.landmark];
+    if (landmark.observations > 1 && landmark.last_seen + kOldGround < frame_.iteration) old_ground_ = true;
+    landmark.last_seen = frame_.iteration;
   }
   set_apart();
   ++map_.submaps[map_.active()].frames;
@@ -223,10 +225,11 @@ void Mapper::State::integrate() {
 
 /// What one frame saw as two, on one plane, is two.
 void Mapper::State::set_apart() {
-  const std::vector<Index> seen = frame_.faces();
+  const std::vector<Index> seen = frame_.landmarks();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (std::size_t k = i + 1; k < seen.size(); ++k) {
-      if (matcher_.on_one_plane(map_.faces[seen[i]], map_.faces[seen[k]])) map_.set_apart(seen[i], seen[k]);
+      if (matcher_.on_one_plane(map_.landmarks[seen[i]], map_.landmarks[seen[k]]))
+        map_.set_apart(seen[i], seen[k]);
     }
   }
 }
@@ -235,7 +238,7 @@ const Answer& Mapper::State::answer() {
   answer_.has_pose = lost_ == Lost::no;
   answer_.lost = lost_;
   answer_.open = lost_ == Lost::no ? 0 : frame_.known.open;
-  answer_.undetermined.setZero();
+  answer_.unobservable.setZero();
   answer_.covariance.setZero();
   if (answer_.has_pose) {
     answer_.T_map_robot = frame_.T_map_robot;
@@ -243,12 +246,12 @@ const Answer& Mapper::State::answer() {
     answer_.covariance = 0.5 * (answer_.covariance + answer_.covariance.transpose()).eval();
   } else {
     ++answer_.counters.lost;
-    if (answer_.open == 1) answer_.undetermined = frame_.known.directions.col(0).head<3>().normalized();
+    if (answer_.open == 1) answer_.unobservable = frame_.known.directions.col(0).head<3>().normalized();
   }
-  for (const Sighting& sighting : frame_.sightings) {
-    if (sighting.face != kNone) answer_.associations[sighting.given] = sighting.face;
+  for (const AssociatedObservation& observation : frame_.observations) {
+    if (observation.landmark != kNone) answer_.associations[observation.given] = observation.landmark;
   }
-  answer_.counters.faces = map_.count();
+  answer_.counters.landmarks = map_.count();
   answer_.counters.edges = map_.certain_edges();
   answer_.counters.submaps = map_.submaps.size();
   return answer_;
@@ -256,11 +259,9 @@ const Answer& Mapper::State::answer() {
 
 Mapper::Mapper(const Options& options) : state_(std::make_unique<State>(options)) {}
 Mapper::~Mapper() = default;
-Mapper::Mapper(Mapper&&) noexcept = default;
-Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-const Answer& Mapper::process(std::span<const Face> faces, const View& view) {
-  return state_->process(faces, view);
+const Answer& Mapper::process(std::span<const PlaneObservation> observations, const View& view) {
+  return state_->process(observations, view);
 }
 
 Map Mapper::map() const {

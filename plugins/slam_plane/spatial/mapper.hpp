@@ -9,7 +9,7 @@
 
 namespace hallway::slam_plane::spatial {
 
-/// Maps faces that a robot sees in part while it moves and turns as it likes (thesis 5.3, item 2): the relative mode with planes for
+/// Maps planes that a robot sees in part while it moves and turns as it likes (thesis 5.3, item 2): the relative mode with planes for
 /// lines and the edges of outlines for ends. No odometry, no identities, no pose that is carried along. What is seen together is condensed into submaps;
 /// the map is where all submaps agree best.
 class Mapper {
@@ -17,11 +17,9 @@ class Mapper {
   /// Throws std::invalid_argument for options out of their range.
   explicit Mapper(const Options& options);
   ~Mapper();
-  Mapper(Mapper&&) noexcept;
-  Mapper& operator=(Mapper&&) noexcept;
 
   /// One iteration. The answer lives until the next call.
-  const Answer& process(std::span<const Face> faces, const View& view);
+  const Answer& process(std::span<const PlaneObservation> observations, const View& view);
 
   /// The map as it is used. O(map).
   Map map() const;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "geometry/symmetric.hpp"
-#include "slam_plane/spatial/polygon.hpp"
+#include "slam_plane/spatial/outline.hpp"
 
 namespace hallway::slam_plane::spatial {
 namespace {
@@ -38,18 +38,19 @@ void PoseFit::Normal::add(const Vec6& gradient, double residual, double variance
 PoseFit::PoseFit(const Options& options)
     : noise_(options.noise()),
       undetermined_m_(options.undetermined_m),
-      match_angle_(options.match_angle_deg * std::numbers::pi / 180.0) {}
+      match_angle_(radians(options.match_angle_deg)) {}
 
-void PoseFit::add(const Sighting& sighting, const Feature& plane, std::vector<const Feature*> edges) {
-  const PlaneAxes axes(sighting.normal);
-  pairs_.push_back({&sighting, &plane, std::move(edges), {axes.u, axes.v}});
+void PoseFit::add(const AssociatedObservation& observation, const Feature& plane,
+                  std::vector<const Feature*> edges) {
+  const PlaneAxes axes(observation.normal);
+  pairs_.push_back({&observation, &plane, std::move(edges), {axes.u, axes.v}});
 }
 
 /// How badly an edge fits a known one: 1 where it is as far off as is allowed, at the worse one of its ends or by its direction.
-double PoseFit::misfit(const SightedEdge& edge, const Feature& known, const Pose3& T,
+double PoseFit::misfit(const ObservedEdge& edge, const Feature& known, const Pose& T,
                        const EdgeBounds& bounds) const {
   if (known.normal().dot(T.q * edge.outward) < kSameWay) return 2.0;
-  const double own = noise_.end * noise_.end + noise_.along * noise_.along;
+  const double own = noise_.end_variance();
   double worst = 0.0;
   for (const Vec3& end : edge.end) {
     const Vec3 at = T * end;
@@ -66,51 +67,52 @@ double PoseFit::misfit(const SightedEdge& edge, const Feature& known, const Pose
   return std::max(worst, angle / (bounds.angle_rad + kEdgeGateSigmas * sigma));
 }
 
-bool PoseFit::may_be_one(const SightedEdge& a, const SightedEdge& b) const {
+bool PoseFit::may_be_one(const ObservedEdge& a, const ObservedEdge& b) const {
   if (a.outward.dot(b.outward) < kSameWay) return false;
   const double bound = kEdgeGateSigmas * std::numbers::sqrt2 * noise_.end;
   const Vec3 ends[] = {a.end[0], a.end[1], b.end[0], b.end[1]};
   // The longer one tells the line.
   const bool first = (a.end[1] - a.end[0]).squaredNorm() >= (b.end[1] - b.end[0]).squaredNorm();
-  const SightedEdge& line = first ? a : b;
+  const ObservedEdge& line = first ? a : b;
   return std::all_of(std::begin(ends), std::end(ends),
                      [&](const Vec3& end) { return std::abs(line.outward.dot(end - line.end[0])) <= bound; });
 }
 
-std::vector<Index> PoseFit::find_edges(const Sighting& sighting, const std::vector<const Feature*>& edges,
-                                       const Pose3& T, const EdgeBounds& bounds) const {
+std::vector<Index> PoseFit::find_edges(const AssociatedObservation& observation,
+                                       const std::vector<const Feature*>& edges, const Pose& T,
+                                       const EdgeBounds& bounds) const {
   struct Candidate {
     double misfit;
     Index seen, known;
   };
   std::vector<Candidate> candidates;
-  for (Index i = 0; i < sighting.edges.size(); ++i) {
-    if (!sighting.edges[i].is_true) continue;
+  for (Index i = 0; i < observation.edges.size(); ++i) {
+    if (!observation.edges[i].is_true) continue;
     for (Index k = 0; k < edges.size(); ++k) {
       if (edges[k] == nullptr) continue;
-      const double found = misfit(sighting.edges[i], *edges[k], T, bounds);
+      const double found = misfit(observation.edges[i], *edges[k], T, bounds);
       if (found < 1.0) candidates.push_back({found, i, k});
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
     return std::tie(a.misfit, a.seen, a.known) < std::tie(b.misfit, b.seen, b.known);
   });
-  std::vector<Index> found(sighting.edges.size(), kNone);
+  std::vector<Index> found(observation.edges.size(), kNone);
   for (const Candidate& candidate : candidates) {
     if (found[candidate.seen] != kNone) continue;
     bool free = true;
     for (Index i = 0; i < found.size(); ++i)
-      free = free &&
-             (found[i] != candidate.known || may_be_one(sighting.edges[i], sighting.edges[candidate.seen]));
+      free = free && (found[i] != candidate.known ||
+                      may_be_one(observation.edges[i], observation.edges[candidate.seen]));
     if (free) found[candidate.seen] = candidate.known;
   }
   return found;
 }
 
-void PoseFit::add_plane(const Pair& pair, const Pose3& T, Normal& normal) const {
+void PoseFit::add_plane(const Pair& pair, const Pose& T, Normal& normal) const {
   const Feature& plane = *pair.plane;
   const Vec3 n = plane.normal();
-  const Vec3 arm = T.q * pair.sighting->centre;
+  const Vec3 arm = T.q * pair.observation->centre;
   const Vec3 at = arm + T.t;
   normal.add(gradient_of(n, arm), plane.distance(at), noise_.normal * noise_.normal + plane.variance_at(at));
   for (const Vec3& axis : pair.axes) {
@@ -121,16 +123,15 @@ void PoseFit::add_plane(const Pair& pair, const Pose3& T, Normal& normal) const 
   }
 }
 
-void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound_m, bool gated, Normal& normal) const {
-  const std::vector<Index> found = find_edges(*pair.sighting, pair.edges, T, {bound_m, match_angle_});
+void PoseFit::add_edges(const Pair& pair, const Pose& T, double bound_m, bool gated, Normal& normal) const {
+  const std::vector<Index> found = find_edges(*pair.observation, pair.edges, T, {bound_m, match_angle_});
   for (Index i = 0; i < found.size(); ++i) {
     if (found[i] == kNone) continue;
-    const SightedEdge& edge = pair.sighting->edges[i];
+    const ObservedEdge& edge = pair.observation->edges[i];
     const Feature& feature = *pair.edges[found[i]];
     for (const Vec3& end : edge.end) {
       const Vec3 arm = T.q * end;
-      const double variance =
-          noise_.end * noise_.end + noise_.along * noise_.along + feature.variance_at(arm + T.t);
+      const double variance = noise_.end_variance() + feature.variance_at(arm + T.t);
       const double residual = feature.distance(arm + T.t);
       const double ratio2 = residual * residual / (kEdgeGateSigmas * kEdgeGateSigmas * variance);
       if (gated && ratio2 > 1.0) continue;
@@ -139,20 +140,25 @@ void PoseFit::add_edges(const Pair& pair, const Pose3& T, double bound_m, bool g
   }
 }
 
-/// Finds the directions that are open.
-void PoseFit::judge(PoseInformation& information) const {
+/// Standard deviations of a step above which its direction is open.
+Vec6 PoseFit::scale() const {
   Vec6 scale;
   scale << Vec3::Constant(undetermined_m_), Vec3::Constant(kWorstTurn_rad);
+  return scale;
+}
+
+/// Finds the directions that are open.
+void PoseFit::judge(PoseInformation& information) const {
+  const Vec6 scale = this->scale();
   const auto spectrum = hallway::spectrum<6>(scale.asDiagonal() * information.matrix * scale.asDiagonal());
   information.open = static_cast<int>((spectrum.values.array() < 1.0).count());
   information.directions = spectrum.vectors;
 }
 
-PoseInformation PoseFit::solve(Pose3& T) const {
+PoseInformation PoseFit::solve(Pose& T) const {
   PoseInformation information;
   if (pairs_.empty()) return information;
-  Vec6 scale;
-  scale << Vec3::Constant(undetermined_m_), Vec3::Constant(kWorstTurn_rad);
+  const Vec6 scale = this->scale();
   for (int i = 0; i < kSteps; ++i) {
     Normal normal;
     for (const Pair& pair : pairs_) {
@@ -166,12 +172,12 @@ PoseInformation PoseFit::solve(Pose3& T) const {
       const Vec6 direction = scale.asDiagonal() * information.directions.col(k);
       step += direction * (direction.dot(normal.g) / direction.dot(normal.h * direction));
     }
-    if (step.allFinite()) T = T.moved(step);
+    if (step.allFinite()) T = {(rotation_by(step.tail<3>()) * T.q).normalized(), T.t + step.head<3>()};
   }
   return information;
 }
 
-PoseInformation PoseFit::own_information(const std::vector<Sighting>& frame) const {
+PoseInformation PoseFit::own_information(const std::vector<AssociatedObservation>& frame) const {
   PoseFit fit(*this);
   fit.clear();
   std::vector<Feature> features;
@@ -186,7 +192,7 @@ PoseInformation PoseFit::own_information(const std::vector<Sighting>& frame) con
   std::vector<Index> planes(frame.size());
   for (Index i = 0; i < frame.size(); ++i) {
     planes[i] = exact(frame[i].normal, frame[i].centre);
-    for (const SightedEdge& edge : frame[i].edges) {
+    for (const ObservedEdge& edge : frame[i].edges) {
       if (edge.is_true) edges[i].push_back(exact(edge.outward, edge.end[0]));
     }
   }
@@ -195,13 +201,14 @@ PoseInformation PoseFit::own_information(const std::vector<Sighting>& frame) con
     for (const Index edge : edges[i]) known.push_back(&features[edge]);
     fit.add(frame[i], features[planes[i]], std::move(known));
   }
-  Pose3 T;
+  Pose T;
   return fit.solve(T);
 }
 
-double PoseFit::distance2(const Sighting& sighting, const Feature& plane, const Pose3& T) const {
-  const PlaneAxes axes(sighting.normal);
-  const Vec3 at = T * sighting.centre;
+double PoseFit::distance2(const AssociatedObservation& observation, const Feature& plane,
+                          const Pose& T) const {
+  const PlaneAxes axes(observation.normal);
+  const Vec3 at = T * observation.centre;
   const double offset = plane.distance(at);
   double sum = offset * offset / (noise_.normal * noise_.normal + plane.variance_at(at));
   for (const Vec3& axis : {axes.u, axes.v}) {

@@ -14,21 +14,22 @@ double overlap_of(const std::vector<Index>& a, const std::vector<Index>& b) {
   return either == 0 ? 0.0 : static_cast<double>(both.size()) / static_cast<double>(either);
 }
 
-bool SubmapFit::locate(const FaceMap& map, const std::vector<Sighting>& frame, Pose3& T_submap_robot) {
+bool SubmapFit::locate(const PlaneMap& map, const std::vector<AssociatedObservation>& frame,
+                       Pose& T_submap_robot) {
   struct Known {
-    const Sighting* sighting;
+    const AssociatedObservation* observation;
     Feature plane;
     std::vector<Feature> certain, others;
   };
   std::vector<Known> known;
-  for (const Sighting& sighting : frame) {
-    const Member* member = sighting.face == kNone ? nullptr : map.in_active(sighting.face);
+  for (const AssociatedObservation& observation : frame) {
+    const Member* member = observation.landmark == kNone ? nullptr : map.in_active(observation.landmark);
     if (member == nullptr) continue;
     Known& one = known.emplace_back();
-    one.sighting = &sighting;
+    one.observation = &observation;
     one.plane = fit_plane(member->evidence, member->normal);
     const Quat q_submap_map = map.submaps[map.active()].T_map_submap.q.conjugate();
-    for (const EdgeRecord& edge : map.faces[sighting.face].edges) {
+    for (const EdgeRecord& edge : map.landmarks[observation.landmark].edges) {
       for (const EdgeSum& sum : member->edges) {
         if (sum.id != edge.id) continue;
         (map.is_certain(edge) ? one.certain : one.others)
@@ -36,7 +37,7 @@ bool SubmapFit::locate(const FaceMap& map, const std::vector<Sighting>& frame, P
       }
     }
   }
-  const Pose3 predicted = T_submap_robot;
+  const Pose predicted = T_submap_robot;
   for (const bool all_edges : {false, true}) {
     T_submap_robot = predicted;
     fit_.clear();
@@ -46,20 +47,20 @@ bool SubmapFit::locate(const FaceMap& map, const std::vector<Sighting>& frame, P
       for (const Feature& edge : one.others) {
         if (all_edges) edges.push_back(&edge);
       }
-      fit_.add(*one.sighting, one.plane, std::move(edges));
+      fit_.add(*one.observation, one.plane, std::move(edges));
     }
     if (fit_.solve(T_submap_robot).determined()) return true;
   }
   return false;
 }
 
-Index SubmapFit::find_old(const FaceMap& map, const std::vector<Index>& in_view, double least) {
+Index SubmapFit::find_old(const PlaneMap& map, const std::vector<Index>& in_view, double least) {
   Index best = kNone;
   for (Index i = 0; i < map.submaps.size(); ++i) {
     if (i == map.active()) continue;
     std::vector<Index> first;
-    for (const Index face : map.submaps[i].first_seen) first.push_back(map.resolve(face));
-    std::sort(first.begin(), first.end());
+    for (const Index landmark : map.submaps[i].first_seen) first.push_back(map.resolve(landmark));
+    std::ranges::sort(first);
     const double overlap = overlap_of(first, in_view);
     if (overlap < least) continue;
     least = overlap;
@@ -68,21 +69,20 @@ Index SubmapFit::find_old(const FaceMap& map, const std::vector<Index>& in_view,
   return best;
 }
 
-std::vector<Index> SubmapFit::nearest(const FaceMap& map, const std::vector<Index>& in_view,
+std::vector<Index> SubmapFit::nearest(const PlaneMap& map, const std::vector<Index>& in_view,
                                       std::size_t most) {
   std::vector<std::pair<std::size_t, Index>> shared;
   for (Index i = 1; i < map.submaps.size(); ++i) {
     std::size_t count = 0;
     for (const Member& member : map.submaps[i].members)
-      count += std::binary_search(in_view.begin(), in_view.end(), member.face) ? 1u : 0u;
+      count += std::ranges::binary_search(in_view, member.landmark) ? 1u : 0u;
     if (count > 0) shared.emplace_back(count, i);
   }
-  std::sort(shared.begin(), shared.end(),
-            [](const auto& a, const auto& b) { return a > b; });  // of many the newest
+  std::ranges::sort(shared, [](const auto& a, const auto& b) { return a > b; });  // of many the newest
   if (shared.size() > most) shared.resize(most);
   std::vector<Index> nearest;
   for (const auto& [count, submap] : shared) nearest.push_back(submap);
-  std::sort(nearest.begin(), nearest.end());
+  std::ranges::sort(nearest);
   return nearest;
 }
 

@@ -41,22 +41,22 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The mean of what points tell, less those that contradict the majority: an end that was taken for another one.
-Vec2 mean_of_most(const std::vector<Vec2>& told) {
+/// The mean of what points tell, less those that contradict the majority: an end that was mistaken for another one.
+Vec2 mean_of_most(const std::vector<Vec2>& places) {
   std::vector<double> x, y, off;
-  for (const Vec2& t : told) {
+  for (const Vec2& t : places) {
     x.push_back(t.x());
     y.push_back(t.y());
   }
   const Vec2 centre(median(x), median(y));
-  for (const Vec2& t : told) off.push_back((t - centre).norm());
+  for (const Vec2& t : places) off.push_back((t - centre).norm());
   const double bound =
-      told.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
+      places.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
   Vec2 sum = Vec2::Zero();
   int count = 0;
-  for (std::size_t i = 0; i < told.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     if (off[i] > bound) continue;
-    sum += told[i];
+    sum += places[i];
     ++count;
   }
   return sum / count;
@@ -77,8 +77,8 @@ void leave_out_jumps(const Pose2& guess, double bound_m, std::vector<PlanePair>&
   const auto jumps = [&](const PlanePair& pair) {
     return pair.same_point && (pair.point[1] - turned.rotate(pair.point[0]) - guess.t).norm() > bound_m;
   };
-  const bool any_near = std::any_of(pairs.begin(), pairs.end(),
-                                    [&](const PlanePair& pair) { return pair.same_point && !jumps(pair); });
+  const bool any_near =
+      std::ranges::any_of(pairs, [&](const PlanePair& pair) { return pair.same_point && !jumps(pair); });
   if (any_near) std::erase_if(pairs, jumps);
 }
 
@@ -86,12 +86,12 @@ std::optional<Alignment> align(std::span<const PlanePair> pairs, const Pose2& gu
   if (pairs.empty()) return std::nullopt;
   Alignment result;
   result.T_to_from.r = mean_rotation(pairs);
-  std::vector<Vec2> told;
+  std::vector<Vec2> places;
   for (const PlanePair& pair : pairs) {
-    if (pair.same_point) told.push_back(pair.point[1] - result.T_to_from.rotate(pair.point[0]));
+    if (pair.same_point) places.push_back(pair.point[1] - result.T_to_from.rotate(pair.point[0]));
   }
-  if (!told.empty()) {
-    result.T_to_from.t = mean_of_most(told);
+  if (!places.empty()) {
+    result.T_to_from.t = mean_of_most(places);
     result.determined = result.by_points = true;
   } else {
     place_by_lines(pairs, guess, result);

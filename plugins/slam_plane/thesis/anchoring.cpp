@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/anchoring.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 #include <algorithm>
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
-Reference reference_of_first(const Sighting& first) {
-  Reference result;
-  result.place.middle = first.segment.middle();
-  result.place.direction = first.direction;
-  result.place.size = first.length;
-  result.place.valid = true;
-  return result;
-}
-
 void anchor(TrackId track, KeyPoint key, Submap& submap, const State& state) {
   if (state.tracks[track].first().iteration != state.start) return;
-  auto at = std::find_if(submap.anchors.begin(), submap.anchors.end(),
-                         [&](const Anchor& other) { return other.track == track; });
+  auto at = std::ranges::find(submap.anchors, track, &Anchor::track);
   if (at == submap.anchors.end()) {
-    submap.anchors.push_back({track, reference_of_first(state.tracks[track].first())});
+    submap.anchors.push_back({track, reference_of(state.tracks[track].first())});
     at = std::prev(submap.anchors.end());
   }
-  if (key != KeyPoint::none) at->reference.known[key == KeyPoint::right ? kEndB : kEndA] = true;
+  if (key != KeyPoint::none) at->reference.known[end_of(key)] = true;
 }
 
 }  // namespace
@@ -45,9 +35,7 @@ std::uint64_t anchor_by_pose(const Alignment& location, State& state) {
     if (submap.placed || (!submap.by_motion && !location.by_points)) continue;
     std::vector<PlanePair> pairs;
     for (const Member& member : submap.members()) {
-      if (!member.reference.valid() ||
-          !std::binary_search(state.seen.begin(), state.seen.end(), member.track))
-        continue;
+      if (!member.reference.valid() || !std::ranges::binary_search(state.seen, member.track)) continue;
       append_pairs(member.reference, state.locator.seen(state.tracks[member.track], state.now), pairs);
     }
     const std::optional<Alignment> T_robot_submap = align(pairs, Pose2{});

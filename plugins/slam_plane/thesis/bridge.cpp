@@ -31,16 +31,16 @@ Bridge::Bridge(const Options& options, const State& before)
       in_map_(options.map_match()) {
   for (const TrackId id : before.recent) {
     if (before.tracks[id].empty()) continue;
-    Followed& next = followed_.emplace_back(Followed{Track(id, memory_), {}, {}, wall_of(id, before)});
+    Followed& next = followed_.emplace_back(Followed{PlaneTrack(id, memory_), {}, {}, wall_of(id, before)});
     next.track.push(before.tracks[id].newest());
-    const MappedPlane* plane = before.map.find(id);
+    const PlaneLandmark* plane = before.map.find(id);
     if (plane == nullptr) continue;
     next.in_map = plane->reference;
     next.seen = before.locator.seen(before.tracks[id], before.now);
   }
   if (!motion_.has_pose()) return;
   for (TrackId id = 0; id < before.map.size(); ++id) {
-    const MappedPlane* plane = before.map.find(id);
+    const PlaneLandmark* plane = before.map.find(id);
     if (plane == nullptr) continue;
     const Placement& place = plane->reference.place;
     if ((place.middle - motion_.pose().t).norm() < kAbout_m + 0.5 * place.size)
@@ -48,9 +48,9 @@ Bridge::Bridge(const Options& options, const State& before)
   }
 }
 
-Bridge::Followed& Bridge::followed(const Track& track) {
-  return *std::lower_bound(followed_.begin(), followed_.end(), track.id(),
-                           [](const Followed& one, TrackId id) { return one.track.id() < id; });
+Bridge::Followed& Bridge::followed(const PlaneTrack& track) {
+  return *std::ranges::lower_bound(followed_, track.id(), {},
+                                   [](const Followed& one) { return one.track.id(); });
 }
 
 void Bridge::forget_unseen() {
@@ -60,14 +60,14 @@ void Bridge::forget_unseen() {
 }
 
 /// What no plane that is followed is may be one of the map that was out of view; of that one nothing but its line is evidence.
-void Bridge::begin_following(const Sighting& sighting, std::span<const WallId> taken) {
-  Followed& next = followed_.emplace_back(Followed{Track(next_++, memory_), {}, {}, kNoWall});
-  next.track.push(sighting);
+void Bridge::begin_following(const TimedObservation& observation, std::span<const LandmarkId> taken) {
+  Followed& next = followed_.emplace_back(Followed{PlaneTrack(next_++, memory_), {}, {}, kNoLandmark});
+  next.track.push(observation);
   if (!motion_.has_pose()) return;
-  const Segment segment = motion_.pose() * sighting.segment;
+  const Segment segment = motion_.pose() * observation.segment;
   double best = 0.0;
   for (const Mapped& mapped : about_) {
-    if (std::find(taken.begin(), taken.end(), mapped.wall) != taken.end()) continue;
+    if (std::ranges::find(taken, mapped.wall) != taken.end()) continue;
     const auto score = match_score(placed_terms(segment, mapped.place.place.segment(), in_map_), in_map_);
     if (!score || *score <= best) continue;
     best = *score;
@@ -99,45 +99,38 @@ std::vector<PlanePair> Bridge::evidence_of(std::span<Followed* const> mapped) co
   return evidence;
 }
 
-Bridge::Told Bridge::follow(std::span<const Piece> pieces) {
+Bridge::Report Bridge::follow(std::span<const WallObservation> given) {
   ++now_;
   forget_unseen();
-  Told told;
-  told.associations.assign(pieces.size(), kNoWall);
-  std::vector<Sighting> sightings;
-  std::vector<std::size_t> piece_of;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const std::optional<Sighting> sighting = make_sighting(pieces[i], now_);
-    if (!sighting) continue;
-    sightings.push_back(*sighting);
-    piece_of.push_back(i);
-  }
-  std::vector<std::vector<const Track*>> stages(1);
+  Report reported;
+  reported.associations.assign(given.size(), kNoLandmark);
+  const auto [observations, given_at] = FrameObservations(given, now_);
+  std::vector<std::vector<const PlaneTrack*>> stages(1);
   for (const Followed& one : followed_) stages[0].push_back(&one.track);
-  const std::vector<const Track*> matched = match_tracks(sightings, stages, options_);
+  const std::vector<const PlaneTrack*> matched = match_tracks(observations, stages, options_);
   std::vector<Followed*> mapped;
   std::vector<std::size_t> unmatched;
-  told.seen = !sightings.empty();
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
+  reported.seen = !observations.empty();
+  for (std::size_t i = 0; i < observations.size(); ++i) {
     if (matched[i] == nullptr) {
       unmatched.push_back(i);
       continue;
     }
     Followed& one = followed(*matched[i]);
-    one.track.push(sightings[i]);
-    told.associations[piece_of[i]] = one.wall;
+    one.track.push(observations[i]);
+    reported.associations[given_at[i]] = one.wall;
     if (!one.in_map.valid()) continue;
-    one.seen.place = {sightings[i].segment.middle(), sightings[i].direction, sightings[i].length, true};
+    one.seen.place = reference_of(observations[i]).place;
     mapped.push_back(&one);
   }
   const std::vector<PlanePair> evidence = evidence_of(mapped);
-  if (motion_.has_pose()) told.location = align(evidence, motion_.predicted());
-  told.location = motion_.completed(told.location);
+  if (motion_.has_pose()) reported.location = align(evidence, motion_.predicted());
+  reported.location = motion_.completed(reported.location);
   for (const std::size_t i : unmatched) {
-    begin_following(sightings[i], told.associations);
-    told.associations[piece_of[i]] = followed_.back().wall;
+    begin_following(observations[i], reported.associations);
+    reported.associations[given_at[i]] = followed_.back().wall;
   }
-  return told;
+  return reported;
 }
 
 }  // namespace hallway::slam_plane::thesis

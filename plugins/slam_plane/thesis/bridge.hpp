@@ -14,36 +14,36 @@ namespace hallway::slam_plane::thesis {
 /// followed too, so that it is not taken for a wall beside it that went out of view, and is looked for in that map (Rule 11).
 class Bridge {
  public:
-  /// What is told of one frame.
-  struct Told {
+  /// What is reported of one frame.
+  struct Report {
     std::optional<Alignment> location;
-    std::vector<WallId> associations;  ///< of each piece
-    bool seen = false;                 ///< there was a piece
+    std::vector<LandmarkId> associations;  ///< of each observation
+    bool seen = false;                     ///< there was an observation
   };
 
   /// From the state after an iteration, before it is rolled back. O(planes of the map).
   Bridge(const Options& options, const State& before);
 
-  /// Takes the next frame. O(pieces * planes that are followed + new pieces * planes about the robot).
-  Told follow(std::span<const Piece> pieces);
+  /// Takes the next frame. O(observations * planes that are followed + new observations * planes about the robot).
+  Report follow(std::span<const WallObservation> given);
 
  private:
   struct Followed {
-    Track track;  // its newest sightings
+    PlaneTrack track;  // its newest observations
     Reference
         seen;  // in the robot's frame, with the ends that stood still; not valid if the map does not have it
     Reference in_map;
-    WallId wall = kNoWall;
+    LandmarkId wall = kNoLandmark;
   };
 
   /// A plane of the map as it was.
   struct Mapped {
     Reference place;
-    WallId wall;
+    LandmarkId wall;
   };
 
-  Followed& followed(const Track& track);
-  void begin_following(const Sighting& sighting, std::span<const WallId> taken);
+  Followed& followed(const PlaneTrack& track);
+  void begin_following(const TimedObservation& observation, std::span<const LandmarkId> taken);
   void forget_unseen();
   std::vector<PlanePair> evidence_of(std::span<Followed* const> mapped) const;
 
@@ -55,7 +55,7 @@ class Bridge {
   std::vector<Followed> followed_;  // by the track's id, ascending
   TrackId next_ = 0;
   std::vector<Mapped> about_;  // the robot when it began
-  MatchOptions in_map_;        // what a piece may differ by from one of them
+  MatchOptions in_map_;        // what an observation may differ by from one of them
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -6,31 +6,44 @@
 #include <numbers>
 #include <utility>
 
-#include "slam_plane/thesis/shared_sightings.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
-/// Straight from the sightings.
-IntervalSummary summarize(const Track& a, const Track& b, const Interval& interval,
+/// Straight from the observations.
+IntervalSummary summarize(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval,
                           const CompareOptions& options) {
   IntervalSummary summary;
   summary.interval = interval;
-  const Track* tracks[2] = {&a, &b};
+  const PlaneTrack* tracks[2] = {&a, &b};
   for (int t = 0; t < 2; ++t) {
     LargestLengths largest;
     for (std::size_t i = tracks[t]->lower_bound(interval.first); i < tracks[t]->size(); ++i) {
-      const Sighting& sighting = (*tracks[t])[i];
-      if (sighting.iteration > interval.last) break;
-      largest.add(sighting.length, sighting.iteration);
+      const TimedObservation& observation = (*tracks[t])[i];
+      if (observation.iteration > interval.last) break;
+      largest.add(observation.length, observation.iteration);
     }
     summary.size[t] = backed_size(largest, options);
   }
-  for_each_shared(a, b, interval, [&](const Sighting& sa, const Sighting& sb) {
+  for_each_shared(a, b, interval, [&](const TimedObservation& sa, const TimedObservation& sb) {
     if (!summary.size[0].excludes(sa.iteration) && !summary.size[1].excludes(sa.iteration))
       summary.sums += sums_of(sa, sb);
   });
   return summary;
+}
+
+constexpr double kConflictSigmas = 5.0;
+constexpr double kLeastConflict_m = 2e-3;
+
+/// From the key point of a to that of b, in a's frame.
+Vec2 between_keys(const Comparison& comparison) {
+  return comparison.placement(1).segment().end[end_of(comparison.key[1])] -
+         comparison.placement(0).segment().end[end_of(comparison.key[0])];
+}
+
+double variance_of_mean(const Comparison& comparison) {
+  return comparison.deviation * comparison.deviation / std::max(1, comparison.shared);
 }
 
 }  // namespace
@@ -66,17 +79,29 @@ Comparison evaluate(const IntervalSummary& summary, int combination, const Compa
   comparison.offset = moments.mean;
   comparison.deviation = moments.deviation;
   comparison.direction = mean_direction(summary.sums);
-  comparison.parallel =
-      std::abs(comparison.direction.y()) <= std::sin(options.parallel_deg * std::numbers::pi / 180.0);
+  comparison.parallel = std::abs(comparison.direction.y()) <= std::sin(radians(options.parallel_deg));
   for (int i = 0; i < 2; ++i) comparison.key[i] = key_of(combination, i);
   return comparison;
 }
 
-Comparison compare_uncached_in(const Track& a, const Track& b, const Interval& interval, int combination,
-                               const CompareOptions& options) {
+Comparison compare_uncached_in(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval,
+                               int combination, const CompareOptions& options) {
   if (b.id() < a.id())
     return inverse(compare_uncached_in(b, a, interval, turned_round(combination), options));
   return evaluate(summarize(a, b, interval, options), combination, options);
+}
+
+EndConflict conflict_between(const Comparison& older, const Comparison& newer) {
+  EndConflict result;
+  const Vec2 d = between_keys(newer) - between_keys(older);
+  const double sigma = std::sqrt(variance_of_mean(older) + variance_of_mean(newer));
+  if (d.norm() <= kLeastConflict_m + kConflictSigmas * sigma) return result;
+  result.any = true;
+  const double farther[2] = {newer.key[0] == KeyPoint::right ? -d.x() : d.x(),
+                             d.dot(newer.direction) * outward(end_of(newer.key[1]))};
+  result.which = std::abs(farther[0]) > std::abs(farther[1]) ? 0 : 1;
+  result.newer_right = farther[result.which] > 0.0;
+  return result;
 }
 
 }  // namespace hallway::slam_plane::thesis

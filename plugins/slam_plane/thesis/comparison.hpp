@@ -8,19 +8,26 @@
 #include <span>
 #include <vector>
 
+#include "slam_plane/thesis/observation.hpp"
 #include "slam_plane/thesis/pair_sums.hpp"
-#include "slam_plane/thesis/sighting.hpp"
-#include "slam_plane/thesis/track.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 #include "slam_plane/thesis/track_options.hpp"
 
 namespace hallway::slam_plane::thesis {
 
 /// The end of a plane that is static while the other one may grow or shrink (Rules 13, 14).
 enum class KeyPoint : unsigned char {
-  none = 0,   ///< undetermined (Rule 15)
+  none = 0,   ///< unobservable (Rule 15)
   left = 1,   ///< end a
   right = 2,  ///< end b
 };
+
+constexpr End end_of(KeyPoint key) {
+  return key == KeyPoint::right ? kEndB : kEndA;
+}
+constexpr KeyPoint key_at(int end) {
+  return end == kEndA ? KeyPoint::left : KeyPoint::right;
+}
 
 /// A plane in another one's frame, or in any other.
 struct Placement {
@@ -65,8 +72,7 @@ struct Comparison {
 
 /// The key points of a combination of ends: 2 * end of a + end of b.
 constexpr KeyPoint key_of(int combination, int which) {
-  const int end = which == 0 ? combination / 2 : combination % 2;
-  return end == 0 ? KeyPoint::left : KeyPoint::right;
+  return key_at(which == 0 ? combination / 2 : combination % 2);
 }
 
 /// The same combination from the other plane's view: of b and a.
@@ -80,9 +86,25 @@ Comparison inverse(const Comparison& comparison);
 /// The comparison of a summary from the ends that `combination` names, 2 * end of a + end of b: rotation first, then the offset of the middles that these ends estimate (Rules 3, 13, 14). O(1).
 Comparison evaluate(const IntervalSummary& summary, int combination, const CompareOptions& options);
 
-/// Compares two tracks on an interval, whatever happened in it (Rule 19), from the sightings themselves. The oracle of PairComparer::compare_in, which gives the same bits. The plane with the
+/// Compares two tracks on an interval, whatever happened in it (Rule 19), from the observations themselves. The oracle of PairComparer::compare_in, which gives the same bits. The plane with the
 /// smaller id is the one along x while summing; the result is turned round if that is b. O(n).
-Comparison compare_uncached_in(const Track& a, const Track& b, const Interval& interval, int combination,
-                               const CompareOptions& options);
+Comparison compare_uncached_in(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval,
+                               int combination, const CompareOptions& options);
+
+/// Two comparisons of the same ends of two planes that tell different offsets: one of them took an end for a corner that is none.
+struct EndConflict {
+  bool any = false;  ///< they differ by more than their standard deviations explain
+  int which = 0;     ///< plane a (0) or b (1), whose end it is
+  bool newer_right =
+      false;  ///< in the newer one the plane reaches farther. It cannot be seen where it is not, so the other one is wrong (Rule 18: the largest size counts)
+};
+
+/// Compares two comparisons with key points of the same ends. O(1).
+EndConflict conflict_between(const Comparison& older, const Comparison& newer);
+
+/// Where plane b's line lies relative to an end of plane a, from the newest shared observations: of a plane that is cut on both sides nothing else can be told. Valid if the end's distance from
+/// that line stood still, judged by how it jumps from observation to observation. It has no key point of b. O(1): of at most 64 iterations.
+Comparison compare_line(const PlaneTrack& a, const PlaneTrack& b, int end_of_a, Iteration now,
+                        const CompareOptions& options);
 
 }  // namespace hallway::slam_plane::thesis

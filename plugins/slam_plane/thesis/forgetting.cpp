@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/forgetting.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,15 +13,15 @@ constexpr std::size_t kFewEmpty = 32;  // empty submaps that are left in the lis
 
 /// Whether a track is not in the map and was not seen for so long that it never will be.
 bool came_to_nothing(TrackId id, const Options& options, const State& state) {
-  const Track& track = state.tracks[id];
+  const PlaneTrack& track = state.tracks[id];
   if (state.map.find(id) != nullptr) return false;
   return track.empty() || track.newest().iteration + forget_after(options) < state.now;
 }
 
-/// Whether a placed submap other than this one tells as much of the ends of a plane, from as many sightings: then the map does not take the plane from this one alone.
+/// Whether a placed submap other than this one tells as much of the ends of a plane, from as many observations: then the map does not take the plane from this one alone.
 bool told_elsewhere(const Member& member, SubmapIndex index, const State& state) {
   const auto& of = state.tracks.submaps(member.track);
-  return std::any_of(of.begin(), of.end(), [&](SubmapIndex other) {
+  return std::ranges::any_of(of, [&](SubmapIndex other) {
     if (other == index || !state.submaps[other].placed) return false;
     const Member* there = state.submaps[other].find(member.track);
     if (there == nullptr || !there->reference.valid()) return false;
@@ -32,11 +32,11 @@ bool told_elsewhere(const Member& member, SubmapIndex index, const State& state)
   });
 }
 
-bool in_vain(SubmapIndex index, const Options& options, const State& state) {
+bool is_stale(SubmapIndex index, const Options& options, const State& state) {
   const Submap& submap = state.submaps[index];
   if (submap.members().empty() || index == state.carried.current) return false;
   if (std::max(submap.created(), submap.current_at) + forget_after(options) >= state.now) return false;
-  return std::all_of(submap.members().begin(), submap.members().end(), [&](const Member& member) {
+  return std::ranges::all_of(submap.members(), [&](const Member& member) {
     if (!member.link) return came_to_nothing(member.track, options, state);
     return !submap.placed || !member.reference.valid() || told_elsewhere(member, index, state);
   });
@@ -49,7 +49,7 @@ void bypass(SubmapIndex index, State& state) {
     std::erase(state.submaps[a].links, index);
     for (const SubmapIndex b : linked) {
       auto& of = state.submaps[a].links;
-      if (a == b || std::min(a, b) > index || std::find(of.begin(), of.end(), b) != of.end()) continue;
+      if (a == b || std::min(a, b) > index || std::ranges::find(of, b) != of.end()) continue;
       of.push_back(b);
     }
   }
@@ -79,9 +79,8 @@ void release_unused(State& state) {
     std::erase_if(state.carried.unassigned, [&](const Unassigned& entry) { return entry.track == id; });
     state.tracks.release(id);
   }
-  const std::vector<WallId> names = state.tracks.names();
-  state.hints.forget_tracks(
-      [&](WallId name) { return std::binary_search(names.begin(), names.end(), name); });
+  const std::vector<LandmarkId> names = state.tracks.names();
+  state.hints.forget_tracks([&](LandmarkId name) { return std::ranges::binary_search(names, name); });
 }
 
 }  // namespace
@@ -90,10 +89,10 @@ int forget_after(const Options& options) {
   return std::max(kForgetAfter, options.roll_back_limit);
 }
 
-void forget_vain(const Options& options, State& state) {
+void prune_stale(const Options& options, State& state) {
   if (state.now % kLookEvery != 0) return;
   for (SubmapIndex index = 1; index < state.submaps.size(); ++index) {  // the first one holds the map's frame
-    if (in_vain(index, options, state)) drop(index, state);
+    if (is_stale(index, options, state)) drop(index, state);
   }
   release_unused(state);
 }

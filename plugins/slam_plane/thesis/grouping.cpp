@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/grouping.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 #include <algorithm>
-
-#include "slam_plane/thesis/forgetting.hpp"
-#include "slam_plane/thesis/matcher.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -21,7 +18,7 @@ void join(TrackId track, SubmapIndex submap, bool link, State& state) {
 }
 
 bool has(const std::vector<TrackId>& tracks, TrackId track) {
-  return std::find(tracks.begin(), tracks.end(), track) != tracks.end();
+  return std::ranges::find(tracks, track) != tracks.end();
 }
 
 /// Whether a comparison with another track tells where a track is. One that was rolled back for a short comparison has to wait for a longer one (Rule 32).
@@ -31,8 +28,9 @@ bool comparable(TrackId track, TrackId member, const Options& options, State& st
 }
 
 bool comparable(TrackId track, const Submap& submap, const Options& options, State& state) {
-  return std::any_of(submap.members().begin(), submap.members().end(),
-                     [&](const Member& member) { return comparable(track, member.track, options, state); });
+  return std::ranges::any_of(submap.members(), [&](const Member& member) {
+    return comparable(track, member.track, options, state);
+  });
 }
 
 bool beginning(const State& state) {
@@ -60,7 +58,7 @@ std::vector<SubmapIndex> reachable(const State& state) {
   }
   for (std::size_t i = 0; i < order.size() && order.size() < kLookThrough; ++i) {
     for (const SubmapIndex linked : state.submaps[order[i]].links) {
-      if (std::find(order.begin(), order.end(), linked) == order.end()) order.push_back(linked);
+      add_new(order, linked);
     }
   }
   return order;
@@ -87,7 +85,7 @@ struct Links {
 void take_links(SubmapIndex base, TrackId newcomer, const Options& options, State& state, Links& links) {
   bool taken = false;
   for (const bool compared : {true, false}) {
-    std::vector<const Track*> list;
+    std::vector<const PlaneTrack*> list;
     for (const Member& member : state.submaps[base].members()) {
       if (member.track == newcomer || !member.reference.valid() || has(links.tracks, member.track)) continue;
       if (comparable(newcomer, member.track, options, state) == compared)
@@ -168,7 +166,7 @@ void assign_unassigned(const Options& options, State& state) {
   std::vector<Unassigned> kept;
   const int least = beginning(state) ? kFirstReadings : options.min_readings;
   for (Unassigned entry : state.carried.unassigned) {
-    const Track& track = state.tracks[entry.track];
+    const PlaneTrack& track = state.tracks[entry.track];
     if (track.empty() || state.map.find(entry.track) != nullptr) continue;
     const bool waited = entry.joined < 0 || entry.joined + kTryAgainAfter <= state.now;
     const bool ready = track.newest().iteration == state.now && static_cast<int>(track.size()) >= least &&
@@ -187,7 +185,7 @@ void assign_unassigned(const Options& options, State& state) {
 /// What was met again gets a submap with what is seen now, unless it has enough of them (Rule 21).
 void regroup_met_again(const Options& options, State& state) {
   for (const TrackId id : state.met_again) {
-    if (!std::binary_search(state.seen.begin(), state.seen.end(), id)) continue;
+    if (!std::ranges::binary_search(state.seen, id)) continue;
     if (state.tracks.submaps(id).size() >= static_cast<std::size_t>(options.max_references)) continue;
     if (state.carried.current == kNoSubmap || state.submaps[state.carried.current].contains(id)) continue;
     begin_linked(id, options, state);
@@ -211,26 +209,26 @@ void choose_current(State& state) {
 }
 
 /// All mapped planes that each plane in view may be, and the submap that would have every plane in view if those that are one were merged (Rule 37).
-void mend_after_motion(const Options& options, State& state) {
+void fix_after_motion(const Options& options, State& state) {
   if (!state.carried.after_motion || !state.carried.located || state.met_again.empty()) return;
   std::vector<std::vector<SubmapIndex>> of;
   std::vector<TrackId> mapped;
   for (const TrackId id : state.seen) {
-    const MappedPlane* plane = state.map.find(id);
+    const PlaneLandmark* plane = state.map.find(id);
     if (plane == nullptr) continue;
     std::vector<SubmapIndex> submaps;
     for (const TrackId same : map_matches(plane->reference.place.segment(), options, state)) {
       const auto& has = state.tracks.submaps(same);
       submaps.insert(submaps.end(), has.begin(), has.end());
     }
-    std::sort(submaps.begin(), submaps.end());
+    std::ranges::sort(submaps);
     of.push_back(submaps);
     mapped.push_back(id);
   }
   if (of.size() < 2) return;
   for (const SubmapIndex submap : of.front()) {
-    const bool all = std::all_of(of.begin(), of.end(), [&](const std::vector<SubmapIndex>& submaps) {
-      return std::binary_search(submaps.begin(), submaps.end(), submap);
+    const bool all = std::ranges::all_of(of, [&](const std::vector<SubmapIndex>& submaps) {
+      return std::ranges::binary_search(submaps, submap);
     });
     if (!all || state.submaps[submap].by_motion) continue;
     state.carried.current = submap;
@@ -246,7 +244,7 @@ void mend_after_motion(const Options& options, State& state) {
 
 void manage_submaps(const Options& options, State& state) {
   assign_unassigned(options, state);
-  mend_after_motion(options, state);
+  fix_after_motion(options, state);
   regroup_met_again(options, state);
   choose_current(state);
 }

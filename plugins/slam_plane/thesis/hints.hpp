@@ -13,7 +13,7 @@ namespace hallway::slam_plane::thesis {
 /// "Do not let this track join that submap": what a roll back takes along into the past (Rules 32, 34).
 struct Hint {
   Iteration iteration = 0;  ///< at which it had joined
-  WallId track = 0;         ///< its name: its id may be another one's by then
+  LandmarkId track = 0;     ///< its name: its id may be another one's by then
   SubmapIndex submap = 0;
 };
 
@@ -28,20 +28,20 @@ class Hints {
   }
 
   /// Whether a track may join a submap that there is.
-  bool may_join(WallId track, SubmapIndex submap) const {
-    return strikes(track) < 2 && std::none_of(hints_.begin(), hints_.end(), [&](const Hint& hint) {
+  bool may_join(LandmarkId track, SubmapIndex submap) const {
+    return strikes(track) < 2 && std::ranges::none_of(hints_, [&](const Hint& hint) {
              return hint.track == track && hint.submap == submap;
            });
   }
 
   /// How often a track was rolled back because it was compared over too little.
-  int strikes(WallId track) const {
+  int strikes(LandmarkId track) const {
     const auto found = strikes_.find(track);
     return found == strikes_.end() ? 0 : found->second;
   }
 
   /// Whether a track has had all the hints that one may have.
-  bool exhausted(WallId track) const { return strikes(track) >= 3; }
+  bool exhausted(LandmarkId track) const { return strikes(track) >= 3; }
 
   /// Forgets hints of iterations that no roll back reaches any more: what they forbade was long ago and may be tried again.
   void forget_before(Iteration k) {
@@ -64,7 +64,7 @@ class Hints {
 
  private:
   std::vector<Hint> hints_;
-  std::map<WallId, int>
+  std::map<LandmarkId, int>
       strikes_;  // hints that a track ever got; so no track causes more than three roll backs
 };
 

@@ -24,12 +24,6 @@ Intervals intersection(const Intervals& a, const Intervals& b) {
   return result;
 }
 
-Iteration total_size(const Intervals& intervals) {
-  Iteration total = 0;
-  for (const Interval& interval : intervals) total += interval.size();
-  return total;
-}
-
 Interval longest(const Intervals& intervals) {
   Interval best;
   for (const Interval& interval : intervals) {
@@ -39,9 +33,7 @@ Interval longest(const Intervals& intervals) {
 }
 
 Interval containing(const Intervals& intervals, Iteration k) {
-  const auto after =
-      std::upper_bound(intervals.begin(), intervals.end(), k,
-                       [](Iteration at, const Interval& interval) { return at < interval.first; });
+  const auto after = std::ranges::upper_bound(intervals, k, {}, &Interval::first);
   if (after == intervals.begin() || !(after - 1)->contains(k)) return {};
   return *(after - 1);
 }

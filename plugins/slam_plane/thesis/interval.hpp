@@ -30,9 +30,6 @@ using Intervals = std::vector<Interval>;
 /// What two lists have in common. O(a + b).
 Intervals intersection(const Intervals& a, const Intervals& b);
 
-/// Iterations in all of them.
-Iteration total_size(const Intervals& intervals);
-
 /// The longest one, the latest of several; empty if there is none.
 Interval longest(const Intervals& intervals);
 

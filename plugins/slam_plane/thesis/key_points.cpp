@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slam_plane/thesis/end_conflict.hpp"
+#include "slam_plane/thesis/comparison.hpp"
 #include "slam_plane/thesis/static_pairs.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -23,7 +23,7 @@ int better(const EndRun& first, const EndRun& second, Iteration now, double rati
 }
 
 /// Of two runs that tell both ends of a plane to stand still the one is left out that is worse, or both, if the plane's length changes: then one end moves (Rules 13, 15).
-void leave_one_end(const Track& track, double ratio, Iteration now, EndRun& left, EndRun& right) {
+void leave_one_end(const PlaneTrack& track, double ratio, Iteration now, EndRun& left, EndRun& right) {
   if (left.since < 0 || right.since < 0) return;
   if (!length_changes(track, {std::max(left.since, right.since), now})) return;
   const int sign = better(left, right, now, ratio);
@@ -31,7 +31,7 @@ void leave_one_end(const Track& track, double ratio, Iteration now, EndRun& left
   if (sign >= 0) right.undefined = true;
 }
 
-void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pair) {
+void leave_one_end(const PlaneTrack& a, const PlaneTrack& b, double ratio, PairHistory& pair) {
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t d = 0; d < c; ++d) {
       if (c / 2 != d / 2) leave_one_end(a, ratio, pair.updated, pair.runs[d], pair.runs[c]);
@@ -44,9 +44,10 @@ void leave_one_end(const Track& a, const Track& b, double ratio, PairHistory& pa
 
 /// Of comparisons of the same ends the longer one is kept (Rule 36), and of one run the newer one. If they contradict each other it is the one in which the plane reaches farther, and what else is
 /// known of the other one's end is not of its corner.
-void StaticPairs::keep_better(const Track& a, const Track& b, const Comparison& made, PairHistory& pair) {
-  const auto same = std::find_if(pair.saved.begin(), pair.saved.end(),
-                                 [&](const Comparison& other) { return other.same_ends(made); });
+void StaticPairs::keep_better(const PlaneTrack& a, const PlaneTrack& b, const Comparison& made,
+                              PairHistory& pair) {
+  const auto same =
+      std::ranges::find_if(pair.saved, [&](const Comparison& other) { return other.same_ends(made); });
   if (same == pair.saved.end()) {
     pair.saved.push_back(made);
     return;
@@ -62,7 +63,7 @@ void StaticPairs::keep_better(const Track& a, const Track& b, const Comparison& 
 }
 
 /// Forgets what was found of ends that turned out not to be corners.
-void StaticPairs::drop_disproved(const Track& a, const Track& b, PairHistory& pair) {
+void StaticPairs::drop_disproved(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair) {
   if (corner_since_.empty() || pair.disproved == disproved_) return;
   pair.disproved = disproved_;
   std::erase_if(pair.saved, [&](const Comparison& saved) {
@@ -76,7 +77,7 @@ void StaticPairs::drop_disproved(const Track& a, const Track& b, PairHistory& pa
 
 /// Ends of parallel planes that move alike stand still to each other, and the pair does not tell them from ends that do (Rule 15). So it has no key points where both planes change their length,
 /// until that went on for long; nor where a plane's length changes while another pair, of planes that are not parallel, tells that its other end stands still.
-bool StaticPairs::may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
+bool StaticPairs::may_move_alike(const PlaneTrack& a, const PlaneTrack& b, int combination, const EndRun& run,
                                  Iteration now) const {
   const Interval interval{run.since, now};
   const bool changes[2] = {length_changes(a, interval), length_changes(b, interval)};
@@ -90,20 +91,19 @@ bool StaticPairs::may_move_alike(const Track& a, const Track& b, int combination
 }
 
 /// Which of the ends that stand still to each other are no key points.
-void StaticPairs::judge_runs(const Track& a, const Track& b, PairHistory& pair) {
-  const double sine = std::sin(options_.parallel_deg * std::numbers::pi / 180.0);
+void StaticPairs::judge_runs(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair) {
+  const double sine = std::sin(radians(options_.parallel_deg));
   const bool parallel =
       std::abs(cross(a.find(pair.updated)->direction, b.find(pair.updated)->direction)) <= sine;
   for (int c = 0; c < 4; ++c) {
-    EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    EndRun& run = pair.run(c);
     run.undefined = parallel && run.since >= 0 && may_move_alike(a, b, c, run, pair.updated);
   }
   leave_one_end(a, b, options_.close_ratio, pair);
   if (parallel) return;
   for (const int which : {0, 1}) {
     for (const int end : {kEndA, kEndB}) {
-      const KeyPoint key = end == kEndA ? KeyPoint::left : KeyPoint::right;
-      if (pair.still(which, end)) firm_[{which == 0 ? a.id() : b.id(), key}] = pair.updated;
+      if (pair.still(which, end)) firm_[{which == 0 ? a.id() : b.id(), key_at(end)}] = pair.updated;
     }
   }
 }

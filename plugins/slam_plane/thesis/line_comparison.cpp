@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/line_comparison.hpp"
+#include "slam_plane/thesis/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "slam_plane/thesis/shared_sightings.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 #include "slam_plane/thesis/stillness.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -26,7 +26,7 @@ struct Line {
   Vec2 direction;
 };
 
-Line line_of(const Sighting& a, const Sighting& b, int end) {
+Line line_of(const TimedObservation& a, const TimedObservation& b, int end) {
   const Pose2 turned{Vec2::Zero(), a.direction};
   Line line;
   line.direction = turned.unrotate(b.direction);
@@ -63,12 +63,12 @@ bool stands_still(const std::vector<Line>& lines, double max_deviation_m) {
 
 }  // namespace
 
-Comparison compare_line(const Track& a, const Track& b, int end_of_a, Iteration now,
+Comparison compare_line(const PlaneTrack& a, const PlaneTrack& b, int end_of_a, Iteration now,
                         const CompareOptions& options) {
   Comparison result;
   result.interval = {now - kWindow + 1, now};
   std::vector<Line> lines;
-  for_each_shared(a, b, result.interval, [&](const Sighting& in_a, const Sighting& in_b) {
+  for_each_shared(a, b, result.interval, [&](const TimedObservation& in_a, const TimedObservation& in_b) {
     if (lines.empty()) result.interval.first = in_a.iteration;
     lines.push_back(line_of(in_a, in_b, end_of_a));
   });
@@ -84,7 +84,7 @@ Comparison compare_line(const Track& a, const Track& b, int end_of_a, Iteration 
   result.size[1] = size_in(b, result.interval, options).size;
   const double half = end_of_a == kEndA ? 0.5 : -0.5;
   result.offset = middle - Vec2(half * result.size[0], 0.0);
-  result.key[0] = end_of_a == kEndA ? KeyPoint::left : KeyPoint::right;
+  result.key[0] = key_at(end_of_a);
   result.shared = static_cast<int>(lines.size());
   result.deviation = 0.0;
   result.valid = true;

@@ -16,13 +16,8 @@ void Locator::note(const Submap& submap, Iteration now) {
   }
 }
 
-Reference Locator::seen(const Track& track, Iteration now) const {
-  const Sighting& sighting = track.newest();
-  Reference result;
-  result.place.middle = sighting.segment.middle();
-  result.place.direction = sighting.direction;
-  result.place.size = sighting.length;
-  result.place.valid = true;
+Reference Locator::seen(const PlaneTrack& track, Iteration now) const {
+  Reference result = reference_of(track.newest());
   if (track.id() < static_.size() && static_[track.id()].at == now) {
     for (int end = 0; end < 2; ++end) result.known[end] = static_[track.id()].end[end];
   }
@@ -48,7 +43,7 @@ std::optional<Alignment> Locator::locate(std::span<const TrackId> tracks_now, co
                                          const Pose2& guess) {
   std::vector<PlanePair> evidence;
   for (const TrackId id : tracks_now) {
-    const MappedPlane* plane = map.find(id);
+    const PlaneLandmark* plane = map.find(id);
     if (plane == nullptr) continue;
     if (id >= static_.size() || static_[id].at != now) recalculate(id, tracks_now, tracks, pairs, now);
     append_pairs(seen(tracks[id], now), plane->reference, evidence);

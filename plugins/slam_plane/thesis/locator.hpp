@@ -21,8 +21,8 @@ class Locator {
   /// Notes the same of one track.
   void note(TrackId track, const bool (&ends)[2], Iteration now);
 
-  /// A sighting of now, in the robot's frame, with the ends that are known to be static.
-  Reference seen(const Track& track, Iteration now) const;
+  /// An observation of now, in the robot's frame, with the ends that are known to be static.
+  Reference seen(const PlaneTrack& track, Iteration now) const;
 
   /// The robot's pose from the tracks that are seen now. An end that no submap tells of is looked for in comparisons with the others
   /// (Rule 19). `guess` tells what they leave open. Nothing if none is in the map.

@@ -34,8 +34,7 @@ std::optional<Pose2> MapBuilder::link(SubmapIndex index, const std::vector<Subma
       const Member* other = base.find(member.track);
       if (other == nullptr || !member.reference.valid() || !other->reference.valid()) continue;
       append_pairs(member.reference, moved(base.T_map_submap, other->reference), pairs);
-      if (std::find(shared.begin(), shared.end(), member.track) == shared.end())
-        shared.push_back(member.track);
+      add_new(shared, member.track);
     }
   }
   if (shared.size() < kLeastLinkPlanes) return std::nullopt;
@@ -67,7 +66,7 @@ void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, cons
       seen.push_back(moved(submap.T_map_submap, member->reference));
   }
   if (seen.empty()) return;
-  std::stable_sort(seen.begin(), seen.end(), [](const Reference& a, const Reference& b) {
+  std::ranges::stable_sort(seen, [](const Reference& a, const Reference& b) {
     const int ends_a = int{a.known[0]} + int{a.known[1]};
     const int ends_b = int{b.known[0]} + int{b.known[1]};
     return ends_a != ends_b ? ends_a > ends_b : a.shared > b.shared;
@@ -81,7 +80,7 @@ void MapBuilder::combine(TrackId track, const std::vector<Submap>& submaps, cons
 }
 
 void MapBuilder::grow_to_reach(TrackId track) {
-  MappedPlane& plane = planes_[track];
+  PlaneLandmark& plane = planes_[track];
   const Vec2 direction = plane.reference.place.direction;
   Segment segment = plane.reference.place.segment();
   for (int end = 0; end < 2; ++end) {
@@ -91,23 +90,23 @@ void MapBuilder::grow_to_reach(TrackId track) {
   }
   plane.reference.place.middle = segment.middle();
   plane.reference.place.size = direction.dot(segment.end[kEndB] - segment.end[kEndA]);
-  index_.put(static_cast<Index>(track), segment.end[kEndA], segment.end[kEndB]);
+  index_.put(track, segment.end[kEndA], segment.end[kEndB]);
 }
 
 void MapBuilder::expand(TrackId track, const Segment& seen, Iteration now) {
   if (find(track) == nullptr) return;
-  MappedPlane& plane = planes_[track];
+  PlaneLandmark& plane = planes_[track];
   const Segment segment = plane.reference.place.segment();
   for (int end = 0; end < 2; ++end) {
     const double farther = plane.reference.place.direction.dot(seen.end[end] - segment.end[end]);
     if (end == kEndA ? farther < 0.0 : farther > 0.0)
-      plane.reach[end] = MappedPlane::Reach{seen.end[end], now};
+      plane.reach[end] = PlaneLandmark::Reach{seen.end[end], now};
   }
   grow_to_reach(track);
 }
 
 void MapBuilder::clear(Iteration k) {
-  for (MappedPlane& plane : planes_) {
+  for (PlaneLandmark& plane : planes_) {
     plane.reference = {};
     for (auto& reach : plane.reach) {
       if (reach && reach->at > k) reach.reset();
@@ -120,15 +119,14 @@ void MapBuilder::clear(Iteration k) {
 void MapBuilder::build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps,
                        const TrackBook& tracks) {
   std::vector<SubmapIndex> order(changed.begin(), changed.end());
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<TrackId> touched;
   for (const SubmapIndex index : order) {
     place(index, submaps);
     if (!submaps[index].placed) continue;
     for (const Member& member : submaps[index].members()) touched.push_back(member.track);
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  make_set(touched);
   for (const TrackId track : touched) combine(track, submaps, tracks);
 }
 

@@ -12,7 +12,7 @@
 namespace hallway::slam_plane::thesis {
 
 /// A plane of the map.
-struct MappedPlane {
+struct PlaneLandmark {
   /// How far it was seen to reach while a motion model was on.
   struct Reach {
     Vec2 place = Vec2::Zero();  ///< map's frame [m]
@@ -33,7 +33,7 @@ class MapBuilder {
   void build(std::span<const SubmapIndex> changed, std::vector<Submap>& submaps, const TrackBook& tracks);
 
   /// The plane of a track, or null while the map does not have it.
-  const MappedPlane* find(TrackId track) const {
+  const PlaneLandmark* find(TrackId track) const {
     return track < planes_.size() && planes_[track].valid() ? &planes_[track] : nullptr;
   }
   std::size_t size() const { return planes_.size(); }
@@ -65,8 +65,8 @@ class MapBuilder {
   void combine(TrackId track, const std::vector<Submap>& submaps, const TrackBook& tracks);
 
   Options options_;
-  std::vector<MappedPlane> planes_;  // by track
-  WallIndex index_;                  // of them
+  std::vector<PlaneLandmark> planes_;  // by track
+  WallIndex index_;                    // of them
   std::size_t valid_ = 0;
 };
 

@@ -15,11 +15,12 @@ constexpr double kSameCosine = 0.99875;  // 2.9 degrees
 
 /// A wall, and the line that it lies in.
 struct Part {
-  Wall wall;
+  WallLandmark wall;
   Vec2 direction;  // unit, from a to b
   double length;
 
-  explicit Part(const Wall& w) : wall(w), direction((w.b - w.a).normalized()), length((w.b - w.a).norm()) {}
+  explicit Part(const WallLandmark& w)
+      : wall(w), direction((w.b - w.a).normalized()), length((w.b - w.a).norm()) {}
 
   double along(const Vec2& p) const { return direction.dot(p - wall.a); }
   double beside(const Vec2& p) const { return std::abs(cross(direction, p - wall.a)); }
@@ -35,10 +36,10 @@ bool are_one(const Part& part, const Part& base) {
 }
 
 /// An end of two parts of one wall: the outer one. Where both are in one place it is certain if either is.
-void join_end(int end, const Part& part, const Part& base, Wall& joined) {
+void join_end(int end, const Part& part, const Part& base, WallLandmark& joined) {
   const Vec2& of_base = end == kEndA ? base.wall.a : base.wall.b;
   const Vec2& of_part = end == kEndA ? part.wall.a : part.wall.b;
-  const double farther = (end == kEndA ? -1.0 : 1.0) * base.direction.dot(of_part - of_base);
+  const double farther = outward(end) * base.direction.dot(of_part - of_base);
   const bool one_place = std::abs(farther) <= kSame_m && base.wall.certain[end] != part.wall.certain[end];
   const bool takes_part = one_place ? part.wall.certain[end] : farther > 0.0;
   joined.certain[end] = takes_part ? part.wall.certain[end] : base.wall.certain[end];
@@ -46,7 +47,7 @@ void join_end(int end, const Part& part, const Part& base, Wall& joined) {
 }
 
 Part joined(const Part& part, const Part& base) {
-  Wall result = base.wall;
+  WallLandmark result = base.wall;
   for (const int end : {kEndA, kEndB}) join_end(end, part, base, result);
   result.id = std::min(part.wall.id, base.wall.id);
   result.z_low = std::min(part.wall.z_low, base.wall.z_low);
@@ -76,9 +77,9 @@ void join_parts(std::vector<Part>& parts) {
   }
 }
 
-Wall wall_from(WallId name, const Reference& reference, const Track& track) {
+WallLandmark wall_from(LandmarkId name, const Reference& reference, const PlaneTrack& track) {
   const Segment segment = reference.place.segment();
-  Wall wall;
+  WallLandmark wall;
   wall.id = name;
   wall.a = segment.end[kEndA];
   wall.b = segment.end[kEndB];
@@ -88,21 +89,21 @@ Wall wall_from(WallId name, const Reference& reference, const Track& track) {
     wall.z_high = track.newest().z_high;
   }
   wall.observations = static_cast<std::uint32_t>(track.pushed());
-  wall.status = WallStatus::mapped;
+  wall.status = LandmarkStatus::mapped;
   return wall;
 }
 
-std::vector<Wall> walls_of(const State& state) {
+std::vector<WallLandmark> walls_of(const State& state) {
   std::vector<Part> parts;
   for (TrackId id = 0; id < state.map.size(); ++id) {
-    const MappedPlane* plane = state.map.find(id);
+    const PlaneLandmark* plane = state.map.find(id);
     if (plane != nullptr)
       parts.emplace_back(wall_from(state.tracks.name(id), plane->reference, state.tracks[id]));
   }
   join_parts(parts);
-  std::vector<Wall> walls;
+  std::vector<WallLandmark> walls;
   for (const Part& part : parts) walls.push_back(part.wall);
-  std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.id < b.id; });
+  std::ranges::sort(walls, {}, &WallLandmark::id);
   return walls;
 }
 
@@ -123,12 +124,8 @@ Map report_map(const State& state) {
   return map;
 }
 
-WallId wall_of(TrackId track, const State& state) {
-  return state.tracks.submaps(track).empty() ? kNoWall : state.tracks.name(track);
-}
-
-std::uint64_t count_walls(const State& state) {
-  return state.map.valid_planes();
+LandmarkId wall_of(TrackId track, const State& state) {
+  return state.tracks.submaps(track).empty() ? kNoLandmark : state.tracks.name(track);
 }
 
 Mat3 covariance_of(const Alignment& location) {

@@ -10,11 +10,8 @@ namespace hallway::slam_plane::thesis {
 /// older one's name. The submaps keep both (the thesis merges nothing; Rule 37). O(planes²).
 Map report_map(const State& state);
 
-/// The wall that a piece taken for a track belongs to; kNoWall while the track is in no submap.
-WallId wall_of(TrackId track, const State& state);
-
-/// Planes in the map.
-std::uint64_t count_walls(const State& state);
+/// The wall that an observation associated with a track belongs to; kNoLandmark while the track is in no submap.
+LandmarkId wall_of(TrackId track, const State& state);
 
 /// How sure a pose is, from how many planes tell it. The thesis has no such measure: a rough one.
 Mat3 covariance_of(const Alignment& location);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/matcher.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,7 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-using TrackList = std::vector<const Track*>;
+using TrackList = std::vector<const PlaneTrack*>;
 
 void add_members(const Submap& submap, const State& state, TrackList& list) {
   for (const Member& member : submap.members()) list.push_back(&state.tracks[member.track]);
@@ -42,43 +42,35 @@ void keep_recent(const Options& options, State& state) {
 
 /// The unassigned track goes on as `to`, which was out of view.
 void hand_over(TrackId from, TrackId to, State& state) {
-  Track& track = state.tracks[to];
-  const Track& young = state.tracks[from];
+  PlaneTrack& track = state.tracks[to];
+  const PlaneTrack& young = state.tracks[from];
   const Iteration last = track.empty() ? -1 : track.newest().iteration;
   for (std::size_t i = young.lower_bound(last + 1); i < young.size(); ++i) track.push(young[i]);
   state.pairs.forget(from);
   state.tracks[from].truncate(-1);
-  std::replace(state.recent.begin(), state.recent.end(), from, to);
-  std::sort(state.recent.begin(), state.recent.end());
-  state.recent.erase(std::unique(state.recent.begin(), state.recent.end()), state.recent.end());
+  std::ranges::replace(state.recent, from, to);
+  make_set(state.recent);
   state.met_again.push_back(to);
 }
 
 }  // namespace
 
-void add_planes(std::span<const Piece> pieces, const Options& options, State& state) {
-  std::vector<Sighting> sightings;
-  std::vector<std::size_t> piece_of;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const std::optional<Sighting> sighting = make_sighting(pieces[i], state.now);
-    if (!sighting) continue;
-    sightings.push_back(*sighting);
-    piece_of.push_back(i);
-  }
-  if (state.start < 0 && !sightings.empty()) state.start = state.now;
+void add_planes(std::span<const WallObservation> given, const Options& options, State& state) {
+  const auto [observations, given_at] = FrameObservations(given, state.now);
+  if (state.start < 0 && !observations.empty()) state.start = state.now;
   const std::vector<TrackList> lists = stages(state);
-  const std::vector<const Track*> matched = match_tracks(sightings, lists, options.match());
+  const std::vector<const PlaneTrack*> matched = match_tracks(observations, lists, options.match());
   state.matches.clear();
   state.seen.clear();
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
+  for (std::size_t i = 0; i < observations.size(); ++i) {
     const TrackId id =
-        matched[i] != nullptr ? matched[i]->id() : state.tracks.create(state.now, piece_of[i]).id();
+        matched[i] != nullptr ? matched[i]->id() : state.tracks.create(state.now, given_at[i]).id();
     if (matched[i] == nullptr) state.carried.unassigned.push_back({id, -1, std::nullopt});
-    state.tracks[id].push(sightings[i]);
-    state.matches.push_back({piece_of[i], id});
+    state.tracks[id].push(observations[i]);
+    state.matches.push_back({given_at[i], id});
     state.seen.push_back(id);
   }
-  std::sort(state.seen.begin(), state.seen.end());
+  std::ranges::sort(state.seen);
   keep_recent(options, state);
   chart_submaps(state);
 }
@@ -92,7 +84,7 @@ void chart_submaps(State& state) {
     std::copy_if(charted.begin(), charted.end(), std::back_inserter(all),
                  [&](SubmapIndex submap) { return !state.submaps[submap].members().empty(); });
   }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   state.chart.clear();
   for (const SubmapIndex submap : all) {
     if (state.chart.empty() || state.chart.back().first != submap) state.chart.emplace_back(submap, 0);
@@ -108,7 +100,7 @@ std::vector<TrackId> map_matches(const Segment& segment, const Options& options,
     const std::optional<double> score = match_score(placed_terms(segment, wall, bounds), bounds);
     if (score) found.emplace_back(-*score, id);
   });
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<TrackId> result;
   for (const auto& [score, id] : found) result.push_back(id);
   return result;
@@ -120,7 +112,7 @@ void match_with_map(const Options& options, State& state) {
   const Pose2& T_map_robot = state.carried.motion.pose();
   std::vector<Unassigned> kept;
   for (Unassigned entry : state.carried.unassigned) {
-    const Track& track = state.tracks[entry.track];
+    const PlaneTrack& track = state.tracks[entry.track];
     if (track.empty()) continue;
     bool handed = false;
     entry.part_of.reset();

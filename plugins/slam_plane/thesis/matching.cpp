@@ -28,27 +28,27 @@ double likeness(const Extent& a, const Extent& b) {
          (std::max(a.high, b.high) - std::min(a.low, b.low));
 }
 
-Extent own_extent(const Sighting& sighting) {
-  return {sighting.direction.dot(sighting.segment.end[kEndA]),
-          sighting.direction.dot(sighting.segment.end[kEndB])};
+Extent own_extent(const TimedObservation& observation) {
+  return {observation.direction.dot(observation.segment.end[kEndA]),
+          observation.direction.dot(observation.segment.end[kEndB])};
 }
 
 struct Candidate {
   double score;
   double likeness;  // of the extents: decides between equal scores
-  std::size_t sighting;
+  std::size_t observation;
   std::size_t order;  // of the track
-  const Track* track;
+  const PlaneTrack* track;
 };
 
-/// All acceptable pairs of sightings and tracks, the best first.
-std::vector<Candidate> candidates(std::span<const Sighting> seen, MatchStages stages,
+/// All acceptable pairs of observations and tracks, the best first.
+std::vector<Candidate> candidates(std::span<const TimedObservation> seen, MatchStages stages,
                                   const MatchOptions& options) {
   std::vector<Candidate> result;
-  std::unordered_set<const Track*> given;  // never walked through
+  std::unordered_set<const PlaneTrack*> given;  // never walked through
   std::size_t order = 0;
   for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-    for (const Track* track : stages[stage]) {
+    for (const PlaneTrack* track : stages[stage]) {
       if (track->empty() || !given.insert(track).second) continue;
       ++order;
       for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -62,9 +62,9 @@ std::vector<Candidate> candidates(std::span<const Sighting> seen, MatchStages st
       }
     }
   }
-  std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
-    return std::make_tuple(-a.score, -a.likeness, a.sighting, a.order) <
-           std::make_tuple(-b.score, -b.likeness, b.sighting, b.order);
+  std::ranges::sort(result, [](const Candidate& a, const Candidate& b) {
+    return std::make_tuple(-a.score, -a.likeness, a.observation, a.order) <
+           std::make_tuple(-b.score, -b.likeness, b.observation, b.order);
   });
   return result;
 }
@@ -72,7 +72,7 @@ std::vector<Candidate> candidates(std::span<const Sighting> seen, MatchStages st
 }  // namespace
 
 std::optional<double> match_score(const MatchTerms& terms, const MatchOptions& options) {
-  const double angle_bound = options.angle_deg * std::numbers::pi / 180.0;
+  const double angle_bound = radians(options.angle_deg);
   if (terms.angle > angle_bound || terms.distance > options.distance_m || terms.overlap < options.overlap)
     return std::nullopt;
   if (terms.age < 1 || terms.age > options.recent_iterations) return std::nullopt;
@@ -81,7 +81,8 @@ std::optional<double> match_score(const MatchTerms& terms, const MatchOptions& o
                  std::min(1.0, terms.overlap) + recency);
 }
 
-MatchTerms tracked_terms(const Sighting& seen, const Sighting& before, const MatchOptions& options) {
+MatchTerms tracked_terms(const TimedObservation& seen, const TimedObservation& before,
+                         const MatchOptions& options) {
   MatchTerms terms;
   terms.angle = std::abs(angle_between(seen.direction, before.direction));
   terms.distance = std::abs(cross(seen.direction, seen.segment.end[kEndA]) -
@@ -103,13 +104,13 @@ MatchTerms placed_terms(const Segment& seen, const Segment& wall, const MatchOpt
   return terms;
 }
 
-std::vector<const Track*> match_tracks(std::span<const Sighting> seen, MatchStages stages,
-                                       const MatchOptions& options) {
-  std::vector<const Track*> matched(seen.size(), nullptr);
-  std::unordered_set<const Track*> taken;
+std::vector<const PlaneTrack*> match_tracks(std::span<const TimedObservation> seen, MatchStages stages,
+                                            const MatchOptions& options) {
+  std::vector<const PlaneTrack*> matched(seen.size(), nullptr);
+  std::unordered_set<const PlaneTrack*> taken;
   for (const Candidate& candidate : candidates(seen, stages, options)) {
-    if (matched[candidate.sighting] == nullptr && taken.insert(candidate.track).second)
-      matched[candidate.sighting] = candidate.track;
+    if (matched[candidate.observation] == nullptr && taken.insert(candidate.track).second)
+      matched[candidate.observation] = candidate.track;
   }
   return matched;
 }

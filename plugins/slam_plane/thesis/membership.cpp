@@ -6,18 +6,19 @@
 
 namespace hallway::slam_plane::thesis {
 
-Intervals common_intervals(std::span<const Track* const> members) {
+Intervals common_intervals(std::span<const PlaneTrack* const> members) {
   if (members.empty()) return {};
   Intervals common = members.front()->visible();
-  for (const Track* member : members.subspan(1)) common = intersection(common, member->visible());
+  for (const PlaneTrack* member : members.subspan(1)) common = intersection(common, member->visible());
   return common;
 }
 
-bool fits(const Intervals& common, const Track& candidate, int min_interval) {
+bool fits(const Intervals& common, const PlaneTrack& candidate, int min_interval) {
   return longest(intersection(common, candidate.visible())).size() >= std::max(min_interval, 1);
 }
 
-std::vector<int> linking_members(std::span<const Track* const> members, const Track& newcomer, int count) {
+std::vector<int> linking_members(std::span<const PlaneTrack* const> members, const PlaneTrack& newcomer,
+                                 int count) {
   struct Link {
     Iteration since;   // the member is visible
     Iteration shared;  // with the newcomer
@@ -31,7 +32,7 @@ std::vector<int> linking_members(std::span<const Track* const> members, const Tr
     if (both.empty()) continue;
     links.push_back({containing(visible, both.back().first).first, both.back().size(), static_cast<int>(i)});
   }
-  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+  std::ranges::sort(links, [](const Link& a, const Link& b) {
     return std::make_tuple(-a.since, -a.shared, a.member) < std::make_tuple(-b.since, -b.shared, b.member);
   });
   std::vector<int> result;
@@ -42,7 +43,7 @@ std::vector<int> linking_members(std::span<const Track* const> members, const Tr
 }
 
 Membership judge_member(const Comparison& comparison, Iteration joined, Iteration now,
-                        const IntervalOptions& options) {
+                        const Options& options) {
   if (comparison.valid && comparison.shared >= options.min_interval) return Membership::confirmed;
   return now - joined < options.judge_after ? Membership::undecided : Membership::too_short;
 }

@@ -3,18 +3,20 @@
 
 #include <span>
 
+#include "slam_plane/option_table.hpp"
 #include "slam_plane/thesis/track_options.hpp"
 
 namespace hallway::slam_plane::thesis {
 
 /// The constants of the algorithm (thesis 4.3–4.5). Lengths in metres, times in iterations.
 struct Options {
-  double match_angle_deg = 15.0;  ///< largest angle between a piece and the plane it is taken for (Rule 10)
+  double match_angle_deg =
+      15.0;  ///< largest angle between an observation and the plane it is associated with (Rule 10)
   double match_distance_m =
-      0.3;  ///< largest difference of distances between a piece and one seen just before (Rule 1)
-  int recent_iterations = 5;         ///< a plane unseen for longer is looked for in the map alone (Rule 11)
-  double map_distance_m = 0.4;       ///< largest distance between a piece and a plane of the map (Rule 11)
-  int storage = 1200;                ///< sightings kept of a plane
+      0.3;  ///< largest difference of distances between an observation and one seen just before (Rule 1)
+  int recent_iterations = 5;    ///< a plane unseen for longer is looked for in the map alone (Rule 11)
+  double map_distance_m = 0.4;  ///< largest distance between an observation and a plane of the map (Rule 11)
+  int storage = 1200;           ///< observations kept of a plane
   double trend_hysteresis_m = 0.05;  ///< change of a plane's length that is believed (Rule 18)
   double max_deviation_m =
       0.15;  ///< least standard deviation of a comparison above which no end is static (Rule 13)
@@ -28,31 +30,19 @@ struct Options {
   int reorder_every = 10;  ///< iterations between two orders of a submap's comparisons (Rule 30)
   int motion_after = 3;    ///< iterations without a position, before the motion model begins (Rule 26)
   double motion_parallel_deg =
-      25.0;                   ///< a wall at a smaller angle to the movement does not measure it (Rule 25)
+      25.0;                  ///< a wall at a smaller angle to the movement does not measure it (Rule 25)
   int roll_back_limit = 50;  ///< iterations that a roll back goes back at most (Rule 33)
 
   MatchOptions match() const;
   MatchOptions map_match() const;
   TrackOptions track() const;
   CompareOptions compare() const;
-  IntervalOptions interval() const;
 
   /// Throws std::invalid_argument that names the parameter, its value and its range.
   void validate() const;
 };
 
-/// One row of the table that describes Options to a host. Exactly one of `real` and `whole` is set.
-struct Parameter {
-  const char* name;  ///< "thesis_…"
-  const char* unit;
-  double min;
-  double max;
-  const char* help;  ///< one sentence
-  double Options::*real;
-  int Options::*whole;
-};
-
 /// All parameters, in the order of Options.
-std::span<const Parameter> parameters();
+std::span<const OptionRow<Options>> parameters();
 
 }  // namespace hallway::slam_plane::thesis

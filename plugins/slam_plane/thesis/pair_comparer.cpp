@@ -8,7 +8,7 @@ namespace hallway::slam_plane::thesis {
 PairComparer::PairComparer(const CompareOptions& options, std::size_t max_pairs)
     : options_(options), max_pairs_(std::max<std::size_t>(max_pairs, 1)) {}
 
-PairStatistics& PairComparer::statistics(const Track& a, const Track& b) {
+PairStatistics& PairComparer::statistics(const PlaneTrack& a, const PlaneTrack& b) {
   ++counters_.comparisons;
   const TrackPair key{a.id(), b.id()};
   if (const auto found = by_key_.find(key); found != by_key_.end()) {
@@ -28,7 +28,7 @@ PairStatistics& PairComparer::statistics(const Track& a, const Track& b) {
   return statistics;
 }
 
-Comparison PairComparer::compare_in(const Track& a, const Track& b, const Interval& interval,
+Comparison PairComparer::compare_in(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval,
                                     int combination) {
   if (b.id() < a.id()) return inverse(compare_in(b, a, interval, turned_round(combination)));
   return evaluate(statistics(a, b).summary(a, b, interval, options_), combination, options_);

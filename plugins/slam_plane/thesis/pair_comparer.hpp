@@ -21,19 +21,19 @@ struct CompareCounters {
 
 /// Compares tracks and keeps what it summed up, so that a new observation of a pair costs the same however many there were (thesis 5.3 item 1). The result has the same bits as that of
 /// compare_uncached_in: all sums are exact. The pairs compared longest ago are forgotten when there are too many. Memory: 32 bytes a shared
-/// sighting and 352 a remembered interval, at most 56 KB for a pair with 1200; at most `max_pairs` of them.
+/// observation and 352 a remembered interval, at most 56 KB for a pair with 1200; at most `max_pairs` of them.
 class PairComparer {
  public:
   explicit PairComparer(const CompareOptions& options, std::size_t max_pairs = 1024);
 
   const CompareOptions& options() const { return options_; }
 
-  /// b relative to a on an interval (Rule 19), from the ends that `combination` names: 2 * end of a + end of b. Sightings of one iteration all have to be pushed before. O(1) a new sighting,
+  /// b relative to a on an interval (Rule 19), from the ends that `combination` names: 2 * end of a + end of b. Observations of one iteration all have to be pushed before. O(1) a new observation,
   /// O(log n) a call.
-  Comparison compare_in(const Track& a, const Track& b, const Interval& interval, int combination);
+  Comparison compare_in(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval, int combination);
 
-  /// The sums that are kept of two tracks, whatever the sightings' sizes; a's name before b's. Good until another pair is asked for. O(1) a new sighting.
-  const PairStatistics& kept(const Track& a, const Track& b) { return statistics(a, b); }
+  /// The sums that are kept of two tracks, whatever the observations' sizes; a's name before b's. Good until another pair is asked for. O(1) a new observation.
+  const PairStatistics& kept(const PlaneTrack& a, const PlaneTrack& b) { return statistics(a, b); }
 
   /// Rolls back: to be called with Track::truncate of all tracks, before anything is compared again. O(pairs + forgotten).
   void truncate(Iteration k);
@@ -50,7 +50,7 @@ class PairComparer {
     PairStatistics statistics;
   };
 
-  PairStatistics& statistics(const Track& a, const Track& b);
+  PairStatistics& statistics(const PlaneTrack& a, const PlaneTrack& b);
 
   CompareOptions options_;
   std::size_t max_pairs_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
+
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -70,8 +72,8 @@ OfferGraph::OfferGraph(std::span<const PlaceOffer> offers, std::size_t members)
 }
 
 const std::vector<bool>& OfferGraph::placed_from(std::size_t root) {
-  std::fill(placed_.begin(), placed_.end(), false);
-  std::fill(known_.begin(), known_.end(), false);
+  placed_.assign(placed_.size(), false);
+  known_.assign(known_.size(), false);
   open_.clear();
   if (first_end_[root] == kNoEnd) return placed_;
   placed_[root] = known_[first_end_[root]] = true;
@@ -106,8 +108,7 @@ void append_offers(const PlaceStep& there, double worth, std::vector<PlaceOffer>
 }
 
 void sort_offers(std::vector<PlaceOffer>& offers) {
-  std::stable_sort(offers.begin(), offers.end(),
-                   [](const PlaceOffer& a, const PlaceOffer& b) { return a.worth > b.worth; });
+  std::ranges::stable_sort(offers, std::greater{}, &PlaceOffer::worth);
 }
 
 bool take_offer(Reference& parent, const Comparison& comparison, Reference& child) {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "slam_plane/thesis/shared_sightings.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr int kStride = 8;              // shared sightings from one checkpoint to the next
+constexpr int kStride = 8;              // shared observations from one checkpoint to the next
 constexpr std::size_t kSummaries = 16;  // that are remembered
 constexpr Iteration kBeforeAll = std::numeric_limits<Iteration>::min();
 
@@ -18,22 +18,23 @@ constexpr Iteration kBeforeAll = std::numeric_limits<Iteration>::min();
 PairStatistics::PairStatistics(std::size_t capacity)
     : checkpoints_(capacity / kStride + 2), updated_to_(kBeforeAll) {}
 
-void PairStatistics::update(const Track& a, const Track& b) {
+void PairStatistics::update(const PlaneTrack& a, const PlaneTrack& b) {
   if (a.empty() || b.empty()) return;
   const Iteration now = std::min(a.newest().iteration, b.newest().iteration);
   if (now > updated_to_) {
-    for_each_shared(a, b, {updated_to_ + 1, now}, [&](const Sighting& in_a, const Sighting& in_b) {
-      total_ += sums_of(in_a, in_b);
-      if (++since_checkpoint_ < kStride) return;
-      checkpoints_.push_back({in_a.iteration, total_});
-      since_checkpoint_ = 0;
-    });
+    for_each_shared(a, b, {updated_to_ + 1, now},
+                    [&](const TimedObservation& in_a, const TimedObservation& in_b) {
+                      total_ += sums_of(in_a, in_b);
+                      if (++since_checkpoint_ < kStride) return;
+                      checkpoints_.push_back({in_a.iteration, total_});
+                      since_checkpoint_ = 0;
+                    });
     updated_to_ = now;
   }
   const Iteration oldest = std::max(a.oldest().iteration, b.oldest().iteration);
   while (!checkpoints_.empty() && checkpoints_.front().iteration < oldest) checkpoints_.pop_front();
-  const auto kept = std::find_if(summaries_.begin(), summaries_.end(),
-                                 [&](const IntervalSummary& s) { return s.interval.first >= oldest; });
+  const auto kept =
+      std::ranges::find_if(summaries_, [&](const IntervalSummary& s) { return s.interval.first >= oldest; });
   summaries_.erase(summaries_.begin(), kept);
 }
 
@@ -47,22 +48,16 @@ void PairStatistics::truncate(Iteration k) {
 }
 
 std::size_t PairStatistics::first_checkpoint(Iteration k) const {
-  std::size_t low = 0, high = checkpoints_.size();
-  while (low < high) {
-    const std::size_t middle = low + (high - low) / 2;
-    if (checkpoints_[middle].iteration < k) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
+  return checkpoints_.partition_point(0, checkpoints_.size(),
+                                      [k](const Checkpoint& at) { return at.iteration < k; });
 }
 
-PairSums PairStatistics::up_to(const Track& a, const Track& b, Iteration k) const {
+PairSums PairStatistics::up_to(const PlaneTrack& a, const PlaneTrack& b, Iteration k) const {
   if (k >= updated_to_) return total_;
   PairSums between;
-  const auto add = [&](const Sighting& in_a, const Sighting& in_b) { between += sums_of(in_a, in_b); };
+  const auto add = [&](const TimedObservation& in_a, const TimedObservation& in_b) {
+    between += sums_of(in_a, in_b);
+  };
   const std::size_t next = first_checkpoint(k + 1);
   const bool last = next == checkpoints_.size();
   const Iteration above = last ? updated_to_ : checkpoints_[next].iteration;
@@ -77,18 +72,17 @@ PairSums PairStatistics::up_to(const Track& a, const Track& b, Iteration k) cons
   return sums;
 }
 
-PairSums PairStatistics::sums(const Track& a, const Track& b, const Interval& interval) const {
+PairSums PairStatistics::sums(const PlaneTrack& a, const PlaneTrack& b, const Interval& interval) const {
   if (interval.empty()) return {};
   PairSums sums = up_to(a, b, interval.last);
   sums -= up_to(a, b, interval.first - 1);
   return sums;
 }
 
-const IntervalSummary& PairStatistics::summary(const Track& a, const Track& b, const Interval& interval,
-                                               const CompareOptions& options) {
-  const auto at =
-      std::lower_bound(summaries_.begin(), summaries_.end(), interval.first,
-                       [](const IntervalSummary& s, Iteration first) { return s.interval.first < first; });
+const IntervalSummary& PairStatistics::summary(const PlaneTrack& a, const PlaneTrack& b,
+                                               const Interval& interval, const CompareOptions& options) {
+  const auto at = std::ranges::lower_bound(summaries_, interval.first, {},
+                                           [](const IntervalSummary& s) { return s.interval.first; });
   const bool known = at != summaries_.end() && at->interval.first == interval.first;
   if (known && at->interval.last == interval.last) return *at;
   newest_ = {interval, sums(a, b, interval), {size_in(a, interval, options), size_in(b, interval, options)}};
@@ -103,13 +97,13 @@ const IntervalSummary& PairStatistics::summary(const Track& a, const Track& b, c
   return newest_;
 }
 
-void PairStatistics::exclude_outliers(const Track& a, const Track& b, IntervalSummary& summary) {
+void PairStatistics::exclude_outliers(const PlaneTrack& a, const PlaneTrack& b, IntervalSummary& summary) {
   for (int t = 0; t < 2; ++t) {
     for (int i = 0; i < summary.size[t].outliers; ++i) {
       const Iteration k = summary.size[t].outlier[static_cast<std::size_t>(i)];
       if (t == 1 && summary.size[0].excludes(k)) continue;  // taken away already
-      const Sighting* in_a = a.find(k);
-      const Sighting* in_b = b.find(k);
+      const TimedObservation* in_a = a.find(k);
+      const TimedObservation* in_b = b.find(k);
       if (in_a != nullptr && in_b != nullptr) summary.sums -= sums_of(*in_a, *in_b);
     }
   }

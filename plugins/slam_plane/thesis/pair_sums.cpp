@@ -45,33 +45,31 @@ double spread(std::int64_t n, Unsigned128 products, const Whole& a, const Whole&
   return static_cast<double>(exact) / (kQuanta_per_m * kQuanta_per_m);
 }
 
+/// Applies an operation to each sum and the same one of the other.
+template <typename Operation>
+PairSums& combine(PairSums& sums, const PairSums& other, Operation apply) {
+  apply(sums.count, other.count);
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 2; ++i) apply(sums.offset[c][i], other.offset[c][i]);
+    apply(sums.offset_square[c], other.offset_square[c]);
+    apply(sums.offset_direction[c], other.offset_direction[c]);
+  }
+  for (std::size_t i = 0; i < 2; ++i) apply(sums.direction[i], other.direction[i]);
+  apply(sums.direction_square, other.direction_square);
+  return sums;
+}
+
 }  // namespace
 
 PairSums& PairSums::operator+=(const PairSums& other) {
-  count += other.count;
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < 2; ++i) offset[c][i] += other.offset[c][i];
-    offset_square[c] += other.offset_square[c];
-    offset_direction[c] += other.offset_direction[c];
-  }
-  for (std::size_t i = 0; i < 2; ++i) direction[i] += other.direction[i];
-  direction_square += other.direction_square;
-  return *this;
+  return combine(*this, other, [](auto& sum, auto term) { sum += term; });
 }
 
 PairSums& PairSums::operator-=(const PairSums& other) {
-  count -= other.count;
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < 2; ++i) offset[c][i] -= other.offset[c][i];
-    offset_square[c] -= other.offset_square[c];
-    offset_direction[c] -= other.offset_direction[c];
-  }
-  for (std::size_t i = 0; i < 2; ++i) direction[i] -= other.direction[i];
-  direction_square -= other.direction_square;
-  return *this;
+  return combine(*this, other, [](auto& sum, auto term) { sum -= term; });
 }
 
-PairSums sums_of(const Sighting& a, const Sighting& b) {
+PairSums sums_of(const TimedObservation& a, const TimedObservation& b) {
   const Pose2 T_robot_a{Vec2::Zero(), a.direction};
   const Whole u = whole(T_robot_a.unrotate(b.direction));
   PairSums sums;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "slam_plane/thesis/sighting.hpp"
+#include "slam_plane/thesis/observation.hpp"
 
 namespace hallway::slam_plane::thesis {
 
@@ -15,7 +15,7 @@ __extension__ using Unsigned128 = unsigned __int128;  // not ISO C++, but on bot
 ///
 /// Per iteration both planes are turned so that a lies along x. With b's direction u and p the offset from an end of a to an end of b, the middles' offset is p ± u size_b/2 ∓ x size_a/2. So sums of p, u, p², pu and u²
 /// suffice. They are whole numbers of 2^-36 m, modulo 2^64 and 2^128: exact in any order, and what was added can be taken away, which is
-/// why sums that were kept are equal to sums made anew. Offsets are below 2^11 m and sightings at most 2^14, so nothing that is asked for overflows.
+/// why sums that were kept are equal to sums made anew. Offsets are below 2^11 m and observations at most 2^14, so nothing that is asked for overflows.
 struct PairSums {
   std::int64_t count = 0;
   std::array<std::array<std::uint64_t, 2>, 4> offset{};  ///< p, by 2 * end of a + end of b
@@ -30,7 +30,7 @@ struct PairSums {
 };
 
 /// What one iteration adds. O(1).
-PairSums sums_of(const Sighting& a, const Sighting& b);
+PairSums sums_of(const TimedObservation& a, const TimedObservation& b);
 
 /// Mean and standard deviation of the offset from a's estimated middle to b's, for one combination of ends.
 struct OffsetMoments {

@@ -6,6 +6,10 @@
 
 namespace hallway::slam_plane::thesis {
 
+Reference reference_of(const TimedObservation& observation) {
+  return {.place = {observation.segment.middle(), observation.direction, observation.length, true}};
+}
+
 Reference moved(const Pose2& T, const Reference& reference) {
   Reference result = reference;
   result.place.middle = T * reference.place.middle;
@@ -17,14 +21,13 @@ Reference reference_of(const Comparison& comparison, int which) {
   Reference result;
   result.place = comparison.placement(which);
   result.shared = comparison.shared;
-  if (comparison.key[which] != KeyPoint::none)
-    result.known[comparison.key[which] == KeyPoint::right ? kEndB : kEndA] = true;
+  if (comparison.key[which] != KeyPoint::none) result.known[end_of(comparison.key[which])] = true;
   return result;
 }
 
 Reference chained(const Reference& base, const Comparison& comparison) {
   if (!base.valid() || !comparison.places()) return {};
-  const int end = comparison.key[0] == KeyPoint::right ? kEndB : kEndA;
+  const End end = end_of(comparison.key[0]);
   if (!base.known[end]) return {};
   const Vec2 in_base = base.place.segment().end[end];
   const Vec2 in_parent = comparison.placement(0).segment().end[end];
@@ -64,12 +67,12 @@ void grow(Reference& plane, const Reference& other) {
   for (int end = 0; end < 2; ++end) {
     const int far = 1 - end;
     if (plane.known[end]) continue;
-    const double sign = end == kEndA ? -1.0 : 1.0;
+
     if (other.known[end]) {
       segment.end[end] += direction * direction.dot(seen.end[end] - segment.end[end]);
       plane.known[end] = true;
     } else if (plane.known[far] && other.known[far] && other.place.size > segment.length()) {
-      segment.end[end] = segment.end[far] + sign * direction * other.place.size;
+      segment.end[end] = segment.end[far] + outward(end) * direction * other.place.size;
     }
   }
   plane.place.middle = segment.middle();

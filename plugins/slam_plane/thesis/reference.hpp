@@ -17,6 +17,9 @@ struct Reference {
   bool full() const { return known[kEndA] && known[kEndB]; }
 };
 
+/// An observation in its robot's frame; no end is known.
+Reference reference_of(const TimedObservation& observation);
+
 /// A reference moved into another frame.
 Reference moved(const Pose2& T, const Reference& reference);
 

@@ -47,6 +47,20 @@ class RingBuffer {
 
   void clear() { begin_ = size_ = 0; }
 
+  /// The first from `low` on, and before `high`, that is not `before`, where those that are come first; `high` if all are. O(log n).
+  template <typename Before>
+  std::size_t partition_point(std::size_t low, std::size_t high, const Before& before) const {
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (before((*this)[middle])) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+
  private:
   std::size_t slot(std::size_t i) const {
     const std::size_t at = begin_ + i;

@@ -7,10 +7,10 @@
 
 namespace hallway::slam_plane::thesis {
 
-void History::add(Iteration iteration, std::span<const Piece> pieces) {
+void History::add(Iteration iteration, std::span<const WallObservation> given) {
   Record record;
   record.iteration = iteration;
-  record.pieces.assign(pieces.begin(), pieces.end());
+  record.given.assign(given.begin(), given.end());
   records_.push_back(record);
 }
 
@@ -30,7 +30,7 @@ std::vector<Record> History::take_after(Iteration k) {
     taken.push_back(std::move(records_[records_.size() - 1]));
     records_.pop_back();
   }
-  std::reverse(taken.begin(), taken.end());
+  std::ranges::reverse(taken);
   return taken;
 }
 

@@ -12,7 +12,7 @@ namespace hallway::slam_plane::thesis {
 /// One iteration as it was: its input, and what it left (thesis 4.4.3.17).
 struct Record {
   Iteration iteration = 0;
-  std::vector<Piece> pieces;
+  std::vector<WallObservation> given;
   std::optional<Carried> after;
   std::vector<TrackId> recent;
 };
@@ -22,7 +22,7 @@ class History {
  public:
   explicit History(int limit) : records_(static_cast<std::size_t>(limit) + 1) {}
 
-  void add(Iteration iteration, std::span<const Piece> pieces);
+  void add(Iteration iteration, std::span<const WallObservation> given);
   /// Notes what the newest iteration left.
   void close(const State& state);
   /// Whether the state after iteration k can be had again.

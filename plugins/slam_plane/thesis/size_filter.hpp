@@ -7,7 +7,7 @@
 
 namespace hallway::slam_plane::thesis {
 
-/// The largest lengths among some sightings: all that the filter of sizes needs (Rule 20).
+/// The largest lengths among some observations: all that the filter of sizes needs (Rule 20).
 class LargestLengths {
  public:
   static constexpr int kKept = 4;
@@ -26,7 +26,7 @@ class LargestLengths {
   /// The i-th largest; equal ones in the order of time.
   const Entry& operator[](int i) const { return entries_[static_cast<std::size_t>(i)]; }
 
-  /// How many of the largest are too large: nothing backs them. A length counts as backed if `backing` sightings (fewer if there are fewer)
+  /// How many of the largest are too large: nothing backs them. A length counts as backed if `backing` observations (fewer if there are fewer)
   /// reach it but for `tolerance` [m]. Below `backing`.
   int outliers(int backing, double tolerance) const;
 

@@ -20,13 +20,13 @@ struct Unassigned {
   std::optional<TrackId> part_of;  ///< it is another part of the wall of this track, which is seen too
 };
 
-/// A piece of now and the track that took it.
+/// An observation of now and the track that took it.
 struct Match {
-  std::size_t piece = 0;
+  std::size_t observation = 0;
   TrackId track = 0;
 };
 
-/// What an iteration leaves to the next one, but for what can be computed from sightings (thesis 4.4.3.17).
+/// What an iteration leaves to the next one, but for what can be computed from observations (thesis 4.4.3.17).
 struct Carried {
   std::vector<Unassigned> unassigned;
   SubmapIndex current = kNoSubmap;  ///< the current submap (Rule 22)
@@ -46,7 +46,7 @@ struct State {
   }
 
   Iteration now = -1;
-  Iteration start = -1;  ///< iteration with the first piece; its robot frame is the map's
+  Iteration start = -1;  ///< iteration with the first observation; its robot frame is the map's
   TrackBook tracks;
   std::vector<Submap> submaps;
   std::size_t dropped_submaps = 0;  ///< of them, those that came to nothing and are empty

@@ -2,33 +2,36 @@
 #include "slam_plane/thesis/static_pairs.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace hallway::slam_plane::thesis {
 namespace {
 
-constexpr double kSigmas2 = 9.0;  // squared standard deviations by which one sighting may differ
-constexpr int kMisses = 2;        // sightings in a row that do not agree end a run
+constexpr double kSigmas2 = 9.0;  // squared standard deviations by which one observation may differ
+constexpr int kMisses = 2;        // observations in a row that do not agree end a run
 constexpr Iteration kLag = 8;     // newest iterations of a run that ended that may have been moving already
 constexpr Iteration kTestEvery = 4;  // iterations
 constexpr Iteration kLongest = 400;  // iterations that are looked at when a run is sought
 
-/// Whether a sighting agrees with what was found before.
+/// Whether an observation agrees with what was found before.
 bool agrees(const Vec2& offset, const OffsetMoments& moments) {
   const double bound = kSigmas2 * moments.deviation * moments.deviation + kNoDeviation_m * kNoDeviation_m;
   return (offset - moments.mean).squaredNorm() <= bound;
-}
-
-void sort_saved(PairHistory& pair) {
-  std::stable_sort(pair.saved.begin(), pair.saved.end(),
-                   [](const Comparison& a, const Comparison& b) { return a.shared > b.shared; });
 }
 
 bool made_from(const Comparison& comparison, int combination) {
   return comparison.key[0] == key_of(combination, 0) && comparison.key[1] == key_of(combination, 1);
 }
 
+/// Forgets what was saved of a run.
+void forget_run(int combination, PairHistory& pair) {
+  std::erase_if(pair.saved, [&](const Comparison& saved) {
+    return made_from(saved, combination) && saved.interval.first == pair.run(combination).since;
+  });
+}
+
 /// When both planes began to do what they do now (Rule 18).
-Iteration phase_begin(const Track& a, const Track& b) {
+Iteration phase_begin(const PlaneTrack& a, const PlaneTrack& b) {
   return std::max(a.phases().back().interval.first, b.phases().back().interval.first);
 }
 
@@ -41,17 +44,17 @@ bool PairHistory::still(int which, int end) const {
   return false;
 }
 
-void StaticPairs::save(const Track& a, const Track& b, int combination, PairHistory& pair) {
-  const EndRun& run = pair.runs[static_cast<std::size_t>(combination)];
+void StaticPairs::save(const PlaneTrack& a, const PlaneTrack& b, int combination, PairHistory& pair) {
+  const EndRun& run = pair.run(combination);
   const Comparison made = comparer_.compare_in(a, b, {run.since, pair.updated}, combination);
   if (!made.valid) return;
   keep_better(a, b, made, pair);
 }
 
 /// What was saved of a run is made anew without what came after an iteration.
-void StaticPairs::shorten(const Track& a, const Track& b, int combination, Iteration last,
+void StaticPairs::shorten(const PlaneTrack& a, const PlaneTrack& b, int combination, Iteration last,
                           PairHistory& pair) {
-  const Iteration since = pair.runs[static_cast<std::size_t>(combination)].since;
+  const Iteration since = pair.run(combination).since;
   for (auto saved = pair.saved.begin(); saved != pair.saved.end(); ++saved) {
     if (!made_from(*saved, combination) || saved->interval.first != since || saved->interval.last <= last)
       continue;
@@ -67,17 +70,18 @@ void StaticPairs::shorten(const Track& a, const Track& b, int combination, Itera
   }
 }
 
-void StaticPairs::end_run(const Track& a, const Track& b, int combination, PairHistory& pair) {
-  EndRun& run = pair.runs[static_cast<std::size_t>(combination)];
+void StaticPairs::end_run(const PlaneTrack& a, const PlaneTrack& b, int combination, PairHistory& pair) {
+  EndRun& run = pair.run(combination);
   const bool exact = run.moments.deviation <= kNoDeviation_m;
   shorten(a, b, combination, pair.updated - kMisses - (exact ? 0 : kLag), pair);
   run = {};
 }
 
 /// Where a plane turned, another end of it may be the one that moves: a run goes on, but what it is compared over begins anew (Rule 18).
-void StaticPairs::split_where_turned(const Track& a, const Track& b, Iteration start, PairHistory& pair) {
+void StaticPairs::split_where_turned(const PlaneTrack& a, const PlaneTrack& b, Iteration start,
+                                     PairHistory& pair) {
   for (int c = 0; c < 4; ++c) {
-    EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    EndRun& run = pair.run(c);
     if (run.since < 0 || run.since >= start) continue;
     shorten(a, b, c, start - 1, pair);
     run.since = start;
@@ -85,12 +89,12 @@ void StaticPairs::split_where_turned(const Track& a, const Track& b, Iteration s
 }
 
 void StaticPairs::follow(NewestShared& newest, bool due, PairHistory& pair) {
-  const Track& a = newest.a();
-  const Track& b = newest.b();
+  const PlaneTrack& a = newest.a();
+  const PlaneTrack& b = newest.b();
   std::optional<StillnessTest> test;
   Iteration tested_since = -1;
   for (int c = 0; c < 4; ++c) {
-    EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    EndRun& run = pair.run(c);
     if (run.since < 0) continue;
     run.misses = agrees(newest.latest(c), run.moments) ? 0 : run.misses + 1;
     if (run.misses >= kMisses) end_run(a, b, c, pair);
@@ -101,28 +105,26 @@ void StaticPairs::follow(NewestShared& newest, bool due, PairHistory& pair) {
     if (found == Stillness::still) {
       run.moments = test->moments(c);
     } else if (found == Stillness::moves) {
-      std::erase_if(pair.saved, [&](const Comparison& saved) {
-        return made_from(saved, c) && saved.interval.first == run.since;
-      });
+      forget_run(c, pair);
       run = {};
     }
   }
 }
 
-/// Where there is no noise three sightings tell.
+/// Where there is no noise three observations tell.
 void StaticPairs::search_exact(NewestShared& newest, Iteration start, PairHistory& pair) {
-  const Track& a = newest.a();
-  const Track& b = newest.b();
+  const PlaneTrack& a = newest.a();
+  const PlaneTrack& b = newest.b();
   const Interval least{std::max(start, pair.updated - kExactReadings + 1), pair.updated};
   if (least.size() < kExactReadings) return;
   for (int c = 0; c < 4; ++c) {
-    EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    EndRun& run = pair.run(c);
     if (run.since >= 0) continue;
     const OffsetMoments here{newest.latest(c), 0.0};
     Iteration since = pair.updated;
     for (Iteration k = pair.updated - 1; k >= std::max(start, pair.updated - kLongest); --k) {
-      const Sighting* before_a = a.find(k);
-      const Sighting* before_b = b.find(k);
+      const TimedObservation* before_a = a.find(k);
+      const TimedObservation* before_b = b.find(k);
       if (before_a == nullptr || before_b == nullptr || !agrees(end_offset(*before_a, *before_b, c), here))
         break;
       since = k;
@@ -141,7 +143,7 @@ void StaticPairs::search(NewestShared& newest, Iteration start, PairHistory& pai
   for (std::size_t c = 0; c < 4; ++c) open[c] = pair.runs[c].since < 0;
   for (Iteration length = kReadings; length <= kLongest; length += length / 2) {
     const Iteration first = std::max(start, pair.updated - length + 1);
-    if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return;
+    if (std::ranges::none_of(open, [](bool o) { return o; })) return;
     StillnessTest test(newest, first, comparer_.kept(newest.a(), newest.b()));
     for (int c = 0; c < 4; ++c) {
       const auto i = static_cast<std::size_t>(c);
@@ -157,14 +159,13 @@ void StaticPairs::search(NewestShared& newest, Iteration start, PairHistory& pai
 }
 
 /// Where no end of a plane ever stood still, the other one may tell its line. (The place of the wall at the end of a hallway is known though neither of its ends is, 4.3.6.)
-void StaticPairs::find_lines(const Track& a, const Track& b, PairHistory& pair) {
+void StaticPairs::find_lines(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair) {
   for (int which = 0; which < 2; ++which) {
-    const bool known = std::any_of(pair.saved.begin(), pair.saved.end(), [&](const Comparison& saved) {
-      return saved.key[which] != KeyPoint::none;
-    });
+    const bool known = std::ranges::any_of(
+        pair.saved, [&](const Comparison& saved) { return saved.key[which] != KeyPoint::none; });
     if (known) continue;
-    const Track& from = which == 0 ? b : a;
-    const Track& to = which == 0 ? a : b;
+    const PlaneTrack& from = which == 0 ? b : a;
+    const PlaneTrack& to = which == 0 ? a : b;
     for (const int end : {kEndA, kEndB}) {
       const Comparison line = compare_line(from, to, end, pair.updated, options_);
       if (line.valid) keep_better(a, b, which == 0 ? inverse(line) : line, pair);
@@ -178,7 +179,7 @@ PairHistory& StaticPairs::begin(TrackId a, TrackId b) {
   return pairs_[{a, b}];
 }
 
-const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
+const PairHistory& StaticPairs::update(const PlaneTrack& a, const PlaneTrack& b) {
   if (b.id() < a.id()) return update(b, a);
   static const PairHistory kNothing;
   const Iteration last = a.empty() || b.empty() ? -1 : std::min(a.newest().iteration, b.newest().iteration);
@@ -204,16 +205,14 @@ const PairHistory& StaticPairs::update(const Track& a, const Track& b) {
   if (due) search(newest, start, pair);
   judge_runs(a, b, pair);
   for (int c = 0; c < 4; ++c) {
-    const EndRun& run = pair.runs[static_cast<std::size_t>(c)];
+    const EndRun& run = pair.run(c);
     if (run.still() && (due || run.moments.deviation <= kNoDeviation_m)) save(a, b, c, pair);
     if (run.undefined) {
-      std::erase_if(pair.saved, [&](const Comparison& saved) {
-        return made_from(saved, c) && saved.interval.first == run.since;
-      });
+      forget_run(c, pair);
     }
   }
   if (due) find_lines(a, b, pair);
-  sort_saved(pair);
+  std::ranges::stable_sort(pair.saved, std::greater{}, &Comparison::shared);
   return pair;
 }
 

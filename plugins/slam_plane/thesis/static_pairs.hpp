@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "slam_plane/thesis/line_comparison.hpp"
+#include "slam_plane/thesis/comparison.hpp"
 #include "slam_plane/thesis/options.hpp"
 #include "slam_plane/thesis/pair_comparer.hpp"
 #include "slam_plane/thesis/stillness.hpp"
@@ -19,7 +19,7 @@ namespace hallway::slam_plane::thesis {
 struct EndRun {
   Iteration since = -1;   ///< it began here; -1: the two ends are not known to stand still
   OffsetMoments moments;  ///< of the offset between the ends, when that was looked at last
-  int misses = 0;         ///< newest sightings in a row that do not agree with them
+  int misses = 0;         ///< newest observations in a row that do not agree with them
   bool undefined =
       false;  ///< the other end of one of the planes seems to stand still too, but its length changes (Rule 15)
 
@@ -28,13 +28,15 @@ struct EndRun {
 
 /// What is known of two planes: the first one has the smaller id.
 struct PairHistory {
-  Iteration updated = -1;      ///< newest shared sighting that was looked at
+  Iteration updated = -1;      ///< newest shared observation that was looked at
   std::array<EndRun, 4> runs;  ///< by 2 * end of the first plane + end of the second one
   std::vector<Comparison>
       saved;  ///< the best one for each two ends that ever stood still, the longest first (Rule 36)
 
-  std::uint64_t disproved = 0;  ///< what was known of ends that are no corners, when `saved` was compared with it
+  std::uint64_t disproved =
+      0;  ///< what was known of ends that are no corners, when `saved` was compared with it
 
+  EndRun& run(int combination) { return runs[static_cast<std::size_t>(combination)]; }
   /// Whether an end of the first plane (0) or of the second one (1) stands still, as far as the pair tells.
   bool still(int which, int end) const;
   /// Iterations that the best comparison was made over.
@@ -47,11 +49,12 @@ class StaticPairs {
  public:
   explicit StaticPairs(const CompareOptions& options) : options_(options), comparer_(options) {}
 
-  /// Takes in what was pushed to both tracks. O(log n) a new sighting; every fourth one O(log² n).
-  const PairHistory& update(const Track& a, const Track& b);
+  /// Takes in what was pushed to both tracks. O(log n) a new observation; every fourth one O(log² n).
+  const PairHistory& update(const PlaneTrack& a, const PlaneTrack& b);
 
   /// `child` relative to `parent`, from one of the comparisons of their history.
-  static Comparison oriented(const Comparison& comparison, const Track& parent, const Track& child) {
+  static Comparison oriented(const Comparison& comparison, const PlaneTrack& parent,
+                             const PlaneTrack& child) {
     return child.id() < parent.id() ? inverse(comparison) : comparison;
   }
 
@@ -66,19 +69,19 @@ class StaticPairs {
 
  private:
   PairHistory& begin(TrackId a, TrackId b);
-  void split_where_turned(const Track& a, const Track& b, Iteration start, PairHistory& pair);
+  void split_where_turned(const PlaneTrack& a, const PlaneTrack& b, Iteration start, PairHistory& pair);
   void follow(NewestShared& newest, bool due, PairHistory& pair);
   void search(NewestShared& newest, Iteration start, PairHistory& pair);
   void search_exact(NewestShared& newest, Iteration start, PairHistory& pair);
-  bool may_move_alike(const Track& a, const Track& b, int combination, const EndRun& run,
+  bool may_move_alike(const PlaneTrack& a, const PlaneTrack& b, int combination, const EndRun& run,
                       Iteration now) const;
-  void judge_runs(const Track& a, const Track& b, PairHistory& pair);
-  void find_lines(const Track& a, const Track& b, PairHistory& pair);
-  void end_run(const Track& a, const Track& b, int combination, PairHistory& pair);
-  void shorten(const Track& a, const Track& b, int combination, Iteration last, PairHistory& pair);
-  void keep_better(const Track& a, const Track& b, const Comparison& made, PairHistory& pair);
-  void drop_disproved(const Track& a, const Track& b, PairHistory& pair);
-  void save(const Track& a, const Track& b, int combination, PairHistory& pair);
+  void judge_runs(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair);
+  void find_lines(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair);
+  void end_run(const PlaneTrack& a, const PlaneTrack& b, int combination, PairHistory& pair);
+  void shorten(const PlaneTrack& a, const PlaneTrack& b, int combination, Iteration last, PairHistory& pair);
+  void keep_better(const PlaneTrack& a, const PlaneTrack& b, const Comparison& made, PairHistory& pair);
+  void drop_disproved(const PlaneTrack& a, const PlaneTrack& b, PairHistory& pair);
+  void save(const PlaneTrack& a, const PlaneTrack& b, int combination, PairHistory& pair);
 
   CompareOptions options_;
   PairComparer comparer_;
@@ -87,7 +90,7 @@ class StaticPairs {
       firm_;  // ends that stood still to a plane that is not parallel, when last
   std::map<TrackId, std::vector<TrackId>> partners_;  // with whom a track was compared
   std::map<std::pair<TrackId, KeyPoint>, Iteration>
-      corner_since_;  // ends that were taken for another place before
+      corner_since_;             // ends that were taken for another place before
   std::uint64_t disproved_ = 1;  // counts changes of it
 };
 

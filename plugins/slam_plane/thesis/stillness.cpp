@@ -15,10 +15,10 @@ constexpr Iteration kTail = 12;         // newest iterations that are looked at 
 constexpr double kWayDeviations = 6.0;  // least way of the robot, in standard deviations of the offset
 constexpr double kWayOverNoise =
     70.0;  // and in those of its mean: an end that moves by a tenth of the way moves by 2 sqrt(12) of them
-constexpr double kExactWay_m = 0.05;   // where there is no deviation
+constexpr double kExactWay_m = 0.05;  // where there is no deviation
 constexpr double kWander = 2.0;  // largest ratio of the variance of the newest ones to that of their steps
-constexpr double kOneSigmas2 = 12.0;  // squared standard deviations by which one sighting may differ
-constexpr int kWindow = 8;            // sightings in a mean of lengths
+constexpr double kOneSigmas2 = 12.0;  // squared standard deviations by which one observation may differ
+constexpr int kWindow = 8;            // observations in a mean of lengths
 constexpr double kLengthSigmas = 4.0;
 constexpr double kNoChange_m = 1e-3;
 
@@ -27,8 +27,8 @@ double square(double x) {
 }
 
 /// Where the robot is as seen from an end of the plane that it sees.
-Vec2 place_from(const Sighting& sighting, int end) {
-  return Pose2{Vec2::Zero(), sighting.direction}.unrotate(-sighting.segment.end[end]);
+Vec2 place_from(const TimedObservation& observation, int end) {
+  return Pose2{Vec2::Zero(), observation.direction}.unrotate(-observation.segment.end[end]);
 }
 
 /// Mean of some lengths, and the sum of their squared steps.
@@ -37,7 +37,7 @@ struct Lengths {
   double steps = 0.0;
 };
 
-Lengths lengths_of(const Track& track, std::size_t begin, std::size_t count) {
+Lengths lengths_of(const PlaneTrack& track, std::size_t begin, std::size_t count) {
   Lengths result;
   for (std::size_t i = begin; i < begin + count; ++i) {
     result.mean += track[i].length / static_cast<double>(count);
@@ -48,7 +48,7 @@ Lengths lengths_of(const Track& track, std::size_t begin, std::size_t count) {
 
 }  // namespace
 
-Vec2 end_offset(const Sighting& a, const Sighting& b, int combination) {
+Vec2 end_offset(const TimedObservation& a, const TimedObservation& b, int combination) {
   const Vec2 p = b.segment.end[combination % 2] - a.segment.end[combination / 2];
   return Pose2{Vec2::Zero(), a.direction}.unrotate(p);
 }
@@ -56,8 +56,8 @@ Vec2 end_offset(const Sighting& a, const Sighting& b, int combination) {
 void NewestShared::collect() {
   std::size_t i = a_.lower_bound(last_ + 1), j = b_.lower_bound(last_ + 1);
   while (i > 0 && j > 0 && count_ < kMost) {
-    const Sighting& in_a = a_[i - 1];
-    const Sighting& in_b = b_[j - 1];
+    const TimedObservation& in_a = a_[i - 1];
+    const TimedObservation& in_b = b_[j - 1];
     if (in_a.iteration == in_b.iteration) {
       in_a_[count_] = &in_a;
       in_b_[count_++] = &in_b;
@@ -95,8 +95,8 @@ StillnessTest::StillnessTest(NewestShared& newest, Iteration first, const PairSt
 void StillnessTest::look_closer() {
   Details& details = details_.emplace();
   details.oldest = 0;
-  const Track& a = newest_.a();
-  const Track& b = newest_.b();
+  const PlaneTrack& a = newest_.a();
+  const PlaneTrack& b = newest_.b();
   const Iteration size = interval_.size();
   PairSums before = up_to_first_;
   for (std::size_t i = 0; i < kParts; ++i) {
@@ -148,20 +148,20 @@ bool StillnessTest::drifts(int combination, const OffsetMoments& whole) const {
 
 /// The longest way between places of the robot that the interval shows, if the end of a stands still.
 double StillnessTest::travel(int combination) const {
-  const Track& a = newest_.a();
+  const PlaneTrack& a = newest_.a();
   std::array<Vec2, kParts> places;
   double farthest = 0.0;
   for (std::size_t i = 0; i < kParts;
-       ++i) {  // in the middle of each part: the very first and last sightings may be of something else
+       ++i) {  // in the middle of each part: the very first and last observations may be of something else
     const Iteration at = interval_.first + (2 * static_cast<Iteration>(i) + 1) * interval_.size() / 8;
-    const Sighting& sighting = a[std::min(a.lower_bound(at), a.size() - 1)];
-    places[i] = place_from(sighting, combination / 2);
+    const TimedObservation& observation = a[std::min(a.lower_bound(at), a.size() - 1)];
+    places[i] = place_from(observation, combination / 2);
     for (std::size_t j = 0; j < i; ++j) farthest = std::max(farthest, (places[i] - places[j]).norm());
   }
   return farthest;
 }
 
-/// Whether the offset wanders rather than jumps: its variance is larger than the steps from one sighting to the next explain (von Neumann's ratio). Or the newest or the oldest ones lie off it.
+/// Whether the offset wanders rather than jumps: its variance is larger than the steps from one observation to the next explain (von Neumann's ratio). Or the newest or the oldest ones lie off it.
 bool StillnessTest::wanders(int combination, const OffsetMoments& whole) const {
   const std::span<const Vec2> offsets = newest_.offsets(combination, interval_.first);
   const std::size_t count = offsets.size();
@@ -197,7 +197,7 @@ Stillness StillnessTest::judge(int combination, double max_deviation_m) {
   return travel(combination) < least_way ? Stillness::unknown : Stillness::still;
 }
 
-bool length_changes(const Track& track, const Interval& interval) {
+bool length_changes(const PlaneTrack& track, const Interval& interval) {
   const std::size_t begin = track.lower_bound(interval.first);
   const std::size_t count = track.lower_bound(interval.last + 1) - begin;
   const std::size_t window = std::min<std::size_t>(kWindow, count / 3);

@@ -11,13 +11,13 @@ namespace hallway::slam_plane::thesis {
 
 /// Standard deviations, differences and changes of length below it are none [m].
 inline constexpr double kNoDeviation_m = 1e-4;
-/// Shared sightings that tell where there is no deviation at all.
+/// Shared observations that tell where there is no deviation at all.
 inline constexpr int kExactReadings = 3;
-/// Shared sightings that tell otherwise.
+/// Shared observations that tell otherwise.
 inline constexpr int kReadings = 16;
 
 /// Offset from an end of plane a to an end of plane b in one iteration, a laid on the x axis. `combination`: 2 * end of a + end of b.
-Vec2 end_offset(const Sighting& a, const Sighting& b, int combination);
+Vec2 end_offset(const TimedObservation& a, const TimedObservation& b, int combination);
 
 /// What an interval tells of two ends.
 enum class Stillness {
@@ -26,16 +26,16 @@ enum class Stillness {
   moves,
 };
 
-/// The newest sightings that two planes share, for all tests of intervals that end with them.
+/// The newest observations that two planes share, for all tests of intervals that end with them.
 class NewestShared {
  public:
   static constexpr std::size_t kMost = 32;
 
   /// Up to an iteration; a's name before b's.
-  NewestShared(const Track& a, const Track& b, Iteration last) : a_(a), b_(b), last_(last) {}
+  NewestShared(const PlaneTrack& a, const PlaneTrack& b, Iteration last) : a_(a), b_(b), last_(last) {}
 
-  const Track& a() const { return a_; }
-  const Track& b() const { return b_; }
+  const PlaneTrack& a() const { return a_; }
+  const PlaneTrack& b() const { return b_; }
   Iteration last() const { return last_; }
   /// The offset between two ends at `last`, when both have to have been seen.
   Vec2 latest(int combination) const;
@@ -45,12 +45,12 @@ class NewestShared {
  private:
   void collect();
 
-  const Track& a_;
-  const Track& b_;
+  const PlaneTrack& a_;
+  const PlaneTrack& b_;
   Iteration last_;
   std::size_t count_ = 0;  // 0: they were not collected yet, or there are none
-  std::array<const Sighting*, kMost> in_a_;
-  std::array<const Sighting*, kMost> in_b_;
+  std::array<const TimedObservation*, kMost> in_a_;
+  std::array<const TimedObservation*, kMost> in_b_;
   std::array<std::array<Vec2, kMost>, 4> offsets_;  // by combination, where computed_ says so
   std::array<bool, 4> computed_{};
 };
@@ -60,7 +60,7 @@ class NewestShared {
 /// by a tenth of the robot's way would have been noticed.
 class StillnessTest {
  public:
-  /// Sums up the interval from `first` to the newest sightings. `newest` and `sums`, of the same two tracks, have to outlive it. O(log n).
+  /// Sums up the interval from `first` to the newest observations. `newest` and `sums`, of the same two tracks, have to outlive it. O(log n).
   StillnessTest(NewestShared& newest, Iteration first, const PairStatistics& sums);
 
   std::int64_t count() const { return whole_.count; }
@@ -70,14 +70,15 @@ class StillnessTest {
 
  private:
   static constexpr std::size_t kParts = 4;
-  static constexpr std::size_t kOutermost = 3;  // newest and oldest sightings that are looked at one by one
+  static constexpr std::size_t kOutermost =
+      3;  // newest and oldest observations that are looked at one by one
 
   /// What is looked at only where there is noise.
   struct Details {
     std::array<PairSums, kParts> parts;
-    PairSums tail;                                    // the newest sightings
-    std::array<const Sighting*, kOutermost> oldest_a;  // the first `oldest` are set
-    std::array<const Sighting*, kOutermost> oldest_b;
+    PairSums tail;                                             // the newest observations
+    std::array<const TimedObservation*, kOutermost> oldest_a;  // the first `oldest` are set
+    std::array<const TimedObservation*, kOutermost> oldest_b;
     std::size_t oldest;
   };
 
@@ -95,7 +96,7 @@ class StillnessTest {
   std::optional<Details> details_;
 };
 
-/// Whether a plane's length changes in an interval by more than it jumps from sighting to sighting: then one of its ends moves. O(log n).
-bool length_changes(const Track& track, const Interval& interval);
+/// Whether a plane's length changes in an interval by more than it jumps from observation to observation: then one of its ends moves. O(log n).
+bool length_changes(const PlaneTrack& track, const Interval& interval);
 
 }  // namespace hallway::slam_plane::thesis

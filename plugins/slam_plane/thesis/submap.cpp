@@ -7,8 +7,8 @@
 namespace hallway::slam_plane::thesis {
 namespace {
 
-std::vector<const Track*> tracks_of(const std::vector<Member>& members, const TrackBook& tracks) {
-  std::vector<const Track*> list;
+std::vector<const PlaneTrack*> tracks_of(const std::vector<Member>& members, const TrackBook& tracks) {
+  std::vector<const PlaneTrack*> list;
   list.reserve(members.size());
   for (const Member& member : members) list.push_back(&tracks[member.track]);
   return list;
@@ -20,8 +20,8 @@ std::vector<PlaceOffer> offers_of(const std::vector<Member>& members, StaticPair
   std::vector<PlaceOffer> offers;
   for (std::size_t a = 0; a < members.size(); ++a) {
     for (std::size_t b = a + 1; b < members.size(); ++b) {
-      const Track& in_a = tracks[members[a].track];
-      const Track& in_b = tracks[members[b].track];
+      const PlaneTrack& in_a = tracks[members[a].track];
+      const PlaneTrack& in_b = tracks[members[b].track];
       const int first = in_a.id() < in_b.id() ? 0 : 1;  // which plane of the pair a is
       for (const Comparison& saved : pairs.update(in_a, in_b).saved)
         append_offers({a, b, {saved.key[first], saved.key[1 - first]}}, worth(saved), offers);
@@ -32,15 +32,14 @@ std::vector<PlaceOffer> offers_of(const std::vector<Member>& members, StaticPair
 }
 
 std::size_t placed_count(const std::vector<Member>& members) {
-  return static_cast<std::size_t>(std::count_if(
-      members.begin(), members.end(), [](const Member& member) { return member.reference.valid(); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(members, [](const Member& member) { return member.reference.valid(); }));
 }
 
 }  // namespace
 
 const Member* Submap::find(TrackId track) const {
-  const auto at = std::find_if(members_.begin(), members_.end(),
-                               [&](const Member& member) { return member.track == track; });
+  const auto at = std::ranges::find(members_, track, &Member::track);
   return at == members_.end() ? nullptr : &*at;
 }
 
@@ -76,10 +75,10 @@ bool Submap::compute(StaticPairs& pairs, const TrackBook& tracks, const Options&
   return true;
 }
 
-/// If nothing can be computed any more, since the sightings are gone, it is as it was at its best (Rule 35).
+/// If nothing can be computed any more, since the observations are gone, it is as it was at its best (Rule 35).
 void Submap::take_best(const TrackBook& tracks) {
   if (placed_count(members_) > 0) return;
-  const bool found_wrong = std::any_of(best_.begin(), best_.end(), [&](const Member& saved) {
+  const bool found_wrong = std::ranges::any_of(best_, [&](const Member& saved) {
     const Iteration last = saved.comparison.interval.last;
     return saved.comparison.valid && tracks[saved.track].find(last) != nullptr &&
            tracks[saved.parent].find(last) != nullptr;
@@ -124,8 +123,7 @@ void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now)
   for (const PlaceOffer& offer : offers) reach[offer.step.parent] += offer.worth;
   std::vector<std::size_t> roots(members_.size());
   std::iota(roots.begin(), roots.end(), std::size_t{0});
-  std::stable_sort(roots.begin(), roots.end(),
-                   [&](std::size_t a, std::size_t b) { return reach[a] > reach[b]; });
+  std::ranges::stable_sort(roots, [&](std::size_t a, std::size_t b) { return reach[a] > reach[b]; });
   OfferGraph graph(offers, members_.size());
   int best = -1;
   std::size_t best_root = 0;
@@ -137,7 +135,7 @@ void Submap::reorder(StaticPairs& pairs, const TrackBook& tracks, Iteration now)
       best = score;
       best_root = root;
     }
-    if (std::find(placed_then.begin(), placed_then.end(), false) == placed_then.end()) break;
+    if (std::ranges::find(placed_then, false) == placed_then.end()) break;
   }
   order_.clear();
   if (best >= 0) order_ = graph.spanning_steps(best_root);
@@ -158,8 +156,8 @@ int Submap::score_of(const std::vector<bool>& then) const {
 void Submap::take_step(const PlaceStep& step, StaticPairs& pairs, const TrackBook& tracks, Iteration now) {
   Member& child = members_[step.child];
   Member& parent = members_[step.parent];
-  const Track& child_track = tracks[child.track];
-  const Track& parent_track = tracks[parent.track];
+  const PlaneTrack& child_track = tracks[child.track];
+  const PlaneTrack& parent_track = tracks[parent.track];
   const PairHistory& history = pairs.update(parent_track, child_track);
   for (const Comparison& saved : history.saved) {
     const Comparison comparison = StaticPairs::oriented(saved, parent_track, child_track);
@@ -190,7 +188,7 @@ void Submap::note_still(const PairHistory& history, Member& parent, Member& chil
 std::optional<TrackId> Submap::too_short(const Options& options, Iteration now) {
   for (Member& member : members_) {
     if (member.confirmed) continue;
-    const Membership judged = judge_member(member.comparison, member.joined, now, options.interval());
+    const Membership judged = judge_member(member.comparison, member.joined, now, options);
     if (judged == Membership::confirmed) member.confirmed = true;
     if (judged == Membership::too_short) return member.track;
   }

@@ -48,7 +48,7 @@ class Submap {
   /// When all members were visible together (Rule 7).
   Intervals common(const TrackBook& tracks) const;
 
-  /// Places the members relative to each other if one of them has a new sighting (thesis 4.5 ComputeXPoint). @returns whether it was done.
+  /// Places the members relative to each other if one of them has a new observation (thesis 4.5 ComputeXPoint). @returns whether it was done.
   bool compute(StaticPairs& pairs, const TrackBook& tracks, const Options& options, Iteration now);
 
   /// Members that after long enough are still compared over too few iterations (Rules 31, 32); the others are confirmed.
@@ -84,7 +84,7 @@ class Submap {
   Iteration best_at_ = -1;
   std::vector<PlaceStep> order_;
   Iteration ordered_ = -1;      // when the order was chosen; -1: never
-  Iteration computed_to_ = -1;  // newest sighting that was taken in
+  Iteration computed_to_ = -1;  // newest observation that was taken in
 };
 
 }  // namespace hallway::slam_plane::thesis

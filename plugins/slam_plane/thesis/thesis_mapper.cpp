@@ -7,14 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "slam_plane/thesis/anchoring.hpp"
 #include "slam_plane/thesis/bridge.hpp"
-#include "slam_plane/thesis/forgetting.hpp"
-#include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/map_report.hpp"
-#include "slam_plane/thesis/matcher.hpp"
 #include "slam_plane/thesis/roll_back.hpp"
 #include "slam_plane/thesis/state.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 namespace hallway::slam_plane::thesis {
 namespace {
@@ -40,19 +37,19 @@ class ThesisMapper::Engine {
   const ThesisCounters& counters() const { return counters_; }
 
   /// Takes the newest frame. A frame after one that asks for a roll back goes back, and in those that follow some iterations are done again, until they have caught up with the newest one.
-  void process(std::span<const Piece> pieces) {
+  void process(std::span<const WallObservation> given) {
     const bool goes_back = roll_back_.has_value();
     if (goes_back && waiting_.empty()) bridge_.emplace(options_, state_);
-    Bridge::Told told;
-    if (goes_back || !waiting_.empty()) told = bridge_->follow(pieces);
+    Bridge::Report reported;
+    if (goes_back || !waiting_.empty()) reported = bridge_->follow(given);
     const Iteration before = waiting_.empty() ? state_.now : waiting_.back().iteration;
-    waiting_.push_back({before + 1, {pieces.begin(), pieces.end()}, {}, {}});
+    waiting_.push_back({before + 1, {given.begin(), given.end()}, {}, {}});
     if (goes_back) roll_back();
     for (int i = 0; !goes_back && i < kIterationsPerFrame && !waiting_.empty() && !roll_back_; ++i) {
       take_next();
-      if (waiting_.empty()) told = told_now(pieces.size());
+      if (waiting_.empty()) reported = report_now(given.size());
     }
-    report(told);
+    report(reported);
   }
 
   bool ask_roll_back(const Hint& hint) {
@@ -74,12 +71,12 @@ class ThesisMapper::Engine {
 
  private:
   /// One iteration (thesis 4.5).
-  void iterate(std::span<const Piece> pieces) {
+  void iterate(std::span<const WallObservation> given) {
     ++state_.now;
-    forget_vain(options_, state_);
+    prune_stale(options_, state_);
     if (const std::vector<SubmapIndex> now_at = close_up(state_); !now_at.empty()) history_.renumber(now_at);
     match_with_map(options_, state_);
-    add_planes(pieces, options_, state_);
+    add_planes(given, options_, state_);
     manage_submaps(options_, state_);
     compute_submaps();
     build_map();
@@ -114,7 +111,7 @@ class ThesisMapper::Engine {
       return true;
     const std::vector<SubmapIndex>& links = state_.submaps[current].links;
     return (index + static_cast<std::size_t>(state_.now)) % kTurns == 0 ||
-           std::find(links.begin(), links.end(), index) != links.end();
+           std::ranges::find(links, index) != links.end();
   }
 
   std::vector<SubmapIndex> submaps_in_view() const {
@@ -125,8 +122,7 @@ class ThesisMapper::Engine {
     const SubmapIndex last = state_.submaps.size();
     for (SubmapIndex index = last; index > 0 && state_.submaps[index - 1].created() == state_.now; --index)
       result.push_back(index - 1);
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
+    make_set(result);
     return result;
   }
 
@@ -178,8 +174,8 @@ class ThesisMapper::Engine {
   void take_next() {
     const Record next = std::move(waiting_.front());
     waiting_.pop_front();
-    history_.add(next.iteration, next.pieces);
-    iterate(next.pieces);
+    history_.add(next.iteration, next.given);
+    iterate(next.given);
     const bool again = next.iteration <= newest_done_;
     if (again) ++counters_.replayed;
     const std::size_t most = kMostWaiting * static_cast<std::size_t>(options_.roll_back_limit);
@@ -198,27 +194,28 @@ class ThesisMapper::Engine {
   }
 
   /// What the last iteration tells.
-  Bridge::Told told_now(std::size_t pieces) const {
-    Bridge::Told told{location_, std::vector<WallId>(pieces, kNoWall), !state_.seen.empty()};
-    for (const Match& match : state_.matches) told.associations[match.piece] = wall_of(match.track, state_);
-    return told;
+  Bridge::Report report_now(std::size_t given) const {
+    Bridge::Report reported{location_, std::vector<LandmarkId>(given, kNoLandmark), !state_.seen.empty()};
+    for (const Match& match : state_.matches)
+      reported.associations[match.observation] = wall_of(match.track, state_);
+    return reported;
   }
 
-  void report(const Bridge::Told& told) {
-    const std::optional<Alignment>& location = told.location;
+  void report(const Bridge::Report& reported) {
+    const std::optional<Alignment>& location = reported.location;
     answer_.has_pose = location.has_value();
-    answer_.lost = location ? Lost::no : told.seen ? Lost::nothing_known : Lost::nothing_seen;
-    answer_.undetermined = Vec2::Zero();
+    answer_.lost = location ? Lost::no : reported.seen ? Lost::nothing_known : Lost::nothing_seen;
+    answer_.unobservable = Vec2::Zero();
     if (location) {
       answer_.T_map_robot = location->T_to_from;
-      answer_.undetermined = location->determined ? Vec2(Vec2::Zero()) : location->open;
+      answer_.unobservable = location->determined ? Vec2(Vec2::Zero()) : location->open;
       answer_.covariance = covariance_of(*location);
     }
-    answer_.associations = told.associations;
+    answer_.associations = reported.associations;
     Counters& counters = answer_.counters;
     ++counters.iterations;
     if (!location) ++counters.lost;
-    counters.walls = count_walls(state_);
+    counters.landmarks = state_.map.valid_planes();
     counters.submaps = state_.submaps.size() - state_.dropped_submaps;
     counters.degenerate = degenerate_;
     counters_.comparisons = state_.pairs.comparer().counters().comparisons;
@@ -244,11 +241,9 @@ ThesisMapper::ThesisMapper(const Options& options) {
   engine_ = std::make_unique<Engine>(options);
 }
 ThesisMapper::~ThesisMapper() = default;
-ThesisMapper::ThesisMapper(ThesisMapper&&) noexcept = default;
-ThesisMapper& ThesisMapper::operator=(ThesisMapper&&) noexcept = default;
 
-const Answer& ThesisMapper::process(std::span<const Piece> pieces, const View&) {
-  engine_->process(pieces);
+const Answer& ThesisMapper::process(std::span<const WallObservation> given, const View&) {
+  engine_->process(given);
   return engine_->answer();
 }
 
@@ -267,10 +262,6 @@ bool ThesisMapper::roll_back(const Hint& hint) {
 
 void ThesisMapper::reset() {
   engine_ = std::make_unique<Engine>(Options(engine_->options()));
-}
-
-const Options& ThesisMapper::options() const {
-  return engine_->options();
 }
 
 ThesisCounters ThesisMapper::counters() const {

@@ -28,12 +28,10 @@ class ThesisMapper {
   /// Throws std::invalid_argument when an option is out of range.
   explicit ThesisMapper(const Options& options);
   ~ThesisMapper();
-  ThesisMapper(ThesisMapper&&) noexcept;
-  ThesisMapper& operator=(ThesisMapper&&) noexcept;
 
   /// Takes one frame, as slam_plane::Mapper::process does. `view` is not looked at: which ends are true is found from how they move.
-  /// The first frame with a piece starts the map and has the identity pose. The answer lives until the next call.
-  const Answer& process(std::span<const Piece> pieces, const View& view);
+  /// The first frame with an observation starts the map and has the identity pose. The answer lives until the next call.
+  const Answer& process(std::span<const WallObservation> given, const View& view);
 
   /// The map as it stands; after a roll back that of the iteration that was done again last. O(map).
   Map map() const;
@@ -47,7 +45,6 @@ class ThesisMapper {
   /// Forgets everything but the options.
   void reset();
 
-  const Options& options() const;
   ThesisCounters counters() const;
 
  private:

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "slam_plane/core/types.hpp"
-#include "slam_plane/thesis/track.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 
 namespace hallway::slam_plane::thesis {
 
@@ -20,29 +20,29 @@ using SubmapIndex = std::size_t;
 /// roll back takes it away; its *name* is what it is called outside, and is never another one's.
 class TrackBook {
  public:
-  static constexpr std::size_t kNoPiece = ~std::size_t{0};
+  static constexpr std::size_t kNoObservation = ~std::size_t{0};
 
   explicit TrackBook(const TrackOptions& options) : options_(options) {}
 
-  /// A new track that begins in an iteration, with a piece of it. One that begins again where it began before a roll back has the name that it had. O(log(names kept)).
-  Track& create(Iteration now, std::size_t piece = kNoPiece) {
+  /// A new track that begins in an iteration, with an observation of it. One that begins again where it began before a roll back has the name that it had. O(log(names kept)).
+  PlaneTrack& create(Iteration now, std::size_t observation = kNoObservation) {
     if (free_.empty()) {
       free_.push_back(entries_.size());
-      entries_.emplace_back(Entry{Track(entries_.size(), options_), now, 0, {}, {}});
+      entries_.emplace_back(Entry{PlaneTrack(entries_.size(), options_), now, 0, {}, {}});
     }
     Entry& entry = entries_[free_.back()];
     free_.pop_back();
     entry.begun = now;
-    entry.name = name_of(now, piece);
+    entry.name = name_of(now, observation);
     return entry.track;
   }
 
   /// Highest id ever given, plus one. Some may be free.
   std::size_t size() const { return entries_.size(); }
-  Track& operator[](TrackId id) { return entries_[id].track; }
-  const Track& operator[](TrackId id) const { return entries_[id].track; }
+  PlaneTrack& operator[](TrackId id) { return entries_[id].track; }
+  const PlaneTrack& operator[](TrackId id) const { return entries_[id].track; }
 
-  WallId name(TrackId id) const { return entries_[id].name; }
+  LandmarkId name(TrackId id) const { return entries_[id].name; }
   /// Whether there is no track of this id now.
   bool is_free(TrackId id) const { return entries_[id].begun == kFree; }
 
@@ -56,7 +56,7 @@ class TrackBook {
 
   /// The track is no more, and its id may be given to another one.
   void release(TrackId id) {
-    entries_[id] = Entry{Track(id, options_), kFree, 0, {}, {}};
+    entries_[id] = Entry{PlaneTrack(id, options_), kFree, 0, {}, {}};
     free_.push_back(id);
   }
 
@@ -72,13 +72,13 @@ class TrackBook {
   }
 
   /// The names of all tracks, and of those that may begin again after a roll back, ascending. O(n log n).
-  std::vector<WallId> names() const {
-    std::vector<WallId> result;
+  std::vector<LandmarkId> names() const {
+    std::vector<LandmarkId> result;
     for (const Entry& entry : entries_) {
       if (entry.begun != kFree) result.push_back(entry.name);
     }
     for (const auto& [where, name] : names_) result.push_back(name);
-    std::sort(result.begin(), result.end());
+    std::ranges::sort(result);
     return result;
   }
 
@@ -91,25 +91,25 @@ class TrackBook {
   static constexpr Iteration kFree = -1;
 
   struct Entry {
-    Track track;
+    PlaneTrack track;
     Iteration begun;  // or kFree
-    WallId name;
+    LandmarkId name;
     std::vector<SubmapIndex> submaps;
     std::vector<SubmapIndex> charted;
   };
 
-  WallId name_of(Iteration now, std::size_t piece) {
-    if (piece == kNoPiece) return next_name_++;
-    const auto [found, fresh] = names_.try_emplace({now, piece}, next_name_);
+  LandmarkId name_of(Iteration now, std::size_t observation) {
+    if (observation == kNoObservation) return next_name_++;
+    const auto [found, fresh] = names_.try_emplace({now, observation}, next_name_);
     if (fresh) ++next_name_;
     return found->second;
   }
 
   TrackOptions options_;
-  std::deque<Entry> entries_;                                  // what points to a track stays good
-  std::vector<TrackId> free_;                                  // the last one is given next
-  std::map<std::pair<Iteration, std::size_t>, WallId> names_;  // by where a track began
-  WallId next_name_ = 0;
+  std::deque<Entry> entries_;                                      // what points to a track stays good
+  std::vector<TrackId> free_;                                      // the last one is given next
+  std::map<std::pair<Iteration, std::size_t>, LandmarkId> names_;  // by where a track began
+  LandmarkId next_name_ = 0;
 };
 
 }  // namespace hallway::slam_plane::thesis

@@ -14,8 +14,8 @@ enum class Trend : unsigned char { steady, growing, shrinking };
 /// its lowest, by the hysteresis. A value, so that a roll back can put back an old one.
 class TrendDetector {
  public:
-  /// Takes the newest sighting. `average` [m]: of its length and those before it in the window, less the longest and the shortest one; `peak` and `dip`: iterations of the longest and
-  /// of the shortest sighting in the window, the latest of equal ones.
+  /// Takes the newest observation. `average` [m]: of its length and those before it in the window, less the longest and the shortest one; `peak` and `dip`: iterations of the longest and
+  /// of the shortest observation in the window, the latest of equal ones.
   ///
   /// @returns the last iteration of the phase that ended, if the plane is found to have turned.
   std::optional<Iteration> add(double average, Iteration peak, Iteration dip, double hysteresis);

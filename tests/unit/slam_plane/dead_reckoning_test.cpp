@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep_m = 0.04;
 
-PoseInformation told(double sigma_x, double sigma_y) {
+PoseInformation report_map(double sigma_x, double sigma_y) {
   PoseInformation information;
   information.matrix.diagonal() = Vec3(1.0 / (sigma_x * sigma_x), 1.0 / (sigma_y * sigma_y), 1e5);
   information.open = 0;
@@ -22,7 +22,7 @@ PoseInformation told(double sigma_x, double sigma_y) {
 
 /// Along x nothing but rounding is told, y is.
 PoseInformation open_x(double sigma_y) {
-  PoseInformation information = told(1e3, sigma_y);
+  PoseInformation information = report_map(1e3, sigma_y);
   information.open = 1;
   information.direction = Vec2(1, 0);
   return information;
@@ -48,10 +48,10 @@ struct Way {
 
 TEST(DeadReckoning, KnowsTheWayRoundABendWithoutNoise) {
   Way way;
-  way.answer(Vec2::Zero(), told(1e-3, 1e-3));
+  way.answer(Vec2::Zero(), report_map(1e-3, 1e-3));
   for (int i = 0; i < 40; ++i) {
     way.go(0.0);
-    way.answer(Vec2::Zero(), told(1e-3, 1e-3));
+    way.answer(Vec2::Zero(), report_map(1e-3, 1e-3));
   }
   for (int i = 0; i < 30; ++i) {  // a bend of half a turn: x is told by the step alone
     way.go(0.1);
@@ -68,16 +68,16 @@ TEST(DeadReckoning, GoesOnFromAllFramesAndNotFromTheLast) {
   double sum2 = 0.0;
   for (std::uint32_t run = 0; run < 50; ++run) {
     Way way;
-    way.answer(Vec2::Zero(), told(0.01, 0.01));
+    way.answer(Vec2::Zero(), report_map(0.01, 0.01));
     for (std::uint32_t i = 0; i < 60; ++i) {
       way.go(0.0);
       const double sigma = i < 50 ? 0.01 : 0.05;
       way.answer(Vec2(0.01 * random.normal(run, 2 * i), sigma * random.normal(run, 2 * i + 1)),
-                 told(0.01, sigma));
+                 report_map(0.01, sigma));
     }
     for (int i = 0; i < 50; ++i) {
       way.go(0.0);
-      PoseInformation information = told(0.02, 1e3);
+      PoseInformation information = report_map(0.02, 1e3);
       information.open = 1;
       information.direction = Vec2(0, 1);
       way.answer(Vec2(0, way.reckoning.place().y() - way.truth.t.y()), information);
@@ -89,19 +89,19 @@ TEST(DeadReckoning, GoesOnFromAllFramesAndNotFromTheLast) {
 
 TEST(DeadReckoning, BeginsAnewWhereFramesContradict) {
   Way way;
-  way.answer(Vec2::Zero(), told(0.01, 0.01));
+  way.answer(Vec2::Zero(), report_map(0.01, 0.01));
   for (int i = 0; i < 40; ++i) {
     way.go(0.0);
-    way.answer(Vec2::Zero(), told(0.01, 0.01));
+    way.answer(Vec2::Zero(), report_map(0.01, 0.01));
   }
   way.go(0.0);
-  way.answer(Vec2(1.0, 0.5), told(0.01, 0.01));  // carried
+  way.answer(Vec2(1.0, 0.5), report_map(0.01, 0.01));  // carried
   EXPECT_NEAR((way.reckoning.place() - way.truth.t - Vec2(1.0, 0.5)).norm(), 0.0, 1e-9);
 }
 
 TEST(DeadReckoning, MovesWithItsSubmap) {
   DeadReckoning reckoning;
-  reckoning.correct(Pose2::at({1, 2}, 0.3), told(0.01, 0.01));
+  reckoning.correct(Pose2::at({1, 2}, 0.3), report_map(0.01, 0.01));
   reckoning.keep(Pose2::at({0.5, 0}, 0.1), Pose2::at({1, 2}, 0.3));
   const Pose2 moved = Pose2::at({0.2, -0.1}, 0.05) * Pose2::at({0.5, 0}, 0.1);
   reckoning.predict(moved, Vec2(1, 0), kStep_m);

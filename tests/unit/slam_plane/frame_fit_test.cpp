@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "unit/slam_plane/pieces.hpp"
+#include "unit/slam_plane/observations.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
@@ -23,7 +23,7 @@ WallEstimate known(const Vec2& a, const Vec2& b, bool corners) {
 
 /// Fits one frame at `truth` to walls, starting from `start`.
 struct Fitted {
-  std::vector<Sighting> frame;
+  std::vector<AssociatedObservation> frame;
   std::deque<WallEstimate> walls;
   void wall(const Pose2& truth, const Vec2& a, const Vec2& b, bool corners) {
     walls.push_back(known(a, b, corners));
@@ -107,7 +107,7 @@ TEST(FrameFit, EndThatIsFarOffDoesNotCount) {
 
 TEST(FrameFit, OwnInformationNeedsNoWalls) {
   const FrameFit fit{Options{}};
-  std::vector<Sighting> frame{sighting({1, 2}, {8, 2}), sighting({8, -2}, {1, -2})};
+  std::vector<AssociatedObservation> frame{observation({1, 2}, {8, 2}), observation({8, -2}, {1, -2})};
   EXPECT_FALSE(fit.own_information(frame).determined());
   frame[0].corner[kEndA] = true;
   EXPECT_TRUE(fit.own_information(frame).determined());

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/random.hpp"
-#include "unit/slam_plane/pieces.hpp"
+#include "unit/slam_plane/observations.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
@@ -32,7 +32,7 @@ WallMap displaced_map(std::uint64_t seed, int n_submaps) {
       map.join(map.active(), w, true);
       for (std::uint32_t k = 0; k < 3; ++k) {
         const Vec2 off(0.01 * random.normal(s, 100 * i + k), 0.01 * random.normal(s, 100 * i + k + 50));
-        const Sighting seen_now =
+        const AssociatedObservation seen_now =
             seen(truth, corners[(w + 1) % kWalls] + off, corners[w] + off, i % 2 == 0, true);
         map.observe(map.walls[w].active_member, Pose2{}, seen_now, seen_now.corner);
       }
@@ -67,20 +67,20 @@ double cost(const WallMap& map) {
       const Pose2 T = submap.T_map_submap.inverse();
       const WallForm form =
           submap.members[at.member].evidence.form({T * basis.origin, T.rotate(basis.direction)}, map.noise());
-      const double d = form.h_tt * form.h_oo - form.h_to * form.h_to;
-      own += (form.h_oo * form.b_t * form.b_t - 2 * form.h_to * form.b_t * form.b_o +
-              form.h_tt * form.b_o * form.b_o) /
+      const double d = form.h(0, 0) * form.h(1, 1) - form.h(0, 1) * form.h(0, 1);
+      own += (form.h(1, 1) * form.b[0] * form.b[0] - 2 * form.h(0, 1) * form.b[0] * form.b[1] +
+              form.h(0, 0) * form.b[1] * form.b[1]) /
              d;
-      if (form.e_aa > 0.0) own += form.f_a * form.f_a / form.e_aa;
-      if (form.e_bb > 0.0) own += form.f_b * form.f_b / form.e_bb;
+      if (form.e(0, 0) > 0.0) own += form.f[0] * form.f[0] / form.e(0, 0);
+      if (form.e(1, 1) > 0.0) own += form.f[1] * form.f[1] / form.e(1, 1);
       all.add(form);
     }
-    const double d = all.h_tt * all.h_oo - all.h_to * all.h_to;
-    sum +=
-        own -
-        (all.h_oo * all.b_t * all.b_t - 2 * all.h_to * all.b_t * all.b_o + all.h_tt * all.b_o * all.b_o) / d;
-    if (all.e_aa > 0.0) sum -= all.f_a * all.f_a / all.e_aa;
-    if (all.e_bb > 0.0) sum -= all.f_b * all.f_b / all.e_bb;
+    const double d = all.h(0, 0) * all.h(1, 1) - all.h(0, 1) * all.h(0, 1);
+    sum += own - (all.h(1, 1) * all.b[0] * all.b[0] - 2 * all.h(0, 1) * all.b[0] * all.b[1] +
+                  all.h(0, 0) * all.b[1] * all.b[1]) /
+                     d;
+    if (all.e(0, 0) > 0.0) sum -= all.f[0] * all.f[0] / all.e(0, 0);
+    if (all.e(1, 1) > 0.0) sum -= all.f[1] * all.f[1] / all.e(1, 1);
   }
   return sum;
 }
@@ -136,7 +136,8 @@ TEST(MapStep, WhatNothingDeterminesIsNotMoved) {
     map.activate(map.add_submap(Pose2::at({0.3 * s, 0.1 * s}, 0.0), false, 0));
     for (int k = 0; k < 2; ++k) {
       map.join(map.active(), w[k], true);
-      const Sighting seen_now = k == 0 ? seen(Pose2{}, {1, 2}, {9, 2}) : seen(Pose2{}, {9, -2}, {1, -2});
+      const AssociatedObservation seen_now =
+          k == 0 ? seen(Pose2{}, {1, 2}, {9, 2}) : seen(Pose2{}, {9, -2}, {1, -2});
       map.observe(map.walls[w[k]].active_member, Pose2{}, seen_now, seen_now.corner);
     }
   }
@@ -171,7 +172,7 @@ TEST(MapStep, StepOfAPartLeavesTheRest) {
   WallMap map = displaced_map(5, 12);
   map.activate(9);
   const std::vector<SubmapRecord> before = map.submaps;
-  const Surroundings part = surroundings(map, 4);
+  const SubmapNeighbourhood part = neighbourhood(map, 4);
   ASSERT_EQ(part.submaps.size(), 4u);
   EXPECT_EQ(part.submaps.front(), 9u);
   MapStep step;
@@ -189,7 +190,7 @@ TEST(MapStep, WholeMapIsAllThatThereIs) {
   WallMap map = displaced_map(6, 9);
   map.add_submap(Pose2{}, false, 0);  // which nothing hangs together with
   map.activate(3);
-  const Surroundings all = whole_map(map);
+  const SubmapNeighbourhood all = whole_map(map);
   EXPECT_EQ(all.submaps.size(), 10u);
   EXPECT_EQ(all.submaps.front(), 3u);
   EXPECT_EQ(all.submaps.back(), 9u);

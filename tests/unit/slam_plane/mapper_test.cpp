@@ -22,24 +22,24 @@ TEST(Mapper, NothingSeenIsLostAndStartsNothing) {
 TEST(Mapper, PiecesThatAreNoneAreSkipped) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  const std::vector<Piece> bad{{{nan, 1}, {5, -1}, 0, 2},
-                               {{5, inf}, {5, -1}, 0, 2},
-                               {{5, -1}, {5, 1}, 0, 2},
-                               {{1e7, 1}, {5, -1}, 0, 2},
-                               {{5, 1}, {5, 1}, 0, 2}};
+  const std::vector<WallObservation> bad{{{nan, 1}, {5, -1}, 0, 2},
+                                         {{5, inf}, {5, -1}, 0, 2},
+                                         {{5, -1}, {5, 1}, 0, 2},
+                                         {{1e7, 1}, {5, -1}, 0, 2},
+                                         {{5, 1}, {5, 1}, 0, 2}};
   Mapper mapper{Options{}};
   const Answer& answer = mapper.process(bad, View{});
   EXPECT_FALSE(answer.has_pose);
-  for (const WallId id : answer.associations) EXPECT_EQ(id, kNoWall);
+  for (const LandmarkId id : answer.associations) EXPECT_EQ(id, kNoLandmark);
 }
 
 TEST(Mapper, OneWallTellsWhichDirectionIsOpen) {
   Mapper mapper{Options{}};
-  const std::vector<Piece> one{{{5, 5}, {5, -5}, 0, 2.5}};
+  const std::vector<WallObservation> one{{{5, 5}, {5, -5}, 0, 2.5}};
   mapper.process(one, View{});
   const Answer& answer = mapper.process(one, View{});
   ASSERT_TRUE(answer.has_pose);
-  EXPECT_NEAR(std::abs(answer.undetermined.y()), 1.0, 1e-6);
+  EXPECT_NEAR(std::abs(answer.unobservable.y()), 1.0, 1e-6);
   EXPECT_GT(answer.covariance(1, 1), 0.5);
   EXPECT_LT(answer.covariance(0, 0), 0.01);
 }
@@ -57,14 +57,14 @@ TEST(Mapper, SameFramesGiveTheSameBits) {
   const auto frames = observe(scene, sensor, 1);
   Mapper a{Options{}}, b{Options{}};
   for (const TrueFrame& frame : frames) {
-    const Answer& x = a.process(frame.pieces, sensor.view);
-    const Answer& y = b.process(frame.pieces, sensor.view);
+    const Answer& x = a.process(frame.observations, sensor.view);
+    const Answer& y = b.process(frame.observations, sensor.view);
     EXPECT_EQ(x.T_map_robot.t, y.T_map_robot.t);
     EXPECT_EQ(x.associations, y.associations);
   }
   b.reset();
   EXPECT_TRUE(b.map().walls.empty());
-  b.process(frames[0].pieces, sensor.view);
+  b.process(frames[0].observations, sensor.view);
   EXPECT_EQ(b.map().walls.size(), 4u);
 }
 
@@ -74,8 +74,8 @@ TEST(Mapper, OrderOfPiecesSaysNothing) {
   sensor.view.horizontal_fov_rad = 7.0;
   Mapper a{Options{}}, b{Options{}};
   for (const TrueFrame& frame : observe(scene, sensor, 2)) {
-    std::vector<Piece> reversed(frame.pieces.rbegin(), frame.pieces.rend());
-    const Pose2 T = a.process(frame.pieces, sensor.view).T_map_robot;
+    std::vector<WallObservation> reversed(frame.observations.rbegin(), frame.observations.rend());
+    const Pose2 T = a.process(frame.observations, sensor.view).T_map_robot;
     EXPECT_NEAR((b.process(reversed, sensor.view).T_map_robot.t - T.t).norm(), 0.0, 1e-9);
   }
 }

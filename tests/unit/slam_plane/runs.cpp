@@ -32,24 +32,24 @@ Mapping run(const Scene& scene, const std::vector<TrueFrame>& frames, const Sens
             const Options& options, bool with_batch) {
   Mapper mapper(options);
   Mapping result;
-  std::vector<std::vector<WallId>> associations;
-  std::map<WallId, std::map<int, int>> votes;
+  std::vector<std::vector<LandmarkId>> associations;
+  std::map<LandmarkId, std::map<int, int>> votes;
   std::vector<int> seen(scene.walls.size(), 0);
   for (const TrueFrame& frame : frames) {
-    const Answer& answer = mapper.process(frame.pieces, sensor.view);
+    const Answer& answer = mapper.process(frame.observations, sensor.view);
     result.counters = answer.counters;
     if (!answer.has_pose) ++result.lost;
-    const Pose2 told = frames.front().T_world_robot * answer.T_map_robot;
-    result.online2 += answer.has_pose ? (told.t - frame.T_world_robot.t).squaredNorm() : 0.0;
+    const Pose2 report_map = frames.front().T_world_robot * answer.T_map_robot;
+    result.online2 += answer.has_pose ? (report_map.t - frame.T_world_robot.t).squaredNorm() : 0.0;
     associations.push_back(answer.associations);
-    for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
+    for (std::size_t i = 0; i < frame.observations.size(); ++i) {
       if (frame.wall[i] >= 0) ++seen[static_cast<std::size_t>(frame.wall[i])];
-      if (answer.associations[i] != kNoWall) ++votes[answer.associations[i]][frame.wall[i]];
+      if (answer.associations[i] != kNoLandmark) ++votes[answer.associations[i]][frame.wall[i]];
     }
   }
   result.map = mapper.refined_map();
 
-  std::map<WallId, int> majority;
+  std::map<LandmarkId, int> majority;
   for (const auto& [id, counts] : votes) {
     int best = -1, most = 0;
     for (const auto& [wall, count] : counts) {
@@ -64,14 +64,14 @@ Mapping run(const Scene& scene, const std::vector<TrueFrame>& frames, const Sens
 
   Solution solution;
   solution.walls.resize(scene.walls.size());
-  std::vector<std::vector<Wall>> parts(scene.walls.size());
+  std::vector<std::vector<WallLandmark>> parts(scene.walls.size());
   std::vector<std::uint32_t> observations(scene.walls.size(), 0);
-  for (const Wall& wall : result.map.walls) {
-    if (wall.status != WallStatus::mapped) continue;
+  for (const WallLandmark& wall : result.map.walls) {
+    if (wall.status != LandmarkStatus::mapped) continue;
     const int truth = majority.count(wall.id) != 0 ? majority[wall.id] : -1;
     if (truth < 0) continue;
     const auto w = static_cast<std::size_t>(truth);
-    const auto overlaps = [&](const Wall& other) {
+    const auto overlaps = [&](const WallLandmark& other) {
       const Vec2 d = (other.b - other.a).normalized();
       const double length = (other.b - other.a).norm();
       return std::min(length, d.dot(wall.b - other.a)) - std::max(0.0, d.dot(wall.a - other.a)) > kOverlap_m;

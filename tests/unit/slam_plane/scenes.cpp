@@ -102,7 +102,7 @@ struct Noise3 {
   double across, turn, along, end_a, end_b;
 };
 
-Piece piece_with_noise(const Vec2& a, const Vec2& b, const Noise3& noise) {
+WallObservation observation_with_noise(const Vec2& a, const Vec2& b, const Noise3& noise) {
   const Vec2 d = (b - a).normalized();
   const Vec2 middle = 0.5 * (a + b) + noise.across * left_of(d);
   const Vec2 turned = Pose2::at(Vec2::Zero(), noise.turn).rotate(d);
@@ -272,9 +272,9 @@ std::vector<TrueFrame> observe(const Scene& scene, const Sensor& sensor, std::ui
             sensor.noise_along_m * random.normal(i, key + 2), sensor.noise_end_m * random.normal(i, key + 3),
             sensor.noise_end_m * random.normal(i, key + 4)};
         if (random.uniform(i, key + 5) < sensor.missed) continue;
-        const Piece piece = piece_with_noise(p, q, noise);
-        if (cross(piece.a, piece.b) >= 0.0) continue;
-        frame.pieces.push_back(piece);
+        const WallObservation observation = observation_with_noise(p, q, noise);
+        if (cross(observation.a, observation.b) >= 0.0) continue;
+        frame.observations.push_back(observation);
         frame.wall.push_back(static_cast<int>(w));
         frame.corner[kEndA].push_back(from == 0.0);
         frame.corner[kEndB].push_back(to == 1.0);
@@ -285,7 +285,7 @@ std::vector<TrueFrame> observe(const Scene& scene, const Sensor& sensor, std::ui
       const double angle = random.uniform(i, 5000003, -0.7, 0.7) - std::numbers::pi / 2.0;
       const Vec2 half =
           Pose2::at(Vec2::Zero(), angle).rotate(Vec2(random.uniform(i, 5000004, 0.1, 1.0), 0.0));
-      frame.pieces.push_back({middle - half, middle + half, 0.0, 2.5});
+      frame.observations.push_back({middle - half, middle + half, 0.0, 2.5});
       frame.wall.push_back(-1);
       frame.corner[kEndA].push_back(false);
       frame.corner[kEndB].push_back(false);

@@ -54,16 +54,16 @@ struct Sensor {
   double noise_angle_rad = 0.3 * 0.017453292519943295;
   double noise_end_m = 0.005;
   double noise_along_m = 0.0;
-  double least_length_m = 0.05;  ///< shorter pieces are not told
-  double missed = 0.0;           ///< share of pieces that are not told
-  double spurious = 0.0;         ///< pieces a frame that are of no wall
+  double least_length_m = 0.05;  ///< shorter observations are not told
+  double missed = 0.0;           ///< share of observations that are not told
+  double spurious = 0.0;         ///< observations a frame that are of no wall
 };
 
 /// One frame, with what a mapper is not told.
 struct TrueFrame {
   Pose2 T_world_robot;
-  std::vector<Piece> pieces;
-  std::vector<int> wall;        ///< of each piece, -1 for a spurious one
+  std::vector<WallObservation> observations;
+  std::vector<int> wall;        ///< of each observation, -1 for a spurious one
   std::vector<bool> corner[2];  ///< that the end is the wall's
 };
 

@@ -90,8 +90,9 @@ void expect_one_dynamic(const Scene& scene, const Sensor& sensor, double most_m)
   for (int seed = 1; seed <= seeds; ++seed) {
     const Mapping result =
         run(scene, sensor, options_for(sensor), static_cast<std::uint64_t>(200 + seed), false);
-    const auto found = std::count_if(result.map.walls.begin(), result.map.walls.end(),
-                                     [](const Wall& wall) { return wall.status == WallStatus::dynamic; });
+    const auto found =
+        std::count_if(result.map.walls.begin(), result.map.walls.end(),
+                      [](const WallLandmark& wall) { return wall.status == LandmarkStatus::dynamic; });
     EXPECT_EQ(found, 1) << "seed " << seed;
     EXPECT_LE(result.missing, 1) << "seed " << seed;  // the one that moves
     gone += result.missing;

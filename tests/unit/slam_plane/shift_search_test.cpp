@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/slam_plane/pieces.hpp"
+#include "unit/slam_plane/observations.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
@@ -19,7 +19,7 @@ struct Displaced {
     const Index w = map.add_wall(epoch, 1);
     map.activate(map.add_submap(Pose2{}, false, epoch));
     map.join(map.active(), w, true);
-    const Sighting s = seen(Pose2{}, a, b, corner_a, corner_b);
+    const AssociatedObservation s = seen(Pose2{}, a, b, corner_a, corner_b);
     for (int i = 0; i < 6; ++i) map.observe(map.walls[w].active_member, Pose2{}, s, s.corner);
     map.update(w);
     if (epoch > 0) young.push_back(w);
@@ -29,8 +29,8 @@ struct Displaced {
     add(a, b, 0, corner_a, corner_b);
     add(a + Vec2(off, 0), b + Vec2(off, 0), 1, corner_a, corner_b);
   }
-  bool find(Vec2& step, std::vector<Twins>& twins) {
-    return ShiftSearch(Options{}).find(map, young, kGap, step, twins);
+  bool find(Vec2& step, std::vector<Duplicates>& duplicates) {
+    return ShiftSearch(Options{}).find(map, young, kGap, step, duplicates);
   }
 };
 
@@ -40,10 +40,10 @@ TEST(ShiftSearch, WallsAcrossTheGapTellTheDisplacement) {
   d.add_both({6.5, 2}, {6.5, 1}, 0.8, true, true);
   d.add_both({9, -1}, {9, -2}, 0.8, true, true);
   Vec2 step;
-  std::vector<Twins> twins;
-  ASSERT_TRUE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  ASSERT_TRUE(d.find(step, duplicates));
   EXPECT_NEAR((step - Vec2(-0.8, 0)).norm(), 0.0, 1e-6);
-  EXPECT_EQ(twins.size(), 3u);
+  EXPECT_EQ(duplicates.size(), 3u);
 }
 
 TEST(ShiftSearch, CornersOfWallsAlongTheGapTellItToo) {
@@ -53,10 +53,10 @@ TEST(ShiftSearch, CornersOfWallsAlongTheGapTellItToo) {
   d.add_both({8, 1}, {8, 0}, -0.6, true, true);
   d.add_both({9, 3}, {9, 2}, -0.6, true, true);
   Vec2 step;
-  std::vector<Twins> twins;
-  ASSERT_TRUE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  ASSERT_TRUE(d.find(step, duplicates));
   EXPECT_NEAR((step - Vec2(0.6, 0)).norm(), 0.0, 1e-6);
-  EXPECT_EQ(twins.size(), 4u);
+  EXPECT_EQ(duplicates.size(), 4u);
 }
 
 TEST(ShiftSearch, OneWallWithACornerIsTheOnlyOneThatItCanBe) {
@@ -64,10 +64,10 @@ TEST(ShiftSearch, OneWallWithACornerIsTheOnlyOneThatItCanBe) {
   const Index old = d.add({5, 1}, {5, -1}, 0, true, false);
   const Index young = d.add({5.1, 1}, {5.1, 0}, 1, true, false);
   double shift = 0.0;
-  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, young, kGap, shift), old);
+  EXPECT_EQ(ShiftSearch(Options{}).only_duplicate(d.map, young, kGap, shift), old);
   EXPECT_NEAR(shift, -0.1, 1e-9);
   d.add({6.5, 1}, {6.5, -1}, 0, true, false);  // it may as well be that one
-  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, young, kGap, shift), kNone);
+  EXPECT_EQ(ShiftSearch(Options{}).only_duplicate(d.map, young, kGap, shift), kNone);
 }
 
 TEST(ShiftSearch, OneWallWithoutACornerTellsNothing) {
@@ -76,8 +76,8 @@ TEST(ShiftSearch, OneWallWithoutACornerTellsNothing) {
   const Index open = d.add({5.1, 0.9}, {5.1, 0}, 1, false, false);
   const Index elsewhere = d.add({5.1, 0.5}, {5.1, -0.9}, 1, true, false);  // its corner is not there
   double shift = 0.0;
-  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, open, kGap, shift), kNone);
-  EXPECT_EQ(ShiftSearch(Options{}).only_twin(d.map, elsewhere, kGap, shift), kNone);
+  EXPECT_EQ(ShiftSearch(Options{}).only_duplicate(d.map, open, kGap, shift), kNone);
+  EXPECT_EQ(ShiftSearch(Options{}).only_duplicate(d.map, elsewhere, kGap, shift), kNone);
 }
 
 TEST(ShiftSearch, TooFewWallsTellNothing) {
@@ -85,8 +85,8 @@ TEST(ShiftSearch, TooFewWallsTellNothing) {
   d.add_both({5, 1}, {5, 0}, 0.8);
   d.add_both({2, 3}, {8, 3}, 0.8);
   Vec2 step;
-  std::vector<Twins> twins;
-  EXPECT_FALSE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  EXPECT_FALSE(d.find(step, duplicates));
 }
 
 TEST(ShiftSearch, NarrowGapAsksForLess) {
@@ -96,9 +96,9 @@ TEST(ShiftSearch, NarrowGapAsksForLess) {
   d.add_both({2, -3}, {8, -3}, 0.2, true, true);
   for (int i = 0; i < 5; ++i) d.add({3.0 + i, 6}, {3.5 + i, 6}, 1, false, false);  // not seen before
   Vec2 step;
-  std::vector<Twins> twins;
-  EXPECT_FALSE(d.find(step, twins));
-  ASSERT_TRUE(ShiftSearch(Options{}).find(d.map, d.young, {1, Vec2(1, 0), 0.3}, step, twins));
+  std::vector<Duplicates> duplicates;
+  EXPECT_FALSE(d.find(step, duplicates));
+  ASSERT_TRUE(ShiftSearch(Options{}).find(d.map, d.young, {1, Vec2(1, 0), 0.3}, step, duplicates));
   EXPECT_NEAR((step - Vec2(-0.2, 0)).norm(), 0.0, 1e-6);
 }
 
@@ -108,8 +108,8 @@ TEST(ShiftSearch, WhatRepeatsItselfIsWaitedFor) {
   for (int i = 1; i < 3; ++i) d.add({5.4 + i, 1}, {5.4 + i, 0}, 1, false, false);
   d.add({5.4, 1}, {5.4, 0}, 1, false, false);
   Vec2 step;
-  std::vector<Twins> twins;
-  EXPECT_FALSE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  EXPECT_FALSE(d.find(step, duplicates));
 }
 
 TEST(ShiftSearch, CornersThatContradictForbid) {
@@ -122,8 +122,8 @@ TEST(ShiftSearch, CornersThatContradictForbid) {
     d.add({2.8 + i, 4.5 + i}, {2.8 + i, 2.5 + i}, 1, true, true);
   }
   Vec2 step;
-  std::vector<Twins> twins;
-  EXPECT_FALSE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  EXPECT_FALSE(d.find(step, duplicates));
 }
 
 TEST(ShiftSearch, DisplacementBeyondTheRangeIsNone) {
@@ -132,8 +132,8 @@ TEST(ShiftSearch, DisplacementBeyondTheRangeIsNone) {
   d.add_both({6.5, 2}, {6.5, 1}, 3.8, true, true);
   d.add_both({9, -1}, {9, -2}, 3.8, true, true);
   Vec2 step;
-  std::vector<Twins> twins;
-  EXPECT_FALSE(d.find(step, twins));
+  std::vector<Duplicates> duplicates;
+  EXPECT_FALSE(d.find(step, duplicates));
 }
 
 }  // namespace

@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "unit/slam_plane/pieces.hpp"
+#include "unit/slam_plane/observations.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
 
 struct Seen {
   Pose2 pose;
-  Sighting sighting;
+  AssociatedObservation observation;
 };
 
 const Noise kNoise{0.02, 0.005, 0.005, 0.01};
 
-/// Sightings of parts of one wall from several places, noisy, some with corners.
-std::vector<Seen> sightings(std::uint64_t seed) {
+/// Observations of parts of one wall from several places, noisy, some with corners.
+std::vector<Seen> observations(std::uint64_t seed) {
   const Random random(seed, stream_id("wall_evidence_test"));
   std::vector<Seen> all;
   for (std::uint32_t i = 0; i < 40; ++i) {
@@ -34,20 +34,21 @@ std::vector<Seen> sightings(std::uint64_t seed) {
   return all;
 }
 
-/// The form by going through all sightings again.
+/// The form by going through all observations again.
 WallForm summed(const std::vector<Seen>& all, const WallBasis& basis) {
   WallForm form;
   for (const Seen& one : all) {
-    const Vec2 middle = one.pose * one.sighting.middle;
-    const double turn = angle_between(basis.direction, one.pose.rotate(one.sighting.direction));
+    const Vec2 middle = one.pose * one.observation.middle;
+    const double turn = angle_between(basis.direction, one.pose.rotate(one.observation.direction));
     const double s = basis.along(middle), r = basis.across(middle);
     const double w = 1.0 / (kNoise.normal * kNoise.normal), v = 1.0 / (kNoise.angle * kNoise.angle);
-    form.h_tt += w * s * s + v;
-    form.h_to += w * s;
-    form.h_oo += w;
-    form.b_t += w * s * r + v * turn;
-    form.b_o += w * r;
-    const bool* corner = one.sighting.corner;
+    form.h(0, 0) += w * s * s + v;
+    form.h(0, 1) += w * s;
+    form.h(1, 0) += w * s;
+    form.h(1, 1) += w;
+    form.b[0] += w * s * r + v * turn;
+    form.b[1] += w * r;
+    const bool* corner = one.observation.corner;
     const double own = kNoise.end * kNoise.end, shared = kNoise.along * kNoise.along;
     Mat2 information = Mat2::Zero();
     if (corner[0] && corner[1]) {
@@ -55,52 +56,49 @@ WallForm summed(const std::vector<Seen>& all, const WallBasis& basis) {
     } else {
       for (int k = 0; k < 2; ++k) information(k, k) = corner[k] ? 1.0 / (own + shared) : 0.0;
     }
-    const Vec2 places(basis.along(one.pose * one.sighting.end[0]),
-                      basis.along(one.pose * one.sighting.end[1]));
+    const Vec2 places(basis.along(one.pose * one.observation.end[0]),
+                      basis.along(one.pose * one.observation.end[1]));
     const Vec2 f = information * places;
-    form.e_aa += information(0, 0);
-    form.e_ab += information(0, 1);
-    form.e_bb += information(1, 1);
-    form.f_a += f.x();
-    form.f_b += f.y();
+    form.e += information;
+    form.f += f;
   }
   return form;
 }
 
 void expect_same(const WallForm& a, const WallForm& b) {
   const double scale = 1e-9;
-  EXPECT_NEAR(a.h_tt, b.h_tt, scale * b.h_tt);
-  EXPECT_NEAR(a.h_to, b.h_to, scale * b.h_tt);
-  EXPECT_NEAR(a.h_oo, b.h_oo, scale * b.h_oo);
-  EXPECT_NEAR(a.b_t, b.b_t, scale * b.h_tt);
-  EXPECT_NEAR(a.b_o, b.b_o, scale * b.h_tt);
-  EXPECT_NEAR(a.e_aa, b.e_aa, scale * b.e_aa);
-  EXPECT_NEAR(a.e_ab, b.e_ab, scale * b.e_aa);
-  EXPECT_NEAR(a.e_bb, b.e_bb, scale * b.e_bb);
-  EXPECT_NEAR(a.f_a, b.f_a, scale * 10.0 * b.e_aa);
-  EXPECT_NEAR(a.f_b, b.f_b, scale * 10.0 * b.e_bb);
+  EXPECT_NEAR(a.h(0, 0), b.h(0, 0), scale * b.h(0, 0));
+  EXPECT_NEAR(a.h(0, 1), b.h(0, 1), scale * b.h(0, 0));
+  EXPECT_NEAR(a.h(1, 1), b.h(1, 1), scale * b.h(1, 1));
+  EXPECT_NEAR(a.b[0], b.b[0], scale * b.h(0, 0));
+  EXPECT_NEAR(a.b[1], b.b[1], scale * b.h(0, 0));
+  EXPECT_NEAR(a.e(0, 0), b.e(0, 0), scale * b.e(0, 0));
+  EXPECT_NEAR(a.e(0, 1), b.e(0, 1), scale * b.e(0, 0));
+  EXPECT_NEAR(a.e(1, 1), b.e(1, 1), scale * b.e(1, 1));
+  EXPECT_NEAR(a.f[0], b.f[0], scale * 10.0 * b.e(0, 0));
+  EXPECT_NEAR(a.f[1], b.f[1], scale * 10.0 * b.e(1, 1));
 }
 
 const WallBasis kBasis{Vec2(5.1, -0.4), Vec2(0.02, -1.0).normalized()};
 
 TEST(WallEvidence, RunningSumsAreTheSumOverAllSightings) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const std::vector<Seen> all = sightings(seed);
+    const std::vector<Seen> all = observations(seed);
     WallEvidence evidence;
-    for (const Seen& one : all) evidence.add(one.pose, one.sighting, one.sighting.corner, kNoise);
+    for (const Seen& one : all) evidence.add(one.pose, one.observation, one.observation.corner, kNoise);
     expect_same(evidence.form(kBasis, kNoise), summed(all, kBasis));
   }
 }
 
 TEST(WallEvidence, EvidenceOfAnotherFrameAddsUp) {
-  const std::vector<Seen> all = sightings(7);
+  const std::vector<Seen> all = observations(7);
   const Pose2 T = Pose2::at({1.0, -2.0}, 0.7);  // from the second one's frame
   WallEvidence one, other;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i < 15) {
-      one.add(all[i].pose, all[i].sighting, all[i].sighting.corner, kNoise);
+      one.add(all[i].pose, all[i].observation, all[i].observation.corner, kNoise);
     } else {
-      other.add(T.inverse() * all[i].pose, all[i].sighting, all[i].sighting.corner, kNoise);
+      other.add(T.inverse() * all[i].pose, all[i].observation, all[i].observation.corner, kNoise);
     }
   }
   one.add(T, other);
@@ -112,7 +110,7 @@ TEST(WallEvidence, SolvedLineAndEndsAreThoseOfTheWall) {
   WallEvidence evidence;
   for (int i = 0; i < 5; ++i) {
     const Pose2 pose = Pose2::at({0.1 * i, 0.2 * i}, 0.1 * i);
-    const Sighting s = seen(pose, {5, 2}, {5, -3}, true, true);
+    const AssociatedObservation s = seen(pose, {5, 2}, {5, -3}, true, true);
     evidence.add(pose, s, s.corner, kNoise);
   }
   WallEstimate estimate;
@@ -126,7 +124,7 @@ TEST(WallEvidence, SolvedLineAndEndsAreThoseOfTheWall) {
 
 TEST(WallEvidence, ForgottenEndLeavesTheOtherOne) {
   WallEvidence evidence;
-  const Sighting s = seen(Pose2{}, {5, 2}, {5, -3}, true, true);
+  const AssociatedObservation s = seen(Pose2{}, {5, 2}, {5, -3}, true, true);
   for (int i = 0; i < 5; ++i) evidence.add(Pose2{}, s, s.corner, kNoise);
   evidence.forget_end(kEndA);
   WallEstimate estimate;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "unit/slam_plane/pieces.hpp"
+#include "unit/slam_plane/observations.hpp"
 
 namespace hallway::slam_plane::test {
 namespace {
@@ -13,13 +13,13 @@ const Vec2 kA(5, 2), kB(5, -3);
 
 void observe(WallMap& map, Index w, const Pose2& T_map_robot, const Vec2& a, const Vec2& b, bool corners) {
   if (map.walls[w].active_member == kNone) map.join(map.active(), w, false);
-  const Sighting s = seen(T_map_robot, a, b, corners, corners);
+  const AssociatedObservation s = seen(T_map_robot, a, b, corners, corners);
   const Pose2 T = map.submaps[map.active()].T_map_submap.inverse() * T_map_robot;
   map.observe(map.walls[w].active_member, T, s, s.corner);
   map.update(w);
 }
 
-/// Pieces of one wall with noise, in three submaps, taken for the walls that `which` says.
+/// Observations of one wall with noise, in three submaps, taken for the walls that `which` says.
 void fill(WallMap& map, const std::vector<Index>& which) {
   const Random random(3, stream_id("wall_map_test"));
   for (std::uint32_t s = 0; s < 3; ++s) {

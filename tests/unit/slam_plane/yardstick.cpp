@@ -17,7 +17,7 @@ using Mat34 = Eigen::Matrix<double, 3, 4>;
 
 constexpr int kLeastCorner = 5;
 
-/// Normal equations of one piece in its frame's pose (x, y, heading) and its wall (turn, offset, ends).
+/// Normal equations of one observation in its frame's pose (x, y, heading) and its wall (turn, offset, ends).
 struct Term {
   Mat3 pose = Mat3::Zero();
   Mat34 cross = Mat34::Zero();
@@ -38,8 +38,8 @@ double square(double x) {
   return x * x;
 }
 
-Term term_of(const Piece& piece, const bool (&corner)[2], const Pose2& T, const ScoredWall& wall,
-             const Sensor& sensor) {
+Term term_of(const WallObservation& observation, const bool (&corner)[2], const Pose2& T,
+             const ScoredWall& wall, const Sensor& sensor) {
   const double floor2 = 1e-12;  // noise-free data
   const double normal2 = square(sensor.noise_m) + floor2;
   const double angle2 = square(sensor.noise_angle_rad) + floor2;
@@ -48,16 +48,16 @@ Term term_of(const Piece& piece, const bool (&corner)[2], const Pose2& T, const 
   const Vec2& d = wall.direction;
   const Vec2 l = left_of(d);
   Term term;
-  const Vec2 direction = T.rotate(piece.b - piece.a);
+  const Vec2 direction = T.rotate(observation.b - observation.a);
   term.add({0, 0, 1}, {-1, 0, 0, 0}, angle_between(d, direction), 1.0 / angle2);
-  const Vec2 arm = T.rotate(0.5 * (piece.a + piece.b));
+  const Vec2 arm = T.rotate(0.5 * (observation.a + observation.b));
   const double s = d.dot(arm + T.t - wall.point);
   term.add({l.x(), l.y(), l.dot(left_of(arm))}, {-s, -1, 0, 0}, l.dot(arm + T.t - wall.point), 1.0 / normal2);
   // Ends: their mean and difference are independent.
   double residual[2];
   Vec3 jp[2];
   for (int k = 0; k < 2; ++k) {
-    const Vec2 reach = T.rotate(k == kEndA ? piece.a : piece.b);
+    const Vec2 reach = T.rotate(k == kEndA ? observation.a : observation.b);
     residual[k] = d.dot(reach + T.t - wall.point) - wall.end[k];
     jp[k] = {d.x(), d.y(), d.dot(left_of(reach))};
   }
@@ -106,7 +106,7 @@ Solution from_truth(const Scene& scene, const std::vector<TrueFrame>& frames) {
   corners[0] = corners[1] = seen;
   for (const TrueFrame& frame : frames) {
     solution.poses.push_back(frame.T_world_robot);
-    for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
+    for (std::size_t i = 0; i < frame.observations.size(); ++i) {
       if (frame.wall[i] < 0) continue;
       const auto w = static_cast<std::size_t>(frame.wall[i]);
       ++seen[w];
@@ -141,12 +141,12 @@ void step(const std::vector<TrueFrame>& frames, const Sensor& sensor, Solution& 
     Mat3 pose = Mat3::Zero();
     Kept& k = kept[f];
     k.gradient.setZero();
-    for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
+    for (std::size_t i = 0; i < frame.observations.size(); ++i) {
       if (frame.wall[i] < 0) continue;
       const auto w = static_cast<std::size_t>(frame.wall[i]);
       const ScoredWall& wall = solution.walls[w];
       const bool corner[2] = {frame.corner[0][i] && wall.corner[0], frame.corner[1][i] && wall.corner[1]};
-      const Term term = term_of(frame.pieces[i], corner, solution.poses[f], wall, sensor);
+      const Term term = term_of(frame.observations[i], corner, solution.poses[f], wall, sensor);
       const auto at = static_cast<Eigen::Index>(4 * w);
       pose += term.pose;
       k.gradient += term.pose_gradient;
@@ -189,12 +189,12 @@ void fit_poses(const std::vector<TrueFrame>& frames, const Sensor& sensor, Solut
     for (int iteration = 0; iteration < 4; ++iteration) {
       Mat3 pose = Mat3::Zero();
       Vec3 gradient = Vec3::Zero();
-      for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
+      for (std::size_t i = 0; i < frame.observations.size(); ++i) {
         if (frame.wall[i] < 0) continue;
         const ScoredWall& wall = solution.walls[static_cast<std::size_t>(frame.wall[i])];
         if (!wall.known) continue;
         const bool corner[2] = {frame.corner[0][i] && wall.corner[0], frame.corner[1][i] && wall.corner[1]};
-        const Term term = term_of(frame.pieces[i], corner, solution.poses[f], wall, sensor);
+        const Term term = term_of(frame.observations[i], corner, solution.poses[f], wall, sensor);
         pose += term.pose;
         gradient += term.pose_gradient;
       }

@@ -11,7 +11,7 @@ namespace hallway::slam_plane::spatial {
 namespace {
 
 /// An upright rectangle at a depth, which faces the robot.
-Face board(double depth, double y_right, double y_left, double z_low, double z_high) {
+PlaneObservation board(double depth, double y_right, double y_left, double z_low, double z_high) {
   return {
       -Vec3::UnitX(),
       Vec3(depth, 0.5 * (y_left + y_right), 0.5 * (z_low + z_high)),
@@ -19,12 +19,12 @@ Face board(double depth, double y_right, double y_left, double z_low, double z_h
 }
 
 /// Which edges of the first face are true: those at the bottom, right, top, left.
-std::vector<bool> judged(const std::vector<Face>& faces, const View& view = {}) {
-  std::vector<Sighting> frame;
-  for (std::size_t i = 0; i < faces.size(); ++i) frame.push_back(sighting_of(faces[i], i));
+std::vector<bool> judged(const std::vector<PlaneObservation>& observations, const View& view = {}) {
+  std::vector<AssociatedObservation> frame;
+  for (std::size_t i = 0; i < observations.size(); ++i) frame.push_back(observation_of(observations[i], i));
   EdgeJudge(Options{}).judge(view, frame);
   std::vector<bool> edges;
-  for (const SightedEdge& edge : frame.front().edges) edges.push_back(edge.is_true);
+  for (const ObservedEdge& edge : frame.front().edges) edges.push_back(edge.is_true);
   return edges;
 }
 
@@ -46,7 +46,7 @@ TEST(SpatialEdgeJudge, AnEdgeThatLeavesTheViewIsTrue) {
 }
 
 TEST(SpatialEdgeJudge, WhatANearerFaceMayHideIsACut) {
-  const Face near = board(2.0, -1.5, -0.5, -0.6, 0.6);
+  const PlaneObservation near = board(2.0, -1.5, -0.5, -0.6, 0.6);
   EXPECT_EQ(judged({board(4.0, -1.0, 1.0, -0.8, 0.8), near}), (Edges{true, false, true, true}))
       << "the right edge stands at the bearing of the nearer one's left edge";
   EXPECT_EQ(judged({near, board(4.0, -1.0, 1.0, -0.8, 0.8)}), (Edges{true, true, true, true}))
@@ -56,12 +56,12 @@ TEST(SpatialEdgeJudge, WhatANearerFaceMayHideIsACut) {
 /// The floor beside the shadow of a screen that stands on it and is seen nearly along its plane: edges along the shadow, far off, at the left,
 /// nearest.
 TEST(SpatialEdgeJudge, AShadowOnTheFloorIsACutFromWhereItsCasterStands) {
-  const Face floor{Vec3::UnitZ(),
-                   Vec3(4.5, 1.2, -1.4),
-                   {{3.0, 0.3, -1.4}, {6.0, 0.6, -1.4}, {6.0, 2.0, -1.4}, {3.0, 2.0, -1.4}}};
-  const Face screen{-Vec3::UnitY(),
-                    Vec3(4.0, 0.3, -0.5),
-                    {{3.0, 0.3, -1.4}, {5.0, 0.3, -1.4}, {5.0, 0.3, 0.4}, {3.0, 0.3, 0.4}}};
+  const PlaneObservation floor{Vec3::UnitZ(),
+                               Vec3(4.5, 1.2, -1.4),
+                               {{3.0, 0.3, -1.4}, {6.0, 0.6, -1.4}, {6.0, 2.0, -1.4}, {3.0, 2.0, -1.4}}};
+  const PlaneObservation screen{-Vec3::UnitY(),
+                                Vec3(4.0, 0.3, -0.5),
+                                {{3.0, 0.3, -1.4}, {5.0, 0.3, -1.4}, {5.0, 0.3, 0.4}, {3.0, 0.3, 0.4}}};
   EXPECT_EQ(judged({floor, screen}), (Edges{false, true, true, true}));
   EXPECT_EQ(judged({floor}), (Edges{true, true, true, true})) << "an edge of the floor, where nothing stands";
 }
@@ -70,12 +70,12 @@ TEST(SpatialEdgeJudge, AShadowOnTheFloorIsACutFromWhereItsCasterStands) {
 TEST(SpatialEdgeJudge, AShadowOnTheCeilingIsACutThoughItHardlyLeavesThePlaneOfItsCaster) {
   View view;
   view.vertical_fov_rad = 1.4;
-  const Face ceiling{-Vec3::UnitZ(),
-                     Vec3(4.0, 0.9, 1.0),
-                     {{2.0, 0.03, 1.0}, {2.0, 1.5, 1.0}, {6.0, 2.0, 1.0}, {6.0, 0.09, 1.0}}};
-  const Face wall{-Vec3::UnitY(),
-                  Vec3(2.5, 0.03, 0.0),
-                  {{2.0, 0.03, -1.4}, {3.0, 0.03, -1.4}, {3.0, 0.03, 1.0}, {2.0, 0.03, 1.0}}};
+  const PlaneObservation ceiling{-Vec3::UnitZ(),
+                                 Vec3(4.0, 0.9, 1.0),
+                                 {{2.0, 0.03, 1.0}, {2.0, 1.5, 1.0}, {6.0, 2.0, 1.0}, {6.0, 0.09, 1.0}}};
+  const PlaneObservation wall{-Vec3::UnitY(),
+                              Vec3(2.5, 0.03, 0.0),
+                              {{2.0, 0.03, -1.4}, {3.0, 0.03, -1.4}, {3.0, 0.03, 1.0}, {2.0, 0.03, 1.0}}};
   EXPECT_EQ(judged({ceiling, wall}, view), (Edges{true, true, true, false}));
   EXPECT_EQ(judged({ceiling}, view), (Edges{true, true, true, true}))
       << "an edge of the ceiling, without the wall";
@@ -95,12 +95,13 @@ TEST(SpatialEdgeJudge, NoCutIsTakenForAnEdgeInScenes) {
     int cuts = 0, edges = 0;
     for (const NoiseOf& noise : {NoiseOf{}, kNoise}) {
       for (const TrueFrame& seen : see(scene, noise, 3)) {
-        std::vector<Sighting> frame;
-        for (std::size_t i = 0; i < seen.faces.size(); ++i) frame.push_back(sighting_of(seen.faces[i], i));
+        std::vector<AssociatedObservation> frame;
+        for (std::size_t i = 0; i < seen.observations.size(); ++i)
+          frame.push_back(observation_of(seen.observations[i], i));
         EdgeJudge(Options{}).judge(kView, frame);
-        for (const Sighting& sighting : frame) {
-          const hallway::Polygon& face = scene.plan.faces[seen.truth[sighting.given]];
-          for (const SightedEdge& edge : sighting.edges) {
+        for (const AssociatedObservation& observation : frame) {
+          const hallway::Polygon& face = scene.plan.faces[seen.truth[observation.given]];
+          for (const ObservedEdge& edge : observation.edges) {
             if (!edge.is_true) continue;
             double least = 1e9;
             for (std::size_t i = 0; i < face.vertices.size(); ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Noise kNoiseOf{0.02, 0.005, 0.01, 0.0};
 
-/// Small sightings of the plane z = 1.5 as seen from poses all about.
+/// Small observations of the plane z = 1.5 as seen from poses all about.
 class SpatialEvidence : public testing::Test {
  protected:
   double deviate(double sigma) { return sigma * random_.normal(1, next_++); }
@@ -22,16 +22,16 @@ class SpatialEvidence : public testing::Test {
     const double x = deviate(sigma), y = deviate(sigma);
     return {x, y, deviate(sigma)};
   }
-  Pose3 pose() { return {rotation_by(vector(0.7)), vector(3.0)}; }
+  Pose pose() { return {rotation_by(vector(0.7)), vector(3.0)}; }
 
-  Sighting see(const Pose3& T_map_robot, bool noisy) {
-    const Pose3 T = T_map_robot.inverse();
-    Sighting sighting;
+  AssociatedObservation see(const Pose& T_map_robot, bool noisy) {
+    const Pose T = T_map_robot.inverse();
+    AssociatedObservation observation;
     const Vec3 tilt = noisy ? vector(kNoiseOf.angle) : Vec3::Zero();
-    sighting.normal = rotation_by(tilt) * (T.q * Vec3::UnitZ());
-    sighting.centre = T * Vec3(deviate(2.0), deviate(2.0), 1.5) +
-                      (noisy ? deviate(kNoiseOf.normal) : 0.0) * sighting.normal;
-    return sighting;
+    observation.normal = rotation_by(tilt) * (T.q * Vec3::UnitZ());
+    observation.centre = T * Vec3(deviate(2.0), deviate(2.0), 1.5) +
+                         (noisy ? deviate(kNoiseOf.normal) : 0.0) * observation.normal;
+    return observation;
   }
 
   Random random_{7, stream_id("evidence")};
@@ -39,22 +39,22 @@ class SpatialEvidence : public testing::Test {
 };
 
 TEST_F(SpatialEvidence, SumsAreEqualToKeepingAllObservations) {
-  std::vector<std::pair<Pose3, Sighting>> kept;
+  std::vector<std::pair<Pose, AssociatedObservation>> kept;
   Mat4 sum = Mat4::Zero();
   for (int i = 0; i < 30; ++i) {
-    const Pose3 T_map_robot = pose();
-    const Sighting sighting = see(T_map_robot, true);
+    const Pose T_map_robot = pose();
+    const AssociatedObservation observation = see(T_map_robot, true);
     const Mat4 g = plane_transform(T_map_robot);
-    sum += g.transpose() * plane_evidence(sighting, kNoiseOf) * g;
-    kept.emplace_back(T_map_robot, sighting);
+    sum += g.transpose() * plane_evidence(observation, kNoiseOf) * g;
+    kept.emplace_back(T_map_robot, observation);
   }
   for (int trial = 0; trial < 10; ++trial) {
     const Vec3 n = (Vec3::UnitZ() + vector(0.1)).normalized();
     const double offset = 1.5 + deviate(0.1);
     double expected = 0.0;
-    for (const auto& [T, sighting] : kept) {
-      const double distance = n.dot(T * sighting.centre) - offset;
-      const double sine = (T.q * sighting.normal).cross(n).norm();
+    for (const auto& [T, observation] : kept) {
+      const double distance = n.dot(T * observation.centre) - offset;
+      const double sine = (T.q * observation.normal).cross(n).norm();
       expected += distance * distance / (kNoiseOf.normal * kNoiseOf.normal) +
                   sine * sine / (kNoiseOf.angle * kNoiseOf.angle);
     }
@@ -67,7 +67,7 @@ TEST_F(SpatialEvidence, SumsAreEqualToKeepingAllObservations) {
 TEST_F(SpatialEvidence, ThePlaneThatFitsBestIsALocalMinimum) {
   Mat4 sum = Mat4::Zero();
   for (int i = 0; i < 10; ++i) {
-    const Pose3 T = pose();
+    const Pose T = pose();
     const Mat4 g = plane_transform(T);
     sum += g.transpose() * plane_evidence(see(T, true), kNoiseOf) * g;
   }
@@ -89,7 +89,7 @@ TEST_F(SpatialEvidence, ErrorsAreAsLargeAsTheCovarianceSays) {
   for (int trial = 0; trial < kTrials; ++trial) {
     Mat4 sum = Mat4::Zero();
     for (int i = 0; i < 5; ++i) {
-      const Pose3 T = pose();
+      const Pose T = pose();
       const Mat4 g = plane_transform(T);
       sum += g.transpose() * plane_evidence(see(T, true), kNoiseOf) * g;
     }
@@ -105,7 +105,7 @@ TEST_F(SpatialEvidence, AnEdgeLiesInItsFace) {
   const Vec3 along = normal.cross(Vec3::UnitY()).normalized(), outward = along.cross(normal);
   Mat4 sum = Mat4::Zero();
   for (int i = 0; i < 20; ++i) {
-    SightedEdge edge;
+    ObservedEdge edge;
     const double from = deviate(1.0);
     for (int k = 0; k < 2; ++k)
       edge.end[static_cast<std::size_t>(k)] = (from + k) * along + (2.0 + deviate(0.01)) * outward;

@@ -21,14 +21,14 @@ TEST(SpatialMapper, SameFramesSameBits) {
   const auto frames = see(scene, kNoise, 5);
   Mapper first{Options{}}, second{Options{}};
   for (const TrueFrame& frame : frames) {
-    const Answer a = first.process(frame.faces, kView);
-    const Answer b = second.process(frame.faces, kView);
+    const Answer a = first.process(frame.observations, kView);
+    const Answer b = second.process(frame.observations, kView);
     ASSERT_EQ(a.associations, b.associations);
     ASSERT_EQ(a.T_map_robot.t, b.T_map_robot.t);
     ASSERT_EQ(a.T_map_robot.q.coeffs(), b.T_map_robot.q.coeffs());
   }
   first.reset();
-  const Answer again = first.process(frames.front().faces, kView);
+  const Answer again = first.process(frames.front().observations, kView);
   EXPECT_EQ(again.T_map_robot.t, Vec3(Vec3::Zero()));
 }
 
@@ -48,15 +48,15 @@ TEST(SpatialMapper, WhatDoesNotDetermineThePoseIsLostAndSaysWhatIsOpen) {
     corridor.path.push_back({hallway::from_yaw_pitch_roll(0.1, 0.1, 0.1), Vec3(0.1 * i, 0, 1.4)});
   Mapper mapper{Options{}};
   for (const TrueFrame& frame : see(corridor, NoiseOf{}, 1)) {
-    ASSERT_EQ(frame.faces.size(), 3u);
-    const Answer& answer = mapper.process(frame.faces, kView);
+    ASSERT_EQ(frame.observations.size(), 3u);
+    const Answer& answer = mapper.process(frame.observations, kView);
     EXPECT_FALSE(answer.has_pose);
-    EXPECT_EQ(answer.lost, Lost::undetermined);
+    EXPECT_EQ(answer.lost, Lost::unobservable);
     EXPECT_EQ(answer.open, 1);
-    const Vec3 along = corridor.path.front().q * answer.undetermined;
+    const Vec3 along = corridor.path.front().q * answer.unobservable;
     EXPECT_NEAR(std::abs(along.x()), 1.0, 1e-3);
   }
-  EXPECT_TRUE(mapper.map().faces.empty());
+  EXPECT_TRUE(mapper.map().landmarks.empty());
 }
 
 TEST(SpatialMapper, ARobotThatSeesNothingIsLostAndGoesOn) {
@@ -64,7 +64,8 @@ TEST(SpatialMapper, ARobotThatSeesNothingIsLostAndGoesOn) {
   Mapper mapper{Options{}};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool blind = i >= 20 && i < 22;
-    const Answer& answer = mapper.process(blind ? std::vector<Face>{} : frames[i].faces, kView);
+    const Answer& answer =
+        mapper.process(blind ? std::vector<PlaneObservation>{} : frames[i].observations, kView);
     EXPECT_EQ(answer.has_pose, !blind) << i;
     if (blind) {
       EXPECT_EQ(answer.lost, Lost::nothing_known);

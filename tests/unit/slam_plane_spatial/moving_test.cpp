@@ -24,26 +24,26 @@ void expect_one_dynamic(std::size_t begin, const NoiseOf& noise, std::uint64_t s
   const Scene scene = room_with_panel(90, panel);
   const auto frames = see(scene, noise, seed, {panel, begin, 30, Vec3(0.03, 0.0, 0.0)});
   Mapper mapper{Options{}};
-  std::vector<WallId> taken_for;
+  std::vector<LandmarkId> taken_for;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Answer& answer = mapper.process(frames[i].faces, kView);
+    const Answer& answer = mapper.process(frames[i].observations, kView);
     ASSERT_TRUE(answer.has_pose) << i;
     EXPECT_LT(error_of(answer, frames, i), most_m) << i;
     for (std::size_t k = 0; k < frames[i].truth.size(); ++k) {
-      if (frames[i].truth[k] == panel && answer.associations[k] != kNoWall)
+      if (frames[i].truth[k] == panel && answer.associations[k] != kNoLandmark)
         taken_for.push_back(answer.associations[k]);
     }
   }
   const Map map = mapper.refined_map();
   int dynamic = 0;
-  for (const MappedFace& face : map.faces) {
-    if (face.status == WallStatus::dynamic) {
+  for (const PlaneLandmark& landmark : map.landmarks) {
+    if (landmark.status == LandmarkStatus::dynamic) {
       ++dynamic;
-      const Vec3 middle = frames[0].T_world_robot * Vec3(0.5 * (face.outline[0] + face.outline[1]));
+      const Vec3 middle = frames[0].T_world_robot * Vec3(0.5 * (landmark.outline[0] + landmark.outline[1]));
       EXPECT_NEAR(middle.x(), 3.5 + 30 * 0.03, 4.0 * noise.plane_m + 0.02) << "where it was seen last";
-      EXPECT_EQ(std::count(face.certain.begin(), face.certain.end(), true), 0);
-    } else if (face.status == WallStatus::mapped) {
-      EXPECT_EQ(std::count(taken_for.begin(), taken_for.end(), face.id), 0) << "a place that it has left";
+      EXPECT_EQ(std::count(landmark.certain.begin(), landmark.certain.end(), true), 0);
+    } else if (landmark.status == LandmarkStatus::mapped) {
+      EXPECT_EQ(std::count(taken_for.begin(), taken_for.end(), landmark.id), 0) << "a place that it has left";
     }
   }
   EXPECT_EQ(dynamic, 1);
@@ -64,11 +64,12 @@ TEST(SpatialMoving, AFaceThatBeginsToMoveIsCalledDynamic) {
 int poses_after_being_carried(const Scene& scene, const NoiseOf& noise) {
   const auto frames = see(scene, noise, 1);
   Mapper mapper{Options{}};
-  for (std::size_t i = 0; i < 240; ++i) EXPECT_TRUE(mapper.process(frames[i].faces, kView).has_pose) << i;
+  for (std::size_t i = 0; i < 240; ++i)
+    EXPECT_TRUE(mapper.process(frames[i].observations, kView).has_pose) << i;
   for (int i = 0; i < 12; ++i) EXPECT_FALSE(mapper.process({}, kView).has_pose);
   int poses = 0;
   for (std::size_t i = 60; i < 120; ++i) {
-    const Answer& answer = mapper.process(frames[i].faces, kView);
+    const Answer& answer = mapper.process(frames[i].observations, kView);
     if (!answer.has_pose) continue;
     ++poses;
     EXPECT_LT(error_of(answer, frames, i), 0.05) << i;

@@ -16,7 +16,7 @@ constexpr int kLeastFrames = 20;
 constexpr double kFalse_m = 0.1;
 
 /// A convex face, counter-clockwise as seen from its empty side.
-void add_face(sense::FacePlan& plan, std::vector<Vec3> corners) {
+void add_landmark(sense::FacePlan& plan, std::vector<Vec3> corners) {
   hallway::Polygon face;
   face.plane.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
   face.plane.offset = face.plane.normal.dot(corners[0]);
@@ -42,7 +42,7 @@ void add_box(sense::FacePlan& plan, const hallway::Pose& T, const Vec3& low, con
         corners.push_back(T * p);
       }
       if ((side == 0) != inside) std::reverse(corners.begin(), corners.end());
-      add_face(plan, std::move(corners));
+      add_landmark(plan, std::move(corners));
     }
   }
 }
@@ -82,7 +82,7 @@ Scene room_with_panel(int frames, std::uint32_t& panel) {
   Scene scene = furnished_room(frames);
   scene.name = "room_with_panel";
   panel = static_cast<std::uint32_t>(scene.plan.faces.size());
-  add_face(scene.plan, {{3.5, 5.4, 1.4}, {3.5, 6.6, 1.4}, {3.5, 6.6, 2.4}, {3.5, 5.4, 2.4}});
+  add_landmark(scene.plan, {{3.5, 5.4, 1.4}, {3.5, 6.6, 1.4}, {3.5, 6.6, 2.4}, {3.5, 5.4, 2.4}});
   return scene;
 }
 
@@ -94,10 +94,10 @@ Scene two_rooms() {
   // The door's wall on both sides, in three parts, and the door's inside.
   for (const auto& [y0, y1, z0] :
        {std::array{0.0, 1.8, 0.0}, std::array{3.0, 5.0, 0.0}, std::array{1.8, 3.0, 2.1}})
-    add_face(plan, {{6.0, y1, z0}, {6.0, y0, z0}, {6.0, y0, 2.6}, {6.0, y1, 2.6}});
+    add_landmark(plan, {{6.0, y1, z0}, {6.0, y0, z0}, {6.0, y0, 2.6}, {6.0, y1, 2.6}});
   for (const auto& [y0, y1, z0] :
        {std::array{-1.0, 1.8, 0.0}, std::array{3.0, 6.0, 0.0}, std::array{1.8, 3.0, 2.1}})
-    add_face(plan, {{6.3, y0, z0}, {6.3, y1, z0}, {6.3, y1, 3.6}, {6.3, y0, 3.6}});
+    add_landmark(plan, {{6.3, y0, z0}, {6.3, y1, z0}, {6.3, y1, 3.6}, {6.3, y0, 3.6}});
   add_box(plan, hallway::Pose{}, {6.0, 1.8, 0.0}, {6.3, 3.0, 2.1}, true, 3u);
   add_solid(plan, {1.0, 3.4, 0.6}, {2.0, 4.4, 1.4});
   add_solid(plan, {9.0, 3.5, 0.6}, {10.0, 5.0, 1.8});
@@ -129,13 +129,13 @@ Scene ramp_room(int frames) {
   std::vector<Vec3> right, left;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const Vec2 &a = profile[i], &b = profile[(i + 1) % profile.size()];
-    add_face(plan, {{a.x(), 0.0, a.y()}, {b.x(), 0.0, b.y()}, {b.x(), 6.0, b.y()}, {a.x(), 6.0, a.y()}});
+    add_landmark(plan, {{a.x(), 0.0, a.y()}, {b.x(), 0.0, b.y()}, {b.x(), 6.0, b.y()}, {a.x(), 6.0, a.y()}});
     right.emplace_back(a.x(), 0.0, a.y());
     left.emplace_back(a.x(), 6.0, a.y());
   }
   std::reverse(right.begin(), right.end());
-  add_face(plan, std::move(left));
-  add_face(plan, std::move(right));
+  add_landmark(plan, std::move(left));
+  add_landmark(plan, std::move(right));
   for (int i = 0; i < frames; ++i) {
     const double s = 0.02 * i;
     const Vec3 at(4.0 + 1.5 * std::cos(s), 3.0 + 1.2 * std::sin(s), 2.3 + 0.3 * std::sin(2.0 * s));
@@ -145,7 +145,7 @@ Scene ramp_room(int frames) {
   return scene;
 }
 
-hallway::Pose pose_of(const Pose3& T) {
+hallway::Pose pose_of(const Pose& T) {
   return {T.q, T.t};
 }
 
@@ -168,7 +168,7 @@ std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64
     face.plane.offset = face.plane.normal.dot(face.vertices.front());
   };
   std::vector<TrueFrame> frames;
-  std::vector<PlaneObservation> seen;
+  std::vector<hallway::PlaneObservation> seen;
   for (std::size_t i = 0; i < scene.path.size(); ++i) {
     if (i >= moving.begin && i < moving.begin + moving.frames) {
       move(plan.faces[moving.face]);
@@ -177,8 +177,8 @@ std::vector<TrueFrame> see(const Scene& scene, const NoiseOf& noise, std::uint64
     sense::FaceSensor(spec, plan, seed).observe(scene.path[i], static_cast<std::uint32_t>(i), seen);
     TrueFrame& frame = frames.emplace_back();
     frame.T_world_robot = scene.path[i];
-    for (const PlaneObservation& plane : seen) {
-      frame.faces.push_back({plane.plane.normal, plane.centroid, plane.hull});
+    for (const hallway::PlaneObservation& plane : seen) {
+      frame.observations.push_back({plane.plane.normal, plane.centroid, plane.hull});
       frame.truth.push_back(plane.true_plane);
     }
   }
@@ -190,19 +190,19 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
   Outcome outcome;
   std::vector<Vec3> from, to;
   std::map<std::uint32_t, int> seen;
-  std::map<WallId, std::map<std::uint32_t, int>> votes;
+  std::map<LandmarkId, std::map<std::uint32_t, int>> votes;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     std::set<std::uint32_t> here;
     for (std::size_t k = 0; k < frames[i].truth.size(); ++k) {
       here.insert(frames[i].truth[k]);
-      if (answers[i].associations[k] != kNoWall) ++votes[answers[i].associations[k]][frames[i].truth[k]];
+      if (answers[i].associations[k] != kNoLandmark) ++votes[answers[i].associations[k]][frames[i].truth[k]];
     }
     for (const std::uint32_t face : here) ++seen[face];
     if (!answers[i].has_pose) {
       ++outcome.lost;
       continue;
     }
-    const Pose3& T = answers[i].T_map_robot;
+    const Pose& T = answers[i].T_map_robot;
     for (const Vec3& p : {Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)}) {
       from.push_back(T * p);
       to.push_back(frames[i].T_world_robot * p);
@@ -225,7 +225,7 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
   }
   outcome.position_rmse_m = std::sqrt(squares / poses);
 
-  std::map<WallId, std::uint32_t> owner;
+  std::map<LandmarkId, std::uint32_t> owner;
   for (const auto& [id, of] : votes) {
     const auto most = std::max_element(of.begin(), of.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -235,20 +235,20 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
   std::set<std::uint32_t> mapped;
   double plane_squares = 0.0, edge_squares = 0.0;
   int planes = 0, edges = 0;
-  for (const MappedFace& face : map.faces) {
-    if (face.status != WallStatus::mapped || !owner.contains(face.id)) continue;
-    const std::uint32_t truth = owner[face.id];
+  for (const PlaneLandmark& landmark : map.landmarks) {
+    if (landmark.status != LandmarkStatus::mapped || !owner.contains(landmark.id)) continue;
+    const std::uint32_t truth = owner[landmark.id];
     if (!mapped.insert(truth).second) ++outcome.duplicated;
     const hallway::Polygon& of = scene.plan.faces[truth];
-    const std::size_t n = face.outline.size();
+    const std::size_t n = landmark.outline.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 corner = T_world_map * face.outline[i];
+      const Vec3 corner = T_world_map * landmark.outline[i];
       const double across = std::abs(of.plane.distance(corner));
       outcome.worst_plane_m = std::max(outcome.worst_plane_m, across);
       plane_squares += across * across;
       ++planes;
-      if (!face.certain[i]) continue;
-      const Vec3 middle = T_world_map * Vec3(0.5 * (face.outline[i] + face.outline[(i + 1) % n]));
+      if (!landmark.certain[i]) continue;
+      const Vec3 middle = T_world_map * Vec3(0.5 * (landmark.outline[i] + landmark.outline[(i + 1) % n]));
       double least = 1e9;
       for (std::size_t k = 0; k < of.vertices.size(); ++k) {
         const Vec3 &a = of.vertices[k], &b = of.vertices[(k + 1) % of.vertices.size()];
@@ -275,7 +275,7 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
 Outcome run(const Scene& scene, const std::vector<TrueFrame>& frames, const Options& options) {
   Mapper mapper(options);
   std::vector<Answer> answers;
-  for (const TrueFrame& frame : frames) answers.push_back(mapper.process(frame.faces, kView));
+  for (const TrueFrame& frame : frames) answers.push_back(mapper.process(frame.observations, kView));
   return compare(scene, frames, mapper.refined_map(), answers);
 }
 

@@ -42,7 +42,7 @@ inline constexpr NoiseOf kNoise{0.02, 0.3 * 0.017453292519943295, 0.005};
 /// One frame, with what a mapper is not told.
 struct TrueFrame {
   hallway::Pose T_world_robot;
-  std::vector<Face> faces;
+  std::vector<PlaneObservation> observations;
   std::vector<std::uint32_t> truth;  ///< of each face its number
 };
 
@@ -84,6 +84,6 @@ Outcome compare(const Scene& scene, const std::vector<TrueFrame>& frames, const 
 Outcome run(const Scene& scene, const std::vector<TrueFrame>& frames, const Options& options);
 
 /// The rigid motion that lays points on others best.
-hallway::Pose pose_of(const Pose3& T);
+hallway::Pose pose_of(const Pose& T);
 
 }  // namespace hallway::slam_plane::spatial::test

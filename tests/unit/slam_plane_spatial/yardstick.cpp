@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "slam_plane/spatial/map_report.hpp"
-#include "slam_plane/spatial/map_solver.hpp"
+#include "slam_plane/spatial/plane_map.hpp"
 
 namespace hallway::slam_plane::spatial::test {
 namespace {
@@ -14,7 +13,7 @@ constexpr double kOnEdge_m = 0.05;
 constexpr int kSteps = 10;
 
 /// Whether an edge that was seen is one of the face's, by the true pose.
-bool is_of(const hallway::Polygon& face, const SightedEdge& edge, const hallway::Pose& T_world_robot) {
+bool is_of(const hallway::Polygon& face, const ObservedEdge& edge, const hallway::Pose& T_world_robot) {
   for (std::size_t i = 0; i < face.vertices.size(); ++i) {
     const Vec3& a = face.vertices[i];
     const Vec3 along = (face.vertices[(i + 1) % face.vertices.size()] - a).normalized();
@@ -28,8 +27,8 @@ bool is_of(const hallway::Polygon& face, const SightedEdge& edge, const hallway:
 }  // namespace
 
 Outcome yardstick(const Scene& scene, const std::vector<TrueFrame>& frames, const Options& options) {
-  FaceMap map(options);
-  for (std::size_t i = 0; i < scene.plan.faces.size(); ++i) map.add_face();
+  PlaneMap map(options);
+  for (std::size_t i = 0; i < scene.plan.faces.size(); ++i) map.add_landmark();
   const hallway::Pose T_map_world = frames.front().T_world_robot.inverse();
   std::vector<Answer> answers(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -37,14 +36,14 @@ Outcome yardstick(const Scene& scene, const std::vector<TrueFrame>& frames, cons
     map.activate(map.add_submap({T.q, T.t}));
     answers[i].has_pose = true;
     answers[i].associations.assign(frames[i].truth.begin(), frames[i].truth.end());
-    for (std::size_t k = 0; k < frames[i].faces.size(); ++k) {
-      Sighting sighting = sighting_of(frames[i].faces[k], k);
-      sighting.face = frames[i].truth[k];
-      for (SightedEdge& edge : sighting.edges) {
+    for (std::size_t k = 0; k < frames[i].observations.size(); ++k) {
+      AssociatedObservation observation = observation_of(frames[i].observations[k], k);
+      observation.landmark = frames[i].truth[k];
+      for (ObservedEdge& edge : observation.edges) {
         edge.is_true = (edge.end[1] - edge.end[0]).norm() > 0.1 &&
-                       is_of(scene.plan.faces[sighting.face], edge, frames[i].T_world_robot);
+                       is_of(scene.plan.faces[observation.landmark], edge, frames[i].T_world_robot);
       }
-      map.observe(Pose3{}, sighting, i);
+      map.observe(Pose{}, observation, i);
     }
   }
   std::vector<Index> free(frames.size() - 1);

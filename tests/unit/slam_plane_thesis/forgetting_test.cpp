@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_plane/thesis/forgetting.hpp"
+#include "slam_plane/thesis/steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace hallway::slam_plane::thesis::test {
 namespace {
 
-/// Two walls and one more in the map; a submap that takes the two over, made for a piece that was never placed; and a submap made from that one.
+/// Two walls and one more in the map; a submap that takes the two over, made for an observation that was never placed; and a submap made from that one.
 class InVain : public ::testing::Test {
  protected:
   InVain() {
@@ -41,7 +41,7 @@ class InVain : public ::testing::Test {
 
   void forget_at(Iteration now) {
     world_.state.now = now;
-    forget_vain(world_.options, world_.state);
+    prune_stale(world_.options, world_.state);
   }
 
   bool there(SubmapIndex index) const { return !world_.state.submaps[index].members().empty(); }
@@ -92,12 +92,12 @@ TEST_F(InVain, WhatAloneTellsAnEndOfAWallStays) {
 
 TEST_F(InVain, TheIdOfATrackOfWhichNothingIsLeftIsGivenAgainAndItsNameIsNot) {
   State& state = world_.state;
-  const WallId name = state.tracks.name(piece_);
+  const LandmarkId name = state.tracks.name(piece_);
   state.hints.add({70, name, vain_});
   forget_at(200);
   EXPECT_TRUE(state.tracks.is_free(piece_));
   EXPECT_FALSE(state.tracks.is_free(0)) << "it is in the map";
-  Track& next = state.tracks.create(200);
+  PlaneTrack& next = state.tracks.create(200);
   EXPECT_EQ(next.id(), piece_);
   EXPECT_NE(state.tracks.name(piece_), name);
   EXPECT_TRUE(next.empty());
@@ -136,9 +136,9 @@ TEST_F(InVain, TheListOfSubmapsIsClosedUpWhereMostOfItAreEmpty) {
 
 TEST(TrackBook, ATrackThatBeginsAgainWhereItBeganBeforeARollBackHasItsNameAndNoOtherOneHas) {
   TrackBook tracks{TrackOptions{}};
-  const WallId first = tracks.name(tracks.create(3, 0).id());
+  const LandmarkId first = tracks.name(tracks.create(3, 0).id());
   const TrackId a = tracks.create(7, 1).id(), b = tracks.create(7, 4).id();
-  const WallId name_a = tracks.name(a), name_b = tracks.name(b);
+  const LandmarkId name_a = tracks.name(a), name_b = tracks.name(b);
   tracks.truncate(5);
   EXPECT_FALSE(tracks.is_free(0));
   EXPECT_TRUE(tracks.is_free(a) && tracks.is_free(b));
@@ -166,7 +166,7 @@ TEST(TrackBook, WhatAHintForbidsGoesWithTheTrackAndNotWithItsId) {
   EXPECT_FALSE(state.hints.may_join(state.tracks.name(again), 1));
 }
 
-/// Pieces at the edge of the view join submaps that never place them, on each round again.
+/// Observations at the edge of the view join submaps that never place them, on each round again.
 TEST(Forgetting, SubmapsDoNotBecomeMoreRoundAfterRoundOfKnownGround) {
   constexpr std::uint32_t kRound = 600;
   bench::Road road(10.0, 60.0);
@@ -176,10 +176,10 @@ TEST(Forgetting, SubmapsDoNotBecomeMoreRoundAfterRoundOfKnownGround) {
     const Counters& counters = mapper.process(road.see(i), View{}).counters;
     if (i == 3 * kRound) {
       submaps = counters.submaps;
-      walls = counters.walls;
+      walls = counters.landmarks;
     }
     if (i != 5 * kRound) continue;
-    EXPECT_EQ(counters.walls, walls) << "the ground is known";
+    EXPECT_EQ(counters.landmarks, walls) << "the ground is known";
     EXPECT_LT(counters.submaps, submaps + submaps / 10);
   }
 }

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/roll_back.hpp"
+#include "slam_plane/thesis/steps.hpp"
 #include "unit/slam_plane_thesis/small_world.hpp"
 
 namespace hallway::slam_plane::thesis::test {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "slam_plane/thesis/anchoring.hpp"
 #include "slam_plane/thesis/map_report.hpp"
+#include "slam_plane/thesis/steps.hpp"
 #include "unit/slam_plane_thesis/small_world.hpp"
 
 namespace hallway::slam_plane::thesis::test {
@@ -123,7 +123,7 @@ TEST(Rule23, OfOnePlaneAloneOnlyItsGrowingIsOfInterest) {
   const Reference before = world.state.map.find(b)->reference;
   ASSERT_NEAR(before.place.size, 5.0, 0.1);
   const Pose2 pose = Pose2::at(Vec2(0.5, 0.2), -0.4);
-  const Sighting part = seen(across(5), pose, 100, 2.0, 0.5);
+  const TimedObservation part = seen(across(5), pose, 100, 2.0, 0.5);
   world.state.map.expand(b, pose * part.segment, 100);
   const Reference after = world.state.map.find(b)->reference;
   EXPECT_LT((after.place.segment().end[kEndB] - Vec2(5, -2.5)).norm(), kExact);
@@ -154,7 +154,7 @@ TEST(Rule35, ASubmapThatCanNoLongerBeComputedIsAsItWasAtItsBest) {
 TEST(Rule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
   TrackOptions small;
   small.capacity = 50;
-  Track a(0, small), b(1, small);
+  PlaneTrack a(0, small), b(1, small);
   StaticPairs pairs{CompareOptions{}};
   for (Iteration k = 0; k < 140; ++k) {
     a.push(seen(kAlong, straight(k), k));
@@ -168,7 +168,7 @@ TEST(Rule36, TheBestComparisonIsKeptWhenItsSightingsAreGone) {
 }
 
 /// The walls that a map of these ones, beside a robot on its way along x, is told as.
-std::vector<Wall> told_of(std::initializer_list<Segment> walls) {
+std::vector<WallLandmark> told_of(std::initializer_list<Segment> walls) {
   SmallWorld world;
   std::vector<TrackId> ids{world.see(kAhead, {{0, 60}})};
   for (const Segment& wall : walls) ids.push_back(world.see(wall, {{0, 60}}));
@@ -180,8 +180,8 @@ std::vector<Wall> told_of(std::initializer_list<Segment> walls) {
   }
   world.state.submaps[made].compute(world.state.pairs, world.state.tracks, world.options, 60);
   world.fix(made);
-  std::vector<Wall> told = report_map(world.state).walls;
-  std::erase_if(told, [](const Wall& wall) { return wall.id == 0; });
+  std::vector<WallLandmark> told = report_map(world.state).walls;
+  std::erase_if(told, [](const WallLandmark& wall) { return wall.id == 0; });
   return told;
 }
 
@@ -192,7 +192,7 @@ Segment left_of_the_way(double from, double to, double y = 2.0) {
 TEST(MapReport, PlanesOfOneLineThatShareSomeOfItAreOneWall) {
   for (const bool turned : {false, true}) {
     const Segment first = left_of_the_way(-2, 6), second = left_of_the_way(5, 9, 2.03);
-    const std::vector<Wall> told = turned ? told_of({second, first}) : told_of({first, second});
+    const std::vector<WallLandmark> told = turned ? told_of({second, first}) : told_of({first, second});
     ASSERT_EQ(told.size(), 1u);
     EXPECT_EQ(told[0].id, 1u) << "the older one's name";
     EXPECT_LT((told[0].a - Vec2(-2, 2)).norm(), 1e-6);
@@ -203,7 +203,7 @@ TEST(MapReport, PlanesOfOneLineThatShareSomeOfItAreOneWall) {
 }
 
 TEST(MapReport, AChainOfPartsIsOneWallToo) {
-  const std::vector<Wall> told = told_of(
+  const std::vector<WallLandmark> told = told_of(
       {left_of_the_way(-2, 1), left_of_the_way(5, 9), left_of_the_way(3.5, 5.5), left_of_the_way(0, 4)});
   ASSERT_EQ(told.size(), 1u);
   EXPECT_LT((told[0].a - Vec2(-2, 2)).norm(), 1e-6);

@@ -8,11 +8,10 @@
 
 #include "base/random.hpp"
 #include "slam_plane/thesis/alignment.hpp"
-#include "slam_plane/thesis/grouping.hpp"
 #include "slam_plane/thesis/map_builder.hpp"
 #include "slam_plane/thesis/motion_model.hpp"
 #include "slam_plane/thesis/roll_back.hpp"
-#include "slam_plane/thesis/step_length.hpp"
+#include "slam_plane/thesis/steps.hpp"
 #include "slam_plane/thesis/thesis_mapper.hpp"
 #include "unit/slam_plane/scenes.hpp"
 #include "unit/slam_plane_thesis/walls.hpp"
@@ -33,13 +32,13 @@ struct Outcome {
   double corner = 0.0;    ///< largest distance of a certain corner from the nearest true one [m]
   int lost = 0;           ///< frames without a pose
   std::size_t submaps = 0;
-  std::set<WallId> ids;  ///< walls that pieces were taken for
-  std::set<int> seen;    ///< true walls that were seen
+  std::set<LandmarkId> ids;  ///< walls that observations were taken for
+  std::set<int> seen;        ///< true walls that were seen
 };
 
 double corner_error(const Map& map, const Scene& scene, const Pose2& T_map_world) {
   double worst = 0.0;
-  for (const Wall& wall : map.walls) {
+  for (const WallLandmark& wall : map.walls) {
     for (int end = 0; end < 2; ++end) {
       if (!wall.certain[end]) continue;
       double nearest = 1e9;
@@ -62,13 +61,13 @@ Outcome run(const Scene& scene, double fov_rad) {
   ThesisMapper mapper{Options{}};
   Outcome result;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Answer& answer = mapper.process(frames[i].pieces, sensor.view);
-    for (const WallId id : answer.associations) {
-      if (id != kNoWall) result.ids.insert(id);
+    const Answer& answer = mapper.process(frames[i].observations, sensor.view);
+    for (const LandmarkId id : answer.associations) {
+      if (id != kNoLandmark) result.ids.insert(id);
     }
     result.seen.insert(frames[i].wall.begin(), frames[i].wall.end());
     if (!answer.has_pose) ++result.lost;
-    if (!answer.has_pose || answer.undetermined.norm() > 0.0) continue;
+    if (!answer.has_pose || answer.unobservable.norm() > 0.0) continue;
     const Pose2 truth = T_map_world * frames[i].T_world_robot;
     result.position = std::max(result.position, (answer.T_map_robot.t - truth.t).norm());
   }
@@ -105,8 +104,8 @@ TEST(ThesisMapper, SameFramesGiveTheSameBits) {
   sensor.view.horizontal_fov_rad = 7.0;
   ThesisMapper a{Options{}}, b{Options{}};
   for (const TrueFrame& frame : observe(four_walls(60), sensor, 3)) {
-    const Answer& x = a.process(frame.pieces, sensor.view);
-    const Answer& y = b.process(frame.pieces, sensor.view);
+    const Answer& x = a.process(frame.observations, sensor.view);
+    const Answer& y = b.process(frame.observations, sensor.view);
     EXPECT_EQ(x.T_map_robot.t, y.T_map_robot.t);
     EXPECT_EQ(x.associations, y.associations);
   }
@@ -167,10 +166,10 @@ TEST(ThesisMapper, AWallAloneInViewGrowsAsTheRobotTurns) {
   sensor.noise_m = sensor.noise_angle_rad = sensor.noise_end_m = 0.0;
   sensor.view.horizontal_fov_rad = 1.0;
   ThesisMapper mapper{Options{}};
-  for (const TrueFrame& frame : observe(scene, sensor, 1)) mapper.process(frame.pieces, sensor.view);
-  const std::vector<Wall> walls = mapper.map().walls;
+  for (const TrueFrame& frame : observe(scene, sensor, 1)) mapper.process(frame.observations, sensor.view);
+  const std::vector<WallLandmark> walls = mapper.map().walls;
   const auto end_wall =
-      std::find_if(walls.begin(), walls.end(), [](const Wall& wall) { return wall.a.x() > 7.9; });
+      std::find_if(walls.begin(), walls.end(), [](const WallLandmark& wall) { return wall.a.x() > 7.9; });
   ASSERT_NE(end_wall, walls.end());
   EXPECT_LT((end_wall->a - Vec2(8, 2)).norm(), 1e-6);
   EXPECT_LT((end_wall->b - Vec2(8, -6)).norm(), 1e-6);

@@ -8,10 +8,10 @@
 namespace hallway::slam_plane::thesis::test {
 namespace {
 
-using Stages = std::vector<std::vector<const Track*>>;
+using Stages = std::vector<std::vector<const PlaneTrack*>>;
 
-Track track_at(TrackId id, const Segment& wall, Iteration k) {
-  Track track(id, TrackOptions{});
+PlaneTrack track_at(TrackId id, const Segment& wall, Iteration k) {
+  PlaneTrack track(id, TrackOptions{});
   track.push(seen(wall, straight(k), k));
   return track;
 }
@@ -32,8 +32,8 @@ TEST(Matching, ScoreIsFullForTheSameAndFallsWithEachTerm) {
 }
 
 TEST(Matching, TurningOfTheRobotChangesNoTermButTheAngle) {
-  const Sighting before = seen(kAhead, Pose2::at(Vec2(1, 0.5), 0.0), 0);
-  const Sighting now = seen(kAhead, Pose2::at(Vec2(1, 0.5), 0.2), 1);
+  const TimedObservation before = seen(kAhead, Pose2::at(Vec2(1, 0.5), 0.0), 0);
+  const TimedObservation now = seen(kAhead, Pose2::at(Vec2(1, 0.5), 0.2), 1);
   const MatchTerms terms = tracked_terms(now, before, MatchOptions{});
   EXPECT_NEAR(terms.angle, 0.2, 1e-12);
   EXPECT_NEAR(terms.distance, 0.0, 1e-12);
@@ -51,9 +51,9 @@ TEST(Matching, PartOfAWallThatStandsInPlaceIsIt) {
 
 TEST(Matching, EachTrackTakesTheSightingThatFitsItBest) {
   const Segment near{{Vec2(12, 3), Vec2(12, -3)}}, far{{Vec2(12.2, 3), Vec2(12.2, -3)}};
-  const Track a = track_at(0, near, 0), b = track_at(1, far, 0);
-  const std::vector<Sighting> now{seen(far, straight(1), 1), seen(near, straight(1), 1),
-                                  seen(near, straight(1), 1)};
+  const PlaneTrack a = track_at(0, near, 0), b = track_at(1, far, 0);
+  const std::vector<TimedObservation> now{seen(far, straight(1), 1), seen(near, straight(1), 1),
+                                          seen(near, straight(1), 1)};
   const auto matched = match_tracks(now, Stages{{&a, &b}}, MatchOptions{});
   EXPECT_EQ(matched[0], &b);
   EXPECT_EQ(matched[1], &a);
@@ -62,9 +62,9 @@ TEST(Matching, EachTrackTakesTheSightingThatFitsItBest) {
 
 TEST(Matching, EarlierStagesComeFirstUnlessLaterOnesFitMuchBetter) {
   const auto wall_at = [](double x) { return Segment{{Vec2(x, 3), Vec2(x, -3)}}; };
-  const Track current = track_at(0, wall_at(12.0), 0), neighbour = track_at(1, wall_at(12.1), 0),
-              other = track_at(2, wall_at(12.2), 0);
-  const std::vector<Sighting> near{seen(wall_at(12.1), straight(0), 1)},
+  const PlaneTrack current = track_at(0, wall_at(12.0), 0), neighbour = track_at(1, wall_at(12.1), 0),
+                   other = track_at(2, wall_at(12.2), 0);
+  const std::vector<TimedObservation> near{seen(wall_at(12.1), straight(0), 1)},
       far{seen(wall_at(12.2), straight(0), 1)};
   EXPECT_EQ(match_tracks(near, Stages{{&current, &neighbour}}, MatchOptions{})[0], &neighbour);
   EXPECT_EQ(match_tracks(near, Stages{{&current}, {&neighbour, &current}}, MatchOptions{})[0], &current);
@@ -74,8 +74,8 @@ TEST(Matching, EarlierStagesComeFirstUnlessLaterOnesFitMuchBetter) {
 /// Two walls in one line, of which the first one went out of view when only its last centimetres beside the second one were left.
 TEST(Matching, AWallThatWentOutOfViewDoesNotTakeTheOneBesideItThoughItIsAskedEarlier) {
   const Segment gone{{Vec2(2.2, 3.02), Vec2(2.28, 3.02)}}, beside{{Vec2(2.28, 3.0), Vec2(8.0, 3.0)}};
-  const Track before = track_at(0, gone, 0), own = track_at(1, beside, 2);
-  const std::vector<Sighting> now{seen(Segment{{Vec2(2.28, 3.02), Vec2(8.0, 3.02)}}, straight(3), 3)};
+  const PlaneTrack before = track_at(0, gone, 0), own = track_at(1, beside, 2);
+  const std::vector<TimedObservation> now{seen(Segment{{Vec2(2.28, 3.02), Vec2(8.0, 3.02)}}, straight(3), 3)};
   ASSERT_TRUE(
       match_score(tracked_terms(now[0], before.newest(), MatchOptions{}), MatchOptions{}).has_value());
   EXPECT_EQ(match_tracks(now, Stages{{&before}, {}, {&own}}, MatchOptions{})[0], &own);
@@ -83,13 +83,13 @@ TEST(Matching, AWallThatWentOutOfViewDoesNotTakeTheOneBesideItThoughItIsAskedEar
 }
 
 TEST(Matching, TracksNotSeenForLongAreNotMatched) {
-  const Track track = track_at(0, kAhead, 0);
-  EXPECT_EQ(
-      match_tracks(std::vector<Sighting>{seen(kAhead, straight(5), 5)}, Stages{{&track}}, MatchOptions{})[0],
-      &track);
-  EXPECT_EQ(
-      match_tracks(std::vector<Sighting>{seen(kAhead, straight(6), 6)}, Stages{{&track}}, MatchOptions{})[0],
-      nullptr);
+  const PlaneTrack track = track_at(0, kAhead, 0);
+  EXPECT_EQ(match_tracks(std::vector<TimedObservation>{seen(kAhead, straight(5), 5)}, Stages{{&track}},
+                         MatchOptions{})[0],
+            &track);
+  EXPECT_EQ(match_tracks(std::vector<TimedObservation>{seen(kAhead, straight(6), 6)}, Stages{{&track}},
+                         MatchOptions{})[0],
+            nullptr);
 }
 
 }  // namespace

@@ -57,19 +57,19 @@ class RandomHistory {
   std::optional<Iteration> maybe_roll_back() {
     if (draw(100) > 0.02) return std::nullopt;
     now_ -= static_cast<Iteration>(draw(101) * 60.0);
-    for (Track& track : tracks_) track.truncate(now_);
+    for (PlaneTrack& track : tracks_) track.truncate(now_);
     return now_;
   }
 
   double draw(std::uint64_t index) const { return random_.uniform(drawn_, index); }
   double draw(std::uint64_t index, std::uint32_t step) const { return random_.uniform(step, index); }
   Iteration now() const { return now_; }
-  const std::vector<Track>& tracks() const { return tracks_; }
+  const std::vector<PlaneTrack>& tracks() const { return tracks_; }
 
  private:
   Random random_;
   std::vector<Segment> walls_;
-  std::vector<Track> tracks_;
+  std::vector<PlaneTrack> tracks_;
   Iteration now_ = 0;
   std::uint32_t drawn_ = 0;
 };
@@ -90,7 +90,7 @@ TEST(PairComparer, GivesWhatTheSightingsThemselvesGiveToTheLastBit) {
       for (std::size_t a = 0; a < 4; ++a) {
         for (std::size_t b = 0; b < 4; ++b) {
           if (a == b || history.draw(200 + 4 * a + b) > 0.2) continue;
-          const Track &ta = history.tracks()[a], &tb = history.tracks()[b];
+          const PlaneTrack &ta = history.tracks()[a], &tb = history.tracks()[b];
           const auto first =
               static_cast<Iteration>(history.draw(300 + 4 * a + b) * static_cast<double>(history.now()));
           const Interval forced{first, first + static_cast<Iteration>(history.draw(400 + 4 * a + b) * 100.0)};
@@ -107,7 +107,7 @@ TEST(PairComparer, GivesWhatTheSightingsThemselvesGiveToTheLastBit) {
 }
 
 TEST(PairComparer, OtherWayRoundIsTheInverse) {
-  const Track a = track_of(0, kAlong, {0, 50}, curved), b = track_of(1, kSlanted, {0, 50}, curved);
+  const PlaneTrack a = track_of(0, kAlong, {0, 50}, curved), b = track_of(1, kSlanted, {0, 50}, curved);
   PairComparer comparer{CompareOptions{}};
   const Comparison forth = comparer.compare_in(a, b, {0, 50}, 1),
                    back = comparer.compare_in(b, a, {0, 50}, 2);
@@ -119,7 +119,7 @@ TEST(PairComparer, OtherWayRoundIsTheInverse) {
 }
 
 TEST(PairComparer, KeepsThePairsComparedLast) {
-  std::vector<Track> tracks;
+  std::vector<PlaneTrack> tracks;
   for (TrackId id = 0; id < 4; ++id)
     tracks.push_back(track_of(id, id % 2 == 0 ? kAlong : kAhead, {0, 20}, straight));
   PairComparer comparer(CompareOptions{}, 2);
@@ -136,8 +136,8 @@ TEST(PairComparer, KeepsThePairsComparedLast) {
 }
 
 TEST(PairComparer, FindsNothingInTooFewSharedSightings) {
-  const Track a = track_of(0, kAlong, {0, 10}, straight), b = track_of(1, kAhead, {9, 20}, straight);
-  const Track later = track_of(2, kAhead, {30, 40}, straight);
+  const PlaneTrack a = track_of(0, kAlong, {0, 10}, straight), b = track_of(1, kAhead, {9, 20}, straight);
+  const PlaneTrack later = track_of(2, kAhead, {30, 40}, straight);
   PairComparer comparer{CompareOptions{}};
   EXPECT_FALSE(comparer.compare_in(a, b, {0, 40}, 0).valid);
   EXPECT_EQ(comparer.compare_in(a, b, {0, 40}, 0).shared, 2);

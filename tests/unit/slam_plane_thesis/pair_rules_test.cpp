@@ -22,13 +22,13 @@ double ramp(Iteration k, Iteration from, Iteration to, double first, double last
 
 constexpr int kLeftLeft = 0;  // combination of ends
 
-/// What StaticPairs finds out when it is shown both tracks sighting by sighting.
-PairHistory history_of(const Track& a, const Track& b) {
-  Track seen_a(a.id(), TrackOptions{}), seen_b(b.id(), TrackOptions{});
+/// What StaticPairs finds out when it is shown both tracks observation by observation.
+PairHistory history_of(const PlaneTrack& a, const PlaneTrack& b) {
+  PlaneTrack seen_a(a.id(), TrackOptions{}), seen_b(b.id(), TrackOptions{});
   StaticPairs pairs{CompareOptions{}};
   for (Iteration k = 0; k <= std::max(a.newest().iteration, b.newest().iteration); ++k) {
-    if (const Sighting* sighting = a.find(k)) seen_a.push(*sighting);
-    if (const Sighting* sighting = b.find(k)) seen_b.push(*sighting);
+    if (const TimedObservation* observation = a.find(k)) seen_a.push(*observation);
+    if (const TimedObservation* observation = b.find(k)) seen_b.push(*observation);
     pairs.update(seen_a, seen_b);
   }
   return pairs.update(seen_a, seen_b);
@@ -73,13 +73,13 @@ struct TwoMapped {
 };
 
 TEST(Rule01, SightingsAreMatchedToTheLatestOnesOfTracksWithoutAPose) {
-  Track track(0, TrackOptions{}), other(1, TrackOptions{});
+  PlaneTrack track(0, TrackOptions{}), other(1, TrackOptions{});
   for (Iteration k = 0; k < 100; ++k) {
     const Pose2 pose =
         Pose2::at(Vec2(0.05 * static_cast<double>(k), 0.0), 0.1 * std::sin(0.3 * static_cast<double>(k)));
-    const std::vector<Sighting> now{seen(kAhead, pose, k), seen(kAlong, pose, k)};
+    const std::vector<TimedObservation> now{seen(kAhead, pose, k), seen(kAlong, pose, k)};
     if (k > 0) {
-      const std::vector<std::vector<const Track*>> stages{{&track, &other}};
+      const std::vector<std::vector<const PlaneTrack*>> stages{{&track, &other}};
       const auto matched = match_tracks(now, stages, MatchOptions{});
       ASSERT_EQ(matched[0], &other) << k;
       ASSERT_EQ(matched[1], &track) << k;
@@ -91,7 +91,7 @@ TEST(Rule01, SightingsAreMatchedToTheLatestOnesOfTracksWithoutAPose) {
 
 TEST(Rule02, PlanesAreComparedWithinIterationsAndSoInAnyOrderOfPairs) {
   const Segment behind{{Vec2(-1, 3), Vec2(5, 3)}}, farther{{Vec2(8, 2.5), Vec2(10, 2.5)}};
-  Track a(0, TrackOptions{}), b(1, TrackOptions{}), c(2, TrackOptions{});
+  PlaneTrack a(0, TrackOptions{}), b(1, TrackOptions{}), c(2, TrackOptions{});
   for (Iteration k = 0; k < 60; ++k) {
     a.push(seen(kAlong, straight(k), k));
     if (k % 5 != 2) b.push(seen(behind, straight(k), k));
@@ -113,7 +113,7 @@ TEST(Rule02, PlanesAreComparedWithinIterationsAndSoInAnyOrderOfPairs) {
 TEST(Rule03, RelativePlaceIsTheSameHoweverTheRobotTurns) {
   for (const auto& [first, second] :
        {std::pair{kAlong, kAhead}, std::pair{kSlanted, kAlong}, std::pair{kAhead, kFacing}}) {
-    const Track a = track_of(0, first, {0, 80}, curved), b = track_of(1, second, {0, 80}, curved);
+    const PlaneTrack a = track_of(0, first, {0, 80}, curved), b = track_of(1, second, {0, 80}, curved);
     PairComparer comparer{CompareOptions{}};
     const Comparison comparison = comparer.compare_in(a, b, {0, 80}, kLeftLeft);
     ASSERT_TRUE(comparison.has_keys());
@@ -123,11 +123,11 @@ TEST(Rule03, RelativePlaceIsTheSameHoweverTheRobotTurns) {
 }
 
 TEST(Rule07, MembersWereAllVisibleTogether) {
-  const Track a = track_of(0, kAlong, {0, 100}, straight), b = track_of(1, kAhead, {50, 150}, straight);
-  const Track late = track_of(2, kSlanted, {120, 150}, straight),
-              early = track_of(3, kSlanted, {0, 30}, straight);
-  const Track with_both = track_of(4, kSlanted, {40, 90}, straight);
-  const std::vector<const Track*> members{&a, &b};
+  const PlaneTrack a = track_of(0, kAlong, {0, 100}, straight), b = track_of(1, kAhead, {50, 150}, straight);
+  const PlaneTrack late = track_of(2, kSlanted, {120, 150}, straight),
+                   early = track_of(3, kSlanted, {0, 30}, straight);
+  const PlaneTrack with_both = track_of(4, kSlanted, {40, 90}, straight);
+  const std::vector<const PlaneTrack*> members{&a, &b};
   const Intervals common = common_intervals(members);
   ASSERT_EQ(common, (Intervals{{50, 100}}));
   EXPECT_FALSE(fits(common, late, 10));
@@ -136,21 +136,21 @@ TEST(Rule07, MembersWereAllVisibleTogether) {
 }
 
 TEST(Rule09, SubmapsAreLinkedByThePlanesThatCameIntoViewLast) {
-  const Track oldest = track_of(0, kAlong, {0, 100}, straight),
-              old = track_of(1, kAhead, {20, 100}, straight);
-  const Track gone = track_of(2, kFacing, {70, 80}, straight),
-              young = track_of(3, kSlanted, {60, 100}, straight);
-  const Track newcomer = track_of(4, kSlanted, {90, 100}, straight);
-  const std::vector<const Track*> members{&oldest, &old, &gone, &young};
+  const PlaneTrack oldest = track_of(0, kAlong, {0, 100}, straight),
+                   old = track_of(1, kAhead, {20, 100}, straight);
+  const PlaneTrack gone = track_of(2, kFacing, {70, 80}, straight),
+                   young = track_of(3, kSlanted, {60, 100}, straight);
+  const PlaneTrack newcomer = track_of(4, kSlanted, {90, 100}, straight);
+  const std::vector<const PlaneTrack*> members{&oldest, &old, &gone, &young};
   EXPECT_EQ(linking_members(members, newcomer, 2), (std::vector<int>{3, 1}));
 }
 
 TEST(Rule10, TheOtherSideOfAThinWallIsAnotherPlane) {
-  Track track(0, TrackOptions{});
-  track.push(*make_sighting({Vec2(2, 0.05), Vec2(4, 0.05)}, 0));
-  const std::vector<std::vector<const Track*>> stages{{&track}};
-  const std::vector<Sighting> same{*make_sighting({Vec2(2, 0.01), Vec2(4, 0.01)}, 1)};
-  const std::vector<Sighting> behind{*make_sighting({Vec2(4, -0.01), Vec2(2, -0.01)}, 1)};
+  PlaneTrack track(0, TrackOptions{});
+  track.push(*make_observation({Vec2(2, 0.05), Vec2(4, 0.05)}, 0));
+  const std::vector<std::vector<const PlaneTrack*>> stages{{&track}};
+  const std::vector<TimedObservation> same{*make_observation({Vec2(2, 0.01), Vec2(4, 0.01)}, 1)};
+  const std::vector<TimedObservation> behind{*make_observation({Vec2(4, -0.01), Vec2(2, -0.01)}, 1)};
   EXPECT_EQ(match_tracks(same, stages, MatchOptions{})[0], &track);
   EXPECT_EQ(match_tracks(behind, stages, MatchOptions{})[0], nullptr);
 }
@@ -165,8 +165,8 @@ TEST(Rule13, EndsThatStandStillAreFoundByTheLeastDeviation) {
       };
     };
     const bool left_a = combination / 2 == 0, left_b = combination % 2 == 0;
-    const Track a = track_of(0, kAlong, {0, 50}, straight, hide(left_a));
-    const Track b = track_of(1, kAhead, {0, 50}, straight, hide(left_b));
+    const PlaneTrack a = track_of(0, kAlong, {0, 50}, straight, hide(left_a));
+    const PlaneTrack b = track_of(1, kAhead, {0, 50}, straight, hide(left_b));
     const PairHistory history = history_of(a, b);
     ASSERT_EQ(history.saved.size(), 1u);
     const Comparison& comparison = history.saved.front();
@@ -178,12 +178,12 @@ TEST(Rule13, EndsThatStandStillAreFoundByTheLeastDeviation) {
 }
 
 TEST(Rule14, EndsAreNumberedAsTheRobotSeesThem) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
+  PlaneTrack a(0, TrackOptions{}), b(1, TrackOptions{});
   for (Iteration k = 0; k < 40; ++k) {
-    const Sighting told = seen(kAhead, straight(k), k);
-    Piece piece{told.segment.end[0], told.segment.end[1], 0.0, 2.5};
-    if (k % 2 == 1) std::swap(piece.a, piece.b);
-    b.push(*make_sighting(piece, k));
+    const TimedObservation told = seen(kAhead, straight(k), k);
+    WallObservation observation{told.segment.end[0], told.segment.end[1], 0.0, 2.5};
+    if (k % 2 == 1) std::swap(observation.a, observation.b);
+    b.push(*make_observation(observation, k));
     a.push(seen(kAlong, straight(k), k));
     EXPECT_GT(b.newest().segment.end[kEndA].y(), b.newest().segment.end[kEndB].y());
     EXPECT_LT(b.newest().segment.normal().x(), 0.0);  // faces the robot
@@ -198,8 +198,8 @@ TEST(Rule15, ParallelPlanesThatGrowTogetherHaveNoKeyPointsThoughTheOffsetIsRight
   // Two walls on the same side, one behind the other, both cut by the view's far end.
   const Segment behind{{Vec2(-1, 3), Vec2(7, 3)}};
   const auto grow = [](Iteration k) { return Hidden{0.0, ramp(k, 0, 50, 4.0, 1.0)}; };
-  const Track a = track_of(0, kAlong, {0, 50}, straight, grow),
-              b = track_of(1, behind, {0, 50}, straight, grow);
+  const PlaneTrack a = track_of(0, kAlong, {0, 50}, straight, grow),
+                   b = track_of(1, behind, {0, 50}, straight, grow);
   const PairHistory history = history_of(a, b);
   for (int end = 0; end < 2; ++end) EXPECT_FALSE(history.still(0, end) || history.still(1, end));
   ASSERT_FALSE(history.saved.empty());
@@ -238,8 +238,8 @@ TEST(Rule18, TimeIsSplitWhereAPlaneTurnsFromGrowingToShrinking) {
   const auto grow_and_shrink = [](Iteration k) {
     return Hidden{ramp(k, 80, 110, 0.0, 3.0), ramp(k, 0, 60, 3.0, 0.0)};
   };
-  const Track a = track_of(0, kAlong, {0, 110}, straight),
-              b = track_of(1, kAhead, {0, 110}, straight, grow_and_shrink);
+  const PlaneTrack a = track_of(0, kAlong, {0, 110}, straight),
+                   b = track_of(1, kAhead, {0, 110}, straight, grow_and_shrink);
   ASSERT_EQ(b.phases().size(), 2u);
   EXPECT_EQ(b.phases()[0].interval, (Interval{0, 80}));
   EXPECT_EQ(b.phases()[0].trend, Trend::growing);
@@ -273,7 +273,8 @@ TEST(Locator, AKeyPointThatNoSubmapTellsIsFoundInTheIntervalOfNow) {
 
 TEST(Rule20, AnIterationInWhichAPlaneIsTooLargeTakesNoPart) {
   const auto spike = [](Iteration k) { return Hidden{k == 17 ? -0.4 : 0.0, 0.0}; };
-  const Track a = track_of(0, kAlong, {0, 40}, straight), b = track_of(1, kAhead, {0, 40}, straight, spike);
+  const PlaneTrack a = track_of(0, kAlong, {0, 40}, straight),
+                   b = track_of(1, kAhead, {0, 40}, straight, spike);
   PairComparer comparer{CompareOptions{}};
   const Comparison comparison = comparer.compare_in(a, b, {0, 40}, kLeftLeft);
   EXPECT_NEAR(comparison.size[1], kAhead.length(), kExact);
@@ -286,12 +287,12 @@ TEST(Rule28, SizesAreBroughtToOneWherePairsAreChained) {
   const auto cut = [](Iteration k) {
     return Hidden{0.0, k <= 50 ? ramp(k, 0, 20, 1.0, 0.0) : ramp(k, 60, 100, 4.0, 3.0)};
   };
-  Track shared(0, TrackOptions{});
+  PlaneTrack shared(0, TrackOptions{});
   for (Iteration k = 0; k <= 100; ++k) {
     if (k <= 50 || k >= 60) shared.push(seen(kAlong, straight(k), k, cut(k).left, cut(k).right));
   }
-  const Track first = track_of(1, kAhead, {0, 50}, straight),
-              last = track_of(2, kSlanted, {60, 100}, straight);
+  const PlaneTrack first = track_of(1, kAhead, {0, 50}, straight),
+                   last = track_of(2, kSlanted, {60, 100}, straight);
   PairComparer comparer{CompareOptions{}};
   const std::vector<Reference> references = chain(comparer.compare_in(first, shared, {0, 50}, kLeftLeft),
                                                   comparer.compare_in(shared, last, {60, 100}, kLeftLeft));
@@ -323,19 +324,19 @@ TEST(Rule30, PairsAreChosenThatWereSeenTogetherLongest) {
 }
 
 TEST(Rule31, AMemberIsConfirmedWhenItWasComparedForLongEnough) {
-  const Track a = track_of(0, kAlong, {0, 100}, straight), b = track_of(1, kAhead, {0, 100}, straight);
-  const Track brief = track_of(2, kSlanted, {95, 100}, straight);
+  const PlaneTrack a = track_of(0, kAlong, {0, 100}, straight), b = track_of(1, kAhead, {0, 100}, straight);
+  const PlaneTrack brief = track_of(2, kSlanted, {95, 100}, straight);
   PairComparer comparer{CompareOptions{}};
-  EXPECT_EQ(judge_member(comparer.compare_in(a, b, {0, 100}, kLeftLeft), 0, 20, IntervalOptions{}),
+  EXPECT_EQ(judge_member(comparer.compare_in(a, b, {0, 100}, kLeftLeft), 0, 20, Options{}),
             Membership::confirmed);
-  EXPECT_EQ(judge_member(comparer.compare_in(a, brief, {0, 100}, kLeftLeft), 95, 100, IntervalOptions{}),
+  EXPECT_EQ(judge_member(comparer.compare_in(a, brief, {0, 100}, kLeftLeft), 95, 100, Options{}),
             Membership::undecided);
 }
 
 TEST(Membership, AMemberThatWasNotComparedForLongEnoughIsFoundOutInTime) {
   const Comparison none;
-  EXPECT_EQ(judge_member(none, 100, 129, IntervalOptions{}), Membership::undecided);
-  EXPECT_EQ(judge_member(none, 100, 130, IntervalOptions{}), Membership::too_short);
+  EXPECT_EQ(judge_member(none, 100, 129, Options{}), Membership::undecided);
+  EXPECT_EQ(judge_member(none, 100, 130, Options{}), Membership::too_short);
 }
 
 }  // namespace

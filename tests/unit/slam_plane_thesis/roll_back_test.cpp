@@ -57,8 +57,8 @@ TEST(RollBack, WhatIsDoneAgainOverSeveralFramesComesToWhatItComesToAtOnce) {
   for (const double noise : {0.0, 1.0}) {
     ThesisMapper spread{severe()}, at_once{severe()};
     for (const TrueFrame& frame : corridor(noise)) {
-      spread.process(frame.pieces, View{});
-      at_once.process(frame.pieces, View{});
+      spread.process(frame.observations, View{});
+      at_once.process(frame.observations, View{});
       at_once.refined_map();
     }
     EXPECT_GT(at_once.counters().roll_backs, 2u) << "the scene is to have some";
@@ -74,7 +74,7 @@ TEST(RollBack, NoFrameDoesMuchAgainAndTheRobotIsNotLostMeanwhile) {
   ThesisMapper mapper{severe()};
   std::uint64_t before = 0, behind = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Answer& answer = mapper.process(frames[i].pieces, View{});
+    const Answer& answer = mapper.process(frames[i].observations, View{});
     const std::uint64_t again = mapper.counters().replayed - before;
     before += again;
     EXPECT_LE(again, 4u);
@@ -90,12 +90,12 @@ TEST(RollBack, NoFrameDoesMuchAgainAndTheRobotIsNotLostMeanwhile) {
 TEST(RollBack, NoNameStandsForTwoWalls) {
   const std::vector<TrueFrame> frames = corridor(0.0);
   ThesisMapper mapper(severe());
-  std::map<WallId, int> wall_of_name;
+  std::map<LandmarkId, int> wall_of_name;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Answer& answer = mapper.process(frames[i].pieces, View{});
-    for (std::size_t k = 0; k < frames[i].pieces.size(); ++k) {
-      const WallId name = answer.associations[k];
-      if (name == kNoWall) continue;
+    const Answer& answer = mapper.process(frames[i].observations, View{});
+    for (std::size_t k = 0; k < frames[i].observations.size(); ++k) {
+      const LandmarkId name = answer.associations[k];
+      if (name == kNoLandmark) continue;
       const auto [known, fresh] = wall_of_name.try_emplace(name, frames[i].wall[k]);
       ASSERT_EQ(known->second, frames[i].wall[k]) << "name " << name << " in frame " << i;
     }
@@ -113,16 +113,19 @@ TEST(RollBack, WhatComesIntoViewMeanwhileIsNotTakenForTheWallBesideIt) {
   world.set_now(40);
   world.state.recent = world.state.seen;
   Bridge bridge(world.options, world.state);
-  const auto piece = [](const Segment& segment) {
-    return Piece{segment.end[kEndA], segment.end[kEndB], 0.0, 2.5};
+  const auto observation = [](const Segment& segment) {
+    return WallObservation{segment.end[kEndA], segment.end[kEndB], 0.0, 2.5};
   };
-  const auto part = [&](double from, double to) { return piece(Segment{{Vec2(from, 3), Vec2(to, 3)}}); };
-  const std::vector<Piece> both{piece(kAhead), part(1.95, 2.0), part(2.0, 8.0)};
+  const auto part = [&](double from, double to) {
+    return observation(Segment{{Vec2(from, 3), Vec2(to, 3)}});
+  };
+  const std::vector<WallObservation> both{observation(kAhead), part(1.95, 2.0), part(2.0, 8.0)};
   EXPECT_EQ(bridge.follow(both).associations,
-            (std::vector<WallId>{world.state.tracks.name(0), world.state.tracks.name(2), kNoWall}));
+            (std::vector<LandmarkId>{world.state.tracks.name(0), world.state.tracks.name(2), kNoLandmark}));
   for (int i = 0; i < 8; ++i) {
-    const std::vector<Piece> one{piece(kAhead), part(2.0, 8.0)};
-    EXPECT_EQ(bridge.follow(one).associations, (std::vector<WallId>{world.state.tracks.name(0), kNoWall}));
+    const std::vector<WallObservation> one{observation(kAhead), part(2.0, 8.0)};
+    EXPECT_EQ(bridge.follow(one).associations,
+              (std::vector<LandmarkId>{world.state.tracks.name(0), kNoLandmark}));
   }
 }
 
@@ -143,11 +146,11 @@ TEST(RollBack, AnEndThatTheViewCutsMeanwhileIsNoCornerAnyMore) {
   Iteration now = 40;
   for (const double cut : {0.0, 1.0, 1.1, 1.2, 1.3}) {
     ++now;
-    std::vector<Piece> pieces;
-    for (const Sighting& s :
+    std::vector<WallObservation> observations;
+    for (const TimedObservation& s :
          {seen(kAhead, straight(now), now, cut), seen(kSlanted, straight(now), now, 0.0, cut)})
-      pieces.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
-    const std::optional<Alignment> told = bridge.follow(pieces).location;
+      observations.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
+    const std::optional<Alignment> told = bridge.follow(observations).location;
     ASSERT_TRUE(told && told->by_points);
     EXPECT_LT((told->T_to_from.t - straight(now).t).norm(), kExact) << "cut by " << cut;
   }
@@ -164,14 +167,14 @@ TEST(RollBack, AWallThatIsMetAgainMeanwhileIsFoundInTheMap) {
   for (const Iteration k : {39, 40}) world.state.carried.motion.known(straight(k));
   Bridge bridge(world.options, world.state);
   for (Iteration now = 41; now < 60; ++now) {
-    std::vector<Piece> pieces;
+    std::vector<WallObservation> observations;
     const auto see = [&](const Segment& wall) {
-      const Sighting s = seen(wall, straight(now), now, 0.5, 0.5);
-      pieces.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
+      const TimedObservation s = seen(wall, straight(now), now, 0.5, 0.5);
+      observations.push_back({s.segment.end[kEndA], s.segment.end[kEndB], 0.0, 2.5});
     };
     see(kAlong);
     if (now < 50) see(kAhead);
-    const Bridge::Told told = bridge.follow(pieces);
+    const Bridge::Report told = bridge.follow(observations);
     EXPECT_EQ(told.associations.front(), world.state.tracks.name(along)) << now;
     ASSERT_TRUE(told.location.has_value());
     EXPECT_NEAR(told.location->T_to_from.t.y(), 0.0, kExact) << "the wall along the way tells that";
@@ -184,7 +187,7 @@ Map mapped(Iteration back) {
   options.roll_back_limit = 500;
   ThesisMapper mapper(options);
   const std::vector<TrueFrame> frames = corridor(0.0);
-  for (const TrueFrame& frame : frames) mapper.process(frame.pieces, View{});
+  for (const TrueFrame& frame : frames) mapper.process(frame.observations, View{});
   mapper.refined_map();
   if (back > 0) {
     const auto since = static_cast<Iteration>(frames.size()) - back;

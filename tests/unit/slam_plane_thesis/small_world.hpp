@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <vector>
 
-#include "slam_plane/thesis/matcher.hpp"
 #include "slam_plane/thesis/state.hpp"
+#include "slam_plane/thesis/steps.hpp"
 #include "unit/slam_plane_thesis/walls.hpp"
 
 namespace hallway::slam_plane::thesis::test {
@@ -16,7 +16,7 @@ inline Segment across(double x) {
   return {{Vec2(x, 3), Vec2(x, -3)}};
 }
 
-/// What an iteration of the mapper works on, made by hand: tracks that saw walls at given times from a robot that drives along x, and submaps of them. The map's frame is the world's. `kAlong` should be the first wall
+/// What an iteration of the mapper works on, made by hand: tracks that saw walls at observations times from a robot that drives along x, and submaps of them. The map's frame is the world's. `kAlong` should be the first wall
 /// and be seen all the time, and the others stand across: then each of them is compared with it and with nothing else, and rules about comparisons do not matter.
 class SmallWorld {
  public:
@@ -26,7 +26,7 @@ class SmallWorld {
   template <typename Path, typename Hide>
   TrackId see(const Segment& wall, std::initializer_list<Interval> times, const Path& path,
               const Hide& hidden) {
-    Track& track = state.tracks.create(times.begin()->first);
+    PlaneTrack& track = state.tracks.create(times.begin()->first);
     for (const Interval& time : times) {
       for (Iteration k = time.first; k <= time.last; ++k)
         track.push(seen(wall, path(k), k, hidden(k).left, hidden(k).right));
@@ -102,7 +102,7 @@ class SmallWorld {
 
   /// How far a plane of the map is from its wall [m]; 1e9 if the map does not have it.
   double error_in_map(TrackId id) const {
-    const MappedPlane* plane = state.map.find(id);
+    const PlaneLandmark* plane = state.map.find(id);
     if (plane == nullptr) return 1e9;
     const Segment segment = plane->reference.place.segment();
     return std::max((segment.end[kEndA] - walls[id].end[kEndA]).norm(),

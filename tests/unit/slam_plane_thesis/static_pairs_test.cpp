@@ -12,7 +12,7 @@ namespace {
 /// Shows two tracks what `see(which, k)` tells, for some iterations.
 template <typename See>
 PairHistory watched(Iteration iterations, const See& see) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
+  PlaneTrack a(0, TrackOptions{}), b(1, TrackOptions{});
   StaticPairs pairs{CompareOptions{}};
   for (Iteration k = 0; k < iterations; ++k) {
     a.push(see(0, k));
@@ -29,19 +29,20 @@ bool any_keys(const PairHistory& history) {
   return false;
 }
 
-/// A sighting as a sensor tells it: 2 cm across, 0.3 degrees, 0.5 cm at the ends.
-Sighting noisy(const Sighting& told, const Random& random, std::uint32_t draw, std::uint64_t which) {
+/// An observation as a sensor tells it: 2 cm across, 0.3 degrees, 0.5 cm at the ends.
+TimedObservation noisy(const TimedObservation& told, const Random& random, std::uint32_t draw,
+                       std::uint64_t which) {
   const Vec2 d = told.direction, n = told.segment.normal();
   const double across = 0.02 * random.normal(draw, 10 * which),
                turn = 0.0052 * random.normal(draw, 10 * which + 1);
-  Piece piece;
+  WallObservation observation;
   for (int end = 0; end < 2; ++end) {
     const double lever = (end == 0 ? 0.5 : -0.5) * told.length;
     const Vec2 p = told.segment.end[end] + (across + lever * turn) * n +
                    0.005 * random.normal(draw, 10 * which + 2 + static_cast<std::uint64_t>(end)) * d;
-    (end == 0 ? piece.a : piece.b) = p;
+    (end == 0 ? observation.a : observation.b) = p;
   }
-  return *make_sighting(piece, told.iteration);
+  return *make_observation(observation, told.iteration);
 }
 
 TEST(StaticPairs, TakesNoEndForStaticIfBothMove) {
@@ -92,8 +93,9 @@ TEST(StaticPairs, WithNoiseEndsThatStandStillAreFoundAndEndsThatMoveAreNot) {
     // The right end of the wall ahead is hidden by less and less: it moves by 0.4 cm in an iteration.
     const auto see = [&](int which, Iteration k) {
       const Pose2 pose = Pose2::at(Vec2(0.04 * static_cast<double>(k), 0.0), 0.0);
-      const Sighting told = which == 0 ? seen(kAlong, pose, k)
-                                       : seen(kAhead, pose, k, 0.0, 1.0 - 0.004 * static_cast<double>(k));
+      const TimedObservation told = which == 0
+                                        ? seen(kAlong, pose, k)
+                                        : seen(kAhead, pose, k, 0.0, 1.0 - 0.004 * static_cast<double>(k));
       return noisy(told, random, static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(which));
     };
     const PairHistory history = watched(80, see);
@@ -107,7 +109,7 @@ TEST(StaticPairs, WithNoiseEndsThatStandStillAreFoundAndEndsThatMoveAreNot) {
 }
 
 TEST(StaticPairs, ARollBackLeavesWhatTheSightingsBeforeItTell) {
-  Track a(0, TrackOptions{}), b(1, TrackOptions{});
+  PlaneTrack a(0, TrackOptions{}), b(1, TrackOptions{});
   StaticPairs pairs{CompareOptions{}}, fresh{CompareOptions{}};
   const auto push = [&](Iteration from, Iteration to) {
     for (Iteration k = from; k < to; ++k) {

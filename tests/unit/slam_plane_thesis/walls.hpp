@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slam_plane/thesis/comparison.hpp"
-#include "slam_plane/thesis/track.hpp"
+#include "slam_plane/thesis/plane_track.hpp"
 
 namespace hallway::slam_plane::thesis::test {
 
@@ -31,11 +31,11 @@ inline Pose2 curved(Iteration k) {
 }
 
 /// The part of a wall from `left` metres beside its left end to `right` metres beside its right one, as a robot sees it.
-inline Sighting seen(const Segment& wall, const Pose2& T_world_robot, Iteration k, double left = 0.0,
-                     double right = 0.0) {
+inline TimedObservation seen(const Segment& wall, const Pose2& T_world_robot, Iteration k, double left = 0.0,
+                             double right = 0.0) {
   const Vec2 d = wall.direction();
   const Segment part = T_world_robot.inverse() * Segment{{wall.end[0] + left * d, wall.end[1] - right * d}};
-  return make_sighting({part.end[0], part.end[1], 0.0, 2.5}, k).value();
+  return make_observation({part.end[0], part.end[1], 0.0, 2.5}, k).value();
 }
 
 /// What of a wall is hidden at an iteration, beside its left and beside its right end [m].
@@ -45,9 +45,9 @@ struct Hidden {
 
 /// A track that saw a wall in all iterations of an interval, each time but for what `hidden(k)` says.
 template <typename Path, typename Hide>
-Track track_of(TrackId id, const Segment& wall, const Interval& interval, const Path& path,
-               const Hide& hidden) {
-  Track track(id, TrackOptions{});
+PlaneTrack track_of(TrackId id, const Segment& wall, const Interval& interval, const Path& path,
+                    const Hide& hidden) {
+  PlaneTrack track(id, TrackOptions{});
   for (Iteration k = interval.first; k <= interval.last; ++k) {
     const Hidden h = hidden(k);
     track.push(seen(wall, path(k), k, h.left, h.right));
@@ -56,7 +56,7 @@ Track track_of(TrackId id, const Segment& wall, const Interval& interval, const 
 }
 
 template <typename Path>
-Track track_of(TrackId id, const Segment& wall, const Interval& interval, const Path& path) {
+PlaneTrack track_of(TrackId id, const Segment& wall, const Interval& interval, const Path& path) {
   return track_of(id, wall, interval, path, [](Iteration) { return Hidden{}; });
 }
 
