@@ -16,6 +16,9 @@
 namespace {
 
 using namespace hallway::slam_point;
+using hallway::Mat3;
+using hallway::Pose;
+using hallway::Vec3;
 using hallway::bench::cpu_us;
 using hallway::bench::GrowthTable;
 using hallway::bench::resident_mb;

@@ -23,6 +23,9 @@
 namespace {
 
 using namespace hallway::slam_point;
+using hallway::Mat3;
+using hallway::Pose;
+using hallway::Vec3;
 using scenes::Log;
 using scenes::Seen;
 

@@ -17,6 +17,9 @@
 namespace {
 
 using namespace hallway::slam_point;
+using hallway::Mat3;
+using hallway::Pose;
+using hallway::Vec3;
 
 constexpr int kRuns = 5;
 constexpr int kFrames = 200;

@@ -18,6 +18,9 @@
 namespace {
 
 using namespace hallway::slam_point;
+using hallway::Mat3;
+using hallway::Pose;
+using hallway::Vec3;
 
 constexpr double kLargestGap_s = 1.05;   // between two fixes that are interpolated
 constexpr double kFastest_m_s = 12.0;    // a faster step between two fixes is a jump

@@ -23,7 +23,7 @@ void add_landmarks(const MapSource& source, const Pose& anchor, Map& map) {
     landmark.id = source.first_id + l;
     landmark.observations = record.count;
     if (is_mapped(source, record)) landmark.status = LandmarkStatus::mapped;
-    landmark.position = told_from(anchor, {{}, graph.mean_position(l)}).t;
+    landmark.position = seen_from(anchor, {{}, graph.mean_position(l)}).t;
     map.landmarks.push_back(landmark);
   }
 }
@@ -33,7 +33,7 @@ void add_moving(const MapSource& source, const std::vector<Pose>& poses, const P
     if (source.graph.submaps[track.submap].part != source.part) continue;
     Landmark landmark;
     landmark.id = source.first_id + track.landmark;
-    landmark.position = told_from(anchor, {{}, poses[track.submap] * track.place}).t;
+    landmark.position = seen_from(anchor, {{}, poses[track.submap] * track.place}).t;
     landmark.observations = track.sightings;
     landmark.status = LandmarkStatus::dynamic;
     map.landmarks.push_back(landmark);
@@ -47,7 +47,7 @@ void add_submaps(const MapSource& source, const std::vector<Pose>& poses, const 
     if (source.graph.submaps[s].part != source.part) continue;
     Submap submap;
     submap.id = s;
-    submap.T_map_submap = told_from(anchor, poses[s]);
+    submap.T_map_submap = seen_from(anchor, poses[s]);
     for (const Member& member : source.graph.submaps[s].members) {
       if (member.count > 0) submap.members.push_back(source.first_id + member.landmark);
     }
@@ -67,9 +67,21 @@ Map report(const MapSource& source, const std::vector<Pose>& poses) {
 
 }  // namespace
 
-Pose told_from(const Pose& anchor, const Pose& pose) {
+Pose seen_from(const Pose& anchor, const Pose& pose) {
   const bool same = anchor.t.isZero(0.0) && anchor.q.vec().isZero(0.0);
   return same ? pose : anchor.inverse() * pose;
+}
+
+Mat6 seen_from(const Pose& anchor, const Mat6& covariance) {
+  const Mat3 turn = anchor.q.toRotationMatrix();
+  Mat6 seen;
+  for (Eigen::Index row = 0; row < 6; row += 3) {
+    for (Eigen::Index column = 0; column < 6; column += 3) {
+      const Mat3 half = turn.transpose() * covariance.block<3, 3>(row, column);
+      seen.block<3, 3>(row, column) = half * turn;
+    }
+  }
+  return seen;
 }
 
 Map report_map(const MapSource& source) {
@@ -80,14 +92,14 @@ Map report_refined_map(const MapSource& source, const SegmentStore& segments) {
   std::vector<bool> mapped;
   for (const LandmarkRecord& record : source.graph.landmarks)
     mapped.push_back(is_mapped(source, record) && record.part == source.part);
-  const RefinedMap refined = refine_map(source.graph, segments, mapped, source.planar);
+  const RefinedMap refined = refine_map(source.graph, segments, mapped);
   const Pose& anchor = refined.poses[source.parts.anchor_of(source.part)];
   const Mat3 turn = anchor.q.toRotationMatrix().transpose();
   Map map = report(source, refined.poses);
   for (Landmark& landmark : map.landmarks) {
     if (landmark.status == LandmarkStatus::dynamic) continue;
     const std::size_t index = landmark.id - source.first_id;
-    landmark.position = told_from(anchor, {{}, refined.positions[index]}).t;
+    landmark.position = seen_from(anchor, {{}, refined.positions[index]}).t;
     landmark.covariance = refined.covariances[index];
     if (landmark.covariance) *landmark.covariance = turn * *landmark.covariance * turn.transpose();
   }

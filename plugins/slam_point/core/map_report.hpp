@@ -9,10 +9,12 @@
 
 namespace hallway::slam_point {
 
-/// A pose in the frame that `anchor` is in, as told: in the frame of `anchor`. While that is the same frame, nothing is rounded.
-Pose told_from(const Pose& anchor, const Pose& pose);
+/// A pose in the frame that `anchor` is in, moved to the frame of `anchor`. Where that is the same frame, nothing is rounded.
+Pose seen_from(const Pose& anchor, const Pose& pose);
+/// The same of a covariance of position and rotation.
+Mat6 seen_from(const Pose& anchor, const Mat6& covariance);
 
-/// What a map is told from: one part of the graph, in the frame of its anchor.
+/// What a map is reported from: one part of the graph, in the frame of its anchor.
 struct MapSource {
   const SubmapGraph& graph;
   const MapParts& parts;
@@ -20,10 +22,9 @@ struct MapSource {
   Index part = kNone;
   LandmarkId first_id = 0;             ///< id of landmark 0
   std::uint32_t min_observations = 0;  ///< from which on a landmark counts as mapped
-  bool planar = true;
 };
 
-/// The map as it stands. O(map).
+/// The map as it is. O(map).
 Map report_map(const MapSource& source);
 
 /// The map as all evidence in `segments` places it together (refine_map), with covariances.

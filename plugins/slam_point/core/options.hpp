@@ -71,6 +71,8 @@ struct Options {
   double match_bound() const { return match_bound_m > 0.0 ? match_bound_m : 12.0 * bound_noise(); }
   double map_bound() const { return map_bound_m > 0.0 ? map_bound_m : 16.0 * bound_noise(); }
   double separation() const { return separation_m > 0.0 ? separation_m : 5.0 * bound_noise(); }
+  /// A residual up to here is noise, for a point of weight 1 [m]: a correct match is farther off once in 10^7.
+  double agreement() const { return 6.0 * noise_m; }
   double bound_noise() const { return std::max(noise_m, least_bound_noise_m); }
 };
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "geometry/se3.hpp"
+
 namespace hallway::slam_point {
 
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// Adds a * b^T to `sum`. Written by pairs of rows, which a register holds, because it stands in the innermost loops: of the product as a
@@ -22,15 +20,13 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
   }
 }
 
-/// A rigid transform: `T_a_b * p_b` is the point in frame a. Metres; q is a unit quaternion.
-struct Pose {
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< rotation
-  Vec3 t = Vec3::Zero();                                  ///< translation [m]
-
-  Vec3 operator*(const Vec3& p) const { return q * p + t; }
-  Pose operator*(const Pose& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
-  Pose inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
-};
+/// The pose with no zero of negative sign, so that what is printed of it does not depend on rounding.
+inline Pose without_negative_zeros(const Pose& pose) {
+  Pose positive;
+  positive.t = pose.t + Vec3::Zero();
+  positive.q.coeffs() = pose.q.coeffs() + Eigen::Vector4d::Zero();
+  return positive;
+}
 
 /// A pose as a matrix, to move many points by; written as add_outer() is.
 class PointMotion {

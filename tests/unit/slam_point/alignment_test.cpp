@@ -48,7 +48,7 @@ TEST(Alignment, AgreesWithSingularValueDecomposition) {
         Pose{rotation_exp(random_vec(random, 0.1)) * truth.q, truth.t + random_vec(random, 1.0)});
     for (const Pair& pair : pairs) alignment.add(pair.reference, pair.point, pair.weight);
     Pose fitted;
-    if (!alignment.solve(false, 1.0, fitted)) continue;
+    if (!alignment.solve({false, 1.0}, fitted)) continue;
     EXPECT_LT((fitted.q.toRotationMatrix() - kabsch(pairs)).norm(), 1e-9) << "trial " << trial;
   }
 }
@@ -62,7 +62,7 @@ TEST(Alignment, RecoversAnExactPose) {
     alignment.add(truth * b, b, 1.0);
   }
   Pose fitted;
-  ASSERT_TRUE(alignment.solve(false, 1e-6, fitted));
+  ASSERT_TRUE(alignment.solve({false, 1e-6}, fitted));
   EXPECT_LT((fitted.t - truth.t).norm(), 1e-10);
   EXPECT_LT(rotation_log(fitted.q * truth.q.conjugate()).norm(), 1e-13);
 }
@@ -71,7 +71,7 @@ TEST(Alignment, CollinearPointsDoNotDetermineAPose) {
   Alignment alignment(Pose{});
   for (int i = 0; i < 10; ++i) alignment.add(Vec3(i, 2.0 * i, -i), Vec3(i, 2.0 * i, -i), 1.0);
   Pose fitted;
-  EXPECT_FALSE(alignment.solve(false, 1e-6, fitted));
+  EXPECT_FALSE(alignment.solve({false, 1e-6}, fitted));
 }
 
 TEST(Alignment, TwoPointsDetermineAPlanarPose) {
@@ -79,7 +79,7 @@ TEST(Alignment, TwoPointsDetermineAPlanarPose) {
   Alignment alignment(Pose{});
   for (const Vec3& b : {Vec3(1.0, 0.0, 0.0), Vec3(7.0, 4.0, 0.0)}) alignment.add(truth * b, b, 1.0);
   Pose fitted;
-  ASSERT_TRUE(alignment.solve(true, 1e-6, fitted));
+  ASSERT_TRUE(alignment.solve({true, 1e-6}, fitted));
   EXPECT_LT((fitted.t - truth.t).norm(), 1e-12);
   EXPECT_EQ(fitted.t.z(), 0.0);
   EXPECT_EQ(fitted.q.x(), 0.0);
@@ -88,11 +88,11 @@ TEST(Alignment, TwoPointsDetermineAPlanarPose) {
 
 TEST(Alignment, OnePointAndNoPointDetermineNothing) {
   Pose fitted;
-  EXPECT_FALSE(Alignment(Pose{}).solve(false, 1e-6, fitted));
+  EXPECT_FALSE(Alignment(Pose{}).solve({false, 1e-6}, fitted));
   Alignment one(Pose{});
   one.add(Vec3(1.0, 2.0, 0.0), Vec3(1.0, 2.0, 0.0), 1.0);
-  EXPECT_FALSE(one.solve(true, 1e-6, fitted));
-  EXPECT_FALSE(one.solve(false, 1e-6, fitted));
+  EXPECT_FALSE(one.solve({true, 1e-6}, fitted));
+  EXPECT_FALSE(one.solve({false, 1e-6}, fitted));
 }
 
 TEST(RobustFit, AThirdOfWildPairsHardlyMovesThePose) {
@@ -120,7 +120,7 @@ Pose reweighted_to_the_end(const std::vector<Pair>& pairs, double inlier_m) {
       const double r2 = (pair.reference - T * pair.point).squaredNorm();
       alignment.add(pair.reference, pair.point, pair.weight * std::min(1.0, inlier_m * inlier_m / r2));
     }
-    EXPECT_TRUE(alignment.solve(false, 1.0, T));
+    EXPECT_TRUE(alignment.solve({false, 1.0}, T));
   }
   return T;
 }

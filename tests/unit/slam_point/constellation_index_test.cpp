@@ -74,9 +74,9 @@ TEST(NearestNeighbours, AreThoseThatSortingAllGives) {
 TEST(ConstellationIndex, FindsTheTrianglesOfNeighboursAndNoOthers) {
   const std::vector<Vec3> points = scattered(60, 2);
   const SubmapGraph graph = graph_of(points);
-  ConstellationIndex index(kTolerance_m, 5);
-  index.note(graph, 0);
-  index.advance(graph, 1000);
+  ConstellationIndex index(graph, kTolerance_m, 5);
+  index.note(0);
+  index.advance(1000);
   std::set<std::array<Index, 3>> all;
   std::vector<Triangle> triangles;
   for (Index centre = 0; centre < points.size(); ++centre) {
@@ -112,9 +112,9 @@ TEST(ConstellationIndex, FindsTheTrianglesOfNeighboursAndNoOthers) {
 
 TEST(ConstellationIndex, VisitsUntilToldToStop) {
   const SubmapGraph graph = graph_of({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, -4, 0}});
-  ConstellationIndex index(kTolerance_m, 5);
-  index.note(graph, 0);
-  index.advance(graph, 1000);
+  ConstellationIndex index(graph, kTolerance_m, 5);
+  index.note(0);
+  index.advance(1000);
   int visits = 0;
   index.visit_like({5.0, 4.0, 3.0}, [&](const Triangle&) { return ++visits < 1; });
   EXPECT_EQ(visits, 1);
@@ -123,11 +123,11 @@ TEST(ConstellationIndex, VisitsUntilToldToStop) {
 TEST(ConstellationIndex, WhatWasSeenSeldomWaits) {
   SubmapGraph graph = graph_of(scattered(10, 4));
   for (LandmarkRecord& landmark : graph.landmarks) landmark.count = 2;
-  ConstellationIndex index(kTolerance_m, 5);
-  index.note(graph, 0);
-  index.advance(graph, 1000);
+  ConstellationIndex index(graph, kTolerance_m, 5);
+  index.note(0);
+  index.advance(1000);
   EXPECT_EQ(index.triangles(), 0u);
-  index.add_now(graph, 0, 64);
+  index.add_now(0, 64);
   EXPECT_GT(index.triangles(), 0u);
 }
 
@@ -139,11 +139,11 @@ TEST(ConstellationIndex, HoldsEachTriangleOnceHoweverManyAreLikeIt) {
     points.push_back(Vec3(2.0 * (i % 20), 2.0 * (i / 20), 0.0) +
                      0.01 * Vec3(random.normal(), random.normal(), 0.0));
   const SubmapGraph graph = graph_of(points);
-  ConstellationIndex index(kTolerance_m, 5);
+  ConstellationIndex index(graph, kTolerance_m, 5);
   for (int look = 0; look < 3; ++look) {
-    index.note(graph, 0);
-    index.advance(graph, 1000);
-    index.add_now(graph, 0, 400);
+    index.note(0);
+    index.advance(1000);
+    index.add_now(0, 400);
   }
   std::set<std::set<Index>> visited;
   std::size_t visits = 0;
@@ -160,21 +160,21 @@ TEST(ConstellationIndex, HoldsEachTriangleOnceHoweverManyAreLikeIt) {
 
 TEST(ConstellationIndex, IsMadeInSlicesAsAtOnce) {
   const SubmapGraph graph = graph_of(scattered(60, 5));
-  ConstellationIndex sliced(kTolerance_m, 5);
-  ConstellationIndex whole(kTolerance_m, 5);
-  sliced.note(graph, 0);
-  whole.note(graph, 0);
-  whole.advance(graph, 1000);
+  ConstellationIndex sliced(graph, kTolerance_m, 5);
+  ConstellationIndex whole(graph, kTolerance_m, 5);
+  sliced.note(0);
+  whole.note(0);
+  whole.advance(1000);
   for (int call = 0; call < 59; ++call) {
-    sliced.advance(graph, 1);
+    sliced.advance(1);
     EXPECT_LE(sliced.triangles(), whole.triangles());
   }
-  sliced.advance(graph, 1);
+  sliced.advance(1);
   EXPECT_EQ(sliced.triangles(), whole.triangles());
   // Again and again the same submap adds nothing.
   for (int more = 0; more < 5; ++more) {
-    whole.note(graph, 0);
-    whole.advance(graph, 1000);
+    whole.note(0);
+    whole.advance(1000);
   }
   EXPECT_EQ(sliced.triangles(), whole.triangles());
 }

@@ -17,16 +17,15 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// An intake with a map and a book of tracks to ask.
 struct Intake {
-  explicit Intake(const Options& options = {}) : intake(options) {}
-  const std::vector<Observation>& take(const std::vector<Vec3>& points,
-                                       const std::vector<TrackId>& tracks = {}) {
-    intake.take(points, tracks, book, graph, frame);
-    return frame;
+  explicit Intake(const Options& options = {}) : intake(options, book, graph) {}
+  const Observations& take(const std::vector<Vec3>& points, const std::vector<TrackId>& tracks = {}) {
+    intake.take(points, tracks, frame);
+    return frame.observations;
   }
-  FrameIntake intake;
   SubmapGraph graph{1.0};
   TrackBook book{};
-  std::vector<Observation> frame{};
+  FrameIntake intake;
+  Frame frame{};
 };
 
 TEST(FrameIntake, SkipsWhatIsNotFiniteOrBeyondAMillionMetres) {
@@ -34,7 +33,7 @@ TEST(FrameIntake, SkipsWhatIsNotFiniteOrBeyondAMillionMetres) {
   const std::vector<Vec3> points{{1, 2, 3},        {kNaN, 0, 0},        {0, kNaN, 0},
                                  {0, 0, kNaN},     {kInfinity, 0, 0},   {0, -kInfinity, 0},
                                  {1e6, -1e6, 1e6}, {0, 0, -1.000001e6}, {4, 5, 6}};
-  const std::vector<Observation>& frame = taking.take(points);
+  const Observations& frame = taking.take(points);
   ASSERT_EQ(frame.size(), 3u);
   const std::size_t kept[] = {0, 6, 8};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -53,15 +52,15 @@ TEST(FrameIntake, KeepsNothingOfTheFrameBefore) {
 
 TEST(FrameIntake, DataArePlanarUntilAPointIsTakenThatIsNot) {
   Intake taking;
-  EXPECT_TRUE(taking.intake.is_planar());
+  EXPECT_TRUE(taking.frame.planar);
   taking.take({{1, 2, 0}, {3, 4, -0.0}});
-  EXPECT_TRUE(taking.intake.is_planar());
+  EXPECT_TRUE(taking.frame.planar);
   taking.take({{kNaN, 0, 5}, {2e6, 0, 5}});
-  EXPECT_TRUE(taking.intake.is_planar()) << "what is skipped tells nothing";
+  EXPECT_TRUE(taking.frame.planar) << "what is skipped tells nothing";
   taking.take({{1, 2, 0}, {3, 4, 1e-9}});
-  EXPECT_FALSE(taking.intake.is_planar());
+  EXPECT_FALSE(taking.frame.planar);
   taking.take({{1, 2, 0}});
-  EXPECT_FALSE(taking.intake.is_planar());
+  EXPECT_FALSE(taking.frame.planar);
 }
 
 TEST(FrameIntake, EachPointCountsAlikeWhereNoiseIsTheSameEverywhere) {
@@ -80,7 +79,7 @@ TEST(FrameIntake, FartherPointsCountForLessWhereNoiseGrows) {
   options.noise_per_m = 0.01;
   Intake linear(options);
   // At 10 m two equal parts make twice the variance, at 20 m 0.01 + 0.04 five times.
-  const std::vector<Observation> by_range = linear.take({{0, 0, 0}, {6, 8, 0}, {0, 12, 16}});
+  const Observations by_range = linear.take({{0, 0, 0}, {6, 8, 0}, {0, 12, 16}});
   EXPECT_DOUBLE_EQ(by_range[0].weight, 1.0);
   EXPECT_DOUBLE_EQ(by_range[1].weight, 0.5);
   EXPECT_DOUBLE_EQ(by_range[2].weight, 0.2);
@@ -89,7 +88,7 @@ TEST(FrameIntake, FartherPointsCountForLessWhereNoiseGrows) {
   options.noise_per_m2 = 0.001;
   Intake square(options);
   // 0.1 m at 10 m, 0.4 m at 20 m.
-  const std::vector<Observation> by_square = square.take({{6, 8, 0}, {0, 12, 16}});
+  const Observations by_square = square.take({{6, 8, 0}, {0, 12, 16}});
   EXPECT_DOUBLE_EQ(by_square[0].weight, 0.5);
   EXPECT_DOUBLE_EQ(by_square[1].weight, 1.0 / 17.0);
 }
@@ -99,7 +98,7 @@ TEST(FrameIntake, NoiseAlongTheRayAndAcrossItWeighApart) {
   options.noise_m = 0.1;
   options.noise_across_per_m = 0.02;
   Intake bearings(options);
-  const std::vector<Observation> frame = bearings.take({{0, 0, 0}, {1.5, 2, 0}, {6, 8, 0}});
+  const Observations frame = bearings.take({{0, 0, 0}, {1.5, 2, 0}, {6, 8, 0}});
   for (const Observation& observation : frame) EXPECT_DOUBLE_EQ(observation.weight, 1.0);
   EXPECT_DOUBLE_EQ(frame[0].across, 1e4) << "nothing is known better than to a hundredth of the noise";
   EXPECT_DOUBLE_EQ(frame[1].across, 4.0);   // 0.05 m
@@ -121,7 +120,7 @@ TEST(FrameIntake, WeightsAreAboveZeroAndFallWithTheRange) {
     const Vec3 ray(random.normal(), random.normal(), random.normal());
     std::vector<Vec3> points;
     for (double range = 1e-3; range < 1e6; range *= 10.0) points.emplace_back(range * ray.normalized());
-    const std::vector<Observation>& frame = taking.take(points);
+    const Observations& frame = taking.take(points);
     for (std::size_t i = 1; i < frame.size(); ++i) {
       EXPECT_GT(frame[i].weight, 0.0);
       EXPECT_GT(frame[i].across, 0.0);
@@ -143,9 +142,9 @@ TEST(FrameIntake, ATrackStaysWithItsPointWhenOthersAreSkipped) {
   const Index second = taking.graph.add_landmark(Vec3(2, 0, 0), 0);
   taking.book.give(70, first);
   taking.book.give(80, second);
-  const std::vector<Observation>& frame =
+  const Observations& frame =
       taking.take({{1, 0, 0}, {kNaN, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}, {70, 75, 80, 90, kNoTrack});
-  ASSERT_TRUE(taking.intake.is_followed());
+  ASSERT_TRUE(taking.frame.followed);
   ASSERT_EQ(frame.size(), 4u);
   EXPECT_EQ(frame[0].track, 70u);
   EXPECT_EQ(frame[0].expected, first);
@@ -161,13 +160,13 @@ TEST(FrameIntake, TracksCountWhereTheyAreAskedForAndGiven) {
   const std::vector<Vec3> points{{1, 0, 0}};
   Intake by_place;
   EXPECT_FALSE(by_place.take(points, {70})[0].is_followed());
-  EXPECT_FALSE(by_place.intake.is_followed());
+  EXPECT_FALSE(by_place.frame.followed);
   Intake followed(by_tracks());
-  EXPECT_FALSE(followed.intake.is_followed());
+  EXPECT_FALSE(followed.frame.followed);
   followed.take(points, {70});
-  EXPECT_TRUE(followed.intake.is_followed());
+  EXPECT_TRUE(followed.frame.followed);
   EXPECT_FALSE(followed.take(points)[0].is_followed());
-  EXPECT_FALSE(followed.intake.is_followed()) << "of the last frame";
+  EXPECT_FALSE(followed.frame.followed) << "of the last frame";
 }
 
 TEST(FrameIntake, ATrackFollowsItsLandmarkIntoAnother) {
@@ -186,7 +185,7 @@ TEST(FrameIntake, ALandmarkOfAnotherPartIsNotExpected) {
   const Index there = taking.graph.add_landmark(Vec3(1, 0, 0), 0);
   taking.book.give(70, here);
   taking.book.give(80, there);
-  const std::vector<Observation>& frame = taking.take({{1, 0, 0}, {2, 0, 0}}, {70, 80});
+  const Observations& frame = taking.take({{1, 0, 0}, {2, 0, 0}}, {70, 80});
   EXPECT_EQ(frame[0].expected, kNone);
   EXPECT_EQ(frame[0].track, 70u);
   EXPECT_EQ(frame[1].expected, there);

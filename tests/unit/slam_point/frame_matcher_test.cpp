@@ -49,16 +49,16 @@ TEST(FrameMatcher, MatchesAsLookingAtAllPairsDoes) {
     landmarks.push_back(place());
     graph.add_landmark(landmarks.back(), 0);
   }
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   std::vector<Vec3> points;
   std::vector<Observation> frame;
   for (std::size_t i = 0; i < 120; ++i) {
     points.push_back(place());
     frame.push_back({points.back(), i, kNone});
   }
-  matcher.mark(graph, frame);
+  matcher.mark(frame);
   // "Local since activation 1" makes all of them old: the map bound holds.
-  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  matcher.match_map(Pose{}, 1, 0.1, frame);
   const std::vector<Index> expected = nearest_first(points, landmarks, options.map_bound());
   for (std::size_t i = 0; i < frame.size(); ++i) EXPECT_EQ(frame[i].landmark, expected[i]) << "point " << i;
 }
@@ -68,11 +68,11 @@ TEST(FrameMatcher, TheNearestPairIsTakenFirstByHand) {
   SubmapGraph graph(options.map_bound());
   graph.add_landmark(Vec3(0, 0, 0), 0);
   graph.add_landmark(Vec3(0.5, 0, 0), 0);
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   // Both of the first points are nearest to landmark 0; the nearer one gets it, the other landmark 1. The third is too far off.
   std::vector<Observation> frame{{Vec3(0.2, 0, 0), 0}, {Vec3(0.1, 0, 0), 1}, {Vec3(-0.81, 0, 0), 2}};
-  matcher.mark(graph, frame);
-  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  matcher.mark(frame);
+  matcher.match_map(Pose{}, 1, 0.1, frame);
   EXPECT_EQ(frame[0].landmark, 1u);
   EXPECT_EQ(frame[1].landmark, 0u);
   EXPECT_EQ(frame[2].landmark, kNone);
@@ -87,11 +87,11 @@ TEST(FrameMatcher, NeitherTheOrderOfPointsNorWhatWasMatchedBeforeMatters) {
   std::vector<Observation> frame;
   for (std::size_t i = 0; i < 120; ++i) frame.push_back({place(), i});
   std::vector<Index> expected;
-  FrameMatcher used(options);
+  FrameMatcher used(options, graph);
   for (int again = 0; again < 4; ++again) {
     for (Observation& observation : frame) observation.landmark = kNone;
-    used.mark(graph, frame);
-    used.match_map(graph, Pose{}, 1, 0.1, frame);
+    used.mark(frame);
+    used.match_map(Pose{}, 1, 0.1, frame);
     std::vector<Index> match(frame.size());
     for (const Observation& observation : frame) match[observation.given] = observation.landmark;
     if (again == 0) expected = match;
@@ -105,11 +105,11 @@ TEST(FrameMatcher, ALandmarkThatIsTakenIsNotTakenAgain) {
   const Options options;
   SubmapGraph graph(options.map_bound());
   graph.add_landmark(Vec3(0, 0, 0), 0);
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   std::vector<Observation> frame{{Vec3(0.3, 0, 0), 0, 0}, {Vec3(0.1, 0, 0), 1}};
-  matcher.mark(graph, frame);
+  matcher.mark(frame);
   EXPECT_TRUE(matcher.is_marked(0));
-  matcher.match_map(graph, Pose{}, 1, 0.1, frame);
+  matcher.match_map(Pose{}, 1, 0.1, frame);
   EXPECT_EQ(frame[0].landmark, 0u);
   EXPECT_EQ(frame[1].landmark, kNone);
 }
@@ -118,14 +118,14 @@ TEST(FrameMatcher, BoundsWidenWithTheNoiseOfAPointAsFarAsTheGridReaches) {
   const Options options;  // reach 0.8 m
   SubmapGraph graph(options.map_bound());
   for (const double y : {0.0, 10.0, 20.0, 30.0}) graph.add_landmark(Vec3(0, y, 0), 5);
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   // Of twice the noise: 0.3 m are 0.6 m. Of ten times the noise: 0.8 m and no more.
   std::vector<Observation> frame{
       {Vec3(0.55, 0, 0), 0}, {Vec3(0.65, 10, 0), 1}, {Vec3(0.75, 20, 0), 2}, {Vec3(0.85, 30, 0), 3}};
   frame[0].weight = frame[1].weight = 0.25;
   frame[2].weight = frame[3].weight = 0.01;
-  matcher.mark(graph, frame);
-  matcher.match_map(graph, Pose{}, 3, 0.3, frame);
+  matcher.mark(frame);
+  matcher.match_map(Pose{}, 3, 0.3, frame);
   EXPECT_EQ(frame[0].landmark, 0u);
   EXPECT_EQ(frame[1].landmark, kNone);
   EXPECT_EQ(frame[2].landmark, 2u);
@@ -137,10 +137,10 @@ TEST(FrameMatcher, LocalLandmarksAreMatchedWithinTheLocalBoundOnly) {
   SubmapGraph graph(options.map_bound());
   graph.add_landmark(Vec3(0.0, 0.0, 0.0), 5);
   graph.add_landmark(Vec3(10.0, 0.0, 0.0), 1);
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   std::vector<Observation> frame{{Vec3(0.5, 0.0, 0.0), 0, kNone}, {Vec3(10.5, 0.0, 0.0), 1, kNone}};
-  matcher.mark(graph, frame);
-  matcher.match_map(graph, Pose{}, 3, 0.3, frame);
+  matcher.mark(frame);
+  matcher.match_map(Pose{}, 3, 0.3, frame);
   EXPECT_EQ(frame[0].landmark, kNone);
   EXPECT_EQ(frame[1].landmark, 1u);
 }
@@ -152,12 +152,12 @@ struct OldGround {
       const Vec3 place(static_cast<double>(2 * i), 0.0, 0.0);
       frame.push_back({place + Vec3(0.0, off[i], 0.0), i, graph.add_landmark(place, 0)});
     }
-    matcher.mark(graph, frame);
-    matcher.drop_strays(graph, Pose{}, 1, frame);
+    matcher.mark(frame);
+    matcher.drop_outliers(Pose{}, 1, frame);
   }
   Options options{};  // noise 0.05 m: up to 0.3 m is noise
   SubmapGraph graph{options.map_bound()};
-  FrameMatcher matcher{options};
+  FrameMatcher matcher{options, graph};
   std::vector<Observation> frame{};
 };
 
@@ -173,7 +173,7 @@ TEST(FrameMatcher, OldGroundThatHasDriftedAsAWholeIsStillKnown) {
   for (const Observation& observation : seen.frame) EXPECT_NE(observation.landmark, kNone);
 }
 
-TEST(FrameMatcher, ALoneStrayIsWithheldUntilMoreIsSeen) {
+TEST(FrameMatcher, ALoneOutlierIsWithheldUntilMoreIsSeen) {
   const OldGround seen({0.5});
   EXPECT_EQ(seen.frame[0].landmark, kNone);
   EXPECT_TRUE(seen.frame[0].withheld);
@@ -194,9 +194,9 @@ TEST(FrameMatcher, FindsATurnThatThePredictionMissed) {
     graph.observe(graph.join(submap, landmark, p, true), p, 1);
     frame.push_back({truth.inverse() * p, i, kNone});
   }
-  FrameMatcher matcher(options);
+  FrameMatcher matcher(options, graph);
   Pose found;
-  EXPECT_EQ(matcher.search_turn(graph, {Pose{}}, 0.4, false, frame, found), 40);
+  EXPECT_EQ(matcher.search_turn({Pose{}}, 0.4, frame, found), 40);
   EXPECT_LT((found.t - truth.t).norm(), 1e-9);
   EXPECT_LT(rotation_log(found.q * truth.q.conjugate()).norm(), 1e-9);
 }

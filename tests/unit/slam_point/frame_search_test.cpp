@@ -13,8 +13,8 @@ TEST(FramePlacer, ATurnThatWasNotExpectedIsSearched) {
   const std::vector<Vec3> known = room(20, 7, false);
   Sensor sensor(known);
   ASSERT_FALSE(sensor.track(known, ahead(0.2, 0.3)));
-  EXPECT_FALSE(sensor.placer.search(kByTurnsAlone, sensor.frame)) << "constellations were not asked";
-  EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
+  EXPECT_TRUE(sensor.search_turn(known, ahead(0.2, 0.3)));
+  EXPECT_FALSE(sensor.placement.is_recognised) << "constellations were not asked";
   sensor.expect_at(ahead(0.2, 0.3));
 }
 
@@ -25,8 +25,7 @@ bool finds_turn(double turn_rad, double max_turn_rad, int lost) {
   Sensor sensor(room(20, 7, false), false, options);
   for (int frame = 0; frame < lost; ++frame) sensor.lose();
   EXPECT_FALSE(sensor.track(sensor.landmarks(), ahead(0.0, turn_rad)));
-  sensor.placer.search(kByTurnsAlone, sensor.frame);
-  return sensor.placer.is_placed(sensor.frame);
+  return sensor.search_turn(sensor.landmarks(), ahead(0.0, turn_rad));
 }
 
 TEST(FramePlacer, TurnsAreSearchedFartherTheLongerTheSensorIsLost) {
@@ -44,8 +43,7 @@ TEST(FramePlacer, ATurnIsSearchedWhereTheSensorIsExpectedAndWhereItWas) {
     Sensor sensor(room(20, 1, false), false, options);
     for (const double at : {0.5, 1.5, 3.0, 5.0, 7.5, 10.5}) sensor.follow(ahead(at));
     ASSERT_FALSE(sensor.track(sensor.landmarks(), ahead(x, 0.3)));
-    sensor.placer.search(kByTurnsAlone, sensor.frame);
-    EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
+    EXPECT_TRUE(sensor.search_turn(sensor.landmarks(), ahead(x, 0.3)));
     sensor.expect_at(ahead(x, 0.3));
   }
 }
@@ -58,18 +56,17 @@ TEST(FramePlacer, WhatWasSearchedIsNotWhereTheSensorWasExpected) {
   Sensor sensor(known + three);
   sensor.lose(known);
   EXPECT_TRUE(sensor.place(three, Pose{}));
-  sensor.track(three, ahead(0.0, 0.3));
-  sensor.placer.search(kByTurnsAlone, sensor.frame);
-  EXPECT_EQ(sensor.matched(), 3u);
-  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
+  EXPECT_FALSE(sensor.search_turn(three, ahead(0.0, 0.3)));
+  EXPECT_EQ(sensor.placement.associated, 3);
 }
 
 TEST(FramePlacer, AfterItWasCarriedTheSensorIsExpectedToMoveAsBefore) {
   Sensor sensor(room(30, 8, false));
   for (const double x : {0.5, 1.0, 1.5, 2.0}) sensor.follow(ahead(x));
   ASSERT_FALSE(sensor.track(sensor.landmarks(), ahead(-8.0)));
-  ASSERT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
-  sensor.placer.accept(sensor.frame);
+  ASSERT_TRUE(sensor.search(sensor.landmarks(), ahead(-8.0)));
+  ASSERT_TRUE(sensor.placement.is_recognised);
+  sensor.accept();
   EXPECT_TRUE(sensor.track(sensor.landmarks(), ahead(-7.5)));
 }
 
@@ -77,9 +74,9 @@ TEST(FramePlacer, AFrameIsFoundByWhatItSeesWhereverTheSensorWasCarried) {
   Sensor sensor(room(30, 8, false));
   const Pose away{rotation_exp(Vec3(0.5, -2.0, 1.0)), Vec3(7, -5, 1)};
   ASSERT_FALSE(sensor.track(sensor.landmarks(), away));
-  EXPECT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
-  EXPECT_EQ(sensor.placer.found_elsewhere().part, kNone) << "tracking goes on from there";
-  EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
+  EXPECT_TRUE(sensor.search(sensor.landmarks(), away));
+  EXPECT_TRUE(sensor.placement.is_recognised);
+  EXPECT_EQ(sensor.placement.elsewhere.part, kNone) << "tracking goes on from there";
   sensor.expect_at(away);
   EXPECT_EQ(sensor.matched(), 30u);
 }
@@ -87,10 +84,10 @@ TEST(FramePlacer, AFrameIsFoundByWhatItSeesWhereverTheSensorWasCarried) {
 TEST(FramePlacer, TwoPointsInAPlaneAreNoPoseWhereOneHadToBeSearched) {
   const std::vector<Vec3> known = room(20, 7, true);
   Sensor sensor(known, true);
-  ASSERT_FALSE(sensor.track(first_of(known, 2) + nowhere(1, true), ahead(0.0, 0.3)));
-  sensor.placer.search(kByTurnsAlone, sensor.frame);
-  EXPECT_EQ(sensor.matched(), 2u);
-  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
+  const std::vector<Vec3> three = first_of(known, 2) + nowhere(1, true);
+  ASSERT_FALSE(sensor.track(three, ahead(0.0, 0.3)));
+  EXPECT_FALSE(sensor.search_turn(three, ahead(0.0, 0.3)));
+  EXPECT_EQ(sensor.placement.associated, 2);
 }
 
 /// A sensor in part 0, and another part that knows another room.
@@ -106,8 +103,8 @@ struct OtherPart : Sensor {
       graph.submaps[submap].members[member].count = 5;
       graph.resum(landmark);
     }
-    places.note(graph, submap);
-    for (int call = 0; call < 10; ++call) places.advance(graph);
+    places.note(submap);
+    for (int call = 0; call < 10; ++call) places.advance();
     graph.set_part(0);
     graph.activate(active);
   }
@@ -118,39 +115,42 @@ TEST(FramePlacer, AFrameOfAnotherPartIsToldAndNotPlaced) {
   OtherPart sensor;
   const Pose there{rotation_exp(Vec3(0.5, -2.0, 1.0)), Vec3(7, -5, 1)};
   ASSERT_FALSE(sensor.track(sensor.other, there));
-  EXPECT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
-  const Placement found = sensor.placer.found_elsewhere();
+  EXPECT_FALSE(sensor.search(sensor.other, there));
+  EXPECT_TRUE(sensor.placement.is_recognised);
+  const Relocalisation found = sensor.placement.elsewhere;
   ASSERT_EQ(found.part, 1u);
   EXPECT_LT((found.T_map_points.t - there.t).norm(), 1e-6);
-  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
-  sensor.placer.lose(sensor.frame);
+  sensor.tracking.learn(sensor.placement);
   // The next frame is where the motion led: what was found is forgotten.
   EXPECT_TRUE(sensor.track(sensor.landmarks(), Pose{}));
-  EXPECT_EQ(sensor.placer.found_elsewhere().part, kNone);
+  EXPECT_EQ(sensor.placement.elsewhere.part, kNone);
 }
 
 TEST(FramePlacer, AFrameOfAnotherPartIsNotPlacedThoughSomeOfItAgreesHere) {
   OtherPart sensor;
   // 13 of 30 agree where the sensor was: that would be a pose, but not a sure one.
-  ASSERT_FALSE(sensor.track(first_of(sensor.landmarks(), 13) + sensor.other, Pose{}));
-  EXPECT_TRUE(sensor.placer.is_placed(sensor.frame));
-  EXPECT_TRUE(sensor.placer.search(kByPlace, sensor.frame));
-  EXPECT_EQ(sensor.placer.found_elsewhere().part, 1u);
-  EXPECT_FALSE(sensor.placer.is_placed(sensor.frame));
+  const std::vector<Vec3> both = first_of(sensor.landmarks(), 13) + sensor.other;
+  ASSERT_FALSE(sensor.track(both, Pose{}));
+  EXPECT_TRUE(sensor.placement.has_pose);
+  EXPECT_FALSE(sensor.search(both, Pose{}));
+  EXPECT_TRUE(sensor.placement.is_recognised);
+  EXPECT_EQ(sensor.placement.elsewhere.part, 1u);
 }
 
 TEST(FramePlacer, GoesOnFromWhereItWasFoundElsewhere) {
   OtherPart sensor;
   const Pose there{rotation_exp(Vec3(0.5, -2.0, 1.0)), Vec3(7, -5, 1)};
-  ASSERT_FALSE(sensor.track(sensor.other, there));
-  sensor.placer.lose(sensor.frame);
+  sensor.lose(sensor.other, there);
   sensor.graph.deactivate();
   sensor.graph.set_part(1);
   // Told 0.2 m and 0.02 rad wrong: the fit to the map says where it is.
-  sensor.placer.enter({rotation_exp(Vec3(0, 0, 0.02)) * there.q, there.t + Vec3(0.2, 0, 0)}, sensor.frame);
+  sensor.placement = sensor.placer.place_at(
+      {rotation_exp(Vec3(0, 0, 0.02)) * there.q, there.t + Vec3(0.2, 0, 0)}, sensor.frame);
   sensor.expect_at(there);
   EXPECT_EQ(sensor.matched(), 30u);
-  EXPECT_EQ(sensor.placer.frames_without_pose(), 0);
+  EXPECT_TRUE(sensor.placement.has_pose);
+  sensor.tracking.enter(Pose{}, sensor.matched());
+  EXPECT_EQ(sensor.tracking.frames_without_pose(), 0);
 }
 
 }  // namespace

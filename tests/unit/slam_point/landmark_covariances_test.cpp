@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rings.hpp"
-#include "slam_point/core/solver/submap_solver.hpp"
+#include "slam_point/core/solver/map_step.hpp"
 #include "support/dense.hpp"
 
 namespace hallway::slam_point {
@@ -54,11 +54,11 @@ Eigen::MatrixXd dense_covariance(const SubmapGraph& graph, const std::vector<boo
 
 TEST(LandmarkCovariances, AreThoseOfTheWholeNormalEquations) {
   SubmapGraph graph = rings::noisy_ring(9, false, 4);
-  settle(graph, false, 20, graph.poses);
+  optimise(graph, 20, graph.poses);
   std::vector<bool> in_gauge(graph.landmarks.size(), true);
   for (std::size_t l = 0; l < in_gauge.size(); l += 5) in_gauge[l] = false;
   const Eigen::MatrixXd expected = dense_covariance(graph, in_gauge);
-  const auto covariances = landmark_covariances(graph, in_gauge, false);
+  const auto covariances = landmark_covariances(graph, in_gauge);
   for (std::size_t l = 0; l < covariances.size(); ++l) {
     ASSERT_TRUE(covariances[l]);
     const auto at = 3 * static_cast<Eigen::Index>(l);
@@ -69,9 +69,9 @@ TEST(LandmarkCovariances, AreThoseOfTheWholeNormalEquations) {
 
 TEST(LandmarkCovariances, InPlanarDataNothingMovesAlongZ) {
   SubmapGraph graph = rings::noisy_ring(9, true, 5);
-  settle(graph, true, 20, graph.poses);
+  optimise(graph, 20, graph.poses);
   for (const auto& covariance :
-       landmark_covariances(graph, std::vector<bool>(graph.landmarks.size(), true), true)) {
+       landmark_covariances(graph, std::vector<bool>(graph.landmarks.size(), true))) {
     ASSERT_TRUE(covariance);
     EXPECT_TRUE(covariance->row(2).isZero(0.0) && covariance->col(2).isZero(0.0));
     EXPECT_GT((*covariance)(0, 0), 0.0);
@@ -88,7 +88,7 @@ TEST(LandmarkCovariances, OneSubmapKnowsItsLandmarksToTheirCounts) {
     graph.add_landmark(p, 0);
     graph.submaps[0].members[graph.join(0, l, p, true)].count = 4;
   }
-  const auto covariances = landmark_covariances(graph, std::vector<bool>(200, true), false);
+  const auto covariances = landmark_covariances(graph, std::vector<bool>(200, true));
   for (const auto& covariance : covariances) {
     ASSERT_TRUE(covariance);
     // A little less than 1/4: the fit takes its share.
@@ -99,13 +99,13 @@ TEST(LandmarkCovariances, OneSubmapKnowsItsLandmarksToTheirCounts) {
 
 TEST(LandmarkCovariances, WithoutAFitThereAreNone) {
   SubmapGraph graph(1.0);
-  EXPECT_TRUE(landmark_covariances(graph, {}, false).empty());
+  EXPECT_TRUE(landmark_covariances(graph, {}).empty());
   graph.add_submap({});
   for (Index l = 0; l < 5; ++l) {
     graph.add_landmark(Vec3(l, 0, 0), 0);
     graph.submaps[0].members[graph.join(0, l, Vec3(l, 0, 0), true)].count = 1;
   }
-  for (const auto& covariance : landmark_covariances(graph, std::vector<bool>(5, true), false))
+  for (const auto& covariance : landmark_covariances(graph, std::vector<bool>(5, true)))
     EXPECT_FALSE(covariance) << "all on a line";
 }
 

@@ -28,19 +28,19 @@ const Pose kT_a_b{rotation_exp(Vec3(0.1, -0.2, 2.0)), Vec3(40.0, -7.0, 3.0)};
 /// Part 0: two submaps, six landmarks. Part 1: one submap, landmarks 6, 7 and 8, of which 6 and 7 are landmarks 4 and 5 again.
 struct Two {
   SubmapGraph graph{1.0};
-  MapParts parts{0.3};
+  MapParts parts{graph, 0.3};
   std::vector<Vec3> truth{{1, 0, 0}, {5, 2, 1}, {9, -3, 2}, {30, 0, 0}, {35, 3, 1}, {33, -6, 2}, {50, 1, 1}};
 
   Two() {
-    parts.begin(graph);
-    parts.anchor(graph, add_submap(graph, Pose{}, {truth[0], truth[1], truth[2]}));
+    parts.begin();
+    parts.anchor(add_submap(graph, Pose{}, {truth[0], truth[1], truth[2]}));
     add_submap(graph, scenes::heading(Vec3(30, 0, 0), 0.3), {truth[3], truth[4], truth[5]});
-    parts.begin(graph);
+    parts.begin();
     const Pose T_b_a = kT_a_b.inverse();
-    parts.anchor(graph, add_submap(graph, Pose{}, {T_b_a * truth[4], T_b_a * truth[5], T_b_a * truth[6]}));
+    parts.anchor(add_submap(graph, Pose{}, {T_b_a * truth[4], T_b_a * truth[5], T_b_a * truth[6]}));
   }
   void finish() {
-    while (parts.is_joining()) parts.advance(graph, 1);
+    while (parts.is_joining()) parts.advance(1);
   }
   void expect_joined(const Pose& T_a_told) {
     EXPECT_EQ(parts.count(), 1u);
@@ -75,17 +75,17 @@ TEST(MapParts, LandmarksOfOtherPartsAreFoundNowhere) {
 
 TEST(MapParts, TheSmallerOneMovesIntoTheLarger) {
   Two two;
-  const Pose T = two.parts.join(two.graph, 0, 1, kT_a_b);
+  const Pose T = two.parts.join(0, 1, kT_a_b);
   EXPECT_LT((T.t - kT_a_b.t).norm(), 1e-12);
   EXPECT_TRUE(two.parts.is_joining());
   two.finish();
   two.expect_joined(Pose{});
-  EXPECT_EQ(two.parts.merges().size(), 2u);
+  EXPECT_EQ(two.parts.take_merges().size(), 2u);
 }
 
 TEST(MapParts, WhicheverIsSaidFirst) {
   Two two;
-  const Pose T = two.parts.join(two.graph, 1, 0, kT_a_b.inverse());
+  const Pose T = two.parts.join(1, 0, kT_a_b.inverse());
   EXPECT_LT(T.t.norm(), 1e-12);  // what is now one lies in the frame of the larger one
   two.finish();
   two.expect_joined(Pose{});
@@ -94,7 +94,7 @@ TEST(MapParts, WhicheverIsSaidFirst) {
 TEST(MapParts, TheFrameStaysThatOfTheOldestSubmapWhenItsPartMoves) {
   Two two;
   for (int more = 0; more < 4; ++more) add_submap(two.graph, Pose{}, {});  // part 1 is the larger one now
-  two.parts.join(two.graph, 0, 1, kT_a_b);
+  two.parts.join(0, 1, kT_a_b);
   EXPECT_EQ(two.graph.part(), 1u);
   two.finish();
   EXPECT_EQ(two.parts.anchor_of(1), 0u);
@@ -110,7 +110,7 @@ TEST(MapParts, WhatWasSeenTogetherStaysTwo) {
   const Index member = two.graph.join(2, near, two.graph.landmarks[near].position, true);
   two.graph.submaps[2].members[member].count = 3;
   two.graph.resum(near);
-  two.parts.join(two.graph, 0, 1, kT_a_b);
+  two.parts.join(0, 1, kT_a_b);
   two.finish();
   EXPECT_EQ(two.graph.landmarks[near].merged_into, kNone);
   EXPECT_EQ(two.graph.landmarks[8].merged_into, kNone);
@@ -119,7 +119,7 @@ TEST(MapParts, WhatWasSeenTogetherStaysTwo) {
 TEST(MapParts, APartGivenUpLeavesNothing) {
   Two two;
   two.graph.set_part(0);
-  two.parts.drop(two.graph, 1);
+  two.parts.drop(1);
   EXPECT_EQ(two.parts.count(), 1u);
   EXPECT_EQ(two.graph.dropped_landmarks(), 3u);
   for (const Index l : {6u, 7u, 8u}) EXPECT_EQ(two.graph.landmarks[l].part, kNone);

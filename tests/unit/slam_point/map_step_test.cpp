@@ -19,7 +19,7 @@ constexpr double kPlenty = 1e12;
 std::vector<Pose> stepped(const SubmapGraph& graph, double slice) {
   std::vector<Pose> poses = graph.poses;
   MapStep step;
-  step.begin(graph, poses, kNone, false);
+  step.begin(graph, poses, kNone);
   while (!step.advance(slice)) {
   }
   step.apply(graph, poses);
@@ -45,10 +45,10 @@ TEST(MapStep, SlicesOfAnySizeGiveTheSameBits) {
 TEST(MapStep, ASliceIsAFractionOfTheWork) {
   const SubmapGraph graph = noisy_ring(60, false, 2);
   MapStep step;
-  step.begin(graph, graph.poses, kNone, false);
+  step.begin(graph, graph.poses, kNone);
   ASSERT_TRUE(step.advance(kPlenty));
   const double work = step.work();
-  step.begin(graph, graph.poses, kNone, false);
+  step.begin(graph, graph.poses, kNone);
   int slices = 1;
   while (!step.advance(work / 50.0)) ++slices;
   EXPECT_GE(slices, 25) << "a slice overdraws by what it began last, and no more";
@@ -60,12 +60,12 @@ TEST(MapStep, WhatTheGraphLearnsMeanwhileDoesNotDisturbIt) {
   SubmapGraph graph = noisy_ring(12, false, 3);
   std::vector<Pose> expected = graph.poses;
   MapStep at_once;
-  at_once.begin(graph, expected, kNone, false);
+  at_once.begin(graph, expected, kNone);
   ASSERT_TRUE(at_once.advance(kPlenty));
   at_once.apply(graph, expected);
 
   MapStep step;
-  step.begin(graph, graph.poses, 11, false);
+  step.begin(graph, graph.poses, 11);
   ASSERT_FALSE(step.advance(1.0));
   // Two more submaps, one of them at the place of the newest, new landmarks, and two that turn out to be one.
   const Pose beside{graph.poses[11].q, graph.poses[11].t + Vec3(0.5, 0.0, 0.0)};
@@ -93,12 +93,12 @@ TEST(MapStep, IsNotTakenWhereItWouldMakeThingsWorse) {
   std::vector<Pose> settled = graph.poses;
   MapStep step;
   for (int i = 0; i < 20; ++i) {
-    step.begin(graph, settled, kNone, false);
+    step.begin(graph, settled, kNone);
     ASSERT_TRUE(step.advance(kPlenty));
     step.apply(graph, settled);
   }
   // Computed for poses that are off, applied to those that are right: it moves them away from the minimum.
-  step.begin(graph, graph.poses, kNone, false);
+  step.begin(graph, graph.poses, kNone);
   ASSERT_TRUE(step.advance(kPlenty));
   std::vector<Pose> poses = settled;
   const StepCost cost = step.apply(graph, poses);
@@ -110,7 +110,7 @@ TEST(MapStep, AWindowLowersTheCostAndHoldsTheRest) {
   const SubmapGraph graph = noisy_ring(12, false, 3);
   std::vector<Pose> poses = graph.poses;
   MapStep step;
-  step.begin(graph, poses, {11, 9, 10, 8}, kNone, false);
+  step.begin(graph, poses, {11, 9, 10, 8}, kNone);
   ASSERT_TRUE(step.advance(kPlenty));
   const StepCost cost = step.apply(graph, poses);
   EXPECT_LT(cost.after, cost.before);
@@ -124,6 +124,7 @@ TEST(MapStep, AWindowLowersTheCostAndHoldsTheRest) {
 /// The submaps of each row of `system` as one submap, in the frame of the first of them.
 SubmapGraph with_groups_as_submaps(const SubmapGraph& graph, const ReducedSystem& system) {
   SubmapGraph merged(1.0);
+  merged.planar = graph.planar;
   for (const LandmarkRecord& landmark : graph.landmarks) merged.add_landmark(landmark.position, 0);
   std::vector<Index> made_for(system.rows(), kNone);
   for (Index s = 0; s < graph.submaps.size(); ++s) {
@@ -153,7 +154,7 @@ TEST(MapStep, GroupsMoveAsSubmapsMadeOfThemDo) {
     const SubmapGraph graph = noisy_ring(25, planar, 5);
     const MapStep::Grouping grouping{3, 2, 4};
     ReducedSystem system;
-    system.take(graph, rings::all_of(graph), graph.poses, planar, grouping);
+    system.take(graph, rings::all_of(graph), graph.poses, grouping);
     EXPECT_EQ(system.free().size(), 24u);
     // Two, six times three, and the last four.
     EXPECT_EQ(system.rows(), 11u);
@@ -161,13 +162,13 @@ TEST(MapStep, GroupsMoveAsSubmapsMadeOfThemDo) {
     std::vector<Pose> poses = graph.poses;
     std::vector<Pose> expected = merged.poses;
     MapStep step;
-    step.begin(graph, poses, rings::all_of(graph), kNone, planar, grouping);
+    step.begin(graph, poses, rings::all_of(graph), kNone, grouping);
     ASSERT_TRUE(step.advance(kPlenty));
     const StepCost cost = step.apply(graph, poses);
     EXPECT_LT(cost.after, cost.before);
     EXPECT_NEAR(cost.before, total_cost(graph, graph.poses), 1e-9 * cost.before);
     EXPECT_NEAR(cost.after, total_cost(graph, poses), 1e-9 * cost.before);
-    step.begin(merged, expected, kNone, planar);
+    step.begin(merged, expected, kNone);
     ASSERT_TRUE(step.advance(kPlenty));
     step.apply(merged, expected);
     for (Index s = 1; s < graph.submaps.size(); ++s) {
@@ -194,16 +195,16 @@ TEST(MapStep, WhatSharesLittleIsNoGroup) {
       graph.submaps[to].members[m].count = ring.submaps[from].members[m].count;
   }
   ReducedSystem system;
-  system.take(graph, rings::all_of(graph), graph.poses, false, {3, 3, 0});
+  system.take(graph, rings::all_of(graph), graph.poses, {3, 3, 0});
   EXPECT_EQ(system.rows(), 23u);
-  system.take(ring, rings::all_of(ring), ring.poses, false, {3, 3, 0});
+  system.take(ring, rings::all_of(ring), ring.poses, {3, 3, 0});
   EXPECT_EQ(system.rows(), 8u);
 }
 
 TEST(MapStep, TellsWhichLandmarksItHasMoved) {
   SubmapGraph graph = noisy_ring(12, false, 3);
   MapStep step;
-  step.begin(graph, graph.poses, {8, 9, 10, 11}, 11, false);
+  step.begin(graph, graph.poses, {8, 9, 10, 11}, 11);
   ASSERT_TRUE(step.advance(kPlenty));
   // Made meanwhile, and active: it goes along with submap 11.
   const Index made = graph.add_submap(graph.poses[11]);
@@ -238,7 +239,7 @@ TEST(MapStep, OneSubmapIsNothingToMove) {
   graph.add_submap(Pose{});
   std::vector<Pose> poses = graph.poses;
   MapStep step;
-  step.begin(graph, poses, 0, false);
+  step.begin(graph, poses, 0);
   EXPECT_TRUE(step.advance(1.0));
   const StepCost cost = step.apply(graph, poses);
   EXPECT_EQ(cost.after, cost.before);

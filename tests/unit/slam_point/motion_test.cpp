@@ -300,16 +300,15 @@ TEST(MotionVerdict, TheMapMayBend) {
 TEST(MotionTracks, KeepApartThoseThatCross) {
   SubmapGraph graph(1.0);
   graph.activate(graph.add_submap(Pose{}));
-  MotionTracks tracks(0.3);
+  MotionTracks tracks(graph, 0.3);
   const auto place_of = [](Index i, int f) {
     const double along = 0.2 * (f - 10);
     return i == 0 ? Vec3(along, 0.05, 0) : Vec3(0.05, along, 0);
   };
-  for (const Index i : {0u, 1u})
-    tracks.begin(graph, i, 0, place_of(i, 0), place_of(i, 1) - place_of(i, 0), 1);
+  for (const Index i : {0u, 1u}) tracks.begin(i, 0, place_of(i, 0), place_of(i, 1) - place_of(i, 0), 1);
   for (int f = 1; f <= 20; ++f) {
     std::set<Index> taken;
-    tracks.follow(graph, static_cast<std::uint64_t>(f), {{1, place_of(1, f)}, {0, place_of(0, f)}},
+    tracks.follow(static_cast<std::uint64_t>(f), {{1, place_of(1, f)}, {0, place_of(0, f)}},
                   [&](Index observation, Index landmark) {
                     EXPECT_EQ(observation, landmark) << "frame " << f;
                     taken.insert(landmark);
@@ -323,11 +322,11 @@ TEST(MotionTracks, KeepApartThoseThatCross) {
 TEST(MotionTracks, OneUnseenForLongIsFollowedNoMore) {
   SubmapGraph graph(1.0);
   graph.activate(graph.add_submap(Pose{}));
-  MotionTracks tracks(0.3);
-  tracks.begin(graph, 5, 0, Vec3(1, 1, 1), Vec3::Zero(), 3);
+  MotionTracks tracks(graph, 0.3);
+  tracks.begin(5, 0, Vec3(1, 1, 1), Vec3::Zero(), 3);
   int found = 0;
   const auto look = [&](std::uint64_t frame, const Vec3& place) {
-    tracks.follow(graph, frame, {{0, place}}, [&](Index, Index) { ++found; });
+    tracks.follow(frame, {{0, place}}, [&](Index, Index) { ++found; });
   };
   look(1, Vec3(2, 1, 1));  // too far
   look(5, Vec3(1, 1, 1));
@@ -341,67 +340,67 @@ TEST(MotionTracks, OneUnseenForLongIsFollowedNoMore) {
 // ---- Taking a landmark out
 
 /// A submap filled from some frames; the points may or may not be among them.
-SubmapGraph filled(ActiveSubmap& active, const std::vector<Index>& wanted, std::vector<Vec3>& places) {
-  scenes::Random random(11);
-  SubmapGraph graph(1.0);
-  for (int i = 0; i < 8; ++i)
-    places.push_back(Vec3(random.uniform(3.0, 9.0), random.uniform(-5.0, 5.0), random.uniform(-2.0, 2.0)));
-  for (const Vec3& p : places) graph.add_landmark(p, 1);
-  active.open(graph, graph.add_submap(Pose{}));
-  for (int f = 0; f < 6; ++f) {
-    active.begin_frame({Eigen::Quaterniond::Identity(), Vec3(0.1 * f, 0.01 * random.normal(), 0.0)});
-    for (Index l = 0; l < places.size(); ++l) {
-      const Vec3 seen = places[l] - Vec3(0.1 * f, 0, 0) + noise_of(random);
-      if (std::find(wanted.begin(), wanted.end(), l) == wanted.end()) continue;
-      const Index member = graph.landmarks[l].active_member;
-      if (member == kNone) {
-        active.join(graph, l, seen, f == 0, 1);
-      } else {
-        active.observe(graph, member, seen, 1);
+struct Filled {
+  explicit Filled(const std::vector<Index>& wanted) {
+    scenes::Random random(11);
+    for (int i = 0; i < 8; ++i)
+      places.push_back(Vec3(random.uniform(3.0, 9.0), random.uniform(-5.0, 5.0), random.uniform(-2.0, 2.0)));
+    for (const Vec3& p : places) graph.add_landmark(p, 1);
+    active.open(graph.add_submap(Pose{}));
+    for (int f = 0; f < 6; ++f) {
+      active.begin_frame({Eigen::Quaterniond::Identity(), Vec3(0.1 * f, 0.01 * random.normal(), 0.0)});
+      for (Index l = 0; l < places.size(); ++l) {
+        const Vec3 seen = places[l] - Vec3(0.1 * f, 0, 0) + noise_of(random);
+        if (std::find(wanted.begin(), wanted.end(), l) == wanted.end()) continue;
+        const Index member = graph.landmarks[l].active_member;
+        if (member == kNone) {
+          active.join(l, seen, f == 0, 1);
+        } else {
+          active.observe(member, seen, 1);
+        }
       }
     }
   }
-  return graph;
-}
+  void withdraw(Index landmark) {
+    active.withdraw(graph.landmarks[landmark].active_member);
+    graph.withdraw(landmark);
+  }
+  std::vector<Vec3> places{};
+  SubmapGraph graph{1.0};
+  ActiveSubmap active{graph, 1.0};
+};
 
 TEST(Withdraw, TheSubmapIsAsIfTheLandmarkHadNeverBeenInIt) {
-  ActiveSubmap with(1.0);
-  ActiveSubmap without(1.0);
-  std::vector<Vec3> places;
-  std::vector<Vec3> again;
-  SubmapGraph graph = filled(with, {0, 1, 2, 3, 4, 5, 6, 7}, places);
-  SubmapGraph never = filled(without, {0, 1, 3, 4, 5, 6, 7}, again);
-  with.withdraw(graph.landmarks[2].active_member);
-  graph.withdraw(2);
-  EXPECT_EQ(graph.submaps[0].first_frame_size, never.submaps[0].first_frame_size);
-  with.realign(graph, 2, false, 1e-6);
-  without.realign(never, 2, false, 1e-6);
-  graph.deactivate();
-  never.deactivate();
+  Filled with({0, 1, 2, 3, 4, 5, 6, 7});
+  Filled without({0, 1, 3, 4, 5, 6, 7});
+  with.withdraw(2);
+  EXPECT_EQ(with.graph.submaps[0].first_frame_size, without.graph.submaps[0].first_frame_size);
+  for (Filled* filled : {&with, &without}) {
+    filled->active.realign(2, {false, 1e-6});
+    filled->graph.deactivate();
+  }
   for (const Index l : {0u, 1u, 3u, 4u, 5u, 6u, 7u}) {
-    EXPECT_EQ(graph.landmarks[l].position, never.landmarks[l].position) << l;
-    EXPECT_EQ(graph.landmarks[l].count, never.landmarks[l].count) << l;
+    EXPECT_EQ(with.graph.landmarks[l].position, without.graph.landmarks[l].position) << l;
+    EXPECT_EQ(with.graph.landmarks[l].count, without.graph.landmarks[l].count) << l;
   }
 }
 
 TEST(Withdraw, TheLandmarkIsFoundNoMore) {
-  ActiveSubmap active(1.0);
-  std::vector<Vec3> places;
-  SubmapGraph graph = filled(active, {0, 1, 2, 3, 4, 5, 6, 7}, places);
-  active.withdraw(graph.landmarks[2].active_member);
-  graph.withdraw(2);
+  Filled filled({0, 1, 2, 3, 4, 5, 6, 7});
+  filled.withdraw(2);
+  SubmapGraph& graph = filled.graph;
   EXPECT_TRUE(graph.landmarks[2].moving);
   EXPECT_EQ(graph.landmarks[2].count, 0u);
   EXPECT_TRUE(graph.landmarks[2].memberships.empty());
-  graph.visit_landmarks_near(places[2], [](Index l) { EXPECT_NE(l, 2u); });
+  graph.visit_landmarks_near(filled.places[2], [](Index l) { EXPECT_NE(l, 2u); });
   const auto& members = graph.submaps[0].members;
-  active.visit_members_near(places[2], [&](Index m) { EXPECT_NE(members[m].landmark, 2u); });
+  filled.active.visit_members_near(filled.places[2], [&](Index m) { EXPECT_NE(members[m].landmark, 2u); });
   // Closing the submap and taking it up again changes nothing of that.
   graph.deactivate();
-  ActiveSubmap next(1.0);
-  next.open(graph, 0);
+  ActiveSubmap next(graph, 1.0);
+  next.open(0);
   EXPECT_EQ(graph.landmarks[2].active_member, kNone);
-  next.visit_members_near(places[2], [&](Index m) { EXPECT_NE(members[m].landmark, 2u); });
+  next.visit_members_near(filled.places[2], [&](Index m) { EXPECT_NE(members[m].landmark, 2u); });
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ TEST(PartWatch, APartIsYoungForTenFrames) {
 /// A map of one part that some frames were placed in.
 struct OnePart {
   explicit OnePart(int frames) {
-    parts.begin(graph);
-    parts.anchor(graph, graph.add_submap(Pose{}));
+    parts.begin();
+    parts.anchor(graph.add_submap(Pose{}));
     place(frames);
   }
   void place(int frames) {
@@ -33,18 +33,20 @@ struct OnePart {
   /// The least number of frames without a pose after which another part may begin.
   int waits(std::size_t points = 20) const {
     int frames = 0;
-    while (frames < 10000 && !watch.is_time_to_begin(graph, parts, points, frames)) ++frames;
+    while (frames < 10000 && !watch.is_time_to_begin(points, frames)) ++frames;
     return frames;
   }
   /// Begins another part, in which some frames are then placed.
   void begin_another(int frames) {
-    watch.note_begin(graph, parts);
-    parts.begin(graph);
+    watch.note_begin();
+    parts.begin();
     place(frames);
   }
+  Options options{};  // noise 0.05 m, bridges 10 frames
   SubmapGraph graph{1.0};
-  MapParts parts{0.3};
-  PartWatch watch{kBridge, 0.05};
+  MapParts parts{graph, 0.3};
+  PlaceRecogniser places{options, graph};
+  PartWatch watch{options, graph, parts, places};
 };
 
 TEST(PartWatch, AnotherPartBeginsWhenTheGapCannotBeBridged) {
@@ -57,8 +59,8 @@ TEST(PartWatch, AnotherPartBeginsWhenTheGapCannotBeBridged) {
 TEST(PartWatch, NoPartBeginsWhileTwoAreMadeOne) {
   OnePart part(2);
   part.begin_another(2);
-  part.parts.anchor(part.graph, part.graph.add_submap(Pose{}));
-  part.parts.join(part.graph, 0, 1, Pose{});
+  part.parts.anchor(part.graph.add_submap(Pose{}));
+  part.parts.join(0, 1, Pose{});
   ASSERT_TRUE(part.parts.is_joining());
   EXPECT_EQ(part.waits(), 10000);
 }
@@ -89,10 +91,10 @@ class TwoParts {
     for (int i = 0; i < 30; ++i)
       room.push_back(Vec3(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-4, 4)));
     begin_part_in_room();
-    parts.begin(graph);
+    parts.begin();
     std::vector<Vec3> here;
     for (const Vec3& p : room) here.push_back(kT_other_here.inverse() * p);
-    parts.anchor(graph, add_submap(here, 3));
+    parts.anchor(add_submap(here, 3));
     graph.activate(1);
     for (int f = 0; f < frames; ++f) parts.count_frame(1);
   }
@@ -113,24 +115,23 @@ class TwoParts {
   }
 
   std::optional<PartWatch::Meeting> look(std::uint64_t iteration, const Pose& T_map_sensor = {}) {
-    return watch.look(graph, parts, places, T_map_sensor, iteration, false);
+    return watch.look(T_map_sensor, iteration);
   }
 
   std::vector<Vec3> room;
   Options options{};
-  FrameMatcher matcher{options};
   SubmapGraph graph{options.map_bound()};
-  MapParts parts{0.3};
-  PlaceRecogniser places{options, matcher};
-  PartWatch watch{kBridge, options.noise_m};
+  MapParts parts{graph, 0.3};
+  PlaceRecogniser places{options, graph};
+  PartWatch watch{options, graph, parts, places};
 
  private:
   void begin_part_in_room() {
-    parts.begin(graph);
+    parts.begin();
     const Index submap = add_submap(room, 5);
-    parts.anchor(graph, submap);
-    places.note(graph, submap);
-    for (int call = 0; call < 10; ++call) places.advance(graph);
+    parts.anchor(submap);
+    places.note(submap);
+    for (int call = 0; call < 10; ++call) places.advance();
   }
 
   Index add_submap(const std::vector<Vec3>& points, std::uint32_t count) {
@@ -200,8 +201,8 @@ TEST(PartWatch, AYoungPartIsLookedForInEachFrameAndAnOlderOneInEachTenth) {
 TEST(PartWatch, OnePartMeetsNone) {
   TwoParts two(20);
   two.graph.deactivate();
-  two.parts.join(two.graph, 0, 1, kT_other_here);
-  while (two.parts.is_joining()) two.parts.advance(two.graph, 100);
+  two.parts.join(0, 1, kT_other_here);
+  while (two.parts.is_joining()) two.parts.advance(100);
   two.graph.activate(0);
   for (const std::uint64_t iteration : {10u, 20u, 30u}) EXPECT_FALSE(two.look(iteration));
 }
@@ -209,11 +210,11 @@ TEST(PartWatch, OnePartMeetsNone) {
 TEST(PartWatch, TwoThatAreMadeOneMeetAThirdWhenThatIsDone) {
   TwoParts two(20);
   two.add_third();
-  two.parts.join(two.graph, 0, 1, kT_other_here);
+  two.parts.join(0, 1, kT_other_here);
   two.graph.activate(0);
   ASSERT_TRUE(two.parts.is_joining());
   for (const std::uint64_t iteration : {10u, 20u, 30u}) EXPECT_FALSE(two.look(iteration));
-  while (two.parts.is_joining()) two.parts.advance(two.graph, 100);
+  while (two.parts.is_joining()) two.parts.advance(100);
   EXPECT_FALSE(two.look(40));
   const std::optional<PartWatch::Meeting> met = two.look(50);
   ASSERT_TRUE(met);

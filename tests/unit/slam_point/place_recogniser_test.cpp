@@ -26,7 +26,7 @@ std::vector<Vec3> strewn(scenes::Random& random, int count, double size, bool pl
 /// A map, and one who knows its places.
 class KnownGround {
  public:
-  explicit KnownGround(bool planar) : planar_(planar) {}
+  explicit KnownGround(bool planar) { graph.planar = planar; }
 
   /// A submap that saw each of `points` so often, in the current part.
   Index add_submap(const std::vector<Vec3>& points, std::uint32_t count = 5) {
@@ -34,32 +34,26 @@ class KnownGround {
   }
 
   /// What a sensor at T_map_sensor sees of `points`.
-  static std::vector<Observation> frame_of(const std::vector<Vec3>& points, const Pose& T_map_sensor) {
-    std::vector<Observation> frame;
+  static Observations frame_of(const std::vector<Vec3>& points, const Pose& T_map_sensor) {
+    Observations frame;
     for (const Vec3& p : points) frame.push_back({T_map_sensor.inverse() * p, frame.size()});
     return frame;
   }
 
-  bool find(const std::vector<Observation>& frame, Placement& found) {
-    return places.find_frame(graph, frame, planar_, found);
+  bool find(const Observations& frame, Relocalisation& found) { return places.find_frame(frame, found); }
+  bool find_elsewhere(const std::vector<Vec3>& points, Index except, Relocalisation& found) {
+    return places.find_elsewhere(points, except, found);
   }
-  bool find_elsewhere(const std::vector<Vec3>& points, Index except, Placement& found) {
-    return places.find_elsewhere(graph, points, except, planar_, found);
-  }
-  bool may_be_chance(const std::vector<Observation>& frame, const Pose& T_map_sensor) {
-    return places.may_be_chance(graph, frame, T_map_sensor, planar_);
+  bool may_be_chance(const Observations& frame, const Pose& T_map_sensor) {
+    return places.may_be_chance(frame, T_map_sensor);
   }
   void advance(int calls) {
-    for (int call = 0; call < calls; ++call) places.advance(graph);
+    for (int call = 0; call < calls; ++call) places.advance();
   }
 
   Options options{};
-  FrameMatcher matcher{options};
   SubmapGraph graph{options.map_bound()};
-  PlaceRecogniser places{options, matcher};
-
- private:
-  bool planar_;
+  PlaceRecogniser places{options, graph};
 };
 
 class PlaceRecogniserIn : public testing::TestWithParam<bool> {
@@ -81,11 +75,11 @@ TEST_P(PlaceRecogniserIn, FindsAFrameAmongWhatWasNotedOnceThatIsIndexed) {
   const std::vector<Vec3> room = strewn(random, 40, 10.0, planar());
   const Index closed = ground.add_submap(room);
   ground.graph.activate(ground.add_submap({}));  // another one is being filled
-  const std::vector<Observation> frame = KnownGround::frame_of(room, somewhere());
-  Placement found;
+  const Observations frame = KnownGround::frame_of(room, somewhere());
+  Relocalisation found;
   ground.advance(5);
   EXPECT_FALSE(ground.find(frame, found)) << "nobody noted it";
-  ground.places.note(ground.graph, closed);
+  ground.places.note(closed);
   EXPECT_FALSE(ground.find(frame, found)) << "that takes some frames";
   ground.advance(5);  // eight landmarks each
   ASSERT_TRUE(ground.find(frame, found));
@@ -101,7 +95,7 @@ TEST_P(PlaceRecogniserIn, FindsAFrameInTheActiveSubmapHoweverNewThatIs) {
   KnownGround ground(planar());
   const std::vector<Vec3> room = strewn(random, 40, 10.0, planar());
   ground.graph.activate(ground.add_submap(room, 1));
-  Placement found;
+  Relocalisation found;
   ASSERT_TRUE(ground.find(KnownGround::frame_of(room, somewhere()), found));
   expect_same(found.T_map_points, somewhere());
 }
@@ -111,7 +105,7 @@ TEST_P(PlaceRecogniserIn, WhatIsLookedForElsewhereIsNotLookedForInTheActiveSubma
   KnownGround ground(planar());
   const std::vector<Vec3> room = strewn(random, 40, 10.0, planar());
   ground.graph.activate(ground.add_submap(room));
-  Placement found;
+  Relocalisation found;
   EXPECT_FALSE(ground.find_elsewhere(room, kNone, found));
 }
 
@@ -119,13 +113,13 @@ TEST_P(PlaceRecogniserIn, FindsPointsInAllPartsButOne) {
   scenes::Random random(4);
   KnownGround ground(planar());
   const std::vector<Vec3> room = strewn(random, 40, 10.0, planar());
-  ground.places.note(ground.graph, ground.add_submap(strewn(random, 40, 30.0, planar())));
+  ground.places.note(ground.add_submap(strewn(random, 40, 30.0, planar())));
   ground.graph.set_part(1);
-  ground.places.note(ground.graph, ground.add_submap(room));
+  ground.places.note(ground.add_submap(room));
   ground.advance(10);
   std::vector<Vec3> seen;
   for (const Vec3& p : room) seen.push_back(somewhere().inverse() * p);
-  Placement found;
+  Relocalisation found;
   ASSERT_TRUE(ground.find_elsewhere(seen, 0, found));
   EXPECT_EQ(found.part, 1u);
   expect_same(found.T_map_points, somewhere());
@@ -136,10 +130,10 @@ TEST_P(PlaceRecogniserIn, OneFrameIsNotTakenForTheNext) {
   scenes::Random random(5);
   KnownGround ground(planar());
   const std::vector<Vec3> room = strewn(random, 40, 10.0, planar());
-  ground.places.note(ground.graph, ground.add_submap(room));
+  ground.places.note(ground.add_submap(room));
   ground.graph.activate(ground.add_submap({}));
   ground.advance(5);
-  Placement found;
+  Relocalisation found;
   ASSERT_TRUE(ground.find(KnownGround::frame_of(room, Pose{}), found));
   EXPECT_FALSE(ground.find(KnownGround::frame_of(strewn(random, 20, 10.0, planar()), Pose{}), found));
   ASSERT_TRUE(ground.find(KnownGround::frame_of(room, somewhere()), found));
@@ -165,7 +159,7 @@ TEST_P(PlaceRecogniserIn, WhatMayBeChanceIsJudgedByTheNoiseOfEachPoint) {
   KnownGround ground(planar());
   const std::vector<Vec3> room = strewn(random, 30, 20.0, planar());
   ground.add_submap(room);
-  std::vector<Observation> frame = KnownGround::frame_of(room, Pose{});
+  Observations frame = KnownGround::frame_of(room, Pose{});
   // Six times noise_m aside: beyond the four that agree, but not for points of three times the noise.
   for (std::size_t i = 0; i < frame.size(); ++i) frame[i].point.x() += (i % 2 == 0 ? 6.0 : -6.0) * kNoise_m;
   EXPECT_TRUE(ground.may_be_chance(frame, Pose{}));
@@ -174,18 +168,18 @@ TEST_P(PlaceRecogniserIn, WhatMayBeChanceIsJudgedByTheNoiseOfEachPoint) {
 }
 
 TEST_P(PlaceRecogniserIn, GivesTheSameBitsEveryTime) {
-  const auto placements = [&] {
+  const auto relocalisations = [&] {
     scenes::Random random(8);
     KnownGround ground(planar());
     const std::vector<Vec3> room = strewn(random, 200, 40.0, planar());
-    ground.places.note(ground.graph, ground.add_submap(room));
+    ground.places.note(ground.add_submap(room));
     ground.graph.activate(ground.add_submap({}));
     ground.advance(25);
-    std::vector<Placement> found;
+    std::vector<Relocalisation> found;
     for (int trial = 0; trial < 20; ++trial) {
       const auto first = static_cast<std::ptrdiff_t>(random.uniform(0.0, 160.0));
-      std::vector<Observation> frame = KnownGround::frame_of(
-          {room.begin() + first, room.begin() + first + 40}, scenes::heading(Vec3(1, 2, 0), 0.1 * trial));
+      Observations frame = KnownGround::frame_of({room.begin() + first, room.begin() + first + 40},
+                                                 scenes::heading(Vec3(1, 2, 0), 0.1 * trial));
       for (Observation& observation : frame) {
         observation.point +=
             kNoise_m * Vec3(random.normal(), random.normal(), planar() ? 0.0 : random.normal());
@@ -195,8 +189,8 @@ TEST_P(PlaceRecogniserIn, GivesTheSameBitsEveryTime) {
     }
     return found;
   };
-  const std::vector<Placement> once = placements();
-  const std::vector<Placement> again = placements();
+  const std::vector<Relocalisation> once = relocalisations();
+  const std::vector<Relocalisation> again = relocalisations();
   int placed = 0;
   for (std::size_t i = 0; i < once.size(); ++i) {
     if (once[i].part != kNone) ++placed;

@@ -81,7 +81,7 @@ TEST(PoseInformation, FitsErrAsItSays) {
       alignment.add(truth * match.point,
                     match.point + kNoise_m * Vec3(random.normal(), random.normal(), random.normal()), 1.0);
     Pose fitted;
-    ASSERT_TRUE(alignment.solve(false, 1e-6, fitted));
+    ASSERT_TRUE(alignment.solve({false, 1e-6}, fitted));
     Eigen::Matrix<double, 6, 1> error;
     error << truth.t - fitted.t, rotation_log(truth.q * fitted.q.conjugate());
     sum += error.dot(inverse * error);

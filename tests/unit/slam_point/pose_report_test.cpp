@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/frame/pose_report.hpp"
+#include "slam_point/core/frame/pose_information.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,17 +35,18 @@ class Placed {
     return frame_.back();
   }
 
-  std::optional<Mat6> covariance(bool planar = false, double noise2_m2 = kNoise2_m2) const {
-    return pose_covariance(graph_, frame_, T_, noise2_m2, planar);
+  std::optional<Mat6> covariance(double noise2_m2 = kNoise2_m2) const {
+    return pose_covariance(graph_, frame_, T_, noise2_m2);
   }
+  void set_planar() { graph_.planar = true; }
 
   const SubmapGraph& graph() const { return graph_; }
-  std::vector<Observation>& frame() { return frame_; }
+  Observations& frame() { return frame_; }
 
  private:
   Pose T_;
   SubmapGraph graph_{1.0};
-  std::vector<Observation> frame_;
+  Observations frame_;
 };
 
 Mat6 diagonal(double position, double turn) {
@@ -65,8 +66,9 @@ TEST(PoseCovariance, ByHand) {
 }
 
 TEST(PoseCovariance, InAPlaneByHand) {
-  const Placed placed(2, 2.0, scenes::heading(Vec3(50, -70, 0), 0.8));
-  const std::optional<Mat6> covariance = placed.covariance(true);
+  Placed placed(2, 2.0, scenes::heading(Vec3(50, -70, 0), 0.8));
+  placed.set_planar();
+  const std::optional<Mat6> covariance = placed.covariance();
   ASSERT_TRUE(covariance);
   Vec6 expected;
   expected << kNoise2_m2 / 3.0, kNoise2_m2 / 3.0, 0.0, 0.0, 0.0, kNoise2_m2 / 12.0;
@@ -74,7 +76,7 @@ TEST(PoseCovariance, InAPlaneByHand) {
 }
 
 TEST(PoseCovariance, IsNotToldWhileTheNoiseIsNotKnown) {
-  EXPECT_FALSE(Placed(3, 2.0, Pose{}).covariance(false, 0.0));
+  EXPECT_FALSE(Placed(3, 2.0, Pose{}).covariance(0.0));
 }
 
 TEST(PoseCovariance, IsNotToldWherePointsLeaveADirectionOpen) {
@@ -115,7 +117,7 @@ std::optional<Mat6> directional_covariance(Placed& placed, const Pose& T, const 
     const Mat3 own = ray_information(T.q * observation.point, weight);
     graph.informations[landmark].whole = (1.0 + others) * own;
   }
-  return pose_covariance(graph, placed.frame(), T, kNoise2_m2, false);
+  return pose_covariance(graph, placed.frame(), T, kNoise2_m2);
 }
 
 TEST(PoseCovariance, WhereNoiseHasDirectionsByHand) {
@@ -139,18 +141,18 @@ TEST(PoseCovariance, WhereDirectionsAreAlikeItIsThePlainOne) {
   EXPECT_LT((*directional - plain).norm(), 1e-12 * plain.norm());
 }
 
-TEST(ToldFrom, AQuarterTurnSwapsTwoAxesByHand) {
+TEST(SeenFrom, AQuarterTurnSwapsTwoAxesByHand) {
   // What is y in the map's frame is x in the anchor's.
   Vec6 variances;
   variances << 1.0, 4.0, 9.0, 16.0, 25.0, 36.0;
   Vec6 expected;
   expected << 4.0, 1.0, 9.0, 25.0, 16.0, 36.0;
   const Pose anchor = scenes::heading(Vec3(5, 6, 7), std::numbers::pi / 2.0);
-  const Mat6 told = told_from(anchor, variances.asDiagonal());
-  EXPECT_LT((told - Mat6(expected.asDiagonal())).norm(), 1e-12);
+  const Mat6 seen = seen_from(anchor, variances.asDiagonal());
+  EXPECT_LT((seen - Mat6(expected.asDiagonal())).norm(), 1e-12);
 }
 
-TEST(ToldFrom, ErrorsTurnAsThePosesTheyAreOf) {
+TEST(SeenFrom, ErrorsTurnAsThePosesTheyAreOf) {
   scenes::Random random(4);
   const auto some = [&](double size) {
     return Vec3(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
@@ -162,11 +164,11 @@ TEST(ToldFrom, ErrorsTurnAsThePosesTheyAreOf) {
     Vec6 error;
     error << some(1.0), some(1.0);
     const Pose erring{rotation_exp(kStep * error.tail<3>()) * T.q, T.t + kStep * error.head<3>()};
-    const Pose told = told_from(anchor, T);
-    const Pose told_erring = told_from(anchor, erring);
+    const Pose told = seen_from(anchor, T);
+    const Pose told_erring = seen_from(anchor, erring);
     Vec6 expected;
     expected << (told_erring.t - told.t) / kStep, rotation_log(told_erring.q * told.q.conjugate()) / kStep;
-    EXPECT_LT((told_from(anchor, error * error.transpose()) - expected * expected.transpose()).norm(), 1e-6);
+    EXPECT_LT((seen_from(anchor, error * error.transpose()) - expected * expected.transpose()).norm(), 1e-6);
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "scenes.hpp"
 #include "slam_point/core/fit/alignment.hpp"
-#include "slam_point/core/frame/frame_matcher.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 /// A map of one submap with an index of its constellations.
 class Ground {
  public:
-  explicit Ground(bool planar) : planar_(planar) {}
+  explicit Ground(bool planar) { graph_.planar = planar; }
 
   void add_part(Index part, const std::vector<Vec3>& points) {
     graph_.set_part(part);
@@ -26,23 +25,21 @@ class Ground {
       graph_.submaps[submap].members[member].count = 5;
       graph_.resum(landmark);
     }
-    index_.note(graph_, submap);
-    index_.advance(graph_, 100000);
+    index_.note(submap);
+    index_.advance(100000);
   }
-  bool locate(const std::vector<Vec3>& points, Placement& found, Index except = kNone) {
-    return relocaliser_.locate(graph_, index_, points, except, planar_, found);
+  bool locate(const std::vector<Vec3>& points, Relocalisation& found, Index except = kNone) {
+    return relocaliser_.locate(points, except, found);
   }
   double chance_at(const std::vector<Vec3>& points, const std::vector<double>& noises, const Pose& T) {
-    return relocaliser_.chance_at(graph_, points, noises, T, planar_, 1);
+    return relocaliser_.chance_at(points, noises, T, 1);
   }
 
  private:
-  bool planar_;
-  Options options_;
-  FrameMatcher matcher_{options_};
+  Options options_{};
   SubmapGraph graph_{options_.map_bound()};
-  ConstellationIndex index_{4.0 * options_.noise_m, 5};
-  Relocaliser relocaliser_{options_, matcher_.rules(true), matcher_.rules(false), options_.map_bound()};
+  ConstellationIndex index_{graph_, 4.0 * options_.noise_m, 5};
+  Relocaliser relocaliser_{options_, graph_, index_};
 };
 
 std::vector<Vec3> scattered(scenes::Random& random, int count, double size, bool planar) {
@@ -80,19 +77,19 @@ TEST_P(RelocaliserIn, FindsTheSensorWhateverWayItIsTurned) {
   const std::vector<Vec3> landmarks = scattered(random, 500, 100.0, planar);
   Ground ground(planar);
   ground.add_part(0, landmarks);
-  int found = 0;
+  int times_found = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const Pose truth = anywhere(random, planar);
     const std::vector<Vec3> points = seen_from(truth, landmarks, 30.0, random, planar);
-    Placement placement;
-    if (points.size() < 10 || !ground.locate(points, placement)) continue;
-    ++found;
-    EXPECT_LT((placement.T_map_points.t - truth.t).norm(), 0.3);
-    EXPECT_LT(placement.T_map_points.q.angularDistance(truth.q), 0.02);
-    EXPECT_LT(placement.expected_by_chance, 1e-8);
-    EXPECT_GE(placement.agreeing, static_cast<int>(points.size()) * 4 / 5);
+    Relocalisation found;
+    if (points.size() < 10 || !ground.locate(points, found)) continue;
+    ++times_found;
+    EXPECT_LT((found.T_map_points.t - truth.t).norm(), 0.3);
+    EXPECT_LT(found.T_map_points.q.angularDistance(truth.q), 0.02);
+    EXPECT_LT(found.expected_by_chance, 1e-8);
+    EXPECT_GE(found.agreeing, static_cast<int>(points.size()) * 4 / 5);
   }
-  EXPECT_GE(found, 48);
+  EXPECT_GE(times_found, 48);
 }
 
 TEST_P(RelocaliserIn, FindsNothingElsewhere) {
@@ -100,9 +97,9 @@ TEST_P(RelocaliserIn, FindsNothingElsewhere) {
   scenes::Random random(2);
   Ground ground(planar);
   ground.add_part(0, scattered(random, 500, 100.0, planar));
-  Placement placement;
+  Relocalisation found;
   for (int trial = 0; trial < 50; ++trial)
-    EXPECT_FALSE(ground.locate(scattered(random, 20, 30.0, planar), placement));
+    EXPECT_FALSE(ground.locate(scattered(random, 20, 30.0, planar), found));
 }
 
 TEST_P(RelocaliserIn, APlaceThatRepeatsIsNoAnswer) {
@@ -116,9 +113,9 @@ TEST_P(RelocaliserIn, APlaceThatRepeatsIsNoAnswer) {
   Ground twice(planar);
   twice.add_part(0, landmarks);
   const std::vector<Vec3> points = seen_from(Pose{}, room, 30.0, random, planar);
-  Placement placement;
-  EXPECT_TRUE(once.locate(points, placement));
-  EXPECT_FALSE(twice.locate(points, placement));
+  Relocalisation found;
+  EXPECT_TRUE(once.locate(points, found));
+  EXPECT_FALSE(twice.locate(points, found));
 }
 
 TEST_P(RelocaliserIn, APartThatIsNotAskedForIsNotFound) {
@@ -129,10 +126,10 @@ TEST_P(RelocaliserIn, APartThatIsNotAskedForIsNotFound) {
   ground.add_part(0, scattered(random, 100, 50.0, planar));
   ground.add_part(1, room);
   const std::vector<Vec3> points = seen_from(Pose{}, room, 30.0, random, planar);
-  Placement placement;
-  ASSERT_TRUE(ground.locate(points, placement));
-  EXPECT_EQ(placement.part, 1u);
-  EXPECT_FALSE(ground.locate(points, placement, 1));
+  Relocalisation found;
+  ASSERT_TRUE(ground.locate(points, found));
+  EXPECT_EQ(found.part, 1u);
+  EXPECT_FALSE(ground.locate(points, found, 1));
 }
 
 TEST_P(RelocaliserIn, FewPointsAreNoAnswer) {
@@ -141,10 +138,10 @@ TEST_P(RelocaliserIn, FewPointsAreNoAnswer) {
   const std::vector<Vec3> landmarks = scattered(random, 500, 100.0, planar);
   Ground ground(planar);
   ground.add_part(0, landmarks);
-  Placement placement;
+  Relocalisation found;
   for (std::size_t count = 0; count <= 4; ++count) {
     const std::vector<Vec3> few(landmarks.begin(), landmarks.begin() + static_cast<std::ptrdiff_t>(count));
-    EXPECT_FALSE(ground.locate(few, placement)) << count;
+    EXPECT_FALSE(ground.locate(few, found)) << count;
   }
 }
 

@@ -27,6 +27,7 @@ inline SubmapGraph noisy_ring(int submaps, bool planar, std::uint64_t seed) {
     points.push_back(Vec3(r * std::cos(a), r * std::sin(a), planar ? 0.0 : random.uniform(-3.0, 3.0)));
   }
   SubmapGraph graph(1.0);
+  graph.planar = planar;
   for (const Vec3& p : points) graph.add_landmark(p, 0);
   for (int s = 0; s < submaps; ++s) {
     const double a = 2.0 * std::numbers::pi * s / submaps;

@@ -9,7 +9,7 @@
 namespace hallway::slam_point {
 namespace {
 
-constexpr double kSpread_m2 = 0.25;
+constexpr FitRules kRules{false, 0.25};
 using Sightings = std::vector<SegmentStore::Sighting>;
 
 std::vector<Vec3> some_points(Index count, std::uint64_t seed) {
@@ -38,7 +38,7 @@ TEST(SegmentStore, FramesThatSeeTheSameAreOneSegment) {
     const Pose T = scenes::heading(Vec3(0.1 * f, 0, 0), 0.02 * f);
     // Told a little wrong: within the segment the frame is aligned anew.
     const Pose told = f == 0 ? T : T * Pose{rotation_exp(Vec3(0.01, -0.02, 0.01)), Vec3(0.05, 0.02, -0.03)};
-    store.add_frame(0, told, false, kSpread_m2, sighted(points, T, 0, 20));
+    store.add_frame(0, told, kRules, sighted(points, T, 0, 20));
   }
   ASSERT_EQ(store.segments().size(), 1u);
   const Segment& segment = store.segments()[0];
@@ -55,16 +55,16 @@ TEST(SegmentStore, FramesThatSeeTheSameAreOneSegment) {
 TEST(SegmentStore, AnotherViewStartsAnotherSegmentAndTheFirstIsTakenUpAgain) {
   const std::vector<Vec3> points = some_points(40, 2);
   SegmentStore store;
-  store.add_frame(0, Pose{}, false, kSpread_m2, sighted(points, {}, 0, 20));
-  store.add_frame(0, Pose{}, false, kSpread_m2, sighted(points, {}, 1, 20));  // 19 of 21 are shared
+  store.add_frame(0, Pose{}, kRules, sighted(points, {}, 0, 20));
+  store.add_frame(0, Pose{}, kRules, sighted(points, {}, 1, 20));  // 19 of 21 are shared
   EXPECT_EQ(store.segments().size(), 1u);
   EXPECT_EQ(store.segments()[0].members.size(), 21u);
-  store.add_frame(0, Pose{}, false, kSpread_m2, sighted(points, {}, 10, 20));
+  store.add_frame(0, Pose{}, kRules, sighted(points, {}, 10, 20));
   EXPECT_EQ(store.segments().size(), 2u);
-  store.add_frame(0, Pose{}, false, kSpread_m2, sighted(points, {}, 0, 20));
+  store.add_frame(0, Pose{}, kRules, sighted(points, {}, 0, 20));
   ASSERT_EQ(store.segments().size(), 2u);
   EXPECT_EQ(store.segments()[0].frames, 3u);
-  store.add_frame(1, Pose{}, false, kSpread_m2, sighted(points, {}, 0, 20));
+  store.add_frame(1, Pose{}, kRules, sighted(points, {}, 0, 20));
   ASSERT_EQ(store.segments().size(), 3u) << "another submap's";
   EXPECT_EQ(store.segments()[2].submap, 1u);
 }
@@ -75,7 +75,7 @@ TEST(SegmentStore, MemoryIsBoundedOnKnownGround) {
   SegmentStore store;
   for (int f = 0; f < 2000; ++f) {
     const auto first = static_cast<Index>(random.uniform(0, 100));
-    store.add_frame(0, Pose{}, false, kSpread_m2,
+    store.add_frame(0, Pose{}, kRules,
                     sighted(points, {}, first, 5 + static_cast<Index>(random.uniform(0, 15))));
   }
   EXPECT_LE(store.segments().size(), 64u);
@@ -93,7 +93,7 @@ TEST(SegmentStore, TheNoiseIsEstimatedFromWhatIsLeft) {
       Sightings sightings =
           sighted(flat, {}, static_cast<Index>(f / 20), 15, 0.05, 100 + static_cast<std::uint64_t>(f));
       for (auto& sighting : sightings) sighting.point.z() *= planar ? 0.0 : 1.0;
-      store.add_frame(0, Pose{}, planar, kSpread_m2, sightings);
+      store.add_frame(0, Pose{}, {planar, kRules.min_spread_m2}, sightings);
     }
     // About 1e4 degrees of freedom: two standard deviations are 3 %.
     EXPECT_NEAR(store.noise2_m2(), 0.05 * 0.05, 0.03 * 0.05 * 0.05) << planar;

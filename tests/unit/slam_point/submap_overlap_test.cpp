@@ -66,8 +66,8 @@ class Submaps {
     graph.resum(landmark);
   }
   /// A frame of these landmarks, and of a point that is none.
-  static std::vector<Observation> seen(const Landmarks& landmarks) {
-    std::vector<Observation> frame{{Vec3::Zero(), 0}};
+  static Observations seen(const Landmarks& landmarks) {
+    Observations frame{{Vec3::Zero(), 0}};
     for (const Index l : landmarks) frame.push_back({Vec3::Zero(), frame.size(), l});
     return frame;
   }

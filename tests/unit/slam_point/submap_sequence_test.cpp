@@ -12,7 +12,6 @@
 namespace hallway::slam_point {
 namespace {
 
-constexpr bool kInSpace = false;
 constexpr bool kByPlace = false;
 constexpr bool kByTracks = true;
 
@@ -32,20 +31,23 @@ class Sequence {
   }
 
   /// What a sensor at T_map_sensor sees of some landmarks, and what it takes them for.
-  std::vector<Observation> see(const std::vector<Index>& landmarks, const Pose& T_map_sensor = {}) const {
-    std::vector<Observation> frame;
+  Observations see(const std::vector<Index>& landmarks, const Pose& T_map_sensor = {}) const {
+    Observations frame;
     for (const Index l : landmarks) frame.push_back({T_map_sensor.inverse() * places_[l], frame.size(), l});
     return frame;
   }
   std::size_t integrate(const std::vector<Index>& landmarks, const Pose& T_map_sensor = {},
                         const Pose& T_submap_sensor = {}) {
-    return submaps.integrate(see(landmarks, T_map_sensor), T_submap_sensor, kInSpace);
+    return submaps.integrate(see(landmarks, T_map_sensor), T_submap_sensor);
   }
-  std::size_t close(std::vector<Observation>& frame, bool followed = kByPlace) {
-    return submaps.close(motion_filter, kInSpace, followed, frame);
+  std::size_t close(Observations& observations, bool followed = kByPlace) {
+    Frame frame{observations, false, followed};
+    const std::size_t merged = submaps.close(motion_filter, frame);
+    observations = frame.observations;
+    return merged;
   }
   void close() {
-    std::vector<Observation> frame;
+    Observations frame;
     close(frame);
   }
 
@@ -60,9 +62,9 @@ class Sequence {
   std::vector<Vec3> places_{};
 
  public:
-  FrameMatcher matcher{options_};
-  MotionFilter motion_filter{options_};
   SubmapGraph graph{options_.map_bound()};
+  FrameMatcher matcher{options_, graph};
+  MotionFilter motion_filter{options_, graph};
   SubmapSequence submaps{options_, graph, matcher};
 };
 
@@ -101,14 +103,13 @@ TEST(SubmapSequence, AFrameIsAveragedIntoTheActiveSubmapByHand) {
     sequence.add_landmark(p);
   const Pose T_map_submap{Eigen::Quaterniond::Identity(), Vec3(10, 0, 0)};
   sequence.submaps.open_new(T_map_submap);
-  std::vector<Observation> frame{
-      {Vec3(1, 0, 0), 0, 0}, {Vec3(9, 9, 9), 1}, {Vec3(2, 0, 0), 2, 1}, {Vec3(3, 2, 0), 3, 2}};
-  EXPECT_EQ(sequence.submaps.integrate(frame, Pose{}, kInSpace), 3u) << "one is no landmark";
+  Observations frame{{Vec3(1, 0, 0), 0, 0}, {Vec3(9, 9, 9), 1}, {Vec3(2, 0, 0), 2, 1}, {Vec3(3, 2, 0), 3, 2}};
+  EXPECT_EQ(sequence.submaps.integrate(frame, Pose{}), 3u) << "one is no landmark";
   // One metre on the second frame sees the first landmark 0.2 m to the left and three times as exactly, and the last one.
   const Pose T_submap_sensor{Eigen::Quaterniond::Identity(), Vec3(1, 0, 0)};
   frame = {{Vec3(0, 0.2, 0), 0, 0}, {Vec3(3, 2, 2), 1, 3}};
   frame[0].weight = 3.0;
-  EXPECT_EQ(sequence.submaps.integrate(frame, T_submap_sensor, kInSpace), 2u);
+  EXPECT_EQ(sequence.submaps.integrate(frame, T_submap_sensor), 2u);
   ASSERT_EQ(sequence.graph.submaps[0].members.size(), 4u);
   EXPECT_EQ(sequence.graph.submaps[0].first_frame_size, 3u);
   EXPECT_FALSE(sequence.member(0, 3).in_first_frame);
@@ -135,7 +136,7 @@ TEST(SubmapSequence, CountsTheSubmapsThatAreTakenUp) {
     sequence.close();
   }
   // An old one that is taken up again counts, too.
-  EXPECT_TRUE(sequence.submaps.take_up(sequence.see({0, 1, 2}), kInSpace, Pose{}).reopened);
+  EXPECT_TRUE(sequence.submaps.take_up(sequence.see({0, 1, 2}), Pose{}).reopened);
   EXPECT_EQ(sequence.submaps.activation(), 5u);
 }
 
@@ -160,7 +161,7 @@ struct Road : Sequence {
 TEST(SubmapSequence, TakesUpTheSubmapThatIsMostInView) {
   Road road;
   const SubmapSequence::Taken taken =
-      road.submaps.take_up(road.see(Road::seen(1), Road::pose(1)), kInSpace, Road::pose(1));
+      road.submaps.take_up(road.see(Road::seen(1), Road::pose(1)), Road::pose(1));
   EXPECT_TRUE(taken.reopened);
   EXPECT_EQ(road.graph.active(), 1u);
   EXPECT_EQ(road.graph.submaps.size(), 3u);
@@ -171,10 +172,9 @@ TEST(SubmapSequence, ASubmapThatIsTakenUpTellsItselfWhereTheFrameIs) {
   Road road;
   // The submap has drifted by more than a match would bear, its own evidence has not.
   const Pose T_submap_sensor{rotation_exp(Vec3(0.02, -0.01, 0.05)), Vec3(0.2, -0.1, 0.05)};
-  const std::vector<Observation> frame = road.see(Road::seen(1), Road::pose(1) * T_submap_sensor);
+  const Observations frame = road.see(Road::seen(1), Road::pose(1) * T_submap_sensor);
   const Pose drifted{Eigen::Quaterniond::Identity(), Vec3(0.3, -0.5, 0.2)};
-  const SubmapSequence::Taken taken =
-      road.submaps.take_up(frame, kInSpace, drifted * Road::pose(1) * T_submap_sensor);
+  const SubmapSequence::Taken taken = road.submaps.take_up(frame, drifted * Road::pose(1) * T_submap_sensor);
   ASSERT_TRUE(taken.reopened);
   EXPECT_LT((taken.T_submap_sensor.t - T_submap_sensor.t).norm(), 1e-9);
   EXPECT_LT(taken.T_submap_sensor.q.angularDistance(T_submap_sensor.q), 1e-9);
@@ -190,8 +190,7 @@ TEST(SubmapSequence, ASubmapThatIsTakenUpTellsItselfWhereTheFrameIs) {
 TEST(SubmapSequence, OpensANewSubmapWhereNoneIsInView) {
   Road road;
   const Pose here = scenes::heading(Vec3(5, 6, 0), 1.0);
-  const SubmapSequence::Taken taken =
-      road.submaps.take_up(road.see({3, 4, 5, 6, 7, 8, 9, 10}, here), kInSpace, here);
+  const SubmapSequence::Taken taken = road.submaps.take_up(road.see({3, 4, 5, 6, 7, 8, 9, 10}, here), here);
   EXPECT_FALSE(taken.reopened);
   EXPECT_EQ(taken.T_submap_sensor.t, Vec3::Zero());
   EXPECT_EQ(taken.T_submap_sensor.q.vec(), Vec3::Zero());
@@ -208,7 +207,7 @@ TEST(SubmapSequence, OpensANewSubmapWhereTheOldOneLeavesTheFrameOpen) {
   sequence.submaps.open_new(Pose{});
   sequence.integrate(all);
   sequence.close();
-  EXPECT_FALSE(sequence.submaps.take_up(sequence.see(all), kInSpace, Pose{}).reopened);
+  EXPECT_FALSE(sequence.submaps.take_up(sequence.see(all), Pose{}).reopened);
   EXPECT_EQ(sequence.graph.active(), 1u);
   EXPECT_EQ(sequence.submaps.activation(), 2u);
 }
@@ -267,7 +266,7 @@ struct Twice : Sequence {
 
 TEST(SubmapSequence, LandmarksThatLieOnEachOtherAreMadeOneAtTheClose) {
   Twice twice;
-  std::vector<Observation> frame = twice.see({5, twice.twin, 1});
+  Observations frame = twice.see({5, twice.twin, 1});
   EXPECT_EQ(twice.close(frame), 1u);
   EXPECT_EQ(twice.graph.landmarks[twice.twin].merged_into, 0u);
   EXPECT_EQ(twice.graph.landmarks[0].count, 2u);
@@ -278,17 +277,17 @@ TEST(SubmapSequence, LandmarksThatLieOnEachOtherAreMadeOneAtTheClose) {
 
 TEST(SubmapSequence, WhatIsSeenTogetherIsNotMadeOne) {
   Twice in_view;
-  std::vector<Observation> frame = in_view.see({0, in_view.twin, 1});
+  Observations frame = in_view.see({0, in_view.twin, 1});
   EXPECT_EQ(in_view.close(frame), 0u);
   Twice before;
-  before.motion_filter.judge(before.graph, before.submaps.active(), Pose{}, kInSpace, frame);
-  std::vector<Observation> none;
+  before.motion_filter.judge(before.submaps.active(), Pose{}, frame);
+  Observations none;
   EXPECT_EQ(before.close(none), 0u);
 }
 
 TEST(SubmapSequence, WhatTheSensorTellsApartIsNotMadeOne) {
   Twice twice;
-  std::vector<Observation> frame = twice.see({twice.twin, 1, 2});
+  Observations frame = twice.see({twice.twin, 1, 2});
   EXPECT_EQ(twice.close(frame, kByTracks), 0u);
   EXPECT_EQ(frame[0].landmark, twice.twin);
 }
@@ -309,7 +308,7 @@ bool places_map_anew(Index seen) {
   sequence.submaps.open_new(Pose{});
   bool anew = false;
   for (std::uint64_t frame = 0; frame < 20; ++frame) {
-    anew = sequence.submaps.schedule().apply(sequence.graph, kInSpace, 0.0025) || anew;
+    anew = sequence.submaps.schedule().apply(sequence.graph, 0.0025) || anew;
     sequence.submaps.schedule().advance(frame);
   }
   return anew;
@@ -336,11 +335,11 @@ TEST(SubmapSequence, GivesTheSameBitsEveryTime) {
     std::vector<Vec3> told;
     for (int round = 0; round < 10; ++round) {
       const auto s = static_cast<Index>(random.uniform(0.0, 3.0));
-      std::vector<Observation> frame = road.see(Road::seen(s), Road::pose(s));
+      Observations frame = road.see(Road::seen(s), Road::pose(s));
       for (Observation& observation : frame)
         observation.point += 0.05 * Vec3(random.normal(), random.normal(), random.normal());
-      const Pose T = road.submaps.take_up(frame, kInSpace, Road::pose(s)).T_submap_sensor;
-      road.submaps.integrate(frame, T, kInSpace);
+      const Pose T = road.submaps.take_up(frame, Road::pose(s)).T_submap_sensor;
+      road.submaps.integrate(frame, T);
       road.close(frame);
     }
     for (const LandmarkRecord& landmark : road.graph.landmarks) told.push_back(landmark.position);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slam_point/core/solver/submap_solver.hpp"
+#include "slam_point/core/solver/map_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(SubmapSolver, ReachesWhatBruteForceReaches) {
   for (int step = 0; step < 30; ++step) brute_force_step(graph, brute, landmarks);
 
   std::vector<Pose> poses = graph.poses;
-  EXPECT_GT(settle(graph, false, 30, poses), 0);
+  EXPECT_GT(optimise(graph, 30, poses), 0);
   EXPECT_LT(total_cost(graph, poses), total_cost(graph, brute) * (1.0 + 1e-8));
   for (std::size_t s = 0; s < poses.size(); ++s) {
     EXPECT_LT((poses[s].t - brute[s].t).norm(), 1e-4) << "submap " << s;
@@ -70,16 +70,16 @@ TEST(SubmapSolver, AStepIsThatOfBruteForce) {
   for (Index l = 0; l < graph.landmarks.size(); ++l) landmarks.push_back(graph.mean_position(l));
   brute_force_step(graph, brute, landmarks);
   std::vector<Pose> poses = graph.poses;
-  EXPECT_EQ(settle(graph, false, 1, poses), 1);
+  EXPECT_EQ(optimise(graph, 1, poses), 1);
   for (std::size_t k = 0; k < poses.size(); ++k) EXPECT_LT((brute[k].t - poses[k].t).norm(), 1e-6);
 }
 
 TEST(SubmapSolver, TheWorkOfAStepIsKnownBeforehand) {
   const SubmapGraph graph = noisy_ring(30, false, 7);
   MapStep step;
-  step.begin(graph, graph.poses, kNone, false);
+  step.begin(graph, graph.poses, kNone);
   ASSERT_TRUE(step.advance(1e12));
-  const double work = step_work(graph, false);
+  const double work = step_work(graph);
   EXPECT_GT(work, 0.0);
   EXPECT_LT(work, step.work()) << "which has the making of the rows in it";
 }
@@ -87,7 +87,7 @@ TEST(SubmapSolver, TheWorkOfAStepIsKnownBeforehand) {
 TEST(SubmapSolver, TheFirstSubmapNeverMoves) {
   const SubmapGraph graph = noisy_ring(7, false, 4);
   std::vector<Pose> poses = graph.poses;
-  EXPECT_GT(settle(graph, false, 20, poses), 0);
+  EXPECT_GT(optimise(graph, 20, poses), 0);
   EXPECT_EQ(poses[0].t, graph.poses[0].t);
   EXPECT_EQ(poses[0].q.coeffs(), graph.poses[0].q.coeffs());
 }
@@ -95,7 +95,7 @@ TEST(SubmapSolver, TheFirstSubmapNeverMoves) {
 TEST(SubmapSolver, PlanarDataStaysInItsPlaneExactly) {
   const SubmapGraph graph = noisy_ring(8, true, 5);
   std::vector<Pose> poses = graph.poses;
-  EXPECT_GT(settle(graph, true, 20, poses), 0);
+  EXPECT_GT(optimise(graph, 20, poses), 0);
   for (const Pose& pose : poses) {
     EXPECT_EQ(pose.t.z(), 0.0);
     EXPECT_EQ(pose.q.x(), 0.0);
@@ -118,7 +118,7 @@ TEST(SubmapSolver, MergedLandmarksCountAsOne) {
   EXPECT_EQ(graph.landmarks[4].count, 0u);
   EXPECT_EQ(graph.landmarks[4].merged_into, 3u);
   std::vector<Pose> poses = graph.poses;
-  EXPECT_GT(settle(graph, false, 20, poses), 0);
+  EXPECT_GT(optimise(graph, 20, poses), 0);
 }
 
 }  // namespace

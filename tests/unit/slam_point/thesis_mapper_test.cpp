@@ -17,16 +17,16 @@
 namespace hallway::slam_point::thesis {
 namespace {
 
-using Frame = std::vector<Vec3>;
+using Points = std::vector<Vec3>;
 
-Frame points_of(const std::vector<scenes::Seen>& seen) {
-  Frame frame;
+Points points_of(const std::vector<scenes::Seen>& seen) {
+  Points frame;
   for (const scenes::Seen& s : seen) frame.push_back(s.point);
   return frame;
 }
 
 /// Ten points well spread in front of the sensor.
-Frame spread_points() {
+Points spread_points() {
   return {{10, -4, -2}, {10, 4, -2}, {12, 0, 3}, {20, -8, 1},  {20, 8, 1},
           {25, 3, -4},  {30, -6, 4}, {15, 5, 4}, {18, -2, -4}, {22, 0, 0}};
 }
@@ -80,7 +80,7 @@ TEST(ThesisMapper, WithThreeLevelsALandmarkGetsItsLastGroupWhenItIsGone) {
   Mapper mapper(little_noise(), options);
   for (int i = 0; i < 30; ++i) mapper.process(spread_points());
   const std::uint64_t before = mapper.process(spread_points()).counters.closes;
-  Frame without = spread_points();
+  Points without = spread_points();
   without.pop_back();
   std::uint64_t after = 0;
   for (int i = 0; i < 10; ++i) after = mapper.process(without).counters.closes;
@@ -95,7 +95,7 @@ TEST(ThesisMapper, APointSeenInTooFewIterationsGetsNoFinalGroup) {
   options.match_iterations = 10;
   Mapper mapper(little_noise(), options);
   for (int i = 0; i <= 60; ++i) {
-    Frame frame = spread_points();
+    Points frame = spread_points();
     if (i % 3 == 0) frame.push_back(Vec3(16, -5, 0));  // a third of the time
     mapper.process(frame);
   }
@@ -114,9 +114,9 @@ TEST(ThesisMapper, HasNoPoseWhereNothingDeterminesOneAndFindsItselfAgain) {
   Mapper mapper(little_noise(), {});
   for (int i = 0; i < 10; ++i) mapper.process(spread_points());
   const std::size_t landmarks = mapper.map().landmarks.size();
-  EXPECT_FALSE(mapper.process(Frame{}).has_pose);
-  EXPECT_FALSE(mapper.process(Frame{{10, -4, -2}, {10, 4, -2}}).has_pose) << "two points";
-  Frame elsewhere = spread_points();
+  EXPECT_FALSE(mapper.process(Points{}).has_pose);
+  EXPECT_FALSE(mapper.process(Points{{10, -4, -2}, {10, 4, -2}}).has_pose) << "two points";
+  Points elsewhere = spread_points();
   for (Vec3& p : elsewhere) p = 1.7 * p + Vec3(3, 9, 5);
   const Answer& answer = mapper.process(elsewhere);
   EXPECT_FALSE(answer.has_pose);
@@ -130,7 +130,7 @@ TEST(ThesisMapper, HasNoPoseWhereNothingDeterminesOneAndFindsItselfAgain) {
 
 TEST(ThesisMapper, SkipsPointsThatAreNotFinite) {
   Mapper mapper(little_noise(), {});
-  Frame frame = spread_points();
+  Points frame = spread_points();
   frame.insert(frame.begin(), Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
   frame.push_back(Vec3(std::numeric_limits<double>::infinity(), 0, 0));
   const Answer& answer = mapper.process(frame);
@@ -142,7 +142,7 @@ TEST(ThesisMapper, SkipsPointsThatAreNotFinite) {
 
 TEST(ThesisMapper, AFalseStartIsStartedOver) {
   Mapper mapper(little_noise(), {});
-  Frame elsewhere = spread_points();
+  Points elsewhere = spread_points();
   for (Vec3& p : elsewhere) p = 1.7 * p + Vec3(3, 9, 5);
   mapper.process(elsewhere);
   const Answer& answer = mapper.process(spread_points());
@@ -156,7 +156,7 @@ TEST(ThesisMapper, PlanarDataStaysInItsPlane) {
   Mapper mapper(little_noise(), {});
   for (int i = 0; i < 150; ++i) {
     const Pose T = scenes::heading(Vec3(0.1 * i, 0, 0), 0.002 * i);
-    Frame frame;
+    Points frame;
     for (const Vec3& p : spread_points()) {
       const Vec3 seen = T.inverse() * Vec3(p.x(), p.y(), 0.0);
       frame.push_back(seen + 0.02 * Vec3(random.normal(), random.normal(), 0.0));
@@ -300,8 +300,8 @@ class ThesisMerging : public testing::Test {
         const bool blinks = p + 1 == spread_points().size();
         see(blinks && i >= 10 ? p + 1 : p, spread_points()[p]);
       }
-      grouping_.compute(tracks_, false);
-      grouping_.create(tracks_, false);
+      grouping_.compute(tracks_);
+      grouping_.create(tracks_);
     }
   }
 
@@ -325,7 +325,7 @@ TEST_F(ThesisMerging, TheOlderOneTakesTheObservationsAndItsGroupsAverageThem) {
   ASSERT_EQ(before, 10u) << "iterations 0 to 9";
   ASSERT_EQ(grouping_.standing(), 2u);
   ASSERT_TRUE(grouping_.can_merge(tracks_, kNewer));
-  grouping_.merge(tracks_, kOlder, kNewer, false);
+  grouping_.merge(tracks_, kOlder, kNewer);
   EXPECT_EQ(tracks_.resolve(kNewer), kOlder);
   EXPECT_EQ(tracks_[kOlder].observations, 21u);
   EXPECT_EQ(tracks_[kOlder].history.count(0, 20), 21u);
@@ -343,7 +343,7 @@ TEST_F(ThesisMerging, TheOlderOneTakesTheObservationsAndItsGroupsAverageThem) {
 }
 
 TEST_F(ThesisMerging, EachLandmarkIsListedOnceAfterwards) {
-  grouping_.merge(tracks_, kOlder, kNewer, false);
+  grouping_.merge(tracks_, kOlder, kNewer);
   std::vector<Index> listed = tracks_.seen_between(0, 20);
   std::sort(listed.begin(), listed.end());
   EXPECT_EQ(listed, (std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));

@@ -194,7 +194,7 @@ TEST(RangeNoise, AFarPointIsNoOutlierForTheNoiseOfANearOne) {
   ASSERT_TRUE(robust_fit(pairs, rules, in_units_of_its_noise));
   Alignment oracle{Pose()};
   for (const Pair& pair : pairs) oracle.add(pair.reference, pair.point, pair.weight);
-  ASSERT_TRUE(oracle.solve(false, 1e-6, plain));
+  ASSERT_TRUE(oracle.solve({false, 1e-6}, plain));
   EXPECT_NEAR((in_units_of_its_noise * pairs[4].point - plain * pairs[4].point).norm(), 0.0, 1e-9);
   pairs[4].quality = 1.0;
   Pose robust;

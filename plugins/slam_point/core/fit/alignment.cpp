@@ -25,33 +25,33 @@ bool is_spread(const Mat3& curvature, double least) {
 
 }  // namespace
 
-Eigen::Quaterniond rotation_exp(const Vec3& v) {
+Quat rotation_exp(const Vec3& v) {
   const double square = 0.25 * v.squaredNorm();
   if (square < 0.25 * kSmall_rad * kSmall_rad) {
     const double cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
     const double scale = 0.5 * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
-    return Eigen::Quaterniond(cosine, scale * v.x(), scale * v.y(), scale * v.z());
+    return Quat(cosine, scale * v.x(), scale * v.y(), scale * v.z());
   }
   const double angle = v.norm();
   const double half = 0.5 * angle;
   const double scale = angle > 1e-8 ? std::sin(half) / angle : 0.5;
-  return Eigen::Quaterniond(std::cos(half), scale * v.x(), scale * v.y(), scale * v.z()).normalized();
+  return Quat(std::cos(half), scale * v.x(), scale * v.y(), scale * v.z()).normalized();
 }
 
-Vec3 rotation_log(const Eigen::Quaterniond& q) {
+Vec3 rotation_log(const Quat& q) {
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   const double sine = q.vec().norm();
   if (sine < 1e-12) return 2.0 * sign * q.vec();
   return (2.0 * sign * std::atan2(sine, sign * q.w()) / sine) * q.vec();
 }
 
-bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
+bool Alignment::solve(const FitRules& rules, Pose& T_a_b) const {
   if (!(weight_ > 0.0)) return false;
   const Vec3 mean_a = sum_a_ / weight_;
   const Vec3 mean_b = sum_b_ / weight_;
   const Mat3 cross = cross_ - mean_a * sum_b_.transpose();  // sum w a b^T about the means
 
-  Eigen::Quaterniond q = guess_.q;
+  Quat q = guess_.q;
   Mat3 curvature;
   for (int step = 0;; ++step) {
     if (step == kMaxNewtonSteps) return false;
@@ -60,8 +60,8 @@ bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
     curvature = n.trace() * Mat3::Identity() - 0.5 * (n + n.transpose());
     const Vec3 gradient(n(2, 1) - n(1, 2), n(0, 2) - n(2, 0), n(1, 0) - n(0, 1));
     Vec3 turn;
-    if (planar) {
-      if (!(curvature(2, 2) >= min_spread_m2)) return false;
+    if (rules.planar) {
+      if (!(curvature(2, 2) >= rules.min_spread_m2)) return false;
       turn = Vec3(0.0, 0.0, gradient.z() / curvature(2, 2));
     } else {
       // One closed-form inverse: the matrix is 3x3, and its smallest eigenvalue is checked below.
@@ -79,7 +79,7 @@ bool Alignment::solve(bool planar, double min_spread_m2, Pose& T_a_b) const {
     if (size < kSettled_rad) break;
   }
   q.normalize();
-  if (!planar && !is_spread(curvature, min_spread_m2)) return false;
+  if (!rules.planar && !is_spread(curvature, rules.min_spread_m2)) return false;
   T_a_b.q = q;
   T_a_b.t = guess_.t + mean_a - q * mean_b;
   return true;

@@ -98,7 +98,7 @@ bool DirectionalFitter::is_determined() const {
 }
 
 bool DirectionalFitter::fit() {
-  if (pairs_.size() < (rules_.planar ? 2u : 3u)) return false;
+  if (pairs_.size() < rules_.least_pairs()) return false;
   start();
   double stale = kStaleTurn_rad;
   for (std::size_t pass = 0; pass < kMostFitSteps; ++pass) {

@@ -32,9 +32,8 @@ double distance2(const Pair& pair, const Mat3& rotation, const Vec3& translation
 
 }  // namespace
 
-std::size_t MotionConsensus::fit(const std::vector<Pair>& pairs, bool planar, double min_spread_m2,
-                                 Pose& T) const {
-  const std::size_t least = planar ? 2 : 3;
+std::size_t MotionConsensus::fit(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) const {
+  const std::size_t least = rules.least_pairs();
   if (pairs.size() < least) return 0;
   Pose best = T;
   double best_score = score(pairs, T);
@@ -46,14 +45,14 @@ std::size_t MotionConsensus::fit(const std::vector<Pair>& pairs, bool planar, do
       few.add(pair.reference, pair.point, pair.weight);
     }
     Pose candidate;
-    if (!few.solve(planar, min_spread_m2, candidate)) continue;
+    if (!few.solve(rules, candidate)) continue;
     const double reached = score(pairs, candidate);
     if (reached <= best_score) continue;
     best_score = reached;
     best = candidate;
   }
   for (int i = 0; i < kRefinements; ++i) {
-    if (!refine(pairs, planar, min_spread_m2, best)) return 0;
+    if (!refine(pairs, rules, best)) return 0;
   }
   T = best;
   return count_agreeing(pairs, T);
@@ -67,8 +66,7 @@ double MotionConsensus::score(const std::vector<Pair>& pairs, const Pose& T) con
   return sum;
 }
 
-bool MotionConsensus::refine(const std::vector<Pair>& pairs, bool planar, double min_spread_m2,
-                             Pose& T) const {
+bool MotionConsensus::refine(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) const {
   const Mat3 rotation = T.q.toRotationMatrix();
   const double bound2 = kTrialNoises2 * noise_m_ * noise_m_;
   Alignment all(T);
@@ -76,7 +74,7 @@ bool MotionConsensus::refine(const std::vector<Pair>& pairs, bool planar, double
     const double share = 1.0 - distance2(pair, rotation, T.t) / bound2;
     if (share > 0.0) all.add(pair.reference, pair.point, pair.weight * share * share);
   }
-  return all.pairs() >= (planar ? 2 : 3) && all.solve(planar, min_spread_m2, T);
+  return all.pairs() >= rules.least_pairs() && all.solve(rules, T);
 }
 
 std::size_t MotionConsensus::count_agreeing(const std::vector<Pair>& pairs, const Pose& T) const {

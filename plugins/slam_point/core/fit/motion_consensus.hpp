@@ -18,11 +18,11 @@ class MotionConsensus {
 
   /// From the guess `T`, within about 30 degrees of the answer. Returns how many pairs agree with the answer, which is put
   /// into `T`; 0, and `T` unchanged, when the pairs do not determine one. O(pairs).
-  std::size_t fit(const std::vector<Pair>& pairs, bool planar, double min_spread_m2, Pose& T) const;
+  std::size_t fit(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) const;
 
  private:
   double score(const std::vector<Pair>& pairs, const Pose& T) const;
-  bool refine(const std::vector<Pair>& pairs, bool planar, double min_spread_m2, Pose& T) const;
+  bool refine(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) const;
   std::size_t count_agreeing(const std::vector<Pair>& pairs, const Pose& T) const;
 
   double noise_m_;

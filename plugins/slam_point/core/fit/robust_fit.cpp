@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "slam_point/core/fit/alignment.hpp"
-
 namespace hallway::slam_point {
 namespace {
 
@@ -30,19 +28,18 @@ double lighten_outliers(const std::vector<Pair>& pairs, const Pose& T, double in
 }  // namespace
 
 bool robust_fit(const std::vector<Pair>& pairs, const FitRules& rules, Pose& T) {
-  const std::size_t least = rules.planar ? 2 : 3;
-  if (pairs.size() < least) return false;
+  if (pairs.size() < rules.least_pairs()) return false;
   Alignment plain(T);
   for (const Pair& pair : pairs) plain.add(pair.reference, pair.point, pair.weight);
   Pose fitted;
-  if (!plain.solve(rules.planar, rules.min_spread_m2, fitted)) return false;
+  if (!plain.solve(rules, fitted)) return false;
   double taken = 0.0;
   for (int pass = 1; pass < kMaxPasses; ++pass) {
     Alignment next = plain;
     const double taken_before = taken;
     taken = lighten_outliers(pairs, fitted, rules.inlier_m * rules.inlier_m, next);
     if (std::abs(taken - taken_before) <= kSettledWeight) break;
-    if (!next.solve(rules.planar, rules.min_spread_m2, fitted)) return false;
+    if (!next.solve(rules, fitted)) return false;
   }
   T = fitted;
   return true;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "slam_point/core/types.hpp"
+#include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
 
@@ -15,18 +15,18 @@ struct Pair {
   double quality = 1.0;  ///< Observation::weight of the point: its residual counts in units of its own noise
 };
 
-/// What a fit must reach and what it may assume.
-struct FitRules {
-  bool planar = false;         ///< every z is 0: only x, y and yaw are unknown
-  double min_spread_m2 = 0.0;  ///< see Alignment::solve
-  double inlier_m =
-      0.0;  ///< residuals up to here, of a point of weight 1, count in full, larger ones as (inlier / residual)^2
-};
-
 /// Weight of a point of weight `point` beside a reference whose observations' weights sum to `reference`: what is left of
 /// it when the reference's own noise is counted, too. n/(n+1) for a reference that averages n of weight 1.
 inline double pair_weight(double reference, double point = 1.0) {
   return reference * point / (reference + point);
+}
+
+/// Rules for observations whose coordinates have this standard deviation: the rotation has to be known to 0.1 rad, and a residual beyond four
+/// deviations loses weight.
+inline FitRules fit_rules(double noise_m, bool planar) {
+  // A rotation about an axis is known to noise / sqrt(sum of squared distances from the axis).
+  const double spread = noise_m / 0.1;
+  return {planar, spread * spread, 4.0 * noise_m};
 }
 
 /// T_a_b by re-weighted least squares from the guess `T`, which stays unchanged when the pairs do not determine it (false).

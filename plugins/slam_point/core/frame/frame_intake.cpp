@@ -8,21 +8,29 @@ constexpr double kMaxCoordinate_m = 1e6;
 
 }  // namespace
 
-FrameIntake::FrameIntake(const Options& options)
+FrameIntake::FrameIntake(const Options& options, const TrackBook& book, const SubmapGraph& graph)
     : options_(options),
+      book_(book),
+      graph_(graph),
       ranges_count_(options.noise_per_m > 0.0 || options.noise_per_m2 > 0.0 || options.is_directional()) {}
 
-void FrameIntake::take(std::span<const Vec3> points, std::span<const TrackId> tracks, const TrackBook& book,
-                       const SubmapGraph& graph, std::vector<Observation>& frame) {
-  frame.clear();
+bool FrameIntake::is_usable(const Vec3& point) {
+  // Written so that NaN fails.
+  return point.cwiseAbs().maxCoeff() <= kMaxCoordinate_m && point.allFinite();
+}
+
+void FrameIntake::take(std::span<const Vec3> points, std::span<const TrackId> tracks, Frame& frame) const {
+  frame.observations.clear();
+  frame.followed = options_.association == Association::sensor && !tracks.empty();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // Written so that NaN fails.
-    if (!(points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate_m) || !points[i].allFinite()) continue;
-    if (points[i].z() != 0.0) planar_ = false;
-    frame.push_back({points[i], i});
-    if (ranges_count_) weigh(frame.back());
+    if (!is_usable(points[i])) continue;
+    if (points[i].z() != 0.0) frame.planar = false;
+    Observation& observation = frame.observations.emplace_back(Observation{points[i], i});
+    if (ranges_count_) weigh(observation);
+    if (!frame.followed) continue;
+    observation.track = tracks[i];
+    observation.expected = expected(tracks[i]);
   }
-  take_tracks(tracks, book, graph, frame);
 }
 
 void FrameIntake::weigh(Observation& observation) const {
@@ -33,17 +41,10 @@ void FrameIntake::weigh(Observation& observation) const {
   observation.across = across * across;
 }
 
-void FrameIntake::take_tracks(std::span<const TrackId> tracks, const TrackBook& book,
-                              const SubmapGraph& graph, std::vector<Observation>& frame) {
-  followed_ = options_.association == Association::sensor && !tracks.empty();
-  if (!followed_) return;
-  for (Observation& observation : frame) {
-    observation.track = tracks[observation.given];
-    observation.expected = book.landmark_of(observation.track, graph);
-    const bool elsewhere =
-        observation.expected != kNone && graph.landmarks[observation.expected].part != graph.part();
-    if (elsewhere) observation.expected = kNone;
-  }
+/// The landmark of a track, if it is in the current part.
+Index FrameIntake::expected(TrackId track) const {
+  const Index landmark = book_.landmark_of(track, graph_);
+  return landmark != kNone && graph_.landmarks[landmark].part == graph_.part() ? landmark : kNone;
 }
 
 }  // namespace hallway::slam_point

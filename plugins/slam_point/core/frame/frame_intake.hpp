@@ -2,38 +2,33 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
-#include "slam_point/core/frame/frame_matcher.hpp"
+#include "slam_point/core/frame/frame.hpp"
 #include "slam_point/core/frame/track_book.hpp"
 #include "slam_point/core/options.hpp"
-#include "slam_point/core/submaps/submap_graph.hpp"
 
 namespace hallway::slam_point {
 
-/// Makes observations of the points given: which are usable, what each counts for, and which landmark its track says it is.
+/// Makes observations of the points given: which are usable, what each counts for, and which landmark its track has.
 class FrameIntake {
  public:
-  explicit FrameIntake(const Options& options);
+  /// `book` and `graph` must outlive it.
+  FrameIntake(const Options& options, const TrackBook& book, const SubmapGraph& graph);
 
-  /// Puts the usable points into `frame`, in their order. `tracks`: see Mapper::process.
-  void take(std::span<const Vec3> points, std::span<const TrackId> tracks, const TrackBook& book,
-            const SubmapGraph& graph, std::vector<Observation>& frame);
+  /// Makes `frame`, which is the one before, the frame of the usable points, in their order. `tracks`: see Mapper::process.
+  void take(std::span<const Vec3> points, std::span<const TrackId> tracks, Frame& frame) const;
 
-  /// Whether all points taken so far lie in the plane z = 0.
-  bool is_planar() const { return planar_; }
-  /// Whether the frame taken last came with the sensor's tracks, and they count.
-  bool is_followed() const { return followed_; }
+  /// Whether a point can be used: it is finite and not beyond 1e6 m.
+  static bool is_usable(const Vec3& point);
 
  private:
   void weigh(Observation& observation) const;
-  void take_tracks(std::span<const TrackId> tracks, const TrackBook& book, const SubmapGraph& graph,
-                   std::vector<Observation>& frame);
+  Index expected(TrackId track) const;
 
   Options options_;
+  const TrackBook& book_;
+  const SubmapGraph& graph_;
   bool ranges_count_;  // noise differs by range or direction
-  bool planar_ = true;
-  bool followed_ = false;
 };
 
 }  // namespace hallway::slam_point

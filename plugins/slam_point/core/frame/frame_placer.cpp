@@ -14,180 +14,146 @@ constexpr int kLeastAgreeing = 3;    // points: likewise, where the sensor was e
 constexpr int kLeastInPlane = 2;     // likewise, of points in a plane
 constexpr int kLeastAfterLoss = 4;   // after a frame without a pose
 constexpr int kLeastAfterGap = 5;    // after more than a short gap
-constexpr int kShortGap = 3;         // frames
-
-std::ptrdiff_t matched_points(const std::vector<Observation>& frame) {
-  return std::count_if(frame.begin(), frame.end(),
-                       [](const Observation& observation) { return observation.landmark != kNone; });
-}
 
 }  // namespace
 
-FramePlacer::FramePlacer(const Options& options, const SubmapGraph& graph, const SubmapSequence& submaps,
-                         FrameMatcher& matcher, PlaceRecogniser& places)
-    : options_(options),
-      graph_(graph),
-      submaps_(submaps),
-      matcher_(matcher),
-      places_(places),
-      prediction_(options.smoothing, options.match_bound()) {}
-
-void FramePlacer::begin(bool planar, bool followed) {
-  planar_ = planar;
-  followed_ = followed;
-}
-
-void FramePlacer::match(std::vector<Observation>& frame) {
-  const int frames = std::min(frames_without_pose_, options_.bridge_frames) + 1;
-  predicted_ = prediction_.after(last_T_submap_sensor_, frames);
-  match_active_submap(frame);
-  match_map(frame);
-}
-
-void FramePlacer::match_active_submap(std::vector<Observation>& frame) {
-  fit_ = matcher_.match_active(graph_, submaps_.active(), predicted_, planar_, frame);
-  if (fit_.solved || !followed_) return;
-  Pose located;
-  if (matcher_.locate_by_tracks(graph_, planar_, frame, located))
-    fit_.T_submap_sensor = T_map_submap().inverse() * located;
-}
-
-void FramePlacer::match_map(std::vector<Observation>& frame) {
-  // Where the active submap gave no fit, the prediction alone says where to look.
-  const double local_bound = fit_.solved ? matcher_.agreement() : options_.match_bound();
-  T_map_sensor_ = T_map_submap() * fit_.T_submap_sensor;
-  matcher_.match_map(graph_, T_map_sensor_, submaps_.local_since(), local_bound, frame);
-}
-
-bool FramePlacer::fit(const std::vector<Observation>& frame) {
-  agreeing_ = 0;
-  fits_ = matcher_.fit_map(graph_, frame, planar_, T_map_sensor_);
-  if (fits_) agreeing_ = matcher_.count_agreeing(graph_, frame, T_map_sensor_);
-  if (!fit_.solved) fit_.T_submap_sensor = T_map_submap().inverse() * T_map_sensor_;
-  searched_ = false;
-  found_ = Placement();
+Placement FramePlacer::place(Frame& frame) {
+  Placement placement = look_from(tracking_.predicted(), frame);
   // A few points can agree by chance, so of few nearly all must.
-  const auto comparable = static_cast<int>(comparable_points(frame));
-  return agreeing_ >= std::min(comparable, kSurePoints) && agreeing_ >= kSureShare * comparable;
+  const int comparable = comparable_points(frame);
+  placement.is_sure = placement.agreeing >= std::min(comparable, kSurePoints) &&
+                      placement.agreeing >= kSureShare * comparable;
+  // Tracks need no prediction.
+  if (!placement.is_sure && !frame.followed) placement = search(placement, frame);
+  placement.has_pose = is_placed(placement, frame);
+  if (placement.has_pose) {
+    matcher_.drop_outliers(placement.T_map_sensor, submaps_.local_since(), frame.observations);
+  } else {
+    give_up(frame, placement);
+  }
+  return placement;
 }
 
-bool FramePlacer::search(bool by_place, std::vector<Observation>& frame) {
-  if (by_place && recognise(frame)) return true;
-  search_turn(frame);
-  return false;
+Placement FramePlacer::place_at(const Pose& T_map_sensor, Frame& frame) {
+  Placement placement;
+  placement.has_pose = true;
+  placement.T_map_sensor = T_map_sensor;
+  // Nothing says how the place found drifted against where the sensor was: all of it is old.
+  const std::uint64_t never = ~std::uint64_t{0};
+  matcher_.mark(frame.observations);
+  matcher_.match_map(placement.T_map_sensor, never, options_.map_bound(), frame.observations);
+  matcher_.fit_map(frame.observations, placement.T_map_sensor);
+  matcher_.drop_outliers(placement.T_map_sensor, never, frame.observations);
+  return placement;
 }
 
-/// Looks for the frame by what it sees alone, in all of the map.
-bool FramePlacer::recognise(std::vector<Observation>& frame) {
-  Placement found;
-  if (!places_.find_frame(graph_, frame, planar_, found)) return false;
-  if (found.part == graph_.part() && look_from(found.T_map_points, frame)) return true;
-  agreeing_ = 0;
-  found_ = found;
-  return true;
+/// Associates and fits the frame from a guess of T_submap_sensor.
+Placement FramePlacer::look_from(const Pose& predicted, Frame& frame) {
+  Placement placement;
+  const bool is_in_submap = associate(predicted, frame, placement);
+  fit(is_in_submap, frame, placement);
+  return placement;
 }
 
-void FramePlacer::search_turn(std::vector<Observation>& frame) {
-  if (options_.max_turn_rad <= 0.0) return;
-  search_bases_.assign({T_map_submap() * predicted_, T_map_submap() * last_T_submap_sensor_});
-  const double reach = std::min(options_.max_turn_rad * (1.0 + frames_without_pose_), std::numbers::pi);
+/// Matches to the active submap, and what is left to the map. Whether the submap determines T_submap_sensor.
+bool FramePlacer::associate(const Pose& predicted, Frame& frame, Placement& placement) {
+  const StageClock::Scope timing(clock_, Stage::matching);
+  FrameMatcher::Fit fit = matcher_.match_active(submaps_.active(), predicted, frame.observations);
+  Pose located;
+  if (!fit.solved && frame.followed && matcher_.locate_by_tracks(frame.observations, located))
+    fit.T_submap_sensor = T_map_submap().inverse() * located;
+  placement.T_submap_sensor = fit.T_submap_sensor;
+  placement.T_map_sensor = T_map_submap() * fit.T_submap_sensor;
+  // Where the active submap gave no fit, the prediction alone says where to look.
+  const double local_bound = fit.solved ? options_.agreement() : options_.match_bound();
+  matcher_.match_map(placement.T_map_sensor, submaps_.local_since(), local_bound, frame.observations);
+  return fit.solved;
+}
+
+/// Fits to the map.
+void FramePlacer::fit(bool is_in_submap, const Frame& frame, Placement& placement) {
+  const StageClock::Scope timing(clock_, Stage::fitting);
+  placement.is_observable = matcher_.fit_map(frame.observations, placement.T_map_sensor);
+  if (placement.is_observable)
+    placement.agreeing = matcher_.count_agreeing(frame.observations, placement.T_map_sensor);
+  if (!is_in_submap) placement.T_submap_sensor = T_map_submap().inverse() * placement.T_map_sensor;
+}
+
+/// Looks for a frame that is not where the prediction led: by its constellations, in all of the map, then for a rotation about the z axis.
+Placement FramePlacer::search(const Placement& tracked, Frame& frame) {
+  const StageClock::Scope timing(clock_, Stage::fitting);
+  Relocalisation found;
+  // What is being joined lies in two frames.
+  if (!parts_.is_joining() && places_.find_frame(frame.observations, found))
+    return recognised(found, tracked, frame);
+  return search_turn(tracked, frame);
+}
+
+Placement FramePlacer::recognised(const Relocalisation& found, const Placement& tracked, Frame& frame) {
+  const bool is_here = found.part == graph_.part();
+  Placement placement = is_here ? look_elsewhere(found.T_map_points, frame) : tracked;
+  placement.is_recognised = true;
+  if (is_here && is_placed(placement, frame)) return placement;
+  placement.agreeing = 0;
+  placement.elsewhere = found;
+  return placement;
+}
+
+Placement FramePlacer::search_turn(const Placement& tracked, Frame& frame) {
+  if (options_.max_turn_rad <= 0.0) return tracked;
+  const double reach =
+      std::min(options_.max_turn_rad * (1.0 + tracking_.frames_without_pose()), std::numbers::pi);
   Pose found;
-  if (matcher_.search_turn(graph_, search_bases_, reach, planar_, frame, found) <= agreeing_) return;
-  look_from(found, frame);
+  const int agreeing = matcher_.search_turn(
+      {T_map_submap() * tracking_.predicted(), T_map_submap() * tracking_.last_T_submap_sensor()}, reach,
+      frame.observations, found);
+  return agreeing > tracked.agreeing ? look_elsewhere(found, frame) : tracked;
 }
 
-/// Matches and fits the frame from a new guess. Whether it is placed then.
-bool FramePlacer::look_from(const Pose& T_map_sensor, std::vector<Observation>& frame) {
-  predicted_ = T_map_submap().inverse() * T_map_sensor;
-  match_active_submap(frame);
-  match_map(frame);
-  fit(frame);
-  searched_ = true;
-  return is_placed(frame);
+Placement FramePlacer::look_elsewhere(const Pose& T_map_sensor, Frame& frame) {
+  Placement placement = look_from(T_map_submap().inverse() * T_map_sensor, frame);
+  placement.is_searched = true;
+  return placement;
 }
 
-bool FramePlacer::is_placed(const std::vector<Observation>& frame) {
-  const int least = least_agreeing(frame.size());
-  const bool may_be_chance =
-      !is_expected() && agreeing_ >= least && places_.may_be_chance(graph_, frame, T_map_sensor_, planar_);
-  return !may_be_chance && agreeing_ >= least &&
-         static_cast<double>(agreeing_) >= kLeastShare * static_cast<double>(comparable_points(frame));
+bool FramePlacer::is_placed(const Placement& placement, const Frame& frame) {
+  return placement.agreeing >= least_agreeing(placement, frame) &&
+         placement.agreeing >= kLeastShare * comparable_points(frame) &&
+         (is_expected(placement) || !places_.may_be_chance(frame.observations, placement.T_map_sensor));
 }
 
 /// How many points must agree. The less is known of where the sensor may be, the more places there are where a few agree by chance.
-int FramePlacer::least_agreeing(std::size_t points) const {
-  if (!is_expected()) return frames_without_pose_ > kShortGap ? kLeastAfterGap : kLeastAfterLoss;
+int FramePlacer::least_agreeing(const Placement& placement, const Frame& frame) const {
+  if (!is_expected(placement)) return tracking_.is_long_lost() ? kLeastAfterGap : kLeastAfterLoss;
   // Two determine the pose in a plane; but a frame of no more than these has nothing to check them by.
-  const bool few_will_do = planar_ && points >= kLeastAgreeing && !searched_;
+  const bool few_will_do =
+      frame.planar && frame.observations.size() >= kLeastAgreeing && !placement.is_searched;
   return few_will_do ? kLeastInPlane : kLeastAgreeing;
 }
 
 /// Whether the sensor is where the prediction has it as surely as after a frame with a pose.
-bool FramePlacer::is_expected() const {
-  return frames_without_pose_ == 0 || (!contradicted_ && !searched_ && frames_without_pose_ <= kShortGap);
+bool FramePlacer::is_expected(const Placement& placement) const {
+  return tracking_.frames_without_pose() == 0 || (tracking_.is_bridged() && !placement.is_searched);
 }
 
-/// Whether this frame, which has no pose, tells that the prediction is wrong. One that shows what was expected
-/// and does not determine a pose, as points of much noise do not, speaks for the prediction.
-bool FramePlacer::contradicts(const std::vector<Observation>& frame) const {
-  const auto matched = static_cast<int>(matched_points(frame));
-  return fits_ || matched < kSurePoints ||
-         matched < kSureShare * static_cast<double>(comparable_points(frame));
+/// A view that opens shows much that is new, one that closes little of what was seen: the smaller of both must agree.
+int FramePlacer::comparable_points(const Frame& frame) const {
+  return static_cast<int>(std::min(frame.observations.size(), tracking_.last_seen()));
 }
 
-std::size_t FramePlacer::comparable_points(const std::vector<Observation>& frame) const {
-  // A view that opens shows much that is new, one that closes little of what was seen: the smaller of both must agree.
-  return std::min(frame.size(), last_seen_);
-}
-
-/// Degrees of freedom that points near where they were expected determine, when these are too few or on a line.
-int FramePlacer::determined_by_few(const std::vector<Observation>& frame) const {
-  // What fits and yet does not agree tells nothing, nor does what was expected long ago.
-  if (fits_ || frames_without_pose_ >= options_.bridge_frames) return 0;
-  const std::ptrdiff_t matched = matched_points(frame);
-  if (matched == 0) return 0;
-  if (planar_) return 2;
-  return matched == 1 ? 3 : 5;
-}
-
-void FramePlacer::accept(std::vector<Observation>& frame) {
-  matcher_.drop_strays(graph_, T_map_sensor_, submaps_.local_since(), frame);
-  const Pose moved = last_T_submap_sensor_.inverse() * fit_.T_submap_sensor;
-  prediction_.learn(moved, frames_without_pose_ + 1, searched_);
-  frames_without_pose_ = 0;
-  last_T_submap_sensor_ = fit_.T_submap_sensor;
-}
-
-int FramePlacer::lose(std::vector<Observation>& frame) {
-  const int determined = determined_by_few(frame);
-  contradicted_ = contradicts(frame) || (frames_without_pose_ > 0 && contradicted_);
-  for (Observation& observation : frame) observation.landmark = kNone;
-  ++frames_without_pose_;
-  return determined;
-}
-
-void FramePlacer::restart(const Pose& T_map_sensor) {
-  frames_without_pose_ = 0;
-  T_map_sensor_ = T_map_sensor;
-}
-
-void FramePlacer::enter(const Pose& T_map_sensor, std::vector<Observation>& frame) {
-  restart(T_map_sensor);
-  matcher_.mark(graph_, frame);
-  // Nothing says how the place found drifted against where the sensor was: all of it is old.
-  const std::uint64_t never = ~std::uint64_t{0};
-  matcher_.match_map(graph_, T_map_sensor_, never, options_.map_bound(), frame);
-  matcher_.fit_map(graph_, frame, planar_, T_map_sensor_);
-  matcher_.drop_strays(graph_, T_map_sensor_, never, frame);
-}
-
-void FramePlacer::enter_submap(const Pose& T_submap_sensor) {
-  fit_.T_submap_sensor = T_submap_sensor;
-  last_T_submap_sensor_ = T_submap_sensor;
-}
-
-void FramePlacer::refit(const std::vector<Observation>& frame) {
-  matcher_.fit_map(graph_, frame, planar_, T_map_sensor_);
+/// Leaves a frame without a pose, and says what it shows all the same.
+void FramePlacer::give_up(Frame& frame, Placement& placement) const {
+  for (Observation& observation : frame.observations) {
+    if (observation.landmark != kNone) ++placement.associated;
+    observation.landmark = kNone;
+  }
+  placement.contradicts_prediction = placement.is_observable || placement.associated < kSurePoints ||
+                                     placement.associated < kSureShare * comparable_points(frame);
+  // What fits and yet does not agree determines nothing, nor does what was expected long ago.
+  if (placement.is_observable || placement.associated == 0 ||
+      tracking_.frames_without_pose() >= options_.bridge_frames)
+    return;
+  placement.determined = frame.planar ? 2 : placement.associated == 1 ? 3 : 5;
 }
 
 }  // namespace hallway::slam_point

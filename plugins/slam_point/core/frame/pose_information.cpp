@@ -42,8 +42,7 @@ std::optional<Mat6> PoseInformation::covariance_by_weights(bool planar) const {
 
 std::optional<Mat6> PoseInformation::covariance_by_matrices(bool planar) const {
   // Of x = exp(r) lever + t the derivative by (t, r) is [I, -[lever]x].
-  Mat3 cross;
-  cross << 0.0, -sum_.z(), sum_.y(), sum_.z(), 0.0, -sum_.x(), -sum_.y(), sum_.x(), 0.0;
+  const Mat3 cross = skew(sum_);
   Mat6 information;
   information << weight_ * Mat3::Identity(), -cross, cross, outer_.trace() * Mat3::Identity() - outer_;
   information += directional_;
@@ -59,6 +58,28 @@ std::optional<Mat6> PoseInformation::covariance_by_matrices(bool planar) const {
   if (planar) covariance.diagonal().segment<3>(2).setZero();
   if (!covariance.allFinite()) return std::nullopt;
   return Mat6(0.5 * (covariance + covariance.transpose()));
+}
+
+std::optional<Mat6> pose_covariance(const SubmapGraph& graph, const Observations& frame,
+                                    const Pose& T_map_sensor, double noise2_m2) {
+  if (noise2_m2 == 0.0) return std::nullopt;
+  const PointMotion to_map(T_map_sensor);
+  PoseInformation information;
+  for (const Observation& observation : frame) {
+    if (observation.landmark == kNone) continue;
+    const Vec3 lever = to_map.turned(observation.point);
+    // This frame's own observation is in the landmark already.
+    if (graph.is_directional()) {
+      const Mat3 own = ray_information(lever, observation.weights());
+      information.add(lever, pair_information(graph.informations[observation.landmark].whole - own, own));
+      continue;
+    }
+    const double others = graph.landmarks[observation.landmark].weight - observation.weight;
+    if (others > 0.0) information.add(lever, pair_weight(others, observation.weight));
+  }
+  std::optional<Mat6> covariance = information.covariance(graph.planar);
+  if (covariance) *covariance *= noise2_m2;
+  return covariance;
 }
 
 }  // namespace hallway::slam_point

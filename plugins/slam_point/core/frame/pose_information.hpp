@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 
-#include "slam_point/core/fit/directional_fit.hpp"
-#include "slam_point/core/types.hpp"
+#include "slam_point/core/frame/frame.hpp"
 
 namespace hallway::slam_point {
 
-/// What points matched to landmarks tell of the pose that they were fitted by, for a fit with these weights and observations
+/// Information of points on the pose that they were fitted by to landmarks, for a fit with these weights and observations
 /// whose coordinates have the variance 1.
 class PoseInformation {
  public:
@@ -38,8 +36,14 @@ class PoseInformation {
   double weight_ = 0.0;
   Vec3 sum_ = Vec3::Zero();
   Mat3 outer_ = Mat3::Zero();
-  bool is_directional_ = false;      // something was told by matrices
-  Mat6 directional_ = Mat6::Zero();  // by them
+  bool is_directional_ = false;      // some pairs have matrices
+  Mat6 directional_ = Mat6::Zero();  // of these
 };
+
+/// Covariance of a placed frame's pose against the map, as Answer::covariance has it, in the map's frame; the frame's observations are in
+/// their landmarks already. `noise2_m2`: estimated variance of a coordinate of an observation, 0 while it is not known. Empty then, and
+/// where the points leave a direction open. O(points).
+std::optional<Mat6> pose_covariance(const SubmapGraph& graph, const Observations& frame,
+                                    const Pose& T_map_sensor, double noise2_m2);
 
 }  // namespace hallway::slam_point

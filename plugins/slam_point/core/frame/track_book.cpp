@@ -10,10 +10,7 @@ constexpr int kMostMisses = 2;  // in a row; one more, and the track is on anoth
 
 Index TrackBook::landmark_of(TrackId track, const SubmapGraph& graph) const {
   const auto found = entries_.find(track);
-  if (found == entries_.end()) return kNone;
-  Index landmark = found->second.landmark;
-  while (graph.landmarks[landmark].merged_into != kNone) landmark = graph.landmarks[landmark].merged_into;
-  return landmark;
+  return found == entries_.end() ? kNone : graph.survivor(found->second.landmark);
 }
 
 bool TrackBook::allows_new(const Observation& observation) {

@@ -3,12 +3,11 @@
 
 #include <unordered_map>
 
-#include "slam_point/core/frame/frame_matcher.hpp"
-#include "slam_point/core/submaps/submap_graph.hpp"
+#include "slam_point/core/frame/frame.hpp"
 
 namespace hallway::slam_point {
 
-/// Which landmark each of the sensor's tracks was given. Memory grows with the tracks, as the map does: each new one is a new
+/// Which landmark each of the sensor's tracks has. Memory grows with the tracks, as the map does: each new one is a new
 /// landmark.
 class TrackBook {
  public:

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <variant>
 
-#include "slam_point/core/index/hash_grid.hpp"
+#include "geometry/hash_grid.hpp"
 #include "slam_point/core/index/kd_tree.hpp"
 #include "slam_point/core/index/overlap_tree.hpp"
 

@@ -15,25 +15,25 @@ constexpr std::uint64_t kVelocityFrames = 8;
 
 }  // namespace
 
-MotionFilter::MotionFilter(const Options& options)
-    : reach_m_(options.match_bound()),
+MotionFilter::MotionFilter(const Options& options, SubmapGraph& graph)
+    : graph_(graph),
+      reach_m_(options.match_bound()),
       watch_(options.noise_m),
       verdict_(options.noise_m),
-      tracks_(0.5 * options.match_bound()) {}
+      tracks_(graph, 0.5 * options.match_bound()) {}
 
-void MotionFilter::follow(const SubmapGraph& graph, const Pose& T_map_sensor,
-                          std::vector<Observation>& frame) {
+void MotionFilter::follow(const Pose& T_map_sensor, Observations& frame) {
   find_candidates(T_map_sensor, frame);
-  tracks_.follow(graph, history_.frames(), candidates_,
+  tracks_.follow(history_.frames(), candidates_,
                  [&](Index observation, Index landmark) { frame[observation].moving = landmark; });
   std::erase_if(candidates_,
                 [&](const auto& candidate) { return frame[candidate.observation].moving != kNone; });
   if (candidates_.empty()) return;
-  find_missing(graph, frame);
+  find_missing(frame);
   link_astray(frame);
 }
 
-void MotionFilter::find_candidates(const Pose& T_map_sensor, const std::vector<Observation>& frame) {
+void MotionFilter::find_candidates(const Pose& T_map_sensor, const Observations& frame) {
   const PointMotion to_map(T_map_sensor);
   candidates_.clear();
   for (Index o = 0; o < frame.size(); ++o) {
@@ -41,47 +41,44 @@ void MotionFilter::find_candidates(const Pose& T_map_sensor, const std::vector<O
   }
 }
 
-void MotionFilter::find_missing(const SubmapGraph& graph, const std::vector<Observation>& frame) {
+void MotionFilter::find_missing(const Observations& frame) {
   missing_.clear();
   const std::uint64_t now = history_.frames();
   if (now == 0) return;
-  seen_in_.resize(graph.landmarks.size(), 0);
+  seen_in_.resize(graph_.landmarks.size(), 0);
   for (const Observation& observation : frame) {
     if (observation.landmark != kNone) seen_in_[observation.landmark] = now + 1;
   }
   for (const SightingHistory::Sighting& sighting : history_.frame(now - 1)) {
     const Index l = sighting.landmark;
-    if (seen_in_[l] == now + 1 || graph.landmarks[l].count == 0 || watch_.astray(l) >= kMostAstray) continue;
+    if (seen_in_[l] == now + 1 || graph_.landmarks[l].count == 0 || watch_.astray(l) >= kMostAstray) continue;
     missing_.push_back({l, history_.pose(now - 1) * sighting.point});
   }
 }
 
-void MotionFilter::link_astray(std::vector<Observation>& frame) {
+void MotionFilter::link_astray(Observations& frame) {
   hops_.clear();
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    for (std::size_t m = 0; m < missing_.size(); ++m) {
+  for (Index c = 0; c < candidates_.size(); ++c) {
+    for (Index m = 0; m < missing_.size(); ++m) {
       const double d2 = (candidates_[c].place - missing_[m].place).squaredNorm();
       if (d2 <= reach_m_ * reach_m_) hops_.push_back({d2, c, m});
     }
   }
-  std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) {
-    return std::tie(a.d2, a.candidate, a.missing) < std::tie(b.d2, b.candidate, b.missing);
-  });
-  for (const Hop& hop : hops_) {
-    Observation& observation = frame[candidates_[hop.candidate].observation];
-    Missing& missing = missing_[hop.missing];
+  std::sort(hops_.begin(), hops_.end());
+  for (const Pairing& hop : hops_) {
+    Observation& observation = frame[candidates_[hop.point].observation];
+    Missing& missing = missing_[hop.other];
     if (observation.moving != kNone || missing.landmark == kNone) continue;
     observation.moving = missing.landmark;
     missing.landmark = kNone;
   }
 }
 
-bool MotionFilter::judge(SubmapGraph& graph, ActiveSubmap& active, const Pose& T_map_sensor, bool planar,
-                         std::vector<Observation>& frame) {
-  take_down(graph, T_map_sensor, frame);
+bool MotionFilter::judge(ActiveSubmap& active, const Pose& T_map_sensor, Observations& frame) {
+  record(T_map_sensor, frame);
   suspects_.clear();
-  suspect_astray(graph, frame);
-  suspect_drifting(graph, T_map_sensor, frame);
+  suspect_astray(frame);
+  suspect_drifting(T_map_sensor, frame);
   if (suspects_.empty()) return false;
   // Which of them says what time is looked at must not depend on the order of the points.
   std::sort(suspects_.begin(), suspects_.end(), [](const auto& a, const auto& b) {
@@ -89,7 +86,7 @@ bool MotionFilter::judge(SubmapGraph& graph, ActiveSubmap& active, const Pose& T
   });
   std::rotate(suspects_.begin(), suspects_.begin() + static_cast<std::ptrdiff_t>(turn_++ % suspects_.size()),
               suspects_.end());
-  verdict_.judge(history_, suspects_, planar, findings_);
+  verdict_.judge(history_, suspects_, graph_.planar, findings_);
   bool any = false;
   for (std::size_t s = 0; s < suspects_.size(); ++s) {
     const Index landmark = suspects_[s].landmark;
@@ -98,7 +95,7 @@ bool MotionFilter::judge(SubmapGraph& graph, ActiveSubmap& active, const Pose& T
       watch_.acquit(landmark, std::max(kLeastAcquittal, static_cast<std::uint32_t>(frames / 4)));
     }
     if (findings_[s] != MotionVerdict::Finding::moves) continue;
-    set_moving(graph, active, landmark);
+    take_out(active, landmark);
     for (Observation& observation : frame) {
       if (observation.landmark != landmark) continue;
       observation.landmark = kNone;
@@ -109,34 +106,32 @@ bool MotionFilter::judge(SubmapGraph& graph, ActiveSubmap& active, const Pose& T
   return any;
 }
 
-void MotionFilter::take_down(const SubmapGraph& graph, const Pose& T_map_sensor,
-                             const std::vector<Observation>& frame) {
+void MotionFilter::record(const Pose& T_map_sensor, const Observations& frame) {
   history_.begin_frame(T_map_sensor);
   watch_.begin_frame(history_.frames() - 1);
   for (const Observation& observation : frame) {
     if (observation.landmark != kNone) {
       history_.add(observation.landmark, observation.point, observation.weight);
-    } else if (observation.moving != kNone && !graph.landmarks[observation.moving].moving) {
+    } else if (observation.moving != kNone && !graph_.landmarks[observation.moving].moving) {
       history_.add(observation.moving, observation.point, observation.weight);
     }
   }
 }
 
-void MotionFilter::suspect_astray(const SubmapGraph& graph, const std::vector<Observation>& frame) {
+void MotionFilter::suspect_astray(const Observations& frame) {
   for (const Observation& observation : frame) {
     const Index l = observation.moving;
-    if (l == kNone || graph.landmarks[l].moving) continue;
+    if (l == kNone || graph_.landmarks[l].moving) continue;
     if (watch_.add_astray(l) >= kLeastAstray) suspects_.push_back({l, watch_.since(l), 0});
   }
 }
 
-void MotionFilter::suspect_drifting(const SubmapGraph& graph, const Pose& T_map_sensor,
-                                    const std::vector<Observation>& frame) {
+void MotionFilter::suspect_drifting(const Pose& T_map_sensor, const Observations& frame) {
   const PointMotion to_map(T_map_sensor);
   for (const Observation& observation : frame) {
     const Index l = observation.landmark;
     if (l == kNone) continue;
-    const LandmarkRecord& landmark = graph.landmarks[l];
+    const LandmarkRecord& landmark = graph_.landmarks[l];
     Vec3 residual = to_map * observation.point - landmark.position;
     if (observation.weight != 1.0) residual *= std::sqrt(observation.weight);
     if (watch_.add(l, residual, landmark.count))
@@ -144,7 +139,7 @@ void MotionFilter::suspect_drifting(const SubmapGraph& graph, const Pose& T_map_
   }
 }
 
-void MotionFilter::set_moving(SubmapGraph& graph, ActiveSubmap& active, Index landmark) {
+void MotionFilter::take_out(ActiveSubmap& active, Index landmark) {
   const std::uint64_t now = history_.frames() - 1;
   const std::uint64_t since = std::max(now - std::min(now, kVelocityFrames), watch_.since(landmark));
   Vec3 first = Vec3::Zero();
@@ -164,12 +159,12 @@ void MotionFilter::set_moving(SubmapGraph& graph, ActiveSubmap& active, Index la
     }
   }
   const double frames = std::max(1.0, static_cast<double>(last_frame - first_frame));
-  const std::uint32_t sightings = graph.landmarks[landmark].count;
-  if (graph.landmarks[landmark].active_member != kNone)
-    active.withdraw(graph.landmarks[landmark].active_member);
-  graph.withdraw(landmark);
+  const std::uint32_t sightings = graph_.landmarks[landmark].count;
+  if (graph_.landmarks[landmark].active_member != kNone)
+    active.withdraw(graph_.landmarks[landmark].active_member);
+  graph_.withdraw(landmark);
   history_.forget(landmark);
-  tracks_.begin(graph, landmark, last_frame, last, (last - first) / frames, sightings);
+  tracks_.begin(landmark, last_frame, last, (last - first) / frames, sightings);
 }
 
 void MotionFilter::clear() {

@@ -21,17 +21,17 @@ namespace hallway::slam_point {
 /// landmarks are made of what is left, then judge().
 class MotionFilter {
  public:
-  explicit MotionFilter(const Options& options);
+  /// `graph` must outlive it.
+  MotionFilter(const Options& options, SubmapGraph& graph);
 
   /// Finds, for points that are no landmark's, those that follow a landmark known to move, or one that was in view a moment ago and
   /// is not where it was: sets Observation::moving. O(points in view).
-  void follow(const SubmapGraph& graph, const Pose& T_map_sensor, std::vector<Observation>& frame);
+  void follow(const Pose& T_map_sensor, Observations& frame);
 
-  /// Looks at the frame's residuals; takes what has proved to move out of `graph` and `active`, and makes its observation
+  /// Looks at the frame's residuals; takes what has proved to move out of the graph and `active`, and makes its observation
   /// follow it. Returns whether there was any. Before the frame is averaged into the map. O(points in view) but for a
   /// verdict, of which there is at most one a frame.
-  bool judge(SubmapGraph& graph, ActiveSubmap& active, const Pose& T_map_sensor, bool planar,
-             std::vector<Observation>& frame);
+  bool judge(ActiveSubmap& active, const Pose& T_map_sensor, Observations& frame);
 
   /// Whether two landmarks that have come close are known to be two: one frame saw both.
   bool are_two(Index a, Index b) const { return history_.saw_together(a, b); }
@@ -49,21 +49,16 @@ class MotionFilter {
     Index landmark = kNone;
     Vec3 place = Vec3::Zero();  // map frame, where it was
   };
-  struct Hop {
-    double d2 = 0.0;
-    std::size_t candidate = 0;
-    std::size_t missing = 0;
-  };
 
-  void find_candidates(const Pose& T_map_sensor, const std::vector<Observation>& frame);
-  void find_missing(const SubmapGraph& graph, const std::vector<Observation>& frame);
-  void link_astray(std::vector<Observation>& frame);
-  void take_down(const SubmapGraph& graph, const Pose& T_map_sensor, const std::vector<Observation>& frame);
-  void suspect_astray(const SubmapGraph& graph, const std::vector<Observation>& frame);
-  void suspect_drifting(const SubmapGraph& graph, const Pose& T_map_sensor,
-                        const std::vector<Observation>& frame);
-  void set_moving(SubmapGraph& graph, ActiveSubmap& active, Index landmark);
+  void find_candidates(const Pose& T_map_sensor, const Observations& frame);
+  void find_missing(const Observations& frame);
+  void link_astray(Observations& frame);
+  void record(const Pose& T_map_sensor, const Observations& frame);
+  void suspect_astray(const Observations& frame);
+  void suspect_drifting(const Pose& T_map_sensor, const Observations& frame);
+  void take_out(ActiveSubmap& active, Index landmark);
 
+  SubmapGraph& graph_;
   double reach_m_;
   SightingHistory history_;
   MotionWatch watch_;
@@ -71,7 +66,7 @@ class MotionFilter {
   MotionTracks tracks_;
   std::vector<MotionTracks::Candidate> candidates_;
   std::vector<Missing> missing_;
-  std::vector<Hop> hops_;
+  std::vector<Pairing> hops_;           // of candidates and missing landmarks
   std::vector<std::uint64_t> seen_in_;  // landmark -> the frame that saw it, plus one
   std::vector<MotionVerdict::Suspect> suspects_;
   std::vector<MotionVerdict::Finding> findings_;

@@ -13,14 +13,14 @@ constexpr double kSwerve = 0.5;          // of the way since the last sighting, 
 
 }  // namespace
 
-void MotionTracks::begin(const SubmapGraph& graph, Index landmark, std::uint64_t frame, const Vec3& place,
-                         const Vec3& velocity, std::uint32_t sightings) {
+void MotionTracks::begin(Index landmark, std::uint64_t frame, const Vec3& place, const Vec3& velocity,
+                         std::uint32_t sightings) {
   tracks_.push_back({landmark, sightings, kNone, Vec3::Zero()});
   live_.push_back({tracks_.size() - 1, frame, place, velocity});
-  see(graph, live_.back(), frame, place);
+  see(live_.back(), frame, place);
 }
 
-void MotionTracks::see(const SubmapGraph& graph, Live& live, std::uint64_t frame, const Vec3& place) {
+void MotionTracks::see(Live& live, std::uint64_t frame, const Vec3& place) {
   if (frame > live.last_frame) {
     const Vec3 velocity = (place - live.place) / static_cast<double>(frame - live.last_frame);
     live.velocity += kNewestVelocity * (velocity - live.velocity);
@@ -29,14 +29,14 @@ void MotionTracks::see(const SubmapGraph& graph, Live& live, std::uint64_t frame
   live.place = place;
   Track& track = tracks_[live.track];
   ++track.sightings;
-  track.submap = graph.active();
-  track.place = graph.poses[graph.active()].inverse() * place;
+  track.submap = graph_.active();
+  track.place = graph_.poses[graph_.active()].inverse() * place;
 }
 
 void MotionTracks::match(std::uint64_t frame, const std::vector<Candidate>& candidates) {
   expected_.clear();
   double farthest = 0.0;
-  for (std::size_t i = 0; i < live_.size(); ++i) {
+  for (Index i = 0; i < live_.size(); ++i) {
     const Live& live = live_[i];
     const double frames = static_cast<double>(frame - live.last_frame);
     const Vec3 way = frames * live.velocity;
@@ -49,7 +49,7 @@ void MotionTracks::match(std::uint64_t frame, const std::vector<Candidate>& cand
   });
   matches_.clear();
   taken_.assign(candidates.size(), 0);
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
+  for (Index c = 0; c < candidates.size(); ++c) {
     const Vec3& p = candidates[c].place;
     auto at = std::lower_bound(expected_.begin(), expected_.end(), p.x() - farthest,
                                [](const Expected& e, double x) { return e.place.x() < x; });
@@ -58,9 +58,7 @@ void MotionTracks::match(std::uint64_t frame, const std::vector<Candidate>& cand
       if (d2 <= at->reach_m * at->reach_m) matches_.push_back({d2, c, at->live});
     }
   }
-  std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
-    return std::tie(a.d2, a.candidate, a.live) < std::tie(b.d2, b.candidate, b.live);
-  });
+  std::sort(matches_.begin(), matches_.end());
 }
 
 void MotionTracks::forget(std::uint64_t frame) {

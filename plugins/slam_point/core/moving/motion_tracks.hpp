@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam_point/core/index/pairing.hpp"
 #include "slam_point/core/submaps/submap_graph.hpp"
 
 namespace hallway::slam_point {
@@ -25,26 +26,25 @@ class MotionTracks {
     Vec3 place = Vec3::Zero();  ///< map frame [m]
   };
 
-  /// `reach_m`: farthest from its prediction that a point is looked for [m].
-  explicit MotionTracks(double reach_m) : reach_m_(reach_m) {}
+  /// `graph` must outlive it. `reach_m`: farthest from its prediction that a point is looked for [m].
+  MotionTracks(const SubmapGraph& graph, double reach_m) : graph_(graph), reach_m_(reach_m) {}
 
   /// Begins to follow a landmark that is at `place` in frame `frame` (map frame, metres), after `sightings` so far.
   /// `velocity`: metres per frame.
-  void begin(const SubmapGraph& graph, Index landmark, std::uint64_t frame, const Vec3& place,
-             const Vec3& velocity, std::uint32_t sightings);
+  void begin(Index landmark, std::uint64_t frame, const Vec3& place, const Vec3& velocity,
+             std::uint32_t sightings);
 
   /// Gives candidates to the landmarks that were followed until a few frames ago, nearest to where they are expected first, one
   /// to one, and calls take(observation, landmark) for each. O((tracks + candidates) log).
   template <typename Take>
-  void follow(const SubmapGraph& graph, std::uint64_t frame, const std::vector<Candidate>& candidates,
-              Take&& take) {
+  void follow(std::uint64_t frame, const std::vector<Candidate>& candidates, Take&& take) {
     match(frame, candidates);
-    for (const Match& match : matches_) {
-      Live& live = live_[match.live];
-      const Candidate& candidate = candidates[match.candidate];
-      if (live.last_frame == frame || taken_[match.candidate] != 0) continue;
-      taken_[match.candidate] = 1;
-      see(graph, live, frame, candidate.place);
+    for (const Pairing& match : matches_) {
+      Live& live = live_[match.other];
+      const Candidate& candidate = candidates[match.point];
+      if (live.last_frame == frame || taken_[match.point] != 0) continue;
+      taken_[match.point] = 1;
+      see(live, frame, candidate.place);
       take(candidate.observation, tracks_[live.track].landmark);
     }
     forget(frame);
@@ -66,23 +66,19 @@ class MotionTracks {
   struct Expected {
     Vec3 place = Vec3::Zero();
     double reach_m = 0.0;
-    std::size_t live = 0;
-  };
-  struct Match {
-    double d2 = 0.0;
-    std::size_t candidate = 0;
-    std::size_t live = 0;
+    Index live = 0;
   };
 
   void match(std::uint64_t frame, const std::vector<Candidate>& candidates);
-  void see(const SubmapGraph& graph, Live& live, std::uint64_t frame, const Vec3& place);
+  void see(Live& live, std::uint64_t frame, const Vec3& place);
   void forget(std::uint64_t frame);
 
+  const SubmapGraph& graph_;
   double reach_m_;
   std::vector<Track> tracks_;
   std::vector<Live> live_;
   std::vector<Expected> expected_;
-  std::vector<Match> matches_;
+  std::vector<Pairing> matches_;  // of candidates and live tracks
   std::vector<std::uint8_t> taken_;
 };
 

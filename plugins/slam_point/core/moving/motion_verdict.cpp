@@ -14,8 +14,6 @@ constexpr std::size_t kLeastCommon = 5;
 constexpr double kFewSuspects = 0.85;  // so many of the landmarks are above suspicion: they decide
 constexpr std::size_t kMostWitnesses =
     600;  // landmarks above suspicion that are asked; more tell hardly more
-constexpr double kVerdictInlierNoises = 4.0;
-constexpr double kVerdictRotationSigma_rad = 0.1;
 
 /// Pairs of frames for a landmark in view for so many frames.
 int pairs_for(std::uint64_t frames) {
@@ -45,11 +43,12 @@ void MotionVerdict::judge(const SightingHistory& history, const std::vector<Susp
   if (first_frames < 3) return;
   const int pairs = pairs_for(first_frames);
   const std::uint64_t lag = lag_for(first_frames, pairs, suspects.front().attempt);
+  rules_ = fit_rules(noise_m_, planar);
   begin_session(history, suspects);
   int laid = 0;
   for (int i = 0; i < pairs; ++i) {
     const std::uint64_t later = now - static_cast<std::uint64_t>(i);
-    if (add_pair(history, later - lag, later, planar)) ++laid;
+    if (add_pair(history, later - lag, later)) ++laid;
   }
   if (laid == 0) return;
   const double usual = usual_variance(laid);
@@ -112,33 +111,29 @@ void MotionVerdict::find_common(const SightingHistory& history, std::uint64_t ea
   }
 }
 
-bool MotionVerdict::fit(const Pose& guess, bool planar, Pose& T_earlier_later) {
+bool MotionVerdict::fit(const Pose& guess, Pose& T_earlier_later) {
   pairs_.clear();
   for (const Common& common : common_) {
     if (!shifts_[common.landmark].suspect) pairs_.push_back({common.earlier, common.later, common.weight});
   }
-  const double spread = noise_m_ / kVerdictRotationSigma_rad;
   T_earlier_later = guess;
   const double kept = static_cast<double>(pairs_.size());
-  if (pairs_.size() >= kLeastCommon && kept >= kFewSuspects * static_cast<double>(common_.size())) {
-    const FitRules rules{planar, spread * spread, kVerdictInlierNoises * noise_m_};
-    return robust_fit(pairs_, rules, T_earlier_later);
-  }
+  if (pairs_.size() >= kLeastCommon && kept >= kFewSuspects * static_cast<double>(common_.size()))
+    return robust_fit(pairs_, rules_, T_earlier_later);
   // Where many are suspected, those that are not may be the ones that move.
   pairs_.clear();
   for (const Common& common : common_) pairs_.push_back({common.earlier, common.later, common.weight});
   if (pairs_.size() < kLeastCommon) return false;
-  const std::size_t agreeing = consensus_.fit(pairs_, planar, spread * spread, T_earlier_later);
+  const std::size_t agreeing = consensus_.fit(pairs_, rules_, T_earlier_later);
   return 2 * agreeing > pairs_.size();
 }
 
-bool MotionVerdict::add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later,
-                             bool planar) {
+bool MotionVerdict::add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later) {
   if (!history.holds(earlier)) return false;
   find_common(history, earlier, later);
   const Pose& T_map_earlier = history.pose(earlier);
   Pose T;
-  if (!fit(T_map_earlier.inverse() * history.pose(later), planar, T)) return false;
+  if (!fit(T_map_earlier.inverse() * history.pose(later), T)) return false;
   const Mat3 rotation = T.q.toRotationMatrix();
   const Mat3 to_map = T_map_earlier.q.toRotationMatrix();
   for (const Common& common : common_) {

@@ -58,14 +58,15 @@ class MotionVerdict {
   void begin_session(const SightingHistory& history, const std::vector<Suspect>& suspects);
   bool is_asked(Index landmark) const;
   Shift& shift_of(Index landmark);
-  bool add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later, bool planar);
+  bool add_pair(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later);
   void find_common(const SightingHistory& history, std::uint64_t earlier, std::uint64_t later);
-  bool fit(const Pose& guess, bool planar, Pose& T_earlier_later);
+  bool fit(const Pose& guess, Pose& T_earlier_later);
   double usual_variance(int pairs);
   Finding finding(const Shift& shift, int pairs, double usual) const;
 
   double noise_m_;
   MotionConsensus consensus_;
+  FitRules rules_;  // of this session
   std::uint64_t session_ = 0;
   std::uint64_t stamp_ = 0;
   std::uint32_t witness_step_ = 1;      // of so many landmarks above suspicion one is asked

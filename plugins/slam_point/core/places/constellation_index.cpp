@@ -50,15 +50,16 @@ bool NearestNeighbours::add(Index neighbour, double distance2, std::size_t most)
   return true;
 }
 
-ConstellationIndex::ConstellationIndex(double tolerance_m, std::uint32_t min_observations)
-    : tolerance_(tolerance_m), min_observations_(min_observations) {}
+ConstellationIndex::ConstellationIndex(const SubmapGraph& graph, double tolerance_m,
+                                       std::uint32_t min_observations)
+    : graph_(graph), tolerance_(tolerance_m), min_observations_(min_observations) {}
 
-void ConstellationIndex::note(const SubmapGraph& graph, Index submap) {
-  const std::vector<Member>& members = graph.submaps[submap].members;
-  known_.resize(graph.landmarks.size());
+void ConstellationIndex::note(Index submap) {
+  const std::vector<Member>& members = graph_.submaps[submap].members;
+  known_.resize(graph_.landmarks.size());
   for (Index m = 0; m < members.size(); ++m) {
     const Index landmark = members[m].landmark;
-    if (members[m].count == 0 || graph.landmarks[landmark].count < min_observations_ ||
+    if (members[m].count == 0 || graph_.landmarks[landmark].count < min_observations_ ||
         known_[landmark].times >= kLooks) {
       continue;
     }
@@ -67,50 +68,49 @@ void ConstellationIndex::note(const SubmapGraph& graph, Index submap) {
   }
 }
 
-void ConstellationIndex::advance(const SubmapGraph& graph, int landmarks) {
+void ConstellationIndex::advance(int landmarks) {
   for (; landmarks > 0 && !work_.empty(); --landmarks) {
-    index_landmark(graph, work_.front(), min_observations_);
+    index_landmark(work_.front(), min_observations_);
     work_.pop_front();
   }
 }
 
-void ConstellationIndex::add_now(const SubmapGraph& graph, Index submap, int landmarks) {
+void ConstellationIndex::add_now(Index submap, int landmarks) {
   // The last ones are those that came into view last.
-  const auto members = static_cast<Index>(graph.submaps[submap].members.size());
+  const auto members = static_cast<Index>(graph_.submaps[submap].members.size());
   const Index first = members - std::min(members, static_cast<Index>(landmarks));
-  for (Index m = first; m < members; ++m) index_landmark(graph, {submap, m}, 1);
+  for (Index m = first; m < members; ++m) index_landmark({submap, m}, 1);
 }
 
-void ConstellationIndex::index_landmark(const SubmapGraph& graph, const Work& work,
-                                        std::uint32_t min_observations) {
-  const std::vector<Member>& members = graph.submaps[work.submap].members;
+void ConstellationIndex::index_landmark(const Work& work, std::uint32_t min_observations) {
+  const std::vector<Member>& members = graph_.submaps[work.submap].members;
   if (work.member >= members.size() || members[work.member].count == 0) return;
   const Index centre = members[work.member].landmark;
-  const Vec3& place = graph.landmarks[centre].position;
-  known_.resize(graph.landmarks.size());
+  const Vec3& place = graph_.landmarks[centre].position;
+  known_.resize(graph_.landmarks.size());
   NearestNeighbours near;
   // Distances in the submap: its members lie together in memory, and nearly all are too far off to be looked at further.
   const Vec3& mean = members[work.member].mean;
   for (const Member& member : members) {
     const double distance2 = (member.mean - mean).squaredNorm();
     if (!near.reaches(distance2) || member.landmark == centre || member.count == 0) continue;
-    if (graph.landmarks[member.landmark].count >= min_observations) near.add(member.landmark, distance2);
+    if (graph_.landmarks[member.landmark].count >= min_observations) near.add(member.landmark, distance2);
   }
   NearestNeighbours& known = known_[centre].neighbours;
   for (std::size_t i = 0; i < near.size(); ++i) {
-    const double distance2 = (graph.landmarks[near[i]].position - place).squaredNorm();
+    const double distance2 = (graph_.landmarks[near[i]].position - place).squaredNorm();
     if (!known.add(near[i], distance2)) continue;
     for (std::size_t j = 0; j < known.size(); ++j) {
-      if (known[j] != near[i]) add_triangle(graph, {centre, near[i], known[j]});
+      if (known[j] != near[i]) add_triangle({centre, near[i], known[j]});
     }
   }
 }
 
-void ConstellationIndex::add_triangle(const SubmapGraph& graph, const std::array<Index, 3>& landmarks) {
+void ConstellationIndex::add_triangle(const std::array<Index, 3>& landmarks) {
   std::array<Vec3, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (graph.landmarks[landmarks[i]].count == 0) return;
-    points[i] = graph.landmarks[landmarks[i]].position;
+    if (graph_.landmarks[landmarks[i]].count == 0) return;
+    points[i] = graph_.landmarks[landmarks[i]].position;
   }
   Entry entry;
   entry.triangle = make_triangle(landmarks, points);

@@ -48,18 +48,18 @@ class NearestNeighbours {
 /// Memory: about 70 bytes a triangle, some ten triangles a landmark.
 class ConstellationIndex {
  public:
-  /// `tolerance_m`: how much each side of what is looked up may differ [m]. `min_observations`: of a landmark that is indexed.
-  ConstellationIndex(double tolerance_m, std::uint32_t min_observations);
+  /// `graph` must outlive it. `tolerance_m`: how much each side of what is looked up may differ [m]. `min_observations`: of a landmark that is indexed.
+  ConstellationIndex(const SubmapGraph& graph, double tolerance_m, std::uint32_t min_observations);
 
   /// Takes note of a submap that closed: its landmarks are to be indexed. O(members).
-  void note(const SubmapGraph& graph, Index submap);
+  void note(Index submap);
 
   /// Indexes at most `landmarks` of those noted, each O(members of its submap). In the order noted.
-  void advance(const SubmapGraph& graph, int landmarks);
+  void advance(int landmarks);
 
   /// Indexes `landmarks` of a submap at once, however seldom they were seen: the active one, whose landmarks are in no closed
   /// one yet. O(landmarks * members).
-  void add_now(const SubmapGraph& graph, Index submap, int landmarks);
+  void add_now(Index submap, int landmarks);
 
   /// Calls visit(triangle) for each triangle of landmarks whose sides all differ by at most the tolerance from `sides`, until it
   /// returns false. In the order of a history that is the same for the same input.
@@ -100,8 +100,8 @@ class ConstellationIndex {
     std::uint8_t times = 0;  // that it was looked at
   };
 
-  void index_landmark(const SubmapGraph& graph, const Work& work, std::uint32_t min_observations);
-  void add_triangle(const SubmapGraph& graph, const std::array<Index, 3>& landmarks);
+  void index_landmark(const Work& work, std::uint32_t min_observations);
+  void add_triangle(const std::array<Index, 3>& landmarks);
   static bool is_in(const Entry& entry, const Cell& cell) {
     return entry.cell[0] == cell[0] && entry.cell[1] == cell[1] && entry.cell[2] == cell[2];
   }
@@ -116,6 +116,7 @@ class ConstellationIndex {
   void link(std::uint32_t i);
   void grow();
 
+  const SubmapGraph& graph_;
   double tolerance_;
   std::uint32_t min_observations_;
   std::vector<Entry> entries_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "slam_point/core/submaps/submap_graph.hpp"
@@ -17,29 +18,31 @@ namespace hallway::slam_point {
 /// the same. The frame that the map is told in stays that of its oldest submap, whichever part moves.
 class MapParts {
  public:
-  /// `twin_bound_m`: landmarks of two parts that lie nearer to each other after a join are one [m]; at most the graph's reach.
-  explicit MapParts(double twin_bound_m) : twin_bound_(twin_bound_m) {}
+  /// `graph` must outlive it. `duplicate_bound_m`: landmarks of two parts that are nearer to each other after a join are one [m]; at most the graph's
+  /// reach.
+  MapParts(SubmapGraph& graph, double duplicate_bound_m)
+      : graph_(graph), duplicate_bound_(duplicate_bound_m) {}
 
   /// Begins a part, the graph's current one from now on. Its first submap is the next one to be added, and is held.
   /// Not while a submap is active.
-  Index begin(SubmapGraph& graph);
+  Index begin();
   /// Tells that `submap` is the first one of the part begun last.
-  void anchor(SubmapGraph& graph, Index submap);
+  void anchor(Index submap);
 
   /// Gives a part up with all that it holds. Not the current one. O(the part).
-  void drop(SubmapGraph& graph, Index part);
+  void drop(Index part);
 
   /// Makes parts `a` and `b` one; T_a_b moves from b's frame to a's. The smaller one (in submaps; the younger of equal ones) moves:
   /// its submaps now, its landmarks in advance(). Until is_joining() is false the landmarks that wait are found nowhere.
   /// Not while a submap is active. The graph's current part is then the one of both. Returns T_one_b: from b's frame
   /// to the frame of what is one now. O(submaps of the smaller part).
-  Pose join(SubmapGraph& graph, Index a, Index b, const Pose& T_a_b);
+  Pose join(Index a, Index b, const Pose& T_a_b);
   bool is_joining() const { return !waiting_.empty(); }
 
   /// Moves one landmark of the part that is being moved at once. Returns the landmark that it is from now on. O(its submaps).
-  Index move(SubmapGraph& graph, Index landmark);
+  Index move(Index landmark);
   /// Moves about `landmarks` of those that wait, those of the newest submaps first.
-  void advance(SubmapGraph& graph, std::size_t landmarks);
+  void advance(std::size_t landmarks);
 
   /// Counts a frame that was placed in `part`.
   void count_frame(Index part) { ++parts_[part].frames; }
@@ -61,9 +64,8 @@ class MapParts {
     Index from = kNone;
     Index into = kNone;
   };
-  /// What move() and advance() made the same since forget_merges().
-  const std::vector<Merge>& merges() const { return merges_; }
-  void forget_merges() { merges_.clear(); }
+  /// The merges of move() and advance() since the last call.
+  std::vector<Merge> take_merges() { return std::exchange(merges_, {}); }
 
   void clear();
 
@@ -79,10 +81,10 @@ class MapParts {
     Index from = kNone;  // its part before
   };
 
-  Index find_twin(const SubmapGraph& graph, Index landmark) const;
-  static bool seen_together(const SubmapGraph& graph, Index a, Index b);
+  bool seen_together(Index a, Index b) const;
 
-  double twin_bound_;
+  SubmapGraph& graph_;
+  double duplicate_bound_;
   std::vector<Part> parts_;
   std::size_t alive_ = 0;
   std::vector<Merge> merges_;

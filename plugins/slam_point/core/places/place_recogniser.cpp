@@ -7,41 +7,35 @@ namespace hallway::slam_point {
 namespace {
 
 constexpr double kIndexNoises = 4.0;
-constexpr int kIndexedPerFrame = 8;  // landmarks whose constellations are noted
 constexpr int kIndexedAtOnce = 64;   // landmarks of the active submap, when a frame is looked for
 constexpr int kTriedAfterGap = 300;  // places, as many as the turns that are tried
 constexpr double kMostAfterGap = 1e-3;
 
 }  // namespace
 
-PlaceRecogniser::PlaceRecogniser(const Options& options, const FrameMatcher& matcher)
+PlaceRecogniser::PlaceRecogniser(const Options& options, const SubmapGraph& graph)
     : noise_(options.noise_m),
-      constellations_(kIndexNoises * options.noise_m, static_cast<std::uint32_t>(options.min_observations)),
-      relocaliser_(options, matcher.rules(true), matcher.rules(false), options.map_bound()) {}
+      graph_(graph),
+      constellations_(graph, kIndexNoises * options.noise_m,
+                      static_cast<std::uint32_t>(options.min_observations)),
+      relocaliser_(options, graph, constellations_) {}
 
-void PlaceRecogniser::advance(const SubmapGraph& graph) {
-  constellations_.advance(graph, kIndexedPerFrame);
-}
-
-bool PlaceRecogniser::find_frame(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
-                                 Placement& found) {
-  constellations_.add_now(graph, graph.active(), kIndexedAtOnce);
+bool PlaceRecogniser::find_frame(const Observations& frame, Relocalisation& found) {
+  constellations_.add_now(graph_.active(), kIndexedAtOnce);
   gather(frame);
-  return find_elsewhere(graph, view_, kNone, planar, found);
+  return find_elsewhere(view_, kNone, found);
 }
 
-bool PlaceRecogniser::find_elsewhere(const SubmapGraph& graph, const std::vector<Vec3>& points, Index except,
-                                     bool planar, Placement& found) {
-  return relocaliser_.locate(graph, constellations_, points, except, planar, found);
+bool PlaceRecogniser::find_elsewhere(const std::vector<Vec3>& points, Index except, Relocalisation& found) {
+  return relocaliser_.locate(points, except, found);
 }
 
-bool PlaceRecogniser::may_be_chance(const SubmapGraph& graph, const std::vector<Observation>& frame,
-                                    const Pose& T_map_sensor, bool planar) {
+bool PlaceRecogniser::may_be_chance(const Observations& frame, const Pose& T_map_sensor) {
   gather(frame);
-  return relocaliser_.chance_at(graph, view_, noises_, T_map_sensor, planar, kTriedAfterGap) > kMostAfterGap;
+  return relocaliser_.chance_at(view_, noises_, T_map_sensor, kTriedAfterGap) > kMostAfterGap;
 }
 
-void PlaceRecogniser::gather(const std::vector<Observation>& frame) {
+void PlaceRecogniser::gather(const Observations& frame) {
   view_.clear();
   noises_.clear();
   for (const Observation& observation : frame) {

@@ -3,11 +3,10 @@
 
 #include <vector>
 
-#include "slam_point/core/frame/frame_matcher.hpp"
+#include "slam_point/core/frame/frame.hpp"
 #include "slam_point/core/options.hpp"
 #include "slam_point/core/places/constellation_index.hpp"
 #include "slam_point/core/places/relocaliser.hpp"
-#include "slam_point/core/submaps/submap_graph.hpp"
 
 namespace hallway::slam_point {
 
@@ -15,29 +14,30 @@ namespace hallway::slam_point {
 /// it is. The index grows with the map: every submap that closes is noted.
 class PlaceRecogniser {
  public:
-  PlaceRecogniser(const Options& options, const FrameMatcher& matcher);
+  /// `graph` must outlive it.
+  PlaceRecogniser(const Options& options, const SubmapGraph& graph);
 
   /// Takes note of a submap that closed.
-  void note(const SubmapGraph& graph, Index submap) { constellations_.note(graph, submap); }
+  void note(Index submap) { constellations_.note(submap); }
   /// Indexes some of what was noted. To be called once a frame.
-  void advance(const SubmapGraph& graph);
+  void advance() { constellations_.advance(kIndexedPerFrame); }
 
   /// Finds a frame in any part of the map, the active submap's landmarks included. See Relocaliser::locate.
-  bool find_frame(const SubmapGraph& graph, const std::vector<Observation>& frame, bool planar,
-                  Placement& found);
+  bool find_frame(const Observations& frame, Relocalisation& found);
   /// Finds points in all parts of the map but `except`, likewise.
-  bool find_elsewhere(const SubmapGraph& graph, const std::vector<Vec3>& points, Index except, bool planar,
-                      Placement& found);
+  bool find_elsewhere(const std::vector<Vec3>& points, Index except, Relocalisation& found);
   /// Whether a frame may agree as well with the current part at T_map_sensor by chance, wherever it was seen (more than one time in a thousand).
-  bool may_be_chance(const SubmapGraph& graph, const std::vector<Observation>& frame,
-                     const Pose& T_map_sensor, bool planar);
+  bool may_be_chance(const Observations& frame, const Pose& T_map_sensor);
 
   void clear() { constellations_.clear(); }
 
  private:
-  void gather(const std::vector<Observation>& frame);
+  static constexpr int kIndexedPerFrame = 8;  // landmarks whose constellations are noted
+
+  void gather(const Observations& frame);
 
   double noise_;
+  const SubmapGraph& graph_;
   ConstellationIndex constellations_;
   Relocaliser relocaliser_;
   std::vector<Vec3> view_;      // points of a frame, sensor frame

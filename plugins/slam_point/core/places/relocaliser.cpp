@@ -60,62 +60,58 @@ Mat3 frame_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-Relocaliser::Relocaliser(const Options& options, const FitRules& planar_rules, const FitRules& solid_rules,
-                         double reach_m)
-    : planar_rules_(planar_rules),
-      solid_rules_(solid_rules),
+Relocaliser::Relocaliser(const Options& options, const SubmapGraph& graph, const ConstellationIndex& index)
+    : graph_(graph),
+      index_(index),
       noise_(options.noise_m),
-      reach_(reach_m),
-      coarse_(std::min(kCoarseNoises * options.noise_m, reach_m)),
-      agreement_(std::min(kPlacementNoises * options.noise_m, reach_m)) {}
+      reach_(options.map_bound()),
+      coarse_(std::min(kCoarseNoises * noise_, reach_)),
+      agreement_(std::min(kPlacementNoises * noise_, reach_)) {}
 
-bool Relocaliser::locate(const SubmapGraph& graph, const ConstellationIndex& index,
-                         const std::vector<Vec3>& points, Index except, bool planar, Placement& placement) {
-  planar_ = planar;
+bool Relocaliser::locate(const std::vector<Vec3>& points, Index except, Relocalisation& placement) {
   choose_points(points);
   widths_.assign(points_.size(), 1.0);
   if (points_.size() <= static_cast<std::size_t>(kTrianglePoints)) return false;
-  taken_.resize(graph.landmarks.size(), 0);
+  taken_.resize(graph_.landmarks.size(), 0);
   best_ = Hypothesis();
   rival_ = Hypothesis();
   tried_ = 0;
   refined_ = 0;
   shares_ = points_.size() < kFewPoints ? 1 : kShares;
   for (std::size_t looks = 0; looks < std::min(kMostShares, shares_); ++looks) {
-    search(graph, index, except, next_share_++ % shares_);
-    if (is_answer(graph, placement)) return true;
+    search(except, next_share_++ % shares_);
+    if (is_answer(placement)) return true;
   }
   return false;
 }
 
 /// Tries what a share of the points' triangles are like.
-void Relocaliser::search(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
-                         std::size_t share) {
+void Relocaliser::search(Index except, std::size_t share) {
   make_queries(share);
-  look_up(graph, index, except);
+  look_up(except);
   for (const Query& query : queries_) {
     for (std::uint32_t i = 0; i < query.count && tried_ < kMostHypotheses && refined_ < kMostRefined; ++i)
-      try_triangle(graph, query.triangle, alike_[query.first + i]);
+      try_triangle(query.triangle, alike_[query.first + i]);
   }
 }
 
-void Relocaliser::try_triangle(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped) {
+void Relocaliser::try_triangle(const Triangle& seen, const Triangle& mapped) {
   if (is_known(seen, mapped)) return;
   ++tried_;
-  trial_.part = graph.landmarks[mapped.vertices[0]].part;
-  if (!pose_of(graph, seen, mapped, trial_.T)) return;
-  if (!is_promising(graph, seen, trial_.T, trial_.part)) return;
+  trial_.part = graph_.landmarks[mapped.vertices[0]].part;
+  if (!pose_of(seen, mapped, trial_.T)) return;
+  if (!is_promising(seen, trial_.T, trial_.part)) return;
   ++refined_;
-  if (refine(graph, trial_)) keep(trial_);
+  if (refine(trial_)) keep(trial_);
 }
 
 /// Whether the best place so far is sure, and no other one is like it.
-bool Relocaliser::is_answer(const SubmapGraph& graph, Placement& placement) {
+bool Relocaliser::is_answer(Relocalisation& placement) {
   const double least = kLeastShareOfPoints * static_cast<double>(points_.size());
   if (best_.agreeing < least || best_.agreeing <= kTrianglePoints) return false;
-  placement = {best_.T, best_.part, best_.agreeing, expected_by_chance(graph, best_)};
+  placement = {best_.T, best_.part, best_.agreeing, expected_by_chance(best_)};
   if (placement.expected_by_chance >= kMostByChance) return false;
-  return rival_.agreeing <= kRivalShare * best_.agreeing || expected_by_chance(graph, rival_) >= kMostOfRival;
+  return rival_.agreeing <= kRivalShare * best_.agreeing || expected_by_chance(rival_) >= kMostOfRival;
 }
 
 void Relocaliser::choose_points(const std::vector<Vec3>& points) {
@@ -157,7 +153,7 @@ void Relocaliser::make_queries(std::size_t share) {
 }
 
 void Relocaliser::add_queries(Index centre, const NearestNeighbours& near) {
-  const double least_height = planar_ ? 0.0 : 2.0 * kPlacementNoises * noise_;
+  const double least_height = graph_.planar ? 0.0 : 2.0 * kPlacementNoises * noise_;
   for (std::size_t i = 0; i < near.size(); ++i) {
     for (std::size_t j = i + 1; j < near.size(); ++j) {
       std::array<Index, 3> vertices{centre, near[i], near[j]};
@@ -172,11 +168,11 @@ void Relocaliser::add_queries(Index centre, const NearestNeighbours& near) {
   }
 }
 
-void Relocaliser::look_up(const SubmapGraph& graph, const ConstellationIndex& index, Index except) {
+void Relocaliser::look_up(Index except) {
   alike_.clear();
   for (Query& query : queries_) {
     query.first = static_cast<std::uint32_t>(alike_.size());
-    look_up_ordered(graph, index, except, query.triangle);
+    look_up_ordered(except, query.triangle);
     query.count = static_cast<std::uint32_t>(alike_.size()) - query.first;
   }
   // What is rare says most.
@@ -185,26 +181,23 @@ void Relocaliser::look_up(const SubmapGraph& graph, const ConstellationIndex& in
   });
 }
 
-void Relocaliser::look_up_ordered(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
-                                  const Triangle& triangle) {
+void Relocaliser::look_up_ordered(Index except, const Triangle& triangle) {
   // Sides that differ by less than noise may be in another order in the map. All entries come out with their landmarks in the
   // order of the query's vertices.
   std::array<std::size_t, 3> order{0, 1, 2};
   do {
     const Sides sides{triangle.sides[order[0]], triangle.sides[order[1]], triangle.sides[order[2]]};
-    const double slack = index.tolerance();
+    const double slack = index_.tolerance();
     if (sides[0] < sides[1] - slack || sides[1] < sides[2] - slack) continue;
-    index.visit_like(sides, [&](const Triangle& mapped) {
+    index_.visit_like(sides, [&](const Triangle& mapped) {
       Triangle found;
       for (std::size_t i = 0; i < 3; ++i) {
-        Index landmark = mapped.vertices[i];
-        while (graph.landmarks[landmark].merged_into != kNone)
-          landmark = graph.landmarks[landmark].merged_into;
-        found.vertices[order[i]] = landmark;
+        found.vertices[order[i]] = graph_.survivor(mapped.vertices[i]);
       }
-      const Index part = graph.landmarks[found.vertices[0]].part;
-      const bool whole = part != kNone && part != except && part == graph.landmarks[found.vertices[1]].part &&
-                         part == graph.landmarks[found.vertices[2]].part;
+      const Index part = graph_.landmarks[found.vertices[0]].part;
+      const bool whole = part != kNone && part != except &&
+                         part == graph_.landmarks[found.vertices[1]].part &&
+                         part == graph_.landmarks[found.vertices[2]].part;
       if (whole) alike_.push_back(found);
       return alike_.size() < kMostAlike;
     });
@@ -222,34 +215,33 @@ bool Relocaliser::is_known(const Triangle& seen, const Triangle& mapped) const {
   return agrees(best_) || agrees(rival_);
 }
 
-bool Relocaliser::pose_of(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped,
-                          Pose& T) const {
+bool Relocaliser::pose_of(const Triangle& seen, const Triangle& mapped, Pose& T) const {
   std::array<Vec3, 3> from;
   std::array<Vec3, 3> to;
   for (std::size_t i = 0; i < 3; ++i) {
     from[i] = points_[seen.vertices[i]];
-    to[i] = graph.landmarks[mapped.vertices[i]].position;
+    to[i] = graph_.landmarks[mapped.vertices[i]].position;
   }
   const Mat3 from_frame = frame_of(from[0], from[1], from[2]);
   const Mat3 to_frame = frame_of(to[0], to[1], to[2]);
   if (!from_frame.allFinite() || !to_frame.allFinite()) return false;
   // A plane is not turned over.
-  if (planar_ && from_frame(2, 2) * to_frame(2, 2) < 0.0) return false;
+  if (graph_.planar && from_frame(2, 2) * to_frame(2, 2) < 0.0) return false;
   const Mat3 rotation = to_frame * from_frame.transpose();
-  T.q = Eigen::Quaterniond(rotation).normalized();
-  if (planar_) {
+  T.q = Quat(rotation).normalized();
+  if (graph_.planar) {
     T.q.x() = T.q.y() = 0.0;
     T.q.normalize();
   }
   T.t = (to[0] + to[1] + to[2]) / 3.0 - T.q * ((from[0] + from[1] + from[2]) / 3.0);
-  if (planar_) T.t.z() = 0.0;
+  if (graph_.planar) T.t.z() = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     if ((T * from[i] - to[i]).squaredNorm() > coarse_ * coarse_) return false;
   }
   return true;
 }
 
-bool Relocaliser::is_promising(const SubmapGraph& graph, const Triangle& seen, const Pose& T, Index part) {
+bool Relocaliser::is_promising(const Triangle& seen, const Pose& T, Index part) {
   const Vec3 centre =
       (points_[seen.vertices[0]] + points_[seen.vertices[1]] + points_[seen.vertices[2]]) / 3.0;
   near_.clear();
@@ -259,72 +251,70 @@ bool Relocaliser::is_promising(const SubmapGraph& graph, const Triangle& seen, c
   }
   const std::size_t looks = std::min(kFirstLooks, near_.size());
   std::partial_sort(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(looks), near_.end());
-  const std::size_t wanted = std::min<std::size_t>(planar_ ? 3 : 2, looks);
+  const std::size_t wanted = std::min<std::size_t>(graph_.planar ? 3 : 2, looks);
   std::size_t found = 0;
   for (std::size_t i = 0; i < looks && found < wanted && found + (looks - i) >= wanted; ++i) {
     const Vec3 p = T * points_[near_[i].second];
     bool any = false;
-    graph.visit_part_landmarks_near(part, p, [&](Index l) {
-      any = any || (graph.landmarks[l].position - p).squaredNorm() <= coarse_ * coarse_;
+    graph_.visit_part_landmarks_near(part, p, [&](Index l) {
+      any = any || (graph_.landmarks[l].position - p).squaredNorm() <= coarse_ * coarse_;
     });
     if (any) ++found;
   }
   return found >= wanted;
 }
 
-void Relocaliser::match(const SubmapGraph& graph, const Hypothesis& hypothesis, double bound_m) {
+void Relocaliser::match(const Hypothesis& hypothesis, double bound_m) {
   matches_.clear();
   for (const Index landmark : taken_list_) taken_[landmark] = 0;
   taken_list_.clear();
   for (Index p = 0; p < points_.size(); ++p) {
     const Vec3 at = hypothesis.T * points_[p];
     const double bound = bound_of(p, bound_m);
-    graph.visit_part_landmarks_near(hypothesis.part, at, [&](Index l) {
-      const double d2 = (graph.landmarks[l].position - at).squaredNorm();
+    graph_.visit_part_landmarks_near(hypothesis.part, at, [&](Index l) {
+      const double d2 = (graph_.landmarks[l].position - at).squaredNorm();
       if (d2 <= bound * bound) matches_.push_back({d2, p, l});
     });
   }
-  std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
-    return std::tie(a.d2, a.point, a.landmark) < std::tie(b.d2, b.point, b.landmark);
-  });
+  std::sort(matches_.begin(), matches_.end());
 }
 
 void Relocaliser::assign(Hypothesis& hypothesis) {
   hypothesis.landmarks.assign(points_.size(), kNone);
-  for (const Match& m : matches_) {
-    if (hypothesis.landmarks[m.point] != kNone || taken_[m.landmark] != 0) continue;
-    hypothesis.landmarks[m.point] = m.landmark;
-    taken_[m.landmark] = 1;
-    taken_list_.push_back(m.landmark);
+  for (const auto& [d2, point, landmark] : matches_) {
+    if (hypothesis.landmarks[point] != kNone || taken_[landmark] != 0) continue;
+    hypothesis.landmarks[point] = landmark;
+    taken_[landmark] = 1;
+    taken_list_.push_back(landmark);
   }
 }
 
-bool Relocaliser::fit(const SubmapGraph& graph, Hypothesis& hypothesis) {
+bool Relocaliser::fit(Hypothesis& hypothesis) {
   pairs_.clear();
   for (Index p = 0; p < points_.size(); ++p) {
     if (hypothesis.landmarks[p] == kNone) continue;
-    const LandmarkRecord& landmark = graph.landmarks[hypothesis.landmarks[p]];
-    pairs_.push_back({landmark.position, points_[p], pair_weight(landmark.weight, 1.0), 1.0});
+    const LandmarkRecord& landmark = graph_.landmarks[hypothesis.landmarks[p]];
+    pairs_.push_back({landmark.position, points_[p], pair_weight(landmark.weight)});
   }
-  return robust_fit(pairs_, planar_ ? planar_rules_ : solid_rules_, hypothesis.T);
+  return robust_fit(pairs_, fit_rules(noise_, graph_.planar), hypothesis.T);
 }
 
-bool Relocaliser::refine(const SubmapGraph& graph, Hypothesis& hypothesis) {
+bool Relocaliser::refine(Hypothesis& hypothesis) {
   for (int pass = 0; pass < kPasses; ++pass) {
-    match(graph, hypothesis, pass == 0 ? reach_ : coarse_);
+    match(hypothesis, pass == 0 ? reach_ : coarse_);
     assign(hypothesis);
-    if (!fit(graph, hypothesis)) return false;
+    if (!fit(hypothesis)) return false;
   }
-  count_agreeing(graph, hypothesis);
+  count_agreeing(hypothesis);
   return hypothesis.agreeing > 0;
 }
 
-void Relocaliser::count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesis) {
+void Relocaliser::count_agreeing(Hypothesis& hypothesis) {
   hypothesis.agreeing = 0;
   for (Index p = 0; p < points_.size(); ++p) {
     Index& landmark = hypothesis.landmarks[p];
     if (landmark == kNone) continue;
-    const double d2 = (hypothesis.T * points_[p] - graph.landmarks[landmark].position).squaredNorm();
+    const double d2 = (hypothesis.T * points_[p] - graph_.landmarks[landmark].position).squaredNorm();
     if (d2 <= agreement_ * agreement_) {
       ++hypothesis.agreeing;
     } else {
@@ -333,20 +323,18 @@ void Relocaliser::count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesi
   }
 }
 
-double Relocaliser::chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
-                              const std::vector<double>& noises, const Pose& T_map_points, bool planar,
-                              int tried) {
-  planar_ = planar;
+double Relocaliser::chance_at(const std::vector<Vec3>& points, const std::vector<double>& noises,
+                              const Pose& T_map_points, int tried) {
   choose_points(points);
   widths_.clear();
   for (const std::uint32_t i : order_) widths_.push_back(noises[i] / noise_);
-  taken_.resize(graph.landmarks.size(), 0);
+  taken_.resize(graph_.landmarks.size(), 0);
   tried_ = tried;
   trial_.T = T_map_points;
-  trial_.part = graph.part();
-  match(graph, trial_, agreement_);
+  trial_.part = graph_.part();
+  match(trial_, agreement_);
   assign(trial_);
-  return expected_by_chance(graph, trial_);
+  return expected_by_chance(trial_);
 }
 
 void Relocaliser::keep(Hypothesis& hypothesis) {
@@ -375,13 +363,13 @@ double Relocaliser::bound_of(Index point, double bound_m) const {
   return std::min(widths_[point] * bound_m, reach_);
 }
 
-double Relocaliser::expected_by_chance(const SubmapGraph& graph, const Hypothesis& place) {
+double Relocaliser::expected_by_chance(const Hypothesis& place) {
   std::size_t others = 0;
   residuals2_.assign(points_.size(), std::numeric_limits<double>::infinity());
   for (Index p = 0; p < points_.size(); ++p) {
     const Vec3 at = place.T * points_[p];
-    graph.visit_part_landmarks_near(place.part, at, [&](Index l) {
-      const double d2 = (graph.landmarks[l].position - at).squaredNorm();
+    graph_.visit_part_landmarks_near(place.part, at, [&](Index l) {
+      const double d2 = (graph_.landmarks[l].position - at).squaredNorm();
       if (l == place.landmarks[p]) residuals2_[p] = d2;
       if (d2 <= reach_ * reach_ && l != place.landmarks[p]) ++others;
     });
@@ -398,7 +386,8 @@ double Relocaliser::chance_within(double share, double within_reach) {
   agreeing_chances_.clear();
   for (Index p = 0; p < points_.size(); ++p) {
     const double bound = bound_of(p, share * agreement_);
-    const double chance = std::min(kMostChance, within_reach * std::pow(bound / reach_, planar_ ? 2 : 3));
+    const double chance =
+        std::min(kMostChance, within_reach * std::pow(bound / reach_, graph_.planar ? 2 : 3));
     (residuals2_[p] <= bound * bound ? agreeing_chances_ : chances_).push_back(chance);
   }
   if (agreeing_chances_.size() <= kTrianglePoints) return 1.0;

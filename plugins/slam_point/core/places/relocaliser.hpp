@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "slam_point/core/fit/robust_fit.hpp"
+#include "slam_point/core/index/pairing.hpp"
 #include "slam_point/core/options.hpp"
 #include "slam_point/core/places/constellation_index.hpp"
-#include "slam_point/core/submaps/submap_graph.hpp"
 
 namespace hallway::slam_point {
 
-/// Where a set of points was found in the map.
-struct Placement {
+/// Where a set of points was found in the map by their constellations.
+struct Relocalisation {
   Pose T_map_points;   ///< from the frame of the points to that of the part
   Index part = kNone;  ///< of the map, where they are
   int agreeing = 0;    ///< points that lie on a landmark of their own up to noise
@@ -38,20 +38,19 @@ struct Placement {
 /// Cost: O(points) for a bounded number of hypotheses, whatever the size of the map.
 class Relocaliser {
  public:
-  Relocaliser(const Options& options, const FitRules& planar_rules, const FitRules& solid_rules,
-              double reach_m);
+  /// `graph` and `index` must outlive it.
+  Relocaliser(const Options& options, const SubmapGraph& graph, const ConstellationIndex& index);
 
-  /// Looks for `points` in all parts of the map but `except` (kNone: in all). `planar`: every z is 0. False when there is no
+  /// Looks for `points` in all parts of the map but `except` (kNone: in all). False when there is no
   /// answer.
-  bool locate(const SubmapGraph& graph, const ConstellationIndex& index, const std::vector<Vec3>& points,
-              Index except, bool planar, Placement& placement);
+  bool locate(const std::vector<Vec3>& points, Index except, Relocalisation& placement);
 
   /// How many wrong hypotheses, of `tried`, were to be expected that agree with the current part as well as these points do at
   /// T_map_points. Each point has a noise of its own (standard deviation of a coordinate [m], one for each point)
   /// that its agreement is judged by, as far as `reach_m`: an exact point tells more than one that has landmarks
   /// within its noise anywhere. O(points^2), of at most 64 points.
-  double chance_at(const SubmapGraph& graph, const std::vector<Vec3>& points,
-                   const std::vector<double>& noises, const Pose& T_map_points, bool planar, int tried);
+  double chance_at(const std::vector<Vec3>& points, const std::vector<double>& noises,
+                   const Pose& T_map_points, int tried);
 
  private:
   /// A triangle of the points.
@@ -59,11 +58,6 @@ class Relocaliser {
     Triangle triangle;  // of places in points
     std::uint32_t first = 0;
     std::uint32_t count = 0;  // alike, from alike_[first] on
-  };
-  struct Match {
-    double d2 = 0.0;
-    Index point = kNone;
-    Index landmark = kNone;
   };
   struct Hypothesis {
     Pose T;
@@ -73,41 +67,39 @@ class Relocaliser {
   };
 
   void choose_points(const std::vector<Vec3>& points);
-  void search(const SubmapGraph& graph, const ConstellationIndex& index, Index except, std::size_t share);
-  bool is_answer(const SubmapGraph& graph, Placement& placement);
+  void search(Index except, std::size_t share);
+  bool is_answer(Relocalisation& placement);
   void make_queries(std::size_t share);
   void add_queries(Index centre, const NearestNeighbours& near);
-  void look_up(const SubmapGraph& graph, const ConstellationIndex& index, Index except);
-  void look_up_ordered(const SubmapGraph& graph, const ConstellationIndex& index, Index except,
-                       const Triangle& triangle);
-  void try_triangle(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped);
+  void look_up(Index except);
+  void look_up_ordered(Index except, const Triangle& triangle);
+  void try_triangle(const Triangle& seen, const Triangle& mapped);
   bool is_known(const Triangle& seen, const Triangle& mapped) const;
-  bool pose_of(const SubmapGraph& graph, const Triangle& seen, const Triangle& mapped, Pose& T) const;
-  bool is_promising(const SubmapGraph& graph, const Triangle& seen, const Pose& T, Index part);
-  bool refine(const SubmapGraph& graph, Hypothesis& hypothesis);
+  bool pose_of(const Triangle& seen, const Triangle& mapped, Pose& T) const;
+  bool is_promising(const Triangle& seen, const Pose& T, Index part);
+  bool refine(Hypothesis& hypothesis);
   void assign(Hypothesis& hypothesis);
-  void count_agreeing(const SubmapGraph& graph, Hypothesis& hypothesis);
-  void match(const SubmapGraph& graph, const Hypothesis& hypothesis, double bound_m);
-  bool fit(const SubmapGraph& graph, Hypothesis& hypothesis);
+  void count_agreeing(Hypothesis& hypothesis);
+  void match(const Hypothesis& hypothesis, double bound_m);
+  bool fit(Hypothesis& hypothesis);
   void keep(Hypothesis& hypothesis);
   double bound_of(Index point, double bound_m) const;
-  double expected_by_chance(const SubmapGraph& graph, const Hypothesis& place);
+  double expected_by_chance(const Hypothesis& place);
   double chance_within(double share, double within_reach);
 
-  FitRules planar_rules_;
-  FitRules solid_rules_;
+  const SubmapGraph& graph_;
+  const ConstellationIndex& index_;
   double noise_;
   double reach_;
-  double coarse_;     // bound of a first match [m]
-  double agreement_;  // a residual up to here is noise [m]
-  bool planar_ = false;
+  double coarse_;               // bound of a first match [m]
+  double agreement_;            // a residual up to here is noise [m]
   std::vector<Vec3> points_;    // those looked for: nearest to their origin
   std::vector<double> widths_;  // point -> its noise, in noise_m
   std::vector<std::uint32_t> order_;
   std::vector<Query> queries_;
   std::vector<Triangle> alike_;
   std::vector<std::pair<double, Index>> near_;
-  std::vector<Match> matches_;
+  std::vector<Pairing> matches_;  // of points and landmarks
   std::vector<double>
       residuals2_;               // point -> squared distance from its landmark, infinite where there is none
   std::vector<double> chances_;  // of points, to lie on a landmark wherever they are

@@ -3,9 +3,9 @@
 
 #include <Eigen/LU>
 #include <limits>
-#include <numeric>
 
 #include "geometry/symmetric.hpp"
+#include "slam_point/core/fit/directional_fit.hpp"
 #include "slam_point/core/solver/block_cholesky.hpp"
 #include "slam_point/core/solver/reduced_system.hpp"
 
@@ -18,7 +18,7 @@ using Mat6 = BlockCholesky::Block;
 /// How a point y from a pose's origin moves with the pose: [I, -[y]x].
 Mat36 motion_of(const Vec3& y) {
   Mat36 motion;
-  motion << Mat3::Identity(), (Mat3() << 0, y.z(), -y.y(), -y.z(), 0, y.x(), y.y(), -y.x(), 0).finished();
+  motion << Mat3::Identity(), skew(-y);
   return motion;
 }
 
@@ -34,10 +34,10 @@ class LandmarkCovariances {
   LandmarkCovariances(const SubmapGraph& graph, const std::vector<bool>& in_gauge)
       : graph_(graph), in_gauge_(in_gauge) {}
 
-  std::vector<std::optional<Mat3>> compute(bool planar);
+  std::vector<std::optional<Mat3>> compute();
 
  private:
-  bool factorise(bool planar);
+  bool factorise();
   bool fit_gauge();
   bool counts(Index landmark) const { return in_gauge_[landmark] && evidence(landmark) > 0.0; }
   double evidence(Index landmark) const;
@@ -51,7 +51,6 @@ class LandmarkCovariances {
   const std::vector<bool>& in_gauge_;
   ReducedSystem system_;
   BlockCholesky factor_;
-  std::vector<Index> slot_;      // submap -> its row
   std::vector<Vec3> positions_;  // landmark -> map frame
   Vec3 centre_ = Vec3::Zero();
   Mat6 fit_ = Mat6::Zero();                                 // motion of all landmarks -> motion of the fit
@@ -81,7 +80,7 @@ std::vector<Lever> LandmarkCovariances::levers(Index landmark) const {
   const double whole = evidence(landmark);
   for (const Membership& at : graph_.landmarks[landmark].memberships) {
     const Member& member = graph_.submaps[at.submap].members[at.member];
-    if (slot_[at.submap] == kNone || member.count == 0) continue;
+    if (system_.row_of(at.submap) == kNone || member.count == 0) continue;
     const Vec3 y = graph_.poses[at.submap].q * member.mean;
     Mat36 motion = motion_of(y);
     if (graph_.is_directional()) {
@@ -89,25 +88,14 @@ std::vector<Lever> LandmarkCovariances::levers(Index landmark) const {
     } else {
       motion *= member.weight() / whole;
     }
-    result.push_back({slot_[at.submap], motion});
+    result.push_back({system_.row_of(at.submap), motion});
   }
   return result;
 }
 
-bool LandmarkCovariances::factorise(bool planar) {
-  std::vector<Index> all(graph_.submaps.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  system_.take(graph_, all, graph_.poses, planar);
-  slot_.assign(graph_.submaps.size(), kNone);
-  for (Index slot = 0; slot < system_.free().size(); ++slot) slot_[system_.free()[slot]] = slot;
-  factor_.begin(system_.free().size());
-  double work = 0.0;
-  for (Index row = 0; row < system_.free().size(); ++row) {
-    system_.make_row(
-        row, work, [&](Index column, const ReducedSystem::Block& block) { factor_.add(row, column, block); });
-  }
+bool LandmarkCovariances::factorise() {
+  system_.take_all(graph_, factor_);
   if (system_.free().empty()) return true;
-  factor_.analyse();
   double plenty = std::numeric_limits<double>::max();
   if (factor_.advance(plenty) != BlockCholesky::State::done) return false;
   factor_.invert();
@@ -178,14 +166,16 @@ Mat3 LandmarkCovariances::covariance(Index landmark) const {
          motion * fit_ * spread_ * fit_ * motion.transpose();
 }
 
-std::vector<std::optional<Mat3>> LandmarkCovariances::compute(bool planar) {
+std::vector<std::optional<Mat3>> LandmarkCovariances::compute() {
   std::vector<std::optional<Mat3>> result(graph_.landmarks.size());
-  if (graph_.submaps.empty() || !factorise(planar) || !fit_gauge()) return result;
+  if (graph_.submaps.empty() || !factorise() || !fit_gauge()) return result;
   for (Index l = 0; l < result.size(); ++l) {
     if (evidence(l) == 0.0) continue;
     Mat3 c = covariance(l);
-    if (planar) c.row(2).setZero();
-    if (planar) c.col(2).setZero();
+    if (graph_.planar) {
+      c.row(2).setZero();
+      c.col(2).setZero();
+    }
     if (c.allFinite() && c.diagonal().minCoeff() >= 0.0) result[l] = 0.5 * (c + c.transpose());
   }
   return result;
@@ -194,8 +184,8 @@ std::vector<std::optional<Mat3>> LandmarkCovariances::compute(bool planar) {
 }  // namespace
 
 std::vector<std::optional<Mat3>> landmark_covariances(const SubmapGraph& graph,
-                                                      const std::vector<bool>& in_gauge, bool planar) {
-  return LandmarkCovariances(graph, in_gauge).compute(planar);
+                                                      const std::vector<bool>& in_gauge) {
+  return LandmarkCovariances(graph, in_gauge).compute();
 }
 
 }  // namespace hallway::slam_point

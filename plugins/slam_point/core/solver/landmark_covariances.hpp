@@ -14,8 +14,8 @@ namespace hallway::slam_point {
 /// The poses' covariance is the inverse of the reduced system's matrix, and a landmark's follows from the blocks that join the
 /// submaps it stands in; those are in the pattern of the factor (BlockCholesky::invert). Holding submap 0 is undone by projecting
 /// the fit out of the errors. Empty for landmarks without evidence; nothing at all where the system or the fit is singular. In
-/// `planar` data nothing moves along z.
+/// a planar graph nothing moves along z.
 std::vector<std::optional<Mat3>> landmark_covariances(const SubmapGraph& graph,
-                                                      const std::vector<bool>& in_gauge, bool planar);
+                                                      const std::vector<bool>& in_gauge);
 
 }  // namespace hallway::slam_point

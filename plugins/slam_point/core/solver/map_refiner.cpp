@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "slam_point/core/solver/landmark_covariances.hpp"
-#include "slam_point/core/solver/reduced_system.hpp"
-#include "slam_point/core/solver/submap_solver.hpp"
+#include "slam_point/core/solver/map_step.hpp"
 
 namespace hallway::slam_point {
 namespace {
@@ -13,12 +12,6 @@ namespace {
 constexpr int kMaxSteps = 20;
 constexpr double kMostWork = 2e10;      // multiplications of one step over all segments
 constexpr double kLeastFreedom = 50.0;  // of the residuals that estimate the noise
-
-/// What a landmark has become.
-Index survivor(const SubmapGraph& graph, Index landmark) {
-  while (graph.landmarks[landmark].merged_into != kNone) landmark = graph.landmarks[landmark].merged_into;
-  return landmark;
-}
 
 /// Whether no segment before belongs to the same submap.
 bool first_of_submap(const SegmentStore& store, Index segment) {
@@ -31,6 +24,7 @@ bool first_of_submap(const SegmentStore& store, Index segment) {
 SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& store,
                               const std::vector<Pose>& poses) {
   SubmapGraph fine(1.0, IndexKind::grid, graph.directional_inlier_m());
+  fine.planar = graph.planar;
   for (const LandmarkRecord& landmark : graph.landmarks) fine.add_landmark(landmark.position, 0);
   for (const Segment& segment : store.segments()) {
     const Index at = fine.add_submap(poses[segment.submap]);
@@ -39,7 +33,7 @@ SubmapGraph graph_of_segments(const SubmapGraph& graph, const SegmentStore& stor
     fine.submaps[at].held = submap.held && (submap.part == kNone || first_of_submap(store, at));
     for (std::size_t m = 0; m < segment.members.size(); ++m) {
       const SegmentMember& member = segment.members[m];
-      const Index landmark = survivor(graph, member.landmark);
+      const Index landmark = graph.survivor(member.landmark);
       if (graph.landmarks[landmark].memberships.empty() || member.count == 0) continue;
       const Index place = fine.join(at, landmark, member.mean, false);
       fine.submaps[at].members[place].count = member.count;
@@ -61,7 +55,7 @@ std::vector<Vec3> positions_of(const SubmapGraph& graph) {
 }
 
 /// The variance of one coordinate of an observation of weight 1, from what is left when the map is placed; 0 where too little is.
-double noise2_of(const SubmapGraph& fine, const SegmentStore& store, bool planar) {
+double noise2_of(const SubmapGraph& fine, const SegmentStore& store) {
   double squares = store.scatter_m2();
   double landmarks = 0.0;
   for (Index l = 0; l < fine.landmarks.size(); ++l) {
@@ -69,8 +63,8 @@ double noise2_of(const SubmapGraph& fine, const SegmentStore& store, bool planar
     squares += ReducedSystem::cost_of(fine, fine.poses, l);
     landmarks += 1.0;
   }
-  const double axes = planar ? 2.0 : 3.0;
-  const double unknowns_of_pose = planar ? 3.0 : 6.0;
+  const double axes = fine.planar ? 2.0 : 3.0;
+  const double unknowns_of_pose = fine.planar ? 3.0 : 6.0;
   const double freedom = axes * (static_cast<double>(store.observations()) - landmarks) -
                          unknowns_of_pose * (static_cast<double>(store.frames()) - 1.0);
   return freedom >= kLeastFreedom ? squares / freedom : 0.0;
@@ -78,26 +72,26 @@ double noise2_of(const SubmapGraph& fine, const SegmentStore& store, bool planar
 
 }  // namespace
 
-RefinedMap refine_map(const SubmapGraph& graph, const SegmentStore& store, const std::vector<bool>& in_gauge,
-                      bool planar) {
+RefinedMap refine_map(const SubmapGraph& graph, const SegmentStore& store,
+                      const std::vector<bool>& in_gauge) {
   RefinedMap map;
   map.poses = graph.poses;
-  settle(graph, planar, kMaxSteps, map.poses);
+  optimise(graph, kMaxSteps, map.poses);
   map.covariances.resize(graph.landmarks.size());
   SubmapGraph fine = graph_of_segments(graph, store, map.poses);
-  if (fine.submaps.empty() || step_work(fine, planar) > kMostWork) {
+  if (fine.submaps.empty() || step_work(fine) > kMostWork) {
     SubmapGraph whole = graph;
     whole.poses = map.poses;
     map.positions = positions_of(whole);
     return map;
   }
-  settle(fine, planar, kMaxSteps, fine.poses);
+  optimise(fine, kMaxSteps, fine.poses);
   map.positions = positions_of(fine);
   for (Index segment = static_cast<Index>(fine.poses.size()); segment-- > 0;)
     map.poses[store.segments()[segment].submap] = fine.poses[segment];
-  map.noise2_m2 = noise2_of(fine, store, planar);
+  map.noise2_m2 = noise2_of(fine, store);
   if (!(map.noise2_m2 > 0.0)) return map;
-  map.covariances = landmark_covariances(fine, in_gauge, planar);
+  map.covariances = landmark_covariances(fine, in_gauge);
   for (std::optional<Mat3>& covariance : map.covariances) {
     if (covariance) *covariance *= map.noise2_m2;
   }

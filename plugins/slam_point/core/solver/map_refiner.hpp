@@ -25,7 +25,6 @@ struct RefinedMap {
 ///
 /// Sparse Cholesky over six unknowns a segment: seconds for some thousand segments that overlap. Where the work would exceed
 /// some 2e10 multiplications, submaps stay whole and no covariances are stated.
-RefinedMap refine_map(const SubmapGraph& graph, const SegmentStore& store, const std::vector<bool>& in_gauge,
-                      bool planar);
+RefinedMap refine_map(const SubmapGraph& graph, const SegmentStore& store, const std::vector<bool>& in_gauge);
 
 }  // namespace hallway::slam_point

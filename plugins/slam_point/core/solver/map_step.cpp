@@ -2,13 +2,19 @@
 #include "slam_point/core/solver/map_step.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "slam_point/core/fit/alignment.hpp"
 
 namespace hallway::slam_point {
+namespace {
 
-void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar,
+constexpr double kConvergedGain = 1e-9;  // relative fall of the cost that ends the iteration
+
+}  // namespace
+
+void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest,
                     const Grouping& grouping) {
   std::vector<Index> all(graph.submaps.size());
   std::iota(all.begin(), all.end(), Index{0});
@@ -16,12 +22,12 @@ void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, In
     const Index part = graph.submaps[newest].part;
     std::erase_if(all, [&](Index submap) { return graph.submaps[submap].part != part; });
   }
-  begin(graph, poses, all, newest, planar, grouping);
+  begin(graph, poses, all, newest, grouping);
 }
 
 void MapStep::begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
-                    Index newest, bool planar, const Grouping& grouping) {
-  system_.take(graph, free, poses, planar, grouping);
+                    Index newest, const Grouping& grouping) {
+  system_.take(graph, free, poses, grouping);
   known_ = graph.submaps.size();
   members_.clear();
   newest_row_ = newest == kNone ? kNone : system_.row_of(newest);
@@ -69,7 +75,7 @@ void MapStep::solve() {
 
 /// Where a submap goes that hangs on a row, now that it is at `now`.
 Pose MapStep::moved(const Pose& now, Index row) const {
-  const Eigen::Quaterniond turn = rotation_exp(-move_[row].tail<3>());
+  const Quat turn = rotation_exp(-move_[row].tail<3>());
   const Vec3& from = system_.origin(row);
   return {(turn * now.q).normalized(), from - move_[row].head<3>() + turn * (now.t - from)};
 }
@@ -172,6 +178,26 @@ StepCost MapStep::apply(const SubmapGraph& graph, std::vector<Pose>& poses) {
   cost.after = cost.before;
   move_back(poses);
   return cost;
+}
+
+double step_work(const SubmapGraph& graph) {
+  ReducedSystem system;
+  BlockCholesky factor;
+  system.take_all(graph, factor);
+  return system.free().empty() ? 0.0 : factor.work();
+}
+
+int optimise(const SubmapGraph& graph, int max_steps, std::vector<Pose>& poses) {
+  MapStep step;
+  for (int steps = 0; steps < max_steps; ++steps) {
+    step.begin(graph, poses, kNone);
+    while (!step.advance(std::numeric_limits<double>::max())) {
+    }
+    const StepCost cost = step.apply(graph, poses);
+    if (cost.after == cost.before) return steps;
+    if (cost.before - cost.after <= kConvergedGain * cost.before) return steps + 1;
+  }
+  return max_steps;
 }
 
 }  // namespace hallway::slam_point

@@ -25,10 +25,10 @@ class MapStep {
   /// Takes down what places `free` (distinct submaps). `newest`, one of them, is the submap that those made later hang on;
   /// kNone: they stay. `grouping`: see ReducedSystem. O(places of their landmarks).
   void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, const std::vector<Index>& free,
-             Index newest, bool planar, const Grouping& grouping = {1, 1, 0});
+             Index newest, const Grouping& grouping = {1, 1, 0});
   /// The same for all submaps of the part of the graph that `newest` is in; kNone: of all parts. To be begun anew when the part
   /// changes in another way than by growing. O(map).
-  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest, bool planar,
+  void begin(const SubmapGraph& graph, const std::vector<Pose>& poses, Index newest,
              const Grouping& grouping = {1, 1, 0});
   /// Between begin() and apply().
   bool under_way() const { return under_way_; }
@@ -77,5 +77,11 @@ class MapStep {
   double spent_ = 0.0;
   double work_ = 0.0;
 };
+
+/// Multiplications that the factorisation of one step over all submaps takes.
+double step_work(const SubmapGraph& graph);
+
+/// Steps over all submaps until the sum of squares converges; at most `max_steps`. Returns the steps taken.
+int optimise(const SubmapGraph& graph, int max_steps, std::vector<Pose>& poses);
 
 }  // namespace hallway::slam_point

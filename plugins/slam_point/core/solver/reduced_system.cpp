@@ -42,8 +42,8 @@ ReducedSystem::Block ReducedSystem::expand(const PairSums& sums) {
 }
 
 void ReducedSystem::take(const SubmapGraph& graph, const std::vector<Index>& free,
-                         const std::vector<Pose>& poses, bool planar, const Grouping& grouping) {
-  planar_ = planar;
+                         const std::vector<Pose>& poses, const Grouping& grouping) {
+  planar_ = graph.planar;
   directional_ = graph.is_directional();
   choose(graph, free);
   make_groups(graph, free, poses, grouping);
@@ -53,6 +53,17 @@ void ReducedSystem::take(const SubmapGraph& graph, const std::vector<Index>& fre
   row_.resize(directional_ ? 0 : rows());
   row_blocks_.resize(directional_ ? rows() : 0);
   in_row_.assign(rows(), 0);
+}
+
+void ReducedSystem::take_all(const SubmapGraph& graph, BlockCholesky& factor) {
+  std::vector<Index> all(graph.submaps.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  take(graph, all, graph.poses);
+  factor.begin(rows());
+  double work = 0.0;
+  for (Index row = 0; row < rows(); ++row)
+    make_row(row, work, [&](Index column, const Block& block) { factor.add(row, column, block); });
+  if (!free_.empty()) factor.analyse();
 }
 
 void ReducedSystem::choose(const SubmapGraph& graph, const std::vector<Index>& free) {

@@ -32,10 +32,13 @@ class ReducedSystem {
   };
 
   /// Takes down the evidence of `free` (distinct submaps) and of the landmarks in them, at these poses of all
-  /// submaps. O(places of those landmarks). In `planar` data only x, y and yaw are to move. Where noise has directions, no groups are
+  /// submaps. O(places of those landmarks). In a planar graph only x, y and yaw move. Where noise has directions, no groups are
   /// made.
   void take(const SubmapGraph& graph, const std::vector<Index>& free, const std::vector<Pose>& poses,
-            bool planar, const Grouping& grouping = {1, 1, 0});
+            const Grouping& grouping = {1, 1, 0});
+
+  /// The same for all submaps, at their poses in the graph; gives the blocks of the system to `factor`, which is then analysed.
+  void take_all(const SubmapGraph& graph, BlockCholesky& factor);
 
   /// The free submaps, ascending.
   const std::vector<Index>& free() const { return free_; }

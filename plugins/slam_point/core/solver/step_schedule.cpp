@@ -31,7 +31,7 @@ StepSchedule::StepSchedule(const Options& options)
       window_size_(static_cast<std::size_t>(options.window)),
       settle_period_(options.global_period) {}
 
-bool StepSchedule::apply(SubmapGraph& graph, bool planar, double noise2_m2) {
+bool StepSchedule::apply(SubmapGraph& graph, double noise2_m2) {
   bool settled = false;
   if (window_step_.under_way() && window_step_ready_) {
     const StepCost cost = window_step_.apply(graph, graph.poses);
@@ -43,9 +43,9 @@ bool StepSchedule::apply(SubmapGraph& graph, bool planar, double noise2_m2) {
     settled = true;
   }
   if (window_step_due_) {
-    begin_window_step(graph, planar);
+    begin_window_step(graph);
   } else if (map_step_due_ && !window_step_.under_way()) {
-    begin_map_step(graph, planar);
+    begin_map_step(graph);
   }
   return settled;
 }
@@ -87,17 +87,16 @@ void StepSchedule::drop_steps() {
 }
 
 /// Of the submaps closed last and the one that is active.
-void StepSchedule::begin_window_step(const SubmapGraph& graph, bool planar) {
+void StepSchedule::begin_window_step(const SubmapGraph& graph) {
   free_ = window_;
   if (std::find(free_.begin(), free_.end(), graph.active()) == free_.end()) free_.push_back(graph.active());
-  window_step_.begin(graph, graph.poses, free_, graph.active(), planar,
-                     groups(window_steps_++, kAloneInWindow));
+  window_step_.begin(graph, graph.poses, free_, graph.active(), groups(window_steps_++, kAloneInWindow));
   window_step_ready_ = false;
   window_step_due_ = false;
 }
 
-void StepSchedule::begin_map_step(const SubmapGraph& graph, bool planar) {
-  map_step_.begin(graph, graph.poses, graph.active(), planar, groups(map_steps_++, 0));
+void StepSchedule::begin_map_step(const SubmapGraph& graph) {
+  map_step_.begin(graph, graph.poses, graph.active(), groups(map_steps_++, 0));
   map_step_ready_ = false;
   map_step_due_ = false;
   settled_submaps_ = static_cast<double>(graph.submaps.size());

@@ -23,7 +23,7 @@ class StepSchedule {
 
   /// Before a frame: applies the step that is ready, and begins the one that is due. `noise2_m2`: estimated variance of a coordinate
   /// of an observation. Returns whether a step over the whole map was applied.
-  bool apply(SubmapGraph& graph, bool planar, double noise2_m2);
+  bool apply(SubmapGraph& graph, double noise2_m2);
 
   /// After a frame: gives one of the steps a bounded amount of work.
   void advance(std::uint64_t frame);
@@ -42,8 +42,8 @@ class StepSchedule {
  private:
   /// Steps under way place submaps as they no longer are.
   void drop_steps();
-  void begin_window_step(const SubmapGraph& graph, bool planar);
-  void begin_map_step(const SubmapGraph& graph, bool planar);
+  void begin_window_step(const SubmapGraph& graph);
+  void begin_map_step(const SubmapGraph& graph);
   void judge_map_step(const StepCost& cost, double noise2_m2);
   void plan_map_step(const SubmapGraph& graph);
 

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/submaps/active_submap.hpp"
 
-#include <limits>
-
-#include "slam_point/core/fit/alignment.hpp"
-#include "slam_point/core/fit/robust_fit.hpp"
-
 namespace hallway::slam_point {
 
-void ActiveSubmap::open(SubmapGraph& graph, Index submap) {
+void ActiveSubmap::open(Index submap) {
   clear();
-  graph.activate(submap);
-  const std::vector<Member>& members = graph.submaps[submap].members;
+  graph_.activate(submap);
+  const std::vector<Member>& members = graph_.submaps[submap].members;
   for (Index m = 0; m < members.size(); ++m) {
     const Member& member = members[m];
     grid_.add(member.mean);
     if (member.count == 0) grid_.remove(m);  // emptied by a merge
     prior_.push_back({member.mean, member.count, member.quality});
   }
-  prior_informations_ = graph.submaps[submap].informations;
+  prior_informations_ = graph_.submaps[submap].informations;
 }
 
 void ActiveSubmap::begin_frame(const Pose& T_submap_sensor) {
@@ -26,27 +21,27 @@ void ActiveSubmap::begin_frame(const Pose& T_submap_sensor) {
   to_submap_ = PointMotion(T_submap_sensor);
 }
 
-void ActiveSubmap::join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first,
-                        std::uint64_t activation, const RayWeight& weight) {
+void ActiveSubmap::join(Index landmark, const Vec3& point, bool first, std::uint64_t activation,
+                        const RayWeight& weight) {
   const Vec3 mean = to_submap_ * point;
-  const Index member = graph.join(graph.active(), landmark, mean, first);
+  const Index member = graph_.join(graph_.active(), landmark, mean, first);
   grid_.add(mean);
   prior_.push_back({});
-  if (graph.is_directional()) prior_informations_.emplace_back(Mat3::Zero());
-  observe(graph, member, point, activation, weight);
+  if (graph_.is_directional()) prior_informations_.emplace_back(Mat3::Zero());
+  observe(member, point, activation, weight);
 }
 
-void ActiveSubmap::observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
+void ActiveSubmap::observe(Index member, const Vec3& point, std::uint64_t activation,
                            const RayWeight& weight) {
   sightings_.push_back({member, point, weight.along});
-  if (graph.is_directional()) {
+  if (graph_.is_directional()) {
     across_.push_back(weight.across);
-    graph.observe(member, to_submap_ * point, activation, weight.along,
-                  ray_information(to_submap_.turned(point), weight));
+    graph_.observe(member, to_submap_ * point, activation, weight.along,
+                   ray_information(to_submap_.turned(point), weight));
   } else {
-    graph.observe(member, to_submap_ * point, activation, weight.along);
+    graph_.observe(member, to_submap_ * point, activation, weight.along);
   }
-  grid_.move(member, graph.submaps[graph.active()].members[member].mean);
+  grid_.move(member, graph_.submaps[graph_.active()].members[member].mean);
 }
 
 void ActiveSubmap::withdraw(Index member) {
@@ -68,18 +63,18 @@ void ActiveSubmap::withdraw(Index member) {
   if (!across_.empty()) across_.resize(kept);
 }
 
-void ActiveSubmap::realign(SubmapGraph& graph, int sweeps, bool planar, double min_spread_m2) {
+void ActiveSubmap::realign(int sweeps, const FitRules& rules) {
   for (int i = 0; i < sweeps; ++i) {
-    if (graph.is_directional()) {
-      sweep_directional(graph, planar, min_spread_m2);
+    if (graph_.is_directional()) {
+      sweep_directional(rules);
     } else {
-      sweep(graph, planar, min_spread_m2);
+      sweep(rules);
     }
   }
 }
 
-void ActiveSubmap::sweep(SubmapGraph& graph, bool planar, double min_spread_m2) {
-  std::vector<Member>& members = graph.submaps[graph.active()].members;
+void ActiveSubmap::sweep(const FitRules& rules) {
+  std::vector<Member>& members = graph_.submaps[graph_.active()].members;
   references_.clear();
   sums_.clear();
   for (std::size_t m = 0; m < members.size(); ++m) {
@@ -87,7 +82,7 @@ void ActiveSubmap::sweep(SubmapGraph& graph, bool planar, double min_spread_m2) 
     references_.push_back({members[m].mean, members[m].weight()});
     sums_.push_back({known * prior_[m].mean, known, prior_[m].count});
   }
-  for (std::size_t f = 0; f < frames_.size(); ++f) align_and_sum(f, planar, min_spread_m2);
+  for (std::size_t f = 0; f < frames_.size(); ++f) align_and_sum(f, rules);
   for (std::size_t m = 0; m < members.size(); ++m) {
     const Sum& sum = sums_[m];
     members[m].count = sum.count;
@@ -97,13 +92,13 @@ void ActiveSubmap::sweep(SubmapGraph& graph, bool planar, double min_spread_m2) 
   }
 }
 
-void ActiveSubmap::sweep_directional(SubmapGraph& graph, bool planar, double min_spread_m2) {
-  for (std::size_t f = 0; f < frames_.size(); ++f) align_directional(graph, f, planar, min_spread_m2);
-  average_directional(graph);
+void ActiveSubmap::sweep_directional(const FitRules& rules) {
+  for (std::size_t f = 0; f < frames_.size(); ++f) align_directional(f, rules);
+  average_directional();
 }
 
 /// Aligns a frame to the members as the sweep found them, and adds it to what they become.
-void ActiveSubmap::align_and_sum(std::size_t frame, bool planar, double min_spread_m2) {
+void ActiveSubmap::align_and_sum(std::size_t frame, const FitRules& rules) {
   const std::size_t begin = frames_[frame].first_sighting;
   const std::size_t end = end_of(frame);
   Pose& T_submap_sensor = frames_[frame].T_submap_sensor;
@@ -113,7 +108,7 @@ void ActiveSubmap::align_and_sum(std::size_t frame, bool planar, double min_spre
     const Reference& reference = references_[sighting.member];
     alignment.add(reference.mean, sighting.point, pair_weight(reference.weight, sighting.weight));
   }
-  alignment.solve(planar, min_spread_m2, T_submap_sensor);
+  alignment.solve(rules, T_submap_sensor);
   const PointMotion to_submap(T_submap_sensor);
   for (std::size_t s = begin; s < end; ++s) {
     const Sighting& sighting = sightings_[s];
@@ -124,9 +119,8 @@ void ActiveSubmap::align_and_sum(std::size_t frame, bool planar, double min_spre
   }
 }
 
-void ActiveSubmap::align_directional(const SubmapGraph& graph, std::size_t frame, bool planar,
-                                     double min_spread_m2) {
-  const SubmapRecord& submap = graph.submaps[graph.active()];
+void ActiveSubmap::align_directional(std::size_t frame, const FitRules& rules) {
+  const SubmapRecord& submap = graph_.submaps[graph_.active()];
   const std::size_t end = end_of(frame);
   pairs_.clear();
   for (std::size_t s = frames_[frame].first_sighting; s < end; ++s) {
@@ -134,12 +128,11 @@ void ActiveSubmap::align_directional(const SubmapGraph& graph, std::size_t frame
     pairs_.push_back({member.mean, submap.informations[sightings_[s].member], sightings_[s].point,
                       weight_of(s), pair_weight(member.weight(), sightings_[s].weight)});
   }
-  directional_fit(pairs_, {planar, min_spread_m2, std::numeric_limits<double>::infinity()},
-                  frames_[frame].T_submap_sensor);
+  directional_fit(pairs_, rules.without_outliers(), frames_[frame].T_submap_sensor);
 }
 
-void ActiveSubmap::average_directional(SubmapGraph& graph) const {
-  SubmapRecord& submap = graph.submaps[graph.active()];
+void ActiveSubmap::average_directional() const {
+  SubmapRecord& submap = graph_.submaps[graph_.active()];
   std::vector<Member>& members = submap.members;
   submap.informations = prior_informations_;
   for (std::size_t m = 0; m < members.size(); ++m) {

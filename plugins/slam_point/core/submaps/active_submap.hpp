@@ -13,30 +13,30 @@ namespace hallway::slam_point {
 /// closes, so that they can be aligned again to what they became together.
 class ActiveSubmap {
  public:
-  /// `reach_m`: the largest distance that visit_members_near() is asked for [m].
-  explicit ActiveSubmap(double reach_m, IndexKind index = IndexKind::grid) : grid_(index, reach_m) {}
+  /// `graph` must outlive it. `reach_m`: the largest distance that visit_members_near() is asked for [m].
+  ActiveSubmap(SubmapGraph& graph, double reach_m, IndexKind index = IndexKind::grid)
+      : graph_(graph), grid_(index, reach_m) {}
 
-  /// Takes up `submap` of `graph`, new or old, and makes it the graph's active one.
-  void open(SubmapGraph& graph, Index submap);
+  /// Takes up `submap`, new or old, and makes it the graph's active one.
+  void open(Index submap);
 
   /// Begins a frame; T_submap_sensor is where it was aligned.
   void begin_frame(const Pose& T_submap_sensor);
 
   /// Adds a new member for `landmark`, seen at `point` by the frame begun last. `first` says that this frame starts the submap.
-  void join(SubmapGraph& graph, Index landmark, const Vec3& point, bool first, std::uint64_t activation,
+  void join(Index landmark, const Vec3& point, bool first, std::uint64_t activation,
             const RayWeight& weight = {});
 
   /// Averages an observation of the frame begun last into a member. `weight`: see Observation::weights(); across the ray only
   /// where the graph's noise has directions.
-  void observe(SubmapGraph& graph, Index member, const Vec3& point, std::uint64_t activation,
-               const RayWeight& weight = {});
+  void observe(Index member, const Vec3& point, std::uint64_t activation, const RayWeight& weight = {});
 
   /// Takes a member out of the kept frames, so that none is aligned to it again. O(kept sightings).
   void withdraw(Index member);
 
   /// Aligns each kept frame to the members' means again and averages anew, `sweeps` times; what the submap knew when it
-  /// was opened counts as it did. `min_spread_m2`: see Alignment::solve; a frame below it keeps its alignment.
-  void realign(SubmapGraph& graph, int sweeps, bool planar, double min_spread_m2);
+  /// was opened counts as it did. A frame whose pose that leaves open keeps its alignment.
+  void realign(int sweeps, const FitRules& rules);
 
   /// Calls visit(member) for each member near p (submap frame) and some farther ones.
   template <typename Visit>
@@ -80,13 +80,14 @@ class ActiveSubmap {
     return frame + 1 < frames_.size() ? frames_[frame + 1].first_sighting : sightings_.size();
   }
   RayWeight weight_of(std::size_t sighting) const { return {sightings_[sighting].weight, across_[sighting]}; }
-  void sweep(SubmapGraph& graph, bool planar, double min_spread_m2);
-  void sweep_directional(SubmapGraph& graph, bool planar, double min_spread_m2);
-  void align_and_sum(std::size_t frame, bool planar, double min_spread_m2);
-  void align_directional(const SubmapGraph& graph, std::size_t frame, bool planar, double min_spread_m2);
+  void sweep(const FitRules& rules);
+  void sweep_directional(const FitRules& rules);
+  void align_and_sum(std::size_t frame, const FitRules& rules);
+  void align_directional(std::size_t frame, const FitRules& rules);
 
-  void average_directional(SubmapGraph& graph) const;
+  void average_directional() const;
 
+  SubmapGraph& graph_;
   PointIndex grid_;  // of members' means
   std::vector<Frame> frames_;
   PointMotion to_submap_{Pose{}};  // of the frame begun last

@@ -3,7 +3,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
 #include "slam_point/core/fit/alignment.hpp"
 #include "slam_point/core/fit/robust_fit.hpp"
@@ -20,8 +19,8 @@ constexpr double kLeastRange_m = 1e-3;
 
 }  // namespace
 
-void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-                             const std::vector<Sighting>& sightings) {
+void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, const FitRules& rules,
+                             const Sightings& sightings) {
   ++frames_;
   observations_ += sightings.size();
   for (const Sighting& sighting : sightings) {
@@ -36,17 +35,17 @@ void SegmentStore::add_frame(Index submap, const Pose& T_submap_sensor, bool pla
   const Index chosen = choose(submap, sightings);
   if (chosen == kNone) {
     open(start(submap, sightings));
-    average(T_submap_sensor, planar, sightings);
+    average(T_submap_sensor, rules.planar, sightings);
   } else {
     if (chosen != open_) open(chosen);
-    const Pose aligned = directional_ ? align_directional(T_submap_sensor, planar, min_spread_m2, sightings)
-                                      : align(T_submap_sensor, planar, min_spread_m2, sightings);
-    average(aligned, planar, sightings);
+    const Pose aligned = directional_ ? align_directional(T_submap_sensor, rules, sightings)
+                                      : align(T_submap_sensor, rules, sightings);
+    average(aligned, rules.planar, sightings);
   }
   ++segments_[open_].frames;
 }
 
-void SegmentStore::take_view(const Pose& T_submap_sensor, const std::vector<Sighting>& sightings) {
+void SegmentStore::take_view(const Pose& T_submap_sensor, const Sightings& sightings) {
   Vec3 sum = Vec3::Zero();
   double nearness = 0.0;
   for (const Sighting& sighting : sightings) {
@@ -68,7 +67,7 @@ bool SegmentStore::is_from_here(const Segment& segment) const {
 }
 
 /// The segment that a frame belongs to; kNone for a new one.
-Index SegmentStore::choose(Index submap, const std::vector<Sighting>& sightings) {
+Index SegmentStore::choose(Index submap, const Sightings& sightings) {
   if (open_ != kNone && segments_[open_].submap == submap && is_from_here(segments_[open_]) &&
       overlap(segments_[open_], sightings.size()) >= kOverlap) {
     return open_;
@@ -94,7 +93,7 @@ double SegmentStore::overlap(const Segment& segment, std::size_t seen) const {
   return static_cast<double>(shared) / static_cast<double>(seen + segment.first_frame_size - shared);
 }
 
-Index SegmentStore::start(Index submap, const std::vector<Sighting>& sightings) {
+Index SegmentStore::start(Index submap, const Sightings& sightings) {
   const auto index = static_cast<Index>(segments_.size());
   Segment segment;
   segment.submap = submap;
@@ -117,8 +116,8 @@ void SegmentStore::open(Index segment) {
   }
 }
 
-Pose SegmentStore::align(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-                         const std::vector<Sighting>& sightings) const {
+Pose SegmentStore::align(const Pose& T_submap_sensor, const FitRules& rules,
+                         const Sightings& sightings) const {
   const std::vector<SegmentMember>& members = segments_[open_].members;
   Alignment alignment(T_submap_sensor);
   for (const Sighting& sighting : sightings) {
@@ -127,12 +126,12 @@ Pose SegmentStore::align(const Pose& T_submap_sensor, bool planar, double min_sp
     alignment.add(member.mean, sighting.point, pair_weight(member.weight, sighting.weight));
   }
   Pose aligned = T_submap_sensor;
-  alignment.solve(planar, min_spread_m2, aligned);
+  alignment.solve(rules, aligned);
   return aligned;
 }
 
-Pose SegmentStore::align_directional(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-                                     const std::vector<Sighting>& sightings) {
+Pose SegmentStore::align_directional(const Pose& T_submap_sensor, const FitRules& rules,
+                                     const Sightings& sightings) {
   const Segment& segment = segments_[open_];
   pairs_.clear();
   for (const Sighting& sighting : sightings) {
@@ -142,7 +141,7 @@ Pose SegmentStore::align_directional(const Pose& T_submap_sensor, bool planar, d
                       sighting.weights(), pair_weight(segment.members[place].weight, sighting.weight)});
   }
   Pose aligned = T_submap_sensor;
-  directional_fit(pairs_, {planar, min_spread_m2, std::numeric_limits<double>::infinity()}, aligned);
+  directional_fit(pairs_, rules.without_outliers(), aligned);
   return aligned;
 }
 
@@ -160,7 +159,7 @@ void SegmentStore::average_directional(const Vec3& p, const Vec3& ray, const Sig
   member.mean = member.count == 1 ? p : Vec3(member.mean + known.inverse() * (information * off));
 }
 
-void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings) {
+void SegmentStore::average(const Pose& T_submap_sensor, bool planar, const Sightings& sightings) {
   std::vector<SegmentMember>& members = segments_[open_].members;
   const PointMotion to_submap(T_submap_sensor);
   std::size_t known = 0;

@@ -44,6 +44,7 @@ class SegmentStore {
 
     RayWeight weights() const { return {weight, across}; }
   };
+  using Sightings = std::vector<Sighting>;
 
   /// `directional`: noise has directions.
   explicit SegmentStore(bool directional = false) : directional_(directional) {}
@@ -51,8 +52,8 @@ class SegmentStore {
   /// Adds a frame that `submap` took in. `T_submap_sensor` is where it stood there; within its segment it is aligned anew, to
   /// the segment's means, unless they leave its rotation open (`min_spread_m2`: see Alignment::solve). Landmarks of a frame
   /// are distinct. O(points), but where another segment is looked for: then O(segments of the submap * members).
-  void add_frame(Index submap, const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-                 const std::vector<Sighting>& sightings);
+  void add_frame(Index submap, const Pose& T_submap_sensor, const FitRules& rules,
+                 const Sightings& sightings);
 
   const std::vector<Segment>& segments() const { return segments_; }
 
@@ -69,18 +70,16 @@ class SegmentStore {
   void clear();
 
  private:
-  void take_view(const Pose& T_submap_sensor, const std::vector<Sighting>& sightings);
+  void take_view(const Pose& T_submap_sensor, const Sightings& sightings);
   bool is_from_here(const Segment& segment) const;
-  Index choose(Index submap, const std::vector<Sighting>& sightings);
+  Index choose(Index submap, const Sightings& sightings);
   double overlap(const Segment& segment, std::size_t seen) const;
-  Index start(Index submap, const std::vector<Sighting>& sightings);
+  Index start(Index submap, const Sightings& sightings);
   void open(Index segment);
-  Pose align_directional(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-                         const std::vector<Sighting>& sightings);
+  Pose align_directional(const Pose& T_submap_sensor, const FitRules& rules, const Sightings& sightings);
   void average_directional(const Vec3& p, const Vec3& ray, const Sighting& sighting);
-  Pose align(const Pose& T_submap_sensor, bool planar, double min_spread_m2,
-             const std::vector<Sighting>& sightings) const;
-  void average(const Pose& T_submap_sensor, bool planar, const std::vector<Sighting>& sightings);
+  Pose align(const Pose& T_submap_sensor, const FitRules& rules, const Sightings& sightings) const;
+  void average(const Pose& T_submap_sensor, bool planar, const Sightings& sightings);
 
   bool directional_;
   // Of the frame that is being added, where noise has directions; submap frame:

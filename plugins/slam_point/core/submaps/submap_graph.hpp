@@ -129,6 +129,12 @@ class SubmapGraph {
   /// Not while the active submap holds both.
   void merge(Index into, Index from);
 
+  /// What a landmark has become by merges.
+  Index survivor(Index landmark) const {
+    while (landmarks[landmark].merged_into != kNone) landmark = landmarks[landmark].merged_into;
+    return landmark;
+  }
+
   /// Takes a landmark that moves out of all submaps: their places for it stay, empty. It is found no more.
   void withdraw(Index landmark);
 
@@ -144,6 +150,23 @@ class SubmapGraph {
     grid_.visit_near(p, [&](Index l) {
       if (landmarks[l].part == part) visit(l);
     });
+  }
+
+  /// The landmark that `landmark` probably is: of the others within `bound_m`, which is at most the reach, the nearest that does not differ; of equally
+  /// near ones the oldest. kNone if there is none. differs(other) tells two that are known to be two.
+  template <typename Differs>
+  Index find_duplicate(Index landmark, double bound_m, Differs&& differs) const {
+    const Vec3& place = landmarks[landmark].position;
+    double nearest2 = bound_m * bound_m;
+    Index duplicate = kNone;
+    visit_landmarks_near(place, [&](Index other) {
+      const double d2 = (landmarks[other].position - place).squaredNorm();
+      if (other == landmark || landmarks[other].count == 0 || d2 > nearest2) return;
+      if ((d2 == nearest2 && duplicate < other) || differs(other)) return;
+      nearest2 = d2;
+      duplicate = other;
+    });
+    return duplicate;
   }
 
   /// The part that the sensor is in.
@@ -162,7 +185,8 @@ class SubmapGraph {
   std::vector<SubmapRecord> submaps;
   std::vector<Pose> poses;  ///< T_map_submap of each submap
   std::vector<LandmarkInformation>
-      informations;  ///< of each landmark; where noise has directions, else empty
+      informations;     ///< of each landmark; where noise has directions, else empty
+  bool planar = false;  ///< all evidence is in the plane z = 0: only x, y and yaw of a pose are unknown
 
  private:
   void sum_up(Index landmark);

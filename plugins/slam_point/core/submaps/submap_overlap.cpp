@@ -10,7 +10,7 @@ double overlap_of(std::size_t shared, std::size_t seen, std::size_t seen_first) 
 
 }  // namespace
 
-double SubmapOverlap::with_active(const SubmapGraph& graph, const std::vector<Observation>& frame) {
+double SubmapOverlap::with_active(const SubmapGraph& graph, const Observations& frame) {
   const SubmapRecord& submap = graph.submaps[graph.active()];
   std::size_t seen = 0;
   std::size_t shared = 0;
@@ -23,7 +23,7 @@ double SubmapOverlap::with_active(const SubmapGraph& graph, const std::vector<Ob
   return overlap_of(shared, seen, submap.first_frame_size);
 }
 
-Index SubmapOverlap::best(const SubmapGraph& graph, const std::vector<Observation>& frame, double least) {
+Index SubmapOverlap::best(const SubmapGraph& graph, const Observations& frame, double least) {
   shared_.resize(graph.submaps.size(), 0);
   sharing_.clear();
   std::size_t seen = 0;

@@ -3,61 +3,79 @@
 
 #include <algorithm>
 
-#include "slam_point/core/submaps/landmark_merging.hpp"
-
 namespace hallway::slam_point {
 
 SubmapSequence::SubmapSequence(const Options& options, SubmapGraph& graph, FrameMatcher& matcher)
     : options_(options),
       graph_(graph),
       matcher_(matcher),
-      active_(std::max(options.match_bound(), matcher.agreement()), static_cast<IndexKind>(options.index)),
+      active_(graph, std::max(options.match_bound(), options.agreement()),
+              static_cast<IndexKind>(options.index)),
       segments_(options.is_directional()),
       schedule_(options) {}
 
-bool SubmapSequence::is_over(const std::vector<Observation>& frame) const {
+bool SubmapSequence::is_over(const Observations& frame) const {
   return SubmapOverlap::with_active(graph_, frame) < options_.overlap ||
          active_.frames() >= static_cast<std::size_t>(options_.max_submap_frames);
 }
 
-std::size_t SubmapSequence::close(MotionFilter& motion_filter, bool planar, bool followed,
-                                  std::vector<Observation>& frame) {
+std::size_t SubmapSequence::close(MotionFilter& motion_filter, Frame& frame) {
   const Index closed = graph_.active();
-  active_.realign(graph_, options_.sweeps, planar, matcher_.rules(planar).min_spread_m2);
+  active_.realign(options_.sweeps, matcher_.rules());
   graph_.deactivate();
   schedule_.submap_closed(graph_, closed);
-  // Who follows two points says that they are two.
-  if (followed) return 0;
-  return merge_landmarks(graph_, closed, options_.separation(), matcher_, motion_filter, frame);
+  // A sensor that follows two points says that they are two.
+  if (frame.followed) return 0;
+  return merge_duplicates(closed, motion_filter, frame.observations);
 }
 
-SubmapSequence::Taken SubmapSequence::take_up(const std::vector<Observation>& frame, bool planar,
-                                              const Pose& T_map_sensor) {
+/// Of each member and the nearest other landmark, if that is near, the older one stays (thesis 6.5.2). Two that were seen together are two, so a
+/// moving point that passes a landmark never becomes it.
+std::size_t SubmapSequence::merge_duplicates(Index submap, MotionFilter& motion_filter, Observations& frame) {
+  std::size_t merged = 0;
+  matcher_.mark(frame);
+  for (const Member& member : graph_.submaps[submap].members) {
+    if (member.count == 0) continue;
+    const Index landmark = member.landmark;
+    const Index duplicate = graph_.find_duplicate(landmark, options_.separation(), [&](Index other) {
+      return (matcher_.is_marked(other) && matcher_.is_marked(landmark)) ||
+             motion_filter.are_two(landmark, other);
+    });
+    if (duplicate == kNone) continue;
+    const Index into = std::min(landmark, duplicate);
+    const Index from = std::max(landmark, duplicate);
+    graph_.merge(into, from);
+    motion_filter.merged(from, into);
+    for (Observation& observation : frame) {
+      if (observation.landmark == from) observation.landmark = into;
+    }
+    matcher_.mark(frame);
+    ++merged;
+  }
+  return merged;
+}
+
+SubmapSequence::Taken SubmapSequence::take_up(const Observations& frame, const Pose& T_map_sensor) {
   const Index old = overlap_.best(graph_, frame, options_.overlap);
   if (old != kNone) {
     Pose T = graph_.poses[old].inverse() * T_map_sensor;
-    if (reopen(old, frame, planar, T)) return {T, true};
+    if (matcher_.fit_submap(old, frame, T)) {
+      ++activation_;
+      active_.open(old);
+      return {T, true};
+    }
   }
   open_new(T_map_sensor);
   return {Pose{}, false};
 }
 
-bool SubmapSequence::reopen(Index submap, const std::vector<Observation>& frame, bool planar,
-                            Pose& T_submap_sensor) {
-  if (!matcher_.fit_submap(graph_, submap, frame, planar, T_submap_sensor)) return false;
-  ++activation_;
-  active_.open(graph_, submap);
-  return true;
-}
-
 void SubmapSequence::open_new(const Pose& T_map_sensor) {
   ++activation_;
-  active_.open(graph_, graph_.add_submap(T_map_sensor));
+  active_.open(graph_.add_submap(T_map_sensor));
   first_of_submap_ = true;
 }
 
-std::size_t SubmapSequence::integrate(const std::vector<Observation>& frame, const Pose& T_submap_sensor,
-                                      bool planar) {
+std::size_t SubmapSequence::integrate(const Observations& frame, const Pose& T_submap_sensor) {
   std::size_t seen = 0;
   active_.begin_frame(T_submap_sensor);
   sightings_.clear();
@@ -70,15 +88,14 @@ std::size_t SubmapSequence::integrate(const std::vector<Observation>& frame, con
     const Index member = landmark.active_member;
     ++seen;
     if (member == kNone) {
-      active_.join(graph_, observation.landmark, observation.point, first_of_submap_, activation_,
+      active_.join(observation.landmark, observation.point, first_of_submap_, activation_,
                    observation.weights());
     } else {
-      active_.observe(graph_, member, observation.point, activation_, observation.weights());
+      active_.observe(member, observation.point, activation_, observation.weights());
     }
   }
   first_of_submap_ = false;
-  segments_.add_frame(graph_.active(), T_submap_sensor, planar, matcher_.rules(planar).min_spread_m2,
-                      sightings_);
+  segments_.add_frame(graph_.active(), T_submap_sensor, matcher_.rules(), sightings_);
   return seen;
 }
 

@@ -23,11 +23,11 @@ class SubmapSequence {
   SubmapSequence(const Options& options, SubmapGraph& graph, FrameMatcher& matcher);
 
   /// Whether a frame sees too little of what the active submap's first frame saw, or the submap has enough frames.
-  bool is_over(const std::vector<Observation>& frame) const;
+  bool is_over(const Observations& frame) const;
 
-  /// Closes the active submap; matches in `frame` are made to follow what is merged. `followed`: the sensor's tracks tell landmarks apart, so
-  /// none are merged. Returns how many landmarks were merged.
-  std::size_t close(MotionFilter& motion_filter, bool planar, bool followed, std::vector<Observation>& frame);
+  /// Closes the active submap, and merges its landmarks with duplicates, unless the sensor's tracks distinguish them; the associations of `frame`
+  /// follow. Returns how many landmarks were merged.
+  std::size_t close(MotionFilter& motion_filter, Frame& frame);
 
   /// How a submap was taken up.
   struct Taken {
@@ -35,12 +35,12 @@ class SubmapSequence {
     bool reopened = false;
   };
   /// Takes up the old submap that a frame overlaps with most, where it determines a pose in it, else a new one. None is active before.
-  Taken take_up(const std::vector<Observation>& frame, bool planar, const Pose& T_map_sensor);
+  Taken take_up(const Observations& frame, const Pose& T_map_sensor);
   /// Takes up a new submap, which begins with the frame at T_map_sensor.
   void open_new(const Pose& T_map_sensor);
 
   /// Averages a frame aligned at T_submap_sensor into the active submap. Returns how many landmarks it saw.
-  std::size_t integrate(const std::vector<Observation>& frame, const Pose& T_submap_sensor, bool planar);
+  std::size_t integrate(const Observations& frame, const Pose& T_submap_sensor);
 
   /// The activation from which on landmarks lie where the recent submaps put them.
   std::uint64_t local_since() const;
@@ -49,6 +49,7 @@ class SubmapSequence {
 
   ActiveSubmap& active() { return active_; }
   const ActiveSubmap& active() const { return active_; }
+  const SubmapGraph& graph() const { return graph_; }
   StepSchedule& schedule() { return schedule_; }
   const SegmentStore& segments() const { return segments_; }
 
@@ -56,7 +57,7 @@ class SubmapSequence {
   void clear();
 
  private:
-  bool reopen(Index submap, const std::vector<Observation>& frame, bool planar, Pose& T_submap_sensor);
+  std::size_t merge_duplicates(Index submap, MotionFilter& motion_filter, Observations& frame);
 
   Options options_;
   SubmapGraph& graph_;
@@ -65,7 +66,7 @@ class SubmapSequence {
   SegmentStore segments_;
   SubmapOverlap overlap_;
   StepSchedule schedule_;
-  std::vector<SegmentStore::Sighting> sightings_;
+  SegmentStore::Sightings sightings_;
   std::uint64_t activation_ = 0;
   bool first_of_submap_ = false;  // the next frame integrated begins the active submap
 };

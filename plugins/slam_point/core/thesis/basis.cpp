@@ -50,7 +50,7 @@ Pose basis_pose(const Vec3& origin, const Vec3& on_x, const Vec3& on_xy) {
   rotation.row(0) = x;
   rotation.row(1) = y;
   rotation.row(2) = x.cross(y);
-  return {Eigen::Quaterniond(rotation).normalized(), -(rotation * origin)};
+  return {Quat(rotation).normalized(), -(rotation * origin)};
 }
 
 bool rigid_fit(std::span<const Vec3> a, std::span<const Vec3> b, Pose& T_a_b) {
@@ -59,13 +59,9 @@ bool rigid_fit(std::span<const Vec3> a, std::span<const Vec3> b, Pose& T_a_b) {
   const Vec3 mean_b = mean_of(b);
   Mat3 cross = Mat3::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) cross += (a[i] - mean_a) * (b[i] - mean_b).transpose();
-  const Singular svd = singular(cross);
-  if (!(svd.values(1) > kLeastSingularShare * svd.values(0))) return false;
-  const double sign = (svd.left * svd.right.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Mat3 r = svd.left * Vec3(1.0, 1.0, sign).asDiagonal() * svd.right.transpose();
-  T_a_b.q = Eigen::Quaterniond(r).normalized();
-  T_a_b.t = mean_a - T_a_b.q * mean_b;
-  return true;
+  const std::optional<Quat> q = determined_rotation(cross, kLeastSingularShare);
+  if (q) T_a_b = {*q, mean_a - *q * mean_b};
+  return q.has_value();
 }
 
 }  // namespace hallway::slam_point::thesis

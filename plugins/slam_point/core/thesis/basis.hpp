@@ -20,7 +20,7 @@ bool choose_basis(std::span<const Vec3> points, double least_m, BasisPoints& bas
 Pose basis_pose(const Vec3& origin, const Vec3& on_x, const Vec3& on_xy);
 
 /// The T_a_b that minimises sum |a - T_a_b b|^2 over points in matching order, from nothing (Besl and McKay 1992, thesis 6.3.2): by
-/// singular values. False with fewer than three, or when they lie on a line. O(n).
+/// singular values. False with fewer than three, or when they are on a line, where the shared rigid_fit() gives one of the best. O(n).
 bool rigid_fit(std::span<const Vec3> a, std::span<const Vec3> b, Pose& T_a_b);
 
 }  // namespace hallway::slam_point::thesis

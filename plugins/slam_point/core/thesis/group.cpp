@@ -32,7 +32,7 @@ bool Group::align(std::span<const Vec3> seen, Pose& T_group_sensor) const {
   Alignment alignment(T_group_sensor);
   for (std::size_t m = 0; m < mean_.size(); ++m) alignment.add(mean_[m], seen[m], 1.0);
   // From iteration to iteration the sensor turns little; where it was away for longer, only the fit from nothing finds it.
-  return alignment.solve(false, 0.0, T_group_sensor) || rigid_fit(mean_, seen, T_group_sensor);
+  return alignment.solve({}, T_group_sensor) || rigid_fit(mean_, seen, T_group_sensor);
 }
 
 bool Group::place(std::span<const Vec3> places) {
@@ -40,7 +40,7 @@ bool Group::place(std::span<const Vec3> places) {
   if (placed_) {
     Alignment alignment(T_map_group_);
     for (std::size_t m = 0; m < places.size(); ++m) alignment.add(places[m], means[m], 1.0);
-    if (alignment.solve(false, 0.0, T_map_group_)) return true;
+    if (alignment.solve({}, T_map_group_)) return true;
   }
   placed_ = rigid_fit(places, means, T_map_group_) || placed_;
   return placed_;

@@ -29,7 +29,7 @@ void Grouping::add(Index track) {
   if (options_.levels >= 3) in_view_.push_back(track);
 }
 
-void Grouping::compute(Tracks& tracks, bool planar) {
+void Grouping::compute(Tracks& tracks) {
   const Iteration now = tracks.now();
   ready_.clear();
   for (const Index track : tracks.seen_between(now, now)) {
@@ -45,19 +45,17 @@ void Grouping::compute(Tracks& tracks, bool planar) {
   std::sort(ready_.begin(), ready_.end());
   for (const Index g : ready_) {
     average_between(*groups_[g].group, tracks, now, now);
-    if (place(groups_[g], tracks)) place_landmarks(g, tracks, planar);
+    if (place(groups_[g], tracks)) place_landmarks(g, tracks);
   }
 }
 
-void Grouping::create(Tracks& tracks, bool planar) {
-  create_due(without_temporary_, 1, static_cast<Iteration>(options_.temporary_look_back), tracks, planar);
-  if (options_.levels >= 2)
-    create_due(without_final_, 2, static_cast<Iteration>(options_.look_back), tracks, planar);
-  if (options_.levels >= 3) create_for_gone(tracks, planar);
+void Grouping::create(Tracks& tracks) {
+  create_due(without_temporary_, 1, static_cast<Iteration>(options_.temporary_look_back), tracks);
+  if (options_.levels >= 2) create_due(without_final_, 2, static_cast<Iteration>(options_.look_back), tracks);
+  if (options_.levels >= 3) create_for_gone(tracks);
 }
 
-void Grouping::create_due(std::deque<Index>& waiting, int level, Iteration look_back, Tracks& tracks,
-                          bool planar) {
+void Grouping::create_due(std::deque<Index>& waiting, int level, Iteration look_back, Tracks& tracks) {
   while (!waiting.empty()) {
     const Index creation = waiting.front();
     const Track& track = tracks[creation];
@@ -67,9 +65,9 @@ void Grouping::create_due(std::deque<Index>& waiting, int level, Iteration look_
     const bool first = track.first == 0;
     Selection selection;
     if (select(tracks, creation, level, look_back, false, selection)) {
-      make(tracks, selection, level, track.first, false, planar);
+      make(tracks, selection, level, track.first, false);
     } else if (first && select(tracks, creation, level, look_back, true, selection)) {
-      make(tracks, selection, level, track.first, true, planar);
+      make(tracks, selection, level, track.first, true);
     }
   }
 }
@@ -96,7 +94,7 @@ bool Grouping::select(Tracks& tracks, Index creation, int level, Iteration look_
   return select_by_constants(std::move(previous), std::move(next), constants, first, selection);
 }
 
-void Grouping::create_for_gone(Tracks& tracks, bool planar) {
+void Grouping::create_for_gone(Tracks& tracks) {
   std::vector<Index> due;
   const auto unseen = static_cast<Iteration>(options_.match_iterations);
   if (tracks.now() > unseen) {
@@ -116,9 +114,9 @@ void Grouping::create_for_gone(Tracks& tracks, bool planar) {
     Selection selection;
     const Iteration since = track.history.between(0, track.last).front().iteration;
     if (select_for_gone(tracks, creation, false, selection)) {
-      make(tracks, selection, 3, since, false, planar);
+      make(tracks, selection, 3, since, false);
     } else if (track.first == 0 && select_for_gone(tracks, creation, true, selection)) {
-      make(tracks, selection, 3, since, true, planar);
+      make(tracks, selection, 3, since, true);
     }
   }
 }
@@ -143,8 +141,7 @@ bool Grouping::select_for_gone(Tracks& tracks, Index creation, bool first, Selec
   return select_by_total(presence_of(creation), std::move(previous), std::move(next), first, selection);
 }
 
-void Grouping::make(Tracks& tracks, const Selection& selection, int level, Iteration since, bool starts,
-                    bool planar) {
+void Grouping::make(Tracks& tracks, const Selection& selection, int level, Iteration since, bool starts) {
   std::vector<Index> points = selection.points;
   std::size_t references = selection.previous;
   if (starts) {
@@ -165,7 +162,7 @@ void Grouping::make(Tracks& tracks, const Selection& selection, int level, Itera
     tracks[track].groups.push_back(g);
     if (tracks[track].level < level) take_home(tracks, track, g);
   }
-  place_landmarks(g, tracks, planar);
+  place_landmarks(g, tracks);
 }
 
 void Grouping::average_between(Group& group, const Tracks& tracks, Iteration first, Iteration last) {
@@ -196,14 +193,12 @@ bool Grouping::place(Slot& slot, const Tracks& tracks) {
   return slot.group->place(places_);
 }
 
-void Grouping::place_landmarks(Index g, Tracks& tracks, bool planar) {
+void Grouping::place_landmarks(Index g, Tracks& tracks) {
   const Group& group = *groups_[g].group;
   for (std::size_t m = 0; m < group.points().size(); ++m) {
     const Index track = group.points()[m];
     if (tracks[track].home != g) continue;
-    Vec3 position = group.position(m);
-    if (planar) position.z() = 0.0;
-    tracks.place(track, position);
+    tracks.place(track, group.position(m));
   }
 }
 
@@ -231,7 +226,7 @@ bool Grouping::can_merge(const Tracks& tracks, Index from) const {
   return std::all_of(groups.begin(), groups.end(), [&](Index g) { return groups_[g].group->level() == 1; });
 }
 
-void Grouping::merge(Tracks& tracks, Index into, Index from, bool planar) {
+void Grouping::merge(Tracks& tracks, Index into, Index from) {
   const std::vector<Index> temporary = tracks[from].groups;
   for (const Index g : temporary) take_down(tracks, g);
   const std::span<const Sighting> given = tracks[from].history.between(0, tracks.now());
@@ -240,7 +235,7 @@ void Grouping::merge(Tracks& tracks, Index into, Index from, bool planar) {
   for (const Index g : tracks[into].groups) {
     for (const Sighting& sighting : gained)
       average_between(*groups_[g].group, tracks, sighting.iteration, sighting.iteration);
-    if (place(groups_[g], tracks)) place_landmarks(g, tracks, planar);
+    if (place(groups_[g], tracks)) place_landmarks(g, tracks);
   }
 }
 

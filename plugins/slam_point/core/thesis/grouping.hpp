@@ -32,16 +32,16 @@ class Grouping {
 
   /// Averages the newest iteration into all groups of which it saw every member, and places these and their landmarks, in the order of creation.
   /// O(landmarks in view and their groups).
-  void compute(Tracks& tracks, bool planar);
+  void compute(Tracks& tracks);
 
   /// Makes the groups that are due.
-  void create(Tracks& tracks, bool planar);
+  void create(Tracks& tracks);
 
   /// Whether `from`'s observations may be given to another: groups above the temporary ones never change.
   bool can_merge(const Tracks& tracks, Index from) const;
 
   /// Merges two landmarks that were never seen together, and averages what the older one's groups gain (thesis 6.5.2).
-  void merge(Tracks& tracks, Index into, Index from, bool planar);
+  void merge(Tracks& tracks, Index into, Index from);
 
   /// Calls visit(number, group) for each group that stands.
   template <typename Visit>
@@ -63,16 +63,16 @@ class Grouping {
     std::uint32_t seen = 0;
   };
 
-  void create_due(std::deque<Index>& waiting, int level, Iteration look_back, Tracks& tracks, bool planar);
-  void create_for_gone(Tracks& tracks, bool planar);
+  void create_due(std::deque<Index>& waiting, int level, Iteration look_back, Tracks& tracks);
+  void create_for_gone(Tracks& tracks);
   bool select(Tracks& tracks, Index creation, int level, Iteration look_back, bool first,
               Selection& selection);
   bool select_for_gone(Tracks& tracks, Index creation, bool first, Selection& selection);
-  void make(Tracks& tracks, const Selection& selection, int level, Iteration since, bool starts, bool planar);
+  void make(Tracks& tracks, const Selection& selection, int level, Iteration since, bool starts);
   void average_between(Group& group, const Tracks& tracks, Iteration first, Iteration last);
   bool gather(const Group& group, const Tracks& tracks, Iteration iteration);
   bool place(Slot& slot, const Tracks& tracks);
-  void place_landmarks(Index g, Tracks& tracks, bool planar);
+  void place_landmarks(Index g, Tracks& tracks);
   void take_home(Tracks& tracks, Index track, Index g);
   void take_down(Tracks& tracks, Index g);
 

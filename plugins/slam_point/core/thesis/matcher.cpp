@@ -2,9 +2,6 @@
 #include "slam_point/core/thesis/matcher.hpp"
 
 #include <algorithm>
-#include <tuple>
-
-#include "slam_point/core/fit/robust_fit.hpp"
 
 namespace hallway::slam_point::thesis {
 namespace {
@@ -21,8 +18,7 @@ Matcher::Matcher(const slam_point::Options& common, const Options& options)
       grid_(static_cast<IndexKind>(common.index),
             std::max(common.match_bound(), kRefitNoises * common.noise_m)) {}
 
-void Matcher::match_recent(Tracks& tracks, Iteration now, const Pose& moved,
-                           std::vector<Observation>& frame) {
+void Matcher::match_recent(Tracks& tracks, Iteration now, const Pose& moved, Observations& frame) {
   const bool predicted = options_.matching == static_cast<int>(Matching::predicted);
   Pose motion = predicted ? moved : Pose{};
   list_recent(tracks, now, motion);
@@ -49,7 +45,7 @@ void Matcher::list_recent(Tracks& tracks, Iteration now, const Pose& moved) {
   }
 }
 
-void Matcher::match_to_recent(double bound_m, const Pose& moved, std::vector<Observation>& frame) {
+void Matcher::match_to_recent(double bound_m, const Pose& moved, Observations& frame) {
   const Mat3 rotation = moved.q.toRotationMatrix();
   const double bound2 = bound_m * bound_m;
   pairings_.clear();
@@ -63,7 +59,7 @@ void Matcher::match_to_recent(double bound_m, const Pose& moved, std::vector<Obs
   take_nearest_first(frame, static_cast<Index>(place_of_.size()));
 }
 
-bool Matcher::fit_motion(const std::vector<Observation>& frame, Pose& moved) {
+bool Matcher::fit_motion(const Observations& frame, Pose& moved) {
   pairs_.clear();
   for (const Observation& observation : frame) {
     if (observation.landmark != kNone)
@@ -73,7 +69,7 @@ bool Matcher::fit_motion(const std::vector<Observation>& frame, Pose& moved) {
   return robust_fit(pairs_, {false, spread * spread, kMotionInlierNoises * common_.noise_m}, moved);
 }
 
-void Matcher::match_map(const Tracks& tracks, const Pose& T_map_sensor, std::vector<Observation>& frame) {
+void Matcher::match_map(const Tracks& tracks, const Pose& T_map_sensor, Observations& frame) {
   const Mat3 rotation = T_map_sensor.q.toRotationMatrix();
   const double bound2 = common_.map_bound() * common_.map_bound();
   pairings_.clear();
@@ -88,19 +84,16 @@ void Matcher::match_map(const Tracks& tracks, const Pose& T_map_sensor, std::vec
   take_nearest_first(frame, tracks.size());
 }
 
-void Matcher::take_nearest_first(std::vector<Observation>& frame, Index tracks) {
+void Matcher::take_nearest_first(Observations& frame, Index tracks) {
   taken_.assign(tracks, 0);
   for (const Observation& observation : frame) {
     if (observation.landmark != kNone) taken_[observation.landmark] = 1;
   }
-  std::sort(pairings_.begin(), pairings_.end(), [](const Pairing& a, const Pairing& b) {
-    return std::tie(a.d2, a.observation, a.track) < std::tie(b.d2, b.observation, b.track);
-  });
-  for (const Pairing& pairing : pairings_) {
-    Observation& observation = frame[pairing.observation];
-    if (observation.landmark != kNone || taken_[pairing.track] != 0) continue;
-    observation.landmark = pairing.track;
-    taken_[pairing.track] = 1;
+  std::sort(pairings_.begin(), pairings_.end());
+  for (const auto& [d2, point, track] : pairings_) {
+    if (frame[point].landmark != kNone || taken_[track] != 0) continue;
+    frame[point].landmark = track;
+    taken_[track] = 1;
   }
 }
 

@@ -5,8 +5,9 @@
 
 namespace hallway::slam_point::thesis {
 
-void Tracks::begin_iteration(Iteration iteration) {
+void Tracks::begin_iteration(Iteration iteration, bool planar) {
   now_ = iteration;
+  planar_ = planar;
   std::vector<Index>& slot = chart_[iteration % kept_];
   for (const Index old : slot) {
     if (iteration >= kept_) tracks_[resolve(old)].history.forget_before(iteration - kept_ + 1);
@@ -17,10 +18,10 @@ void Tracks::begin_iteration(Iteration iteration) {
 Index Tracks::add(const Vec3& position) {
   Track track;
   track.first = now_;
-  track.position = position;
+  track.position = in_plane(position);
+  grid_.add(track.position);
   tracks_.push_back(std::move(track));
   listed_.push_back(0);
-  grid_.add(position);
   return size() - 1;
 }
 
@@ -34,8 +35,8 @@ void Tracks::see(Index index, const Vec3& point) {
 }
 
 void Tracks::place(Index track, const Vec3& position) {
-  tracks_[track].position = position;
-  grid_.move(track, position);
+  tracks_[track].position = in_plane(position);
+  grid_.move(track, tracks_[track].position);
 }
 
 void Tracks::merge(Index into, Index from) {

@@ -34,8 +34,9 @@ class Tracks {
   Tracks(Iteration kept, double reach_m, IndexKind index = IndexKind::grid)
       : kept_(kept), grid_(index, reach_m), chart_(kept) {}
 
-  /// Begins an iteration, and drops what is older than the kept ones. O(points in view).
-  void begin_iteration(Iteration iteration);
+  /// Begins an iteration, and drops what is older than the kept ones. `planar`: landmarks that are placed from now on are in the plane z = 0.
+  /// O(points in view).
+  void begin_iteration(Iteration iteration, bool planar = false);
 
   /// Makes a landmark that this iteration sees first, at `position` in the map [m]. Call see() next.
   Index add(const Vec3& position);
@@ -67,8 +68,13 @@ class Tracks {
   Iteration now() const { return now_; }
 
  private:
+  Vec3 in_plane(const Vec3& position) const {
+    return planar_ ? Vec3(position.x(), position.y(), 0.0) : position;
+  }
+
   Iteration kept_;
   Iteration now_ = 0;
+  bool planar_ = false;
   std::vector<Track> tracks_;
   PointIndex grid_;
   std::vector<std::vector<Index>> chart_;  // by iteration modulo kept_
