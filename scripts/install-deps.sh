@@ -10,6 +10,7 @@
 #   test   demo, and what the tests need                    bench   test, and the library of the benchmarks
 #   package  demo, and what makes Debian packages
 #   format clang-format alone                               lint    test, clang and clang-tidy
+#   docs   Graphviz alone, which draws docs/figures/architecture.svg
 #   cross-arm64   demo, and the cross compiler, the emulator, the libraries of arm64 and GoogleTest (dpkg --add-architecture arm64 comes first)
 #
 #   --with-ros    what `hallway log convert` reads ROS 1 bags with, and the driver ros1; everything else works without
@@ -62,11 +63,12 @@ case ${word:-test} in
   check | fuzz) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" "${clang[@]}" libbenchmark-dev) ;;
   bench) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" libbenchmark-dev) ;;
   format) wanted=(clang-format) ;;
+  docs) wanted=(graphviz) ;;
   lint) wanted=("${build[@]}" "${libraries[@]}" "${renderers[@]}" "${tests[@]}" "${clang[@]}" clang-tidy) ;;
   cross-arm64) wanted=("${build[@]}" "${libraries[@]/%/:arm64}" libc6-dev:arm64 g++-aarch64-linux-gnu 'qemu-user|qemu-user-static'
     libgtest-dev:arm64 python3 binutils) ;;
   *)
-    echo "install-deps: unknown word $word; there are demo, test, package, check, fuzz, bench, format, lint and cross-arm64" >&2
+    echo "install-deps: unknown word $word; there are demo, test, package, check, fuzz, bench, format, docs, lint and cross-arm64" >&2
     exit 2
     ;;
 esac

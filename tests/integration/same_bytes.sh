@@ -114,7 +114,9 @@ trap 'rm -rf "$work"' EXIT
 # perform BUILD ROOM CASE LINE: leaves the files of the case in ROOM/CASE. The paths in what is printed are the same for both builds.
 perform() {
   mkdir -p "$2/$3"
-  cp -r "$here/../../maps" "$2/maps" 2>/dev/null || true
+  rm -rf "$2/maps"
+  cp -r "$here/../../maps" "$2/maps"
+  find "$2/maps" -name .hallway -prune -exec rm -rf {} +
   local status=0
   (cd "$2/$3" && PATH="$1/bin:$PATH" HOME="$2" XDG_CACHE_HOME="$2/cache" HALLWAY_DATA="$data" TZ=UTC \
     bash -c "$4" >.out 2>.err </dev/null) || status=$?

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+# hallway_write_links(<file>): the link rules of the house, as the targets have them: what `target_link_libraries` says is what a folder may include.
+#
+# hallway_never_links(<folder> <folders…>) adds a rule before: no target of the folder links one of the others, by no way round.
+#
+# A line for each target of a production folder: target, folder, and the targets of Hallway that its users get with it (public) and those that only its
+# sources use (private), each list separated by commas, with tabs between the columns. tests/cli/layout_test.py
+# holds include lines against it, and docs/architecture.py draws it. A rule's line has `never`, the folder and the others.
+function(hallway_write_links file)
+  get_property(lines GLOBAL PROPERTY HALLWAY_NEVER_LINKS)
+  foreach(folder sdk geometry engine loaders plugins editor cli robot)
+    hallway_targets_below(${PROJECT_SOURCE_DIR}/${folder} targets)
+    foreach(target IN LISTS targets)
+      hallway_link_line(${target} line)
+      string(APPEND lines "${line}")
+    endforeach()
+  endforeach()
+  file(CONFIGURE OUTPUT ${file} CONTENT "${lines}" @ONLY)
+endfunction()
+
+function(hallway_never_links folder)
+  list(JOIN ARGN "," others)
+  set_property(GLOBAL APPEND_STRING PROPERTY HALLWAY_NEVER_LINKS "never\t${folder}\t${others}\t\n")
+endfunction()
+
+# hallway_targets_below(<folder> <result>): libraries and programs of a source folder and those below it.
+function(hallway_targets_below folder result)
+  set(found "")
+  if(EXISTS ${folder}/CMakeLists.txt)
+    get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+      get_target_property(type ${target} TYPE)
+      if(NOT type STREQUAL UTILITY)
+        list(APPEND found ${target})
+      endif()
+    endforeach()
+    get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+    foreach(below IN LISTS folders)
+      hallway_targets_below(${below} more)
+      list(APPEND found ${more})
+    endforeach()
+  endif()
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()
+
+# hallway_link_line(<target> <result>): the target's line of the table.
+function(hallway_link_line target result)
+  get_target_property(folder ${target} SOURCE_DIR)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+  get_target_property(public ${target} INTERFACE_LINK_LIBRARIES)
+  get_target_property(all ${target} LINK_LIBRARIES)
+  hallway_own_targets("${public}" public)
+  string(REGEX REPLACE "\\$<LINK_ONLY:([^>]*)>" "\\1" all "${all}")
+  hallway_own_targets("${all}" private)
+  if(public)
+    list(REMOVE_ITEM private ${public})
+  endif()
+  list(JOIN public "," public)
+  list(JOIN private "," private)
+  set(${result} "${target}\t${folder}\t${public}\t${private}\n" PARENT_SCOPE)
+endfunction()
+
+# hallway_own_targets("<libraries>" <result>): those that are targets of this project; not what is only linked along ($<LINK_ONLY:…>).
+function(hallway_own_targets libraries result)
+  set(found "")
+  foreach(library IN LISTS libraries)
+    if(TARGET "${library}")
+      get_target_property(real ${library} ALIASED_TARGET)
+      if(NOT real)
+        set(real ${library})
+      endif()
+      get_target_property(imported ${real} IMPORTED)
+      if(NOT imported)
+        list(APPEND found ${real})
+      endif()
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES found)
+  list(SORT found)
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()
