@@ -8,9 +8,9 @@ import re
 import sys
 
 CLOCK_FILES = re.compile(r"timing\.csv|times.*\.csv|.*\.part")
-CLOCK_KEYS = re.compile(r"host|iteration(_cpu)?_ms|(call_|wall_|cpu_)?(seconds|ms|s)|memory_peak_bytes|latency.*")
+CLOCK_KEYS = re.compile(r"host|iteration(_cpu)?_ms|(call_|wall_|cpu_)?(seconds|ms|s)|memory_peak_bytes|latency.*|times")
 # In what is printed for people: numbers with a unit of time or memory, and bars of progress.
-CLOCK_WORDS = re.compile(rb"\d[\d.]*(?= ?(?:s|ms|us|\xc2\xb5s|MiB|KiB|MB|kB)\b)")
+CLOCK_WORDS = re.compile(rb'\d[\d.]*(?= ?(?:s|ms|us|\xc2\xb5s|MiB|KiB|MB|kB)\b)|(?<="seconds": )[\d.e-]+|(?<="memory_peak_bytes": )\d+')
 
 
 def without_clock(value):
@@ -58,11 +58,20 @@ def content(path):
     return data
 
 
+def clock_charts(folder):
+    """The charts of times of the studies in a folder."""
+    for study in folder.rglob("study.json"):
+        for chart in json.loads(study.read_text())["charts"]:
+            if chart["clock"]:
+                yield from (study.parent / (chart["file"] + ending) for ending in (".svg", ".png"))
+
+
 def files(folder):
+    charts = set(clock_charts(folder))
     return {
         str(p.relative_to(folder)): p
         for p in folder.rglob("*")
-        if p.is_file() and ".hallway" not in p.parts and not CLOCK_FILES.fullmatch(p.name)
+        if p.is_file() and ".hallway" not in p.parts and not CLOCK_FILES.fullmatch(p.name) and p not in charts
     }
 
 
