@@ -3,13 +3,14 @@
 
 #include <hallway/plugin.hpp>
 
+#include "options/option_table.hpp"
+
 namespace hallway {
 
-/// Declares an algorithm's options as a plugin's parameters. A row of the table has a name, unit, least and greatest value, help, and a
-/// pointer to the member, `real` or `whole`, the other one null. `options` outlives `parameters`.
-template <typename Options, typename Rows>
-void add_options(sdk::Parameters& parameters, Options& options, const Rows& rows) {
-  for (const auto& row : rows) {
+/// Declares an algorithm's options as a plugin's parameters. `options` outlives `parameters`.
+template <typename Options>
+void add_options(sdk::Parameters& parameters, Options& options, std::span<const OptionRow<Options>> rows) {
+  for (const OptionRow<Options>& row : rows) {
     if (row.real != nullptr) {
       parameters.add(row.name, &(options.*row.real), row.min, row.max, row.unit, row.help);
     } else {

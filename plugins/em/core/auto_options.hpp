@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "em/core/option_row.hpp"
+#include "options/option_table.hpp"
 
 namespace hallway::em {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "em/core/cloud_scale.hpp"
-#include "em/core/option_row.hpp"
+#include "options/option_table.hpp"
 
 namespace hallway::em {
 
@@ -43,41 +43,31 @@ constexpr std::array<OptionRow<Options>, 10> common_rows() {
   return {{
       {"distance", "length", 0.0, 1e9,
        "Farthest a point may lie from a plane that it belongs to; 0: 3.5 times the noise of the cloud.",
-       &Options::distance, nullptr},
+       &Options::distance},
       {"expansion", "length", 0.0, 1e9,
        "How far beyond its bounds a plane looks for points; 0: 4 times the spacing of the points, and at "
        "least twice "
        "distance.",
-       &Options::expansion, nullptr},
+       &Options::expansion},
       {"seed_distance", "length", 0.0, 1e9,
        "Farthest the two points may lie that make a plane together with a random one; 0: 4 times the "
        "spacing.",
-       &Options::seed_distance, nullptr},
+       &Options::seed_distance},
       {"merge_angle_deg", "deg", 0.0, 90.0, "Largest angle between planes that are merged.",
-       &Options::merge_angle_deg, nullptr},
+       &Options::merge_angle_deg},
       {"merge_offset", "length", 0.0, 1e9, "Largest distance between planes that are merged; 0: as distance.",
-       &Options::merge_offset, nullptr},
-      {"share_points", "1", 0, 1, "1: a point may belong to several planes; 0: to one only.", nullptr,
+       &Options::merge_offset},
+      {"share_points", "1", 0, 1, "1: a point may belong to several planes; 0: to one only.",
        &Options::share_points},
-      {"min_points", "points", 3, 1000000, "A plane with fewer points is dropped.", nullptr,
-       &Options::min_points},
+      {"min_points", "points", 3, 1000000, "A plane with fewer points is dropped.", &Options::min_points},
       {"min_exclusive", "1", 0.0, 1.0,
        "A plane is dropped if a smaller share of its points is its own; 0: no check.",
-       &Options::min_exclusive, nullptr},
+       &Options::min_exclusive},
       {"max_unmatched", "1", 0.0, 1.0,
-       "The search ends when no larger share of the points is left without a plane.", &Options::max_unmatched,
-       nullptr},
-      {"seed", "1", 0, 2147483647, "Seed of the random choices.", nullptr, &Options::seed},
+       "The search ends when no larger share of the points is left without a plane.",
+       &Options::max_unmatched},
+      {"seed", "1", 0, 2147483647, "Seed of the random choices.", &Options::seed},
   }};
-}
-
-/// One table after the other.
-template <typename Row, std::size_t A, std::size_t B>
-constexpr std::array<Row, A + B> joined_rows(const std::array<Row, A>& a, const std::array<Row, B>& b) {
-  std::array<Row, A + B> rows{};
-  for (std::size_t i = 0; i < A; ++i) rows[i] = a[i];
-  for (std::size_t i = 0; i < B; ++i) rows[A + i] = b[i];
-  return rows;
 }
 
 }  // namespace hallway::em

@@ -17,15 +17,14 @@ namespace hallway::em {
 namespace {
 
 constexpr std::array<OptionRow<Em1Options>, 4> kEm1OwnRows{{
-    {"max_iterations", "iterations", 1, 100000, "The search ends after so many iterations.", nullptr,
+    {"max_iterations", "iterations", 1, 100000, "The search ends after so many iterations.",
      &Em1Options::max_iterations},
     {"patience", "iterations", 1, 100000,
-     "The search ends when so many iterations in a row have brought no plane and no points.", nullptr,
+     "The search ends when so many iterations in a row have brought no plane and no points.",
      &Em1Options::patience},
-    {"new_planes", "planes", 1, 1000, "Random planes that an iteration starts.", nullptr,
-     &Em1Options::new_planes},
+    {"new_planes", "planes", 1, 1000, "Random planes that an iteration starts.", &Em1Options::new_planes},
     {"tries", "points", 1, 100000, "Random points that an iteration draws at most to start them from.",
-     nullptr, &Em1Options::tries},
+     &Em1Options::tries},
 }};
 
 constexpr auto kEm1Rows = joined_rows(common_rows<Em1Options>(), kEm1OwnRows);
@@ -158,7 +157,7 @@ std::span<const OptionRow<Em1Options>> em1_options() {
 }
 
 void Em1Options::validate() const {
-  check_ranges(*this, em1_options());
+  check_options(*this, em1_options());
 }
 
 Extraction extract_em1(std::span<const Vec3> cloud, const Em1Options& options) {

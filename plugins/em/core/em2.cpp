@@ -18,17 +18,16 @@ namespace {
 
 constexpr std::array<OptionRow<Em2Options>, 5> kEm2OwnRows{{
     {"max_planes", "planes", 1, 1000000, "The search ends after so many planes that were grown and kept.",
-     nullptr, &Em2Options::max_planes},
+     &Em2Options::max_planes},
     {"tries", "points", 1, 1000000,
-     "The search ends after so many random points in a row that gave no plane.", nullptr, &Em2Options::tries},
-    {"grow_steps", "steps", 1, 100000, "A plane is widened so often at most.", nullptr,
-     &Em2Options::grow_steps},
+     "The search ends after so many random points in a row that gave no plane.", &Em2Options::tries},
+    {"grow_steps", "steps", 1, 100000, "A plane is widened so often at most.", &Em2Options::grow_steps},
     {"min_density", "1", 0.0, 1.0,
      "A plane ends where its density falls below this share of that around its seed; 0: no check.",
-     &Em2Options::min_density, nullptr},
+     &Em2Options::min_density},
     {"density_step", "length", 0.0, 1e9,
      "Width of the strips in which density is watched; 0: 4 times the spacing of the points.",
-     &Em2Options::density_step, nullptr},
+     &Em2Options::density_step},
 }};
 
 constexpr auto kEm2Rows = joined_rows(common_rows<Em2Options>(), kEm2OwnRows);
@@ -168,7 +167,7 @@ std::span<const OptionRow<Em2Options>> em2_options() {
 }
 
 void Em2Options::validate() const {
-  check_ranges(*this, em2_options());
+  check_options(*this, em2_options());
 }
 
 Extraction extract_em2(std::span<const Vec3> cloud, const Em2Options& options) {

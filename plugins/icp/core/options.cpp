@@ -2,41 +2,39 @@
 #include "icp/core/options.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace hallway::icp {
 namespace {
 
-constexpr std::array<Parameter, 10> kParameters{{
+constexpr OptionRow<Options> kParameters[] = {
     {"max_distance_m", "m", 0.0, 1000.0,
      "Largest distance of a matching point in the end; 0: half the median distance between neighbours, and "
      "three "
      "times that distance with point_to_plane.",
-     &Options::max_distance_m, nullptr},
+     &Options::max_distance_m},
     {"reach_m", "m", 0.0, 1000.0, "Largest distance of a matching point at first; 0: 4 max_distance_m.",
-     &Options::reach_m, nullptr},
+     &Options::reach_m},
     {"max_points", "points", 10, 10000000,
      "Most points of a frame that are registered; of more, a sample. All of them are a reference for others.",
-     nullptr, &Options::max_points},
-    {"max_iterations", "steps", 1, 10000, "Steps after which a registration has failed.", nullptr,
+     &Options::max_points},
+    {"max_iterations", "steps", 1, 10000, "Steps after which a registration has failed.",
      &Options::max_iterations},
     {"tolerance", "1", 1e-9, 1.0,
      "A registration has converged where a step moves less than this share of the residual.",
-     &Options::tolerance, nullptr},
+     &Options::tolerance},
     {"normal_neighbours", "points", 3, 1000, "With point_to_plane: how many points a normal is taken from.",
-     nullptr, &Options::normal_neighbours},
+     &Options::normal_neighbours},
     {"min_overlap", "1", 0.0, 1.0, "A frame has a pose where this share of its points has a match.",
-     &Options::min_overlap, nullptr},
+     &Options::min_overlap},
     {"keyframe_overlap", "1", 0.0, 1.0,
      "With against = keyframe: the next frame takes over where a smaller share has a match.",
-     &Options::keyframe_overlap, nullptr},
+     &Options::keyframe_overlap},
     {"max_turn_rad", "rad", 0.0, 3.15,
      "How far about the sensor's z axis turns are tried when the prediction fails; 0 means none.",
-     &Options::max_turn_rad, nullptr},
+     &Options::max_turn_rad},
     {"min_observations", "observations", 1, 1000000,
-     "With against = map: a point with fewer observations is temporary.", nullptr,
-     &Options::min_observations},
-}};
+     "With against = map: a point with fewer observations is temporary.", &Options::min_observations},
+};
 
 }  // namespace
 
@@ -53,7 +51,7 @@ Rules Options::rules_for(double spacing_m) const {
   return rules;
 }
 
-std::span<const Parameter> parameters() {
+std::span<const OptionRow<Options>> parameters() {
   return kParameters;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "icp/core/registration.hpp"
+#include "options/option_table.hpp"
 
 namespace hallway::icp {
 
@@ -34,18 +35,7 @@ struct Options {
   Rules rules_for(double spacing_m) const;
 };
 
-/// One row of the table that describes the numbers among Options to a host. Exactly one of `real` and `whole` is set.
-struct Parameter {
-  const char* name;
-  const char* unit;  ///< "m", "rad", "1" (a ratio), "steps", "points", "observations"
-  double min;        ///< smallest value allowed
-  double max;        ///< largest value allowed
-  const char* help;  ///< one sentence
-  double Options::*real;
-  int Options::*whole;
-};
-
-/// All of them, in the order of Options. Defaults are those of a default-made Options.
-std::span<const Parameter> parameters();
+/// The numbers among Options, in their order. Defaults are those of a default-made Options.
+std::span<const OptionRow<Options>> parameters();
 
 }  // namespace hallway::icp

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "options/option_table.hpp"
 #include "slam_plane/core/types.hpp"
-#include "slam_plane/option_table.hpp"
 
 namespace hallway::slam_plane {
 

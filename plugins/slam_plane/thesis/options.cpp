@@ -83,7 +83,7 @@ std::span<const OptionRow<Options>> parameters() {
 }
 
 void Options::validate() const {
-  check_options(*this, kParameters);
+  check_options(*this, parameters());
 }
 
 }  // namespace hallway::slam_plane::thesis

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "slam_plane/option_table.hpp"
+#include "options/option_table.hpp"
 #include "slam_plane/thesis/track_options.hpp"
 
 namespace hallway::slam_plane::thesis {

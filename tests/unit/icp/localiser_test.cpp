@@ -210,7 +210,7 @@ TEST(Localiser, AfterAResetTheAnswersAreTheSame) {
 
 TEST(Localiser, EveryDefaultIsWithinItsRange) {
   const Options options;
-  for (const Parameter& row : parameters()) {
+  for (const OptionRow<Options>& row : parameters()) {
     ASSERT_NE(row.real != nullptr, row.whole != nullptr) << row.name;
     const double value = row.real != nullptr ? options.*row.real : options.*row.whole;
     EXPECT_GE(value, row.min) << row.name;
