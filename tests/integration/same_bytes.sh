@@ -121,7 +121,7 @@ perform() {
   (cd "$2/$3" && PATH="$1/bin:$PATH" HOME="$2" XDG_CACHE_HOME="$2/cache" HALLWAY_DATA="$data" TZ=UTC \
     bash -c "$4" >.out 2>.err </dev/null) || status=$?
   echo "$status" >"$2/$3/.status"
-  sed -i "s|$1|BUILD|g" "$2/$3/.out" "$2/$3/.err"
+  grep -rlIF "$1" "$2/$3" | xargs -r sed -i "s|$1|BUILD|g"
   rm -rf "$2/maps"
 }
 
