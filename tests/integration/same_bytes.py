@@ -18,7 +18,7 @@ PLUGIN_HASH = re.compile(rb'("id":"\w+","version":"[\w.]+","hash":|"file":"[^"]*
 
 def without_clock(value):
     if isinstance(value, dict):
-        of_build = {"id", "version", "hash"} <= value.keys() or str(value.get("file")).endswith(".mcap")
+        of_build = {"id", "version", "hash"} <= value.keys() or str(value.get("file")).endswith(".mcap") or "cell" in str(value.get("schema"))
         return {k: without_clock(v) for k, v in value.items() if not CLOCK_KEYS.fullmatch(k) and not (of_build and k == "hash")}
     return [without_clock(v) for v in value] if isinstance(value, list) else value
 
