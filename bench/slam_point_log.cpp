@@ -377,10 +377,10 @@ void set(Settings& settings, const std::string& name, const std::string& value) 
     settings.seed = static_cast<std::uint64_t>(std::stod(value));
   } else if (name == "runs") {
     settings.runs = std::stoi(value);
-  } else if (const Parameter* parameter = find_parameter(name)) {
+  } else if (const auto* parameter = find_option(parameters(), name)) {
     parameter->set(settings.options, std::stod(value));
-  } else if (const thesis::Parameter* own = thesis::find_parameter(name)) {
-    settings.thesis.*own->whole = std::stoi(value);
+  } else if (const auto* own = find_option(thesis::parameters(), name)) {
+    own->set(settings.thesis, std::stod(value));
   } else {
     throw std::runtime_error("unknown parameter " + name);
   }

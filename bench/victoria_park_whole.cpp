@@ -185,7 +185,7 @@ Options options_from(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     const std::string text = argv[i];
     const std::size_t equals = text.find('=');
-    const Parameter* parameter = find_parameter(text.substr(0, equals));
+    const auto* parameter = find_option(parameters(), text.substr(0, equals));
     if (equals == std::string::npos || parameter == nullptr)
       throw std::runtime_error("not PARAMETER=VALUE: " + text);
     parameter->set(options, std::stod(text.substr(equals + 1)));

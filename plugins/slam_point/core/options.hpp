@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <string_view>
+
+#include "options/option_table.hpp"
 
 namespace hallway::slam_point {
 
@@ -76,26 +77,7 @@ struct Options {
   double bound_noise() const { return std::max(noise_m, least_bound_noise_m); }
 };
 
-/// One row of the table that describes Options to a host. Exactly one of `real` and `whole` is set.
-struct Parameter {
-  const char* name;
-  const char* unit;  ///< "m", "rad", "1" (a ratio), "frames", "submaps", "observations", "sweeps"
-  double min;        ///< smallest value allowed
-  double max;        ///< largest value allowed
-  const char* help;  ///< one sentence
-  double Options::*real;
-  int Options::*whole;
-
-  /// The value that `options` holds.
-  double get(const Options& options) const;
-  /// Stores `value` unchecked (whole ones are truncated); Options::validate() checks.
-  void set(Options& options, double value) const;
-};
-
 /// All parameters, in the order of Options. Defaults are those of a default-made Options.
-std::span<const Parameter> parameters();
-
-/// The row of that name, or null.
-const Parameter* find_parameter(std::string_view name);
+std::span<const OptionRow<Options>> parameters();
 
 }  // namespace hallway::slam_point

@@ -18,7 +18,7 @@ TEST(Options, DefaultsAreInRange) {
 }
 
 TEST(Options, EachParameterIsCheckedAtBothEnds) {
-  for (const Parameter& parameter : parameters()) {
+  for (const OptionRow<Options>& parameter : parameters()) {
     const double margin = parameter.whole != nullptr ? 1.0 : 0.01 * (parameter.max - parameter.min);
     for (const double value : {parameter.min - margin, parameter.max + margin}) {
       Options options;
@@ -41,13 +41,13 @@ TEST(Options, NotANumberIsRefused) {
 
 TEST(Options, ParametersHaveDistinctNamesAndAreFoundByThem) {
   std::set<std::string> names;
-  for (const Parameter& parameter : parameters()) {
+  for (const OptionRow<Options>& parameter : parameters()) {
     EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
-    EXPECT_EQ(find_parameter(parameter.name), &parameter);
+    EXPECT_EQ(find_option(parameters(), parameter.name), &parameter);
     EXPECT_NE(parameter.real != nullptr, parameter.whole != nullptr) << parameter.name;
     EXPECT_STRNE(parameter.help, "");
   }
-  EXPECT_EQ(find_parameter("no_such"), nullptr);
+  EXPECT_EQ(find_option(parameters(), "no_such"), nullptr);
 }
 
 TEST(Options, BoundsThatAreZeroFollowTheNoise) {

@@ -268,10 +268,10 @@ TEST(ThesisMapper, TheSameFramesGiveTheSameBits) {
 }
 
 TEST(ThesisMapper, OptionsOutOfRangeAreNamed) {
-  for (const Parameter& parameter : parameters()) {
-    for (const int value : {parameter.min - 1, parameter.max + 1}) {
+  for (const OptionRow<Options>& parameter : parameters()) {
+    for (const double value : {parameter.min - 1.0, parameter.max + 1.0}) {
       Options options;
-      options.*parameter.whole = value;
+      parameter.set(options, value);
       try {
         Mapper mapper(slam_point::Options{}, options);
         FAIL() << parameter.name << " = " << value << " was accepted";
@@ -279,7 +279,7 @@ TEST(ThesisMapper, OptionsOutOfRangeAreNamed) {
         EXPECT_NE(std::string(error.what()).find(parameter.name), std::string::npos) << error.what();
       }
     }
-    EXPECT_EQ(find_parameter(parameter.name), &parameter);
+    EXPECT_EQ(find_option(parameters(), parameter.name), &parameter);
     EXPECT_EQ(std::string(parameter.name).rfind("thesis_", 0), 0u);
   }
 }

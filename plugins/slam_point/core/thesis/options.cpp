@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "slam_point/core/thesis/options.hpp"
 
-#include <array>
 #include <stdexcept>
 #include <string>
 
 namespace hallway::slam_point::thesis {
 namespace {
 
-constexpr std::array<Parameter, 9> kThesisParameters{{
+constexpr OptionRow<Options> kThesisParameters[] = {
     {"thesis_levels", "1", 1, 3,
      "mode=thesis: 1: temporary groups alone; 2: final groups too; 3: and groups made when a point is out of "
      "view, without "
@@ -34,7 +33,7 @@ constexpr std::array<Parameter, 9> kThesisParameters{{
     {"thesis_merge_after", "iterations", 0, 1000,
      "mode=thesis: after so many iterations a new point is compared with the map and merged; 0: never.",
      &Options::merge_after},
-}};
+};
 
 void check(const char* name, int value, int min, int max) {
   if (value >= min && value <= max) return;
@@ -44,22 +43,14 @@ void check(const char* name, int value, int min, int max) {
 
 }  // namespace
 
-std::span<const Parameter> parameters() {
+std::span<const OptionRow<Options>> parameters() {
   return kThesisParameters;
-}
-
-const Parameter* find_parameter(std::string_view name) {
-  for (const Parameter& parameter : kThesisParameters) {
-    if (name == parameter.name) return &parameter;
-  }
-  return nullptr;
 }
 
 void Options::validate() const {
   check("thesis_basis", basis, 0, 1);
   check("thesis_matching", matching, 0, 1);
-  for (const Parameter& parameter : kThesisParameters)
-    check(parameter.name, this->*parameter.whole, parameter.min, parameter.max);
+  check_options(*this, parameters());
 }
 
 }  // namespace hallway::slam_point::thesis

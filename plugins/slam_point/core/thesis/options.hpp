@@ -2,7 +2,8 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "options/option_table.hpp"
 
 namespace hallway::slam_point::thesis {
 
@@ -40,21 +41,7 @@ struct Options {
 inline constexpr const char* kBasisNames[] = {"three", "all"};
 inline constexpr const char* kMatchingNames[] = {"nearest", "predicted"};
 
-/// One row of the table that describes the whole-numbered Options to a host.
-struct Parameter {
-  const char* name;  ///< "thesis_…"
-  const char* unit;
-  int min;           ///< smallest value allowed
-  int max;           ///< largest value allowed
-  const char* help;  ///< one sentence
-  int Options::*whole;
-  double Options::*real = nullptr;  ///< none is real; tables of options have both
-};
-
 /// All but `basis` and `matching`, in the order of Options.
-std::span<const Parameter> parameters();
-
-/// The row of that name, or null.
-const Parameter* find_parameter(std::string_view name);
+std::span<const OptionRow<Options>> parameters();
 
 }  // namespace hallway::slam_point::thesis
