@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sense/convex.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -13,6 +14,17 @@ constexpr double kNothing_m2 = 1e-12;
 Vec2 outward_of(const Convex& polygon, std::size_t edge) {
   const Vec2 way = polygon[(edge + 1) % polygon.size()] - polygon[edge];
   return Vec2(way.y(), -way.x());
+}
+
+/// One side of a hull, of points in order, without its last point.
+void add_chain(const std::vector<Vec2>& points, Convex& hull) {
+  const std::size_t first = hull.size();
+  for (const Vec2& p : points) {
+    while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0)
+      hull.pop_back();
+    hull.push_back(p);
+  }
+  hull.pop_back();
 }
 
 void drop_flat_corners(Convex& hull, double tolerance_m) {
@@ -32,7 +44,13 @@ void drop_flat_corners(Convex& hull, double tolerance_m) {
 }  // namespace
 
 Convex hull_of(std::vector<Vec2> points, double tolerance_m) {
-  Convex hull = convex_hull(std::move(points));
+  std::ranges::sort(points, {}, [](const Vec2& p) { return std::pair(p.x(), p.y()); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return {};
+  Convex hull;
+  add_chain(points, hull);
+  std::reverse(points.begin(), points.end());
+  add_chain(points, hull);
   drop_flat_corners(hull, tolerance_m);
   return hull;
 }

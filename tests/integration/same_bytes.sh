@@ -94,7 +94,7 @@ case_ compile_regress "for m in ../maps/regress/*.map; do hallway compile \$m --
 case_ compile_e1m1 "cp $data/maps/id1/e1m1.map . && hallway compile e1m1.map --json && hallway map export e1m1.map --out e1m1.ply"
 case_ map_queries "hallway map ray ../maps/office.map 2,3,1.5 9,3,1.5 --json; hallway map pvs ../maps/office.map 2,3,1.5 9,9,1.5 --json; hallway map export ../maps/office.map --out office.glb; hallway map export ../maps/office.map --points --out points.ply; cp ../maps/models/knot.glb . && hallway import knot.glb --out model.map"
 case_ render "hallway render ../maps/office.map --show pvs-from=2,3,1.5,portals --out top.png && hallway render ../maps/flat.map --view perspective --out view.png"
-case_ edit_scripts "for s in ../maps/*.hwe; do n=\$(basename \$s .hwe); hallway edit \$n.map -f \$s --json; hallway edit \$n.map undo; hallway edit \$n.map log; hallway edit \$n.map history save \$n.hwe; hallway edit \$n.map validate; hallway edit \$n.map list; done"
+case_ edit_scripts "cp -r ../maps/models . && for s in ../maps/*.hwe; do n=\$(basename \$s .hwe); hallway edit \$n.map -f \$s --json; hallway edit \$n.map undo; hallway edit \$n.map log; hallway edit \$n.map history save \$n.hwe; hallway edit \$n.map validate; hallway edit \$n.map list; done"
 case_ edit_plan "hallway edit flat.map -f ../maps/flat.hwe && hallway edit flat.map print plan.svg paper=a1; hallway edit flat.map print plan.pdf paper=a1; hallway edit --reference"
 case_ edit_commands "e() { hallway edit a.map \"\$@\"; }; e new; e room from 0,0 to 5,4 height=2.5 wall=0.2 floor_material=wood name=kitchen; e door in kitchen side=east at 2 width 0.9 leaf=wood open=60; e window in kitchen side=north at 1; e box 1,1,0 2,2,1 name=crate; e hollow crate thickness 2cm; e cylinder at 3,3,0 radius=0.3 height=2 name=pillar; e clip pillar axis=z at=1 keep=both; e array crate linear 2 by 1.5,0; e rotate crate by 30 about 1,1; e mirror crate x at 2; e scale crate 2; e subtract crate; e material kitchen brick; e start 1,2; e path 1,2 3,2 4,3 name=way; e path 1,2 3,2 name=way; e landmarks path=way per_100m=20; e landmarks per_m2=2; e remake kitchen height=3; e undo to=2; e print kitchen.svg; e export a.obj; e compile; e validate; e log; e undo; e redo; e diff; e save; e info kitchen; e measure 0,0 3,4; e measure crate; e room 1; e nonsense; e door in nowhere at 2; cat a.map a.map.journal"
 case_ help_texts "for c in '' run replay serve score compare batch study log render plugin driver planes bench-em scenario import align compile map edit doctor help completion man; do hallway \$c --help; hallway help \$c; done; hallway man run; hallway completion bash; hallway-robot --help"
@@ -121,7 +121,7 @@ perform() {
   (cd "$2/$3" && PATH="$1/bin:$PATH" HOME="$2" XDG_CACHE_HOME="$2/cache" HALLWAY_DATA="$data" TZ=UTC \
     bash -c "$4" >.out 2>.err </dev/null) || status=$?
   echo "$status" >"$2/$3/.status"
-  grep -rlIF "$1" "$2/$3" | xargs -r sed -i "s|$1|BUILD|g"
+  { grep -rlIF -e "$1" -e "$2" "$2/$3" || true; } | tr '\n' '\0' | xargs -0r sed -i -e "s|$1|BUILD|g" -e "s|$2|ROOM|g"
   rm -rf "$2/maps"
 }
 
