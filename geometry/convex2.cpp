@@ -55,6 +55,26 @@ PlaneAxes::PlaneAxes(const Vec3& normal) : n(normal) {
   v = normal.cross(u);
 }
 
+Convex PlaneAxes::flat(std::span<const Vec3> points) const {
+  Convex flattened;
+  flattened.reserve(points.size());
+  for (const Vec3& p : points) flattened.push_back(flat(p));
+  return flattened;
+}
+
+Convex PlaneAxes::flat(std::span<const Vec3> points, const Pose& T) const {
+  Convex flattened;
+  flattened.reserve(points.size());
+  for (const Vec3& p : points) flattened.push_back(flat(T * p));
+  return flattened;
+}
+
+std::vector<Vec3> PlaneAxes::lift(const Convex& polygon, double offset) const {
+  std::vector<Vec3> lifted;
+  for (const Vec2& p : polygon) lifted.push_back(lift(p, offset));
+  return lifted;
+}
+
 Convex convex_hull(std::vector<Vec2> points) {
   drop_inner(points);
   std::sort(points.begin(), points.end(), before);

@@ -21,9 +21,13 @@ struct PlaneAxes {
   /// @param normal  unit
   explicit PlaneAxes(const Vec3& normal);
 
+  /// A point laid flat along the normal; points, and those that T moves here first.
   Vec2 flat(const Vec3& point) const { return {u.dot(point), v.dot(point)}; }
-  /// The point of the plane at that offset along its normal.
+  Convex flat(std::span<const Vec3> points) const;
+  Convex flat(std::span<const Vec3> points, const Pose& T) const;
+  /// The point of the plane at that offset along its normal; the corners of a polygon.
   Vec3 lift(const Vec2& point, double offset) const { return point.x() * u + point.y() * v + offset * n; }
+  std::vector<Vec3> lift(const Convex& polygon, double offset) const;
 
   Vec3 u, v, n;
 };

@@ -3,7 +3,6 @@
 
 #include <hallway/plugin.hpp>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,18 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "geometry/se3.hpp"
+
 namespace hallway {
 
 /// Between the ABI and an algorithm that takes a frame's points and says where their sensor is. The algorithm is fed with points in
 /// the frame of the first point sensor (what other sensors see is moved there) and answers in that frame; answers are moved to the
 /// body, so that the map's frame is the body's at the frame that the algorithm began with.
-///
-/// `Pose` is the algorithm's: {q, t} with products and inverse().
-template <typename Pose>
 class PointAdapter {
  public:
-  using Vec3 = Eigen::Vector3d;
-  using Mat3 = Eigen::Matrix3d;
   using Mat6 = Eigen::Matrix<double, 6, 6>;
 
   /// Takes the sensors that give points. Throws sdk::Failure when there is none.

@@ -84,7 +84,7 @@ class Icp final : public sdk::Plugin {
   int against_ = static_cast<int>(Options().against);
   int metric_ = static_cast<int>(Options().metric);
   int kernel_ = static_cast<int>(Options().kernel);
-  PointAdapter<Pose> adapter_;
+  PointAdapter adapter_;
   std::optional<Localiser> localiser_;
 };
 

@@ -145,7 +145,7 @@ class SlamPoint final : public sdk::Plugin {
   int association_ = 0;  ///< a place in kAssociations
   thesis::Options thesis_options_;
   int mode_ = static_cast<int>(Mode::ours);
-  PointAdapter<Pose> adapter_;
+  PointAdapter adapter_;
   std::optional<Mapper> mapper_;  // one of the two while active
   std::optional<thesis::Mapper> thesis_;
 };

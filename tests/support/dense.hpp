@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 /// Dense linear algebra for oracles: what Eigen has, compiled once for all tests, since its solvers take a compiler longer than the tests that use them.
+/// Apart from geometry/, which it checks.
 namespace hallway::dense {
 
 /// a * b.

@@ -16,18 +16,6 @@
 namespace hallway::peers {
 namespace {
 
-using Vec3 = Eigen::Vector3d;
-
-/// A rigid transform.
-struct Pose {
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-  Vec3 t = Vec3::Zero();
-
-  Vec3 operator*(const Vec3& p) const { return q * p + t; }
-  Pose operator*(const Pose& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
-  Pose inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
-};
-
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kAssociations[] = {"sensor", "nearest", "compatible"};
 constexpr const char* kMethods[] = {"naive", "davison"};
@@ -171,7 +159,7 @@ class MrptEkf final : public sdk::Plugin {
   double view_yaw_ = 90.0;
   double view_pitch_ = 60.0;
   double range_ = 100.0;
-  PointAdapter<Pose> adapter_;
+  PointAdapter adapter_;
   std::unique_ptr<mrpt::slam::CRangeBearingKFSLAM> filter_;
   std::map<std::uint64_t, std::uint32_t> observations_;  ///< by landmark
   std::vector<std::uint64_t> associations_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/median.hpp"
+
 namespace hallway::slam_plane {
 namespace {
 
@@ -79,9 +81,7 @@ void FrameMatcher::correct_heading(const WallMap& map, const std::vector<Index>&
     if (nearest < kWideBound_m) turns_.push_back(turn);
   }
   if (turns_.empty()) return;
-  const auto middle = turns_.begin() + static_cast<std::ptrdiff_t>(turns_.size() / 2);
-  std::nth_element(turns_.begin(), middle, turns_.end());
-  T = T.moved(Vec2::Zero(), *middle);
+  T = T.moved(Vec2::Zero(), median(turns_));
 }
 
 void FrameMatcher::match_recent(const WallMap& map, const std::vector<Index>& recent, std::uint64_t iteration,

@@ -120,6 +120,7 @@ void FrameSearch::try_place(const PlaneMap& map, const std::vector<AssociatedObs
     normals.row(i) = map.landmarks[known[at]].plane.normal().transpose();
     sum += map.landmarks[known[at]].plane.normal() * frame[seen[at]].normal.transpose();
   }
+  // nearest_rotation() takes the sign of the determinant. This is 1 or -1 but for rounding, which the last digits of poses rest on.
   const Singular svd = singular(sum);
   Mat3 right = Mat3::Identity();
   right(2, 2) = (svd.left * svd.right.transpose()).determinant();

@@ -8,33 +8,6 @@
 
 namespace hallway::slam_plane::spatial {
 
-PlaneAxes::PlaneAxes(const Vec3& normal) : n(normal) {
-  int least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  u = Vec3::Unit(least).cross(normal).normalized();
-  v = normal.cross(u);
-}
-
-Convex PlaneAxes::flat(std::span<const Vec3> points) const {
-  Convex flattened;
-  flattened.reserve(points.size());
-  for (const Vec3& p : points) flattened.push_back(flat(p));
-  return flattened;
-}
-
-Convex PlaneAxes::flat(std::span<const Vec3> points, const Pose& T) const {
-  Convex flattened;
-  flattened.reserve(points.size());
-  for (const Vec3& p : points) flattened.push_back(flat(T * p));
-  return flattened;
-}
-
-std::vector<Vec3> PlaneAxes::lift(const Convex& polygon, double offset) const {
-  std::vector<Vec3> lifted;
-  for (const Vec2& p : polygon) lifted.push_back(lift(p, offset));
-  return lifted;
-}
-
 void append_moved(const Pose& T, std::span<const Vec3> from, std::vector<Vec3>& to) {
   for (const Vec3& p : from) to.push_back(T * p);
 }

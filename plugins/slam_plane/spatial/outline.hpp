@@ -5,24 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "geometry/convex2.hpp"
 #include "slam_plane/spatial/types.hpp"
 
 namespace hallway::slam_plane::spatial {
-
-/// Two axes of a plane, and its normal: right-handed.
-struct PlaneAxes {
-  explicit PlaneAxes(const Vec3& normal);
-
-  Vec2 flat(const Vec3& p) const { return {u.dot(p), v.dot(p)}; }
-  /// Points laid flat along the normal, and points that T moves here.
-  Convex flat(std::span<const Vec3> points) const;
-  Convex flat(std::span<const Vec3> points, const Pose& T) const;
-  /// The point of the plane at that offset along its normal.
-  Vec3 lift(const Vec2& p, double offset) const { return p.x() * u + p.y() * v + offset * n; }
-  std::vector<Vec3> lift(const Convex& polygon, double offset) const;
-
-  Vec3 u, v, n;
-};
 
 /// Appends points that T moves.
 void append_moved(const Pose& T, std::span<const Vec3> from, std::vector<Vec3>& to);

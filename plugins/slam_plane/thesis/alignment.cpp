@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/median.hpp"
 #include "geometry/symmetric.hpp"
 
 namespace hallway::slam_plane::thesis {
@@ -35,12 +36,6 @@ void place_by_lines(std::span<const PlanePair> pairs, const Pose2& guess, Alignm
   if (!result.determined) result.open = eigen.vectors.col(0);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The mean of what points tell, less those that contradict the majority: an end that was mistaken for another one.
 Vec2 mean_of_most(const std::vector<Vec2>& places) {
   std::vector<double> x, y, off;
@@ -50,8 +45,9 @@ Vec2 mean_of_most(const std::vector<Vec2>& places) {
   }
   const Vec2 centre(median(x), median(y));
   for (const Vec2& t : places) off.push_back((t - centre).norm());
-  const double bound =
-      places.size() < 3 ? std::numeric_limits<double>::infinity() : kSpread * median(off) + kLeastSpread_m;
+  std::vector<double> reordered = off;
+  const double bound = places.size() < 3 ? std::numeric_limits<double>::infinity()
+                                         : kSpread * median(reordered) + kLeastSpread_m;
   Vec2 sum = Vec2::Zero();
   int count = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

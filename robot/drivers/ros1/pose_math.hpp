@@ -12,7 +12,8 @@ namespace hallway::ros1 {
 /// Sets the orientation from angles about the fixed axes x, y, z, in this order, as ROS has them (REP-103). Radians.
 void set_roll_pitch_yaw(hw_pose_t& pose, double roll, double pitch, double yaw);
 
-/// Frames of tf as they stand, without their history.
+/// Frames of tf as they are now, without their history. Chains of them are multiplied as ROS does, without making each product a unit quaternion again as
+/// hallway::Pose does.
 class TransformTree {
  public:
   /// Says where `child` is; a later word of the same child replaces it. The quaternion is made a unit one.

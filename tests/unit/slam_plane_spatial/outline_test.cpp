@@ -10,15 +10,6 @@ Convex rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
-TEST(SpatialPolygon, AHullHasTheOuterPointsAlone) {
-  std::vector<Vec2> points = rectangle(0.0, 0.0, 2.0, 1.0);
-  points.insert(points.end(), {{1.0, 0.5}, {1.0, 0.0}, {2.0, 0.5}, {0.0, 0.0}});
-  const Convex hull = convex_hull(points);
-  EXPECT_EQ(hull.size(), 4u);
-  EXPECT_DOUBLE_EQ(area(hull), 2.0);
-  EXPECT_GT(cross(hull[1] - hull[0], hull[2] - hull[1]), 0.0) << "counter-clockwise";
-}
-
 TEST(SpatialPolygon, OverlapIsWhatBothHave) {
   EXPECT_NEAR(overlap_area(rectangle(0, 0, 2, 2), rectangle(1, 1, 3, 3)), 1.0, 1e-12);
   EXPECT_EQ(overlap_area(rectangle(0, 0, 1, 1), rectangle(2, 0, 3, 1)), 0.0);
@@ -31,24 +22,11 @@ TEST(SpatialPolygon, DistanceIsThatOfTheNearestPoints) {
   EXPECT_NEAR(distance(rectangle(0, 0, 1, 1), rectangle(4, 5, 6, 6)), 5.0, 1e-12);
 }
 
-TEST(SpatialPolygon, WidthIsAcrossTheNarrowWay) {
-  EXPECT_NEAR(width(rectangle(0, 0, 3, 0.5)), 0.5, 1e-12);
-  EXPECT_NEAR(width({{0, 0}, {4, 0}, {0, 3}}), 2.4, 1e-12);
-}
-
 TEST(SpatialPolygon, SimplifyingDropsTheFlattestCorners) {
   Convex polygon{{0, 0}, {1, -0.01}, {2, 0}, {2, 2}, {0, 2}};
   simplify(polygon, 4);
   EXPECT_EQ(polygon.size(), 4u);
   EXPECT_DOUBLE_EQ(area(polygon), 4.0);
-}
-
-TEST(SpatialPolygon, PointsOfAPlaneGoThereAndBack) {
-  const Vec3 normal = Vec3(1.0, -2.0, 0.5).normalized();
-  const PlaneAxes axes(normal);
-  EXPECT_NEAR((axes.u.cross(axes.v) - normal).norm(), 0.0, 1e-12);
-  const Vec3 p(0.3, 4.0, -2.0);
-  EXPECT_NEAR((axes.lift(axes.flat(p), normal.dot(p)) - p).norm(), 0.0, 1e-12);
 }
 
 }  // namespace

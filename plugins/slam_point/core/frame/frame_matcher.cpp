@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/median.hpp"
 #include "geometry/rigid_fit.hpp"
 #include "slam_point/core/fit/alignment.hpp"
 
@@ -230,10 +231,8 @@ double FrameMatcher::score(const Pose& T_map_sensor, const Observations& frame) 
 double FrameMatcher::turn_step(const Observations& frame, double max_turn_rad) {
   ranges_.clear();
   for (const Observation& observation : frame) ranges_.push_back(observation.point.norm());
-  const auto middle = ranges_.begin() + static_cast<std::ptrdiff_t>(ranges_.size() / 2);
-  std::nth_element(ranges_.begin(), middle, ranges_.end());
   // Half a bound of arc at the middle range.
-  return std::max(0.5 * options_.match_bound() / std::max(*middle, options_.match_bound()),
+  return std::max(0.5 * options_.match_bound() / std::max(median(ranges_), options_.match_bound()),
                   max_turn_rad / kMaxTurnsEachWay);
 }
 

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "geometry/median.hpp"
+
 namespace hallway::slam_point {
 namespace {
 
@@ -156,9 +158,7 @@ double MotionVerdict::usual_variance(int pairs) {
   }
   const double least = 2.0 * noise_m_ * noise_m_ / static_cast<double>(pairs);
   if (lengths2_.size() < kLeastCommon) return least;
-  const auto middle = lengths2_.begin() + static_cast<std::ptrdiff_t>(lengths2_.size() / 2);
-  std::nth_element(lengths2_.begin(), middle, lengths2_.end());
-  return std::max(least, *middle / kMedianChi3);
+  return std::max(least, median(lengths2_) / kMedianChi3);
 }
 
 MotionVerdict::Finding MotionVerdict::finding(const Shift& shift, int pairs, double usual) const {
