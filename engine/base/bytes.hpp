@@ -18,7 +18,7 @@ namespace hallway {
 // What differs is an option: how values are aligned, where they are put, and what a reader makes of BadBytes.
 
 static_assert(std::endian::native == std::endian::little,
-              "the formats are little-endian, and values are copied as they stand in memory");
+              "the formats are little-endian, and values are copied as they are in memory");
 
 /// Bytes that are not what their format says. Who reads a format makes an error of its own of it.
 struct BadBytes {

@@ -118,10 +118,4 @@ Json to_json(const Metrics& metrics) {
           {"iteration_cpu_ms", to_json(metrics.iteration_cpu_ms)}};
 }
 
-Json without_clock(Json document) {
-  document.erase("iteration_ms");
-  document.erase("iteration_cpu_ms");
-  return document;
-}
-
 }  // namespace hallway::eval

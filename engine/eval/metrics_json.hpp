@@ -23,8 +23,4 @@ nlohmann::ordered_json to_json(const PathError& error);
 /// {"mean", "p50", "p99", "max"}; null for none.
 nlohmann::ordered_json to_json(const std::optional<TimeSummary>& times);
 
-/// The document without the facts of clock and machine (`iteration_ms`, `iteration_cpu_ms`): what two runs of one input
-/// have in common.
-nlohmann::ordered_json without_clock(nlohmann::ordered_json document);
-
 }  // namespace hallway::eval

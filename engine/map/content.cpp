@@ -8,6 +8,15 @@
 namespace hallway::map {
 namespace {
 
+/// A line of the table of the bits that Quake 2 and 3 write behind a face (SurfaceFlags). One such face makes the brush what the line says.
+struct FlagRule {
+  std::int64_t contents = 0;  ///< any of these bits of SurfaceFlags::contents
+  std::int64_t flags = 0;     ///< or of SurfaceFlags::flags
+  bool hint = false;
+  bool detail = false;
+  std::optional<LeftOut> left_out{};
+};
+
 constexpr MaterialRule left_out(std::string_view name, LeftOut reason, bool prefix = false) {
   return {.name = name, .prefix = prefix, .left_out = reason, .drawn = false};
 }
@@ -172,10 +181,6 @@ std::string_view to_string(LeftOut reason) {
 
 std::span<const MaterialRule> material_rules() {
   return kMaterialRules;
-}
-
-std::span<const FlagRule> flag_rules() {
-  return kFlagRules;
 }
 
 std::span<const ClassRule> class_rules() {

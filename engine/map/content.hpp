@@ -50,15 +50,6 @@ struct MaterialRule {
   bool drawn = true;                  ///< whether pictures show such a face
 };
 
-/// A line of the table of the bits that Quake 2 and 3 write behind a face (SurfaceFlags). One such face makes the brush what the line says.
-struct FlagRule {
-  std::int64_t contents = 0;  ///< any of these bits of SurfaceFlags::contents
-  std::int64_t flags = 0;     ///< or of SurfaceFlags::flags
-  bool hint = false;
-  bool detail = false;
-  std::optional<LeftOut> left_out{};
-};
-
 /// A line of the table of classes of entities that have brushes. Names are compared without regard to case, but for those
 /// that begin with `hw_`.
 struct ClassRule {
@@ -72,7 +63,6 @@ struct ClassRule {
 /// The whole tables, as docs/formats.md has them; the first line that fits counts. A brush of several materials is what
 /// the first line says that fits any of them.
 std::span<const MaterialRule> material_rules();
-std::span<const FlagRule> flag_rules();
 std::span<const ClassRule> class_rules();
 
 /// What a brush is by its entity and materials: a role, or why it has none.
