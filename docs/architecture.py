@@ -62,7 +62,8 @@ def without_implied(links):
 
 
 def table(links):
-    return "\n".join(f"{folder}: {' '.join(sorted(linked))}".rstrip() for folder, linked in sorted(links.items()))
+    """The arrows as text. Those that others imply are left out: optional parts of the build, as those of ROS, only add such."""
+    return "\n".join(f"{folder}: {' '.join(sorted(linked))}".rstrip() for folder, linked in sorted(without_implied(links).items()))
 
 
 def draw(links):
