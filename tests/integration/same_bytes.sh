@@ -15,7 +15,8 @@ that they write. It shows that a change of the code changed no result.
   --list       print the cases and their commands, run nothing
 
 The maps are those of this tree. Facts of the clock and the machine do not count: timing.csv, times*.csv, `host`, and
-numbers of seconds, milliseconds and bytes of memory. The two builds must be of the same processor's family.
+numbers of seconds, milliseconds and bytes of memory. Nor do facts of the build: its folder, and the hashes of plugins'
+files. The two builds must be of the same processor's family.
 Exit status: 0 all is the same; 1 something differs, its first lines are shown; 2 usage.
 HELP
 }
