@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "host/frame_builder.hpp"
-#include "host/isolated_plugin.hpp"
+#include "host/isolate/isolated_plugin.hpp"
 #include "host/plugin.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "log/observations.hpp"
 
 namespace {

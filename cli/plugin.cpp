@@ -6,7 +6,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "host/isolated_list.hpp"
+#include "host/isolate/isolated_list.hpp"
 #include "isolation_options.hpp"
 #include "run/manifest.hpp"
 #include "shared_options.hpp"

@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "host/loadability.hpp"
+#include "host/machine/loadability.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

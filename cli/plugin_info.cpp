@@ -7,7 +7,7 @@
 #include "base/text.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "host/isolated_plugin.hpp"
+#include "host/isolate/isolated_plugin.hpp"
 #include "isolation_options.hpp"
 #include "shared_options.hpp"
 

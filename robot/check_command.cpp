@@ -6,8 +6,8 @@
 
 #include "base/text.hpp"
 #include "console.hpp"
-#include "host/isolated_plugin.hpp"
-#include "host/plugin_info.hpp"
+#include "host/isolate/isolated_plugin.hpp"
+#include "host/load/plugin_info.hpp"
 #include "robot/command.hpp"
 #include "robot/session.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/setting.hpp"
-#include "host/driver.hpp"
+#include "host/load/driver.hpp"
 #include "host/pipeline.hpp"
 #include "host/plugin_limits.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "host/search.hpp"
+#include "host/load/search.hpp"
 #include "isolation_options.hpp"
 #include "plugin_argument.hpp"
 #include "plugin_path.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "console.hpp"
-#include "host/machine_profile.hpp"
-#include "host/search.hpp"
+#include "host/load/search.hpp"
+#include "host/machine/machine_profile.hpp"
 #include "robot/command.hpp"
 #include "shared_options.hpp"
 

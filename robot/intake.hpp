@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/driver.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/load/driver.hpp"
+#include "host/samples/frame_bytes.hpp"
 
 namespace hallway::robot {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/driver.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/load/driver.hpp"
 #include "host/pipeline.hpp"
 #include "host/plugin_limits.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "record/failures.hpp"
 #include "robot/arrivals.hpp"
 #include "robot/gate.hpp"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "host/stage.hpp"
 #include "record/answer_recorder.hpp"
 #include "record/answer_tables.hpp"

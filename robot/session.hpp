@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "host/isolation.hpp"
+#include "host/isolate/isolation.hpp"
 #include "host/stage.hpp"
 #include "robot/config.hpp"
 #include "robot/loop.hpp"

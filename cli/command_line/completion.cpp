@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/text.hpp"
-#include "host/search.hpp"
+#include "host/load/search.hpp"
 
 namespace hallway::cli {
 namespace {

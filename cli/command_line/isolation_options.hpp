@@ -6,7 +6,7 @@
 
 #include "base/setting.hpp"
 #include "command_line.hpp"
-#include "host/isolation.hpp"
+#include "host/isolate/isolation.hpp"
 #include "host/plugin_limits.hpp"
 
 namespace hallway::cli {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "base/text.hpp"
-#include "host/search.hpp"
+#include "host/load/search.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

@@ -11,8 +11,8 @@
 #include "conformance/call_mark.hpp"
 #include "conformance/instance.hpp"
 #include "conformance/texts.hpp"
-#include "host/error_text.hpp"
-#include "host/library_facts.hpp"
+#include "host/load/error_text.hpp"
+#include "host/machine/library_facts.hpp"
 
 namespace hallway::conformance {
 namespace {

@@ -9,7 +9,7 @@
 #include "conformance/instance.hpp"
 #include "conformance/texts.hpp"
 #include "conformance/walk.hpp"
-#include "host/error_text.hpp"
+#include "host/load/error_text.hpp"
 
 namespace hallway::conformance {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "conformance/call_mark.hpp"
 #include "conformance/walk.hpp"
-#include "host/error_text.hpp"
+#include "host/load/error_text.hpp"
 #include "host/text_parameter.hpp"
 
 namespace hallway::conformance {

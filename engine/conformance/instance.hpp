@@ -14,7 +14,7 @@
 #include "conformance/test.hpp"
 #include "conformance/test_host.hpp"
 #include "conformance/walk.hpp"
-#include "host/error_text.hpp"
+#include "host/load/error_text.hpp"
 #include "host/parameter.hpp"
 
 namespace hallway::conformance {

@@ -7,7 +7,7 @@
 
 #include "base/text.hpp"
 #include "conformance/call_mark.hpp"
-#include "host/error_text.hpp"
+#include "host/load/error_text.hpp"
 
 namespace hallway::conformance {
 

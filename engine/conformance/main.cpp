@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "conformance/test_process.hpp"
-#include "host/no_leak_check.hpp"
+#include "host/load/no_leak_check.hpp"
 
 int main(int argc, char** argv) {
   if (argc < 2) {

@@ -6,7 +6,7 @@
 
 #include "conformance/instance.hpp"
 #include "conformance/walk.hpp"
-#include "host/plugin_info.hpp"
+#include "host/load/plugin_info.hpp"
 
 namespace hallway::conformance {
 namespace {

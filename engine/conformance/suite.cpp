@@ -16,8 +16,8 @@
 #include "base/spawn.hpp"
 #include "base/text.hpp"
 #include "conformance/test_process.hpp"
-#include "host/elf.hpp"
-#include "host/plugin_process.hpp"
+#include "host/isolate/plugin_process.hpp"
+#include "host/machine/elf.hpp"
 
 namespace hallway::conformance {
 namespace {

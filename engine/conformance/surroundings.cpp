@@ -18,7 +18,7 @@
 #include <thread>
 
 #include "base/text.hpp"
-#include "host/process_use.hpp"
+#include "host/isolate/process_use.hpp"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>

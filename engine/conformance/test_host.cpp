@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/outputs_bytes.hpp"
+#include "host/output/outputs_bytes.hpp"
 
 namespace hallway::conformance {
 namespace {

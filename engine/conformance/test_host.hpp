@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 
 namespace hallway::conformance {
 

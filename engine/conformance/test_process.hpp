@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "conformance/test.hpp"
-#include "host/crash_record.hpp"
+#include "host/isolate/crash_record.hpp"
 
 namespace hallway::conformance {
 

@@ -10,18 +10,18 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "host/load/info_text.hpp"
 
 namespace hallway::host {
 namespace {
 
-constexpr std::size_t kMaxTextBytes = 1000;
 constexpr std::uint32_t kMaxChoices = 1000;
 
 [[noreturn]] void fail_load(const std::string& message) {
   throw Error(ErrorCode::kPluginLoad, "declares a parameter badly: " + message);
 }
 
-std::string read_text(const char* text, const char* member, std::size_t most = kMaxTextBytes) {
+std::string read_text(const char* text, const char* member, std::size_t most = kMaxInfoTextBytes) {
   if (text == nullptr) fail_load(fmt::format("its {} is null", member));
   return printable({text, strnlen(text, most)}, most);
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "host/isolated_plugin.hpp"
+#include "host/isolate/isolated_plugin.hpp"
 #include "host/pipeline_kinds.hpp"
 #include "host/plugin.hpp"
 

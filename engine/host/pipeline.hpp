@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/isolation.hpp"
-#include "host/plane_samples.hpp"
+#include "host/isolate/isolation.hpp"
+#include "host/samples/plane_samples.hpp"
 #include "host/stage.hpp"
 
 namespace hallway::host {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "host/plugin_info.hpp"
+#include "host/load/plugin_info.hpp"
 #include "host/stage.hpp"
 
 namespace hallway::host {

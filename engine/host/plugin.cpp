@@ -13,8 +13,8 @@
 #include "base/origin.hpp"
 #include "base/text.hpp"
 #include "host/c_sensor.hpp"
-#include "host/error_text.hpp"
-#include "host/load_step.hpp"
+#include "host/load/error_text.hpp"
+#include "host/load/load_step.hpp"
 #include "host/text_parameter.hpp"
 
 namespace hallway::host {

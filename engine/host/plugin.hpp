@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "host/sample_selection.hpp"
-#include "host/search.hpp"
+#include "host/isolate/verdict.hpp"
+#include "host/load/search.hpp"
+#include "host/samples/sample_selection.hpp"
 #include "host/stage.hpp"
-#include "host/verdict.hpp"
 
 namespace hallway::host {
 

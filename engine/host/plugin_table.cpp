@@ -5,7 +5,7 @@
 
 #include "base/table_reader.hpp"
 #include "base/text.hpp"
-#include "host/search.hpp"
+#include "host/load/search.hpp"
 
 namespace hallway::host {
 namespace {

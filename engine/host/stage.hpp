@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "host/outputs.hpp"
+#include "host/load/plugin_info.hpp"
+#include "host/output/outputs.hpp"
 #include "host/parameter.hpp"
-#include "host/plugin_info.hpp"
 
 namespace hallway::host {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "import/recording.hpp"
 
 namespace hallway::import {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "link/host_session.hpp"
 
 namespace hallway::link {

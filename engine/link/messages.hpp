@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "link/datagram.hpp"
 
 namespace hallway::link {

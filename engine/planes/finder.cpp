@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "geom/arrays.hpp"
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "import/point_collector.hpp"
 
 namespace hallway::planes {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "record/plane_observations.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"

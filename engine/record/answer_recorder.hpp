@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "host/stage.hpp"
 #include "log/run_log.hpp"
 #include "record/final_map.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "host/stage.hpp"
 #include "log/row_file.hpp"
 #include "log/tum.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "log/id_pairs.hpp"
 #include "log/tum.hpp"
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "host/isolate/verdict.hpp"
 #include "host/pipeline.hpp"
 #include "host/plugin_limits.hpp"
-#include "host/verdict.hpp"
 
 namespace hallway::record {
 

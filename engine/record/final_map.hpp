@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 #include "log/map_answer.hpp"
 
 namespace hallway::record {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/plane_lists.hpp"
+#include "host/samples/plane_lists.hpp"
 #include "log/plane_observations.hpp"
 
 namespace hallway::record {

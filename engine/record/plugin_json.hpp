@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/isolate/verdict.hpp"
 #include "host/pipeline.hpp"
-#include "host/verdict.hpp"
 
 namespace hallway::record {
 

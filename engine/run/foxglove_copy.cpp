@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "foxglove/view.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
 #include "record/sensor_json.hpp"

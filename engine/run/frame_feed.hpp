@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "run/run.hpp"
 #include "run/source.hpp"
 

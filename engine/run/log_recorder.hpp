@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "foxglove/view.hpp"
-#include "host/frame_builder.hpp"
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "record/answer_recorder.hpp"
 #include "run/source.hpp"
 

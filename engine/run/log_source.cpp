@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "geom/arrays.hpp"
-#include "host/frame_builder.hpp"
-#include "host/plane_lists.hpp"
-#include "host/strided.hpp"
+#include "host/samples/frame_builder.hpp"
+#include "host/samples/plane_lists.hpp"
+#include "host/samples/strided.hpp"
 #include "run/log_recorder.hpp"
 
 namespace hallway::run {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "eval/path_parts.hpp"
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 
 namespace hallway::run {
 

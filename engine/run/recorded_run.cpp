@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "geom/arrays.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
 #include "record/plane_observations.hpp"

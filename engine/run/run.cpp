@@ -13,7 +13,7 @@
 #include "base/file.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/metrics_json.hpp"
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "record/answer_tables.hpp"
 #include "record/epoch_table.hpp"
 #include "record/final_map.hpp"

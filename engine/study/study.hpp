@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/isolation.hpp"
+#include "host/isolate/isolation.hpp"
 #include "host/stage.hpp"
 #include "study/chart.hpp"
 #include "study/ground.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "host/stage.hpp"
 #include "log/mcap_reader.hpp"
 

@@ -22,9 +22,9 @@
 
 #include "base/file.hpp"
 #include "base/helper.hpp"
-#include "host/frame_builder.hpp"
-#include "host/isolated_plugin.hpp"
-#include "host/process_use.hpp"
+#include "host/isolate/isolated_plugin.hpp"
+#include "host/isolate/process_use.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "support/errors.hpp"
 #include "support/long_mode.hpp"
 #include "support/marked_processes.hpp"

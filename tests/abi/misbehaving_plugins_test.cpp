@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "host/frame_builder.hpp"
 #include "host/plugin.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "link/host_session.hpp"
 #include "link/robot_end.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "host/library_facts.hpp"
+#include "host/machine/library_facts.hpp"
 #include "robot/robot_world.hpp"
 
 namespace hallway::test {

@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "cli/small_world.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "link/udp_wire.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/run_log.hpp"

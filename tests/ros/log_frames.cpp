@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "base/file.hpp"
-#include "host/frame_builder.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_builder.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/run_log.hpp"
 

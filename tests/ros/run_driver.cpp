@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "host/frame_builder.hpp"
 #include "host/plugin.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {

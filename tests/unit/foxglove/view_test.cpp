@@ -8,7 +8,7 @@
 #include "foxglove/Log.pb.h"
 #include "foxglove/PointCloud.pb.h"
 #include "foxglove/SceneUpdate.pb.h"
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "log/mcap_reader.hpp"
 
 namespace hallway::foxglove {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "host/frame_builder.hpp"
 #include "host/pipeline.hpp"
 #include "host/plugin.hpp"
+#include "host/samples/frame_builder.hpp"
 
 namespace hallway::host::test_fixtures {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 
 #include <gtest/gtest.h>
 

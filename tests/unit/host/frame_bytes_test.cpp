@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {

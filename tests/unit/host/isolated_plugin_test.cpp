@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A plugin in a process of its own gives what it gives in this one: outputs, parameters, errors, log.
-#include "host/isolated_plugin.hpp"
+#include "host/isolate/isolated_plugin.hpp"
 
 #include <gtest/gtest.h>
 

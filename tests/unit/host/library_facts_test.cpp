@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What binutils say of the same files is the oracle.
-#include "host/library_facts.hpp"
+#include "host/machine/library_facts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
-#include "host/machine_profile.hpp"
+#include "host/machine/machine_profile.hpp"
 #include "support/errors.hpp"
 #include "support/process.hpp"
 #include "support/temp_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/library.hpp"
+#include "host/load/library.hpp"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "base/helper.hpp"
 #include "fixtures.hpp"
-#include "host/process_use.hpp"
+#include "host/isolate/process_use.hpp"
 
 namespace hallway::host {
 namespace {

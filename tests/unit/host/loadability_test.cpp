@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/loadability.hpp"
+#include "host/machine/loadability.hpp"
 
 #include <gtest/gtest.h>
 

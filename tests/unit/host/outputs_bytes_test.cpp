@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What comes back from a plugin's process: every output survives the way, and no bytes whatever do harm.
-#include "host/outputs_bytes.hpp"
+#include "host/output/outputs_bytes.hpp"
 
 #include <gtest/gtest.h>
 

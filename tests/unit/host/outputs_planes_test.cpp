@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "put_output.hpp"
 
 namespace hallway::host {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-#include "host/frame_builder.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "put_output.hpp"
 
 namespace hallway::host {

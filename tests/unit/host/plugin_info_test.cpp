@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/plugin_info.hpp"
+#include "host/load/plugin_info.hpp"
 
 #include <gtest/gtest.h>
 #include <hallway/output.h>

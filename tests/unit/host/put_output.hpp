@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
 
 namespace hallway::host {
 

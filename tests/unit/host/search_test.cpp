@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/search.hpp"
+#include "host/load/search.hpp"
 
 #include <gtest/gtest.h>
 

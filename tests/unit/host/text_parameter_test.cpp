@@ -11,7 +11,7 @@
 
 #include "base/file.hpp"
 #include "fixtures.hpp"
-#include "host/isolated_plugin.hpp"
+#include "host/isolate/isolated_plugin.hpp"
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "host/frame_builder.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_builder.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "link/datagram.hpp"
 #include "link/description.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "host/frame_builder.hpp"
-#include "host/outputs.hpp"
+#include "host/output/outputs.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "support/temp_folder.hpp"
 #include "unit/host/put_output.hpp"
 

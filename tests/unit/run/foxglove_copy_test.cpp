@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "run/log_recorder.hpp"
 #include "run/log_source.hpp"
 #include "support/errors.hpp"

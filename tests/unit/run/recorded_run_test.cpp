@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "host/frame_bytes.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "run/log_recorder.hpp"
 #include "run/log_source.hpp"
 #include "run/tracked_source.hpp"
