@@ -15,7 +15,7 @@
 #include "console.hpp"
 #include "output_file.hpp"
 #include "renderer_option.hpp"
-#include "run/pictures.hpp"
+#include "run/pictures/pictures.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

@@ -21,7 +21,7 @@
 #include "plugin_sweep.hpp"
 #include "render/png.hpp"
 #include "renderer_option.hpp"
-#include "run/comparison.hpp"
+#include "run/scoring/comparison.hpp"
 #include "shared_options.hpp"
 #include "sim/schema.hpp"
 

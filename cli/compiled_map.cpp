@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "map/reader.hpp"
-#include "run/map_view.hpp"
+#include "run/pictures/map_view.hpp"
 
 namespace hallway::cli {
 namespace {

@@ -25,7 +25,7 @@
 #include "render/gl_context.hpp"
 #include "render/png.hpp"
 #include "renderer_option.hpp"
-#include "run/manifest.hpp"
+#include "run/feed/manifest.hpp"
 #include "shared_options.hpp"
 #include "trace/scene.hpp"
 

@@ -10,7 +10,7 @@
 #include "compiled_map.hpp"
 #include "console.hpp"
 #include "render/map_layers.hpp"
-#include "run/map_view.hpp"
+#include "run/pictures/map_view.hpp"
 
 namespace hallway::cli {
 namespace {

@@ -21,9 +21,10 @@
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
-#include "run/log_recorder.hpp"
-#include "run/manifest.hpp"
-#include "run/record.hpp"
+#include "run/feed/log_recorder.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/feed/observation_tables.hpp"
+#include "run/pictures/record.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {
@@ -71,13 +72,12 @@ void write_mcap(OpenedLog& opened, const ConvertOptions& options) {
   NewFile file(options.out, options.force);
   run::LogRecorder recorder(file.output(), *opened.source, manifest_of(opened));
   if (options.foxglove) recorder.add_view(false);
-  host::FrameBuilder builder;
   run::SourceFrame frame;
   Progress progress("convert", opened.source->iterations(), options.json);
   for (std::uint32_t i = 0; i < opened.source->iterations(); ++i) {
     stop_if_interrupted();
     opened.source->read(i, frame);
-    recorder.record_input(run::build_frame(builder, i, frame), frame);
+    recorder.record_input(frame);
     progress.update(i + 1);
   }
   recorder.finish();
@@ -93,42 +93,33 @@ log::IterationPose pose_of(std::uint32_t iteration, const run::SourceFrame& fram
 }
 
 void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::int64_t period_ns) {
-  if (frame.t_ns == period_ns * static_cast<std::int64_t>(iteration)) return;
+  if (frame.t_ns() == period_ns * static_cast<std::int64_t>(iteration)) return;
   print_warning(
       "frame {} lies at {} ns and not at {} periods of {} ns: CSV files have no times, and those of "
       "the log are lost",
-      iteration, frame.t_ns, iteration, period_ns);
+      iteration, frame.t_ns(), iteration, period_ns);
 }
 
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
-  log::ObservationLog observations(source.has_identities(), source.has_tracks());
-  log::PlaneObservationLog planes(source.has_identities());
+  run::ObservationTables observations(source);
   std::vector<log::IterationPose> poses;
   run::SourceFrame frame;
   bool regular = true;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
     stop_if_interrupted();
     source.read(i, frame);
-    if (frame.is_of_planes) {
-      planes.add_frame(i, frame.planes);
-    } else {
-      observations.add_frame(i, frame.observations);
-    }
+    observations.add(i, frame);
     if (frame.T_world_body) poses.push_back(pose_of(i, frame));
     if (regular) warn_of_times(i, frame, opened.period_ns);
-    regular = regular && frame.t_ns == opened.period_ns * static_cast<std::int64_t>(i);
+    regular = regular && frame.t_ns() == opened.period_ns * static_cast<std::int64_t>(i);
   }
   Json manifest = manifest_of(opened);
-  manifest["sensors"] = Json::array({record::print_sensor(source.sensor())});
+  manifest["sensors"] = record::print_sensors(source.sensors());
   manifest["iterations"] = source.iterations();
   const fs::path& path = folder.working_path();
-  if (source.sensor().kind == HW_SAMPLE_PLANES) {
-    log::write_observed_planes(path / run::files::kObservedPlanes, planes);
-  } else {
-    log::write_observations(path / run::files::kObservations, observations);
-  }
+  observations.write(path);
   if (!poses.empty()) log::write_poses(path / run::files::kTruePoses, poses);
   if (source.true_landmarks())
     log::write_landmarks(path / run::files::kTrueLandmarks, *source.true_landmarks());

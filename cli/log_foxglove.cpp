@@ -8,7 +8,7 @@
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
-#include "run/record.hpp"
+#include "run/pictures/record.hpp"
 
 namespace hallway::cli {
 namespace {

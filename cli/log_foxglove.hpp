@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "log_input.hpp"
-#include "run/foxglove_copy.hpp"
+#include "run/feed/foxglove_copy.hpp"
 
 namespace hallway::cli {
 

@@ -31,7 +31,7 @@ class ImportedSource : public run::Source {
   /// @param steps  how many frames to give; 0 for all
   ImportedSource(std::unique_ptr<import::Recording> recording, std::uint32_t steps)
       : recording_(std::move(recording)), iterations_(recording_->frames()) {
-    facts_.sensor.name = recording_->sensor();
+    facts_.sensors.emplace_back().name = recording_->sensor();
     facts_.has_identities = recording_->has_identities();
     facts_.has_tracks = recording_->has_tracks();
     facts_.true_landmarks = recording_->true_landmarks();
@@ -39,22 +39,6 @@ class ImportedSource : public run::Source {
   }
 
   std::uint32_t iterations() const override { return iterations_; }
-  void read(std::uint32_t iteration, run::SourceFrame& frame) override {
-    recording_->read(iteration, frame_);
-    frame.t_ns = frame_.t_ns;
-    frame.observations.clear();
-    for (const auto& point : frame_.points) frame.observations.push_back({.point = point});
-    for (std::size_t i = 0; i < frame_.identities.size(); ++i)
-      frame.observations[i].landmark = frame_.identities[i];
-    for (std::size_t i = 0; i < frame_.tracks.size(); ++i) frame.observations[i].track = frame_.tracks[i];
-    frame.is_tracked = recording_->has_tracks();
-    frame.T_world_body = frame_.T_world_body;
-    frame.orientation_known = frame_.orientation_known;
-    not_finite_ += frame_.not_finite;
-    if (frame_.not_finite > 0) ++frames_not_finite_;
-    if (!frame_.T_world_body) ++frames_without_truth_;
-  }
-
   /// About the frames that were read, each of them once.
   std::vector<std::string> missing() const {
     std::vector<std::string> lines;
@@ -70,6 +54,26 @@ class ImportedSource : public run::Source {
   }
 
  private:
+  void fill(std::uint32_t iteration, run::SourceFrame& frame) override {
+    recording_->read(iteration, frame_);
+    host::FrameBuilder& builder = frame.begin(iteration, frame_.t_ns);
+    std::vector<hw_point3_t>& points = builder.add_points(facts_.sensors.front().id);
+    for (const auto& [x, y, z] : frame_.points) points.push_back({x, y, z});
+    if (has_tracks()) {
+      builder.add_tracks() = frame_.tracks;
+      builder.add_tracks().resize(points.size(), log::kNoTrack);
+    }
+    if (has_identities()) {
+      frame.identities = frame_.identities;
+      frame.identities.resize(points.size(), log::kNoLandmark);
+    }
+    frame.T_world_body = frame_.T_world_body;
+    frame.orientation_known = frame_.orientation_known;
+    not_finite_ += frame_.not_finite;
+    if (frame_.not_finite > 0) ++frames_not_finite_;
+    if (!frame_.T_world_body) ++frames_without_truth_;
+  }
+
   std::unique_ptr<import::Recording> recording_;
   std::uint32_t iterations_;
   import::Frame frame_;

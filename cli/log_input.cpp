@@ -15,9 +15,9 @@
 #include "log/true_planes.hpp"
 #include "log/unfinished_input.hpp"
 #include "record/sensor_json.hpp"
-#include "run/log_source.hpp"
-#include "run/record.hpp"
-#include "run/recorded_run.hpp"
+#include "run/pictures/record.hpp"
+#include "run/sources/log_source.hpp"
+#include "run/sources/recorded_run.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -28,6 +28,7 @@ constexpr double kDefaultPeriod_s = 0.1;
 struct Files {
   fs::path observations;
   std::optional<Json> manifest;  ///< run.json of its folder
+  host::SensorInfo sensor{.name = "log"};
   std::optional<fs::path> true_poses;
   std::optional<fs::path> true_landmarks;
   std::optional<fs::path> true_planes;
@@ -57,14 +58,31 @@ std::string name_of(const fs::path& file) {
   return folder.empty() ? absolute.stem().string() : folder;
 }
 
+/// "observations.csv" or, of one of several sensors, "observations_NAME.csv".
+bool is_observations(const fs::path& file, const fs::path& name) {
+  return file.filename() == name || (file.stem().string().starts_with(name.stem().string() + "_") &&
+                                     file.extension() == name.extension());
+}
+
+/// Of a run with several sensors that whose name the file has, else the first.
+host::SensorInfo sensor_of(const Json& manifest, const fs::path& observations) {
+  if (!manifest.contains("sensors") || manifest.at("sensors").empty()) return {.name = "log"};
+  for (const Json& json : manifest.at("sensors")) {
+    const host::SensorInfo sensor = record::read_sensor(json);
+    if (observations.stem().string().ends_with("_" + sensor.name)) return sensor;
+  }
+  return record::read_sensor(manifest.at("sensors").front());
+}
+
 Files find_files(const LogChoice& choice, const fs::path& observations) {
   Files files;
   files.observations = observations;
   const fs::path folder = observations.parent_path();
-  const bool is_named = observations.filename() == run::files::kObservations ||
-                        observations.filename() == run::files::kObservedPlanes;
+  const bool is_named = is_observations(observations, run::files::kObservations) ||
+                        is_observations(observations, run::files::kObservedPlanes);
   if (is_named && run::is_run_folder(folder)) {
     files.manifest = run::read_manifest(folder);
+    files.sensor = sensor_of(*files.manifest, observations);
     files.true_poses = if_there(folder / run::files::kTruePoses);
     files.true_landmarks = if_there(folder / run::files::kTrueLandmarks);
     files.true_planes = if_there(folder / run::files::kTruePlanes);
@@ -78,15 +96,6 @@ std::int64_t period_of(const LogChoice& choice, const std::optional<Json>& manif
   if (choice.period_s) return static_cast<std::int64_t>(*choice.period_s * 1e9 + 0.5);
   if (manifest && manifest->contains("period_ns")) return manifest->at("period_ns").get<std::int64_t>();
   return static_cast<std::int64_t>(kDefaultPeriod_s * 1e9);
-}
-
-host::SensorInfo sensor_of(const std::optional<Json>& manifest) {
-  if (manifest && manifest->contains("sensors") && !manifest->at("sensors").empty()) {
-    return record::read_sensor(manifest->at("sensors").front());
-  }
-  host::SensorInfo sensor;
-  sensor.name = "log";
-  return sensor;
 }
 
 /// A name from a log, fit for a folder's: it may come from anywhere.
@@ -123,8 +132,8 @@ OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
   const auto take = [&](auto read) {
     if (read.damage) print_warning(opened.warnings, log::describe(*read.damage, read.log, path.string()));
     try {
-      opened.source = std::make_unique<run::LogSource>(
-          std::move(read.log), std::move(truth), sensor_of(files.manifest), opened.period_ns, choice.steps);
+      opened.source = std::make_unique<run::LogSource>(std::move(read.log), std::move(truth), files.sensor,
+                                                       opened.period_ns, choice.steps);
     } catch (const Error& error) {
       throw Error(error.code(), error.message(),
                   {.file = printable(path.string()), .element = error.where().element});

@@ -11,8 +11,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "run/run.hpp"
-#include "run/source.hpp"
+#include "run/feed/run.hpp"
+#include "run/sources/source.hpp"
 
 namespace hallway::cli {
 

@@ -10,7 +10,7 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
-#include "run/map_findings.hpp"
+#include "run/pictures/map_findings.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

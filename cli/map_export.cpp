@@ -13,7 +13,7 @@
 #include "console.hpp"
 #include "mesh/export.hpp"
 #include "output_file.hpp"
-#include "run/map_export.hpp"
+#include "run/pictures/map_export.hpp"
 #include "sense/landmarks.hpp"
 #include "shared_options.hpp"
 

@@ -13,7 +13,7 @@
 #include "leak_report.hpp"
 #include "output_file.hpp"
 #include "renderer_option.hpp"
-#include "run/pictures.hpp"
+#include "run/pictures/pictures.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

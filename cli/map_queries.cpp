@@ -12,7 +12,7 @@
 #include "console.hpp"
 #include "csg/surface.hpp"
 #include "render/map_layers.hpp"
-#include "run/map_view.hpp"
+#include "run/pictures/map_view.hpp"
 #include "sense/occluders.hpp"
 #include "shared_options.hpp"
 #include "sim/models.hpp"

@@ -4,8 +4,8 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "console.hpp"
-#include "run/pictures.hpp"
-#include "run/record.hpp"
+#include "run/pictures/pictures.hpp"
+#include "run/pictures/record.hpp"
 
 namespace hallway::cli {
 

@@ -7,8 +7,10 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "host/isolate/isolated_list.hpp"
+#include "host/output/output_kind.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "isolation_options.hpp"
-#include "run/manifest.hpp"
+#include "run/feed/manifest.hpp"
 #include "shared_options.hpp"
 
 namespace hallway::cli {

@@ -8,6 +8,8 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "host/isolate/isolated_plugin.hpp"
+#include "host/output/output_kind.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "isolation_options.hpp"
 #include "shared_options.hpp"
 
@@ -47,6 +49,9 @@ std::string text_of(const host::Stage& plugin) {
   line("vendor", info.vendor);
   line("file", path_text(plugin.file()));
   line("takes", fmt::format("{}", fmt::join(names_of(info.inputs, &host::sample_kind_name), ", ")));
+  if (!info.optional_inputs.empty())
+    line("may take",
+         fmt::format("{}", fmt::join(names_of(info.optional_inputs, &host::sample_kind_name), ", ")));
   line("gives", fmt::format("{}", fmt::join(names_of(info.outputs, &host::output_kind_name), ", ")));
   if (plugin.parameters().empty()) return text + "no parameters\n";
   text += "parameters, set by --set " + info.id + ".NAME=VALUE or in a scenario:\n";
@@ -78,16 +83,19 @@ Json json_of(const host::Stage& plugin) {
     }
     parameters.push_back(std::move(one));
   }
-  return {{"schema", "hallway.plugin_info/1"},
-          {"id", info.id},
-          {"name", info.name},
-          {"version", info.version},
-          {"vendor", info.vendor},
-          {"description", info.description},
-          {"file", path_text(plugin.file())},
-          {"inputs", names_of(info.inputs, &host::sample_kind_name)},
-          {"outputs", names_of(info.outputs, &host::output_kind_name)},
-          {"parameters", std::move(parameters)}};
+  Json json{{"schema", "hallway.plugin_info/1"},
+            {"id", info.id},
+            {"name", info.name},
+            {"version", info.version},
+            {"vendor", info.vendor},
+            {"description", info.description},
+            {"file", path_text(plugin.file())},
+            {"inputs", names_of(info.inputs, &host::sample_kind_name)},
+            {"outputs", names_of(info.outputs, &host::output_kind_name)},
+            {"parameters", std::move(parameters)}};
+  if (!info.optional_inputs.empty())
+    json["optional_inputs"] = names_of(info.optional_inputs, &host::sample_kind_name);
+  return json;
 }
 
 int show(const PluginInfoOptions& options) {

@@ -15,8 +15,8 @@
 #include "console.hpp"
 #include "output_file.hpp"
 #include "renderer_option.hpp"
-#include "run/pictures.hpp"
-#include "run/record.hpp"
+#include "run/pictures/pictures.hpp"
+#include "run/pictures/record.hpp"
 #include "shared_options.hpp"
 #include "show_list.hpp"
 

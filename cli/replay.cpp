@@ -20,11 +20,11 @@
 #include "output_file.hpp"
 #include "plugin_argument.hpp"
 #include "report.hpp"
-#include "run/manifest.hpp"
-#include "run/paced_source.hpp"
-#include "run/record.hpp"
-#include "run/run.hpp"
-#include "run/tracked_source.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/feed/run.hpp"
+#include "run/pictures/record.hpp"
+#include "run/sources/paced_source.hpp"
+#include "run/sources/tracked_source.hpp"
 #include "shared_options.hpp"
 #include "sim/scenario.hpp"
 
@@ -172,11 +172,10 @@ int replay(const ReplayOptions& options) {
   run::Source& source = paced ? *paced : *input.source;
   Stages stages = stages_of(options, input);
   for (const std::string& warning : warnings_of(stages)) print_warning(input.warnings, warning);
-  const std::vector<host::SensorInfo> sensors{source.sensor()};
   const sim::PluginLimits limits = apply(options.isolation, {});
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
-      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), sensors,
+      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), source.sensors(),
                                 plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, limits.on_failure);

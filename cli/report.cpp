@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "eval/metrics_json.hpp"
-#include "run/manifest.hpp"
+#include "run/feed/manifest.hpp"
 
 namespace hallway::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "console.hpp"
 #include "host/pipeline.hpp"
 #include "plugin_report.hpp"
-#include "run/run.hpp"
+#include "run/feed/run.hpp"
 
 namespace hallway::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/run.hpp"
+#include "run/feed/run.hpp"
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@
 #include "plugin_argument.hpp"
 #include "renderer_option.hpp"
 #include "report.hpp"
-#include "run/manifest.hpp"
-#include "run/record.hpp"
-#include "run/simulated_source.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/pictures/record.hpp"
+#include "run/sources/simulated_source.hpp"
 #include "scenario_input.hpp"
 #include "shared_options.hpp"
 #include "sim/simulator.hpp"
@@ -59,10 +59,9 @@ int run_scenario(const RunOptions& options) {
       open_scenario(options.scenario, overrides_of(options), options.threads, options.strict);
   const sim::Scenario& scenario = opened.simulator->scenario();
   run::SimulatedSource source(*opened.simulator);
-  const std::vector<host::SensorInfo> sensors{source.sensor()};
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
-      host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), sensors,
+      host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), source.sensors(),
                                 plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, scenario.limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, scenario.limits.on_failure);

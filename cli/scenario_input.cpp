@@ -15,7 +15,7 @@
 #include "console.hpp"
 #include "map/reader.hpp"
 #include "plugin_argument.hpp"
-#include "run/record.hpp"
+#include "run/pictures/record.hpp"
 #include "sim/default_scenario.hpp"
 
 namespace hallway::cli {

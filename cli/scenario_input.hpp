@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "run/manifest.hpp"
-#include "run/run.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/feed/run.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::cli {

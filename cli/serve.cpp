@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/serve.hpp"
+#include "run/serving/serve.hpp"
 
 #include <fmt/format.h>
 
@@ -18,9 +18,9 @@
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
 #include "log_input.hpp"
-#include "run/manifest.hpp"
-#include "run/record.hpp"
-#include "run/simulated_source.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/pictures/record.hpp"
+#include "run/sources/simulated_source.hpp"
 #include "scenario_input.hpp"
 #include "shared_options.hpp"
 #include "sim/scenario.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run/map_things.hpp"
-#include "run/map_view.hpp"
+#include "run/pictures/map_things.hpp"
+#include "run/pictures/map_view.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::cli {

@@ -8,7 +8,7 @@
 # holds include lines against it, and docs/architecture.py draws it. A rule's line has `never`, the folder and the others.
 function(hallway_write_links file)
   get_property(lines GLOBAL PROPERTY HALLWAY_NEVER_LINKS)
-  foreach(folder sdk geometry engine loaders plugins editor cli robot)
+  foreach(folder sdk geometry engine loaders plugins editor app cli robot)
     hallway_targets_below(${PROJECT_SOURCE_DIR}/${folder} targets)
     foreach(target IN LISTS targets)
       hallway_link_line(${target} line)

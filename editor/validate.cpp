@@ -21,7 +21,7 @@
 #include "map/content.hpp"
 #include "map/entity_schema.hpp"
 #include "map/start_check.hpp"
-#include "run/map_findings.hpp"
+#include "run/pictures/map_findings.hpp"
 
 namespace hallway::editor {
 namespace {

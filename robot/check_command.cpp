@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "host/isolate/isolated_plugin.hpp"
 #include "host/load/plugin_info.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "robot/command.hpp"
 #include "robot/session.hpp"
 

@@ -4,27 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.hpp"
+#include "host/samples/sample_kind.hpp"
 
 namespace hallway::robot {
-namespace {
-
-bool is_finite(const hw_points_t& points) {
-  for (std::uint64_t i = 0; i < points.count; ++i) {
-    const hw_point3_t& point = *hw_point_at(&points, i);
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) return false;
-  }
-  return true;
-}
-
-bool has_planes(const hw_frame_t& frame) {
-  return std::any_of(frame.samples, frame.samples + frame.n_samples,
-                     [](const hw_sample_t* sample) { return sample->kind == HW_SAMPLE_PLANES; });
-}
-
-}  // namespace
 
 Intake::Intake(host::Driver& driver, const host::RobotInfo& robot) : driver_(driver), robot_(robot) {}
 
@@ -40,11 +24,11 @@ std::optional<TakenFrame> Intake::take(std::chrono::nanoseconds wait, std::strin
 bool Intake::keep(const hw_frame_t& frame, std::string& bytes) {
   try {
     // This also looks at the struct itself, before its samples are looked at.
-    const std::size_t size = host::frame_bytes_size(frame);
-    if (const char* problem = problem_of(frame)) throw Error(ErrorCode::kBadInput, problem);
+    const std::size_t size = writer_.measure(frame);
+    const std::string problem = problem_of(frame);
+    if (!problem.empty()) throw Error(ErrorCode::kBadInput, problem);
     bytes.resize(size);
-    host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
-    if (has_planes(frame)) host::FrameReader().read(std::as_bytes(std::span(bytes)));  // checks what they say
+    writer_.write(std::as_writable_bytes(std::span(bytes)));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kBadInput) throw;
     refuse(frame.sequence, error.message());
@@ -64,23 +48,23 @@ void Intake::refuse(std::uint64_t sequence, const std::string& reason) {
   if (counts_.refused++ == 0) first_refusal_ = message;
 }
 
-const char* Intake::problem_of(const hw_frame_t& frame) const {
+std::string Intake::problem_of(const hw_frame_t& frame) const {
   if (frame.t_ns < 0) return "a time below 0";
   if (last_ && frame.sequence <= last_->sequence) return "a number that is not above the one before";
   if (last_ && frame.t_ns < last_->t_ns) return "a time before that of the frame before";
   for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
-    if (const char* problem = problem_of(*frame.samples[i])) return problem;
+    std::string problem = problem_of(*frame.samples[i]);
+    if (!problem.empty()) return problem;
   }
-  return nullptr;
+  return {};
 }
 
-const char* Intake::problem_of(const hw_sample_t& sample) const {
+std::string Intake::problem_of(const hw_sample_t& sample) const {
   const auto sensor =
       std::ranges::find_if(robot_.sensors, [&](const auto& info) { return info.id == sample.sensor_id; });
   if (sensor == robot_.sensors.end()) return "a sample of a sensor that was not described";
   if (sensor->kind != sample.kind) return "a sample of another kind than its sensor gives";
-  if (sample.kind != HW_SAMPLE_POINTS) return nullptr;
-  return is_finite(*static_cast<const hw_points_t*>(sample.payload)) ? nullptr : "a point that is not finite";
+  return host::find_not_finite(sample);
 }
 
 }  // namespace hallway::robot

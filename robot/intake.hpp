@@ -32,7 +32,7 @@ class Intake {
   /// Keeps references. In lock-step a frame that is not as sample.h says is an Error{kBadInput}, else it is refused and counted.
   Intake(host::Driver& driver, const host::RobotInfo& robot);
 
-  /// Waits for a frame, `wait` at most. Its bytes (host/frame_bytes.hpp, under the driver's number) replace `bytes`. Throws what the driver
+  /// Waits for a frame, `wait` at most. Its bytes (host/samples/frame_bytes.hpp, under the driver's number) replace `bytes`. Throws what the driver
   /// throws.
   /// @return nothing where there is no frame, or one that is refused
   std::optional<TakenFrame> take(std::chrono::nanoseconds wait, std::string& bytes);
@@ -44,13 +44,14 @@ class Intake {
   const std::string& first_refusal() const { return first_refusal_; }
 
  private:
-  const char* problem_of(const hw_frame_t& frame) const;
-  const char* problem_of(const hw_sample_t& sample) const;
+  std::string problem_of(const hw_frame_t& frame) const;
+  std::string problem_of(const hw_sample_t& sample) const;
   bool keep(const hw_frame_t& frame, std::string& bytes);
   void refuse(std::uint64_t sequence, const std::string& reason);
 
   host::Driver& driver_;
   const host::RobotInfo& robot_;
+  host::FrameWriter writer_;
   bool ended_ = false;
   std::optional<TakenFrame> last_;
   IntakeCounts counts_;

@@ -85,12 +85,15 @@ bool Loop::take_frame() {
 }
 
 void Loop::answer_frame() {
-  const hw_frame_t& frame = reader_.read(std::as_bytes(std::span(current_.bytes)));
+  const auto bytes = std::as_bytes(std::span(current_.bytes));
+  const hw_frame_t& frame = reader_.read(bytes);
+  current_.n_samples = frame.n_samples;
+  samples_.add(frame);
   const host::Outputs* outputs = nullptr;
   std::optional<host::Verdict> failure;
-  if (alive_) failure = record::catch_failure([&] { outputs = &parts_.pipeline.process(frame); });
+  if (alive_) failure = record::catch_failure([&] { outputs = &parts_.pipeline.process(frame, bytes); });
   const Clock::time_point now = Clock::now();
-  current_.answered = outputs != nullptr;
+  current_.answered = outputs != nullptr && parts_.pipeline.was_called();
   current_.restarts = failures_.restarts;
   if (outputs != nullptr) {
     hand_on(*outputs, now);

@@ -16,6 +16,7 @@
 #include "robot/gate.hpp"
 #include "robot/latency.hpp"
 #include "robot/recorder.hpp"
+#include "robot/sample_counts.hpp"
 #include "robot/schedule.hpp"
 
 namespace hallway::robot {
@@ -66,6 +67,7 @@ class Loop {
 
   const LoopCounts& counts() const { return counts_; }
   IntakeCounts intake() const { return arrivals_.counts(); }
+  const SampleCounter& samples() const { return samples_; }
   const record::Failures& failures() const { return failures_; }
   /// The map at the end: refined, as it stands where that fails, empty where the pipeline has failed before.
   record::FinalMap final_map();
@@ -97,6 +99,7 @@ class Loop {
   std::optional<std::vector<hw_landmark_t>> map_;  ///< asked for and not yet handed on
   std::vector<hw_counter_t> counters_;
   LoopCounts counts_;
+  SampleCounter samples_;
   record::Failures failures_;
   bool told_refusal_ = false;
 };

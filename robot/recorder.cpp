@@ -67,12 +67,13 @@ void Recorder::run() {
 }
 
 void Recorder::write(const FrameRecord& frame) {
-  if (log_) log_->record_frame({.iteration = frame.iteration, .t_ns = frame.t_ns}, frame.bytes);
+  if (log_)
+    log_->record_frame({.iteration = frame.iteration, .t_ns = frame.t_ns}, frame.n_samples, frame.bytes);
   if (frame.restarts != restarts_) epochs_.restart();
   restarts_ = frame.restarts;
   if (!frame.answered) return;
   if (log_) log_->record_answer(frame.outputs);
-  tables_.add(frame.iteration, frame.t_ns, frame.outputs, frame.time);
+  tables_.add({frame.iteration, frame.t_ns, frame.n_samples}, frame.outputs, frame.time);
   epochs_.add(frame.iteration, frame.outputs);
 }
 

@@ -24,7 +24,8 @@ namespace hallway::robot {
 struct FrameRecord {
   std::uint32_t iteration = 0;
   std::int64_t t_ns = 0;
-  std::string bytes;           ///< host/frame_bytes.hpp
+  std::uint32_t n_samples = 0;
+  std::string bytes;           ///< host/samples/frame_bytes.hpp
   std::uint64_t restarts = 0;  ///< of the plugins, before it
   bool answered = false;
   host::Outputs outputs;  ///< of the last frame that was answered

@@ -74,23 +74,35 @@ std::string loop_end_name(LoopEnd end) {
   return "driver";
 }
 
+/// By sensor, those of which samples are missing: what was lost or dropped with their frames.
+Json print_missing(const RobotFacts& facts) {
+  Json sensors = Json::object();
+  for (const host::SensorInfo& sensor : facts.robot.sensors) {
+    const auto counts = facts.loop.samples().sensors().find(sensor.id);
+    if (counts == facts.loop.samples().sensors().end() || counts->second.missing == 0) continue;
+    sensors[sensor.name] = {{"given", counts->second.given}, {"missing", counts->second.missing}};
+  }
+  return sensors;
+}
+
 Json print_robot(const RobotFacts& facts) {
   const IntakeCounts intake = facts.loop.intake();
   Json counters = Json::object();
   for (const host::Counter& counter : facts.driver_counters) counters[counter.name] = counter.value;
   const bool watched = facts.timing.watchdog > Clock::duration::zero();
+  Json frames{{"read", intake.read},
+              {"lost", intake.lost},
+              {"dropped", intake.dropped},
+              {"refused", intake.refused},
+              {"given", facts.loop.counts().iterations},
+              {"answered", facts.loop.counts().answered},
+              {"unrecorded", facts.unrecorded}};
+  if (Json missing = print_missing(facts); !missing.empty()) frames["samples_missing"] = std::move(missing);
   return {{"name", facts.robot.name},
           {"lock_step", facts.robot.lock_step},
           {"watchdog_ms", watched ? Json(milliseconds(facts.timing.watchdog)) : Json()},
           {"ended_by", facts.end},
-          {"frames",
-           {{"read", intake.read},
-            {"lost", intake.lost},
-            {"dropped", intake.dropped},
-            {"refused", intake.refused},
-            {"given", facts.loop.counts().iterations},
-            {"answered", facts.loop.counts().answered},
-            {"unrecorded", facts.unrecorded}}},
+          {"frames", std::move(frames)},
           {"driver_counters", counters},
           {"timing", print_timing(facts)}};
 }

@@ -12,7 +12,7 @@ import os
 import re
 import sys
 
-PRODUCTION = ("sdk", "geometry", "engine", "editor", "cli", "robot", "loaders", "plugins")
+PRODUCTION = ("sdk", "geometry", "engine", "editor", "app", "cli", "robot", "loaders", "plugins")
 ENDINGS = (".h", ".hpp", ".c", ".cpp")
 TOKEN = re.compile(
     r"""(?P<comment>//[^\n]*|/\*.*?\*/)

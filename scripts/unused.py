@@ -20,7 +20,7 @@ import re
 import subprocess
 import sys
 
-PRODUCTION = ("sdk", "geometry", "engine", "editor", "cli", "robot", "loaders", "plugins")
+PRODUCTION = ("sdk", "geometry", "engine", "editor", "app", "cli", "robot", "loaders", "plugins")
 OTHERS = ("tests", "bench")
 ENDINGS = (".h", ".hpp", ".c", ".cpp", ".in")
 HEADERS = (".h", ".hpp")

@@ -21,8 +21,8 @@
 #include "editor/validate.hpp"
 #include "map/writer.hpp"
 #include "render/map_layers.hpp"
-#include "run/map_view.hpp"
-#include "run/pictures.hpp"
+#include "run/pictures/map_view.hpp"
+#include "run/pictures/pictures.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway::editor {

@@ -22,7 +22,7 @@
 #include "editor/transform.hpp"
 #include "map/reader.hpp"
 #include "mesh/placement.hpp"
-#include "run/map_export.hpp"
+#include "run/pictures/map_export.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway::editor {

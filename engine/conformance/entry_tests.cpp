@@ -131,12 +131,23 @@ void demand_kinds(const std::uint32_t* kinds, std::uint32_t count, const std::st
   }
 }
 
+/// What is needed is not optional.
+void has_good_optional_inputs(const hw_plugin_info_t& info) {
+  demand_kinds(info.optional_inputs, info.n_optional_inputs, "optional inputs");
+  for (std::uint32_t i = 0; i < info.n_optional_inputs; ++i) {
+    const std::uint32_t kind = info.optional_inputs[i];
+    demand(std::find(info.inputs, info.inputs + info.n_inputs, kind) == info.inputs + info.n_inputs,
+           "kind " + std::to_string(kind) + " stands among the inputs and among the optional ones");
+  }
+}
+
 void has_good_kinds(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const hw_plugin_info_t* info : descriptions(library)) {
     demand_kinds(info->inputs, info->n_inputs, "inputs");
     demand_kinds(info->outputs, info->n_outputs, "outputs");
     demand(info->reserved == 0, "hw_plugin_info_t.reserved is not 0");
+    if (HW_HAS(info, hw_plugin_info_t, n_optional_inputs)) has_good_optional_inputs(*info);
   }
 }
 

@@ -67,8 +67,11 @@ const hw_plugin_info_t& LoadedLibrary::info(const std::string& id) const {
 }
 
 std::vector<std::uint32_t> inputs_of(const hw_plugin_info_t& info) {
-  if (info.inputs == nullptr) return {};
-  return {info.inputs, info.inputs + info.n_inputs};
+  std::vector<std::uint32_t> kinds;
+  if (info.inputs != nullptr) kinds.assign(info.inputs, info.inputs + info.n_inputs);
+  if (HW_HAS(&info, hw_plugin_info_t, n_optional_inputs) && info.optional_inputs != nullptr)
+    kinds.insert(kinds.end(), info.optional_inputs, info.optional_inputs + info.n_optional_inputs);
+  return kinds;
 }
 
 std::vector<std::uint32_t> outputs_of(const hw_plugin_info_t& info) {

@@ -41,7 +41,7 @@ class LoadedLibrary {
   const hw_plugin_factory_t* factory_ = nullptr;
 };
 
-/// The sample kinds that a plugin needs.
+/// The sample kinds that a plugin takes, needed or not.
 std::vector<std::uint32_t> inputs_of(const hw_plugin_info_t& info);
 /// The output kinds that a plugin may put.
 std::vector<std::uint32_t> outputs_of(const hw_plugin_info_t& info);

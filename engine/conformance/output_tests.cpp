@@ -7,6 +7,7 @@
 #include "conformance/instance.hpp"
 #include "conformance/walk.hpp"
 #include "host/load/plugin_info.hpp"
+#include "host/output/output_kind.hpp"
 
 namespace hallway::conformance {
 namespace {

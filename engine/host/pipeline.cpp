@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "host/isolate/isolated_plugin.hpp"
+#include "host/output/output_kind.hpp"
 #include "host/pipeline_kinds.hpp"
 #include "host/plugin.hpp"
 
@@ -119,9 +120,7 @@ void Pipeline::check_kinds() const {
 bool Pipeline::takes_what_others_find() const {
   std::set<std::uint32_t> given;
   for (const StageFacts& plugin : facts_) {
-    for (const std::uint32_t kind : plugin.info.inputs) {
-      if (given.contains(kind)) return true;
-    }
+    if (std::ranges::any_of(given, [&](std::uint32_t kind) { return plugin.info.takes(kind); })) return true;
     for (const std::uint32_t output : plugin.info.outputs) {
       if (const auto kind = sample_of_output(output)) given.insert(*kind);
     }
@@ -136,13 +135,25 @@ std::size_t Pipeline::capacity() const {
   return least;
 }
 
-void Pipeline::submit(const hw_frame_t& frame) {
+/// Whether a frame has something that a plugin takes.
+bool Pipeline::is_for(std::size_t stage, const hw_frame_t& frame) const {
+  const PluginInfo& plugin = facts_[stage].info;
+  return std::any_of(frame.samples, frame.samples + frame.n_samples,
+                     [&](const hw_sample_t* sample) { return plugin.takes(sample->kind); });
+}
+
+void Pipeline::submit(const hw_frame_t& frame, std::span<const std::byte> bytes) {
   if (!in_turn_) {
-    for (const auto& plugin : stages_) plugin->submit(frame);
+    std::vector<bool>& called = called_.emplace_back();
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      called.push_back(is_for(i, frame));
+      if (called.back()) stages_[i]->submit(frame, bytes);
+    }
     return;
   }
   if (submitted_ != nullptr) throw Error(ErrorCode::kInternal, "too many frames under way");
   submitted_ = &frame;
+  submitted_bytes_ = bytes;
 }
 
 const Outputs& Pipeline::collect(Stage& plugin) {
@@ -155,10 +166,15 @@ const Outputs& Pipeline::collect(Stage& plugin) {
 const Outputs& Pipeline::collect_in_turn() {
   if (submitted_ == nullptr) throw Error(ErrorCode::kInternal, "collect() without a frame");
   const hw_frame_t* frame = &plane_samples_.begin(*std::exchange(submitted_, nullptr));
+  std::span<const std::byte> bytes = submitted_bytes_;
   const Outputs* outputs = nullptr;
-  for (const auto& plugin : stages_) {
-    plugin->submit(*frame);
-    outputs = &collect(*plugin);
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    outputs = &no_outputs_;
+    was_called_ = is_for(i, *frame);
+    if (!was_called_) continue;
+    stages_[i]->submit(*frame, bytes);
+    outputs = &collect(*stages_[i]);
+    bytes = {};  // of the frame without the planes that are added now
     frame = &plane_samples_.add(*outputs);
   }
   with_planes_ = frame;
@@ -168,13 +184,17 @@ const Outputs& Pipeline::collect_in_turn() {
 const Outputs& Pipeline::collect() {
   last_call_ = {};
   if (in_turn_) return collect_in_turn();
+  if (called_.empty()) throw Error(ErrorCode::kInternal, "collect() without a frame");
+  const std::vector<bool> called = std::move(called_.front());
+  called_.pop_front();
   const Outputs* outputs = nullptr;
-  for (const auto& plugin : stages_) outputs = &collect(*plugin);
+  for (std::size_t i = 0; i < stages_.size(); ++i) outputs = called[i] ? &collect(*stages_[i]) : &no_outputs_;
+  was_called_ = called.back();
   return *outputs;
 }
 
-const Outputs& Pipeline::process(const hw_frame_t& frame) {
-  submit(frame);
+const Outputs& Pipeline::process(const hw_frame_t& frame, std::span<const std::byte> bytes) {
+  submit(frame, bytes);
   return collect();
 }
 
@@ -190,6 +210,7 @@ void Pipeline::reset() {
 
 void Pipeline::restart() {
   started_ = false;
+  called_.clear();
   stages_.clear();
   start();
 }

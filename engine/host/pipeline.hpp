@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -40,7 +41,7 @@ struct StageFacts {
 };
 
 /// Plugins in order, each fed with the samples of the kinds it needs: those of the frame, and the planes that plugins before it found in
-/// them. The last one's outputs are the pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
+/// them. One is called for the frames that have any such sample. The last one's outputs are the pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
 class Pipeline {
  public:
   /// Finds, makes, sets and activates the plugins. Before any of them is activated, checks that each kind of
@@ -69,12 +70,14 @@ class Pipeline {
   /// How many frames may be submitted and not yet collected: one where a plugin takes what another one finds.
   std::size_t capacity() const;
   /// Hands one frame to every plugin, or remembers it where a plugin takes what another one finds; see Stage::submit().
-  void submit(const hw_frame_t& frame);
-  /// What the last plugin answers to the oldest frame that was submitted and not yet collected.
+  void submit(const hw_frame_t& frame, std::span<const std::byte> bytes = {});
+  /// What the last plugin answers to the oldest frame that was submitted and not yet collected; nothing where it was not called.
   /// @return valid until the next call
   const Outputs& collect();
+  /// Whether the last plugin was called for the frame that was collected last: it has a sample that the plugin takes.
+  bool was_called() const { return was_called_; }
   /// Feeds one frame to every plugin, in order. @return the last one's outputs, valid until the next call
-  const Outputs& process(const hw_frame_t& frame);
+  const Outputs& process(const hw_frame_t& frame, std::span<const std::byte> bytes = {});
   /// The frame that was collected last with the planes that plugins found in it; null where no plugin takes what another one finds. Valid until
   /// the next call.
   const hw_frame_t* frame_with_planes() const { return with_planes_; }
@@ -98,6 +101,7 @@ class Pipeline {
   void note_values(std::size_t stage);
   void check_kinds() const;
   bool takes_what_others_find() const;
+  bool is_for(std::size_t stage, const hw_frame_t& frame) const;
   const Outputs& collect_in_turn();
   const Outputs& collect(Stage& plugin);
   std::unique_ptr<Stage> make_stage(const std::string& plugin);
@@ -113,8 +117,12 @@ class Pipeline {
   std::vector<std::unique_ptr<Stage>> stages_;
   bool in_turn_ = false;                   ///< a plugin is fed only when those before it have answered
   const hw_frame_t* submitted_ = nullptr;  ///< then: the frame that is to be collected
+  std::span<const std::byte> submitted_bytes_;
   PlaneSamples plane_samples_;
   const hw_frame_t* with_planes_ = nullptr;
+  std::deque<std::vector<bool>> called_;  ///< else: for each frame under way which plugins it was given to
+  bool was_called_ = false;
+  const Outputs no_outputs_{};
   CallTime last_call_;
 };
 

@@ -3,26 +3,21 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <hallway/output.h>
-#include <hallway/sample.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "host/output/output_kind.hpp"
+#include "host/samples/sample_kind.hpp"
 
 namespace hallway::host {
 namespace {
 
 using Kinds = std::set<std::uint32_t>;
-
-constexpr std::array kSamplesOfOutputs{
-    std::pair<std::uint32_t, std::uint32_t>{HW_OUTPUT_PLANES, HW_SAMPLE_PLANES},
-    std::pair<std::uint32_t, std::uint32_t>{HW_OUTPUT_SEGMENTS, HW_SAMPLE_SEGMENTS}};
 
 Kinds given_by(const PluginInfo& plugin) {
   Kinds kinds;
@@ -142,13 +137,6 @@ class Typing {
 };
 
 }  // namespace
-
-std::optional<std::uint32_t> sample_of_output(std::uint32_t output_kind) {
-  for (const auto& [output, sample] : kSamplesOfOutputs) {
-    if (output == output_kind) return sample;
-  }
-  return std::nullopt;
-}
 
 void check_kinds(std::span<const PluginInfo> plugins, std::span<const SensorInfo> sensors) {
   Typing(plugins, sensors).check();

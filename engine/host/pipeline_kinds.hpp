@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 
 #include "host/load/plugin_info.hpp"
 #include "host/stage.hpp"
 
 namespace hallway::host {
-
-/// The kind of sample that outputs of a kind are to the plugins behind the one that puts them; none where they are for the host alone.
-std::optional<std::uint32_t> sample_of_output(std::uint32_t output_kind);
 
 /// Checks that each kind of sample that a plugin needs is given by a sensor or by a plugin before it, as they declare it. Throws Error{kBadInput}
 /// that names plugins and kinds: nobody gives it; only one behind gives it, with an order that would do; they need each other in a circle.

@@ -49,6 +49,8 @@ Plugin::Plugin(Found found, LogSink log) : found_(std::move(found)), log_(std::m
   host_.name = kHostName;
   host_.version = kHostVersion;
   plugin_ = found_.library->create(info(), host_);
+  taken_kinds_ = info().inputs;
+  taken_kinds_.insert(taken_kinds_.end(), info().optional_inputs.begin(), info().optional_inputs.end());
   try {
     read_parameters();
   } catch (...) {
@@ -241,7 +243,7 @@ void Plugin::reset() {
 
 const Outputs& Plugin::collect() {
   if (submitted_ == nullptr) throw Error(ErrorCode::kInternal, "collect() without a frame");
-  const hw_frame_t& selected = selection_.select(*std::exchange(submitted_, nullptr), info().inputs);
+  const hw_frame_t& selected = selection_.select(*std::exchange(submitted_, nullptr), taken_kinds_);
   collector_.begin(&selected, selection_.indices());
   return timed("process", [&] { return plugin_.vtable->process(plugin_.self, &selected, &error_); });
 }

@@ -32,7 +32,8 @@ class Plugin final : public Stage {
   void activate(std::span<const SensorInfo> sensors) override;
   void reset() override;
   std::size_t capacity() const override { return 1; }
-  void submit(const hw_frame_t& frame) override { submitted_ = &frame; }
+  using Stage::submit;
+  void submit(const hw_frame_t& frame, std::span<const std::byte>) override { submitted_ = &frame; }
   const Outputs& collect() override;
   const Outputs& report(bool refine) override;
   const CallTime& last_call() const override { return last_call_; }
@@ -67,6 +68,7 @@ class Plugin final : public Stage {
   CallTime last_call_;
   hw_error_t error_{};
   SampleSelection selection_;
+  std::vector<std::uint32_t> taken_kinds_;
 };
 
 }  // namespace hallway::host

@@ -79,9 +79,11 @@ class Stage {
 
   /// How many frames may be submitted and not yet collected.
   virtual std::size_t capacity() const = 0;
-  /// Hands over one frame: those of its samples whose kinds are among info().inputs. Outputs know a sample by its
+  /// Hands over one frame: those of its samples whose kinds it takes (PluginInfo::takes()). Outputs know a sample by its
   /// index in `frame`, which lives until it is collected where capacity() is 1, else until this returns.
-  virtual void submit(const hw_frame_t& frame) = 0;
+  /// @param bytes  the frame as FrameWriter writes it, or nothing: so that one that needs them does not write them again
+  virtual void submit(const hw_frame_t& frame, std::span<const std::byte> bytes) = 0;
+  void submit(const hw_frame_t& frame) { submit(frame, {}); }
   /// The answer to the oldest frame that was submitted and not yet collected.
   /// @return valid until the next call
   virtual const Outputs& collect() = 0;

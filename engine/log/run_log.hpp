@@ -81,15 +81,16 @@ class RunLogWriter {
   void add_activation(const std::string& json);
   void add_true_landmarks(std::span<const Landmark> landmarks);
   void add_true_planes(std::span<const TruePlane> planes);
-  /// A frame in the form of host/frame_bytes.hpp.
+  /// A frame in the form of host/samples/frame_bytes.hpp.
   void add_frame(const FrameStamp& stamp, std::string_view bytes);
   void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
-  void add_identities(const FrameStamp& stamp, std::span<const LandmarkId> ids);
+  /// Of one sample of the frame, by its index; so are associations and planes.
+  void add_identities(const FrameStamp& stamp, std::uint32_t sample, std::span<const LandmarkId> ids);
   void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
-  void add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids);
+  void add_associations(const FrameStamp& stamp, std::uint32_t sample, std::span<const LandmarkId> ids);
   void add_command(const FrameStamp& stamp, const CommandAnswer& command);
-  /// The planes that were found in the frame's reading.
-  void add_planes(const FrameStamp& stamp, std::span<const PlaneObservation> planes);
+  /// The planes that were found in it.
+  void add_planes(const FrameStamp& stamp, std::uint32_t sample, std::span<const PlaneObservation> planes);
   /// The map at the end, under the stamp of the last frame.
   void add_map(const FrameStamp& stamp, const MapAnswer& map);
   /// Makes sure that what was added survives the end of the program (McapWriter::keep_chunk).
@@ -109,13 +110,14 @@ class RunLogWriter {
 
 /// A frame as it stands in a log.
 struct FrameMessage {
-  std::string_view bytes;  ///< host/frame_bytes.hpp
+  std::string_view bytes;  ///< host/samples/frame_bytes.hpp
 };
 struct ActivationMessage {
   std::string json;
 };
 struct IdentitiesMessage {
   std::uint32_t iteration = 0;
+  std::uint32_t sample = 0;  ///< index in the frame
   std::vector<LandmarkId> ids;
 };
 

@@ -57,8 +57,15 @@ IterationPose true_pose(const Json& json) {
   return pose;
 }
 
+/// More samples than a frame may have.
+constexpr std::uint64_t kMaxSample = std::numeric_limits<std::uint32_t>::max();
+
 IdentitiesMessage identities(const Json& json) {
-  IdentitiesMessage message{.iteration = iteration_of(json), .ids = {}};
+  IdentitiesMessage message{.iteration = iteration_of(json),
+                            .sample = json.contains("sample")
+                                          ? static_cast<std::uint32_t>(whole(json.at("sample"), kMaxSample))
+                                          : 0,
+                            .ids = {}};
   const Json& list = json.at("landmark_ids");
   if (!list.is_array()) bad("landmark ids that are no list");
   for (const Json& id : list) message.ids.push_back(id == -1 ? kNoLandmark : whole(id, kNoLandmark - 1));

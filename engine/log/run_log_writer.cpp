@@ -152,9 +152,10 @@ void RunLogWriter::add_true_pose(const FrameStamp& stamp, const IterationPose& p
                {"orientation_known", pose.orientation_known}}));
 }
 
-void RunLogWriter::add_identities(const FrameStamp& stamp, std::span<const LandmarkId> ids) {
+void RunLogWriter::add_identities(const FrameStamp& stamp, std::uint32_t sample,
+                                  std::span<const LandmarkId> ids) {
   add(topics::kIdentities, stamp,
-      text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"landmark_ids", ids_json(ids)}}));
+      text_of({{"iteration", stamp.iteration}, {"sample", sample}, {"landmark_ids", ids_json(ids)}}));
 }
 
 void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
@@ -165,9 +166,10 @@ void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
   add(topics::kPose, stamp, text_of(json));
 }
 
-void RunLogWriter::add_associations(const FrameStamp& stamp, std::span<const LandmarkId> ids) {
+void RunLogWriter::add_associations(const FrameStamp& stamp, std::uint32_t sample,
+                                    std::span<const LandmarkId> ids) {
   add(topics::kAssociations, stamp,
-      text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"landmark_ids", ids_json(ids)}}));
+      text_of({{"iteration", stamp.iteration}, {"sample", sample}, {"landmark_ids", ids_json(ids)}}));
 }
 
 void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& command) {
@@ -178,10 +180,12 @@ void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& com
       text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
 }
 
-void RunLogWriter::add_planes(const FrameStamp& stamp, std::span<const PlaneObservation> planes) {
+void RunLogWriter::add_planes(const FrameStamp& stamp, std::uint32_t sample,
+                              std::span<const PlaneObservation> planes) {
   Json list = Json::array();
   for (const PlaneObservation& plane : planes) list.push_back(plane_json(plane));
-  add(topics::kPlanes, stamp, text_of({{"iteration", stamp.iteration}, {"sample", 0}, {"planes", list}}));
+  add(topics::kPlanes, stamp,
+      text_of({{"iteration", stamp.iteration}, {"sample", sample}, {"planes", list}}));
 }
 
 void RunLogWriter::add_map(const FrameStamp& stamp, const MapAnswer& map) {

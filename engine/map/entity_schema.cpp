@@ -21,6 +21,8 @@ constexpr double kLargestNoisePerM = 1.0;
 constexpr double kLargestNoise_deg = 90.0;
 constexpr double kFarthestMount_m = 1e3;
 constexpr double kFastest_m_s = 1e3;
+constexpr double kFastestSensor_hz = 1e4;
+constexpr double kLongestDelay_s = 3600.0;
 
 constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
   return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
@@ -99,6 +101,9 @@ constexpr std::array kSensor{
     of_variant("points", numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0")),
     numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
     number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
+    number("rate_hz", 0.0, kFastestSensor_hz, "0"),
+    number("phase_s", 0.0, kLongestDelay_s, "0"),
+    number("latency_s", 0.0, kLongestDelay_s, "0"),
     of_variant("points", number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
     of_variant("points", number("roll_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
     of_variant("planes", {.name = "bounded_sides", .kind = KeyKind::kFlag, .fallback = "0"}),

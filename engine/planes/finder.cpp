@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "geom/arrays.hpp"
+#include "host/output/output_kind.hpp"
 #include "host/samples/frame_builder.hpp"
 #include "import/point_collector.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "host/samples/frame_bytes.hpp"
 #include "record/plane_observations.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
@@ -52,14 +51,10 @@ AnswerRecorder::AnswerRecorder(log::ByteOutput& output, const LogFacts& facts)
   writer_.add_activation(activation_text(facts));
 }
 
-void AnswerRecorder::record_frame(const hw_frame_t& frame) {
-  bytes_.resize(host::frame_bytes_size(frame));
-  host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes_)));
-  record_frame({static_cast<std::uint32_t>(frame.sequence), frame.t_ns}, bytes_);
-}
-
-void AnswerRecorder::record_frame(const log::FrameStamp& stamp, std::string_view bytes) {
+void AnswerRecorder::record_frame(const log::FrameStamp& stamp, std::uint32_t n_samples,
+                                  std::string_view bytes) {
   stamp_ = stamp;
+  n_samples_ = n_samples;
   writer_.add_frame(stamp_, bytes);
 }
 
@@ -73,10 +68,14 @@ void AnswerRecorder::record_pose(const host::Outputs& outputs) {
 }
 
 void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
-  if (const auto ids = outputs.associations(0)) writer_.add_associations(stamp_, *ids);
+  for (std::uint32_t k = 0; k < n_samples_; ++k) {
+    if (const auto ids = outputs.associations(k)) writer_.add_associations(stamp_, k, *ids);
+  }
   if (const auto& command = outputs.drive_command())
     writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});
-  if (const auto planes = outputs.planes(0)) writer_.add_planes(stamp_, plane_observations(*planes));
+  for (std::uint32_t k = 0; k < n_samples_; ++k) {
+    if (const auto planes = outputs.planes(k)) writer_.add_planes(stamp_, k, plane_observations(*planes));
+  }
 }
 
 void AnswerRecorder::record_map(const FinalMap& map) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <hallway/sample.h>
-
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -35,10 +33,8 @@ class AnswerRecorder {
   /// Keeps a reference to `output`.
   AnswerRecorder(log::ByteOutput& output, const LogFacts& facts);
 
-  /// A frame as the plugins get it.
-  void record_frame(const hw_frame_t& frame);
-  /// The same, of a frame in the form of host/frame_bytes.hpp.
-  void record_frame(const log::FrameStamp& stamp, std::string_view bytes);
+  /// A frame as the plugins get it, of `n_samples`, in the form of host/samples/frame_bytes.hpp.
+  void record_frame(const log::FrameStamp& stamp, std::uint32_t n_samples, std::string_view bytes);
   /// What the pipeline answered to the frame that was recorded last: record_pose() and record_the_rest().
   void record_answer(const host::Outputs& outputs);
   void record_pose(const host::Outputs& outputs);
@@ -56,7 +52,7 @@ class AnswerRecorder {
  private:
   log::RunLogWriter writer_;
   log::FrameStamp stamp_;
-  std::string bytes_;
+  std::uint32_t n_samples_ = 0;  ///< of that frame
 };
 
 }  // namespace hallway::record

@@ -23,8 +23,8 @@ AnswerTables::AnswerTables(const std::filesystem::path& folder)
       trajectory_(folder / files::kTrajectory, ' ', {}),
       times_(folder / files::kTiming, ',', log::kTimingColumns) {}
 
-void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::Outputs& outputs,
-                       const host::CallTime& time) {
+void AnswerTables::add(const AnsweredFrame& frame, const host::Outputs& outputs, const host::CallTime& time) {
+  const auto [iteration, t_ns, n_samples] = frame;
   log::add_row(times_.next_row(), log::IterationTime{.iteration = iteration,
                                                      .wall_ms = milliseconds(time.wall_ns),
                                                      .cpu_ms = milliseconds(time.cpu_ns)});
@@ -35,7 +35,9 @@ void AnswerTables::add(std::uint32_t iteration, std::int64_t t_ns, const host::O
                                                               .linear_m_s = command->linear_m_s,
                                                               .angular_rad_s = command->angular_rad_s});
   }
-  if (const auto planes = outputs.planes(0)) add_planes(iteration, *planes);
+  for (std::uint32_t k = 0; k < n_samples; ++k) {
+    if (const auto planes = outputs.planes(k)) add_planes(iteration, *planes);
+  }
 }
 
 void AnswerTables::add_pose(std::uint32_t iteration, std::int64_t t_ns, const host::PoseOutput& pose) {

@@ -15,6 +15,13 @@ namespace hallway::record {
 /// A pose of the ABI as a row of trajectory.tum.
 log::StampedPose stamped_pose(std::int64_t t_ns, const hw_pose_t& pose);
 
+/// A frame that was answered.
+struct AnsweredFrame {
+  std::uint32_t iteration = 0;
+  std::int64_t t_ns = 0;
+  std::uint32_t n_samples = 0;  ///< without those that plugins add
+};
+
 /// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first covariance,
 /// the first command and the first planes on, pose_covariances.csv, commands.csv and planes.csv. Memory does not grow with the run. All functions throw Error{kIo}.
 class AnswerTables {
@@ -22,8 +29,7 @@ class AnswerTables {
   explicit AnswerTables(const std::filesystem::path& folder);
 
   /// The answer to a frame; iterations increase.
-  void add(std::uint32_t iteration, std::int64_t t_ns, const host::Outputs& outputs,
-           const host::CallTime& time);
+  void add(const AnsweredFrame& frame, const host::Outputs& outputs, const host::CallTime& time);
   /// No more answers come.
   void close();
 

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "record/plane_observations.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace hallway::record {
+namespace {
+
+void copy(const std::array<double, 3>& from, double (&to)[3]) {
+  std::copy(from.begin(), from.end(), to);
+}
+
+}  // namespace
 
 log::PlaneObservation plane_observation(const hw_plane_t& plane) {
   return {.id = plane.id,
@@ -27,6 +35,21 @@ log::PlaneObservation plane_observation(const hw_planes_t& planes, std::uint64_t
     observation.hull_m.push_back({point.x, point.y, point.z});
   }
   return observation;
+}
+
+void add_plane(host::FrameBuilder::Planes& reading, const log::PlaneObservation& seen) {
+  hw_plane_t& plane = reading.planes.emplace_back();
+  plane.id = seen.id;
+  copy(seen.normal, plane.normal);
+  plane.offset_m = seen.offset_m;
+  copy(seen.centroid_m, plane.centroid);
+  for (std::size_t i = 0; i < 4; ++i) copy(seen.corners_m[i], plane.corners[i]);
+  plane.n_points = seen.points;
+  plane.rms_m = seen.rms_m;
+  plane.exclusive_share = seen.exclusive_share;
+  plane.first_hull = seen.hull_m.empty() ? 0 : reading.hull_points.size();
+  plane.n_hull = seen.hull_m.size();
+  for (const auto& point : seen.hull_m) reading.hull_points.push_back({point[0], point[1], point[2]});
 }
 
 std::vector<log::PlaneObservation> plane_observations(const host::PlaneList& list) {

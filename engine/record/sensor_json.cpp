@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "record/sensor_json.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "host/samples/sample_kind.hpp"
 
 namespace hallway::record {
 namespace {
@@ -47,7 +50,7 @@ hw_pose_t read_pose(const Json& json) {
 
 Json print_sensor(const host::SensorInfo& sensor) {
   return {{"name", sensor.name},
-          {"kind", sensor.kind == HW_SAMPLE_PLANES ? "planes" : "points"},
+          {"kind", host::sample_kind_name(sensor.kind)},
           {"T_body_sensor", print_pose(sensor.T_body_sensor)},
           {"horizontal_fov_rad", known(sensor.horizontal_fov)},
           {"vertical_fov_rad", known(sensor.vertical_fov)},
@@ -56,11 +59,23 @@ Json print_sensor(const host::SensorInfo& sensor) {
           {"noise_m", {known(sensor.noise_m[0]), known(sensor.noise_m[1]), known(sensor.noise_m[2])}}};
 }
 
+Json print_sensors(std::span<const host::SensorInfo> sensors) {
+  Json list = Json::array();
+  for (const host::SensorInfo& sensor : sensors) list.push_back(print_sensor(sensor));
+  return list;
+}
+
 host::SensorInfo read_sensor(const Json& json) {
   return read_checked("sensor", [&] {
     host::SensorInfo sensor;
     sensor.name = json.at("name").get<std::string>();
-    if (json.value("kind", "points") == "planes") sensor.kind = HW_SAMPLE_PLANES;
+    const auto name = json.value("kind", std::string(host::kPointSamples.name));
+    const host::SampleKind* kind = host::find_sample_kind(name);
+    if (kind == nullptr)
+      throw Error(ErrorCode::kBadInput,
+                  fmt::format("a sensor of `{}`, which this program does not know", printable(name)),
+                  {.file = "run.json", .element = "sensor"});
+    sensor.kind = kind->kind;
     sensor.T_body_sensor = read_pose(json.at("T_body_sensor"));
     sensor.horizontal_fov = number_or_unknown(json.at("horizontal_fov_rad"));
     sensor.vertical_fov = number_or_unknown(json.at("vertical_fov_rad"));
@@ -70,6 +85,17 @@ host::SensorInfo read_sensor(const Json& json) {
       sensor.noise_m[axis] = number_or_unknown(json.at("noise_m").at(axis));
     }
     return sensor;
+  });
+}
+
+std::vector<host::SensorInfo> read_sensors(const Json& json) {
+  return read_checked("sensors", [&] {
+    std::vector<host::SensorInfo> sensors;
+    for (const Json& sensor : json) {
+      sensors.push_back(read_sensor(sensor));
+      sensors.back().id = sensor.value("id", std::uint32_t{0});
+    }
+    return sensors;
   });
 }
 

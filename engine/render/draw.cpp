@@ -49,7 +49,7 @@ std::vector<Vec3> line_and_mark_points(const Picture& picture) {
     }
   }
   for (const Label& label : picture.labels) add_drawable(points, label.position);
-  if (picture.frustum) add_drawable(points, picture.frustum->T_world_sensor.t);
+  for (const FrustumMark& mark : picture.frustums) add_drawable(points, mark.T_world_sensor.t);
   return points;
 }
 
@@ -200,7 +200,7 @@ class Drawing {
     const double grid_m = paint_grid(canvas);
     paint_surfaces(image, canvas);
     paint_patches(canvas);
-    paint_frustum(canvas);
+    for (const FrustumMark& mark : picture_.frustums) paint_frustum(canvas, mark);
     paint_lines(canvas);
     paint_marks(canvas);
     paint_robot(canvas);
@@ -318,9 +318,7 @@ class Drawing {
     return {std::cos(up) * std::cos(left), std::cos(up) * std::sin(left), std::sin(up)};
   }
 
-  void paint_frustum(Canvas& canvas) const {
-    if (!picture_.frustum) return;
-    const FrustumMark& mark = *picture_.frustum;
+  void paint_frustum(Canvas& canvas, const FrustumMark& mark) const {
     const bool shown = drawable(mark.T_world_sensor.t) && mark.T_world_sensor.q.coeffs().allFinite() &&
                        mark.range_m > 0.0 && mark.range_m < 1e9 && std::isfinite(mark.horizontal_fov) &&
                        std::isfinite(mark.vertical_fov);
@@ -382,8 +380,8 @@ class Drawing {
 
   /// A dart that points where the robot looks; its size on the picture is fixed.
   void paint_robot(Canvas& canvas) const {
-    if (!picture_.frustum || !picture_.frustum->T_world_sensor.q.coeffs().allFinite()) return;
-    const FrustumMark& mark = *picture_.frustum;
+    if (picture_.frustums.empty() || !picture_.frustums.front().T_world_sensor.q.coeffs().allFinite()) return;
+    const FrustumMark& mark = picture_.frustums.front();
     const auto at = camera_.project(mark.T_world_sensor.t);
     if (!at) return;
     const double step_m = 1e-3 / camera_.pixels_per_metre(at->distance_m);

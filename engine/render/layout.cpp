@@ -64,7 +64,8 @@ std::vector<LegendEntry> legend_entries(const Picture& picture) {
               {Kind::kThinLine, mix(palette::kPaper, segments.colour, segments.opacity), segments.width_px},
               segments.label);
   }
-  if (picture.frustum) add_entry(out, {Kind::kField, picture.frustum->colour}, picture.frustum->label);
+  if (!picture.frustums.empty())
+    add_entry(out, {Kind::kField, picture.frustums.front().colour}, picture.frustums.front().label);
   return out;
 }
 

@@ -109,7 +109,7 @@ struct Picture {
   std::vector<Swatch> swatches{};  ///< lines of the legend for colours of surfaces
   ColourScale scale{};             ///< the same for a range of colours
   std::vector<Patches> patches{};
-  std::optional<FrustumMark> frustum{};
+  std::vector<FrustumMark> frustums{};  ///< of one robot: its dart stands at the first
   std::vector<Segments> segments{};
   std::vector<Polyline> polylines{};
   std::vector<Markers> markers{};

@@ -10,6 +10,7 @@
 #include "base/random.hpp"
 #include "geom/plane_observation.hpp"
 #include "geometry/se3.hpp"
+#include "sense/timing.hpp"
 #include "sense/wall_plan.hpp"
 #include "sense/wall_view.hpp"
 
@@ -34,6 +35,7 @@ struct PlaneSensorSpec {
   double noise_m = 0.0;
   double noise_angle = 0.0;
   double noise_end_m = 0.0;
+  SensorTiming timing{};
 };
 
 /// Returns `spec`. Throws Error{kBadInput} naming the sensor and the member if the name is empty, an angle is not in (0, 2 pi], the ranges are negative,

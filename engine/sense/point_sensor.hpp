@@ -11,6 +11,7 @@
 #include "geometry/se3.hpp"
 #include "sense/moving_landmarks.hpp"
 #include "sense/point_visibility.hpp"
+#include "sense/timing.hpp"
 #include "trace/scene.hpp"
 
 namespace hallway::sense {
@@ -27,6 +28,7 @@ struct PointSensorSpec {
   /// Standard deviation of a second, independent part of the noise, per metre of distance from the sensor: together
   /// sqrt(noise_m^2 + (noise_per_m distance)^2) along each axis.
   Vec3 noise_per_m = Vec3::Zero();
+  SensorTiming timing{};
 };
 
 /// One seen point.

@@ -15,11 +15,13 @@ inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_
 /// By kind of sensor, in the order of map::entity_schema()'s kinds.
 inline const std::vector<std::string> kPointSensorKeys{
     "kind",        "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m", "noise_m",
-    "noise_per_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg"};
+    "noise_per_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg",    "rate_hz",
+    "phase_s",     "latency_s"};
 inline const std::vector<std::string> kPlaneSensorKeys{
     "kind",          "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
     "bounded_sides", "occlusion",          "min_length_m",     "noise_m",     "noise_angle_deg",
-    "noise_end_m",   "position_m",         "yaw_deg"};
+    "noise_end_m",   "position_m",         "yaw_deg",          "rate_hz",     "phase_s",
+    "latency_s"};
 /// Of scenarios alone.
 inline const std::vector<std::string> kFaceSensorKeys{"kind",
                                                       "horizontal_fov_deg",
@@ -34,7 +36,10 @@ inline const std::vector<std::string> kFaceSensorKeys{"kind",
                                                       "position_m",
                                                       "yaw_deg",
                                                       "pitch_deg",
-                                                      "roll_deg"};
+                                                      "roll_deg",
+                                                      "rate_hz",
+                                                      "phase_s",
+                                                      "latency_s"};
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",
                                                  "speed",    "moving_share", "motion",   "groups"};
 inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",

@@ -89,6 +89,12 @@ void check_ranges(const TableReader& sensor, double min_range_m, double max_rang
                          " is above max_range_m = " + format_double(max_range_m));
 }
 
+/// What a table does not say is not noted as one of its settings.
+sense::SensorTiming timing(TableReader& sensor) {
+  const auto told = [&](const char* key) { return sensor.has(key) ? number(sensor, key) : 0.0; };
+  return {.rate_hz = told("rate_hz"), .phase_s = told("phase_s"), .latency_s = told("latency_s")};
+}
+
 sense::PointSensorSpec read_points(const std::string& name, TableReader& sensor) {
   sense::PointSensorSpec spec;
   spec.name = name;
@@ -101,6 +107,7 @@ sense::PointSensorSpec read_points(const std::string& name, TableReader& sensor)
   spec.noise_per_m = sensor.vector_or_one("noise_per_m", range_of("noise_per_m"), Vec3::Zero());
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
   spec.T_body_sensor.q = orientation(sensor);
+  spec.timing = timing(sensor);
   return spec;
 }
 
@@ -118,6 +125,7 @@ sense::PlaneSensorSpec read_view(const std::string& name, TableReader& sensor) {
   spec.noise_m = number(sensor, "noise_m");
   spec.noise_angle = angle(sensor, "noise_angle_deg");
   spec.noise_end_m = number(sensor, "noise_end_m");
+  spec.timing = timing(sensor);
   spec.T_body_sensor.t = sensor.vector("position_m", range_of("position_m"), Vec3::Zero());
   return spec;
 }

@@ -152,9 +152,28 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   check_poses();
 }
 
+/// A frame is as large as what arrives in it.
+void Simulator::check_rate(const SensorSpec& spec) const {
+  constexpr double kMostInAFrame = 10'000.0;
+  std::visit(
+      [this](const auto& sensor) {
+        const double in_a_frame = sensor.timing.rate_hz * scenario_.period_s();
+        if (in_a_frame <= kMostInAFrame) return;
+        throw Error(ErrorCode::kBadInput,
+                    "a frame would hold " + format_double(std::round(in_a_frame)) + " readings, more than " +
+                        format_double(kMostInAFrame),
+                    Where{printable(scenario_.file), 0, "sensor `" + printable(sensor.name) + "`"});
+      },
+      spec);
+}
+
 void Simulator::make_sensors() {
   sensors_.reserve(scenario_.sensors.size());
   for (const SensorSpec& spec : scenario_.sensors) {
+    check_rate(spec);
+    clocks_.push_back(std::visit(
+        [this](const auto& sensor) { return sense::ReadingClock(sensor.timing, scenario_.period_ns); },
+        spec));
     std::unique_ptr<const sense::WallPlan>& plan = plans_.emplace_back();
     std::unique_ptr<const sense::FacePlan>& faces = face_plans_.emplace_back();
     const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec);
@@ -181,10 +200,12 @@ sense::WallPlan Simulator::walls_at(double height_m) const {
 
 /// Sensors of walls demand a level way; before the run, for it is long.
 void Simulator::check_poses() const {
-  for (const Sensor& sensor : sensors_) {
-    const auto* planes = std::get_if<sense::PlaneSensor>(&sensor);
-    for (std::uint32_t i = 0; planes != nullptr && i < scenario_.steps; ++i)
-      planes->check_pose(pose_at(i), i);
+  const std::int64_t end_ns = scenario_.period_ns * (std::int64_t{scenario_.steps} - 1);
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[i]);
+    const std::uint64_t n = planes != nullptr ? clocks_[i].arrived_by(end_ns) : 0;
+    for (std::uint64_t k = 0; k < n; ++k)
+      planes->check_pose(pose_at_time(clocks_[i].time_of(k)), static_cast<std::uint32_t>(k));
   }
 }
 
@@ -209,9 +230,19 @@ void Simulator::stop_at_obstacle() {
                          where);
 }
 
-Pose Simulator::pose_at(std::uint32_t index) const {
-  const double distance_m = step_length_m_ * index;
+Pose Simulator::pose_after(double distance_m) const {
   return path_.at(stop_m_ ? std::min(distance_m, *stop_m_) : distance_m);
+}
+
+Pose Simulator::pose_at(std::uint32_t index) const {
+  return pose_after(step_length_m_ * index);
+}
+
+Pose Simulator::pose_at_time(std::int64_t t_ns) const {
+  const std::int64_t index = t_ns / scenario_.period_ns, rest_ns = t_ns % scenario_.period_ns;
+  const double periods =
+      static_cast<double>(index) + static_cast<double>(rest_ns) / static_cast<double>(scenario_.period_ns);
+  return pose_after(step_length_m_ * periods);
 }
 
 Frame Simulator::step(std::uint32_t index) const {
@@ -221,22 +252,30 @@ Frame Simulator::step(std::uint32_t index) const {
   frame.step = index;
   frame.t_ns = scenario_.period_ns * std::int64_t{index};
   frame.T_world_body = pose_at(index);
-  std::vector<sense::LandmarkPlace> moved;
-  landmarks_.moving.places_at(static_cast<double>(frame.t_ns) / 1e9, moved);
-  frame.readings.resize(sensors_.size());
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    Reading& reading = frame.readings[i];
-    reading.sensor = i;
-    if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[i])) {
-      planes->observe(frame.T_world_body, index, reading.planes);
-    } else if (const auto* faces = std::get_if<sense::FaceSensor>(&sensors_[i])) {
-      faces->observe(frame.T_world_body, index, reading.planes);
-    } else {
-      std::get<sense::PointSensor>(sensors_[i])
-          .observe(frame.T_world_body, index, moved, threads_, reading.observations);
+    const std::uint64_t first = index == 0 ? 0 : clocks_[i].arrived_by(frame.t_ns - scenario_.period_ns);
+    const std::uint64_t end = clocks_[i].arrived_by(frame.t_ns);
+    for (std::uint64_t k = first; k < end; ++k) {
+      frame.readings.push_back({.sensor = i, .sequence = k, .t_ns = clocks_[i].time_of(k)});
+      read(i, frame.readings.back());
     }
   }
   return frame;
+}
+
+void Simulator::read(std::size_t sensor, Reading& reading) const {
+  const Pose T_world_body = pose_at_time(reading.t_ns);
+  const auto sequence = static_cast<std::uint32_t>(reading.sequence);
+  if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[sensor])) {
+    planes->observe(T_world_body, sequence, reading.planes);
+  } else if (const auto* faces = std::get_if<sense::FaceSensor>(&sensors_[sensor])) {
+    faces->observe(T_world_body, sequence, reading.planes);
+  } else {
+    std::vector<sense::LandmarkPlace> moved;
+    landmarks_.moving.places_at(static_cast<double>(reading.t_ns) / 1e9, moved);
+    std::get<sense::PointSensor>(sensors_[sensor])
+        .observe(T_world_body, sequence, moved, threads_, reading.observations);
+  }
 }
 
 }  // namespace hallway::sim

@@ -17,6 +17,7 @@
 #include "sense/moving_landmarks.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/timing.hpp"
 #include "sense/wall_plan.hpp"
 #include "sim/drive.hpp"
 #include "sim/models.hpp"
@@ -26,11 +27,13 @@
 
 namespace hallway::sim {
 
-/// What one sensor sees in one frame.
+/// What one sensor saw at one moment.
 struct Reading {
-  std::size_t sensor = 0;                             ///< index in Scenario::sensors
-  std::vector<sense::PointObservation> observations;  ///< of a sensor of points
-  std::vector<PlaneObservation> planes;               ///< of a sensor of planes
+  std::size_t sensor = 0;                               ///< index in Scenario::sensors
+  std::uint64_t sequence = 0;                           ///< counts the sensor's readings
+  std::int64_t t_ns = 0;                                ///< when it was taken
+  std::vector<sense::PointObservation> observations{};  ///< of a sensor of points
+  std::vector<PlaneObservation> planes{};               ///< of a sensor of planes
 };
 
 /// One moment of a run.
@@ -38,7 +41,7 @@ struct Frame {
   std::uint32_t step = 0;
   std::int64_t t_ns = 0;          ///< step times period, exactly
   Pose T_world_body;              ///< the truth
-  std::vector<Reading> readings;  ///< one for each sensor, in their order
+  std::vector<Reading> readings;  ///< that have arrived since the frame before, by sensor, then by sequence
 };
 
 /// What a map has for point sensors to see.
@@ -66,6 +69,8 @@ class Simulator {
   Frame step(std::uint32_t index) const;
   /// The true pose in that frame, without sensing.
   Pose pose_at(std::uint32_t index) const;
+  /// The true pose at a time from 0; at the time of a frame the same to the last bit.
+  Pose pose_at_time(std::int64_t t_ns) const;
 
   /// What a user should know but a run can stand: brushes left out, a path that runs into something, where the robot then
   /// stops. In a fixed order.
@@ -96,9 +101,12 @@ class Simulator {
  private:
   using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor>;
 
+  void check_rate(const SensorSpec& spec) const;
   void make_sensors();
   void stop_at_obstacle();
   void check_poses() const;
+  Pose pose_after(double distance_m) const;
+  void read(std::size_t sensor, Reading& reading) const;
 
   Scenario scenario_;
   unsigned threads_;
@@ -114,6 +122,7 @@ class Simulator {
   std::vector<std::unique_ptr<const sense::WallPlan>> plans_;       ///< by sensor
   std::vector<std::unique_ptr<const sense::FacePlan>> face_plans_;  ///< by sensor
   std::vector<Sensor> sensors_;
+  std::vector<sense::ReadingClock> clocks_;  ///< by sensor
   std::vector<Error> problems_;
 };
 

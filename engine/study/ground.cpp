@@ -14,7 +14,7 @@
 #include "import/victoria_park.hpp"
 #include "map/reader.hpp"
 #include "map/writer.hpp"
-#include "run/simulated_source.hpp"
+#include "run/sources/simulated_source.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::study {
@@ -100,20 +100,21 @@ class RecordingPart : public run::Source {
     if (part.last < part.first || part.last >= recording_->frames())
       throw Error(ErrorCode::kBadInput,
                   fmt::format("the recording has {} scans, not scan {}", recording_->frames(), part.last));
-    facts_.sensor.name = recording_->sensor();
+    facts_.sensors.emplace_back().name = recording_->sensor();
   }
 
   std::uint32_t iterations() const override { return part_.last - part_.first + 1; }
-  void read(std::uint32_t iteration, run::SourceFrame& frame) override {
+
+ private:
+  void fill(std::uint32_t iteration, run::SourceFrame& frame) override {
     recording_->read(part_.first + iteration, frame_);
-    frame.t_ns = frame_.t_ns;
-    frame.observations.clear();
-    for (const auto& point : frame_.points) frame.observations.push_back({.point = point});
+    std::vector<hw_point3_t>& points =
+        frame.begin(iteration, frame_.t_ns).add_points(facts_.sensors.front().id);
+    for (const auto& [x, y, z] : frame_.points) points.push_back({x, y, z});
     frame.T_world_body = frame_.T_world_body;
     frame.orientation_known = frame_.orientation_known;
   }
 
- private:
   std::unique_ptr<import::Recording> recording_;
   ParkInterval part_;
   import::Frame frame_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/pipeline.hpp"
-#include "run/source.hpp"
+#include "run/sources/source.hpp"
 #include "study/plan.hpp"
 
 namespace hallway::study {

@@ -8,10 +8,10 @@
 #include "eval/point_error.hpp"
 #include "record/failures.hpp"
 #include "record/final_map.hpp"
-#include "run/frame_feed.hpp"
-#include "run/iteration_maker.hpp"
-#include "run/map_epoch.hpp"
-#include "run/truth_of.hpp"
+#include "run/feed/frame_feed.hpp"
+#include "run/feed/map_epoch.hpp"
+#include "run/scoring/iteration_maker.hpp"
+#include "run/scoring/truth_of.hpp"
 
 namespace hallway::study {
 namespace {
@@ -37,8 +37,7 @@ class Tracer {
     const std::optional<Pose>& estimate = iteration.T_map_body;
     if (!trace_.T_world_map && estimate && frame.T_world_body && frame.orientation_known)
       trace_.T_world_map = *frame.T_world_body * estimate->inverse();
-    TraceStep step{.visible = static_cast<std::uint32_t>(frame.observations.size()),
-                   .cpu_ms = *iteration.cpu_ms};
+    TraceStep step{.visible = static_cast<std::uint32_t>(frame.n_elements()), .cpu_ms = *iteration.cpu_ms};
     if (frame.T_world_body) step.truth = frame.T_world_body->t;
     if (estimate) step.estimate = estimate->t;
     trace_.steps.push_back(step);
@@ -117,8 +116,7 @@ Trace trace_run(run::Source& source, host::Pipeline& pipeline, std::uint32_t sam
   std::uint32_t sampled = 0;
   while (feed.has_next() && !stopped) {
     feed.next(
-        false, [](const hw_frame_t&, const run::SourceFrame&) {},
-        [&](const run::FrameAnswer& answer) { tracer.add(answer); });
+        false, [](const run::SourceFrame&) {}, [&](const run::FrameAnswer& answer) { tracer.add(answer); });
     if (hooks.progress) hooks.progress();
     stopped = hooks.stop && hooks.stop();
     if (feed.done() % sample_every == 0) {

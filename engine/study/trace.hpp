@@ -11,7 +11,7 @@
 #include "geometry/se3.hpp"
 #include "host/pipeline.hpp"
 #include "log/map_landmarks.hpp"
-#include "run/source.hpp"
+#include "run/sources/source.hpp"
 
 namespace hallway::study {
 

@@ -216,7 +216,7 @@ SIZE(hw_plugin_t, 16);
 AT(hw_plugin_t, vtable, 0);
 AT(hw_plugin_t, self, 8);
 
-SIZE(hw_plugin_info_t, 72);
+SIZE(hw_plugin_info_t, 88);
 AT(hw_plugin_info_t, size, 0);
 AT(hw_plugin_info_t, n_inputs, 4);
 AT(hw_plugin_info_t, id, 8);
@@ -228,6 +228,9 @@ AT(hw_plugin_info_t, inputs, 48);
 AT(hw_plugin_info_t, outputs, 56);
 AT(hw_plugin_info_t, n_outputs, 64);
 AT(hw_plugin_info_t, reserved, 68);
+AT(hw_plugin_info_t, optional_inputs, 72);
+AT(hw_plugin_info_t, n_optional_inputs, 80);
+AT(hw_plugin_info_t, reserved_1_4, 84);
 
 SIZE(hw_plugin_factory_t, 24);
 AT(hw_plugin_factory_t, count, 0);

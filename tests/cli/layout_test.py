@@ -14,7 +14,7 @@ import sys
 import unittest
 
 SOURCE, BUILD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-PRODUCTION = ("sdk", "geometry", "engine", "editor", "loaders", "cli", "robot", "plugins")
+PRODUCTION = ("sdk", "geometry", "engine", "editor", "loaders", "app", "cli", "robot", "plugins")
 ROOTS = ("sdk/include", "engine", "plugins", "")  # include paths of the build, in their order
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # What one file alone includes, by a pattern of its headers.
@@ -88,7 +88,7 @@ class Layout(unittest.TestCase):
         self.assertFalse(wrong, "\n".join(wrong))
         # Lines are found in every folder that has sources, but for those that include only libraries and files beside them.
         for folder in {self.links.owner(str(f.relative_to(SOURCE).parent)) for top in PRODUCTION for f in sources(top)}:
-            if not folder.startswith(("sdk", "engine/base", "cli/command_line", "plugins/options")):
+            if not folder.startswith(("sdk", "engine/base", "app", "plugins/options")):
                 self.assertGreater(seen[folder], 0, f"no include line of {folder or 'no target'} was found")
 
     def test_nothing_reaches_what_it_never_links(self):

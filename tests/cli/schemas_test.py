@@ -24,7 +24,7 @@ except ImportError:
     sys.exit("the Python package jsonschema is missing: `scripts/install-deps.sh test` installs python3-jsonschema")
 
 HERE = Path(__file__).resolve().parent
-FOLDERS = ("cli", "editor", "engine", "loaders", "plugins", "robot", "sdk")
+FOLDERS = ("app", "cli", "editor", "engine", "loaders", "plugins", "robot", "sdk")
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 SHARED = "common.schema.json"  # parts that others refer to
 NO_DOCUMENTS = {  # names in the sources that are none of a JSON document

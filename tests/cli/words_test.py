@@ -15,7 +15,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 LONGEST_SENTENCE = 30
 SHORT_SENTENCES = ["README.md", "docs/tutorial*.md", "docs/install.md"]
-SOURCE_FOLDERS = ("cli", "editor", "engine", "loaders", "plugins", "robot", "sdk")
+SOURCE_FOLDERS = ("app", "cli", "editor", "engine", "loaders", "plugins", "robot", "sdk")
 CHANGELOG = "CHANGELOG.md"
 
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The bytes as an MCAP log. Whatever they are, reading ends, with an Error, with damage or at the end; what was read can be
 // written as a whole log that gives the same; and what a replay takes of it is a sequence of sound frames.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "log/mcap_copy.hpp"
-#include "run/recorded_run.hpp"
+#include "run/sources/recorded_run.hpp"
 
 using hallway::Error;
 namespace log_ = hallway::log;
@@ -31,16 +32,18 @@ void check_copy(const log_::ByteInput& input) {
   if (copy.damage && (copy.damage->offset > input.size() || copy.damage->cause.empty())) std::abort();
 }
 
-void check_frames(const run::RecordedRun& recorded) {
+void check_frames(run::RecordedRun&& recorded) {
+  run::RecordedSource source(std::move(recorded), 0);
+  run::SourceFrame frame;
   std::int64_t t_ns = 0;
-  for (const run::SourceFrame& frame : recorded.frames) {
-    if (frame.t_ns < t_ns) std::abort();
-    t_ns = frame.t_ns;
-    for (const log_::Observation& seen : frame.observations) {
-      for (const double x : seen.point) {
-        if (!std::isfinite(x)) std::abort();
-      }
+  for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    source.read(i, frame);
+    if (frame.t_ns() < t_ns || frame.samples().sequence != i) std::abort();
+    t_ns = frame.t_ns();
+    for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
+      if (!hallway::host::find_not_finite(frame.sample(k)).empty()) std::abort();
     }
+    if (source.has_identities() && frame.identities.size() != frame.n_elements()) std::abort();
   }
 }
 

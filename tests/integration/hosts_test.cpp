@@ -117,12 +117,16 @@ class Served {
   bool waited_ = false;
 };
 
+/// A rig of several sensors, with slam_point.
+constexpr const char* kTwoCameras = "two_cameras";
+
 /// Where a plugin sees what it needs.
-fs::path scenario_of(const std::string& plugin) {
-  return source_folder() / (plugin == "slam_plane" ? "maps/many_planes.toml" : "maps/office.toml");
+fs::path scenario_of(const std::string& each) {
+  if (each == kTwoCameras) return source_folder() / "maps/two_cameras.toml";
+  return source_folder() / (each == "slam_plane" ? "maps/many_planes.toml" : "maps/office.toml");
 }
 
-/// A pipeline that drives through a map.
+/// A pipeline that drives through a map: a plugin, or a rig.
 class Hosts : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -134,11 +138,12 @@ class Hosts : public testing::TestWithParam<std::string> {
     static std::map<std::string, TempFolder> folders;
     return folders[GetParam()] / name;
   }
-  static std::string steps() { return std::to_string(sized(150, 2020)); }
+  static std::string plugin() { return GetParam() == kTwoCameras ? "slam_point" : GetParam(); }
+  static std::string steps() { return std::to_string(sized(150, GetParam() == kTwoCameras ? 1010 : 2020)); }
 
   void run(const std::string& name, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{
-        "run",    scenario_of(GetParam()), "--quiet", "--plugin", GetParam(), "--steps", steps(), "--out",
+        "run",    scenario_of(GetParam()), "--quiet", "--plugin", plugin(), "--steps", steps(), "--out",
         out(name)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Ended ended = hallway(arguments);
@@ -147,7 +152,7 @@ class Hosts : public testing::TestWithParam<std::string> {
 
   /// A robot's configuration: the driver's settings, and the plugin as `run` had it.
   std::string config(const std::string& driver) const {
-    std::string text = "[driver]\n" + driver + "[[plugin]]\nname = \"" + GetParam() + "\"\n";
+    std::string text = "[driver]\n" + driver + "[[plugin]]\nname = \"" + plugin() + "\"\n";
     std::string params;
     const Json manifest = manifest_of(out("run"));
     for (const Json& parameter : manifest.at("plugins").at(0).at("parameters")) {
@@ -189,7 +194,7 @@ class Hosts : public testing::TestWithParam<std::string> {
 
 TEST_P(Hosts, Replay) {
   ASSERT_EQ(
-      hallway({"replay", out("run") / "run.mcap", "--plugin", GetParam(), "--quiet", "--out", out("replay")})
+      hallway({"replay", out("run") / "run.mcap", "--plugin", plugin(), "--quiet", "--out", out("replay")})
           .status,
       0);
   expect_same_answers(out("run"), out("replay"));
@@ -203,7 +208,7 @@ TEST_P(Hosts, ARobotThatReplaysALog) {
 TEST_P(Hosts, TheReplayOfARobotsLog) {
   robot_replays();
   ASSERT_EQ(
-      hallway({"replay", out("robot") / "run.mcap", "--plugin", GetParam(), "--quiet", "--out", out("again")})
+      hallway({"replay", out("robot") / "run.mcap", "--plugin", plugin(), "--quiet", "--out", out("again")})
           .status,
       0);
   expect_same_answers(out("run"), out("again"));
@@ -229,7 +234,7 @@ TEST_P(Hosts, ServingScoresThePathThatCameBack) {
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose").is_number(), GetParam() != "em")
       << "which has no pose";
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose"), there.at("position_rmse_m").at("first_pose"));
-  if (GetParam() != "slam_point") return;
+  if (plugin() != "slam_point") return;
   for (const char* folder : {"far", "far_served"}) {
     const Ended drawn = hallway({"render", out(folder), "--out", out("picture.png")});
     EXPECT_EQ(drawn.status, 0) << folder << ": " << drawn.err;
@@ -256,9 +261,9 @@ TEST_P(Hosts, FourThreads) {
   EXPECT_TRUE(content(out("run") / "run.mcap") == content(out("threads") / "run.mcap")) << "the whole log";
 }
 
-/// Every plugin that belongs to the program, and one that drives. Each plugin that is added joins.
+/// Every plugin that belongs to the program, one that drives, and a rig. Each plugin that is added joins.
 std::vector<std::string> pipelines() {
-  std::vector<std::string> all{FIXTURES "/drives.so"};
+  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras};
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
     if (entry.path().extension() == ".so") all.push_back(entry.path().stem());

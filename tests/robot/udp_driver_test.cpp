@@ -24,8 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 std::string bytes_of(const hw_frame_t& frame) {
-  std::string bytes(host::frame_bytes_size(frame), '\0');
-  host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+  std::string bytes;
+  host::FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 

@@ -51,8 +51,7 @@ void write_log(const std::filesystem::path& file, const std::vector<std::vector<
     builder.begin(i, std::int64_t{i} * 1'000'000);
     builder.add_points(0) = frames[i];
     const hw_frame_t& frame = builder.finish();
-    bytes.resize(host::frame_bytes_size(frame));
-    host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+    host::FrameWriter().write_over(bytes, frame);
     writer.add_frame({i, frame.t_ns}, bytes);
   }
   writer.finish();

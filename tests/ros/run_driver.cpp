@@ -166,8 +166,8 @@ class Run {
   }
 
   void take(const hw_frame_t& frame, std::FILE* frames) {
-    std::string bytes(hallway::host::frame_bytes_size(frame), '\0');
-    hallway::host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+    std::string bytes;
+    hallway::host::FrameWriter().write_over(bytes, frame);
     if (frames != nullptr) std::fwrite(bytes.data(), 1, bytes.size(), frames);
     const hw_sample_t& sample = *frame.samples[0];
     write_line("frame " + std::to_string(frame.sequence) + " " + std::to_string(frame.t_ns) + " " +

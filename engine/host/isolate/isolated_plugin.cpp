@@ -9,8 +9,6 @@
 #include "base/text.hpp"
 #include "host/isolate/isolated_list.hpp"
 #include "host/output/outputs_bytes.hpp"
-#include "host/samples/frame_bytes.hpp"
-#include "host/samples/sample_parts.hpp"
 #include "host/text_parameter.hpp"
 
 namespace hallway::host {
@@ -39,9 +37,9 @@ void IsolatedPlugin::start() {
   file_ = started_.file;
   process_->set_plugin(started_.info.id, file_);
   sent_kinds_.clear();
-  // Samples of other kinds cannot be sent; see frame_bytes_size().
-  for (const std::uint32_t kind : {HW_SAMPLE_POINTS, HW_SAMPLE_PLANES}) {
-    if (std::ranges::count(started_.info.inputs, kind) > 0) sent_kinds_.push_back(kind);
+  // Samples of other kinds cannot be sent; see FrameWriter.
+  for (const SampleKind* kind : sample_kinds()) {
+    if (started_.info.takes(kind->kind)) sent_kinds_.push_back(kind->kind);
   }
 }
 
@@ -137,14 +135,12 @@ void IsolatedPlugin::reset() {
 void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const std::uint32_t> sent_indices) {
   indices.assign(sent_indices.begin(), sent_indices.end());
   samples.assign(sent.n_samples, {});
-  points.assign(sent.n_samples, {});
-  planes.assign(sent.n_samples, {});
+  if (payloads.size() < sent.n_samples) payloads.resize(sent.n_samples);
   pointers.clear();
   for (std::uint32_t i = 0; i < sent.n_samples; ++i) {
-    points[i].count = planes[i].count = count_elements(*sent.samples[i]).value_or(0);
+    payloads[i].assign(*find_sample_kind(sent.samples[i]->kind), sent.samples[i]->payload);
     samples[i].kind = sent.samples[i]->kind;
-    samples[i].payload = &points[i];
-    if (samples[i].kind == HW_SAMPLE_PLANES) samples[i].payload = &planes[i];
+    samples[i].payload = payloads[i].get();
     pointers.push_back(&samples[i]);
   }
   frame = {};
@@ -152,17 +148,22 @@ void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const s
   frame.samples = pointers.data();
 }
 
-void IsolatedPlugin::submit(const hw_frame_t& frame) {
+void IsolatedPlugin::submit(const hw_frame_t& frame, std::span<const std::byte> bytes) {
   if (!active_) throw Error(ErrorCode::kInternal, "process() before activate()");
   if (submitted_ - collected_ >= capacity()) throw Error(ErrorCode::kInternal, "too many frames under way");
   const hw_frame_t& selected = selection_.select(frame, sent_kinds_);
-  const std::size_t size = frame_bytes_size(selected);
+  const bool is_whole = !bytes.empty() && selected.n_samples == frame.n_samples;
+  const std::size_t size = is_whole ? bytes.size() : writer_.measure(selected);
   const std::span<std::byte> room = process_->room();
   if (size > room.size()) {
     throw Error(ErrorCode::kBadInput,
                 fmt::format("a frame of {} bytes; an isolated plugin takes {} at most", size, room.size()));
   }
-  write_frame_bytes(selected, room.first(size));
+  if (is_whole) {
+    std::ranges::copy(bytes, room.begin());
+  } else {
+    writer_.write(room.first(size));
+  }
   pending_[submitted_ % pending_.size()].remember(selected, selection_.indices());
   ++submitted_;
   process_->submit(Request::kProcess, size);

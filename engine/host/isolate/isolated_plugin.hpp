@@ -13,6 +13,7 @@
 #include "host/isolate/isolation.hpp"
 #include "host/isolate/plugin_messages.hpp"
 #include "host/isolate/plugin_process.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "host/samples/sample_selection.hpp"
 #include "host/stage.hpp"
 
@@ -40,7 +41,8 @@ class IsolatedPlugin final : public Stage {
   void activate(std::span<const SensorInfo> sensors) override;
   void reset() override;
   std::size_t capacity() const override { return kSlots / 2; }
-  void submit(const hw_frame_t& frame) override;
+  using Stage::submit;
+  void submit(const hw_frame_t& frame, std::span<const std::byte> bytes) override;
   const Outputs& collect() override;
   const Outputs& report(bool refine) override;
   const CallTime& last_call() const override { return last_call_; }
@@ -51,8 +53,7 @@ class IsolatedPlugin final : public Stage {
   struct Pending {
     std::vector<std::uint32_t> indices;  ///< for each sample that was sent, its index in the frame
     std::vector<hw_sample_t> samples;
-    std::vector<hw_points_t> points;  ///< no more than how many
-    std::vector<hw_planes_t> planes;  ///< likewise
+    std::vector<Payload> payloads;  ///< for how many elements they have; their arrays are not looked at
     std::vector<const hw_sample_t*> pointers;
     hw_frame_t frame{};
 
@@ -94,6 +95,7 @@ class IsolatedPlugin final : public Stage {
   bool closed_ = false;
   std::vector<std::uint32_t> sent_kinds_;
   SampleSelection selection_;
+  FrameWriter writer_;
   std::array<Pending, kSlots / 2> pending_;
   std::size_t submitted_ = 0;
   std::size_t collected_ = 0;

@@ -39,7 +39,7 @@ void pass_printable_list(Archive& archive, Passed<Archive, std::vector<std::stri
 template <typename Archive>
 void pass(Archive& archive, Passed<Archive, PluginInfo>& info) {
   pass_printables(archive, info.id, info.name, info.version, info.vendor, info.description);
-  archive.lists(info.inputs, info.outputs);
+  archive.lists(info.inputs, info.optional_inputs, info.outputs);
 }
 
 template <typename Archive>

@@ -2,10 +2,6 @@
 #include "host/load/plugin_info.hpp"
 
 #include <fmt/format.h>
-#include <hallway/output.h>
-#include <hallway/sample.h>
-
-#include <array>
 
 #include "host/load/info_text.hpp"
 
@@ -18,11 +14,6 @@ std::vector<std::uint32_t> read_kinds(const std::uint32_t* kinds, std::uint32_t 
   if (count > kMaxKinds) fail_info(fmt::format("it has {} {}, more than {}", count, member, kMaxKinds));
   if (count > 0 && kinds == nullptr) fail_info(fmt::format("its {} are null", member));
   return {kinds, kinds + count};
-}
-
-template <std::size_t N>
-std::string kind_name(std::uint32_t kind, const std::array<const char*, N>& names) {
-  return kind >= 1 && kind <= N ? names[kind - 1] : fmt::format("kind {}", kind);
 }
 
 }  // namespace
@@ -39,23 +30,10 @@ PluginInfo read_plugin_info(const hw_plugin_info_t* info) {
   result.vendor = read_info_text(info->vendor, "vendor");
   result.description = read_info_text(info->description, "description");
   result.inputs = read_kinds(info->inputs, info->n_inputs, "inputs");
+  if (HW_HAS(info, hw_plugin_info_t, n_optional_inputs))
+    result.optional_inputs = read_kinds(info->optional_inputs, info->n_optional_inputs, "optional inputs");
   result.outputs = read_kinds(info->outputs, info->n_outputs, "outputs");
   return result;
-}
-
-std::string sample_kind_name(std::uint32_t kind) {
-  static constexpr std::array kNames = {"points",  "planes",   "segments", "range_scan", "bump",
-                                        "encoder", "odometry", "image",    "depth"};
-  static_assert(kNames.size() == HW_SAMPLE_DEPTH);
-  return kind_name(kind, kNames);
-}
-
-std::string output_kind_name(std::uint32_t kind) {
-  static constexpr std::array kNames = {"pose",          "landmarks", "associations", "submaps",
-                                        "counters",      "planes",    "segments",     "topology",
-                                        "drive_command", "drawing",   "mapped_planes"};
-  static_assert(kNames.size() == HW_OUTPUT_MAPPED_PLANES);
-  return kind_name(kind, kNames);
 }
 
 }  // namespace hallway::host

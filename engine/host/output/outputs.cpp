@@ -11,7 +11,8 @@
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
 #include "host/load/plugin_info.hpp"
-#include "host/samples/sample_parts.hpp"
+#include "host/output/output_kind.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
 
 namespace hallway::host {
@@ -62,10 +63,9 @@ const Payload& payload_of(const hw_output_t& output) {
 }  // namespace
 
 std::optional<std::span<const std::uint64_t>> Outputs::associations(std::uint32_t sample) const {
-  for (const AssociationRange& range : association_ranges_) {
-    if (range.sample == sample) return std::span(association_ids_).subspan(range.first, range.count);
-  }
-  return std::nullopt;
+  const auto range = std::ranges::lower_bound(association_ranges_, sample, {}, &AssociationRange::sample);
+  if (range == association_ranges_.end() || range->sample != sample) return std::nullopt;
+  return std::span(association_ids_).subspan(range->first, range->count);
 }
 
 std::span<const std::uint64_t> Outputs::members(const hw_submap_t& submap) const {
@@ -233,7 +233,9 @@ hw_status_t OutputCollector::copy_associations(const hw_associations_t& associat
   const Strided<std::uint64_t> ids(associations.landmark_ids, associations.count, sizeof(std::uint64_t));
   const std::size_t first = outputs_.association_ids_.size();
   ids.append_to(outputs_.association_ids_);
-  outputs_.association_ranges_.push_back({index, first, ids.size()});
+  auto& ranges = outputs_.association_ranges_;
+  ranges.insert(std::ranges::upper_bound(ranges, index, {}, &Outputs::AssociationRange::sample),
+                {index, first, ids.size()});
   return HW_OK;
 }
 

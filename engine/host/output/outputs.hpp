@@ -93,7 +93,7 @@ class Outputs {
   std::optional<DriveCommand> drive_command_;
   std::vector<hw_landmark_t> landmarks_;
   std::vector<LandmarkCovariance> landmark_covariances_;
-  std::vector<AssociationRange> association_ranges_;
+  std::vector<AssociationRange> association_ranges_;  ///< by sample
   std::vector<std::uint64_t> association_ids_;
   PlaneLists planes_;
   PlaneLandmarkList plane_landmarks_;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/samples/frame_builder.hpp"
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "host/samples/frame_parts.hpp"
+#include "host/samples/payload.hpp"
+
 namespace hallway::host {
 
 /// A reading with the memory that its members point to; its address never changes.
@@ -13,6 +19,8 @@ struct FrameBuilder::Reading {
   std::vector<std::uint32_t> pixels;
   hw_planes_t planes_payload{};
   Planes planes;
+  bool is_copy = false;  ///< of a sample that was made elsewhere
+  Payload copy;
 
   void finish_points() {
     points_payload = {};
@@ -63,6 +71,7 @@ void FrameBuilder::begin(std::uint64_t sequence, std::int64_t t_ns) {
 FrameBuilder::Reading& FrameBuilder::add_reading(std::uint32_t kind, std::uint32_t sensor_id) {
   if (n_readings_ == readings_.size()) readings_.push_back(std::make_unique<Reading>());
   Reading& reading = *readings_[n_readings_++];
+  reading.is_copy = false;
   reading.sample = {};
   reading.sample.size = sizeof reading.sample;
   reading.sample.kind = kind;
@@ -100,11 +109,31 @@ FrameBuilder::Planes& FrameBuilder::add_planes(std::uint32_t sensor_id) {
   return planes;
 }
 
+void FrameBuilder::add(const hw_sample_t& sample) {
+  const SampleKind* kind = find_sample_kind(sample.kind);
+  if (kind == nullptr)
+    throw Error(ErrorCode::kInternal, fmt::format("a sample of the unknown kind {}", sample.kind));
+  Reading& reading = add_reading(sample.kind, sample.sensor_id);
+  reading.is_copy = true;
+  reading.copy.assign(*kind, sample.payload);
+  reading.copy.own_all_arrays();
+  reading.sample = known_part(sample);
+}
+
+void FrameBuilder::set_reading(std::uint64_t sequence, std::int64_t t_begin_ns, std::int64_t t_end_ns) {
+  hw_sample_t& sample = readings_.at(n_readings_ - 1)->sample;
+  sample.sequence = sequence;
+  sample.t_begin_ns = t_begin_ns;
+  sample.t_end_ns = t_end_ns;
+}
+
 const hw_frame_t& FrameBuilder::finish() {
   samples_.clear();
   for (std::size_t i = 0; i < n_readings_; ++i) {
     Reading& reading = *readings_[i];
-    if (reading.sample.kind == HW_SAMPLE_PLANES) {
+    if (reading.is_copy) {
+      reading.sample.payload = reading.copy.get();
+    } else if (reading.sample.kind == HW_SAMPLE_PLANES) {
       reading.finish_planes();
     } else {
       reading.finish_points();

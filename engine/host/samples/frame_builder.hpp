@@ -46,6 +46,14 @@ class FrameBuilder {
   /// @return the empty lists to be filled, sensor frame, metres; valid until the next call
   Planes& add_planes(std::uint32_t sensor_id);
 
+  /// Adds a copy of a sample with all that it refers to, under its own sensor, number and times. Throws Error{kInternal} for one of a kind that is not
+  /// known.
+  void add(const hw_sample_t& sample);
+
+  /// The sample added last has a number and times of its own.
+  /// @param sequence  counts the readings of its sensor from 0
+  void set_reading(std::uint64_t sequence, std::int64_t t_begin_ns, std::int64_t t_end_ns);
+
   /// The frame, as the ABI has it; valid until the next begin().
   const hw_frame_t& finish();
 

@@ -2,6 +2,7 @@
 #include "host/samples/frame_bytes.hpp"
 
 #include <fmt/format.h>
+#include <hallway/planes.h>
 #include <hallway/version.h>
 
 #include <algorithm>
@@ -11,17 +12,12 @@
 
 #include "base/error.hpp"
 #include "host/samples/frame_parts.hpp"
-#include "host/samples/plane_parts.hpp"
-#include "host/samples/sample_parts.hpp"
 #include "host/samples/strided.hpp"
 
 namespace hallway::host {
 namespace {
 
 constexpr std::array<char, 4> kMagic{'H', 'W', 'F', 'B'};
-
-/// More pixels than an image may have.
-constexpr std::uint32_t kMaxPixels = 1u << 28;
 
 /// What the bytes begin with.
 struct Head {
@@ -33,116 +29,80 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 
-const hw_points_t& points_of(const hw_sample_t& sample) {
-  return *static_cast<const hw_points_t*>(sample.payload);
+void check_array(const SampleKind& kind, const std::byte* payload, const PayloadArray& array) {
+  if (!has_array(payload, array)) return;
+  const std::uint64_t stride = stride_of(payload, array);
+  const auto count = load<std::uint64_t>(payload + array.count);
+  demand_frame(stride >= array.element_bytes && (stride % 8 == 0 || array.stride == kNoMember),
+               "with {} of a wrong stride", array.name);
+  demand_frame(count <= kMaxFrameBytes / array.element_bytes, "with more {} than are taken", kind.name);
+  demand_frame(load<const void*>(payload + array.data) != nullptr || count == 0, "with {} that are null",
+               kind.name);
 }
 
-const hw_planes_t& planes_of(const hw_sample_t& sample) {
-  return *static_cast<const hw_planes_t*>(sample.payload);
+/// Copies the payload of a sample, and checks what can be told without a look at its arrays.
+void take_payload(const hw_sample_t& sample, const SampleKind& kind, std::uint32_t n_samples, Payload& copy) {
+  const auto size = load<std::uint32_t>(sample.payload);
+  demand_frame(size >= kind.min_size && size % 8 == 0, "with {} of a wrong size", kind.name);
+  copy.assign(kind, sample.payload);
+  for (const PayloadArray& array : kind.arrays) check_array(kind, copy.get(), array);
+  demand_frame(copy.found_in() == HW_NO_SAMPLE || copy.found_in() < n_samples,
+               "with {} of a sample that it has not", kind.name);
 }
 
-bool is_known(const hw_sample_t& sample) {
-  return sample.kind == HW_SAMPLE_POINTS || sample.kind == HW_SAMPLE_PLANES;
-}
-
-bool has_pixels(const hw_points_t& points) {
-  return HW_HAS(&points, hw_points_t, pixel) && points.pixel != nullptr;
-}
-
-/// The struct is written without the members for pixels where there are none: the bytes are those of ABI 1.1.
-std::size_t written_size(const hw_points_t& points) {
-  return has_pixels(points) ? sizeof(hw_points_t) : offsetof(hw_points_t, width);
-}
-
-void check_points(const hw_points_t& points) {
-  demand_frame(HW_HAS(&points, hw_points_t, track) && points.size % 8 == 0, "with points of a wrong size");
-  demand_frame(points.stride >= sizeof(hw_point3_t) && points.stride % 8 == 0,
-               "with points of a wrong stride");
-  demand_frame(points.count <= kMaxFrameBytes / sizeof(hw_point3_t), "with more points than are taken");
-  demand_frame(points.points != nullptr || points.count == 0, "with points that are null");
-  if (has_pixels(points)) {
-    demand_frame(points.height != 0 && points.width <= kMaxPixels / points.height,
-                 "with an image of a wrong size");
-    const std::span pixels(points.pixel, points.count);
-    const std::uint32_t n = points.width * points.height;
-    demand_frame(std::ranges::all_of(pixels, [n](std::uint32_t pixel) { return pixel < n; }),
-                 "with a point at a pixel outside of its image");
-  }
-}
-
-void check_sample(const hw_sample_t* sample, std::uint32_t n_samples) {
-  demand_frame(sample != nullptr, "with a sample that is null");
-  demand_frame(HW_HAS(sample, hw_sample_t, payload) && sample->size % 8 == 0,
-               "with a sample of a wrong size");
-  demand_frame(sample->payload != nullptr, "with a sample without a payload");
-  if (sample->kind == HW_SAMPLE_POINTS) check_points(points_of(*sample));
-  if (sample->kind == HW_SAMPLE_PLANES) check_planes(planes_of(*sample), n_samples);
-}
-
-void check_frame(const hw_frame_t& frame) {
+void check_samples(const hw_frame_t& frame) {
   demand_frame(HW_HAS(&frame, hw_frame_t, samples) && frame.size % 8 == 0, "of a wrong size");
   demand_frame(frame.samples != nullptr || frame.n_samples == 0, "whose samples are null");
-  for (std::uint32_t i = 0; i < frame.n_samples; ++i) check_sample(frame.samples[i], frame.n_samples);
-}
-
-void put_points(AlignedByteWriter& to, const hw_points_t& points) {
-  hw_points_t copy = known_part(points);
-  copy.size = static_cast<std::uint32_t>(written_size(points));
-  copy.stride = sizeof(hw_point3_t);
-  const std::uint64_t elements = to.size() + copy.size;
-  const std::uint64_t track = elements + points.count * sizeof(hw_point3_t);
-  const std::uint64_t track_bytes = points.track != nullptr ? points.count * sizeof(std::uint64_t) : 0;
-  put_offset(copy.points, elements);
-  put_offset(copy.track, points.track != nullptr ? track : 0);
-  put_offset(copy.pixel, has_pixels(points) ? track + track_bytes : 0);
-  to.put_bytes(&copy, copy.size);
-  put_elements<hw_point3_t>(to, points.points, points.count, points.stride);
-  to.put_bytes(points.track, track_bytes);
-  if (has_pixels(points)) to.put_bytes(points.pixel, points.count * sizeof(std::uint32_t));
-}
-
-std::uint32_t count_known(const hw_frame_t& frame, std::uint32_t n_samples) {
-  std::uint32_t known = 0;
-  for (std::uint32_t i = 0; i < n_samples; ++i) known += is_known(*frame.samples[i]) ? 1u : 0u;
-  return known;
-}
-
-/// Planes as they are written: they refer to the samples that are written.
-void put_planes_of(AlignedByteWriter& to, const hw_frame_t& frame, const hw_planes_t& planes) {
-  const bool there = planes.sample != HW_NO_SAMPLE && is_known(*frame.samples[planes.sample]);
-  std::vector<hw_plane_t> storage;
-  put_planes(to, refer_to_sample(planes, there ? count_known(frame, planes.sample) : HW_NO_SAMPLE, storage));
-}
-
-void put_sample(AlignedByteWriter& to, const hw_frame_t& frame, const hw_sample_t& sample) {
-  hw_sample_t copy = known_part(sample);
-  put_offset(copy.payload, to.size() + copy.size);
-  to.put_bytes(&copy, copy.size);
-  if (sample.kind == HW_SAMPLE_PLANES) {
-    put_planes_of(to, frame, planes_of(sample));
-  } else {
-    put_points(to, points_of(sample));
+  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
+    const hw_sample_t* sample = frame.samples[i];
+    demand_frame(sample != nullptr, "with a sample that is null");
+    demand_frame(HW_HAS(sample, hw_sample_t, payload) && sample->size % 8 == 0,
+                 "with a sample of a wrong size");
+    demand_frame(sample->payload != nullptr, "with a sample without a payload");
+    demand_frame(sample->t_begin_ns <= sample->t_end_ns, "with a sample that ends before it begins");
   }
 }
 
-/// Puts a frame that check_frame() accepts, and has the number of all its bytes.
-void put_frame(AlignedByteWriter& to, const hw_frame_t& frame, std::uint64_t total) {
-  Head head;
-  head.total = total;
-  to.put(head);
-  hw_frame_t copy = known_part(frame);
-  copy.n_samples = count_known(frame, frame.n_samples);
-  std::size_t entry = to.size() + copy.size;
-  put_offset(copy.samples, entry);
-  to.put_bytes(&copy, copy.size);
-  for (std::uint32_t i = 0; i < copy.n_samples; ++i) to.put(std::uint64_t{0});
-  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
-    const hw_sample_t& sample = *frame.samples[i];
-    if (!is_known(sample)) continue;
-    to.put_at(entry, std::uint64_t{to.size()});
-    entry += sizeof(std::uint64_t);
-    put_sample(to, frame, sample);
-    demand_frame(to.size() <= kMaxFrameBytes, "of more bytes than are taken");
+/// Has a payload refer to a sample by its place among those that are carried, and checks its values. Throws Malformed.
+/// @param place     of the sample that it was found in; HW_NO_SAMPLE where that one is not carried
+/// @param elements  of that sample
+void settle(Payload& payload, std::uint32_t place, std::uint64_t elements) {
+  payload.own_checked_arrays();
+  if (payload.found_in() != HW_NO_SAMPLE) payload.refer_to(place);
+  if (payload.kind().check != nullptr) payload.kind().check(payload.get(), elements);
+}
+
+/// The size of a payload's struct without the members of arrays that it does not have.
+std::size_t written_size(const Payload& payload) {
+  std::size_t size = load<std::uint32_t>(payload.get());
+  for (const PayloadArray& array : payload.kind().arrays) {
+    if (array.size_without != 0 && !has_array(payload.get(), array))
+      size = std::min(size, array.size_without);
+  }
+  return size;
+}
+
+void put_payload(AlignedByteWriter& to, const Payload& payload) {
+  alignas(8) std::array<std::byte, Payload::kMaxSize> copy;
+  const std::size_t size = written_size(payload);
+  std::memcpy(copy.data(), payload.get(), size);
+  store(copy.data(), static_cast<std::uint32_t>(size));
+  std::uint64_t at = to.size() + size;
+  const auto bytes_of = [&](const PayloadArray& array) {
+    const auto count = load<std::uint64_t>(payload.get() + array.count);
+    return has_array(payload.get(), array) ? count * array.element_bytes : 0;
+  };
+  for (const PayloadArray& array : payload.kind().arrays) {
+    if (array.data >= size) continue;
+    store(copy.data() + array.data, std::uint64_t{has_array(payload.get(), array) ? at : 0});
+    if (array.stride != kNoMember)
+      store(copy.data() + array.stride, static_cast<std::uint32_t>(array.element_bytes));
+    at += (bytes_of(array) + 7) / 8 * 8;
+  }
+  to.put_bytes(copy.data(), size);
+  for (const PayloadArray& array : payload.kind().arrays) {
+    put_elements(to, load<const void*>(payload.get() + array.data), bytes_of(array) / array.element_bytes,
+                 array.element_bytes, stride_of(payload.get(), array));
   }
 }
 
@@ -161,19 +121,66 @@ void check_head(const Head& head, std::size_t size) {
 
 }  // namespace
 
-std::size_t frame_bytes_size(const hw_frame_t& frame) {
-  check_frame(frame);
-  AlignedByteWriter measure({});
-  put_frame(measure, frame, 0);
-  return measure.size();
+std::size_t FrameWriter::measure(const hw_frame_t& frame) {
+  check_samples(frame);
+  take_samples(frame);
+  frame_ = &frame;
+  AlignedByteWriter counter({});
+  put_frame(counter);
+  return size_ = counter.size();
 }
 
-void write_frame_bytes(const hw_frame_t& frame, std::span<std::byte> bytes) {
-  if (bytes.size() != frame_bytes_size(frame)) {
+void FrameWriter::take_samples(const hw_frame_t& frame) {
+  if (samples_.size() < frame.n_samples) samples_.resize(frame.n_samples);
+  places_.clear();
+  n_samples_ = 0;
+  for (std::uint32_t i = 0; i < frame.n_samples; ++i) {
+    const SampleKind* kind = find_sample_kind(frame.samples[i]->kind);
+    places_.push_back(kind != nullptr ? n_samples_ : HW_NO_SAMPLE);
+    if (kind == nullptr) continue;
+    samples_[n_samples_].given = frame.samples[i];
+    take_payload(*frame.samples[i], *kind, frame.n_samples, samples_[n_samples_++].payload);
+  }
+  for (std::uint32_t i = 0; i < n_samples_; ++i) {
+    Payload& payload = samples_[i].payload;
+    const std::uint32_t told = payload.found_in();
+    const std::uint32_t place = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
+    try {
+      settle(payload, place, place == HW_NO_SAMPLE ? 0 : *count_elements(*samples_[place].given));
+    } catch (const Malformed& malformed) {
+      demand_frame(false, "with {}: {}", payload.kind().name, malformed.text);
+    }
+  }
+}
+
+/// Puts the frame that was measured, or measures it.
+void FrameWriter::put_frame(AlignedByteWriter& to) const {
+  Head head;
+  head.total = size_;
+  to.put(head);
+  hw_frame_t copy = known_part(*frame_);
+  copy.n_samples = n_samples_;
+  std::size_t entry = to.size() + copy.size;
+  put_offset(copy.samples, entry);
+  to.put_bytes(&copy, copy.size);
+  for (std::uint32_t i = 0; i < n_samples_; ++i) to.put(std::uint64_t{0});
+  for (std::uint32_t i = 0; i < n_samples_; ++i) {
+    to.put_at(entry, std::uint64_t{to.size()});
+    entry += sizeof(std::uint64_t);
+    hw_sample_t sample = known_part(*samples_[i].given);
+    put_offset(sample.payload, to.size() + sample.size);
+    to.put_bytes(&sample, sample.size);
+    put_payload(to, samples_[i].payload);
+    demand_frame(to.size() <= kMaxFrameBytes, "of more bytes than are taken");
+  }
+}
+
+void FrameWriter::write(std::span<std::byte> bytes) const {
+  if (frame_ == nullptr || bytes.size() != size_) {
     throw Error(ErrorCode::kInternal, "the room for a frame has another size than the frame");
   }
   AlignedByteWriter writer(bytes);
-  put_frame(writer, frame, bytes.size());
+  put_frame(writer);
 }
 
 void set_frame_sequence(std::span<std::byte> bytes, std::uint64_t sequence) {
@@ -201,109 +208,61 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
   const void* entries = cursor.take(offset_in(frame_.samples), table, "table of samples");
   offsets_.resize(frame_.n_samples);
   if (table != 0) std::memcpy(offsets_.data(), entries, table);
-  readings_.resize(offsets_.size());
+  if (known_.size() < offsets_.size()) known_.resize(offsets_.size());
   places_.clear();
   std::uint32_t n = 0;
   for (const std::uint64_t offset : offsets_) {
-    read_sample(cursor, offset, readings_[n]);
-    const bool known = is_known(readings_[n].sample);
+    const bool known = take_sample(cursor, offset, known_[n]);
     places_.push_back(known ? n : HW_NO_SAMPLE);
-    if (known) readings_[n++].offset = offset;
+    n += known ? 1u : 0u;
   }
   samples_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) samples_[i] = &readings_[i].sample;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    samples_[i] = &known_[i].sample;
+    known_[i].sample.payload = known_[i].payload.get();
+  }
   frame_.n_samples = n;
   frame_.samples = samples_.data();
-  check_plane_samples();
+  for (std::uint32_t i = 0; i < n; ++i) check_payload(known_[i]);
   return frame_;
 }
 
-void FrameReader::read_sample(PartCursor& cursor, std::uint64_t offset, Sample& out) {
+/// @return whether its kind is known
+bool FrameReader::take_sample(PartCursor& cursor, std::uint64_t offset, Sample& out) {
+  out.offset = offset;
   out.sample = cursor.take_struct<hw_sample_t>(
       offset, offsetof(hw_sample_t, payload) + sizeof(hw_sample_t::payload), "hw_sample_t");
-  const std::uint64_t payload = offset_in(out.sample.payload);
-  if (payload == 0) damaged(offset, "hw_sample_t", "a sample without a payload");
-  if (out.sample.kind == HW_SAMPLE_POINTS) read_points(cursor, payload, out);
-  if (out.sample.kind == HW_SAMPLE_PLANES) out.planes = take_planes(cursor, payload);
-  out.sample.payload = &out.points;
-  if (out.sample.kind == HW_SAMPLE_PLANES) out.sample.payload = &out.planes;
+  const std::uint64_t at = offset_in(out.sample.payload);
+  if (at == 0) damaged(offset, "hw_sample_t", "a sample without a payload");
+  if (out.sample.t_begin_ns > out.sample.t_end_ns)
+    damaged(offset, "hw_sample_t", "a sample that ends before it begins");
+  const SampleKind* kind = find_sample_kind(out.sample.kind);
+  if (kind == nullptr) return false;
+  std::byte* payload = out.payload.begin(*kind);
+  cursor.take_struct(at, kind->min_size, kind->size, kind->payload, payload);
+  for (const PayloadArray& array : kind->arrays) {
+    const auto first = load<std::uint64_t>(payload + array.data);
+    if (array.optional && first == 0) continue;
+    const std::uint64_t stride = stride_of(payload, array);
+    const auto count = load<std::uint64_t>(payload + array.count);
+    if (array.stride != kNoMember) check_stride(at, kind->payload, stride, array.element_bytes);
+    check_count(at, kind->payload, count, stride, array.name);
+    store(payload + array.data, cursor.take(first, count * stride, array.name));
+  }
+  return true;
 }
 
-/// Copies the planes, checks the copies and has the samples refer to them.
-void FrameReader::check_plane_samples() {
-  plane_lists_.clear();
-  for (std::uint32_t i = 0; i < frame_.n_samples; ++i) {
-    if (readings_[i].sample.kind == HW_SAMPLE_PLANES) check_planes_of(i);
-  }
-  for (std::uint32_t i = 0; i < frame_.n_samples; ++i) {
-    if (readings_[i].sample.kind != HW_SAMPLE_PLANES) continue;
-    const PlaneList list = *plane_lists_.of(i);
-    hw_planes_t& planes = readings_[i].planes;
-    planes.stride = sizeof(hw_plane_t);
-    planes.hull_stride = sizeof(hw_point3_t);
-    planes.planes = list.planes.data();
-    planes.hull_points = list.hull_points.data();
-    planes.members = list.members.data();
-  }
-}
-
-void FrameReader::check_planes_of(std::uint32_t index) {
-  Sample& reading = readings_[index];
-  const std::uint32_t told = reading.planes.sample;
-  if (told != HW_NO_SAMPLE && told >= places_.size()) {
-    damaged(reading.offset, "planes", fmt::format("planes of sample {} of {}", told, places_.size()));
-  }
-  if (told == HW_NO_SAMPLE && reading.planes.n_members != 0) {
-    damaged(reading.offset, "planes", "planes of no sample with members");
-  }
-  const std::uint32_t sample = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
-  const std::uint64_t elements = sample == HW_NO_SAMPLE ? 0 : *count_elements(readings_[sample].sample);
-  std::vector<hw_plane_t> storage;
-  reading.planes = refer_to_sample(reading.planes, sample, storage);
+void FrameReader::check_payload(Sample& sample) {
+  const char* name = sample.payload.kind().name;
+  const std::uint32_t told = sample.payload.found_in();
+  if (told != HW_NO_SAMPLE && told >= places_.size())
+    damaged(sample.offset, name, fmt::format("{} of sample {} of {}", name, told, places_.size()));
+  const std::uint32_t place = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
   try {
-    plane_lists_.add(reading.planes, index, elements);
+    settle(sample.payload, place, place == HW_NO_SAMPLE ? 0 : *count_elements(*samples_[place]));
   } catch (const Malformed& malformed) {
-    damaged(reading.offset, "planes", malformed.text);
+    damaged(sample.offset, name, malformed.text);
   }
-}
-
-void FrameReader::read_points(PartCursor& cursor, std::uint64_t offset, Sample& reading) {
-  constexpr const char* kPart = "hw_points_t";
-  hw_points_t& out = reading.points;
-  out = cursor.take_struct<hw_points_t>(offset, offsetof(hw_points_t, track) + sizeof(hw_points_t::track),
-                                        kPart);
-  check_stride(offset, kPart, out.stride, sizeof(hw_point3_t));
-  check_count(offset, kPart, out.count, out.stride, "points");
-  out.points = cursor.take(offset_in(out.points), out.count * out.stride, "points");
-  const std::uint64_t track = offset_in(out.track);
-  out.track = nullptr;
-  if (track != 0) {
-    out.track =
-        static_cast<const std::uint64_t*>(cursor.take(track, out.count * sizeof(std::uint64_t), "track"));
-  }
-  read_pixels(cursor, offset, reading);
-}
-
-/// Where the points' pixels are told, a copy of them: they are indices, and a writer must not change them once they are checked.
-void FrameReader::read_pixels(PartCursor& cursor, std::uint64_t offset, Sample& reading) {
-  hw_points_t& out = reading.points;
-  const std::uint64_t at = HW_HAS(&out, hw_points_t, pixel) ? offset_in(out.pixel) : 0;
-  out.pixel = nullptr;
-  if (at == 0) {
-    out.width = out.height = 0;
-    return;
-  }
-  if (out.width == 0 || out.height == 0 || out.width > kMaxPixels / out.height) {
-    damaged(offset, "hw_points_t", fmt::format("an image of {} by {} pixels", out.width, out.height));
-  }
-  const void* pixels = cursor.take(at, out.count * sizeof(std::uint32_t), "pixel");
-  reading.pixels.resize(out.count);
-  if (out.count != 0) std::memcpy(reading.pixels.data(), pixels, out.count * sizeof(std::uint32_t));
-  for (const std::uint32_t pixel : reading.pixels) {
-    if (pixel >= out.width * out.height)
-      damaged(at, "pixel", fmt::format("the pixel {} of {}", pixel, out.width * out.height));
-  }
-  out.pixel = reading.pixels.data();
 }
 
 }  // namespace hallway::host

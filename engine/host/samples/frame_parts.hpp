@@ -18,8 +18,9 @@ namespace hallway::host {
 
 // How structs of the ABI are copied, and parts of a frame's bytes put and taken; for the files of this library that do so.
 
-inline void demand_frame(bool condition, const char* text) {
-  if (!condition) throw Error(ErrorCode::kBadInput, fmt::format("a frame {}", text));
+template <typename... Values>
+void demand_frame(bool condition, fmt::format_string<const Values&...> text, const Values&... values) {
+  if (!condition) throw Error(ErrorCode::kBadInput, "a frame " + fmt::format(text, values...));
 }
 
 /// As much of a struct as these headers know.
@@ -50,13 +51,12 @@ std::uint64_t offset_in(const Pointer& member) {
   return load<std::uint64_t>(&member);
 }
 
-/// Puts elements that stand `stride` bytes apart; as much of each as T.
-template <typename T>
-void put_elements(AlignedByteWriter& to, const void* first, std::uint64_t count, std::uint64_t stride) {
-  if (stride == sizeof(T)) return to.put_bytes(first, count * sizeof(T));
-  for (std::uint64_t i = 0; i < count; ++i) {
-    to.put_bytes(static_cast<const std::byte*>(first) + i * stride, sizeof(T));
-  }
+/// Puts as much of each of the elements that stand `stride` bytes apart.
+inline void put_elements(AlignedByteWriter& to, const void* first, std::uint64_t count, std::uint64_t bytes,
+                         std::uint64_t stride) {
+  if (stride == bytes) return to.put_bytes(first, count * bytes);
+  for (std::uint64_t i = 0; i < count; ++i)
+    to.put_bytes(static_cast<const std::byte*>(first) + i * stride, bytes);
 }
 
 [[noreturn]] inline void damaged(std::uint64_t offset, const char* part, const std::string& message) {
@@ -81,15 +81,21 @@ class PartCursor {
     return bytes_.data() + offset;
   }
 
-  /// A copy of the struct at `offset`, whose first member is its size; members that these headers do not know are left out.
-  template <typename T>
-  T take_struct(std::uint64_t offset, std::size_t min_size, const char* part) {
+  /// Copies the struct at `offset`, whose first member is its size, to `to`: its first `known` bytes, for members that these headers do not
+  /// know are left out. `to` holds zeros behind what is there.
+  void take_struct(std::uint64_t offset, std::size_t min_size, std::size_t known, const char* part,
+                   std::byte* to) {
     const auto size = load<std::uint32_t>(peek(offset, part));
     if (size < min_size || size % 8 != 0) damaged(offset, part, fmt::format("a size of {} bytes", size));
-    T value{};
-    std::memcpy(&value, take(offset, size, part), std::min<std::size_t>(size, sizeof(T)));
+    const std::size_t copied = std::min<std::size_t>(size, known);
+    std::memcpy(to, take(offset, size, part), copied);
     // What was copied counts, not what stood there a moment before.
-    value.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, sizeof(T)));
+    store(to, static_cast<std::uint32_t>(copied));
+  }
+  template <typename T>
+  T take_struct(std::uint64_t offset, std::size_t min_size, const char* part) {
+    T value{};
+    take_struct(offset, min_size, sizeof(T), part, reinterpret_cast<std::byte*>(&value));
     return value;
   }
 
@@ -106,7 +112,7 @@ class PartCursor {
 };
 
 /// Refuses a list whose elements are not as far apart as they are large.
-inline void check_stride(std::uint64_t offset, const char* part, std::uint32_t stride, std::size_t least) {
+inline void check_stride(std::uint64_t offset, const char* part, std::uint64_t stride, std::size_t least) {
   if (stride < least || stride % 8 != 0) damaged(offset, part, fmt::format("a stride of {} bytes", stride));
 }
 

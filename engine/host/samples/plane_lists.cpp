@@ -91,50 +91,24 @@ std::span<const T> part(const std::vector<T>& all, const Range& range) {
   return std::span(all).subspan(range.first, range.count);
 }
 
+void check_ids(std::span<const hw_plane_t> planes) {
+  std::vector<std::uint64_t> ids;
+  for (const hw_plane_t& plane : planes) ids.push_back(plane.id);
+  std::ranges::sort(ids);
+  const auto twice = std::ranges::adjacent_find(ids);
+  if (twice != ids.end()) throw Malformed{fmt::format("two of them have the id {}", *twice)};
+}
+
 }  // namespace
 
-void PlaneLists::clear() {
-  entries_.clear();
-  planes_.clear();
-  hull_points_.clear();
-  members_.clear();
-}
-
-std::optional<PlaneList> PlaneLists::of(std::uint32_t sample) const {
-  for (const Entry& entry : entries_) {
-    if (entry.sample != sample) continue;
-    return PlaneList{part(planes_, entry.planes), part(hull_points_, entry.hull_points),
-                     part(members_, entry.members)};
+void clear_empty_ranges(std::span<hw_plane_t> planes) {
+  for (hw_plane_t& plane : planes) {
+    if (plane.n_hull == 0) plane.first_hull = 0;
+    if (plane.n_members == 0) plane.first_member = 0;
   }
-  return std::nullopt;
 }
 
-void PlaneLists::add(const hw_planes_t& planes, std::uint32_t sample, std::uint64_t elements) {
-  demand(!of(sample), "a second time for one sample");
-  const Strided<hw_plane_t> list(planes.planes, planes.count, planes.stride);
-  const Strided<hw_point3_t> hull_points(planes.hull_points, planes.n_hull_points, planes.hull_stride);
-  check_list(planes.members, planes.n_members);
-  const Entry entry{sample,
-                    {planes_.size(), list.size()},
-                    {hull_points_.size(), hull_points.size()},
-                    {members_.size(), planes.n_members}};
-  list.append_to(planes_);
-  for (std::size_t i = entry.planes.first; i < planes_.size(); ++i) {
-    // Where an empty range begins says nothing, and may be anywhere.
-    if (planes_[i].n_hull == 0) planes_[i].first_hull = 0;
-    if (planes_[i].n_members == 0) planes_[i].first_member = 0;
-  }
-  hull_points.append_to(hull_points_);
-  members_.resize(members_.size() + planes.n_members);
-  if (planes.n_members != 0)
-    std::memcpy(&members_[entry.members.first], planes.members, planes.n_members * sizeof(std::uint32_t));
-  check_planes(entry, elements);
-  entries_.push_back(entry);
-}
-
-void PlaneLists::check_planes(const Entry& entry, std::uint64_t elements) {
-  const PlaneList list{part(planes_, entry.planes), part(hull_points_, entry.hull_points),
-                       part(members_, entry.members)};
+void check_plane_list(const PlaneList& list, std::uint64_t elements) {
   std::uint64_t hull_end = 0, members_end = 0;
   for (const hw_plane_t& plane : list.planes) {
     if (const char* problem = plane_problem(plane))
@@ -147,12 +121,39 @@ void PlaneLists::check_planes(const Entry& entry, std::uint64_t elements) {
   check_ids(list.planes);
 }
 
-void PlaneLists::check_ids(std::span<const hw_plane_t> planes) {
-  sorted_ids_.clear();
-  for (const hw_plane_t& plane : planes) sorted_ids_.push_back(plane.id);
-  std::ranges::sort(sorted_ids_);
-  const auto twice = std::ranges::adjacent_find(sorted_ids_);
-  if (twice != sorted_ids_.end()) throw Malformed{fmt::format("two of them have the id {}", *twice)};
+void PlaneLists::clear() {
+  entries_.clear();
+  planes_.clear();
+  hull_points_.clear();
+  members_.clear();
+}
+
+std::optional<PlaneList> PlaneLists::of(std::uint32_t sample) const {
+  const auto entry = std::ranges::lower_bound(entries_, sample, {}, &Entry::sample);
+  if (entry == entries_.end() || entry->sample != sample) return std::nullopt;
+  return PlaneList{part(planes_, entry->planes), part(hull_points_, entry->hull_points),
+                   part(members_, entry->members)};
+}
+
+void PlaneLists::add(const hw_planes_t& planes, std::uint32_t sample, std::uint64_t elements) {
+  demand(!of(sample), "a second time for one sample");
+  const Strided<hw_plane_t> list(planes.planes, planes.count, planes.stride);
+  const Strided<hw_point3_t> hull_points(planes.hull_points, planes.n_hull_points, planes.hull_stride);
+  check_list(planes.members, planes.n_members);
+  const Entry entry{sample,
+                    {planes_.size(), list.size()},
+                    {hull_points_.size(), hull_points.size()},
+                    {members_.size(), planes.n_members}};
+  list.append_to(planes_);
+  clear_empty_ranges(std::span(planes_).subspan(entry.planes.first));
+  hull_points.append_to(hull_points_);
+  members_.resize(members_.size() + planes.n_members);
+  if (planes.n_members != 0)
+    std::memcpy(&members_[entry.members.first], planes.members, planes.n_members * sizeof(std::uint32_t));
+  check_plane_list(
+      {part(planes_, entry.planes), part(hull_points_, entry.hull_points), part(members_, entry.members)},
+      elements);
+  entries_.insert(std::ranges::upper_bound(entries_, sample, {}, &Entry::sample), entry);
 }
 
 }  // namespace hallway::host

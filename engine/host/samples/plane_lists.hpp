@@ -27,6 +27,13 @@ struct PlaneList {
   }
 };
 
+/// Where an empty range begins says nothing, and may be anywhere: has those of each plane begin at 0.
+void clear_empty_ranges(std::span<hw_plane_t> planes);
+
+/// Checks what planes.h demands of a list without such ranges. Throws Malformed. O(n log n).
+/// @param elements  number of elements of the sample that they were found in
+void check_plane_list(const PlaneList& list, std::uint64_t elements);
+
 /// Lists of planes by sample, in memory that is used again.
 class PlaneLists {
  public:
@@ -48,14 +55,10 @@ class PlaneLists {
     Range planes, hull_points, members;
   };
 
-  void check_planes(const Entry& entry, std::uint64_t elements);
-  void check_ids(std::span<const hw_plane_t> planes);
-
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  ///< by sample
   std::vector<hw_plane_t> planes_;
   std::vector<hw_point3_t> hull_points_;
   std::vector<std::uint32_t> members_;
-  std::vector<std::uint64_t> sorted_ids_;
 };
 
 }  // namespace hallway::host

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <hallway/planes.h>
 #include <hallway/sample.h>
 
 #include <cstdint>
@@ -9,22 +8,23 @@
 #include <span>
 #include <vector>
 
+#include "host/samples/payload.hpp"
+
 namespace hallway::host {
 
 /// The samples of a frame that a plugin takes, as a frame, in memory that is used again.
 class SampleSelection {
  public:
-  /// Those of the kinds `inputs`; planes refer to the samples of the selection (refer_to_sample()). @return refers to the samples of `frame`; valid until the next call
-  const hw_frame_t& select(const hw_frame_t& frame, std::span<const std::uint32_t> inputs);
+  /// Those of the kinds `taken`; what was found in a sample refers to the samples of the selection (Payload::refer_to()). @return refers to the samples of `frame`; valid until the next call
+  const hw_frame_t& select(const hw_frame_t& frame, std::span<const std::uint32_t> taken);
   /// For each sample of the selection, its index in the frame.
   std::span<const std::uint32_t> indices() const { return indices_; }
 
  private:
-  /// Planes that refer to samples by other numbers than in the frame.
+  /// A sample that refers to another one by another number than in the frame.
   struct Referring {
     hw_sample_t sample{};
-    hw_planes_t payload{};
-    std::vector<hw_plane_t> planes;
+    Payload payload;
   };
 
   const hw_sample_t* renumbered(const hw_sample_t& sample);
@@ -32,7 +32,8 @@ class SampleSelection {
   hw_frame_t selected_{};
   std::vector<const hw_sample_t*> samples_;
   std::vector<std::uint32_t> indices_;
-  std::deque<Referring> referring_;
+  std::deque<Referring> referring_;  ///< the first n_referring_
+  std::size_t n_referring_ = 0;
 };
 
 }  // namespace hallway::host

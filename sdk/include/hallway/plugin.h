@@ -59,4 +59,8 @@ typedef struct hw_plugin_info_t {
   const uint32_t* outputs;  ///< HW_OUTPUT_… that it may put
   uint32_t n_outputs;       ///< number of entries in `outputs`
   uint32_t reserved;        ///< 0
+  /// HW_SAMPLE_… that it takes where there are any, besides `inputs`; none of them needs a producer. Since 1.4.
+  const uint32_t* optional_inputs;
+  uint32_t n_optional_inputs;  ///< number of entries in `optional_inputs`
+  uint32_t reserved_1_4;       ///< 0
 } hw_plugin_info_t;

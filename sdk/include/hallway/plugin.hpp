@@ -424,6 +424,18 @@ constexpr hw_plugin_info_t plugin_info(const char* id, const char* name, const c
   return info;
 }
 
+/// The same of a plugin that also takes samples of the kinds `optional_inputs`, where there are any.
+template <std::size_t N, std::size_t M, std::size_t K>
+constexpr hw_plugin_info_t plugin_info(const char* id, const char* name, const char* version,
+                                       const char* vendor, const char* description,
+                                       const std::uint32_t (&inputs)[N], const std::uint32_t (&outputs)[M],
+                                       const std::uint32_t (&optional_inputs)[K]) {
+  hw_plugin_info_t info = plugin_info(id, name, version, vendor, description, inputs, outputs);
+  info.optional_inputs = optional_inputs;
+  info.n_optional_inputs = static_cast<std::uint32_t>(K);
+  return info;
+}
+
 /// Base of a plugin's class. A derived class has, besides, a constructor from `const hw_host_t*` and
 /// `static const hw_plugin_info_t* info()`. What these functions throw reaches the host as a status and a
 /// message.

@@ -36,7 +36,7 @@ typedef struct hw_sample_t {
   uint32_t sensor_id;   ///< hw_sensor_info_t.id of the sensor
   uint64_t sequence;    ///< counts the readings of this sensor, from 0
   int64_t t_begin_ns;   ///< when the measurement began, nanoseconds of the host's clock
-  int64_t t_end_ns;     ///< when it ended; the same for an instantaneous one
+  int64_t t_end_ns;     ///< when it ended, not before t_begin_ns; the same for an instantaneous one
   const void* payload;  ///< by kind; never null
 } hw_sample_t;
 

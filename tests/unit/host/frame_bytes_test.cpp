@@ -16,8 +16,8 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes bytes_of(const hw_frame_t& frame) {
-  Bytes bytes(frame_bytes_size(frame));
-  write_frame_bytes(frame, bytes);
+  Bytes bytes;
+  FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 
@@ -262,7 +262,7 @@ TEST(FrameBytes, AnyFlippedBitGivesAnErrorOrAFrameWithinTheBytes) {
     try {
       const hw_frame_t& frame = reader.read(bytes);
       ++read;
-      EXPECT_EQ(frame_bytes_size(frame), frame.n_samples == 0 ? 56u : bytes_of(frame).size());
+      EXPECT_EQ(FrameWriter().measure(frame), frame.n_samples == 0 ? 56u : bytes_of(frame).size());
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kBadInput);
     }
@@ -274,7 +274,7 @@ TEST(FrameBytes, AMalformedFrameIsNotWritten) {
   const auto refused = [](auto change) {
     OneReading one;
     change(one);
-    const auto error = test::error_of([&] { frame_bytes_size(one.frame); });
+    const auto error = test::error_of([&] { FrameWriter().measure(one.frame); });
     return error && error->code() == ErrorCode::kBadInput;
   };
   EXPECT_TRUE(refused([](OneReading& one) { one.samples[0] = nullptr; }));
@@ -288,7 +288,11 @@ TEST(FrameBytes, AMalformedFrameIsNotWritten) {
   EXPECT_TRUE(refused([](OneReading& one) { one.payload.count = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([](OneReading& one) { one.payload.count = kMaxFrameBytes / 24; }));
   Bytes small(8);
-  EXPECT_TRUE(test::error_of([&] { write_frame_bytes(OneReading().frame, small); }));
+  const OneReading one;
+  FrameWriter writer;
+  EXPECT_TRUE(test::error_of([&] { writer.write(small); })) << "nothing was measured";
+  writer.measure(one.frame);
+  EXPECT_TRUE(test::error_of([&] { writer.write(small); }));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Samples of planes in the bytes of a frame.
 #include <gtest/gtest.h>
+#include <hallway/planes.h>
 
+#include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
@@ -14,8 +17,8 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes bytes_of(const hw_frame_t& frame) {
-  Bytes bytes(frame_bytes_size(frame));
-  write_frame_bytes(frame, bytes);
+  Bytes bytes;
+  FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 
@@ -130,7 +133,7 @@ TEST(FramePlanes, ThatCannotBeAreNotWritten) {
   const auto refused = [](auto change) {
     Readings readings;
     change(readings);
-    const auto error = test::error_of([&] { frame_bytes_size(readings.frame); });
+    const auto error = test::error_of([&] { FrameWriter().measure(readings.frame); });
     return error && error->code() == ErrorCode::kBadInput;
   };
   EXPECT_FALSE(refused([](Readings&) {}));
@@ -144,22 +147,57 @@ TEST(FramePlanes, ThatCannotBeAreNotWritten) {
   EXPECT_TRUE(refused([](Readings& r) { r.planes_payload.sample = 3; }));
 }
 
-TEST(FramePlanes, ThatAreNotAsThePlanesOfAPluginAreNotRead) {
+/// Writes the lists of planes over those in the bytes of good ones.
+void overwrite_lists(Bytes& bytes, const Readings& readings) {
+  const Readings good;
+  const auto overwrite = [&](const auto& was, const auto& list) {
+    const auto old = std::as_bytes(std::span(was));
+    const auto found = std::search(bytes.begin(), bytes.end(), old.begin(), old.end());
+    ASSERT_NE(found, bytes.end());
+    std::ranges::copy(std::as_bytes(std::span(list)), found);
+  };
+  overwrite(good.members, readings.members);  // from the back: what stands before is still the good one
+  overwrite(good.planes, readings.planes);
+  const auto hull = std::as_bytes(std::span(good.hull));
+  const auto found = std::find_end(bytes.begin(), bytes.end(), hull.begin(), hull.end());
+  ASSERT_NE(found, bytes.end());
+  std::ranges::copy(std::as_bytes(std::span(readings.hull)), found);
+}
+
+TEST(FramePlanes, ThatAreNotAsThePlanesOfAPluginAreNeitherWrittenNorRead) {
   const auto refused = [](auto change) {
     Readings readings;
     change(readings);
-    const Bytes bytes = bytes_of(readings.frame);
-    const auto error = test::error_of([&] { FrameReader().read(bytes); });
-    return error && error->code() == ErrorCode::kBadInput;
+    const auto unwritten = test::error_of([&] { bytes_of(readings.frame); });
+    Bytes bytes = bytes_of(Readings().frame);
+    overwrite_lists(bytes, readings);
+    const auto unread = test::error_of([&] { FrameReader().read(bytes); });
+    EXPECT_EQ(unwritten.has_value(), unread.has_value());
+    return unwritten && unwritten->code() == ErrorCode::kBadInput && unread &&
+           unread->code() == ErrorCode::kBadInput;
   };
   EXPECT_FALSE(refused([](Readings&) {}));
   EXPECT_TRUE(refused([](Readings& r) { r.planes[0].normal[2] = 2; }));
   EXPECT_TRUE(refused([](Readings& r) { r.planes[1].id = 7; }));
   EXPECT_TRUE(refused([](Readings& r) { r.planes[0].first_hull = 1; }));
+  EXPECT_TRUE(refused([](Readings& r) { r.planes[0].n_hull = 9; }));
   EXPECT_TRUE(refused([](Readings& r) { r.members[2] = 3; }));
   EXPECT_TRUE(refused([](Readings& r) { r.hull[1].z = 5; }));
-  EXPECT_TRUE(refused(
-      [](Readings& r) { r.planes_payload.sample = HW_NO_SAMPLE, r.points.clear(), r.planes[0].n_hull = 9; }));
+}
+
+TEST(FramePlanes, OfNoSampleWithMembersAreRefused) {
+  Readings readings;
+  readings.planes_payload.sample = HW_NO_SAMPLE;
+  EXPECT_TRUE(test::error_of([&] { bytes_of(readings.frame); }));
+  // The struct stands before the planes.
+  Bytes bytes = bytes_of(Readings().frame);
+  const auto planes = std::as_bytes(std::span(readings.planes));
+  const auto found = std::search(bytes.begin(), bytes.end(), planes.begin(), planes.end());
+  ASSERT_NE(found, bytes.end());
+  store(&*found - sizeof(hw_planes_t) + offsetof(hw_planes_t, sample), HW_NO_SAMPLE);
+  const auto error = test::error_of([&] { FrameReader().read(bytes); });
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->message().find("no sample"), std::string::npos) << error->message();
 }
 
 TEST(FramePlanes, CutAnywhereOrWithAWrongNumberAreDamageAndNothingWorse) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fixtures.hpp"
+#include "host/output/output_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -51,6 +52,14 @@ TEST(PipelineKinds, NobodyGivesIt) {
   EXPECT_EQ(said({kPlanesOfPoints, kMapsSegments}),
             "plugin `maps` needs segments, which no sensor gives; the sensors give: points; the plugins "
             "give: planes");
+}
+
+TEST(PipelineKinds, WhatIsOptionalNeedsNoProducer) {
+  PluginInfo maps = kPlanesOfPoints;
+  maps.optional_inputs = {HW_SAMPLE_SEGMENTS};
+  EXPECT_EQ(said({maps}), "");
+  maps.inputs.clear();
+  EXPECT_EQ(said({maps}), "");
 }
 
 TEST(PipelineKinds, TheOrderIsWrong) {

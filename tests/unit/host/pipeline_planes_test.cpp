@@ -110,13 +110,16 @@ TEST(PipelinePlanes, TakeTheirTurnOnlyWhereAPluginReadsThem) {
   EXPECT_TRUE(test::error_of([&] { in_turn.collect(); }));
 }
 
-TEST(PipelinePlanes, OfAFrameWithoutSamplesAreNone) {
+TEST(PipelinePlanes, OfAFrameWithoutSamplesAreNoneAndNobodyIsCalled) {
   for (const bool isolated : {false, true}) {
     Pipeline pipeline({{kEm, {}}, {kReadsPlanes, {}}}, {}, point_sensors(), {},
                       isolated ? std::optional(Isolation{}) : std::nullopt);
     FrameBuilder builder;
     builder.begin(0, 0);
-    EXPECT_EQ(counters_of(pipeline.process(builder.finish())).at("planes"), 0);
+    EXPECT_TRUE(pipeline.process(builder.finish()).counters().empty());
+    EXPECT_FALSE(pipeline.was_called());
+    EXPECT_EQ(counters_of(pipeline.process(frame_of(builder, 1, corner_of_a_room(0)))).at("planes"), 3);
+    EXPECT_TRUE(pipeline.was_called());
   }
 }
 

@@ -5,6 +5,8 @@
 #include <hallway/output.h>
 #include <hallway/sample.h>
 
+#include "host/output/output_kind.hpp"
+#include "host/samples/sample_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -37,6 +39,24 @@ TEST(PluginInfo, IsCopied) {
   EXPECT_EQ(copy.name, "Name");
   EXPECT_EQ(copy.inputs, std::vector<std::uint32_t>({HW_SAMPLE_POINTS, 77}));
   EXPECT_TRUE(copy.outputs.empty());
+}
+
+TEST(PluginInfo, HasOptionalInputsSinceVersion14) {
+  static constexpr std::uint32_t kOptional[] = {HW_SAMPLE_PLANES};
+  hw_plugin_info_t info = good_info();
+  info.optional_inputs = kOptional;
+  info.n_optional_inputs = 1;
+  const PluginInfo copy = read_plugin_info(&info);
+  EXPECT_EQ(copy.optional_inputs, std::vector<std::uint32_t>{HW_SAMPLE_PLANES});
+  EXPECT_TRUE(copy.takes(HW_SAMPLE_POINTS));
+  EXPECT_TRUE(copy.takes(HW_SAMPLE_PLANES));
+  EXPECT_FALSE(copy.takes(HW_SAMPLE_IMAGE));
+  // What an older plugin's struct does not have is not read.
+  info.size = offsetof(hw_plugin_info_t, optional_inputs);
+  EXPECT_TRUE(read_plugin_info(&info).optional_inputs.empty());
+  info.size = sizeof info;
+  info.optional_inputs = nullptr;
+  EXPECT_NE(problem_of(info).find("optional inputs are null"), std::string::npos);
 }
 
 TEST(PluginInfo, TextsAreMadeSafeToPrint) {

@@ -30,8 +30,8 @@ inline Bytes frame_of(std::uint64_t sequence, std::size_t points, std::int64_t t
   std::vector<hw_point3_t>& list = builder.add_points(0);
   for (std::size_t i = 0; i < points; ++i) list.push_back({double(i), double(sequence), 0.5});
   const hw_frame_t& frame = builder.finish();
-  Bytes bytes(host::frame_bytes_size(frame));
-  host::write_frame_bytes(frame, bytes);
+  Bytes bytes;
+  host::FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 

@@ -48,8 +48,7 @@ class Program {
       if (reading.found == HostEnd::Found::kEnd) return;
       if (reading.found == HostEnd::Found::kNothing) continue;
       const hw_frame_t& frame = *reading.frame;
-      frames_.emplace_back(host::frame_bytes_size(frame));
-      host::write_frame_bytes(frame, frames_.back());
+      host::FrameWriter().write_over(frames_.emplace_back(), frame);
       end_.answer({.sequence = frame.sequence,
                    .t_ns = frame.t_ns,
                    .command = host::DriveCommand{static_cast<double>(frame.sequence), 0.5}});

@@ -142,7 +142,7 @@ TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {
                                .exclusive_share = 0.5};
   StringOutput out;
   RunLogWriter writer(out, "test", "{}");
-  writer.add_planes({3, 10}, std::vector<PlaneObservation>{plane});
+  writer.add_planes({3, 10}, 0, std::vector<PlaneObservation>{plane});
   writer.finish();
   const MemoryInput input(out.text());
   McapReader reader(input);

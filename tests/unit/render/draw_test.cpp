@@ -248,7 +248,7 @@ TEST(Draw, CornersAreDarkerThanTheOpenFloor) {
 
 TEST(Draw, FieldOfViewTintsWhatItCovers) {
   Picture picture = one_line();
-  picture.frustum = FrustumMark{Pose{}, 1.0, 0.6, 4.0, palette::kSensor, ""};
+  picture.frustums = {FrustumMark{Pose{}, 1.0, 0.6, 4.0, palette::kSensor, ""}};
   const View view = top_over(0.0, 0.0, 12.0);
   EXPECT_EQ(pixel_at(picture, view, {3.0, 0.6, 0.0}), mix(palette::kPaper, palette::kSensor, 0.13));
   EXPECT_LT(difference(pixel_at(picture, view, {3.0, 2.4, 0.0}), palette::kPaper), 40);
@@ -257,7 +257,7 @@ TEST(Draw, FieldOfViewTintsWhatItCovers) {
 
 TEST(Draw, FieldOfViewAllAroundCoversBothSides) {
   Picture picture = one_line();
-  picture.frustum = FrustumMark{Pose{}, 6.4, 0.6, 4.0, palette::kSensor, ""};
+  picture.frustums = {FrustumMark{Pose{}, 6.4, 0.6, 4.0, palette::kSensor, ""}};
   const View view = top_over(0.0, 0.0, 12.0);
   const Rgb tinted = mix(palette::kPaper, palette::kSensor, 0.13);
   EXPECT_EQ(pixel_at(picture, view, {2.5, 0.9, 0.0}), tinted);
@@ -334,7 +334,7 @@ TEST(Draw, PlacesThatAreNotFiniteAreSkipped) {
 
 TEST(Draw, OneStrayLandmarkDoesNotShrinkTheRest) {
   Picture picture = test::figure_eight();
-  picture.frustum.reset();
+  picture.frustums.clear();
   const double scale = picture_camera(picture, {}, kWidth, kHeight).scale();
   picture.markers.back().positions.push_back({1e6, 1e6, 0.0});
   EXPECT_NEAR(picture_camera(picture, {}, kWidth, kHeight).scale(), scale, 0.01 * scale);

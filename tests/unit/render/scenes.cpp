@@ -122,8 +122,8 @@ Picture office() {
   }
   const std::vector<Vec3> mapped = noisy(landmarks, 0.05, 0.1, "test.mapped");
   add_run(picture, path, noisy(path, 0.012, 0.15, "test.estimate"), landmarks, mapped, 4.5);
-  picture.frustum = FrustumMark{
-      look_along({13.1, 6.8, 0.4}, {1.0, 0.35, 0.0}), 1.5, 0.9, 3.0, palette::kSensor, "field of view"};
+  picture.frustums.push_back(FrustumMark{look_along({13.1, 6.8, 0.4}, {1.0, 0.35, 0.0}), 1.5, 0.9, 3.0,
+                                         palette::kSensor, "field of view"});
   picture.labels = {{{2.6, 1.8, 0.1}, "room 1"}, {{7.9, 3.2, 0.1}, "room 2"}, {{2.1, 3.2, 0.4}, "start"}};
   return picture;
 }
@@ -158,12 +158,8 @@ Picture figure_eight() {
     picture.segments.push_back(links);
   }
   add_run(picture, path, noisy(path, 0.05, 3.0, "test.estimate"), landmarks, mapped, 3.0);
-  picture.frustum = FrustumMark{look_along(path[1500], path[1501] - path[1500]),
-                                1.5708,
-                                1.0472,
-                                100.0,
-                                palette::kSensor,
-                                "field of view"};
+  picture.frustums.push_back(FrustumMark{look_along(path[1500], path[1501] - path[1500]), 1.5708, 1.0472,
+                                         100.0, palette::kSensor, "field of view"});
   picture.labels = {{path.front(), "start"}, {path.back(), "end"}};
   return picture;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures of runs that went wrong, alone and beside others.
-#include "run/comparison.hpp"
+#include "run/scoring/comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "run/picture_frame.hpp"
-#include "run/pictures.hpp"
+#include "run/pictures/picture_frame.hpp"
+#include "run/pictures/pictures.hpp"
 #include "support/temp_folder.hpp"
 
 namespace hallway::run {

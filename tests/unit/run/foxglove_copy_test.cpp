@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/foxglove_copy.hpp"
+#include "run/feed/foxglove_copy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
-#include "run/log_recorder.hpp"
-#include "run/log_source.hpp"
+#include "run/feed/log_recorder.hpp"
+#include "run/sources/log_source.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::run {
@@ -37,11 +37,10 @@ std::string record(bool with_view) {
   log::StringOutput out;
   LogRecorder recorder(out, source, {{"name", "forty"}});
   if (with_view) recorder.add_view(false);
-  host::FrameBuilder builder;
   SourceFrame frame;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
     source.read(i, frame);
-    recorder.record_input(build_frame(builder, i, frame), frame);
+    recorder.record_input(frame);
   }
   recorder.finish();
   return out.text();
@@ -108,8 +107,8 @@ std::string frame_bytes() {
   builder.begin(0, 5);
   builder.add_points(0) = {{1, 2, 3}};
   const hw_frame_t& frame = builder.finish();
-  std::string bytes(host::frame_bytes_size(frame), '\0');
-  host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+  std::string bytes;
+  host::FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/log_source.hpp"
+#include "run/sources/log_source.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,11 +23,15 @@ TEST(LogSource, GivesEachIterationItsObservationsAndItsTime) {
   ASSERT_EQ(source.iterations(), 3u);
   SourceFrame frame;
   source.read(2, frame);
-  EXPECT_EQ(frame.t_ns, 2 * kPeriod_ns);
-  ASSERT_EQ(frame.observations.size(), 1u);
-  EXPECT_EQ(frame.observations[0].landmark, 8u);
+  EXPECT_EQ(frame.t_ns(), 2 * kPeriod_ns);
+  EXPECT_EQ(frame.samples().sequence, 2u);
+  ASSERT_EQ(frame.n_samples(), 1u);
+  ASSERT_EQ(frame.elements_of(0), 1u);
+  EXPECT_EQ(hw_point_at(static_cast<const hw_points_t*>(frame.sample(0).payload), 0)->y, 5);
+  EXPECT_EQ(frame.identities, std::vector<log::LandmarkId>{8});
   source.read(1, frame);
-  EXPECT_TRUE(frame.observations.empty());
+  EXPECT_EQ(frame.n_elements(), 0u);
+  EXPECT_TRUE(frame.identities.empty());
   EXPECT_FALSE(frame.T_world_body);
 }
 

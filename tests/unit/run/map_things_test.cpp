@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "run/map_things.hpp"
+#include "run/pictures/map_things.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "map/reader.hpp"
-#include "run/pictures.hpp"
+#include "run/pictures/pictures.hpp"
 #include "support/room_maps.hpp"
 
 namespace hallway::run {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "run/paced_source.hpp"
+#include "run/sources/paced_source.hpp"
 
 #include <gtest/gtest.h>
 
-#include "run/log_source.hpp"
+#include "run/sources/log_source.hpp"
 
 namespace hallway::run {
 namespace {
@@ -23,7 +23,7 @@ TEST(PacedSource, FollowsTheScheduleOfTheFirstFrame) {
   SourceFrame frame;
   for (std::uint32_t i = 0; i < paced.iterations(); ++i) {
     paced.read(i, frame);
-    EXPECT_EQ(frame.t_ns, 40'000'000 * std::int64_t{i});
+    EXPECT_EQ(frame.t_ns(), 40'000'000 * std::int64_t{i});
   }
   ASSERT_EQ(due.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {

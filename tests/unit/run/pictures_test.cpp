@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/pictures.hpp"
+#include "run/pictures/pictures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/plugin_log.hpp"
+#include "run/feed/plugin_log.hpp"
 
 #include <gtest/gtest.h>
 #include <hallway/ext/log.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/record.hpp"
+#include "run/pictures/record.hpp"
 
 #include <gtest/gtest.h>
 

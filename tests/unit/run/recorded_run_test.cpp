@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "run/recorded_run.hpp"
+#include "run/sources/recorded_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
-#include "run/log_recorder.hpp"
-#include "run/log_source.hpp"
-#include "run/tracked_source.hpp"
+#include "run/feed/log_recorder.hpp"
+#include "run/sources/log_source.hpp"
+#include "run/sources/tracked_source.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::run {
@@ -54,11 +54,10 @@ nlohmann::ordered_json manifest() {
 std::string record(Source& source) {
   log::StringOutput out;
   LogRecorder recorder(out, source, manifest());
-  host::FrameBuilder builder;
   SourceFrame frame;
   for (std::uint32_t i = 0; i < source.iterations(); ++i) {
     source.read(i, frame);
-    recorder.record_input(build_frame(builder, i, frame), frame);
+    recorder.record_input(frame);
   }
   recorder.finish();
   return out.text();
@@ -85,10 +84,9 @@ std::string log_with(const std::vector<std::pair<std::string_view, std::string>>
 std::vector<log::TrackId> tracks_of(Source& source, std::uint32_t iteration) {
   SourceFrame frame;
   source.read(iteration, frame);
-  EXPECT_TRUE(frame.is_tracked);
-  std::vector<log::TrackId> tracks;
-  for (const log::Observation& seen : frame.observations) tracks.push_back(seen.track);
-  return tracks;
+  EXPECT_NE(frame.sample(0).flags & HW_SAMPLE_TRACKED, 0u);
+  const auto& points = *static_cast<const hw_points_t*>(frame.sample(0).payload);
+  return {points.track, points.track + points.count};
 }
 
 TEST(RecordedRun, KeepsTheSensorsTracks) {
@@ -113,13 +111,19 @@ TEST(TrackedSource, ATrackIsTheTrueLandmark) {
       Error);
 }
 
+std::string bytes_of(const SourceFrame& frame) {
+  std::string bytes;
+  host::FrameWriter().write_over(bytes, frame.samples());
+  return bytes;
+}
+
 std::string frame_bytes(std::uint64_t sequence, std::int64_t t_ns, const std::vector<hw_point3_t>& points) {
   host::FrameBuilder builder;
   builder.begin(sequence, t_ns);
   builder.add_points(0) = points;
   const hw_frame_t& frame = builder.finish();
-  std::string bytes(host::frame_bytes_size(frame), '\0');
-  host::write_frame_bytes(frame, std::as_writable_bytes(std::span(bytes)));
+  std::string bytes;
+  host::FrameWriter().write_over(bytes, frame);
   return bytes;
 }
 
@@ -132,8 +136,8 @@ TEST(RecordedRun, GivesBackEveryBitOfTheSource) {
   EXPECT_EQ(run.period_ns, kPeriod_ns);
   RecordedSource recorded(std::move(run), 0);
   EXPECT_TRUE(recorded.has_identities());
-  EXPECT_EQ(recorded.sensor().name, "eyes");
-  EXPECT_EQ(recorded.sensor().max_range_m, 60);
+  EXPECT_EQ(recorded.sensors().front().name, "eyes");
+  EXPECT_EQ(recorded.sensors().front().max_range_m, 60);
   ASSERT_EQ(recorded.iterations(), 3u);
   ASSERT_EQ(recorded.true_landmarks()->size(), 1u);
   SourceFrame a;
@@ -141,18 +145,15 @@ TEST(RecordedRun, GivesBackEveryBitOfTheSource) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     source.read(i, a);
     recorded.read(i, b);
-    EXPECT_EQ(a.t_ns, b.t_ns);
+    EXPECT_EQ(a.t_ns(), b.t_ns());
     EXPECT_EQ(a.T_world_body.has_value(), b.T_world_body.has_value());
     if (a.T_world_body) {
       EXPECT_EQ(a.T_world_body->q.coeffs(), b.T_world_body->q.coeffs());
       EXPECT_EQ(a.T_world_body->t, b.T_world_body->t);
       EXPECT_EQ(a.orientation_known, b.orientation_known);
     }
-    ASSERT_EQ(a.observations.size(), b.observations.size());
-    for (std::size_t k = 0; k < a.observations.size(); ++k) {
-      EXPECT_EQ(a.observations[k].landmark, b.observations[k].landmark);
-      EXPECT_EQ(a.observations[k].point, b.observations[k].point);
-    }
+    EXPECT_EQ(bytes_of(a), bytes_of(b));
+    EXPECT_EQ(a.identities, b.identities);
   }
   EXPECT_EQ(record(recorded), record(source)) << "recorded again, the same bytes";
 }
@@ -174,10 +175,10 @@ TEST(RecordedRun, TheFrameChannelSaysNothingOfTheTruth) {
       continue;
     SourceFrame seen;
     source.read(static_cast<std::uint32_t>(frames), seen);
-    std::vector<hw_point3_t> points;
-    for (const log::Observation& o : seen.observations)
-      points.push_back({o.point[0], o.point[1], o.point[2]});
-    EXPECT_EQ(message->data, frame_bytes(frames, seen.t_ns, points)) << "the points, and nothing beside them";
+    const auto& payload = *static_cast<const hw_points_t*>(seen.sample(0).payload);
+    const auto* first = static_cast<const hw_point3_t*>(payload.points);
+    EXPECT_EQ(message->data, frame_bytes(frames, seen.t_ns(), {first, first + payload.count}))
+        << "the points, and nothing beside them";
     ++frames;
   }
   EXPECT_EQ(frames, 3u);

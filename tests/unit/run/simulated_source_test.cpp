@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "run/simulated_source.hpp"
+#include "run/sources/simulated_source.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "base/error.hpp"
+#include "host/samples/frame_bytes.hpp"
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
 #include "unit/sim/small_world.hpp"
@@ -18,9 +19,10 @@ const char* const kSensorInMap =
 
 /// Writes scenario and map and calls `use` with the source that they give.
 template <typename Use>
-void with_source(const std::string& sensors, const std::string& entities, const Use& use) {
+void with_source(const std::string& sensors, const std::string& entities, const Use& use,
+                 const std::string& brushes = "") {
   const test::TempFolder folder;
-  folder.write("small.map", test::map_text("", entities));
+  folder.write("small.map", test::map_text(brushes, entities));
   const sim::Scenario scenario = sim::load_scenario(folder.write("s.toml", test::scenario_text(sensors)));
   const sim::Simulator simulator(scenario, 1, trace::Backend::kBruteForce);
   use(SimulatedSource(simulator));
@@ -28,24 +30,92 @@ void with_source(const std::string& sensors, const std::string& entities, const 
 
 TEST(SimulatedSource, HasTheSensorOfTheScenarioOrElseOfItsMap) {
   with_source("", kSensorInMap, [](const SimulatedSource& source) {
-    EXPECT_EQ(source.sensor().name, "nose");
-    EXPECT_EQ(source.sensor().noise_m[1], 0.25);
+    EXPECT_EQ(source.sensors().front().name, "nose");
+    EXPECT_EQ(source.sensors().front().noise_m[1], 0.25);
   });
   with_source("[sensor.eyes]\nkind = 'points'\n", kSensorInMap,
-              [](const SimulatedSource& source) { EXPECT_EQ(source.sensor().name, "eyes"); });
+              [](const SimulatedSource& source) { EXPECT_EQ(source.sensors().front().name, "eyes"); });
 }
 
-TEST(SimulatedSource, SaysWhereSensorsComeFromWhereThereIsNoneOrAreTwo) {
-  const std::string two =
-      std::string(kSensorInMap) + "{\n\"classname\" \"hw_sensor\"\n\"name\" \"tail\"\n}\n";
-  for (const std::string& entities : {std::string(), two}) {
-    const auto error = test::error_of([&] { with_source("", entities, [](const SimulatedSource&) {}); });
-    ASSERT_TRUE(error.has_value());
-    EXPECT_EQ(error->code(), ErrorCode::kBadInput);
-    EXPECT_TRUE(error->where().file.ends_with("s.toml"));
-    for (const char* part : {"[sensor.NAME]", "hw_sensor", entities.empty() ? "there are 0" : "there are 2"})
-      EXPECT_NE(error->message().find(part), std::string::npos) << error->what();
+TEST(SimulatedSource, SaysWhereSensorsComeFromWhereThereIsNone) {
+  const auto error = test::error_of([&] { with_source("", "", [](const SimulatedSource&) {}); });
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_TRUE(error->where().file.ends_with("s.toml"));
+  for (const char* part : {"[sensor.NAME]", "hw_sensor", "there is none"})
+    EXPECT_NE(error->message().find(part), std::string::npos) << error->what();
+}
+
+const char* const kEyes = "[sensor.eyes]\nkind = 'points'\nmax_range_m = 8\nnoise_m = 0.02\n";
+const char* const kBack =
+    "[sensor.back]\nkind = 'points'\nyaw_deg = 180\nnoise_m = 0.05\nrate_hz = 25\nlatency_s = 0.03\n";
+const char* const kWalls =
+    "[sensor.walls]\nkind = 'planes'\nmax_range_m = 8\nnoise_m = 0.01\nrate_hz = 4\nphase_s = 0.05\n";
+
+/// Every sample of one sensor in all frames, with its identities, as text.
+std::string samples_of(SimulatedSource& source, const std::string& name) {
+  std::string all;
+  SourceFrame frame;
+  for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    source.read(i, frame);
+    for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
+      const hw_sample_t& sample = frame.sample(k);
+      if (source.sensors()[sample.sensor_id].name != name) continue;
+      hw_sample_t alone = sample;
+      alone.sensor_id = 0;
+      const hw_sample_t* samples[] = {&alone};
+      const hw_frame_t one{sizeof(hw_frame_t), 1, i, frame.t_ns(), samples};
+      std::string bytes;
+      host::FrameWriter().write_over(bytes, one);
+      all += bytes;
+      for (const log::LandmarkId id : frame.identities_of(k)) all += std::to_string(id) + " ";
+    }
   }
+  return all;
+}
+
+TEST(SimulatedSource, AddingASensorChangesNoByteOfAnotherOnes) {
+  const std::string brushes = test::pillars();
+  const auto read = [&](const std::string& sensors, const std::string& name) {
+    std::string samples;
+    with_source(
+        sensors, "", [&](SimulatedSource source) { samples = samples_of(source, name); }, brushes);
+    return samples;
+  };
+  const std::string eyes = read(kEyes, "eyes");
+  ASSERT_GT(eyes.size(), 1000u);
+  EXPECT_EQ(read(std::string(kEyes) + kBack, "eyes"), eyes);
+  EXPECT_EQ(read(std::string(kBack) + kWalls + kEyes, "eyes"), eyes);
+  EXPECT_EQ(read(std::string(kWalls) + kEyes, "walls"), read(kWalls, "walls"));
+  EXPECT_NE(read(kBack, "back"), eyes);
+}
+
+TEST(SimulatedSource, GivesSamplesBySensorAndThenBySequence) {
+  with_source(
+      std::string(kEyes) + kBack + kWalls, "",
+      [](SimulatedSource source) {
+        ASSERT_EQ(source.sensors().size(), 3u);
+        EXPECT_TRUE(source.true_landmarks().has_value());
+        EXPECT_TRUE(source.true_planes().has_value());
+        SourceFrame frame;
+        std::uint64_t next[3] = {0, 0, 0};
+        for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+          source.read(i, frame);
+          std::uint32_t sensor = 0;
+          for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
+            const hw_sample_t& sample = frame.sample(k);
+            EXPECT_GE(sample.sensor_id, sensor);
+            sensor = sample.sensor_id;
+            EXPECT_EQ(sample.sequence, next[sensor]++) << "every reading once";
+            EXPECT_LE(sample.t_end_ns, frame.t_ns());
+          }
+          EXPECT_EQ(frame.identities.size(), frame.n_elements());
+        }
+        EXPECT_EQ(next[0], 40u) << "one for every frame";
+        EXPECT_EQ(next[1], 97u) << "25 in a second, by 3.87 s";
+        EXPECT_EQ(next[2], 16u) << "4 in a second from 0.05 s on, by 3.9 s";
+      },
+      test::pillars());
 }
 
 }  // namespace

@@ -452,5 +452,38 @@ TEST(Simulator, RunsInAnEmptyWorld) {
   EXPECT_EQ(simulator.step(3).readings.size(), 1u);
 }
 
+/// A sensor of its own rate: what it saw at the time of a frame is what one that is read with every frame saw of the world then.
+TEST(Simulator, AReadingIsTakenAtItsOwnTime) {
+  World every(test::scenario_text(kEyes)), twice(test::scenario_text(std::string(kEyes) + "rate_hz = 20\n"));
+  const Simulator a(every.scenario(), 1, trace::Backend::kBruteForce);
+  const Simulator b(twice.scenario(), 1, trace::Backend::kBruteForce);
+  const Frame first = b.step(0);
+  ASSERT_EQ(first.readings.size(), 1u);
+  const Frame second = b.step(1);
+  ASSERT_EQ(second.readings.size(), 2u);
+  EXPECT_EQ(second.readings[0].t_ns, 50'000'000);
+  EXPECT_EQ(second.readings[1].t_ns, 100'000'000);
+  EXPECT_EQ(second.readings[1].sequence, 2u);
+  const auto seen = [](const Reading& reading) {
+    std::set<std::uint32_t> landmarks;
+    for (const auto& observation : reading.observations) landmarks.insert(observation.landmark);
+    return landmarks;
+  };
+  EXPECT_EQ(seen(second.readings[1]), seen(a.step(1).readings.at(0)));
+  // Half way between two frames the robot is half way between two poses.
+  const Vec3 half = b.pose_at_time(50'000'000).t;
+  EXPECT_NEAR((half - b.pose_at(0).t).norm(), (b.pose_at(1).t - half).norm(), 1e-3);
+  EXPECT_EQ(b.pose_at_time(100'000'000).t, b.pose_at(1).t);
+}
+
+TEST(Simulator, AFrameThatWouldHoldTooManyReadingsIsRefused) {
+  World world(test::scenario_text(std::string(kEyes) + "rate_hz = 10000\n"));
+  world.scenario().period_ns = 2'000'000'000;
+  const auto error = test::error_of([&] { Simulator(world.scenario(), 1, trace::Backend::kBruteForce); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_NE(error->message().find("20000 readings"), std::string::npos) << error->what();
+}
+
 }  // namespace
 }  // namespace hallway::sim

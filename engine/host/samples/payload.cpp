@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "host/samples/payload.hpp"
+
+#include <hallway/planes.h>
+
+#include <algorithm>
+
+namespace hallway::host {
+
+std::byte* Payload::begin(const SampleKind& kind) {
+  kind_ = &kind;
+  std::fill_n(struct_.begin(), kind.size, std::byte{});
+  return get();
+}
+
+void Payload::assign(const SampleKind& kind, const void* payload) {
+  const std::size_t size = std::min<std::size_t>(load<std::uint32_t>(payload), kind.size);
+  std::memcpy(begin(kind), payload, size);
+  store(get(), static_cast<std::uint32_t>(size));
+}
+
+void Payload::own_arrays(bool all) {
+  if (arrays_.size() < kind_->arrays.size()) arrays_.resize(kind_->arrays.size());
+  for (std::size_t i = 0; i < kind_->arrays.size(); ++i) {
+    const PayloadArray& array = kind_->arrays[i];
+    if (!(all || array.checked) || !has_array(get(), array)) continue;
+    const auto count = load<std::uint64_t>(get() + array.count);
+    const auto* first = load<const std::byte*>(get() + array.data);
+    const std::uint64_t stride = stride_of(get(), array);
+    arrays_[i].resize((count * array.element_bytes + 7) / 8 + 1);  // an empty array is not null
+    auto* copy = reinterpret_cast<std::byte*>(arrays_[i].data());
+    if (first == copy) continue;
+    if (stride == array.element_bytes) {
+      if (count != 0) std::memcpy(copy, first, count * array.element_bytes);
+    } else {
+      for (std::uint64_t k = 0; k < count; ++k)
+        std::memcpy(copy + k * array.element_bytes, first + k * stride, array.element_bytes);
+    }
+    store(get() + array.data, copy);
+    if (array.stride != kNoMember)
+      store(get() + array.stride, static_cast<std::uint32_t>(array.element_bytes));
+  }
+}
+
+std::uint32_t Payload::found_in() const {
+  return kind_->found_in == kNoMember ? HW_NO_SAMPLE : load<std::uint32_t>(get() + kind_->found_in);
+}
+
+void Payload::refer_to(std::uint32_t sample) {
+  if (kind_->found_in == kNoMember) return;
+  store(get() + kind_->found_in, sample);
+  if (sample != HW_NO_SAMPLE) return;
+  own_checked_arrays();
+  kind_->detach(get());
+}
+
+}  // namespace hallway::host

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The row of HW_SAMPLE_PLANES.
+#include <hallway/planes.h>
+
+#include <span>
+
+#include "host/samples/plane_lists.hpp"
+#include "host/samples/sample_kind.hpp"
+#include "host/samples/strided.hpp"
+
+namespace hallway::host {
+namespace {
+
+std::span<hw_plane_t> plane_span(hw_planes_t& planes) {
+  return {static_cast<hw_plane_t*>(const_cast<void*>(planes.planes)), planes.count};
+}
+
+void check_plane_payload(void* payload, std::uint64_t elements) {
+  auto& planes = *static_cast<hw_planes_t*>(payload);
+  demand(planes.sample != HW_NO_SAMPLE || planes.n_members == 0, "planes of no sample with members");
+  const std::span<hw_plane_t> list = plane_span(planes);
+  clear_empty_ranges(list);
+  check_plane_list(
+      {.planes = list,
+       .hull_points = {static_cast<const hw_point3_t*>(planes.hull_points), planes.n_hull_points},
+       .members = {planes.members, planes.n_members}},
+      elements);
+}
+
+/// Planes keep how many points they were made from.
+void detach_planes(void* payload) {
+  auto& planes = *static_cast<hw_planes_t*>(payload);
+  for (hw_plane_t& plane : plane_span(planes)) plane.first_member = plane.n_members = 0;
+  planes.n_members = 0;
+}
+
+constexpr PayloadArray kPlaneArrays[] = {{.name = "planes",
+                                          .one = "plane",
+                                          .data = offsetof(hw_planes_t, planes),
+                                          .count = offsetof(hw_planes_t, count),
+                                          .stride = offsetof(hw_planes_t, stride),
+                                          .element_bytes = sizeof(hw_plane_t),
+                                          .checked = true},
+                                         {.name = "hull points",
+                                          .one = "hull point",
+                                          .data = offsetof(hw_planes_t, hull_points),
+                                          .count = offsetof(hw_planes_t, n_hull_points),
+                                          .stride = offsetof(hw_planes_t, hull_stride),
+                                          .element_bytes = sizeof(hw_point3_t),
+                                          .checked = true},
+                                         {.name = "members",
+                                          .one = "member",
+                                          .data = offsetof(hw_planes_t, members),
+                                          .count = offsetof(hw_planes_t, n_members),
+                                          .element_bytes = sizeof(std::uint32_t),
+                                          .checked = true}};
+
+}  // namespace
+
+constexpr SampleKind kPlaneSamples{.kind = HW_SAMPLE_PLANES,
+                                   .name = "planes",
+                                   .payload = "hw_planes_t",
+                                   .size = sizeof(hw_planes_t),
+                                   .min_size = offsetof(hw_planes_t, members) + sizeof(hw_planes_t::members),
+                                   .arrays = kPlaneArrays,
+                                   .found_in = offsetof(hw_planes_t, sample),
+                                   .check = &check_plane_payload,
+                                   .detach = &detach_planes};
+
+}  // namespace hallway::host

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The row of HW_SAMPLE_POINTS.
+#include <hallway/sample.h>
+
+#include <algorithm>
+#include <span>
+
+#include "host/samples/sample_kind.hpp"
+#include "host/samples/strided.hpp"
+
+namespace hallway::host {
+namespace {
+
+/// More pixels than an image may have.
+constexpr std::uint32_t kMaxPixels = 1u << 28;
+
+void check_point_payload(void* payload, std::uint64_t) {
+  auto& points = *static_cast<hw_points_t*>(payload);
+  if (points.pixel == nullptr) {
+    points.width = points.height = 0;
+    return;
+  }
+  if (points.width == 0 || points.height == 0 || points.width > kMaxPixels / points.height)
+    throw Malformed{fmt::format("an image of {} by {} pixels", points.width, points.height)};
+  const std::uint32_t n = points.width * points.height;
+  for (const std::uint32_t pixel : std::span(points.pixel, points.count)) {
+    if (pixel >= n) throw Malformed{fmt::format("the pixel {} of {}", pixel, n)};
+  }
+}
+
+constexpr PayloadArray kPointArrays[] = {{.name = "points",
+                                          .one = "point",
+                                          .data = offsetof(hw_points_t, points),
+                                          .count = offsetof(hw_points_t, count),
+                                          .stride = offsetof(hw_points_t, stride),
+                                          .element_bytes = sizeof(hw_point3_t),
+                                          .n_finite = 3},
+                                         {.name = "track",
+                                          .one = "track",
+                                          .data = offsetof(hw_points_t, track),
+                                          .count = offsetof(hw_points_t, count),
+                                          .element_bytes = sizeof(std::uint64_t),
+                                          .optional = true},
+                                         // Without pixels the bytes are those of ABI 1.1.
+                                         {.name = "pixel",
+                                          .one = "pixel",
+                                          .data = offsetof(hw_points_t, pixel),
+                                          .count = offsetof(hw_points_t, count),
+                                          .element_bytes = sizeof(std::uint32_t),
+                                          .optional = true,
+                                          .size_without = offsetof(hw_points_t, width),
+                                          .checked = true}};
+
+}  // namespace
+
+constexpr SampleKind kPointSamples{.kind = HW_SAMPLE_POINTS,
+                                   .name = "points",
+                                   .payload = "hw_points_t",
+                                   .size = sizeof(hw_points_t),
+                                   .min_size = offsetof(hw_points_t, track) + sizeof(hw_points_t::track),
+                                   .arrays = kPointArrays,
+                                   .check = &check_point_payload};
+
+}  // namespace hallway::host

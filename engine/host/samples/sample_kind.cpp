@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "host/samples/sample_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/error.hpp"
+#include "host/samples/payload.hpp"
+
+namespace hallway::host {
+namespace {
+
+std::vector<const SampleKind*>& table() {
+  static std::vector<const SampleKind*> kinds{&kPointSamples, &kPlaneSamples};
+  return kinds;
+}
+
+bool is_finite(const std::byte* element, std::size_t n_doubles) {
+  for (std::size_t i = 0; i < n_doubles; ++i) {
+    if (!std::isfinite(load<double>(element + i * sizeof(double)))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::span<const SampleKind* const> sample_kinds() {
+  return table();
+}
+
+const SampleKind* find_sample_kind(std::uint32_t kind) {
+  const auto found = std::ranges::find(table(), kind, &SampleKind::kind);
+  return found == table().end() ? nullptr : *found;
+}
+
+const SampleKind* find_sample_kind(std::string_view name) {
+  const auto found = std::ranges::find(table(), name, &SampleKind::name);
+  return found == table().end() ? nullptr : *found;
+}
+
+AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
+  if (find_sample_kind(kind.kind) != nullptr || find_sample_kind(kind.name) != nullptr ||
+      kind.size > Payload::kMaxSize || kind.arrays.empty() ||
+      (kind.found_in != kNoMember && kind.detach == nullptr)) {
+    throw Error(ErrorCode::kInternal, fmt::format("the sample kind `{}` cannot be added", kind.name));
+  }
+  table().push_back(&kind);
+}
+
+std::string sample_kind_name(std::uint32_t kind) {
+  static constexpr std::array kReserved = {"points",  "planes",   "segments", "range_scan", "bump",
+                                           "encoder", "odometry", "image",    "depth"};
+  static_assert(kReserved.size() == HW_SAMPLE_DEPTH);
+  if (const SampleKind* known = find_sample_kind(kind)) return known->name;
+  return kind >= 1 && kind <= kReserved.size() ? kReserved[kind - 1] : fmt::format("kind {}", kind);
+}
+
+std::optional<std::uint64_t> count_elements(const hw_sample_t& sample) {
+  const SampleKind* kind = find_sample_kind(sample.kind);
+  if (kind == nullptr) return std::nullopt;
+  return load<std::uint64_t>(static_cast<const std::byte*>(sample.payload) + kind->arrays.front().count);
+}
+
+std::string find_not_finite(const hw_sample_t& sample) {
+  const SampleKind* kind = find_sample_kind(sample.kind);
+  if (kind == nullptr) return {};
+  const auto* payload = static_cast<const std::byte*>(sample.payload);
+  for (const PayloadArray& array : kind->arrays) {
+    if (array.n_finite == 0) continue;
+    const auto* first = load<const std::byte*>(payload + array.data);
+    if (first == nullptr) continue;
+    const std::uint64_t stride = stride_of(payload, array);
+    const auto count = load<std::uint64_t>(payload + array.count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (!is_finite(first + i * stride, array.n_finite))
+        return fmt::format("a {} that is not finite", array.one);
+    }
+  }
+  return {};
+}
+
+}  // namespace hallway::host

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hallway/sample.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hallway::host {
+
+// The table of sample kinds. Whatever carries frames (bytes, isolation, datagrams, logs) knows kinds by their rows alone: a new kind is its header in
+// the SDK, a row here, and a sensor that makes it.
+
+/// Of a member that a payload does not have.
+inline constexpr std::size_t kNoMember = SIZE_MAX;
+
+/// An array that a payload points to. Members are told by their offsets in the payload's struct, in bytes.
+struct PayloadArray {
+  const char* name;   ///< in messages: "points"
+  const char* one;    ///< an element of it: "point"
+  std::size_t data;   ///< the pointer to the first element
+  std::size_t count;  ///< u64, the number of elements
+  std::size_t stride =
+      kNoMember;  ///< u32, bytes from one element to the next, a multiple of 8; kNoMember: they are packed
+  std::size_t element_bytes = 0;  ///< of an element, as these headers know it; packed ones are not larger
+  std::size_t n_finite =
+      0;  ///< with how many doubles an element begins that a sensor must give as finite numbers
+  bool optional = false;         ///< null where the sample does not have it, whatever the count
+  std::size_t size_without = 0;  ///< of a payload without this array: its struct ends here; 0: as with it
+  bool checked = false;          ///< SampleKind::check looks at the elements: a reader copies them before
+};
+
+/// A row of the table.
+struct SampleKind {
+  std::uint32_t kind;   ///< HW_SAMPLE_…
+  const char* name;     ///< in messages and files: "points"
+  const char* payload;  ///< "hw_points_t"
+  std::size_t
+      size;  ///< of the payload's struct as these headers know it; its first member is its own `size`, u32
+  std::size_t min_size;  ///< in the version that brought it
+  std::span<const PayloadArray>
+      arrays;  ///< in the order of their bytes; the first one are the sample's elements
+  /// u32, the index in the frame of the sample that this one was found in, or HW_NO_SAMPLE; kNoMember: it is of no other sample.
+  std::size_t found_in = kNoMember;
+  /// What the ABI demands of the values. Gets a payload in the caller's own memory, the arrays that are `checked` among them, and may bring what
+  /// says nothing into one form. Throws Malformed. Null: it demands nothing.
+  /// @param elements  of the sample that it was found in
+  void (*check)(void* payload, std::uint64_t elements) = nullptr;
+  /// Takes out of such a payload what refers to elements of the sample that it was found in. Not null where found_in is a member.
+  void (*detach)(void* payload) = nullptr;
+};
+
+/// Points, and planes.
+extern const SampleKind kPointSamples;
+extern const SampleKind kPlaneSamples;
+
+/// The row of a kind; null for one that is not known.
+const SampleKind* find_sample_kind(std::uint32_t kind);
+/// The row of the kind of that name; null if there is none.
+const SampleKind* find_sample_kind(std::string_view name);
+/// All rows.
+std::span<const SampleKind* const> sample_kinds();
+
+/// Adds a row while it lives, for tests: a variable of a program's own file, made before main().
+class AddedSampleKind {
+ public:
+  /// @param kind  lives as long; of a number and a name that no other row has
+  explicit AddedSampleKind(const SampleKind& kind);
+};
+
+/// A stable name ("points", "planes", …), also of numbers that are reserved; of others "kind N".
+std::string sample_kind_name(std::uint32_t kind);
+
+/// How many elements a sample has; nothing for kinds that are not known.
+std::optional<std::uint64_t> count_elements(const hw_sample_t& sample);
+
+/// What a sensor gave that is no finite number: "a point that is not finite"; empty if nothing. The sample is as frame_bytes.hpp demands. O(elements).
+std::string find_not_finite(const hw_sample_t& sample);
+
+}  // namespace hallway::host

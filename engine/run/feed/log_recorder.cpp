@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "run/feed/log_recorder.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "geom/arrays.hpp"
+
+namespace hallway::run {
+LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
+                         const nlohmann::ordered_json& manifest)
+    : recorder_(output, {.manifest = manifest,
+                         .sensors = source.sensors(),
+                         .period_ns = manifest.value("period_ns", std::int64_t{0}),
+                         .has_identities = source.has_identities()}),
+      source_(source) {
+  if (source.true_landmarks()) recorder_.writer().add_true_landmarks(*source.true_landmarks());
+  if (source.true_planes()) recorder_.writer().add_true_planes(*source.true_planes());
+}
+
+void LogRecorder::add_view(bool has_answers) {
+  view_.emplace(recorder_.writer().file(),
+                foxglove::ViewOptions{.first_id = log::kFirstOtherId, .has_answers = has_answers});
+  view_->set_sensors(source_.sensors());
+  if (source_.true_landmarks()) view_->set_true_landmarks(*source_.true_landmarks());
+}
+
+void LogRecorder::record_input(const SourceFrame& frame) {
+  const auto bytes = frame.bytes();
+  recorder_.record_frame({static_cast<std::uint32_t>(frame.samples().sequence), frame.t_ns()},
+                         frame.n_samples(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  log::RunLogWriter& writer = recorder_.writer();
+  const log::FrameStamp& stamp = recorder_.stamp();
+  if (view_) view_->add_frame(stamp, frame.samples());
+  for (std::uint32_t k = 0; source_.has_identities() && k < frame.n_samples(); ++k)
+    writer.add_identities(stamp, k, frame.identities_of(k));
+  if (!frame.T_world_body) return;
+  const Pose& pose = *frame.T_world_body;
+  const log::IterationPose true_pose{.iteration = stamp.iteration,
+                                     .position_m = to_array(pose.t),
+                                     .orientation = to_array(pose.q),
+                                     .orientation_known = frame.orientation_known};
+  writer.add_true_pose(stamp, true_pose);
+  if (view_) view_->add_true_pose(stamp, true_pose);
+}
+
+void LogRecorder::keep() {
+  recorder_.writer().keep();
+}
+
+void LogRecorder::record_answer(const host::Outputs& outputs) {
+  recorder_.record_pose(outputs);  // what is shown of a message follows it, as in a log that is copied
+  if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(outputs));
+  recorder_.record_the_rest(outputs);
+}
+
+void LogRecorder::record_map(const record::FinalMap& map) {
+  recorder_.record_map(map);
+  if (view_) view_->add_map(recorder_.stamp(), map);
+}
+
+void LogRecorder::finish() {
+  if (view_) view_->finish();
+  recorder_.finish();
+}
+
+}  // namespace hallway::run

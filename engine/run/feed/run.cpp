@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "run/feed/run.hpp"
+
+#include <hallway/ext/log.h>
+#include <hallway/output.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "eval/evaluator.hpp"
+#include "eval/metrics_json.hpp"
+#include "record/answer_tables.hpp"
+#include "record/epoch_table.hpp"
+#include "record/final_map.hpp"
+#include "record/manifest.hpp"
+#include "record/output_folder.hpp"
+#include "record/sensor_json.hpp"
+#include "render/renderer.hpp"
+#include "run/feed/found_table.hpp"
+#include "run/feed/frame_feed.hpp"
+#include "run/feed/log_recorder.hpp"
+#include "run/feed/manifest.hpp"
+#include "run/feed/map_epoch.hpp"
+#include "run/feed/observation_tables.hpp"
+#include "run/feed/truth_tables.hpp"
+#include "run/pictures/pictures.hpp"
+#include "run/pictures/record.hpp"
+#include "run/scoring/iteration_maker.hpp"
+#include "run/scoring/plane_truth.hpp"
+#include "run/scoring/truth_of.hpp"
+
+namespace hallway::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything that is collected while a run goes on and written at its end.
+struct Collected {
+  std::optional<ObservationTables> observations;  ///< where they are kept
+  TruthTables truth;
+};
+
+/// Takes down what comes back of the frames, and scores it.
+class Tally {
+ public:
+  /// @param maps_planes  whether what the pipeline maps is planes
+  Tally(const Source& source, bool keep_observations, bool maps_planes)
+      : iterations_(source), evaluator_(truth_for(source, maps_planes)) {
+    if (keep_observations) collected_.observations.emplace(source);
+    if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
+  }
+
+  /// @param map_epoch  the part of the map that the answer's pose is in
+  void add(const FrameAnswer& answer, std::optional<std::uint64_t> map_epoch) {
+    keep_truth(answer.iteration, answer.frame);
+    if (!answer.was_called) return;
+    eval::Iteration iteration = iterations_.make(answer);
+    iteration.map_epoch = map_epoch;
+    if (iteration.T_map_body && answer.outputs->pose()->covariance) {
+      using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+      iteration.pose_covariance = Eigen::Map<const RowMajor>(answer.outputs->pose()->covariance->data());
+    }
+    if (plane_truth_) {
+      plane_truth_->read(answer);
+      iteration.planes = plane_truth_->planes();
+      iteration.true_plane_points = plane_truth_->points();
+    }
+    evaluator_.add(iteration);
+  }
+
+  /// No more frames come. @param joined  parts of the map that are one
+  void finish(std::span<const eval::JoinedEpoch> joined) { evaluator_.finish(joined); }
+  const eval::Evaluator& evaluator() const { return evaluator_; }
+  const Collected& collected() const { return collected_; }
+
+ private:
+  static eval::Truth truth_for(const Source& source, bool maps_planes) {
+    eval::Truth truth = truth_of(source);
+    if (!maps_planes) truth.planes.reset();
+    return truth;
+  }
+
+  void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
+    if (collected_.observations) collected_.observations->add(iteration, frame);
+    collected_.truth.add(iteration, frame);
+  }
+
+  IterationMaker iterations_;
+  eval::Evaluator evaluator_;
+  std::optional<PlaneTruth> plane_truth_;  ///< where maps of planes are scored
+  Collected collected_;
+};
+
+void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
+                 const Collected& collected) {
+  write_attachments(folder, plan.attachments);
+  collected.truth.write(folder, source);
+  if (collected.observations) collected.observations->write(folder);
+}
+
+void write_matches(const fs::path& folder, const eval::Evaluator& evaluator) {
+  if (!evaluator.has_identities()) return;
+  const eval::PlaneScore* planes = evaluator.planes();
+  const eval::AssociationScore& score = planes != nullptr ? planes->associations() : evaluator.associations();
+  std::vector<log::IdPair> matches;
+  for (const auto& [landmark, truth] : score.ownership().owner)
+    matches.push_back({.first = landmark, .second = truth});
+  log::write_id_pairs(folder / files::kMatches, matches, log::kMatchColumns);
+}
+
+nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& source, const RunResult& result,
+                                         std::uint32_t done) {
+  nlohmann::ordered_json manifest = plan.manifest;
+  manifest["sensors"] = record::print_sensors(source.sensors());
+  manifest["iterations"] = done;
+  manifest["stopped_early"] = result.stopped;
+  record::describe_failures(plan.on_failure, result.failures, manifest);
+  return manifest;
+}
+
+/// Shows in Foxglove what plugins log and how they fail, where the plan wants that.
+class EventView {
+ public:
+  EventView(const RunPlan& plan, const FrameFeed& feed, LogRecorder& recorder)
+      : log_(plan.foxglove.get()), feed_(feed), recorder_(recorder) {
+    if (log_ != nullptr) recorder.add_view(true);
+  }
+
+  /// What is new since the last call, at the time of the last frame.
+  void update() {
+    if (log_ == nullptr) return;
+    foxglove::View& view = *recorder_.view();
+    for (const foxglove::LogLine& line : log_->take()) view.add_log(line);
+    for (; shown_ < feed_.failures().verdicts.size(); ++shown_) {
+      const host::Verdict& verdict = feed_.failures().verdicts[shown_].verdict;
+      view.add_log({HW_LOG_ERROR, verdict.plugin, verdict.message});
+    }
+  }
+
+  /// By name, which is the order in which `hallway log convert` finds them.
+  void add_pictures(const std::map<std::string, std::string>& pictures) {
+    if (log_ == nullptr) return;
+    for (const auto& [name, png] : pictures) recorder_.view()->add_picture(name, png);
+  }
+
+ private:
+  PluginLog* log_;
+  const FrameFeed& feed_;
+  LogRecorder& recorder_;
+  std::size_t shown_ = 0;  ///< failures
+};
+
+/// Draws the pictures that the plan wants. @return their content, by name; `result` gets what was drawn and what could not be
+std::map<std::string, std::string> draw_pictures(const record::OutputFolder& output, const RunPlan& plan,
+                                                 RunResult& result) {
+  std::map<std::string, std::string> pictures;
+  if (plan.pictures.empty()) return pictures;
+  const Record record = read_record(output.working_path());
+  for (const sim::PictureSpec& picture : plan.pictures) {
+    try {
+      pictures[picture.file] = draw_run_picture(record, picture, {}, {.renderer = plan.renderer});
+    } catch (const render::NoRenderer& missing) {
+      result.missing_pictures.push_back({picture.file, missing.message()});
+      continue;
+    }
+    write_file_atomically(output.working_path() / picture.file, pictures[picture.file]);
+    result.pictures.push_back(output.path() / picture.file);
+  }
+  return pictures;
+}
+
+}  // namespace
+
+void write_attachments(const std::filesystem::path& folder, const std::vector<Attachment>& attachments) {
+  for (const Attachment& attachment : attachments) {
+    make_folder((folder / attachment.name).parent_path());
+    write_file_atomically(folder / attachment.name, attachment.content);
+  }
+}
+
+bool maps_planes(const host::Pipeline& pipeline) {
+  if (pipeline.facts().empty()) return false;
+  const std::vector<std::uint32_t>& outputs = pipeline.facts().back().info.outputs;
+  return std::find(outputs.begin(), outputs.end(), HW_OUTPUT_MAPPED_PLANES) != outputs.end();
+}
+
+nlohmann::ordered_json to_json(const std::vector<MissingPicture>& missing) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MissingPicture& picture : missing)
+    list.push_back({{"file", picture.file}, {"cause", picture.cause}});
+  return list;
+}
+
+RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan, const RunHooks& hooks) {
+  if (!plan.pictures.empty()) render::demand(plan.renderer);
+  record::OutputFolder output(plan.folder, plan.replace);
+  const fs::path& folder = output.working_path();
+  log::FileOutput log_file(folder / files::kLog);
+  LogRecorder recorder(log_file, source, plan.manifest);
+  record::AnswerTables tables(folder);
+  record::EpochTable epochs;
+  FoundTable found(folder);
+  Tally tally(source, plan.write_observations, maps_planes(pipeline));
+  FrameFeed feed(source, pipeline, plan);
+  EventView events(plan, feed, recorder);
+  RunResult result;
+  while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
+    const auto give = [&](const SourceFrame& frame) {
+      if (!feed.one_at_a_time()) return;
+      recorder.record_input(frame);
+      recorder.keep();  // a plugin in this process may end it
+    };
+    const auto take = [&](const FrameAnswer& answer) {
+      if (!feed.one_at_a_time()) recorder.record_input(answer.frame);
+      std::optional<std::uint64_t> epoch;
+      if (answer.outputs != nullptr) {
+        recorder.record_answer(*answer.outputs);
+        tables.add({answer.iteration, answer.frame.t_ns(), answer.frame.n_samples()}, *answer.outputs,
+                   answer.time);
+        epoch = epochs.add(answer.iteration, *answer.outputs);
+      }
+      found.add(answer);
+      tally.add(answer, epoch);
+    };
+    const std::uint64_t restarts = feed.failures().restarts;
+    feed.next(result.stopped, give, take);
+    if (feed.failures().restarts != restarts) epochs.restart();
+    events.update();
+    if (hooks.progress) hooks.progress(feed.done());
+    result.stopped = result.stopped || (hooks.stop && hooks.stop());
+  }
+  const host::Outputs* online_outputs = feed.report(false);
+  const record::FinalMap online = record::copy_map(online_outputs);
+  const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs, epochs.first());
+  const host::Outputs* refined_outputs = feed.report(true);
+  const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
+  recorder.record_map(refined);
+  tables.close();
+  epochs.write(folder, online.joined_epochs);
+  found.close();
+  feed.close();
+  result.failures = feed.failures();
+  events.update();
+  tally.finish(joined);
+  result.metrics = tally.evaluator().metrics(online.landmarks, refined.landmarks, joined);
+  if (const eval::PlaneScore* planes = tally.evaluator().planes()) {
+    result.metrics.planes = planes->metrics(online.planes, refined.planes);
+    log::write_pose_errors(folder / files::kPoseErrors, planes->pose_errors(online.planes));
+  }
+  result.submaps = refined.submaps.size();
+
+  write_input(folder, plan, source, tally.collected());
+  record::write_map(folder, refined);
+  write_matches(folder, tally.evaluator());
+  record::write_json(folder / files::kMetrics, eval::to_json(result.metrics));
+  nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
+  record::write_json(folder / files::kRun, manifest);
+  events.add_pictures(draw_pictures(output, plan, result));
+  if (!result.missing_pictures.empty()) {
+    manifest["missing_pictures"] = to_json(result.missing_pictures);
+    record::write_json(folder / files::kRun, manifest);
+  }
+  recorder.finish();
+  output.commit();
+  return result;
+}
+
+}  // namespace hallway::run

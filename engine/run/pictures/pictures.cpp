@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "run/pictures/pictures.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "geom/arrays.hpp"
+#include "render/colour.hpp"
+#include "render/draw.hpp"
+#include "render/png.hpp"
+#include "run/pictures/landmark_layers.hpp"
+#include "run/pictures/picture_frame.hpp"
+#include "run/pictures/plane_layers.hpp"
+
+namespace hallway::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The positions as a line, broken where poses are missing.
+std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose& T_world_frame) {
+  double period_s = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    period_s = std::min(period_s, poses[i].t_s - poses[i - 1].t_s);
+  std::vector<Vec3> line;
+  line.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool gap = i > 0 && poses[i].t_s - poses[i - 1].t_s > 1.5 * period_s;
+    if (gap) line.push_back(Vec3::Constant(std::nan("")));
+    line.push_back(T_world_frame * to_vec3(poses[i].position_m));
+  }
+  return line;
+}
+
+/// Poses in other parts of the map are in frames of reference of their own.
+std::string path_label(const Record& record) {
+  if (record.poses_in_other_parts == 0) return "estimated path";
+  return fmt::format("estimated path ({} poses in other parts of the map not shown)",
+                     record.poses_in_other_parts);
+}
+
+void add_paths(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+               const Pose& T_world_map) {
+  if (spec.shows(sim::PictureLayer::kTruth) && !record.truth.empty()) {
+    picture.polylines.push_back({.points = line_of(record.truth, Pose()),
+                                 .colour = render::palette::kTruth,
+                                 .width_px = 5.0,
+                                 .label = "true path"});
+  }
+  if (spec.shows(sim::PictureLayer::kEstimate) && !record.trajectory.empty()) {
+    picture.polylines.push_back({.points = line_of(record.trajectory, T_world_map),
+                                 .colour = render::palette::kEstimate,
+                                 .width_px = 1.8,
+                                 .label = path_label(record)});
+    // Where the estimate has diverged it does not begin where the robot did.
+    const Vec3 start = record.truth.empty() ? T_world_map * to_vec3(record.trajectory.front().position_m)
+                                            : to_vec3(record.truth.front().position_m);
+    picture.labels.push_back({.position = start, .text = "start"});
+  }
+}
+
+/// A sensor at the last pose that is known.
+void add_frustum(render::Picture& picture, const Record& record, const Json& sensor,
+                 const Pose& T_world_map) {
+  const auto number = [&](const char* key) {
+    const Json value = value_at(sensor, {key});
+    return value.is_number() ? value.get<double>() : std::nan("");
+  };
+  render::FrustumMark mark{.horizontal_fov = number("horizontal_fov_rad"),
+                           .vertical_fov = number("vertical_fov_rad"),
+                           .range_m = number("max_range_m"),
+                           .label = "field of view at the end"};
+  if (!(mark.horizontal_fov > 0.0) || !(mark.vertical_fov > 0.0) || !(mark.range_m > 0.0)) return;
+  const Pose T_body_sensor = mount_of(sensor);
+  if (!record.truth.empty()) {
+    mark.T_world_sensor = pose_of(record.truth.back()) * T_body_sensor;
+  } else if (!record.trajectory.empty()) {
+    mark.T_world_sensor = T_world_map * pose_of(record.trajectory.back()) * T_body_sensor;
+  } else {
+    return;
+  }
+  picture.frustums.push_back(mark);
+}
+
+std::string number_text(const Json& value, const char* format) {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : std::string("unknown");
+}
+
+/// What metrics.json says of the walls; empty where it says nothing.
+std::string walls_text(const Json& metrics) {
+  const Json planes = value_at(metrics, {"planes"});
+  if (!planes.is_object()) return {};
+  const Json map = planes.value("final", Json::object());
+  std::string text =
+      fmt::format(", {} of {} walls mapped", map.value("walls_mapped", 0), planes.value("walls_true", 0));
+  if (value_at(map, {"corner_m"}).is_object())
+    text += ", corners " + number_text(value_at(map, {"corner_m", "rms"}), "{:.4f}") + " m RMS";
+  return text;
+}
+
+/// ", 98.0 % of the frames have a pose"; empty where metrics.json does not say so.
+std::string coverage_text(const Json& metrics, const char* what, const char* text) {
+  const Json share = value_at(metrics, {"coverage", what});
+  return share.is_number() ? fmt::format(", {:.1f} % {}", 100.0 * share.get<double>(), text) : std::string();
+}
+
+/// What went wrong with the path; empty where nothing did.
+std::string verdict_text(const Json& metrics) {
+  const Json verdict = value_at(metrics, {"verdict"});
+  return verdict.is_string() && verdict != "ok" ? verdict.get<std::string>() + ": " : std::string();
+}
+
+std::string subtitle_of(const Record& record) {
+  const Json& metrics = record.metrics;
+  std::string text = verdict_text(metrics) + fmt::format("{} iterations", record.run.value("iterations", 0)) +
+                     coverage_text(metrics, "poses", "with a pose");
+  const auto add_error = [&](const char* what, const Json& error, const char* format) {
+    if (error.is_number()) text += what + number_text(error, format) + " m";
+  };
+  add_error(", path RMSE ", value_at(metrics, {"position_rmse_m", "aligned"}), "{:.3f}");
+  const std::string landmarks = coverage_text(metrics, "landmarks", "of the seen landmarks mapped");
+  const Json mapped = value_at(metrics, {"landmarks_mapped"});
+  text += landmarks;
+  if (landmarks.empty() && mapped.is_number() && mapped.get<std::uint64_t>() > 0)
+    text += fmt::format(", {} landmarks mapped", mapped.get<std::uint64_t>());
+  add_error(", landmark RMSE ", value_at(metrics, {"landmark_rmse_m", "final_aligned"}), "{:.4f}");
+  return text + walls_text(metrics);
+}
+
+/// Where the poses stand in the world.
+Pose path_place(const Record& record) {
+  const std::optional<Pose> T_world_planes = align_planes(record);
+  return T_world_planes ? *T_world_planes : align_path(record).value_or(Pose());
+}
+
+/// Where the map of the end stands in the world.
+Pose map_place(const Record& record) {
+  return align_landmarks(record).value_or(path_place(record));
+}
+
+/// How the map is opened: as the picture's description says, else as the building suggests.
+render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec& spec,
+                      const MapView& map_view) {
+  if (spec.cut_z_m) return {render::Faces::kAll, spec.cut_z_m};
+  const auto& leak = world.partition.enclosure.leak;
+  std::optional<Vec3> focus = map_view.pvs_from_m;
+  if (map_view.leak && leak) focus = leak->way.front();
+  return render::plan_of(world.partition, focus);
+}
+
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan,
+                     const DrawOptions& options) {
+  render::View view = view_of_plan(spec, plan, options.renderer);
+  if (options.vertical_fov) view.vertical_fov = *options.vertical_fov;
+  if (options.area && view.kind == render::ViewKind::kTop) {
+    const Box ground(Vec3(options.area->min().x(), options.area->min().y(), 0.0),
+                     Vec3(options.area->max().x(), options.area->max().y(), 0.0));
+    view.crop = crop_of(ground, render::map_area(picture, spec.width_px, spec.height_px));
+  }
+  return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
+}
+
+std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
+  const auto& enclosure = world.partition.enclosure;
+  if (view.pvs_from_m) return "potentially visible set";
+  if (view.leak && enclosure.leak) {
+    return fmt::format("leak: {} of {} occupants reach the void", enclosure.leaking.size(),
+                       world.occupants.size());
+  }
+  if (view.leak) return enclosure.sealed ? "sealed: no leak" : "encloses nothing";
+  if (view.bsp_depth) {
+    return fmt::format("tree of {} nodes and {} leaves", world.partition.tree.nodes.size(),
+                       world.partition.tree.leaves.size());
+  }
+  return {};
+}
+
+}  // namespace
+
+render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer) {
+  render::View view;
+  view.kind =
+      spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
+  view.cut_z_m = plan.cut_z_m;
+  view.eye = spec.eye_m;
+  view.target = spec.target_m;
+  view.renderer = renderer;
+  return view;
+}
+
+render::Plan picture_plan(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
+  return record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
+}
+
+render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
+                                render::Faces faces, std::optional<double> error_scale) {
+  render::Picture picture;
+  picture.title = printable(record.run.value("name", "run"));
+  picture.subtitle = subtitle_of(record);
+  if (record.world && (spec.shows(sim::PictureLayer::kMap) || map_view.anything()))
+    add_map(picture, *record.world, map_view, faces, record.models);
+  const Pose T_world_path = path_place(record);
+  const Pose T_world_map = map_place(record);
+  add_planes(picture, record, spec, T_world_map);
+  for (const Json& sensor : sensors_of(record)) {
+    if (spec.shows(sim::PictureLayer::kFrustum)) add_frustum(picture, record, sensor, T_world_path);
+  }
+  add_landmarks(picture, record, spec, T_world_map, error_scale);
+  add_paths(picture, record, spec, T_world_path);
+  cut_to(frame_of(record, picture.surfaces), picture);
+  return picture;
+}
+
+render::Picture compose_map_picture(const MapSubject& subject, const MapView& map_view, render::Faces faces) {
+  render::Picture picture;
+  picture.title = printable(subject.title);
+  picture.subtitle = map_subtitle(subject.world, map_view);
+  add_map(picture, subject.world, map_view, faces, subject.meshes);
+  if (subject.document != nullptr) add_map_things(picture, *subject.document, subject.world, subject.things);
+  return picture;
+}
+
+void check_picture_name(const std::string& file) {
+  if (file.ends_with(".png")) return;
+  throw Error(ErrorCode::kUsage,
+              fmt::format("a picture is a file that ends in .png, not \"{}\"", printable(file)));
+}
+
+std::optional<double> error_scale_of(const Record& record) {
+  return error_scale_of(record, map_place(record));
+}
+
+std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
+                             const DrawOptions& options) {
+  if (spec.view == sim::PictureView::kPanels)
+    return render::encode_png(draw_panels(record, spec, options.renderer));
+  const render::Plan plan = picture_plan(record, spec, map_view);
+  const render::Picture picture = compose_picture(record, spec, map_view, plan.faces, options.error_scale);
+  const Box frame = frame_of(record, picture.surfaces);
+  DrawOptions framed = options;
+  if (!framed.area && !frame.isEmpty())
+    framed.area = Eigen::AlignedBox2d(frame.min().head<2>(), frame.max().head<2>());
+  return draw_png(picture, spec, plan, framed);
+}
+
+std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,
+                             const DrawOptions& options) {
+  const render::Plan plan = plan_for(subject.world, spec, map_view);
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan, options);
+}
+
+}  // namespace hallway::run

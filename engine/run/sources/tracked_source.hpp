@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "run/sources/source.hpp"
+
+namespace hallway::run {
+
+/// The frames of another source as a sensor would give them that follows every point and never errs: a point's track is its true
+/// landmark. For comparisons with algorithms that do not find out by themselves which point is which.
+class TrackedSource : public Source {
+ public:
+  /// Throws Error{kUsage} where the observations do not name their landmarks, or are no points.
+  explicit TrackedSource(std::unique_ptr<Source> source);
+
+  std::uint32_t iterations() const override { return source_->iterations(); }
+
+ private:
+  void fill(std::uint32_t iteration, SourceFrame& frame) override;
+
+  std::unique_ptr<Source> source_;
+  SourceFrame untracked_;
+};
+
+}  // namespace hallway::run

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// A kind of sample that Hallway does not have (support/made_up_kind.cpp) goes from a source to a plugin and back by its row alone: in this process and isolated,
+// through the log, its replay, and the link to a robot.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "host/pipeline.hpp"
+#include "host/samples/frame_bytes.hpp"
+#include "link/host_end.hpp"
+#include "link/robot_end.hpp"
+#include "log/byte_io.hpp"
+#include "run/feed/run.hpp"
+#include "run/serving/serve.hpp"
+#include "run/sources/log_source.hpp"
+#include "run/sources/recorded_run.hpp"
+#include "support/made_up_kind.hpp"
+#include "support/temp_folder.hpp"
+#include "unit/link/memory_wire.hpp"
+
+namespace hallway::run {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+constexpr std::uint32_t kFrames = 20;
+
+/// Points in every frame, and made-up samples: none in every third frame, else one, or two with marks in the second.
+class MadeUpSource : public Source {
+ public:
+  MadeUpSource() {
+    facts_.sensors = {{.id = 0, .name = "eyes"}, {.id = 1, .kind = test::kMadeUpSample, .name = "nose"}};
+    facts_.has_identities = true;
+  }
+  std::uint32_t iterations() const override { return kFrames; }
+
+ private:
+  void fill(std::uint32_t iteration, SourceFrame& frame) override {
+    const double x = 0.1 * iteration;
+    host::FrameBuilder& builder = frame.begin(iteration, kPeriod_ns * iteration);
+    builder.add_points(0) = {{1 + x, 2, 3}, {4, 5 + x, 6}};
+    frame.identities = {7, 8};
+    std::uint64_t sequence = 4 * iteration;
+    for (std::uint32_t i = 0; i < iteration % 3; ++i) {
+      const test::MadeUpRay rays[] = {{0, 1 + x}, {0.5, 2}, {1, 3 - x}};
+      const std::uint32_t marks[] = {1};
+      test::MadeUp made_up{.n_rays = 3, .rays = rays, .temperature = 20 + x};
+      if (i == 1) {
+        made_up.n_marks = 1;
+        made_up.marks = marks;
+      }
+      const std::int64_t t_ns = kPeriod_ns * iteration - 30'000'000 * (2 - i);
+      builder.add({sizeof(hw_sample_t), test::kMadeUpSample, 0, 1, sequence++, t_ns, t_ns + 1000, &made_up});
+      frame.identities.insert(frame.identities.end(), 3, log::kNoLandmark);
+    }
+    frame.T_world_body = Pose();
+  }
+};
+
+struct Ran {
+  std::string log;
+  std::string trajectory;
+  std::string timing;
+  RunResult result;
+};
+
+Ran run(Source& source, bool isolated, const std::string& plugin = TAKES_MADE_UP ":takes_made_up") {
+  const test::TempFolder folder;
+  std::optional<host::Isolation> isolation;
+  if (isolated) isolation.emplace();
+  auto pipeline = host::Pipeline::unstarted({{plugin, {}}}, {}, source.sensors(), {}, isolation);
+  RunPlan plan;
+  plan.folder = folder.path() / "run";
+  plan.manifest = {{"name", "made up"}, {"period_ns", kPeriod_ns}};
+  plan.start_failures = record::start_plugins(pipeline, plan.on_failure);
+  Ran ran;
+  ran.result = execute(source, pipeline, plan, {});
+  ran.log = read_file(plan.folder / "run.mcap");
+  ran.trajectory = read_file(plan.folder / "trajectory.tum");
+  ran.timing = read_file(plan.folder / "timing.csv");
+  return ran;
+}
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+std::string bytes_of(const hw_frame_t& frame) {
+  std::string bytes;
+  host::FrameWriter().write_over(bytes, frame);
+  return bytes;
+}
+
+TEST(AnySamples, ReachThePluginInThisProcessAndInItsOwn) {
+  MadeUpSource source;
+  const Ran here = run(source, false);
+  ASSERT_EQ(here.result.failures.count, 0u);
+  // In every third frame there is nothing that the plugin takes.
+  EXPECT_EQ(lines_of(here.trajectory), 13u);
+  EXPECT_EQ(lines_of(here.timing), 1u + 13u);
+  EXPECT_EQ(here.result.metrics.lost_iterations, 0u);
+  const Ran isolated = run(source, true);
+  ASSERT_EQ(isolated.result.failures.count, 0u);
+  EXPECT_EQ(isolated.trajectory, here.trajectory);
+  EXPECT_EQ(isolated.log, here.log);
+}
+
+/// The positions of a trajectory.
+std::vector<std::array<double, 2>> positions_of(const std::string& trajectory) {
+  std::vector<std::array<double, 2>> positions;
+  std::istringstream lines(trajectory);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream numbers(line);
+    double t = 0, x = 0, y = 0;
+    numbers >> t >> x >> y;
+    positions.push_back({x, y});
+  }
+  return positions;
+}
+
+TEST(AnySamples, ThatAreOptionalAreGivenWhereThereAreAny) {
+  const std::string plugin = TAKES_MADE_UP ":may_take_made_up";
+  MadeUpSource source;
+  for (const bool isolated : {false, true}) {
+    const Ran both = run(source, isolated, plugin);
+    ASSERT_EQ(both.result.failures.count, 0u);
+    const auto counts = positions_of(both.trajectory);
+    ASSERT_EQ(counts.size(), kFrames);
+    for (std::uint32_t i = 0; i < kFrames; ++i)
+      EXPECT_EQ(counts[i], (std::array<double, 2>{1.0, static_cast<double>(i % 3)})) << "frame " << i;
+  }
+  // Nobody gives them, and nobody asks for them.
+  log::ObservationLog observations;
+  const log::Observation seen{.point = {1, 2, 3}};
+  observations.add_frame(0, {&seen, 1});
+  LogSource points(std::move(observations), {}, {}, kPeriod_ns, 0);
+  EXPECT_EQ(positions_of(run(points, false, plugin).trajectory),
+            (std::vector<std::array<double, 2>>{{1.0, 0.0}}));
+  EXPECT_THROW(run(points, false), Error) << "a plugin that needs them";
+}
+
+TEST(AnySamples, AreReplayedFromTheLogAsTheyWere) {
+  MadeUpSource source;
+  const Ran first = run(source, false);
+  const log::MemoryInput input(first.log);
+  RecordedRun recorded = read_recorded_run(input);
+  ASSERT_FALSE(recorded.damage) << recorded.damage->cause;
+  ASSERT_EQ(recorded.facts.sensors.size(), 2u);
+  EXPECT_EQ(recorded.facts.sensors[1].kind, test::kMadeUpSample);
+  EXPECT_EQ(recorded.facts.sensors[1].id, 1u);
+  RecordedSource replayed(std::move(recorded), 0);
+  ASSERT_EQ(replayed.iterations(), kFrames);
+  SourceFrame a, b;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    source.read(i, a);
+    replayed.read(i, b);
+    EXPECT_EQ(bytes_of(a.samples()), bytes_of(b.samples())) << "frame " << i;
+    EXPECT_EQ(a.identities, b.identities);
+  }
+  EXPECT_EQ(run(replayed, false).log, first.log);
+}
+
+TEST(AnySamples, GoOverTheLinkAsTheyAre) {
+  MadeUpSource source;
+  link::MemoryNet net;
+  link::MemoryWire robot_wire(net, 1), host_wire(net, 2);
+  const ServePlan plan{.lock_step = true, .manifest = {{"period_ns", kPeriod_ns}}};
+  link::RobotEnd robot(robot_wire, describe_robot(source, plan, "nose"), 7, milliseconds{60'000});
+  std::vector<std::string> given;
+  std::vector<host::SensorInfo> sensors;
+  std::thread program([&] {
+    link::HostEnd host(host_wire, robot_wire.address(), 42, milliseconds{60'000});
+    sensors = host.describe().sensors;
+    for (;;) {
+      const link::HostEnd::Reading reading = host.read(milliseconds{100});
+      if (reading.found == link::HostEnd::Found::kEnd) return;
+      if (reading.found != link::HostEnd::Found::kFrame) continue;
+      given.push_back(bytes_of(*reading.frame));
+      host.answer({.sequence = reading.frame->sequence, .t_ns = reading.frame->t_ns});
+    }
+  });
+  const ServeResult result = serve(source, robot, plan, {});
+  program.join();
+  EXPECT_EQ(result.frames, kFrames);
+  ASSERT_EQ(sensors.size(), 2u);
+  EXPECT_EQ(sensors[1].kind, test::kMadeUpSample);
+  ASSERT_EQ(given.size(), kFrames);
+  SourceFrame frame;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    source.read(i, frame);
+    EXPECT_EQ(given[i], bytes_of(frame.samples())) << "frame " << i;
+  }
+}
+
+}  // namespace
+}  // namespace hallway::run

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Linked into a program, it adds the row to the program's table.
+#include "support/made_up_kind.hpp"
+
+#include <cstddef>
+#include <span>
+
+#include "host/samples/strided.hpp"
+
+namespace hallway::test {
+namespace {
+
+void check_made_up(void* payload, std::uint64_t) {
+  const auto& made_up = *static_cast<const MadeUp*>(payload);
+  if (made_up.marks == nullptr) return;
+  for (const std::uint32_t mark : std::span(made_up.marks, made_up.n_marks))
+    host::demand(mark < made_up.n_rays, "a mark of no ray");
+}
+
+constexpr host::PayloadArray kMadeUpArrays[] = {{.name = "rays",
+                                                 .one = "ray",
+                                                 .data = offsetof(MadeUp, rays),
+                                                 .count = offsetof(MadeUp, n_rays),
+                                                 .stride = offsetof(MadeUp, stride),
+                                                 .element_bytes = sizeof(MadeUpRay),
+                                                 .n_finite = 2},
+                                                {.name = "marks",
+                                                 .one = "mark",
+                                                 .data = offsetof(MadeUp, marks),
+                                                 .count = offsetof(MadeUp, n_marks),
+                                                 .element_bytes = sizeof(std::uint32_t),
+                                                 .optional = true,
+                                                 .checked = true}};
+
+}  // namespace
+
+constexpr host::SampleKind kMadeUpKind{.kind = kMadeUpSample,
+                                       .name = "made_up",
+                                       .payload = "hw_made_up_t",
+                                       .size = sizeof(MadeUp),
+                                       .min_size = sizeof(MadeUp),
+                                       .arrays = kMadeUpArrays,
+                                       .check = &check_made_up};
+
+namespace {
+const host::AddedSampleKind kAdded(kMadeUpKind);
+}
+
+}  // namespace hallway::test

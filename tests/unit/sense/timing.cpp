@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "sense/timing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace hallway::sense {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+TEST(ReadingClock, WithoutARateGivesOneReadingForEveryFrame) {
+  const ReadingClock clock({}, kPeriod_ns);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    EXPECT_EQ(clock.time_of(i), static_cast<std::int64_t>(i) * kPeriod_ns);
+    EXPECT_EQ(clock.arrived_by(static_cast<std::int64_t>(i) * kPeriod_ns), i + 1);
+  }
+}
+
+TEST(ReadingClock, CountsWhatHasArrivedAsCountingOneByOneDoes) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const SensorTiming timing{.rate_hz = trial % 7 == 0 ? 0.0 : 0.1 + 1000.0 * uniform(random),
+                              .phase_s = trial % 3 == 0 ? 0.0 : uniform(random),
+                              .latency_s = trial % 2 == 0 ? 0.0 : 0.5 * uniform(random)};
+    const ReadingClock clock(timing, kPeriod_ns);
+    const std::int64_t latency_ns = std::llround(timing.latency_s * 1e9);
+    std::uint64_t arrived = 0;
+    for (std::int64_t t_ns = 0; t_ns < 3'000'000'000; t_ns += kPeriod_ns) {
+      while (clock.time_of(arrived) + latency_ns <= t_ns) ++arrived;
+      ASSERT_EQ(clock.arrived_by(t_ns), arrived) << timing.rate_hz << " Hz at " << t_ns;
+    }
+  }
+}
+
+TEST(ReadingClock, AReadingThatArrivesWithAFrameIsInIt) {
+  const ReadingClock clock({.rate_hz = 20.0, .latency_s = 0.05}, kPeriod_ns);
+  EXPECT_EQ(clock.arrived_by(49'999'999), 0u);
+  EXPECT_EQ(clock.arrived_by(50'000'000), 1u);
+  EXPECT_EQ(clock.arrived_by(100'000'000), 2u);
+}
+
+}  // namespace
+}  // namespace hallway::sense
