@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "adapter/newest_sample.hpp"
 #include "geometry/se3.hpp"
 
 namespace hallway {
@@ -39,7 +40,7 @@ class PointAdapter {
   /// As after activate().
   void reset() { lost_ = false; }
 
-  /// The frame's points in the reference frame, sample after sample; they live until the next call. Throws sdk::Failure for a sample of a
+  /// The frame's points in the reference frame, sample after sample, of each sensor's newest readings; they live until the next call. Throws sdk::Failure for a sample of a
   /// sensor that was not announced.
   const std::vector<Vec3>& gather(const hw_frame_t& frame) {
     points_.clear();
@@ -47,7 +48,7 @@ class PointAdapter {
     ranges_.clear();
     for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
       const hw_sample_t& sample = *frame.samples[k];
-      if (sample.kind == HW_SAMPLE_POINTS) add_points(k, sample);
+      if (sample.kind == HW_SAMPLE_POINTS && !is_superseded(frame, k)) add_points(k, sample);
     }
     return points_;
   }

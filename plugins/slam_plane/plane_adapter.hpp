@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "adapter/newest_sample.hpp"
 #include "geometry/se3.hpp"
 #include "slam_plane/core/types.hpp"
 
@@ -51,14 +52,14 @@ class PlaneAdapter {
   /// A number of the sensor's description, or what it is where that gives none.
   static double or_else(double given, double otherwise) { return std::isfinite(given) ? given : otherwise; }
 
-  /// What `observe` makes of the planes of a frame, in their order; it lives until the next call. Throws sdk::Failure for planes of a sensor that was not announced.
+  /// What `observe` makes of the planes of a frame, in their order, of the newest readings; it lives until the next call. Throws sdk::Failure for planes of a sensor that was not announced.
   template <typename Observe>
   const std::vector<Observation>& gather(const hw_frame_t& frame, const Observe& observe) {
     observations_.clear();
     samples_.clear();
     for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
       const hw_sample_t& sample = *frame.samples[k];
-      if (sample.kind != HW_SAMPLE_PLANES) continue;
+      if (sample.kind != HW_SAMPLE_PLANES || is_superseded(frame, k)) continue;
       if (sample.sensor_id != sensor_id_)
         throw sdk::Failure(HW_ERROR_DATA, "planes of sensor " + std::to_string(sample.sensor_id) +
                                               ", which is not the one that they are taken from");

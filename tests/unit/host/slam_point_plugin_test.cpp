@@ -57,15 +57,20 @@ class Drive {
   }
 
   const Outputs& step(int i) {
-    builder_.begin(static_cast<std::uint64_t>(i), std::int64_t{100'000'000} * i);
-    const std::vector<Vec3> world = landmarks();
+    begin(i);
+    for (std::size_t s = 0; s < mounts_.size(); ++s) add_reading(s, i);
+    return plugin_.process(builder_.finish());
+  }
+
+  /// The same with a reading of each sensor before, from where the body was a step ago.
+  const Outputs& step_with_older_readings(int i) {
+    begin(i);
     for (std::size_t s = 0; s < mounts_.size(); ++s) {
-      const Isometry T_sensor_world = (body_pose(i) * mounts_[s]).inverse();
-      auto& points = builder_.add_points(static_cast<std::uint32_t>(s));
-      for (std::size_t k = s; k < world.size(); k += mounts_.size()) {
-        const Vec3 p = T_sensor_world * world[k];
-        points.push_back({p.x(), p.y(), p.z()});
-      }
+      add_reading(s, i - 1);
+      builder_.set_reading(static_cast<std::uint64_t>(2 * i), kPeriod_ns * i - 50'000'000,
+                           kPeriod_ns * i - 50'000'000);
+      add_reading(s, i);
+      builder_.set_reading(static_cast<std::uint64_t>(2 * i + 1), kPeriod_ns * i, kPeriod_ns * i);
     }
     return plugin_.process(builder_.finish());
   }
@@ -73,6 +78,21 @@ class Drive {
   Plugin& plugin() { return plugin_; }
 
  private:
+  static constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+  void begin(int i) { builder_.begin(static_cast<std::uint64_t>(i), kPeriod_ns * i); }
+
+  /// What a sensor sees from where the body is in a step.
+  void add_reading(std::size_t sensor, int i) {
+    const std::vector<Vec3> world = landmarks();
+    const Isometry T_sensor_world = (body_pose(i) * mounts_[sensor]).inverse();
+    auto& points = builder_.add_points(static_cast<std::uint32_t>(sensor));
+    for (std::size_t k = sensor; k < world.size(); k += mounts_.size()) {
+      const Vec3 p = T_sensor_world * world[k];
+      points.push_back({p.x(), p.y(), p.z()});
+    }
+  }
+
   std::vector<Isometry> mounts_;
   FrameBuilder builder_;
   Plugin plugin_;
@@ -106,6 +126,17 @@ TEST(SlamPointPlugin, WithATiltedMountThePoseIsThatOfTheBody) {
     const Outputs& outputs = drive.step(i);
     ASSERT_TRUE(outputs.pose() && outputs.pose()->valid) << "step " << i;
     EXPECT_LT(pose_error(outputs.pose()->T_map_body, body_pose(i)), 1e-6) << "step " << i;
+  }
+}
+
+TEST(SlamPointPlugin, OfSeveralReadingsOfASensorTheNewestCounts) {
+  Drive drive({tilted_mount(), Isometry::Identity()});
+  for (int i = 0; i < kSteps; ++i) {
+    const Outputs& outputs = drive.step_with_older_readings(i);
+    ASSERT_TRUE(outputs.pose() && outputs.pose()->valid) << "step " << i;
+    EXPECT_LT(pose_error(outputs.pose()->T_map_body, body_pose(i)), 1e-6) << "step " << i;
+    for (const std::uint32_t older : {0u, 2u}) EXPECT_FALSE(outputs.associations(older));
+    for (const std::uint32_t newest : {1u, 3u}) EXPECT_TRUE(outputs.associations(newest));
   }
 }
 
