@@ -2,6 +2,9 @@
 #include "log_input.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -39,6 +42,12 @@ std::optional<fs::path> if_there(const fs::path& path) {
   return fs::exists(path, code) ? std::optional(path) : std::nullopt;
 }
 
+/// "observations.csv" or, of one of several sensors, "observations_NAME.csv".
+bool is_observations(const fs::path& file, const fs::path& name) {
+  return file.filename() == name || (file.stem().string().starts_with(name.stem().string() + "_") &&
+                                     file.extension() == name.extension());
+}
+
 /// The file that is meant: in a folder the observations or, where it has none, the MCAP log.
 fs::path log_file(const std::string& log) {
   std::error_code code;
@@ -47,7 +56,19 @@ fs::path log_file(const std::string& log) {
   for (const char* name : {run::files::kObservations, run::files::kObservedPlanes, run::files::kLog}) {
     if (fs::exists(path / name, code)) return path / name;
   }
-  return path / run::files::kObservations;
+  std::vector<std::string> tables;  // of several sensors
+  for (const auto& entry : fs::directory_iterator(path, code)) {
+    const fs::path file = entry.path().filename();
+    if (is_observations(file, run::files::kObservations) ||
+        is_observations(file, run::files::kObservedPlanes))
+      tables.push_back(file.string());
+  }
+  if (tables.empty()) return path / run::files::kObservations;
+  std::ranges::sort(tables);
+  throw Error(ErrorCode::kUsage,
+              fmt::format("the folder has a table for each of several sensors; name one of: {}",
+                          fmt::join(tables, ", ")),
+              {.file = printable(log)});
 }
 
 /// A log is often called obs.csv: the folder says more.
@@ -56,12 +77,6 @@ std::string name_of(const fs::path& file) {
   const fs::path absolute = fs::absolute(file, code);
   const std::string folder = absolute.parent_path().filename().string();
   return folder.empty() ? absolute.stem().string() : folder;
-}
-
-/// "observations.csv" or, of one of several sensors, "observations_NAME.csv".
-bool is_observations(const fs::path& file, const fs::path& name) {
-  return file.filename() == name || (file.stem().string().starts_with(name.stem().string() + "_") &&
-                                     file.extension() == name.extension());
 }
 
 /// Of a run with several sensors that whose name the file has, else the first.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -23,10 +24,11 @@ class ReadingClock {
         latency_ns_(std::llround(timing.latency_s * 1e9)),
         period_ns_(period_ns) {}
 
-  /// The time of reading `k`. Does not decrease with k.
+  /// The time of reading `k`. Does not decrease with k; what no clock reaches is the end of time.
   std::int64_t time_of(std::uint64_t k) const {
     if (rate_hz_ == 0.0) return phase_ns_ + static_cast<std::int64_t>(k) * period_ns_;
-    return phase_ns_ + std::llround(static_cast<double>(k) * 1e9 / rate_hz_);
+    constexpr double kEnd_ns = 9e18;  // with the longest phase and latency a whole number of 64 bits
+    return phase_ns_ + std::llround(std::min(static_cast<double>(k) * 1e9 / rate_hz_, kEnd_ns));
   }
   /// How many readings have arrived by a time: reading k arrives at time_of(k) + latency. O(1).
   std::uint64_t arrived_by(std::int64_t t_ns) const {

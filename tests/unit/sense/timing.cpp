@@ -35,6 +35,15 @@ TEST(ReadingClock, CountsWhatHasArrivedAsCountingOneByOneDoes) {
   }
 }
 
+TEST(ReadingClock, ARateThatNobodyLivesToSeeGivesTheFirstReading) {
+  for (const double rate_hz : {1e-12, 5e-324, 1e-9, 1e-3}) {
+    const ReadingClock clock({.rate_hz = rate_hz}, kPeriod_ns);
+    EXPECT_EQ(clock.arrived_by(0), 1u) << rate_hz;
+    EXPECT_EQ(clock.arrived_by(3'600'000'000'000), rate_hz < 2e-4 ? 1u : 4u) << rate_hz;
+    EXPECT_GE(clock.time_of(UINT64_MAX), clock.time_of(1)) << rate_hz;
+  }
+}
+
 TEST(ReadingClock, AReadingThatArrivesWithAFrameIsInIt) {
   const ReadingClock clock({.rate_hz = 20.0, .latency_s = 0.05}, kPeriod_ns);
   EXPECT_EQ(clock.arrived_by(49'999'999), 0u);
