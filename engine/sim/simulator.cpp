@@ -150,6 +150,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   }
   stop_at_obstacle();
   check_poses();
+  report_silent_sensors();
 }
 
 /// A frame is as large as what arrives in it.
@@ -206,6 +207,18 @@ void Simulator::check_poses() const {
     const std::uint64_t n = planes != nullptr ? clocks_[i].arrived_by(end_ns) : 0;
     for (std::uint64_t k = 0; k < n; ++k)
       planes->check_pose(pose_at_time(clocks_[i].time_of(k)), static_cast<std::uint32_t>(k));
+  }
+}
+
+/// Of a sensor whose first reading arrives after the last frame.
+void Simulator::report_silent_sensors() {
+  const std::int64_t end_ns = scenario_.period_ns * (std::int64_t{scenario_.steps} - 1);
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    if (clocks_[i].arrived_by(end_ns) > 0) continue;
+    const std::string& name =
+        std::visit([](const auto& spec) -> const std::string& { return spec.name; }, scenario_.sensors[i]);
+    problems_.emplace_back(ErrorCode::kBadInput, "no reading arrives by the last frame",
+                           Where{printable(scenario_.file), 0, "sensor `" + printable(name) + "`"});
   }
 }
 

@@ -105,6 +105,7 @@ class Simulator {
   void make_sensors();
   void stop_at_obstacle();
   void check_poses() const;
+  void report_silent_sensors();
   Pose pose_after(double distance_m) const;
   void read(std::size_t sensor, Reading& reading) const;
 

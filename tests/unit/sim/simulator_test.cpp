@@ -476,6 +476,20 @@ TEST(Simulator, AReadingIsTakenAtItsOwnTime) {
   EXPECT_EQ(b.pose_at_time(100'000'000).t, b.pose_at(1).t);
 }
 
+TEST(Simulator, ASensorWhoseReadingsComeTooLateIsReported) {
+  World world(test::scenario_text(std::string(kEyes) + "latency_s = 3.91\n"));
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  const auto is_told = [](const Error& problem) {
+    return problem.message() == "no reading arrives by the last frame" &&
+           problem.where().element == "sensor `eyes`";
+  };
+  EXPECT_EQ(std::ranges::count_if(simulator.problems(), is_told), 1);
+  World in_time(test::scenario_text(std::string(kEyes) + "latency_s = 3.9\n"));
+  EXPECT_EQ(std::ranges::count_if(Simulator(in_time.scenario(), 1, trace::Backend::kBruteForce).problems(),
+                                  is_told),
+            0);
+}
+
 TEST(Simulator, AFrameThatWouldHoldTooManyReadingsIsRefused) {
   World world(test::scenario_text(std::string(kEyes) + "rate_hz = 10000\n"));
   world.scenario().period_ns = 2'000'000'000;
