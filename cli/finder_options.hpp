@@ -9,6 +9,7 @@
 #include "isolation_options.hpp"
 #include "planes/finder.hpp"
 #include "render/picture.hpp"
+#include "render/view.hpp"
 
 namespace hallway::cli {
 
