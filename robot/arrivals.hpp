@@ -21,7 +21,7 @@ namespace hallway::robot {
 struct Arrival {
   TakenFrame frame;
   Clock::time_point came{};  ///< when the driver gave it
-  std::string bytes;         ///< host/frame_bytes.hpp, under the driver's number
+  std::string bytes;         ///< host/samples/frame_bytes.hpp, under the driver's number
 };
 
 /// The frames of a robot in the order in which they come. In real time a thread reads the driver, so that frames are stamped, and leave the driver, when

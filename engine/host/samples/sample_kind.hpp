@@ -65,7 +65,7 @@ const SampleKind* find_sample_kind(std::string_view name);
 /// All rows.
 std::span<const SampleKind* const> sample_kinds();
 
-/// Adds a row while it lives, for tests: a variable of a program's own file, made before main().
+/// Adds a row for as long as the program runs, for tests: a variable of a program's own file, made before main().
 class AddedSampleKind {
  public:
   /// @param kind  lives as long; of a number and a name that no other row has

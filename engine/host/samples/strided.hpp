@@ -12,7 +12,7 @@
 
 namespace hallway::host {
 
-// For outputs.cpp and plane_lists.cpp: how what a plugin hands over is read and refused.
+// How lists that a plugin hands over, and values of samples, are read and refused; for the outputs and the rows of sample kinds.
 
 /// What is wrong with an output.
 struct Malformed {
