@@ -16,6 +16,7 @@
 #include "host/isolate/isolated_plugin.hpp"
 #include "host/plugin.hpp"
 #include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "log/observations.hpp"
 
 namespace {
@@ -35,8 +36,7 @@ std::unique_ptr<host::Stage> make(const std::string& plugin, bool isolated) {
   } else {
     stage = std::make_unique<host::Plugin>(host::find_plugin(plugin, {}));
   }
-  host::SensorInfo sensor;
-  sensor.name = "eyes";
+  const host::SensorInfo sensor = host::point_sensor("eyes");
   stage->activate({&sensor, 1});
   return stage;
 }
@@ -54,7 +54,7 @@ void print_latency(const std::string& plugin, std::size_t points) {
   for (std::size_t i = 0; i < kCalls; ++i) {
     for (int isolated = 0; isolated < 2; ++isolated) {
       builder.begin(i, 0);
-      builder.add_points(0) = frame;
+      add_points(builder, 0) = frame;
       const hw_frame_t& built = builder.finish();
       const Clock::time_point begin = Clock::now();
       stages[isolated]->process(built);
@@ -97,7 +97,7 @@ double frames_per_second(const std::string& plugin, const Frames& frames, bool i
   for (std::size_t done = 0; done < frames.size(); ++done) {
     for (; submitted < frames.size() && submitted - done < stage->capacity(); ++submitted) {
       builder.begin(submitted, static_cast<std::int64_t>(submitted));
-      builder.add_points(0) = frames[submitted];
+      add_points(builder, 0) = frames[submitted];
       stage->submit(builder.finish());
     }
     stage->collect();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/refuse.hpp"
+#include "host/samples/point_kind.hpp"
 #include "import/bag.hpp"
 #include "import/cloud_folder.hpp"
 #include "import/landmark_tables.hpp"
@@ -31,7 +32,7 @@ class ImportedSource : public run::Source {
   /// @param steps  how many frames to give; 0 for all
   ImportedSource(std::unique_ptr<import::Recording> recording, std::uint32_t steps)
       : recording_(std::move(recording)), iterations_(recording_->frames()) {
-    facts_.sensors.emplace_back().name = recording_->sensor();
+    facts_.sensors.push_back(host::point_sensor(recording_->sensor()));
     facts_.has_identities = recording_->has_identities();
     facts_.has_tracks = recording_->has_tracks();
     facts_.true_landmarks = recording_->true_landmarks();
@@ -57,7 +58,7 @@ class ImportedSource : public run::Source {
   void fill(std::uint32_t iteration, run::SourceFrame& frame) override {
     recording_->read(iteration, frame_);
     host::FrameBuilder& builder = frame.begin(iteration, frame_.t_ns);
-    std::vector<hw_point3_t>& points = builder.add_points(facts_.sensors.front().id);
+    std::vector<hw_point3_t>& points = host::add_points(builder, facts_.sensors.front().id);
     for (const auto& [x, y, z] : frame_.points) points.push_back({x, y, z});
     if (has_tracks()) {
       builder.add_tracks() = frame_.tracks;

@@ -165,7 +165,7 @@ const Outputs& Pipeline::collect(Stage& plugin) {
 
 const Outputs& Pipeline::collect_in_turn() {
   if (submitted_ == nullptr) throw Error(ErrorCode::kInternal, "collect() without a frame");
-  const hw_frame_t* frame = &plane_samples_.begin(*std::exchange(submitted_, nullptr));
+  const hw_frame_t* frame = &found_samples_.begin(*std::exchange(submitted_, nullptr));
   std::span<const std::byte> bytes = submitted_bytes_;
   const Outputs* outputs = nullptr;
   for (std::size_t i = 0; i < stages_.size(); ++i) {
@@ -174,8 +174,8 @@ const Outputs& Pipeline::collect_in_turn() {
     if (!was_called_) continue;
     stages_[i]->submit(*frame, bytes);
     outputs = &collect(*stages_[i]);
-    bytes = {};  // of the frame without the planes that are added now
-    frame = &plane_samples_.add(*outputs);
+    bytes = {};  // of the frame without what is added now
+    frame = &found_samples_.add(*outputs);
   }
   with_planes_ = frame;
   return *outputs;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/isolate/isolation.hpp"
-#include "host/samples/plane_samples.hpp"
+#include "host/samples/found_samples.hpp"
 #include "host/stage.hpp"
 
 namespace hallway::host {
@@ -118,7 +118,7 @@ class Pipeline {
   bool in_turn_ = false;                   ///< a plugin is fed only when those before it have answered
   const hw_frame_t* submitted_ = nullptr;  ///< then: the frame that is to be collected
   std::span<const std::byte> submitted_bytes_;
-  PlaneSamples plane_samples_;
+  FoundSamples found_samples_;
   const hw_frame_t* with_planes_ = nullptr;
   std::deque<std::vector<bool>> called_;  ///< else: for each frame under way which plugins it was given to
   bool was_called_ = false;

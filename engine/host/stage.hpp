@@ -14,6 +14,7 @@
 #include "host/load/plugin_info.hpp"
 #include "host/output/outputs.hpp"
 #include "host/parameter.hpp"
+#include "host/sensor_info.hpp"
 
 namespace hallway::host {
 
@@ -21,22 +22,6 @@ namespace hallway::host {
 /// thread, at any time while the plugin lives, and must not throw.
 using LogSink =
     std::function<void(const std::string& plugin, std::uint32_t level, const std::string& message)>;
-
-/// What is known of one sensor; see hw_sensor_info_t. A number that is not known is NaN.
-struct SensorInfo {
-  std::uint32_t id = 0;                   ///< the number that its samples carry
-  std::uint32_t kind = HW_SAMPLE_POINTS;  ///< HW_SAMPLE_… that it gives
-  std::string name;                       ///< for people
-  hw_pose_t T_body_sensor{{0, 0, 0}, {1, 0, 0, 0}};
-  double horizontal_fov = kUnknown;  ///< full angle, radians
-  double vertical_fov = kUnknown;    ///< full angle, radians
-  double min_range_m = kUnknown;
-  double max_range_m = kUnknown;
-  double noise_m[3] = {kUnknown, kUnknown,
-                       kUnknown};  ///< standard deviation along x, y, z of the sensor's frame
-
-  static constexpr double kUnknown = __builtin_nan("");
-};
 
 /// What one call took of the plugin alone.
 struct CallTime {

@@ -10,19 +10,13 @@
 #include "geom/arrays.hpp"
 #include "host/output/output_kind.hpp"
 #include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "import/point_collector.hpp"
 
 namespace hallway::planes {
 namespace {
 
 constexpr std::uint32_t kSensor = 0;
-
-std::vector<host::SensorInfo> sensors() {
-  host::SensorInfo sensor;
-  sensor.id = kSensor;
-  sensor.name = "cloud";
-  return {sensor};
-}
 
 PlaneObservation copy_plane(const host::PlaneList& list, const hw_plane_t& plane) {
   PlaneObservation copy{.id = plane.id,
@@ -56,7 +50,8 @@ double median_ms(std::vector<std::int64_t> times_ns) {
 
 PlaneFinder::PlaneFinder(host::StageSpec plugin, std::vector<std::filesystem::path> folders,
                          host::LogSink log, std::optional<host::Isolation> isolation)
-    : pipeline_({std::move(plugin)}, std::move(folders), sensors(), std::move(log), std::move(isolation)) {
+    : pipeline_({std::move(plugin)}, std::move(folders), {host::point_sensor("cloud", kSensor)},
+                std::move(log), std::move(isolation)) {
   const auto& outputs = info().outputs;
   if (std::find(outputs.begin(), outputs.end(), HW_OUTPUT_PLANES) != outputs.end()) return;
   std::vector<std::string> names;
@@ -73,9 +68,9 @@ Answer PlaneFinder::find(const std::vector<Vec3>& points, unsigned repeats, cons
   }
   host::FrameBuilder builder;
   builder.begin(0, 0);
-  std::vector<hw_point3_t>& list = builder.add_points(kSensor);
+  std::vector<hw_point3_t>& list = host::add_points(builder, kSensor);
   for (const Vec3& point : points) list.push_back({point.x(), point.y(), point.z()});
-  if (image.width != 0) builder.add_pixels(image.width, image.height) = image.pixels;
+  if (image.width != 0) host::add_pixels(builder, image.width, image.height) = image.pixels;
   const hw_frame_t& frame = builder.finish();
   Answer answer;
   std::vector<std::int64_t> wall, cpu;

@@ -37,7 +37,7 @@ log::PlaneObservation plane_observation(const hw_planes_t& planes, std::uint64_t
   return observation;
 }
 
-void add_plane(host::FrameBuilder::Planes& reading, const log::PlaneObservation& seen) {
+void add_plane(const host::PlaneReading& reading, const log::PlaneObservation& seen) {
   hw_plane_t& plane = reading.planes.emplace_back();
   plane.id = seen.id;
   copy(seen.normal, plane.normal);

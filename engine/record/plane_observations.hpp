@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/plane_kind.hpp"
 #include "host/samples/plane_lists.hpp"
 #include "log/plane_observations.hpp"
 
@@ -17,7 +17,7 @@ log::PlaneObservation plane_observation(const hw_plane_t& plane);
 log::PlaneObservation plane_observation(const hw_planes_t& planes, std::uint64_t i);
 
 /// The reverse: adds an observation, with its hull, to a reading that is made.
-void add_plane(host::FrameBuilder::Planes& reading, const log::PlaneObservation& seen);
+void add_plane(const host::PlaneReading& reading, const log::PlaneObservation& seen);
 
 /// The planes of a sample as logs have them, with hulls and members, in their order.
 std::vector<log::PlaneObservation> plane_observations(const host::PlaneList& list);

@@ -11,6 +11,7 @@
 #include "base/origin.hpp"
 #include "base/text.hpp"
 #include "host/plugin_table.hpp"
+#include "host/samples/point_kind.hpp"
 #include "import/victoria_park.hpp"
 #include "map/reader.hpp"
 #include "map/writer.hpp"
@@ -100,7 +101,7 @@ class RecordingPart : public run::Source {
     if (part.last < part.first || part.last >= recording_->frames())
       throw Error(ErrorCode::kBadInput,
                   fmt::format("the recording has {} scans, not scan {}", recording_->frames(), part.last));
-    facts_.sensors.emplace_back().name = recording_->sensor();
+    facts_.sensors.push_back(host::point_sensor(recording_->sensor()));
   }
 
   std::uint32_t iterations() const override { return part_.last - part_.first + 1; }
@@ -109,7 +110,7 @@ class RecordingPart : public run::Source {
   void fill(std::uint32_t iteration, run::SourceFrame& frame) override {
     recording_->read(part_.first + iteration, frame_);
     std::vector<hw_point3_t>& points =
-        frame.begin(iteration, frame_.t_ns).add_points(facts_.sensors.front().id);
+        host::add_points(frame.begin(iteration, frame_.t_ns), facts_.sensors.front().id);
     for (const auto& [x, y, z] : frame_.points) points.push_back({x, y, z});
     frame.T_world_body = frame_.T_world_body;
     frame.orientation_known = frame_.orientation_known;

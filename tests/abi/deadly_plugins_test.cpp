@@ -24,7 +24,7 @@
 #include "base/helper.hpp"
 #include "host/isolate/isolated_plugin.hpp"
 #include "host/isolate/process_use.hpp"
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "support/errors.hpp"
 #include "support/long_mode.hpp"
 #include "support/marked_processes.hpp"
@@ -92,7 +92,7 @@ class DeadlyPlugins : public testing::Test {
       FrameBuilder builder;
       for (; result.frames < 6; ++result.frames) {
         builder.begin(result.frames, 0);
-        builder.add_points(0) = {{1, 2, 3}, {4, 5, 6}};
+        add_points(builder, 0) = {{1, 2, 3}, {4, 5, 6}};
         plugin.process(builder.finish());
       }
       plugin.report(false);
@@ -111,7 +111,7 @@ class DeadlyPlugins : public testing::Test {
       EXPECT_EQ(plugin.parameter_text(0), "true");
       plugin.activate({});
       FrameBuilder builder;
-      builder.add_points(0) = {{1, 2, 3}};
+      add_points(builder, 0) = {{1, 2, 3}};
       plugin.process(builder.finish());
       plugin.report(true);
       plugin.reset();
@@ -301,7 +301,7 @@ TEST_F(DeadlyPlugins, AfterADeathItSaysSo) {
   plugin.set_parameter("how", "abort");
   plugin.activate({});
   FrameBuilder builder;
-  builder.add_points(0) = {{1, 2, 3}};
+  add_points(builder, 0) = {{1, 2, 3}};
   EXPECT_TRUE(test::error_of([&] { plugin.process(builder.finish()); }));
   EXPECT_TRUE(test::error_of([&] { plugin.report(false); }));
   EXPECT_FALSE(test::error_of([&] { plugin.close(); })) << "it has been told";
@@ -315,7 +315,7 @@ TEST_F(DeadlyPlugins, FramesUnderWayAreLostWithIt) {
   FrameBuilder builder;
   for (std::uint64_t i = 0; i < plugin.capacity(); ++i) {
     builder.begin(i, 0);
-    builder.add_points(0) = {{1, 2, 3}};
+    add_points(builder, 0) = {{1, 2, 3}};
     plugin.submit(builder.finish());
   }
   EXPECT_EQ(plugin.collect().pose()->T_map_body.position[0], 0);
@@ -333,11 +333,11 @@ std::string copied(const test::TempFolder& folder, const std::string& plugin) {
 TEST_F(DeadlyPlugins, AFileThatIsReplacedWhileItRunsChangesNothing) {
   const test::TempFolder folder;
   IsolatedPlugin plugin(copied(folder, EXAMPLE), {}, isolation());
-  SensorInfo sensor;
+  const SensorInfo sensor = point_sensor();
   plugin.activate({&sensor, 1});
   write_file_atomically(folder.path() / "plugin.so", "no plugin any more");
   FrameBuilder builder;
-  builder.add_points(0) = {{1, 2, 3}};
+  add_points(builder, 0) = {{1, 2, 3}};
   EXPECT_TRUE(plugin.process(builder.finish()).pose());
   plugin.close();
 }
@@ -345,11 +345,11 @@ TEST_F(DeadlyPlugins, AFileThatIsReplacedWhileItRunsChangesNothing) {
 TEST_F(DeadlyPlugins, AFileThatIsCutWhileItRunsIsItsOwnLoss) {
   const test::TempFolder folder;
   IsolatedPlugin plugin(copied(folder, EXAMPLE), {}, isolation());
-  SensorInfo sensor;
+  const SensorInfo sensor = point_sensor();
   plugin.activate({&sensor, 1});
   fs::resize_file(folder.path() / "plugin.so", 0);
   FrameBuilder builder;
-  builder.add_points(0) = {{1, 2, 3}};
+  add_points(builder, 0) = {{1, 2, 3}};
   const auto error = test::error_of([&] { plugin.process(builder.finish()); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::kPluginFault);

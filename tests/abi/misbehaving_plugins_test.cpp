@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/plugin.hpp"
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -17,7 +17,7 @@ Found find(const std::string& file_and_id) {
 
 const hw_frame_t& frame_of_two_points(FrameBuilder& builder) {
   builder.begin(0, 0);
-  builder.add_points(0) = {{1, 2, 3}, {4, 5, 6}};
+  add_points(builder, 0) = {{1, 2, 3}, {4, 5, 6}};
   return builder.finish();
 }
 

@@ -5,6 +5,7 @@
 - A file includes what its own folder's targets link, and nothing else of Hallway.
 - No target reaches what a rule `hallway_never_links` forbids it.
 - Each heavy library is included by one file.
+- What carries samples names no kind of them: few files do, each for a reason.
 - Every engine library has a short README; every source names its licence.
 """
 import collections
@@ -23,6 +24,17 @@ HEAVY = {
     "assimp": r"assimp/", "GMP": r"gmp\.h$", "muParser": r"muParser\.h$", "libedit": r"editline/", "zstd": r"zstd\.h$",
     "Protobuf": r"google/protobuf/|.*\.pb\.h$", "ROS bags": r"rosbag/",
 }
+# Who means a kind of sample, and why: rooms, and files of others.
+MEANS_A_KIND = {
+    "engine/sense/": "sensors make samples of their kind", "engine/eval/": "scores", "engine/conformance/": "tests plugins with samples",
+    "robot/drivers/": "adapters",
+    "engine/host/samples/sample_kind.cpp": "names of kinds that are reserved", "engine/host/samples/point_kind.cpp": "the row of points",
+    "engine/host/samples/plane_kind.cpp": "the row of planes", "engine/host/output/output_kind.cpp": "which sample an output becomes",
+    "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/plane_truth.cpp": "planes in points",
+    "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "shows points",
+    "engine/run/feed/observation_tables.cpp": "writes tables of points and of planes", "engine/run/feed/found_table.hpp": "writes a table of planes",
+}
+KIND = re.compile(r"\bHW_SAMPLE_(?!TRACKED\b)[A-Z]")
 
 
 def sources(folder):
@@ -114,6 +126,14 @@ class Layout(unittest.TestCase):
                         users["libpng"].add(file.parent)
         for library in (*HEAVY, "libpng"):
             self.assertEqual(len(users[library]), 1, f"{library}: {sorted(map(str, users[library]))}")
+
+    def test_few_files_name_a_kind_of_sample(self):
+        naming = [str(f.relative_to(SOURCE)) for top in ("engine", "app", "cli", "robot") for f in sources(top) if KIND.search(f.read_text())]
+        others = [f for f in naming if not f.startswith(tuple(MEANS_A_KIND))]
+        self.assertFalse(others, "they name a kind: go by its row (host/samples/sample_kind.hpp), or say here why not")
+        for one in MEANS_A_KIND:
+            if not one.endswith("/"):
+                self.assertIn(one, naming, "it names no kind any more")
 
     def test_every_library_has_a_short_readme(self):
         for folder in sorted(p for p in (SOURCE / "engine").iterdir() if p.is_dir()):

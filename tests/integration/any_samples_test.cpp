@@ -12,6 +12,7 @@
 #include "base/file.hpp"
 #include "host/pipeline.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "host/samples/point_kind.hpp"
 #include "link/host_end.hpp"
 #include "link/robot_end.hpp"
 #include "log/byte_io.hpp"
@@ -19,6 +20,7 @@
 #include "run/serving/serve.hpp"
 #include "run/sources/log_source.hpp"
 #include "run/sources/recorded_run.hpp"
+#include "run/sources/tracked_source.hpp"
 #include "support/made_up_kind.hpp"
 #include "support/temp_folder.hpp"
 #include "unit/link/memory_wire.hpp"
@@ -35,7 +37,7 @@ constexpr std::uint32_t kFrames = 20;
 class MadeUpSource : public Source {
  public:
   MadeUpSource() {
-    facts_.sensors = {{.id = 0, .name = "eyes"}, {.id = 1, .kind = test::kMadeUpSample, .name = "nose"}};
+    facts_.sensors = {host::point_sensor("eyes"), {.id = 1, .kind = test::kMadeUpSample, .name = "nose"}};
     facts_.has_identities = true;
   }
   std::uint32_t iterations() const override { return kFrames; }
@@ -44,7 +46,7 @@ class MadeUpSource : public Source {
   void fill(std::uint32_t iteration, SourceFrame& frame) override {
     const double x = 0.1 * iteration;
     host::FrameBuilder& builder = frame.begin(iteration, kPeriod_ns * iteration);
-    builder.add_points(0) = {{1 + x, 2, 3}, {4, 5 + x, 6}};
+    add_points(builder, 0) = {{1 + x, 2, 3}, {4, 5 + x, 6}};
     frame.identities = {7, 8};
     std::uint64_t sequence = 4 * iteration;
     for (std::uint32_t i = 0; i < iteration % 3; ++i) {
@@ -164,6 +166,43 @@ TEST(AnySamples, AreReplayedFromTheLogAsTheyWere) {
     EXPECT_EQ(a.identities, b.identities);
   }
   EXPECT_EQ(run(replayed, false).log, first.log);
+}
+
+/// A sensor of made-up samples alone: three rays in every frame, of which the second is of nothing that is known.
+class RaySource : public Source {
+ public:
+  explicit RaySource(bool has_identities) {
+    facts_.sensors.push_back({.id = 1, .kind = test::kMadeUpSample, .name = "nose"});
+    facts_.has_identities = has_identities;
+  }
+  std::uint32_t iterations() const override { return 2; }
+
+ private:
+  void fill(std::uint32_t iteration, SourceFrame& frame) override {
+    host::FrameBuilder& builder = frame.begin(iteration, kPeriod_ns * iteration);
+    builder.add(test::kMadeUpKind, 1).list<test::MadeUpRay>(offsetof(test::MadeUp, rays)) = {
+        {0, 1}, {0.5, 2}, {1, 3}};
+    if (has_identities()) frame.identities = {5 + iteration, log::kNoLandmark, 9};
+  }
+};
+
+TEST(AnySamples, AreTrackedWhereTheirRowHasATrack) {
+  TrackedSource tracked(std::make_unique<RaySource>(true));
+  SourceFrame frame;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    tracked.read(i, frame);
+    ASSERT_TRUE(host::is_tracked(frame.sample(0)));
+    const auto& made_up = *static_cast<const test::MadeUp*>(frame.sample(0).payload);
+    EXPECT_EQ(made_up.tracks[0], 5u + i);
+    EXPECT_EQ(made_up.tracks[1], log::kNoTrack);
+    EXPECT_EQ(made_up.tracks[2], 9u);
+  }
+  const Ran recorded = run(tracked, false);
+  EXPECT_TRUE(read_recorded_run(log::MemoryInput(recorded.log)).facts.has_tracks);
+  RaySource untracked(true);
+  const Ran without = run(untracked, false);
+  EXPECT_FALSE(read_recorded_run(log::MemoryInput(without.log)).facts.has_tracks);
+  EXPECT_THROW(TrackedSource(std::make_unique<RaySource>(false)), Error) << "there is nothing to track by";
 }
 
 TEST(AnySamples, GoOverTheLinkAsTheyAre) {

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "base/file.hpp"
-#include "host/samples/frame_builder.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "host/samples/point_kind.hpp"
 #include "log/mcap_reader.hpp"
 #include "log/run_log.hpp"
 
@@ -49,7 +49,7 @@ void write_log(const std::filesystem::path& file, const std::vector<std::vector<
   std::string bytes;
   for (std::uint32_t i = 0; i < frames.size(); ++i) {
     builder.begin(i, std::int64_t{i} * 1'000'000);
-    builder.add_points(0) = frames[i];
+    add_points(builder, 0) = frames[i];
     const hw_frame_t& frame = builder.finish();
     host::FrameWriter().write_over(bytes, frame);
     writer.add_frame({i, frame.t_ns}, bytes);

@@ -30,7 +30,13 @@ constexpr host::PayloadArray kMadeUpArrays[] = {{.name = "rays",
                                                  .count = offsetof(MadeUp, n_marks),
                                                  .element_bytes = sizeof(std::uint32_t),
                                                  .optional = true,
-                                                 .checked = true}};
+                                                 .checked = true},
+                                                {.name = "tracks",
+                                                 .one = "track",
+                                                 .data = offsetof(MadeUp, tracks),
+                                                 .count = offsetof(MadeUp, n_rays),
+                                                 .element_bytes = sizeof(std::uint64_t),
+                                                 .optional = true}};
 
 }  // namespace
 
@@ -40,6 +46,7 @@ constexpr host::SampleKind kMadeUpKind{.kind = kMadeUpSample,
                                        .size = sizeof(MadeUp),
                                        .min_size = sizeof(MadeUp),
                                        .arrays = kMadeUpArrays,
+                                       .track = offsetof(MadeUp, tracks),
                                        .check = &check_made_up};
 
 namespace {

@@ -14,7 +14,7 @@ struct MadeUpRay {
   double azimuth, range;
 };
 
-/// Payload of kMadeUpSample: two arrays, of which the second is optional, and a number.
+/// Payload of kMadeUpSample: three arrays, of which the first is not optional, and a number.
 struct MadeUp {
   std::uint32_t size = sizeof(MadeUp);
   std::uint32_t stride = sizeof(MadeUpRay);
@@ -23,6 +23,7 @@ struct MadeUp {
   std::uint64_t n_marks = 0;
   const std::uint32_t* marks = nullptr;  ///< each below n_rays, or null
   double temperature = 0;
+  const std::uint64_t* tracks = nullptr;  ///< of each ray, or null
 };
 
 }  // namespace hallway::test

@@ -8,22 +8,23 @@
 #include <algorithm>
 #include <iterator>
 
+#include "host/samples/plane_kind.hpp"
+
 namespace hallway::host {
 namespace {
 
-/// A row of the table of output kinds.
-struct OutputKind {
-  std::uint32_t kind;                                  ///< HW_OUTPUT_…
-  const char* name;                                    ///< in messages and files
-  std::optional<std::uint32_t> sample = std::nullopt;  ///< HW_SAMPLE_… that it is to the plugins behind
-};
+bool find_planes(const Outputs& outputs, std::uint32_t sample, Payload& payload) {
+  const auto list = outputs.planes(sample);
+  if (list) fill_found(*list, sample, payload);
+  return list.has_value();
+}
 
 constexpr OutputKind kOutputKinds[] = {{HW_OUTPUT_POSE, "pose"},
                                        {HW_OUTPUT_LANDMARKS, "landmarks"},
                                        {HW_OUTPUT_ASSOCIATIONS, "associations"},
                                        {HW_OUTPUT_SUBMAPS, "submaps"},
                                        {HW_OUTPUT_COUNTERS, "counters"},
-                                       {HW_OUTPUT_PLANES, "planes", HW_SAMPLE_PLANES},
+                                       {HW_OUTPUT_PLANES, "planes", HW_SAMPLE_PLANES, &find_planes},
                                        {HW_OUTPUT_SEGMENTS, "segments", HW_SAMPLE_SEGMENTS},
                                        {HW_OUTPUT_TOPOLOGY, "topology"},
                                        {HW_OUTPUT_DRIVE_COMMAND, "drive_command"},
@@ -36,6 +37,10 @@ const OutputKind* find_output_kind(std::uint32_t kind) {
 }
 
 }  // namespace
+
+std::span<const OutputKind> output_kinds() {
+  return kOutputKinds;
+}
 
 std::string output_kind_name(std::uint32_t kind) {
   const OutputKind* known = find_output_kind(kind);

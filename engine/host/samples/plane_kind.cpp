@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The row of HW_SAMPLE_PLANES.
-#include <hallway/planes.h>
+// The row of HW_SAMPLE_PLANES, and what makes samples of it.
+#include "host/samples/plane_kind.hpp"
 
+#include <cstddef>
 #include <span>
 
-#include "host/samples/plane_lists.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
 
@@ -66,5 +66,25 @@ constexpr SampleKind kPlaneSamples{.kind = HW_SAMPLE_PLANES,
                                    .found_in = offsetof(hw_planes_t, sample),
                                    .check = &check_plane_payload,
                                    .detach = &detach_planes};
+
+PlaneReading add_planes(FrameBuilder& builder, std::uint32_t sensor_id) {
+  Reading& reading = builder.add(kPlaneSamples, sensor_id);
+  return {reading.list<hw_plane_t>(offsetof(hw_planes_t, planes)),
+          reading.list<hw_point3_t>(offsetof(hw_planes_t, hull_points))};
+}
+
+void fill_found(const PlaneList& list, std::uint32_t found_in, Payload& payload) {
+  auto& planes = *static_cast<hw_planes_t*>(static_cast<void*>(payload.begin(kPlaneSamples)));
+  planes.size = sizeof planes;
+  planes.stride = sizeof(hw_plane_t);
+  planes.count = list.planes.size();
+  planes.planes = list.planes.data();
+  planes.sample = found_in;
+  planes.hull_stride = sizeof(hw_point3_t);
+  planes.n_hull_points = list.hull_points.size();
+  planes.hull_points = list.hull_points.data();
+  planes.n_members = list.members.size();
+  planes.members = list.members.data();
+}
 
 }  // namespace hallway::host

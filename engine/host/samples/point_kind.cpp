@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The row of HW_SAMPLE_POINTS.
-#include <hallway/sample.h>
+// The row of HW_SAMPLE_POINTS, and what makes samples of it.
+#include "host/samples/point_kind.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
+#include <utility>
 
 #include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
@@ -59,6 +61,22 @@ constexpr SampleKind kPointSamples{.kind = HW_SAMPLE_POINTS,
                                    .size = sizeof(hw_points_t),
                                    .min_size = offsetof(hw_points_t, track) + sizeof(hw_points_t::track),
                                    .arrays = kPointArrays,
+                                   .track = offsetof(hw_points_t, track),
                                    .check = &check_point_payload};
+
+SensorInfo point_sensor(std::string name, std::uint32_t id) {
+  return {.id = id, .kind = HW_SAMPLE_POINTS, .name = std::move(name)};
+}
+
+std::vector<hw_point3_t>& add_points(FrameBuilder& builder, std::uint32_t sensor_id) {
+  return builder.add(kPointSamples, sensor_id).list<hw_point3_t>(offsetof(hw_points_t, points));
+}
+
+std::vector<std::uint32_t>& add_pixels(FrameBuilder& builder, std::uint32_t width, std::uint32_t height) {
+  auto& points = builder.last().payload<hw_points_t>();
+  points.width = width;
+  points.height = height;
+  return builder.last().list<std::uint32_t>(offsetof(hw_points_t, pixel));
+}
 
 }  // namespace hallway::host

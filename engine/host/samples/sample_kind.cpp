@@ -45,7 +45,9 @@ const SampleKind* find_sample_kind(std::string_view name) {
 AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
   if (find_sample_kind(kind.kind) != nullptr || find_sample_kind(kind.name) != nullptr ||
       kind.size > Payload::kMaxSize || kind.arrays.empty() ||
-      (kind.found_in != kNoMember && kind.detach == nullptr)) {
+      (kind.found_in != kNoMember && kind.detach == nullptr) ||
+      (kind.track != kNoMember &&
+       std::ranges::find(kind.arrays, kind.track, &PayloadArray::data) == kind.arrays.end())) {
     throw Error(ErrorCode::kInternal, fmt::format("the sample kind `{}` cannot be added", kind.name));
   }
   table().push_back(&kind);
@@ -63,6 +65,12 @@ std::optional<std::uint64_t> count_elements(const hw_sample_t& sample) {
   const SampleKind* kind = find_sample_kind(sample.kind);
   if (kind == nullptr) return std::nullopt;
   return load<std::uint64_t>(static_cast<const std::byte*>(sample.payload) + kind->arrays.front().count);
+}
+
+bool is_tracked(const hw_sample_t& sample) {
+  const SampleKind* kind = find_sample_kind(sample.kind);
+  return kind != nullptr && kind->track != kNoMember && (sample.flags & HW_SAMPLE_TRACKED) != 0 &&
+         load<const void*>(static_cast<const std::byte*>(sample.payload) + kind->track) != nullptr;
 }
 
 std::string find_not_finite(const hw_sample_t& sample) {

@@ -46,6 +46,8 @@ struct SampleKind {
       arrays;  ///< in the order of their bytes; the first one are the sample's elements
   /// u32, the index in the frame of the sample that this one was found in, or HW_NO_SAMPLE; kNoMember: it is of no other sample.
   std::size_t found_in = kNoMember;
+  /// The array of the sensor's own numbers for what it follows, a u64 for each element (its PayloadArray::data); kNoMember: no sensor follows elements.
+  std::size_t track = kNoMember;
   /// What the ABI demands of the values. Gets a payload in the caller's own memory, the arrays that are `checked` among them, and may bring what
   /// says nothing into one form. Throws Malformed. Null: it demands nothing.
   /// @param elements  of the sample that it was found in
@@ -77,6 +79,9 @@ std::string sample_kind_name(std::uint32_t kind);
 
 /// How many elements a sample has; nothing for kinds that are not known.
 std::optional<std::uint64_t> count_elements(const hw_sample_t& sample);
+
+/// Whether a sensor says of elements which they were in earlier samples: HW_SAMPLE_TRACKED is set and the array is there.
+bool is_tracked(const hw_sample_t& sample);
 
 /// What a sensor gave that is no finite number: "a point that is not finite"; empty if nothing. The sample is as frame_bytes.hpp demands. O(elements).
 std::string find_not_finite(const hw_sample_t& sample);

@@ -7,11 +7,6 @@
 
 namespace hallway::run {
 
-/// A pose as the ABI has it.
-inline hw_pose_t abi_pose(const Pose& pose) {
-  return {{pose.t.x(), pose.t.y(), pose.t.z()}, {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
-}
-
 /// A pose of the ABI, to the same bits.
 inline Pose pose_of(const hw_pose_t& pose) {
   const auto& q = pose.orientation;

@@ -8,7 +8,9 @@
 
 #include "base/error.hpp"
 #include "geom/arrays.hpp"
+#include "host/samples/plane_kind.hpp"
 #include "host/samples/plane_lists.hpp"
+#include "host/samples/point_kind.hpp"
 #include "host/samples/strided.hpp"
 #include "record/plane_observations.hpp"
 
@@ -66,7 +68,7 @@ void LogSource::check_planes() {
 }
 
 void LogSource::add_points(host::FrameBuilder& builder, std::uint32_t iteration, SourceFrame& frame) const {
-  std::vector<hw_point3_t>& points = builder.add_points(facts_.sensors.front().id);
+  std::vector<hw_point3_t>& points = host::add_points(builder, facts_.sensors.front().id);
   const auto seen = observations_.frame(iteration);
   for (const log::Observation& one : seen) {
     points.push_back({one.point[0], one.point[1], one.point[2]});
@@ -78,7 +80,7 @@ void LogSource::add_points(host::FrameBuilder& builder, std::uint32_t iteration,
 }
 
 void LogSource::add_planes(host::FrameBuilder& builder, std::uint32_t iteration, SourceFrame& frame) const {
-  host::FrameBuilder::Planes& reading = builder.add_planes(facts_.sensors.front().id);
+  const host::PlaneReading reading = host::add_planes(builder, facts_.sensors.front().id);
   for (const log::PlaneObservation& one : planes_.frame(iteration)) {
     record::add_plane(reading, one);
     if (has_identities()) frame.identities.push_back(one.true_plane);

@@ -119,9 +119,7 @@ class Collector {
     if (!problem.empty()) bad(problem);
     copy.elements.push_back(host::count_elements(sample).value_or(0));
     copy.identities.resize(copy.identities.size() + copy.elements.back(), log::kNoLandmark);
-    const bool is_tracked = sample.kind == HW_SAMPLE_POINTS && (sample.flags & HW_SAMPLE_TRACKED) != 0 &&
-                            static_cast<const hw_points_t*>(sample.payload)->track != nullptr;
-    run_.facts.has_tracks = run_.facts.has_tracks || is_tracked;
+    run_.facts.has_tracks = run_.facts.has_tracks || host::is_tracked(sample);
   }
 
   /// Null for what belongs to no frame: it may have been cut off.

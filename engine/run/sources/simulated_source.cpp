@@ -9,8 +9,11 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "geom/arrays.hpp"
+#include "host/samples/plane_kind.hpp"
+#include "host/samples/point_kind.hpp"
 #include "record/plane_observations.hpp"
 #include "run/sources/abi_pose.hpp"
+#include "sense/describe.hpp"
 
 namespace hallway::run {
 
@@ -94,15 +97,8 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
 }
 
 void SimulatedSource::add_sensor(const sense::PointSensorSpec& spec) {
-  facts_.sensors.push_back({.id = static_cast<std::uint32_t>(facts_.sensors.size()),
-                            .name = spec.name,
-                            .T_body_sensor = abi_pose(spec.T_body_sensor),
-                            .horizontal_fov = spec.horizontal_fov,
-                            .vertical_fov = spec.vertical_fov,
-                            .min_range_m = spec.min_range_m,
-                            .max_range_m = spec.max_range_m,
-                            .noise_m = {spec.noise_m[0], spec.noise_m[1], spec.noise_m[2]}});
-  first_true_plane_.push_back(0);
+  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  first_true_plane_.emplace_back();
   if (facts_.true_landmarks) return;
   facts_.true_landmarks.emplace();
   for (const Vec3& place : simulator_.landmarks()) {
@@ -114,18 +110,10 @@ void SimulatedSource::add_sensor(const sense::PointSensorSpec& spec) {
 
 void SimulatedSource::add_sensor(const sense::PlaneSensorSpec& spec) {
   const std::size_t index = facts_.sensors.size();
-  const bool walls = spec.shape == sense::PlaneShape::walls;  // their normals are level
-  facts_.sensors.push_back({.id = static_cast<std::uint32_t>(index),
-                            .kind = HW_SAMPLE_PLANES,
-                            .name = spec.name,
-                            .T_body_sensor = abi_pose(spec.T_body_sensor),
-                            .horizontal_fov = spec.view.horizontal_fov,
-                            .vertical_fov = spec.vertical_fov,
-                            .min_range_m = spec.view.min_range_m,
-                            .max_range_m = spec.view.max_range_m,
-                            .noise_m = {spec.noise_m, spec.noise_m, walls ? 0.0 : spec.noise_m}});
-  first_true_plane_.push_back(add_true_planes(walls ? true_planes_of(*simulator_.walls(index))
-                                                    : true_planes_of(*simulator_.faces(index))));
+  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(index)));
+  const sense::WallPlan* walls = simulator_.walls(index);
+  first_true_plane_.emplace_back(
+      add_true_planes(walls != nullptr ? true_planes_of(*walls) : true_planes_of(*simulator_.faces(index))));
 }
 
 void SimulatedSource::add_walls() {
@@ -139,11 +127,10 @@ void SimulatedSource::add_walls() {
 std::uint64_t SimulatedSource::add_true_planes(std::vector<log::TruePlane> planes) {
   if (!facts_.true_planes) facts_.true_planes.emplace();
   std::vector<log::TruePlane>& all = *facts_.true_planes;
-  for (std::size_t i = 0; i < first_true_plane_.size(); ++i) {
-    if (facts_.sensors[i].kind != HW_SAMPLE_PLANES) continue;
-    const auto known = std::span(all).subspan(first_true_plane_[i]);
-    if (known.size() >= planes.size() && are_the_same(known.first(planes.size()), planes))
-      return first_true_plane_[i];
+  for (const auto& first : first_true_plane_) {
+    if (!first) continue;
+    const auto known = std::span(all).subspan(*first);
+    if (known.size() >= planes.size() && are_the_same(known.first(planes.size()), planes)) return *first;
   }
   const std::uint64_t first = all.size();
   for (log::TruePlane& plane : planes) {
@@ -153,25 +140,31 @@ std::uint64_t SimulatedSource::add_true_planes(std::vector<log::TruePlane> plane
   return first;
 }
 
+void SimulatedSource::add_reading(const sense::PointSensorSpec&, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  std::vector<hw_point3_t>& points = host::add_points(builder, facts_.sensors[reading.sensor].id);
+  for (const sense::PointObservation& seen : reading.observations) {
+    points.push_back({seen.point.x(), seen.point.y(), seen.point.z()});
+    frame.identities.push_back(seen.landmark);
+  }
+}
+
+void SimulatedSource::add_reading(const sense::PlaneSensorSpec&, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  const host::PlaneReading planes = host::add_planes(builder, facts_.sensors[reading.sensor].id);
+  for (const PlaneObservation& seen : reading.planes) {
+    record::add_plane(planes, observation_of(seen, planes.planes.size()));
+    frame.identities.push_back(first_true_plane_[reading.sensor].value() + seen.true_plane);
+  }
+}
+
 void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
   const sim::Frame step = simulator_.step(iteration);
   host::FrameBuilder& builder = frame.begin(iteration, step.t_ns);
   frame.T_world_body = step.T_world_body;
   for (const sim::Reading& reading : step.readings) {
-    const host::SensorInfo& sensor = facts_.sensors[reading.sensor];
-    if (sensor.kind == HW_SAMPLE_PLANES) {
-      host::FrameBuilder::Planes& planes = builder.add_planes(sensor.id);
-      for (const PlaneObservation& seen : reading.planes) {
-        record::add_plane(planes, observation_of(seen, planes.planes.size()));
-        frame.identities.push_back(first_true_plane_[reading.sensor] + seen.true_plane);
-      }
-    } else {
-      std::vector<hw_point3_t>& points = builder.add_points(sensor.id);
-      for (const sense::PointObservation& seen : reading.observations) {
-        points.push_back({seen.point.x(), seen.point.y(), seen.point.z()});
-        frame.identities.push_back(seen.landmark);
-      }
-    }
+    std::visit([&](const auto& spec) { add_reading(spec, reading, frame, builder); },
+               simulator_.scenario().sensors[reading.sensor]);
     builder.set_reading(reading.sequence, reading.t_ns, reading.t_ns);
   }
 }

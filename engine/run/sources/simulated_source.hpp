@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "run/sources/source.hpp"
 #include "sim/simulator.hpp"
 
@@ -22,9 +26,14 @@ class SimulatedSource : public Source {
   void add_sensor(const sense::PointSensorSpec& spec);
   void add_sensor(const sense::PlaneSensorSpec& spec);
   std::uint64_t add_true_planes(std::vector<log::TruePlane> planes);
+  void add_reading(const sense::PointSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::PlaneSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
 
   const sim::Simulator& simulator_;
-  std::vector<std::uint64_t> first_true_plane_;  ///< by sensor: the number of its first one in true_planes()
+  /// By sensor: the number of its first one in true_planes(); none where it sees no planes.
+  std::vector<std::optional<std::uint64_t>> first_true_plane_;
 };
 
 }  // namespace hallway::run

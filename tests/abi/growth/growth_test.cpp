@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/plugin.hpp"
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -33,10 +33,9 @@ class Growth : public testing::TestWithParam<Build> {
   Growth() : plugin_(find_plugin(GetParam().file, {})) {}
 
   static std::vector<SensorInfo> three_sensors() {
-    std::vector<SensorInfo> sensors(3);
+    std::vector<SensorInfo> sensors;
     for (std::uint32_t i = 0; i < 3; ++i) {
-      sensors[i].id = i + 11;
-      sensors[i].name = "sensor";
+      sensors.push_back(point_sensor("sensor", i + 11));
       sensors[i].noise_m[2] = 0.25 * (i + 1);
     }
     return sensors;
@@ -45,7 +44,7 @@ class Growth : public testing::TestWithParam<Build> {
   const Outputs& process_three_samples() {
     builder_.begin(5, 1000);
     for (std::uint32_t i = 0; i < 3; ++i) {
-      auto& points = builder_.add_points(i + 11);
+      auto& points = add_points(builder_, i + 11);
       for (std::uint32_t j = 0; j <= i; ++j) points.push_back({1.0 + i, 0, 0});
     }
     return plugin_.process(builder_.finish());

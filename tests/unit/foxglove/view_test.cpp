@@ -8,7 +8,7 @@
 #include "foxglove/Log.pb.h"
 #include "foxglove/PointCloud.pb.h"
 #include "foxglove/SceneUpdate.pb.h"
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "log/mcap_reader.hpp"
 
 namespace hallway::foxglove {
@@ -39,7 +39,7 @@ class ViewLog {
   /// A frame with one point, as sensor `sensor` sees it.
   void add_frame(std::uint32_t iteration, std::uint32_t sensor = 0) {
     builder_.begin(iteration, time_ns(iteration));
-    builder_.add_points(sensor) = {{1, 2, 3}};
+    add_points(builder_, sensor) = {{1, 2, 3}};
     view_.add_frame(stamp(iteration), builder_.finish());
   }
   void add_truth(std::uint32_t iteration, const Pose& pose, bool orientation_known = true) {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -24,8 +24,8 @@ Bytes bytes_of(const hw_frame_t& frame) {
 /// Two readings, the second without points.
 const hw_frame_t& two_readings(FrameBuilder& builder) {
   builder.begin(7, 700);
-  builder.add_points(3) = {{1, 2, 3}, {4, 5, 6}, {-0.0, 1e-300, 1e300}};
-  builder.add_points(5);
+  add_points(builder, 3) = {{1, 2, 3}, {4, 5, 6}, {-0.0, 1e-300, 1e300}};
+  add_points(builder, 5);
   return builder.finish();
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "put_output.hpp"
 
 namespace hallway::host {
@@ -148,8 +148,8 @@ class Planes : public testing::Test {
  protected:
   Planes() {
     builder_.begin(0, 0);
-    builder_.add_points(0) = {{0, 0, 2}};
-    builder_.add_points(1) = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+    add_points(builder_, 0) = {{0, 0, 2}};
+    add_points(builder_, 1) = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}};
     collector_.begin(&builder_.finish(), indices_);
   }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/samples/frame_builder.hpp"
+#include "host/samples/point_kind.hpp"
 #include "put_output.hpp"
 
 namespace hallway::host {
@@ -178,8 +178,8 @@ TEST(Outputs, CovariancesOfLandmarksBelongToTheirList) {
 TEST(Outputs, AssociationsAreKnownByTheIndexInTheWholeFrame) {
   FrameBuilder builder;
   builder.begin(0, 0);
-  builder.add_points(0) = {{0, 0, 0}};
-  builder.add_points(1) = {{0, 0, 0}, {1, 1, 1}};
+  add_points(builder, 0) = {{0, 0, 0}};
+  add_points(builder, 1) = {{0, 0, 0}, {1, 1, 1}};
   const std::vector<std::uint32_t> indices = {4, 9};
   OutputCollector collector;
   collector.begin(&builder.finish(), indices);

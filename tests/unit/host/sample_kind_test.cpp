@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "host/samples/frame_builder.hpp"
 #include "host/samples/frame_bytes.hpp"
 #include "host/samples/sample_selection.hpp"
 #include "support/errors.hpp"
@@ -63,6 +64,79 @@ TEST(SampleKind, HasARowANameAndElements) {
 TEST(SampleKind, IsAddedOnce) {
   EXPECT_THROW(AddedSampleKind{test::kMadeUpKind}, Error);
   EXPECT_THROW(AddedSampleKind{kPointSamples}, Error);
+}
+
+TEST(SampleKind, HasATrackAmongItsArrays) {
+  SampleKind kind = test::kMadeUpKind;
+  kind.kind = 1001;
+  kind.name = "made_up_too";
+  kind.track = offsetof(MadeUp, temperature);
+  EXPECT_THROW(AddedSampleKind{kind}, Error);
+}
+
+/// Fills a reading with what TwoKinds has in its first sample.
+void fill(Reading& reading) {
+  reading.payload<MadeUp>().temperature = 21.5;
+  reading.list<MadeUpRay>(offsetof(MadeUp, rays)) = {{0, 1}, {0.5, 2}, {1, -0.0}};
+  reading.list<std::uint32_t>(offsetof(MadeUp, marks)) = {2, 0, 2};
+}
+
+TEST(SampleKind, IsBuiltByItsRow) {
+  TwoKinds two;
+  two.frame.n_samples = 1;
+  FrameBuilder builder;
+  for (int again = 0; again < 2; ++again) {
+    builder.begin(4, 20);
+    fill(builder.add(test::kMadeUpKind, 3));
+    builder.set_reading(0, 10, 20);
+    EXPECT_EQ(bytes_of(builder.finish()), bytes_of(two.frame));
+    builder.begin(5, 30);
+    builder.add(test::kMadeUpKind, 3);
+    const MadeUp& empty = made_up_of(*builder.finish().samples[0]);
+    EXPECT_EQ(empty.n_rays, 0u);
+    EXPECT_EQ(empty.n_marks, 0u);
+    EXPECT_EQ(empty.marks, nullptr);
+    EXPECT_EQ(empty.temperature, 0) << "nothing of the frame before";
+  }
+}
+
+TEST(SampleKind, IsTrackedByItsRow) {
+  const TwoKinds two;
+  EXPECT_FALSE(is_tracked(two.first));
+  FrameBuilder builder;
+  builder.begin(4, 20);
+  fill(builder.add(test::kMadeUpKind, 3));
+  builder.add_tracks() = {7, 8, HW_NO_TRACK};
+  builder.add(two.first);  // a copy
+  builder.add_tracks() = {9, 9, 10};
+  builder.add(two.first);
+  const hw_frame_t& frame = builder.finish();
+  EXPECT_TRUE(is_tracked(*frame.samples[0]));
+  EXPECT_EQ(made_up_of(*frame.samples[0]).tracks[1], 8u);
+  EXPECT_TRUE(is_tracked(*frame.samples[1]));
+  EXPECT_EQ(made_up_of(*frame.samples[1]).tracks[2], 10u);
+  EXPECT_EQ(made_up_of(*frame.samples[1]).n_marks, 3u) << "with all else that was copied";
+  EXPECT_FALSE(is_tracked(*frame.samples[2]));
+  const Bytes bytes = bytes_of(frame);
+  FrameReader reader;
+  const hw_frame_t& read = reader.read(bytes);
+  EXPECT_TRUE(is_tracked(*read.samples[0]));
+  EXPECT_EQ(made_up_of(*read.samples[0]).tracks[0], 7u);
+  EXPECT_FALSE(is_tracked(*read.samples[2]));
+}
+
+TEST(SampleKind, IsNotBuiltOfListsThatDoNotFit) {
+  FrameBuilder builder;
+  Reading& reading = builder.add(test::kMadeUpKind, 3);
+  fill(reading);
+  EXPECT_THROW(reading.list<double>(offsetof(MadeUp, temperature)), Error) << "no array";
+  EXPECT_THROW(reading.list<std::uint64_t>(offsetof(MadeUp, marks)), Error) << "of larger elements";
+  builder.add_tracks() = {7, 8};
+  const auto error = test::error_of([&] { builder.finish(); });
+  ASSERT_TRUE(error) << "two tracks of three rays";
+  EXPECT_EQ(error->code(), ErrorCode::kInternal);
+  builder.add(kPlaneSamples, 4);
+  EXPECT_THROW(builder.add_tracks(), Error) << "its elements are not tracked";
 }
 
 TEST(SampleKind, StandsInTheBytesOfAFrame) {

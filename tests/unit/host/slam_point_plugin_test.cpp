@@ -86,7 +86,7 @@ class Drive {
   void add_reading(std::size_t sensor, int i) {
     const std::vector<Vec3> world = landmarks();
     const Isometry T_sensor_world = (body_pose(i) * mounts_[sensor]).inverse();
-    auto& points = builder_.add_points(static_cast<std::uint32_t>(sensor));
+    auto& points = add_points(builder_, static_cast<std::uint32_t>(sensor));
     for (std::size_t k = sensor; k < world.size(); k += mounts_.size()) {
       const Vec3 p = T_sensor_world * world[k];
       points.push_back({p.x(), p.y(), p.z()});
@@ -219,7 +219,7 @@ TEST(SlamPointPlugin, ASampleOfASensorThatWasNotAnnouncedIsRefused) {
   plugin.activate(point_sensors(1));
   FrameBuilder builder;
   builder.begin(0, 0);
-  builder.add_points(9);
+  add_points(builder, 9);
   const auto error = test::error_of([&] { plugin.process(builder.finish()); });
   ASSERT_TRUE(error);
   EXPECT_NE(error->message().find("sensor 9, which was not announced"), std::string::npos)

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "host/samples/frame_builder.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "host/samples/point_kind.hpp"
 #include "link/datagram.hpp"
 #include "link/description.hpp"
 
@@ -27,7 +27,7 @@ inline Bytes some_bytes(std::size_t size, std::size_t seed = 0) {
 inline Bytes frame_of(std::uint64_t sequence, std::size_t points, std::int64_t t_ns) {
   host::FrameBuilder builder;
   builder.begin(sequence, t_ns);
-  std::vector<hw_point3_t>& list = builder.add_points(0);
+  std::vector<hw_point3_t>& list = add_points(builder, 0);
   for (std::size_t i = 0; i < points; ++i) list.push_back({double(i), double(sequence), 0.5});
   const hw_frame_t& frame = builder.finish();
   Bytes bytes;
@@ -50,8 +50,7 @@ inline Description description(bool lock_step) {
   description.lock_step = lock_step;
   description.period_ns = 100'000'000;
   description.name = "office";
-  host::SensorInfo sensor;
-  sensor.name = "eyes";
+  host::SensorInfo sensor = host::point_sensor("eyes");
   sensor.horizontal_fov = 1.5;
   description.sensors.push_back(sensor);
   return description;

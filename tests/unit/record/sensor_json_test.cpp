@@ -7,19 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "host/samples/point_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::record {
 namespace {
 
 TEST(SensorJson, KeepsEveryBitAndWhatIsUnknown) {
-  host::SensorInfo sensor;
-  sensor.name = "eyes";
+  host::SensorInfo sensor = host::point_sensor("eyes");
   sensor.T_body_sensor = {{1.0 / 3.0, -2e-9, 7.0}, {0.5, -0.5, 0.5, 0.5}};
   sensor.horizontal_fov = 1.0 / 3.0;
   sensor.noise_m[0] = 0.1;
   const host::SensorInfo back = read_sensor(nlohmann::ordered_json::parse(print_sensor(sensor).dump()));
   EXPECT_EQ(back.name, "eyes");
+  EXPECT_EQ(back.kind, sensor.kind);
   EXPECT_EQ(back.horizontal_fov, sensor.horizontal_fov);
   EXPECT_TRUE(std::isnan(back.vertical_fov));
   EXPECT_EQ(back.noise_m[0], 0.1);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "host/samples/point_kind.hpp"
 #include "run/feed/log_recorder.hpp"
 #include "run/sources/log_source.hpp"
 #include "support/errors.hpp"
@@ -105,7 +106,7 @@ TEST(FoxgloveCopy, AddsThePictures) {
 std::string frame_bytes() {
   host::FrameBuilder builder;
   builder.begin(0, 5);
-  builder.add_points(0) = {{1, 2, 3}};
+  add_points(builder, 0) = {{1, 2, 3}};
   const hw_frame_t& frame = builder.finish();
   std::string bytes;
   host::FrameWriter().write_over(bytes, frame);

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "host/samples/point_kind.hpp"
 #include "run/feed/log_recorder.hpp"
 #include "run/sources/log_source.hpp"
 #include "run/sources/tracked_source.hpp"
@@ -120,7 +121,7 @@ std::string bytes_of(const SourceFrame& frame) {
 std::string frame_bytes(std::uint64_t sequence, std::int64_t t_ns, const std::vector<hw_point3_t>& points) {
   host::FrameBuilder builder;
   builder.begin(sequence, t_ns);
-  builder.add_points(0) = points;
+  add_points(builder, 0) = points;
   const hw_frame_t& frame = builder.finish();
   std::string bytes;
   host::FrameWriter().write_over(bytes, frame);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "host/sensor_info.hpp"
+#include "sense/plane_sensor.hpp"
+#include "sense/point_sensor.hpp"
+
+namespace hallway::sense {
+
+/// The facts of a sensor for plugins.
+/// @param id  the number that its samples carry
+host::SensorInfo describe(const PointSensorSpec& spec, std::uint32_t id);
+host::SensorInfo describe(const PlaneSensorSpec& spec, std::uint32_t id);
+
+}  // namespace hallway::sense
