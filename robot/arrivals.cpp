@@ -57,13 +57,17 @@ bool Arrivals::read_one(Arrival& arrival) {
   return true;
 }
 
+/// @param heir  the frame behind it
+void Arrivals::drop_first(Arrival& heir) {
+  carried_.carry(waiting_.front().bytes, heir.bytes);
+  spare_.push_back(std::move(waiting_.front().bytes));
+  waiting_.pop_front();
+  ++dropped_;
+}
+
 void Arrivals::add(Arrival& arrival) {
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() == backlog_) {
-    spare_.push_back(std::move(waiting_.front().bytes));
-    waiting_.pop_front();
-    ++dropped_;
-  }
+  if (waiting_.size() == backlog_) drop_first(backlog_ > 1 ? waiting_[1] : arrival);
   waiting_.push_back({arrival.frame, arrival.came, std::move(arrival.bytes)});
   arrival.bytes.clear();
   if (!spare_.empty()) {
@@ -85,11 +89,7 @@ bool Arrivals::take(std::chrono::nanoseconds wait, bool newest, Arrival& arrival
   came_.wait_for(lock, wait, [this] { return !waiting_.empty() || failure_ || ended_; });
   if (waiting_.empty() && failure_) std::rethrow_exception(failure_);
   if (waiting_.empty()) return false;
-  while (newest && waiting_.size() > 1) {
-    spare_.push_back(std::move(waiting_.front().bytes));
-    waiting_.pop_front();
-    ++dropped_;
-  }
+  while (newest && waiting_.size() > 1) drop_first(waiting_[1]);
   std::swap(arrival, waiting_.front());
   spare_.push_back(std::move(waiting_.front().bytes));
   waiting_.pop_front();

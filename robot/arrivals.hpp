@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "host/samples/carried_samples.hpp"
 #include "robot/gate.hpp"
 #include "robot/intake.hpp"
 
@@ -25,8 +26,8 @@ struct Arrival {
 };
 
 /// The frames of a robot in the order in which they come. In real time a thread reads the driver, so that frames are stamped, and leave the driver, when
-/// they come and not when the plugins have time; as many as `backlog` wait, and the oldest of more are dropped. In lock-step the driver is read
-/// when a frame is asked for, and nothing waits.
+/// they come and not when the plugins have time; as many as `backlog` wait, and the oldest of more are dropped. Their samples of which none may be
+/// missed go into the next frame. In lock-step the driver is read when a frame is asked for, and nothing waits.
 class Arrivals {
  public:
   /// Keeps references. Reading begins.
@@ -54,6 +55,7 @@ class Arrivals {
   void read();
   bool read_one(Arrival& arrival);
   void add(Arrival& arrival);
+  void drop_first(Arrival& heir);
 
   const host::RobotInfo& robot_;
   std::size_t backlog_;
@@ -63,6 +65,7 @@ class Arrivals {
   std::deque<Arrival> waiting_;
   std::vector<std::string> spare_;  ///< memory to be used again
   std::uint64_t dropped_ = 0;
+  host::CarriedSamples carried_;
   IntakeCounts counts_;  ///< of intake_
   std::string first_refusal_;
   bool ended_ = false;

@@ -51,6 +51,7 @@ Assembly* NewestFrames::assembly_for(const Header& header) {
 
 void NewestFrames::finish(Assembly& whole) {
   const std::uint64_t sequence = whole.sequence();
+  if (waiting_) std::swap(ready_, overtaken_);
   whole.take(ready_);
   counters_.lost += newest_ ? sequence - *newest_ - 1 : sequence;
   for (Assembly& assembly : assemblies_) {
@@ -60,7 +61,10 @@ void NewestFrames::finish(Assembly& whole) {
   }
   counters_.incomplete += std::exchange(given_up_, 0);
   ++counters_.frames;
-  if (waiting_) ++counters_.skipped;
+  if (waiting_) {
+    ++counters_.skipped;
+    carried_.carry(overtaken_, ready_);
+  }
   waiting_ = newest_ = sequence;
 }
 

@@ -147,6 +147,45 @@ TEST(AnySamples, ThatAreOptionalAreGivenWhereThereAreAny) {
   EXPECT_THROW(run(points, false), Error) << "a plugin that needs them";
 }
 
+/// Three frames: of 10 000 made-up samples, of nothing, and of one sample.
+class ManySamples : public Source {
+ public:
+  static constexpr std::uint32_t kMany = 10'000;
+
+  ManySamples() { facts_.sensors = {{.id = 1, .kind = test::kMadeUpSample, .name = "nose"}}; }
+  std::uint32_t iterations() const override { return 3; }
+
+ private:
+  void fill(std::uint32_t iteration, SourceFrame& frame) override {
+    host::FrameBuilder& builder = frame.begin(iteration, kPeriod_ns * (iteration + 1));
+    const test::MadeUpRay ray{0, 1};
+    const std::uint32_t n_samples[] = {kMany, 0, 1};
+    for (std::uint32_t i = 0; i < n_samples[iteration]; ++i) {
+      const test::MadeUp made_up{.n_rays = 1, .rays = &ray};
+      const std::int64_t t_ns = i;
+      builder.add(
+          {sizeof(hw_sample_t), test::kMadeUpSample, 0, 1, kMany * iteration + i, t_ns, t_ns, &made_up});
+      frame.identities.push_back(log::kNoLandmark);
+    }
+    frame.T_world_body = Pose();
+  }
+};
+
+TEST(AnySamples, NoneAndTenThousandInAFrame) {
+  ManySamples source;
+  const Ran here = run(source, false);
+  ASSERT_EQ(here.result.failures.count, 0u);
+  EXPECT_EQ(positions_of(here.trajectory),
+            (std::vector<std::array<double, 2>>{{10'000.0, 0.0}, {10'001.0, 0.0}}));
+  const Ran isolated = run(source, true);
+  ASSERT_EQ(isolated.result.failures.count, 0u);
+  EXPECT_EQ(isolated.log, here.log);
+  const log::MemoryInput input(here.log);
+  RecordedSource replayed(read_recorded_run(input), 0);
+  ASSERT_EQ(replayed.iterations(), 3u);
+  EXPECT_EQ(run(replayed, false).log, here.log);
+}
+
 TEST(AnySamples, AreReplayedFromTheLogAsTheyWere) {
   MadeUpSource source;
   const Ran first = run(source, false);

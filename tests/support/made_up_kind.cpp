@@ -47,7 +47,8 @@ constexpr host::SampleKind kMadeUpKind{.kind = kMadeUpSample,
                                        .min_size = sizeof(MadeUp),
                                        .arrays = kMadeUpArrays,
                                        .track = offsetof(MadeUp, tracks),
-                                       .check = &check_made_up};
+                                       .check = &check_made_up,
+                                       .carried = true};
 
 namespace {
 const host::AddedSampleKind kAdded(kMadeUpKind);

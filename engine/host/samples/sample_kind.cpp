@@ -45,7 +45,7 @@ const SampleKind* find_sample_kind(std::string_view name) {
 AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
   if (find_sample_kind(kind.kind) != nullptr || find_sample_kind(kind.name) != nullptr ||
       kind.size > Payload::kMaxSize || kind.arrays.empty() ||
-      (kind.found_in != kNoMember && kind.detach == nullptr) ||
+      (kind.found_in != kNoMember && (kind.detach == nullptr || kind.carried)) ||
       (kind.track != kNoMember &&
        std::ranges::find(kind.arrays, kind.track, &PayloadArray::data) == kind.arrays.end())) {
     throw Error(ErrorCode::kInternal, fmt::format("the sample kind `{}` cannot be added", kind.name));

@@ -54,6 +54,8 @@ struct SampleKind {
   void (*check)(void* payload, std::uint64_t elements) = nullptr;
   /// Takes out of such a payload what refers to elements of the sample that it was found in. Not null where found_in is a member.
   void (*detach)(void* payload) = nullptr;
+  /// None of its samples may be missed: those of a frame that a host drops go into the next frame (carried_samples.hpp). Not with found_in.
+  bool carried = false;
 };
 
 /// Points, and planes.

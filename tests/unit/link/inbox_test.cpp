@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "host/samples/point_kind.hpp"
 #include "link/frames_in_step.hpp"
 #include "link/newest_frames.hpp"
+#include "support/made_up_kind.hpp"
 #include "unit/link/datagrams.hpp"
 
 namespace hallway::link {
@@ -62,6 +64,34 @@ TEST(NewestFrames, TheNewestWins) {
   EXPECT_FALSE(frames.next());
   EXPECT_EQ(inbox.counters().skipped, 2u);
   EXPECT_EQ(inbox.counters().lost, 0u);
+}
+
+/// A frame of points and one made-up sample, of which none may be missed.
+Bytes frame_with_made_up(std::uint64_t number) {
+  const test::MadeUp made_up{.temperature = 20};
+  host::FrameBuilder builder;
+  builder.begin(number, 0);
+  host::add_points(builder, 0) = {{1, 2, 3}};
+  builder.add({sizeof(hw_sample_t), test::kMadeUpSample, 0, 1, number, 0, 0, &made_up});
+  Bytes bytes;
+  host::FrameWriter().write_over(bytes, builder.finish());
+  return bytes;
+}
+
+TEST(NewestFrames, WhatMayNotBeMissedOfAFrameThatIsOvertakenGoesIntoTheNext) {
+  NewestFrames inbox;
+  for (const std::uint64_t k : {0u, 1u, 2u}) {
+    const Bytes datagram = datagram_of({.type = Type::kFrame, .sequence = k}, frame_with_made_up(k));
+    inbox.take(std::get<Datagram>(read_datagram(datagram)));
+  }
+  Bytes bytes;
+  ASSERT_EQ(inbox.next(bytes), 2u);
+  host::FrameReader reader;
+  const hw_frame_t& frame = reader.read(bytes);
+  EXPECT_EQ(frame.sequence, 2u);
+  ASSERT_EQ(frame.n_samples, 4u) << "its points, and three made-up samples";
+  for (std::uint32_t i = 1; i < 4; ++i) EXPECT_EQ(frame.samples[i]->sequence, i - 1);
+  EXPECT_EQ(inbox.counters().skipped, 2u);
 }
 
 TEST(NewestFrames, CountsLossLatenessAndDuplicates) {
