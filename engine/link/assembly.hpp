@@ -26,6 +26,7 @@ class Assembly {
   bool complete() const { return begun_ && present_ == begin_.size(); }
   std::uint64_t sequence() const { return header_.sequence; }
   std::uint32_t session() const { return header_.session; }
+  std::uint8_t version() const { return header_.version; }
   std::uint16_t fragments() const { return header_.fragments; }
   bool has(std::size_t fragment) const { return begin_[fragment] != kAbsent; }
 

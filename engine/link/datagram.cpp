@@ -17,7 +17,7 @@ constexpr std::array<char, 4> kMagic{'H', 'W', 'U', 'D'};
 /// The head as it stands in a datagram.
 struct Head {
   std::array<char, 4> magic = kMagic;
-  std::uint8_t version = kProtocolVersion;
+  std::uint8_t version = kFirstVersion;
   std::uint8_t type = 0;
   std::uint16_t flags = 0;
   std::uint32_t session = 0;
@@ -68,6 +68,7 @@ void write_datagram(const Header& header, std::span<const std::byte> payload, By
     throw Error(ErrorCode::kInternal, "a payload that is too long for a datagram");
   }
   Head head;
+  head.version = header.version;
   head.type = static_cast<std::uint8_t>(header.type);
   head.flags = header.flags;
   head.session = header.session;
@@ -86,7 +87,7 @@ std::variant<Datagram, Refusal> read_datagram(std::span<const std::byte> bytes) 
   if (bytes.size() < sizeof(Head) || bytes.size() > kMaxDatagramBytes) return Refusal::kSize;
   const auto head = load<Head>(bytes.data());
   if (head.magic != kMagic) return Refusal::kMagic;
-  if (head.version != kProtocolVersion) return Refusal::kVersion;
+  if (head.version < kFirstVersion || head.version > kNewestVersion) return Refusal::kVersion;
   const auto payload = bytes.subspan(sizeof head);
   if (head.payload != payload.size()) return Refusal::kSize;
   if (head.checksum != checksum_of(head, payload)) return Refusal::kChecksum;
@@ -96,7 +97,8 @@ std::variant<Datagram, Refusal> read_datagram(std::span<const std::byte> bytes) 
                    .session = head.session,
                    .sequence = head.sequence,
                    .fragment = head.fragment,
-                   .fragments = head.fragments},
+                   .fragments = head.fragments,
+                   .version = head.version},
                   payload};
 }
 

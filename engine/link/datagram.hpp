@@ -12,8 +12,8 @@ namespace hallway::link {
 // Every datagram begins with the same 32 bytes, little-endian (docs/formats.md):
 //
 //     0   "HWUD"
-//     4   u8 version of the protocol (1), u8 type
-//     6   u16 flags: 1 a reply is wanted, 2 the host is ready for frames
+//     4   u8 version of the protocol (1 or 2), u8 type
+//     6   u16 flags: 1 a reply is wanted, 2 the host is ready for frames, 4 the host offers version 2
 //     8   u32 session
 //     12  u32 CRC-32 (that of zlib) of the whole datagram with these four bytes 0
 //     16  u64 sequence
@@ -22,7 +22,10 @@ namespace hallway::link {
 
 using Bytes = std::vector<std::byte>;
 
-inline constexpr std::uint8_t kProtocolVersion = 1;
+/// The versions of the protocol. A hello always has the first one, so that every robot reads it; all other datagrams of a session have the version of the
+/// robot's description, which is above the first only where the hello offers it.
+inline constexpr std::uint8_t kFirstVersion = 1;
+inline constexpr std::uint8_t kNewestVersion = 2;
 inline constexpr std::size_t kHeaderBytes = 32;
 inline constexpr std::size_t kMaxDatagramBytes = 1400;
 /// What every fragment but the last of a message holds.
@@ -47,6 +50,8 @@ enum class Type : std::uint8_t {
 inline constexpr std::uint16_t kReplyWanted = 1;
 /// Flag of a hello: frames may come from now on.
 inline constexpr std::uint16_t kReady = 2;
+/// Flag of a hello: the host speaks version 2 too.
+inline constexpr std::uint16_t kOffersVersion2 = 4;
 
 /// What stands in a datagram's head.
 struct Header {
@@ -56,6 +61,7 @@ struct Header {
   std::uint64_t sequence = 0;
   std::uint16_t fragment = 0;
   std::uint16_t fragments = 1;
+  std::uint8_t version = kFirstVersion;
 
   bool wants_reply() const { return (flags & kReplyWanted) != 0; }
 };
@@ -70,7 +76,7 @@ struct Datagram {
 enum class Refusal {
   kSize,      ///< too short, too long, or not as long as it says
   kMagic,     ///< not of this protocol
-  kVersion,   ///< of another version of it
+  kVersion,   ///< of a version of it that is not known
   kChecksum,  ///< damaged
   kContent,   ///< whole, and what it says makes no sense
 };

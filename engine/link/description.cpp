@@ -16,24 +16,51 @@ namespace {
 
 constexpr std::uint32_t kLockStep = 1;
 
-struct RobotBytes {
-  std::uint32_t flags = 0;
-  std::uint32_t sensors = 0;
-  std::int64_t period_ns = 0;
+/// What stands in a description of version 1.
+struct Version1 {
+  struct Robot {
+    std::uint32_t flags = 0;
+    std::uint32_t sensors = 0;
+    std::int64_t period_ns = 0;
+  };
+  struct Sensor {
+    std::uint32_t id = 0;
+    std::uint32_t kind = 0;
+    hw_pose_t T_body_sensor{};
+    double horizontal_fov = 0;
+    double vertical_fov = 0;
+    double min_range_m = 0;
+    double max_range_m = 0;
+    double noise_m[3]{};
+  };
+  static constexpr bool kSized = false;
 };
-static_assert(sizeof(RobotBytes) == 16);
+static_assert(sizeof(Version1::Robot) == 16 && sizeof(Version1::Sensor) == 120);
 
-struct SensorBytes {
-  std::uint32_t id = 0;
-  std::uint32_t kind = 0;
-  hw_pose_t T_body_sensor{};
-  double horizontal_fov = 0;
-  double vertical_fov = 0;
-  double min_range_m = 0;
-  double max_range_m = 0;
-  double noise_m[3]{};
+/// And of version 2: each struct begins with its own size, a multiple of 8, and may grow at its end.
+struct Version2 {
+  struct Robot {
+    std::uint32_t size = sizeof(Robot);
+    std::uint32_t flags = 0;
+    std::uint32_t sensors = 0;
+    std::uint32_t reserved = 0;
+    std::int64_t period_ns = 0;
+  };
+  struct Sensor {
+    std::uint32_t size = sizeof(Sensor);
+    std::uint32_t id = 0;
+    std::uint32_t kind = 0;
+    std::uint32_t reserved = 0;
+    hw_pose_t T_body_sensor{};
+    double horizontal_fov = 0;
+    double vertical_fov = 0;
+    double min_range_m = 0;
+    double max_range_m = 0;
+    double noise_m[3]{};
+  };
+  static constexpr bool kSized = true;
 };
-static_assert(sizeof(SensorBytes) == 120);
+static_assert(sizeof(Version2::Robot) == 24 && sizeof(Version2::Sensor) == 128);
 
 [[noreturn]] void bad(const std::string& cause) {
   throw Error(ErrorCode::kBadInput, cause, {.element = "description of the robot"});
@@ -63,9 +90,23 @@ void check(const Description& description) {
   }
 }
 
+/// Takes a struct that may be larger than `T`, where it says how large it is.
+template <typename T, bool kSized>
+T take_struct(AlignedByteReader& reader) {
+  if constexpr (kSized) {
+    AlignedByteReader ahead = reader;
+    const auto size = ahead.get<std::uint32_t>();
+    if (size < sizeof(T) || size % 8 != 0) bad(fmt::format("a size of {} bytes", size));
+    return load<T>(reader.take_raw(size).data());
+  } else {
+    return reader.get<T>();
+  }
+}
+
+template <typename Version>
 Description read_parts(std::span<const std::byte> message) {
   AlignedByteReader reader(message);
-  const auto robot = reader.get<RobotBytes>();
+  const auto robot = take_struct<typename Version::Robot, Version::kSized>(reader);
   Description description;
   description.lock_step = (robot.flags & kLockStep) != 0;
   description.period_ns = robot.period_ns;
@@ -73,37 +114,49 @@ Description read_parts(std::span<const std::byte> message) {
   if (robot.sensors > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
   for (std::uint32_t i = 0; i < robot.sensors; ++i) {
     host::SensorInfo& sensor = description.sensors.emplace_back();
-    host::copy_sensor_facts(reader.get<SensorBytes>(), sensor);
+    host::copy_sensor_facts(take_struct<typename Version::Sensor, Version::kSized>(reader), sensor);
     sensor.name = reader.get_text();
   }
   reader.expect_end();
   return description;
 }
 
-}  // namespace
-
-Bytes write_description(const Description& description) {
-  check(description);
-  Bytes message(kMaxDescriptionFragments * kFragmentBytes);
-  AlignedByteWriter writer(message);
-  writer.put(RobotBytes{.flags = description.lock_step ? kLockStep : 0,
-                        .sensors = static_cast<std::uint32_t>(description.sensors.size()),
-                        .period_ns = description.period_ns});
+template <typename Version>
+void put_parts(const Description& description, AlignedByteWriter& writer) {
+  typename Version::Robot robot;
+  robot.flags = description.lock_step ? kLockStep : 0;
+  robot.sensors = static_cast<std::uint32_t>(description.sensors.size());
+  robot.period_ns = description.period_ns;
+  writer.put(robot);
   writer.put_text(description.name);
   for (const host::SensorInfo& sensor : description.sensors) {
-    SensorBytes bytes;
+    typename Version::Sensor bytes;
     host::copy_sensor_facts(sensor, bytes);
     writer.put(bytes);
     writer.put_text(sensor.name);
+  }
+}
+
+}  // namespace
+
+Bytes write_description(const Description& description, std::uint8_t version) {
+  check(description);
+  Bytes message(kMaxDescriptionFragments * kFragmentBytes);
+  AlignedByteWriter writer(message);
+  if (version == kFirstVersion) {
+    put_parts<Version1>(description, writer);
+  } else {
+    put_parts<Version2>(description, writer);
   }
   if (!writer.fits()) bad(fmt::format("it has more than {} bytes", message.size()));
   message.resize(writer.size());
   return message;
 }
 
-Description read_description(std::span<const std::byte> message) {
+Description read_description(std::span<const std::byte> message, std::uint8_t version) {
   try {
-    Description description = read_parts(message);
+    Description description =
+        version == kFirstVersion ? read_parts<Version1>(message) : read_parts<Version2>(message);
     check(description);
     return description;
   } catch (const BadBytes& fault) {

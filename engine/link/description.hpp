@@ -23,11 +23,11 @@ struct Description {
   std::vector<host::SensorInfo> sensors;
 };
 
-/// The message that says it. Throws Error{kBadInput} for what read_description() would refuse.
-Bytes write_description(const Description& description);
+/// The message that says it, in a version of the protocol. Throws Error{kBadInput} for what read_description() would refuse.
+Bytes write_description(const Description& description, std::uint8_t version);
 
-/// Reads it. Throws Error{kBadInput}: less or more than it says, more than kMaxSensors sensors, ids that stand twice, names that are too long or
+/// Reads it. From version 2 on its structs may be larger than these; what is not known is passed over. Throws Error{kBadInput}: less or more than it says, more than kMaxSensors sensors, ids that stand twice, names that are too long or
 /// no plain UTF-8, a mount that is no pose, a period below 0.
-Description read_description(std::span<const std::byte> message);
+Description read_description(std::span<const std::byte> message, std::uint8_t version);
 
 }  // namespace hallway::link

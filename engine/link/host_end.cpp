@@ -25,8 +25,11 @@ constexpr int kByes = 6;
 
 }  // namespace
 
-HostEnd::HostEnd(Wire& wire, const Address& robot, std::uint64_t nonce, milliseconds give_up)
-    : wire_(wire), session_(wire, robot, nonce, give_up, Clock::now()), thread_([this] { listen(); }) {}
+HostEnd::HostEnd(Wire& wire, const Address& robot, std::uint64_t nonce, milliseconds give_up,
+                 std::uint8_t newest)
+    : wire_(wire),
+      session_(wire, robot, nonce, give_up, Clock::now(), newest),
+      thread_([this] { listen(); }) {}
 
 HostEnd::~HostEnd() {
   {
@@ -124,6 +127,11 @@ void HostEnd::leave() {
     session_.say_bye(Clock::now());
     news_.wait_for(lock, kByeWait, over);
   }
+}
+
+std::uint8_t HostEnd::version() const {
+  const std::lock_guard lock(mutex_);
+  return session_.version();
 }
 
 HostCounters HostEnd::counters() const {

@@ -18,7 +18,8 @@ namespace hallway::link {
 class HostEnd {
  public:
   /// Says hello. Keeps a reference to `wire`; parameters as of HostSession.
-  HostEnd(Wire& wire, const Address& robot, std::uint64_t nonce, std::chrono::milliseconds give_up);
+  HostEnd(Wire& wire, const Address& robot, std::uint64_t nonce, std::chrono::milliseconds give_up,
+          std::uint8_t newest = kNewestVersion);
   /// Without a word to the robot.
   ~HostEnd();
   HostEnd(const HostEnd&) = delete;
@@ -42,6 +43,8 @@ class HostEnd {
   void leave();
 
   HostCounters counters() const;
+  /// The version of the protocol that the session has; only after describe().
+  std::uint8_t version() const;
   /// Frames that came whole and were none.
   std::uint64_t bad_frames() const { return bad_frames_; }
 

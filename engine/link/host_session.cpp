@@ -20,8 +20,8 @@ constexpr milliseconds kAliveEvery{1000};
 }  // namespace
 
 HostSession::HostSession(Wire& wire, const Address& robot, std::uint64_t nonce, milliseconds give_up,
-                         Clock::time_point now)
-    : wire_(wire), robot_(robot), nonce_(nonce), give_up_(give_up), heard_(now), sent_(now) {
+                         Clock::time_point now, std::uint8_t newest)
+    : wire_(wire), robot_(robot), nonce_(nonce), give_up_(give_up), heard_(now), sent_(now), newest_(newest) {
   say_hello(now);
 }
 
@@ -38,6 +38,10 @@ bool HostSession::take(std::span<const std::byte> bytes, const Address& from, Cl
   }
   const auto& datagram = std::get<Datagram>(read);
   const Type type = datagram.header.type;
+  if (!has_version(datagram.header)) {
+    ++counters_.other_version;
+    return false;
+  }
   if (type == Type::kDescription && datagram.header.sequence != nonce_) {
     ++counters_.foreign;
     return false;
@@ -52,6 +56,12 @@ bool HostSession::take(std::span<const std::byte> bytes, const Address& from, Cl
   return false;
 }
 
+/// A description chooses among what the hello offers, also that of a robot that was started anew.
+bool HostSession::has_version(const Header& header) {
+  const bool chosen = description_ && header.type != Type::kDescription;
+  return chosen ? header.version == version_ : header.version <= newest_;
+}
+
 bool HostSession::of_this_session(const Header& header) {
   if (description_ && header.session == session_) return true;
   ++counters_.foreign;
@@ -64,15 +74,17 @@ bool HostSession::take_description(const Datagram& datagram) {
     fault_ = "the robot was started anew: its frames count from 0 again";
     return true;
   }
-  if (!description_parts_.begun() || description_parts_.session() != datagram.header.session) {
+  if (!description_parts_.begun() || description_parts_.session() != datagram.header.session ||
+      description_parts_.version() != datagram.header.version) {
     description_parts_.begin(datagram.header);
   }
   if (description_parts_.add(datagram) == Assembly::Added::kMisfit) ++counters_.malformed;
   if (!description_parts_.complete()) return false;
   session_ = description_parts_.session();
+  version_ = description_parts_.version();
   description_parts_.take(payload_);
   try {
-    description_ = read_description(payload_);
+    description_ = read_description(payload_, version_);
   } catch (const Error& error) {
     fault_ = error.what();
     return true;
@@ -140,12 +152,14 @@ void HostSession::say_bye(Clock::time_point now) {
 }
 
 void HostSession::say_hello(Clock::time_point now) {
-  const auto flags = static_cast<std::uint16_t>(ready_ ? kReady : 0);
+  const int offer = newest_ > kFirstVersion ? kOffersVersion2 : 0;
+  const auto flags = static_cast<std::uint16_t>(offer | (ready_ ? kReady : 0));
   send({.type = Type::kHello, .flags = flags, .sequence = nonce_}, {}, now);
 }
 
 void HostSession::send(Header header, std::span<const std::byte> payload, Clock::time_point now) {
   header.session = session_;
+  header.version = header.type == Type::kHello ? kFirstVersion : version_;
   write_datagram(header, payload, datagram_);
   wire_.send(datagram_, robot_);
   sent_ = now;

@@ -23,7 +23,7 @@ struct HostCounters {
   FrameCounters frames{};
   std::uint64_t datagrams = 0;      ///< that came, of every kind
   std::uint64_t malformed = 0;      ///< damaged, of a wrong length, or without sense
-  std::uint64_t other_version = 0;  ///< of another version of the protocol
+  std::uint64_t other_version = 0;  ///< of a version of the protocol that the session does not have
   std::uint64_t foreign = 0;        ///< from another address, or of another session
 };
 
@@ -34,8 +34,9 @@ class HostSession {
   /// Says hello. Keeps a reference to `wire`.
   /// @param nonce    names this host program; another one for each start of it
   /// @param give_up  for how long the robot may be silent; 0: for ever
+  /// @param newest   the newest version of the protocol that the hello offers
   HostSession(Wire& wire, const Address& robot, std::uint64_t nonce, std::chrono::milliseconds give_up,
-              Clock::time_point now);
+              Clock::time_point now, std::uint8_t newest = kNewestVersion);
 
   /// Takes bytes that have come. @return whether there is news: a description, a frame, an end or a fault
   bool take(std::span<const std::byte> bytes, const Address& from, Clock::time_point now);
@@ -44,6 +45,8 @@ class HostSession {
 
   /// What the robot said of itself.
   const std::optional<Description>& description() const { return description_; }
+  /// The version of the protocol that this session has. Only once the robot is described.
+  std::uint8_t version() const { return version_; }
   /// Tells the robot that frames may come. Only once it is described.
   void want_frames(Clock::time_point now);
   /// Moves the next frame into `frame`. @return its sequence number; empty if there is none
@@ -66,6 +69,7 @@ class HostSession {
   void say_hello(Clock::time_point now);
   void send(Header header, std::span<const std::byte> payload, Clock::time_point now);
   bool of_this_session(const Header& header);
+  bool has_version(const Header& header);
 
   Wire& wire_;
   Address robot_;
@@ -75,6 +79,8 @@ class HostSession {
   Clock::time_point sent_;   ///< to it, last
   bool ready_ = false;
   std::uint32_t session_ = 0;
+  std::uint8_t newest_;
+  std::uint8_t version_ = kFirstVersion;  ///< of the session, once the robot is described
   Assembly description_parts_;
   std::optional<Description> description_;
   std::unique_ptr<FrameInbox> inbox_;

@@ -50,7 +50,10 @@ void write_answer(const Answer& answer, Bytes& payload) {
 }
 
 std::optional<Answer> read_answer(const Datagram& datagram) {
-  if (datagram.payload.size() != sizeof(AnswerBytes)) return std::nullopt;
+  const std::size_t size = datagram.payload.size();
+  if (datagram.header.version == kFirstVersion ? size != sizeof(AnswerBytes) : size < sizeof(AnswerBytes)) {
+    return std::nullopt;
+  }
   const auto bytes = load<AnswerBytes>(datagram.payload.data());
   const bool sound = bytes.status <= HW_ANSWER_END && std::isfinite(bytes.linear_m_s) &&
                      std::isfinite(bytes.angular_rad_s) && is_pose(bytes.position, bytes.orientation);

@@ -24,7 +24,8 @@ struct Answer {
 
 /// Payload of an answer, 104 bytes. The frame's sequence stands in the header.
 void write_answer(const Answer& answer, Bytes& payload);
-/// Reads it; empty if it is not as long as it must be, has an unknown status, or numbers that are not finite or no rotation.
+/// Reads it; empty if it is not as long as it must be, has an unknown status, or numbers that are not finite or no rotation. From version 2 on it may be
+/// longer, with members that are not known here.
 std::optional<Answer> read_answer(const Datagram& datagram);
 
 /// Payload of kMissing: u16 how many fragments the frame has, then one bit for each, the lowest of the first byte for the first: 1 is

@@ -31,8 +31,13 @@ constexpr int kByesForAnAnswer = 3;
 
 }  // namespace
 
-RobotEnd::RobotEnd(Wire& wire, const Description& description, std::uint32_t session, milliseconds give_up)
-    : wire_(wire), description_(write_description(description)), session_(session), give_up_(give_up) {}
+RobotEnd::RobotEnd(Wire& wire, const Description& description, std::uint32_t session, milliseconds give_up,
+                   std::uint8_t newest)
+    : wire_(wire), session_(session), newest_(newest), give_up_(give_up) {
+  for (std::uint8_t version = kFirstVersion; version <= kNewestVersion; ++version) {
+    descriptions_[version - kFirstVersion] = write_description(description, version);
+  }
+}
 
 bool RobotEnd::wait(Clock::time_point deadline) {
   std::array<std::byte, kMaxDatagramBytes + 1> room{};
@@ -47,14 +52,18 @@ bool RobotEnd::wait(Clock::time_point deadline) {
 void RobotEnd::take(std::span<const std::byte> bytes, const Address& from) {
   const auto read = read_datagram(bytes);
   const auto* datagram = std::get_if<Datagram>(&read);
+  const bool hello = datagram != nullptr && datagram->header.type == Type::kHello;
+  const bool sound = datagram != nullptr && (!hello || datagram->header.version == kFirstVersion);
   if (host_ && from != *host_) {
     ++counters_.foreign;
-  } else if (datagram == nullptr) {
+  } else if (!sound) {
     ++counters_.malformed;
-  } else if (datagram->header.type == Type::kHello) {
+  } else if (hello) {
     take_hello(datagram->header, from);
   } else if (!host_ || datagram->header.session != session_) {
     ++counters_.foreign;
+  } else if (datagram->header.version != version_) {
+    ++counters_.malformed;
   } else {
     heard_ = Clock::now();
     take_from_host(*datagram);
@@ -65,6 +74,7 @@ void RobotEnd::take_hello(const Header& header, const Address& from) {
   if (!host_) {
     host_ = from;
     nonce_ = header.sequence;
+    version_ = (header.flags & kOffersVersion2) != 0 ? newest_ : kFirstVersion;
   }
   heard_ = Clock::now();
   if (header.sequence != nonce_) {
@@ -76,16 +86,23 @@ void RobotEnd::take_hello(const Header& header, const Address& from) {
 }
 
 void RobotEnd::describe() {
-  const std::size_t fragments = fragments_of(description_.size());
+  const Bytes& description = descriptions_[version_ - kFirstVersion];
+  const std::size_t fragments = fragments_of(description.size());
   for (std::size_t i = 0; i < fragments; ++i) {
-    write_datagram({.type = Type::kDescription,
-                    .session = session_,
-                    .sequence = nonce_,
-                    .fragment = static_cast<std::uint16_t>(i),
-                    .fragments = static_cast<std::uint16_t>(fragments)},
-                   fragment_of(description_, i), datagram_);
-    wire_.send(datagram_, *host_);
+    put({.type = Type::kDescription,
+         .sequence = nonce_,
+         .fragment = static_cast<std::uint16_t>(i),
+         .fragments = static_cast<std::uint16_t>(fragments)},
+        fragment_of(description, i));
   }
+}
+
+/// Sends a datagram of this session.
+void RobotEnd::put(Header header, std::span<const std::byte> payload) {
+  header.session = session_;
+  header.version = version_;
+  write_datagram(header, payload, datagram_);
+  wire_.send(datagram_, *host_);
 }
 
 void RobotEnd::take_from_host(const Datagram& datagram) {
@@ -106,8 +123,7 @@ void RobotEnd::take_from_host(const Datagram& datagram) {
     if (delivering_ && ++byes_ < kByesForAnAnswer) return;
     over_ = bye_heard_ = true;
     if (!header.wants_reply()) return;
-    write_datagram({.type = Type::kBye, .session = session_}, {}, datagram_);
-    wire_.send(datagram_, *host_);
+    put({.type = Type::kBye}, {});
   } else {
     ++counters_.malformed;  // a robot's own kind
   }
@@ -158,14 +174,12 @@ void RobotEnd::begin(std::uint64_t sequence, std::span<const std::byte> frame) {
 }
 
 void RobotEnd::send_fragment(std::span<const std::byte> frame, std::size_t fragment, std::uint16_t flags) {
-  write_datagram({.type = Type::kFrame,
-                  .flags = flags,
-                  .session = session_,
-                  .sequence = delivery_.sequence,
-                  .fragment = static_cast<std::uint16_t>(fragment),
-                  .fragments = static_cast<std::uint16_t>(delivery_.missing.size())},
-                 fragment_of(frame, fragment), datagram_);
-  wire_.send(datagram_, *host_);
+  put({.type = Type::kFrame,
+       .flags = flags,
+       .sequence = delivery_.sequence,
+       .fragment = static_cast<std::uint16_t>(fragment),
+       .fragments = static_cast<std::uint16_t>(delivery_.missing.size())},
+      fragment_of(frame, fragment));
   ++(sent_once_[fragment] ? counters_.resent : counters_.datagrams);
   sent_once_[fragment] = true;
 }
@@ -221,8 +235,7 @@ void RobotEnd::leave() {
   milliseconds retry = kFirstRetry;
   const Clock::time_point end = Clock::now() + kByeTime;
   while (host_ && !gave_up_ && !bye_heard_ && Clock::now() < end) {
-    write_datagram({.type = Type::kBye, .flags = kReplyWanted, .session = session_}, {}, datagram_);
-    wire_.send(datagram_, *host_);
+    put({.type = Type::kBye, .flags = kReplyWanted}, {});
     const Clock::time_point due = std::min(end, Clock::now() + retry);
     while (!bye_heard_ && !gave_up_ && Clock::now() < due) wait(due);
     retry = std::min(2 * retry, kLastRetry);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -43,8 +44,9 @@ class RobotEnd {
   /// Keeps a reference to `wire`. Throws Error{kBadInput} for a description that cannot be sent.
   /// @param session  names the session; another one for each start of the robot
   /// @param give_up  for how long a host may be silent; 0: for ever
+  /// @param newest   the newest version of the protocol that it speaks; a host gets that if it offers it, else the first
   RobotEnd(Wire& wire, const Description& description, std::uint32_t session,
-           std::chrono::milliseconds give_up);
+           std::chrono::milliseconds give_up, std::uint8_t newest = kNewestVersion);
 
   /// Takes what comes until `deadline`, or until a signal, but not longer than one datagram. @return whether one came
   bool wait(Clock::time_point deadline);
@@ -55,6 +57,8 @@ class RobotEnd {
   bool gave_up() const { return gave_up_; }
   /// The host of the session.
   const std::optional<Address>& host() const { return host_; }
+  /// The version of the protocol that it gets.
+  std::uint8_t version() const { return version_; }
 
   /// Real time: sends a frame once. Takes what comes meanwhile.
   /// @param frame  its bytes; Error{kBadInput} if they are more than a frame may have
@@ -84,14 +88,17 @@ class RobotEnd {
   void take_from_host(const Datagram& datagram);
   void take_answer(const Datagram& datagram);
   void describe();
+  void put(Header header, std::span<const std::byte> payload);
   void send_fragment(std::span<const std::byte> frame, std::size_t fragment, std::uint16_t flags);
   std::size_t send_missing(std::span<const std::byte> frame);
   void note_sent(std::uint64_t sequence);
   void begin(std::uint64_t sequence, std::span<const std::byte> frame);
 
   Wire& wire_;
-  Bytes description_;
+  std::array<Bytes, kNewestVersion> descriptions_;  ///< by version, from the first
   std::uint32_t session_;
+  std::uint8_t newest_;
+  std::uint8_t version_ = kFirstVersion;  ///< of the session
   std::chrono::milliseconds give_up_;
   std::optional<Address> host_;
   std::uint64_t nonce_ = 0;  ///< of the host

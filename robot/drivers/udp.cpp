@@ -31,6 +31,7 @@ struct Settings {
   link_::Address robot;
   link_::Address bind;
   std::optional<bool> lock_step;
+  std::uint8_t protocol = link_::kNewestVersion;
   double loss = 0;
   std::uint64_t seed = 1;
   std::chrono::milliseconds give_up{0};
@@ -57,6 +58,15 @@ std::optional<bool> truth(const sdk::DriverSettings& settings, const char* key) 
   return text == "true";
 }
 
+std::uint8_t protocol_of(const sdk::DriverSettings& settings) {
+  const std::string text = settings.text("protocol");
+  if (text.empty()) return link_::kNewestVersion;
+  const auto value = hallway::parse_uint(text);
+  if (!value || *value < link_::kFirstVersion || *value > link_::kNewestVersion)
+    bad("protocol", text, "1 or 2");
+  return static_cast<std::uint8_t>(*value);
+}
+
 std::uint64_t seed_of(const sdk::DriverSettings& settings) {
   const std::string text = settings.text("seed", "1");
   const auto value = hallway::parse_uint(text);
@@ -65,7 +75,7 @@ std::uint64_t seed_of(const sdk::DriverSettings& settings) {
 }
 
 Settings read_settings(const sdk::DriverSettings& settings) {
-  settings.expect_only({"address", "bind", "lockstep", "loss", "seed", "give_up_s"});
+  settings.expect_only({"address", "bind", "lockstep", "protocol", "loss", "seed", "give_up_s"});
   const std::string address = settings.text("address");
   if (address.empty()) throw sdk::Failure(HW_ERROR_ARGUMENT, "the setting \"address\" is missing");
   Settings read;
@@ -75,6 +85,7 @@ Settings read_settings(const sdk::DriverSettings& settings) {
   read.bind = bind.empty() ? link_::local_address_towards(read.robot) : link_::parse_address(bind);
   if (read.bind.v6 != read.robot.v6) bad("bind", bind, "of the same kind as \"address\", IPv4 or IPv6");
   read.lock_step = truth(settings, "lockstep");
+  read.protocol = protocol_of(settings);
   read.loss = number(settings, "loss", 0, 1, "a share from 0 to 1");
   read.seed = seed_of(settings);
   read.give_up = std::chrono::milliseconds(
@@ -126,10 +137,12 @@ class RobotInfo {
 /// Numbers worth watching, in the form of the ABI.
 class Counters {
  public:
-  const hw_counters_t& fill(const link_::HostCounters& counters, std::uint64_t bad_frames) {
+  const hw_counters_t& fill(const link_::HostCounters& counters, std::uint64_t bad_frames,
+                            std::uint8_t version) {
     const link_::FrameCounters& frames = counters.frames;
     const auto as_double = [](std::uint64_t count) { return static_cast<double>(count); };
-    list_ = {{{"frames_received", as_double(frames.frames)},
+    list_ = {{{"protocol_version", as_double(version)},
+              {"frames_received", as_double(frames.frames)},
               {"frames_lost", as_double(frames.lost)},
               {"frames_incomplete", as_double(frames.incomplete)},
               {"frames_skipped", as_double(frames.skipped)},
@@ -149,7 +162,7 @@ class Counters {
   }
 
  private:
-  std::array<hw_counter_t, 12> list_{};
+  std::array<hw_counter_t, 13> list_{};
   hw_counters_t counters_{};
 };
 
@@ -173,6 +186,7 @@ class Udp final : public sdk::Driver {
         "address    IP:PORT of the robot\n"
         "bind       IP:PORT to listen to [the address that leads to the robot, any free port]\n"
         "lockstep   true or false: refuse a robot that does otherwise [as the robot says]\n"
+        "protocol   the newest version of the protocol to offer, 1 or 2 [2]\n"
         "loss       share of datagrams to drop, 0 to 1 [0]\n"
         "seed       of which datagrams are dropped [1]\n"
         "give_up_s  seconds of silence after which the robot counts as gone; 0: never [10]\n");
@@ -191,7 +205,7 @@ class Udp final : public sdk::Driver {
       if (read.loss > 0) wire = &lossy_.emplace(*socket_, read.loss, read.seed);
       std::random_device random;
       const std::uint64_t nonce = std::uint64_t{random()} << 32 | random();
-      end_.emplace(*wire, read.robot, nonce, read.give_up);
+      end_.emplace(*wire, read.robot, nonce, read.give_up, read.protocol);
     });
   }
 
@@ -221,7 +235,9 @@ class Udp final : public sdk::Driver {
     translated([&] { end_->answer(answer_of(answer)); });
   }
 
-  const hw_counters_t* counters() override { return &counters_.fill(end_->counters(), end_->bad_frames()); }
+  const hw_counters_t* counters() override {
+    return &counters_.fill(end_->counters(), end_->bad_frames(), end_->version());
+  }
 
   void close() override {
     if (end_) end_->leave();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bytes as datagrams, each behind two bytes of its length, that reach both ends of a session. Whatever they are, nothing crashes, each is counted once,
 // and what is held stays small. The first byte says whether the session is in lock-step, whether check sums are mended before a datagram is given (else few
-// would pass), and how much of the greeting is spared.
+// would pass), how much of the greeting is spared, and whether version 2 of the protocol is offered and spoken.
 #include <zlib.h>
 
 #include <algorithm>
@@ -29,6 +29,7 @@ constexpr std::uint64_t kNonce = 2;
 constexpr std::uint8_t kLockStep = 1;
 constexpr std::uint8_t kMend = 2;
 constexpr std::uint8_t kDescribed = 4;
+constexpr std::uint8_t kVersion2 = 8;
 
 /// Gives what it is told to and swallows what is sent.
 class Feed final : public Wire {
@@ -49,10 +50,14 @@ class Feed final : public Wire {
   Bytes next;
 };
 
-void mend(Bytes& datagram) {
+std::uint8_t version_of(std::uint8_t options) {
+  return (options & kVersion2) != 0 ? kNewestVersion : kFirstVersion;
+}
+
+void mend(Bytes& datagram, std::uint8_t version) {
   if (datagram.size() < kHeaderBytes) return;
   const auto payload = static_cast<std::uint16_t>(datagram.size() - kHeaderBytes);
-  const std::uint8_t version = kProtocolVersion;
+  if (datagram[5] == std::byte{1}) version = kFirstVersion;  // a hello
   std::memcpy(datagram.data(), "HWUD", 4);
   std::memcpy(datagram.data() + 4, &version, 1);
   std::memcpy(datagram.data() + 28, &payload, sizeof payload);
@@ -62,13 +67,13 @@ void mend(Bytes& datagram) {
   std::memcpy(datagram.data() + 12, &sum, sizeof sum);
 }
 
-std::vector<Bytes> split(std::span<const std::uint8_t> data, bool mended) {
+std::vector<Bytes> split(std::span<const std::uint8_t> data, std::uint8_t options) {
   std::vector<Bytes> datagrams;
   while (data.size() >= 2) {
     const std::size_t length = std::min<std::size_t>(data[0] + 256u * data[1], data.size() - 2);
     Bytes& datagram = datagrams.emplace_back(length);
     for (std::size_t i = 0; i < length; ++i) datagram[i] = std::byte{data[i + 2]};
-    if (mended) mend(datagram);
+    if ((options & kMend) != 0) mend(datagram, version_of(options));
     data = data.subspan(2 + length);
   }
   return datagrams;
@@ -77,13 +82,14 @@ std::vector<Bytes> split(std::span<const std::uint8_t> data, bool mended) {
 void check_host(const std::vector<Bytes>& datagrams, std::uint8_t options) {
   Feed wire;
   Clock::time_point now{};
-  HostSession session(wire, {}, kNonce, std::chrono::milliseconds(5000), now);
+  HostSession session(wire, {}, kNonce, std::chrono::milliseconds(5000), now, version_of(options));
   if ((options & kDescribed) != 0) {
     Description robot;
     robot.lock_step = (options & kLockStep) != 0;
     Bytes bytes;
-    write_datagram({.type = Type::kDescription, .session = kSession, .sequence = kNonce},
-                   write_description(robot), bytes);
+    const std::uint8_t version = version_of(options);
+    write_datagram({.type = Type::kDescription, .session = kSession, .sequence = kNonce, .version = version},
+                   write_description(robot, version), bytes);
     session.take(bytes, {}, now);
     session.want_frames(now);
   }
@@ -110,9 +116,9 @@ void check_host(const std::vector<Bytes>& datagrams, std::uint8_t options) {
   if (frames.incomplete > frames.lost || frames.skipped > frames.frames) std::abort();
 }
 
-void check_robot(const std::vector<Bytes>& datagrams) {
+void check_robot(const std::vector<Bytes>& datagrams, std::uint8_t options) {
   Feed wire;
-  RobotEnd robot(wire, {}, kSession, std::chrono::milliseconds(0));
+  RobotEnd robot(wire, {}, kSession, std::chrono::milliseconds(0), version_of(options));
   const Bytes frame(3 * kFragmentBytes);
   std::uint64_t sequence = 0;
   for (const Bytes& datagram : datagrams) {
@@ -130,8 +136,8 @@ void check_robot(const std::vector<Bytes>& datagrams) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const auto datagrams = split(std::span(data, size).subspan(1), (data[0] & kMend) != 0);
+  const auto datagrams = split(std::span(data, size).subspan(1), data[0]);
   check_host(datagrams, data[0]);
-  check_robot(datagrams);
+  check_robot(datagrams, data[0]);
   return 0;
 }

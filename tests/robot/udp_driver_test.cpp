@@ -165,6 +165,7 @@ TEST_F(UdpDriver, InLockStepTheFramesAreThoseOfARunAndCommandsComeBack) {
     EXPECT_EQ(robot->sensors[0]->max_range_m, 60);
     EXPECT_TRUE(drive(driver) == expected) << loss;
     EXPECT_EQ(driver.counter("frames_received"), 60);
+    EXPECT_EQ(driver.counter("protocol_version"), 2);
     EXPECT_EQ(driver.counter("frames_lost"), 0);
     driver.close();
     const Ended ended = serve.wait();
@@ -195,8 +196,9 @@ TEST_F(UdpDriver, InLockStepTheFramesAreThoseOfARunAndCommandsComeBack) {
 TEST_F(UdpDriver, ALogIsARobotToo) {
   Serve serve(run_file("run.mcap"), {"--lockstep", "--steps", "25"});
   Driver driver(DRIVER);
-  ASSERT_EQ(driver.open({{"address", serve.address()}}), HW_OK) << driver.message();
+  ASSERT_EQ(driver.open({{"address", serve.address()}, {"protocol", "1"}}), HW_OK) << driver.message();
   ASSERT_NE(driver.describe(), nullptr) << driver.message();
+  EXPECT_EQ(driver.counter("protocol_version"), 1) << "all that this host offers";
   std::vector<std::string> expected = frames_of(run_file("run.mcap"));
   expected.resize(25);
   EXPECT_TRUE(drive(driver) == expected);
@@ -295,6 +297,8 @@ TEST(UdpDriverSettings, WhatIsWrongIsSaid) {
       {{address, {"loss", "1.5"}}, "from 0 to 1"},
       {{address, {"loss", "nan"}}, "from 0 to 1"},
       {{address, {"seed", "-1"}}, "whole number"},
+      {{address, {"protocol", "3"}}, "1 or 2"},
+      {{address, {"protocol", "two"}}, "1 or 2"},
       {{address, {"give_up_s", "-1"}}, "seconds"},
   };
   for (const auto& [settings, part] : cases) {
@@ -328,6 +332,7 @@ TEST(UdpBase, SpeaksTheProtocolInPlainC) {
   const hw_frame_t* frame = nullptr;
   ASSERT_EQ(driver.read(30 * kSecond, &frame), unsigned{HW_READ_FRAME});
   ASSERT_EQ(frame->n_samples, 1u);
+  EXPECT_EQ(driver.counter("protocol_version"), 1);
   const auto& points = *static_cast<const hw_points_t*>(frame->samples[0]->payload);
   ASSERT_EQ(points.count, 2u);
   EXPECT_EQ(hw_point_at(&points, 1)->y, -1.0);

@@ -80,7 +80,7 @@ TEST(Datagram, EveryFlippedBitIsRefused) {
     EXPECT_TRUE(std::holds_alternative<Refusal>(read_datagram(flipped))) << bit;
   }
   Bytes other = bytes;
-  other[4] = std::byte{2};
+  other[4] = std::byte{3};
   EXPECT_EQ(refusal_of(other), Refusal::kVersion);
   other[0] = std::byte{0};
   EXPECT_EQ(refusal_of(other), Refusal::kMagic);

@@ -35,7 +35,8 @@ class Session : public testing::Test {
     return give(datagram_of(header, payload));
   }
   bool describe(bool lock_step) {
-    return give({.type = Type::kDescription, .sequence = kNonce}, write_description(description(lock_step)));
+    return give({.type = Type::kDescription, .sequence = kNonce},
+                write_description(description(lock_step), kFirstVersion));
   }
   bool frame(std::uint64_t sequence, std::uint16_t flags = 0) {
     return give({.type = Type::kFrame, .flags = flags, .sequence = sequence},
@@ -57,7 +58,8 @@ TEST_F(Session, SaysHelloUntilTheRobotIsDescribed) {
   EXPECT_EQ(wire_.sent.size(), 1u);
   EXPECT_EQ(last_sent().type, Type::kHello);
   EXPECT_EQ(last_sent().sequence, kNonce);
-  EXPECT_EQ(last_sent().flags, 0);
+  EXPECT_EQ(last_sent().flags, kOffersVersion2);
+  EXPECT_EQ(last_sent().version, kFirstVersion) << "every robot reads it";
   pass(milliseconds{50});
   EXPECT_EQ(wire_.sent.size(), 1u);
   pass(milliseconds{60});
@@ -67,7 +69,7 @@ TEST_F(Session, SaysHelloUntilTheRobotIsDescribed) {
   EXPECT_EQ(session_.description()->name, "office");
   EXPECT_FALSE(describe(true)) << "no news";
   session_.want_frames(now_);
-  EXPECT_EQ(last_sent().flags, kReady);
+  EXPECT_EQ(last_sent().flags, kReady | kOffersVersion2);
   EXPECT_EQ(last_sent().session, kSession);
   // Until a frame comes, as the robot may not have heard it.
   const std::size_t before = wire_.sent.size();
@@ -105,15 +107,76 @@ TEST_F(Session, TellsOfAnotherVersionOfTheProtocol) {
   EXPECT_NE(session_.fault().find("another version"), std::string::npos) << session_.fault();
 }
 
+TEST_F(Session, ARobotOfTheFirstVersionGetsTheFirstVersion) {
+  EXPECT_TRUE(describe(true));
+  EXPECT_EQ(session_.version(), kFirstVersion);
+  frame(0, kReplyWanted);
+  EXPECT_EQ(last_sent().type, Type::kMissing);
+  EXPECT_EQ(last_sent().version, kFirstVersion);
+  session_.answer({.sequence = 0}, now_);
+  EXPECT_EQ(last_sent().version, kFirstVersion);
+  EXPECT_FALSE(give({.type = Type::kBye, .version = kNewestVersion}));
+  EXPECT_FALSE(session_.ended());
+  EXPECT_EQ(session_.counters().other_version, 1u);
+}
+
+TEST_F(Session, ARobotThatTakesTheOfferGetsVersion2) {
+  EXPECT_TRUE(give({.type = Type::kDescription, .sequence = kNonce, .version = kNewestVersion},
+                   write_description(description(true), kNewestVersion)));
+  ASSERT_TRUE(session_.description());
+  EXPECT_EQ(session_.description()->sensors.at(0).name, "eyes");
+  EXPECT_EQ(session_.version(), kNewestVersion);
+  EXPECT_FALSE(frame(0)) << "of the first version";
+  EXPECT_EQ(session_.counters().other_version, 1u);
+  give({.type = Type::kFrame, .flags = kReplyWanted, .sequence = 0, .version = kNewestVersion},
+       frame_of(0, 2, 0));
+  EXPECT_EQ(last_sent().type, Type::kMissing);
+  EXPECT_EQ(last_sent().version, kNewestVersion);
+  pass(milliseconds{1100});
+  EXPECT_EQ(last_sent().type, Type::kHello);
+  EXPECT_EQ(last_sent().version, kFirstVersion) << "a hello has the first version in every session";
+}
+
+TEST_F(Session, ThePartsOfADescriptionAreOfOneVersion) {
+  Description robot = description(false);
+  robot.sensors.assign(20, robot.sensors.front());
+  for (std::size_t i = 0; i < 20; ++i) robot.sensors[i].id = static_cast<std::uint32_t>(i);
+  const auto parts = [&](std::uint8_t version) {
+    return datagrams_of(
+        {.type = Type::kDescription, .session = kSession, .sequence = kNonce, .version = version},
+        write_description(robot, version));
+  };
+  const auto first = parts(kFirstVersion);
+  const auto newest = parts(kNewestVersion);
+  ASSERT_EQ(first.size(), newest.size());
+  give(first[0]);
+  for (std::size_t i = 1; i < newest.size(); ++i) EXPECT_FALSE(give(newest[i]));
+  EXPECT_TRUE(give(newest[0]));
+  EXPECT_EQ(session_.version(), kNewestVersion);
+  EXPECT_EQ(session_.fault(), "");
+}
+
+TEST_F(Session, AVersionThatWasNotOfferedIsRefused) {
+  HostSession first(wire_, robot_, kNonce, milliseconds{5000}, now_, kFirstVersion);
+  EXPECT_EQ(last_sent().flags, 0);
+  EXPECT_FALSE(first.take(
+      datagram_of(
+          {.type = Type::kDescription, .session = kSession, .sequence = kNonce, .version = kNewestVersion},
+          write_description(description(true), kNewestVersion)),
+      robot_, now_));
+  EXPECT_FALSE(first.description());
+  EXPECT_EQ(first.counters().other_version, 1u);
+}
+
 TEST_F(Session, HearsOnlyThePeerOfTheSession) {
   Address other = robot_;
   other.port = 7001;
   const Bytes description = datagram_of({.type = Type::kDescription, .session = kSession, .sequence = kNonce},
-                                        write_description(link::description(false)));
+                                        write_description(link::description(false), kFirstVersion));
   EXPECT_FALSE(session_.take(description, other, now_));
   EXPECT_FALSE(session_.description());
   EXPECT_FALSE(give({.type = Type::kDescription, .sequence = kNonce + 1},
-                    write_description(link::description(false))));
+                    write_description(link::description(false), kFirstVersion)));
   EXPECT_FALSE(frame(0)) << "before it is described";
   EXPECT_EQ(session_.counters().foreign, 3u);
   EXPECT_TRUE(give(description));
@@ -127,7 +190,15 @@ TEST_F(Session, ARobotThatWasStartedAnewIsAFault) {
   describe(true);
   EXPECT_TRUE(frame(0));
   EXPECT_TRUE(give(datagram_of({.type = Type::kDescription, .session = kSession + 1, .sequence = kNonce},
-                               write_description(description(true)))));
+                               write_description(description(true), kFirstVersion))));
+  EXPECT_NE(session_.fault().find("started anew"), std::string::npos) << session_.fault();
+}
+
+TEST_F(Session, ARobotThatWasStartedAnewMaySpeakAnotherVersion) {
+  describe(true);
+  EXPECT_TRUE(give(datagram_of(
+      {.type = Type::kDescription, .session = kSession + 1, .sequence = kNonce, .version = kNewestVersion},
+      write_description(description(true), kNewestVersion))));
   EXPECT_NE(session_.fault().find("started anew"), std::string::npos) << session_.fault();
 }
 
@@ -187,7 +258,7 @@ TEST_F(Session, ADescriptionOfManyDatagramsIsPutTogether) {
   Description robot = description(false);
   robot.sensors.assign(40, robot.sensors.front());
   for (std::size_t i = 0; i < 40; ++i) robot.sensors[i].id = static_cast<std::uint32_t>(i);
-  const Bytes message = write_description(robot);
+  const Bytes message = write_description(robot, kFirstVersion);
   auto datagrams =
       datagrams_of({.type = Type::kDescription, .session = kSession, .sequence = kNonce}, message);
   ASSERT_GT(datagrams.size(), 2u);

@@ -45,6 +45,21 @@ TEST(Answer, IsReadBack) {
   EXPECT_FALSE(back->pose->valid);
 }
 
+TEST(Answer, OfALaterHostIsReadAsFarAsItIsKnown) {
+  Bytes payload;
+  write_answer({.number = 5, .sequence = 77, .command = host::DriveCommand{0.25, 0.5}}, payload);
+  payload.resize(payload.size() + 16, std::byte{0x5a});
+  const auto read = [&](std::uint8_t version) {
+    const Bytes bytes = datagram_of({.type = Type::kAnswer, .sequence = 77, .version = version}, payload);
+    return read_answer(std::get<Datagram>(read_datagram(bytes)));
+  };
+  EXPECT_FALSE(read(kFirstVersion)) << "it is always of one length";
+  const auto answer = read(kNewestVersion);
+  ASSERT_TRUE(answer && answer->command);
+  EXPECT_EQ(answer->number, 5u);
+  EXPECT_EQ(*answer->command, (host::DriveCommand{0.25, 0.5}));
+}
+
 TEST(Answer, WithoutSenseIsRefused) {
   EXPECT_FALSE(through({.status = HW_ANSWER_END + 1}));
   EXPECT_FALSE(through({.command = host::DriveCommand{kNan, 0}}));
@@ -75,21 +90,12 @@ TEST(Missing, IsReadBack) {
   EXPECT_FALSE(read_missing(Bytes(1), 1));
 }
 
-TEST(Description, IsReadBackToTheLastBit) {
-  Description robot = description(true);
-  host::SensorInfo& sensor = robot.sensors.emplace_back(robot.sensors.front());
-  sensor.id = 9;
-  sensor.kind = 77;
-  sensor.name = "schräg";
-  sensor.T_body_sensor = {{0.1, 0.2, -0.3}, {0.6, 0, 0, 0.8}};
-  sensor.noise_m[1] = 0.02;
-  sensor.max_range_m = std::numeric_limits<double>::infinity();
-  const Description back = read_description(write_description(robot));
-  EXPECT_TRUE(back.lock_step);
+void expect_same(const Description& back, const Description& robot) {
+  EXPECT_EQ(back.lock_step, robot.lock_step);
   EXPECT_EQ(back.period_ns, robot.period_ns);
   EXPECT_EQ(back.name, robot.name);
-  ASSERT_EQ(back.sensors.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
+  ASSERT_EQ(back.sensors.size(), robot.sensors.size());
+  for (std::size_t i = 0; i < robot.sensors.size(); ++i) {
     const host::SensorInfo& a = robot.sensors[i];
     const host::SensorInfo& b = back.sensors[i];
     EXPECT_EQ(b.id, a.id);
@@ -98,29 +104,71 @@ TEST(Description, IsReadBackToTheLastBit) {
     EXPECT_EQ(std::memcmp(&b.T_body_sensor, &a.T_body_sensor, sizeof a.T_body_sensor), 0);
     EXPECT_EQ(std::memcmp(&b.horizontal_fov, &a.horizontal_fov, 7 * sizeof(double)), 0) << "unknown is NaN";
   }
-  EXPECT_FALSE(read_description(write_description(description(false))).lock_step);
+}
+
+TEST(Description, IsReadBackToTheLastBitInEveryVersion) {
+  Description robot = description(true);
+  host::SensorInfo& sensor = robot.sensors.emplace_back(robot.sensors.front());
+  sensor.id = 9;
+  sensor.kind = 77;
+  sensor.name = "schräg";
+  sensor.T_body_sensor = {{0.1, 0.2, -0.3}, {0.6, 0, 0, 0.8}};
+  sensor.noise_m[1] = 0.02;
+  sensor.max_range_m = std::numeric_limits<double>::infinity();
+  for (const std::uint8_t version : {kFirstVersion, kNewestVersion})
+    expect_same(read_description(write_description(robot, version), version), robot);
+  EXPECT_FALSE(read_description(write_description(description(false), 1), 1).lock_step);
 }
 
 TEST(Description, EveryTruncationIsRefusedAndNoChangedByteCrashes) {
-  const Bytes whole = write_description(description(true));
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    const std::span<const std::byte> cut(whole.data(), size);
-    EXPECT_TRUE(hallway::test::error_of([&] { read_description(cut); })) << size;
-  }
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    for (const std::byte value : {std::byte{0}, std::byte{0x7f}, std::byte{0x80}, std::byte{0xff}}) {
-      Bytes changed = whole;
-      changed[i] = value;
-      hallway::test::error_of([&] { read_description(changed); });
+  for (const std::uint8_t version : {kFirstVersion, kNewestVersion}) {
+    const Bytes whole = write_description(description(true), version);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const std::span<const std::byte> cut(whole.data(), size);
+      EXPECT_TRUE(hallway::test::error_of([&] { read_description(cut, version); })) << size;
+    }
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      for (const std::byte value : {std::byte{0}, std::byte{0x7f}, std::byte{0x80}, std::byte{0xff}}) {
+        Bytes changed = whole;
+        changed[i] = value;
+        hallway::test::error_of([&] { read_description(changed, version); });
+      }
     }
   }
+}
+
+/// A description of version 2 whose struct at `offset` says that it has `more` bytes more, which stand behind it.
+Bytes grown(const Bytes& message, std::size_t offset, std::uint32_t more) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, message.data() + offset, sizeof size);
+  Bytes bytes = message;
+  bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(offset + size), more, std::byte{0x5a});
+  size += more;
+  std::memcpy(bytes.data() + offset, &size, sizeof size);
+  return bytes;
+}
+
+TEST(Description, OfALaterRobotIsReadAsFarAsItIsKnown) {
+  const Description robot = description(true);
+  const Bytes message = write_description(robot, kNewestVersion);
+  // The robot's struct, its name ("office": length and eight bytes), the sensor's struct.
+  const std::size_t sensor = 24 + 16;
+  expect_same(read_description(grown(message, 0, 16), kNewestVersion), robot);
+  expect_same(read_description(grown(message, sensor, 64), kNewestVersion), robot);
+  expect_same(read_description(grown(grown(message, sensor, 8), 0, 8), kNewestVersion), robot);
+  for (const std::uint32_t size : {0u, 8u, 23u, 28u, 0xffff'fff8u}) {
+    Bytes lies = message;
+    std::memcpy(lies.data(), &size, sizeof size);
+    EXPECT_TRUE(hallway::test::error_of([&] { read_description(lies, kNewestVersion); })) << size;
+  }
+  EXPECT_TRUE(hallway::test::error_of([&] { read_description(message, kFirstVersion); }));
 }
 
 TEST(Description, RefusesWhatNoRobotIs) {
   const auto refused = [](const std::function<void(Description&)>& change) {
     Description robot = description(false);
     change(robot);
-    const auto error = hallway::test::error_of([&] { write_description(robot); });
+    const auto error = hallway::test::error_of([&] { write_description(robot, kFirstVersion); });
     return error && error->code() == ErrorCode::kBadInput;
   };
   EXPECT_FALSE(refused([](Description&) {}));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Both ends, each with its clock and its thread.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <set>
 
 #include "link/host_end.hpp"
 #include "link/lossy_wire.hpp"
@@ -29,7 +32,8 @@ RobotEnd::Clock::time_point soon() {
 /// A host program that takes every frame and answers with its number, until the end.
 class Program {
  public:
-  Program(Wire& wire, const Address& robot) : end_(wire, robot, 42, kGiveUp), thread_([this] { run(); }) {}
+  Program(Wire& wire, const Address& robot, std::uint8_t newest = kNewestVersion)
+      : end_(wire, robot, 42, kGiveUp, newest), thread_([this] { run(); }) {}
   ~Program() { thread_.join(); }
 
   /// Waits for its end. @return the frames that it was given
@@ -39,6 +43,7 @@ class Program {
     return frames_;
   }
   HostCounters counters() const { return end_.counters(); }
+  std::uint8_t version() const { return end_.version(); }
 
  private:
   void run() {
@@ -66,11 +71,17 @@ void wait_until_wanted(RobotEnd& robot) {
   ASSERT_TRUE(robot.wanted());
 }
 
+/// The newest version of the protocol that each side speaks.
+struct Versions {
+  std::uint8_t robot = kNewestVersion;
+  std::uint8_t host = kNewestVersion;
+};
+
 /// Sends frames of those sizes in lock-step, and expects that each comes, once and in order, and is answered.
 void expect_all_in_order(Wire& robot_wire, const Address& robot_address, Wire& host_wire,
-                         const std::vector<std::size_t>& points) {
-  RobotEnd robot(robot_wire, description(true), kSession, kGiveUp);
-  Program program(host_wire, robot_address);
+                         const std::vector<std::size_t>& points, Versions versions = {}) {
+  RobotEnd robot(robot_wire, description(true), kSession, kGiveUp, versions.robot);
+  Program program(host_wire, robot_address, versions.host);
   wait_until_wanted(robot);
   std::vector<Bytes> frames;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -88,6 +99,43 @@ void expect_all_in_order(Wire& robot_wire, const Address& robot_address, Wire& h
   EXPECT_TRUE(program.frames() == frames);
   EXPECT_EQ(robot.counters().answers, points.size());
   EXPECT_EQ(program.counters().frames.frames, points.size());
+  EXPECT_EQ(program.counters().other_version, 0u);
+  EXPECT_EQ(robot.version(), std::min(versions.robot, versions.host));
+  EXPECT_EQ(program.version(), std::min(versions.robot, versions.host));
+}
+
+/// Notes which versions the datagrams have, but for hellos.
+class NotingWire final : public Wire {
+ public:
+  explicit NotingWire(Wire& wire) : wire_(wire) {}
+  void send(std::span<const std::byte> datagram, const Address& to) override {
+    if (datagram[5] != std::byte{static_cast<std::uint8_t>(Type::kHello)})
+      versions.insert(std::to_integer<int>(datagram[4]));
+    wire_.send(datagram, to);
+  }
+  std::optional<std::size_t> receive(std::span<std::byte> room, Address& from, milliseconds wait) override {
+    return wire_.receive(room, from, wait);
+  }
+
+  std::set<int> versions;
+
+ private:
+  Wire& wire_;
+};
+
+TEST(LockStep, SidesOfDifferentVersionsSpeakTheOlderOne) {
+  for (const Versions versions : {Versions{1, 1}, Versions{1, 2}, Versions{2, 1}, Versions{2, 2}}) {
+    SCOPED_TRACE(fmt::format("robot {}, host {}", versions.robot, versions.host));
+    MemoryNet net;
+    MemoryWire robot_wire(net, 1);
+    MemoryWire host_wire(net, 2);
+    LossyWire lossy_robot(robot_wire, 0.05, 3);
+    NotingWire robot(lossy_robot), host(host_wire);
+    expect_all_in_order(robot, robot_wire.address(), host, {5, 300, 0, 4000}, versions);
+    const std::set<int> expected{std::min(versions.robot, versions.host)};
+    EXPECT_EQ(robot.versions, expected);
+    EXPECT_EQ(host.versions, expected);
+  }
 }
 
 TEST(LockStep, GivesEveryFrameOverAWireThatLosesNothing) {
@@ -145,6 +193,27 @@ TEST(RealTime, FramesComeAndAreAnswered) {
   EXPECT_TRUE(program.frames() == frames);
   EXPECT_EQ(program.counters().frames.lost, 0u);
   EXPECT_EQ(robot.counters().resent, 0u);
+}
+
+TEST(RealTime, SidesOfDifferentVersionsSpeakTheOlderOne) {
+  for (const Versions versions : {Versions{1, 2}, Versions{2, 1}, Versions{2, 2}}) {
+    SCOPED_TRACE(fmt::format("robot {}, host {}", versions.robot, versions.host));
+    MemoryNet net;
+    MemoryWire robot_wire(net, 1), host_wire(net, 2);
+    RobotEnd robot(robot_wire, description(false), kSession, kGiveUp, versions.robot);
+    Program program(host_wire, robot_wire.address(), versions.host);
+    wait_until_wanted(robot);
+    const Bytes frame = frame_of(0, 2000, 0);
+    robot.send(0, frame);
+    const auto limit = RobotEnd::Clock::now() + seconds{20};
+    std::optional<CameAnswer> answer;
+    while (!(answer = robot.next_answer()) && RobotEnd::Clock::now() < limit) robot.wait(soon());
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->answer.command, (host::DriveCommand{0, 0.5}));
+    robot.leave();
+    EXPECT_TRUE(program.frames() == std::vector<Bytes>{frame});
+    EXPECT_EQ(robot.version(), std::min(versions.robot, versions.host));
+  }
 }
 
 TEST(RealTime, LossIsCountedAndHoldsNothingUp) {
@@ -273,6 +342,29 @@ TEST(RobotEnd, ServesTheFirstHostAndNoOther) {
   EXPECT_FALSE(heard(first, datagram_of({.type = Type::kHello, .sequence = 44})));
   EXPECT_TRUE(robot.over());
   EXPECT_FALSE(robot.gave_up());
+}
+
+TEST(RobotEnd, AHelloHasTheFirstVersionAndTheRestThatOfTheSession) {
+  MemoryNet net;
+  MemoryWire robot_wire(net, 1), host(net, 2);
+  RobotEnd robot(robot_wire, description(true), kSession, kGiveUp);
+  const auto give = [&](const Header& header) {
+    host.send(datagram_of(header), robot_wire.address());
+    EXPECT_TRUE(robot.wait(RobotEnd::Clock::now() + seconds{20}));
+  };
+  give({.type = Type::kHello, .flags = kOffersVersion2, .sequence = 42, .version = kNewestVersion});
+  EXPECT_FALSE(robot.host());
+  give({.type = Type::kHello, .flags = kOffersVersion2, .sequence = 42});
+  EXPECT_EQ(robot.host(), host.address());
+  EXPECT_EQ(robot.version(), kNewestVersion);
+  const auto described = net.get(host.address(), seconds{20});
+  ASSERT_TRUE(described);
+  EXPECT_EQ(described->first[4], std::byte{kNewestVersion});
+  give({.type = Type::kBye, .session = kSession});
+  EXPECT_FALSE(robot.over());
+  EXPECT_EQ(robot.counters().malformed, 2u);
+  give({.type = Type::kBye, .session = kSession, .version = kNewestVersion});
+  EXPECT_TRUE(robot.over());
 }
 
 TEST(RobotEnd, GivesUpAHostThatIsSilent) {
