@@ -17,26 +17,40 @@ void check_made_up(void* payload, std::uint64_t) {
     host::demand(mark < made_up.n_rays, "a mark of no ray");
 }
 
+using host::NumberType;
+
+constexpr host::PayloadMember kRay[] = {
+    {.name = "azimuth", .type = NumberType::kF64, .offset = offsetof(MadeUpRay, azimuth)},
+    {.name = "range", .type = NumberType::kF64, .offset = offsetof(MadeUpRay, range)}};
+constexpr host::PayloadMember kMark[] = {{.name = "", .type = NumberType::kU32, .offset = 0}};
+constexpr host::PayloadMember kTrack[] = {
+    {.name = "", .type = NumberType::kU64, .offset = 0, .may_be_none = true}};
+constexpr host::PayloadMember kMadeUp[] = {
+    {.name = "temperature", .type = NumberType::kF64, .offset = offsetof(MadeUp, temperature)}};
+
 constexpr host::PayloadArray kMadeUpArrays[] = {{.name = "rays",
                                                  .one = "ray",
                                                  .data = offsetof(MadeUp, rays),
                                                  .count = offsetof(MadeUp, n_rays),
                                                  .stride = offsetof(MadeUp, stride),
                                                  .element_bytes = sizeof(MadeUpRay),
-                                                 .n_finite = 2},
+                                                 .n_finite = 2,
+                                                 .members = kRay},
                                                 {.name = "marks",
                                                  .one = "mark",
                                                  .data = offsetof(MadeUp, marks),
                                                  .count = offsetof(MadeUp, n_marks),
                                                  .element_bytes = sizeof(std::uint32_t),
                                                  .optional = true,
-                                                 .checked = true},
+                                                 .checked = true,
+                                                 .members = kMark},
                                                 {.name = "tracks",
                                                  .one = "track",
                                                  .data = offsetof(MadeUp, tracks),
                                                  .count = offsetof(MadeUp, n_rays),
                                                  .element_bytes = sizeof(std::uint64_t),
-                                                 .optional = true}};
+                                                 .optional = true,
+                                                 .members = kTrack}};
 
 }  // namespace
 
@@ -48,7 +62,8 @@ constexpr host::SampleKind kMadeUpKind{.kind = kMadeUpSample,
                                        .arrays = kMadeUpArrays,
                                        .track = offsetof(MadeUp, tracks),
                                        .check = &check_made_up,
-                                       .carried = true};
+                                       .carried = true,
+                                       .members = kMadeUp};
 
 namespace {
 const host::AddedSampleKind kAdded(kMadeUpKind);

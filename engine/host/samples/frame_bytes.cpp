@@ -72,19 +72,9 @@ void settle(Payload& payload, std::uint32_t place, std::uint64_t elements) {
   if (payload.kind().check != nullptr) payload.kind().check(payload.get(), elements);
 }
 
-/// The size of a payload's struct without the members of arrays that it does not have.
-std::size_t written_size(const Payload& payload) {
-  std::size_t size = load<std::uint32_t>(payload.get());
-  for (const PayloadArray& array : payload.kind().arrays) {
-    if (array.size_without != 0 && !has_array(payload.get(), array))
-      size = std::min(size, array.size_without);
-  }
-  return size;
-}
-
 void put_payload(AlignedByteWriter& to, const Payload& payload) {
   alignas(8) std::array<std::byte, Payload::kMaxSize> copy;
-  const std::size_t size = written_size(payload);
+  const std::size_t size = payload.used_size();
   std::memcpy(copy.data(), payload.get(), size);
   store(copy.data(), static_cast<std::uint32_t>(size));
   std::uint64_t at = to.size() + size;
@@ -210,10 +200,15 @@ const hw_frame_t& FrameReader::read(std::span<const std::byte> bytes) {
   if (table != 0) std::memcpy(offsets_.data(), entries, table);
   if (known_.size() < offsets_.size()) known_.resize(offsets_.size());
   places_.clear();
+  passed_over_.clear();
   std::uint32_t n = 0;
   for (const std::uint64_t offset : offsets_) {
     const bool known = take_sample(cursor, offset, known_[n]);
     places_.push_back(known ? n : HW_NO_SAMPLE);
+    if (!known) {
+      passed_over_.push_back(known_[n].sample);
+      passed_over_.back().payload = nullptr;
+    }
     n += known ? 1u : 0u;
   }
   samples_.resize(n);

@@ -87,6 +87,8 @@ class FrameReader {
   /// Throws Error{kBadInput} (where.element is the offset and the part) for anything that is not as laid out above.
   /// @return valid until the next read() and as long as `bytes` lives
   const hw_frame_t& read(std::span<const std::byte> bytes);
+  /// The samples of unknown kinds that the last read() passed over, in their order, with a null for the payload. Valid until the next read().
+  std::span<const hw_sample_t> passed_over() const { return passed_over_; }
 
  private:
   struct Sample {
@@ -101,7 +103,8 @@ class FrameReader {
   hw_frame_t frame_{};
   std::vector<Sample> known_;                ///< the samples of this frame, of known kinds
   std::vector<const hw_sample_t*> samples_;  ///< into known_
-  std::vector<std::uint64_t> offsets_;       ///< the table, copied
+  std::vector<hw_sample_t> passed_over_;
+  std::vector<std::uint64_t> offsets_;  ///< the table, copied
   std::vector<std::uint32_t> places_;   ///< for each entry of the table its place in known_, or HW_NO_SAMPLE
   std::vector<std::uint64_t> aligned_;  ///< the bytes again, if they came unaligned
 };

@@ -19,6 +19,14 @@ void Payload::assign(const SampleKind& kind, const void* payload) {
   store(get(), static_cast<std::uint32_t>(size));
 }
 
+std::size_t Payload::used_size() const {
+  std::size_t size = load<std::uint32_t>(get());
+  for (const PayloadArray& array : kind_->arrays) {
+    if (array.size_without != 0 && !has_array(get(), array)) size = std::min(size, array.size_without);
+  }
+  return size;
+}
+
 void Payload::own_arrays(bool all) {
   if (arrays_.size() < kind_->arrays.size()) arrays_.resize(kind_->arrays.size());
   for (std::size_t i = 0; i < kind_->arrays.size(); ++i) {

@@ -36,6 +36,8 @@ class Payload {
   std::byte* get() { return struct_.data(); }
   const std::byte* get() const { return struct_.data(); }
 
+  /// How many bytes of the struct say something: without the members of arrays that it does not have (PayloadArray::size_without).
+  std::size_t used_size() const;
   /// Copies the arrays that SampleKind::check looks at, packed. O(their bytes).
   void own_checked_arrays() { own_arrays(false); }
   /// Copies all arrays, packed: nothing leads out of this object any more. O(their bytes).

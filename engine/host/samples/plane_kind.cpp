@@ -34,26 +34,53 @@ void detach_planes(void* payload) {
   planes.n_members = 0;
 }
 
+constexpr PayloadMember kPlane[] = {
+    {.name = "id", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, id)},
+    {.name = "normal", .type = NumberType::kF64, .offset = offsetof(hw_plane_t, normal), .n = 3},
+    {.name = "offset_m", .type = NumberType::kF64, .offset = offsetof(hw_plane_t, offset_m)},
+    {.name = "centroid", .type = NumberType::kF64, .offset = offsetof(hw_plane_t, centroid), .n = 3},
+    {.name = "corners",
+     .type = NumberType::kF64,
+     .offset = offsetof(hw_plane_t, corners),
+     .n = 3,
+     .lists = 4},
+    {.name = "n_points", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, n_points)},
+    {.name = "rms_m", .type = NumberType::kF64, .offset = offsetof(hw_plane_t, rms_m)},
+    {.name = "exclusive_share", .type = NumberType::kF64, .offset = offsetof(hw_plane_t, exclusive_share)},
+    {.name = "first_hull", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, first_hull)},
+    {.name = "n_hull", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, n_hull)},
+    {.name = "first_member", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, first_member)},
+    {.name = "n_members", .type = NumberType::kU64, .offset = offsetof(hw_plane_t, n_members)}};
+constexpr PayloadMember kHullPoint[] = {{.name = "", .type = NumberType::kF64, .offset = 0, .n = 3}};
+constexpr PayloadMember kMember[] = {{.name = "", .type = NumberType::kU32, .offset = 0}};
+constexpr PayloadMember kFoundIn[] = {{.name = "sample",
+                                       .type = NumberType::kU32,
+                                       .offset = offsetof(hw_planes_t, sample),
+                                       .may_be_none = true}};
+
 constexpr PayloadArray kPlaneArrays[] = {{.name = "planes",
                                           .one = "plane",
                                           .data = offsetof(hw_planes_t, planes),
                                           .count = offsetof(hw_planes_t, count),
                                           .stride = offsetof(hw_planes_t, stride),
                                           .element_bytes = sizeof(hw_plane_t),
-                                          .checked = true},
+                                          .checked = true,
+                                          .members = kPlane},
                                          {.name = "hull points",
                                           .one = "hull point",
                                           .data = offsetof(hw_planes_t, hull_points),
                                           .count = offsetof(hw_planes_t, n_hull_points),
                                           .stride = offsetof(hw_planes_t, hull_stride),
                                           .element_bytes = sizeof(hw_point3_t),
-                                          .checked = true},
+                                          .checked = true,
+                                          .members = kHullPoint},
                                          {.name = "members",
                                           .one = "member",
                                           .data = offsetof(hw_planes_t, members),
                                           .count = offsetof(hw_planes_t, n_members),
                                           .element_bytes = sizeof(std::uint32_t),
-                                          .checked = true}};
+                                          .checked = true,
+                                          .members = kMember}};
 
 }  // namespace
 
@@ -65,7 +92,8 @@ constexpr SampleKind kPlaneSamples{.kind = HW_SAMPLE_PLANES,
                                    .arrays = kPlaneArrays,
                                    .found_in = offsetof(hw_planes_t, sample),
                                    .check = &check_plane_payload,
-                                   .detach = &detach_planes};
+                                   .detach = &detach_planes,
+                                   .members = kFoundIn};
 
 PlaneReading add_planes(FrameBuilder& builder, std::uint32_t sensor_id) {
   Reading& reading = builder.add(kPlaneSamples, sensor_id);

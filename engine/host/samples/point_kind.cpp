@@ -30,19 +30,28 @@ void check_point_payload(void* payload, std::uint64_t) {
   }
 }
 
+constexpr PayloadMember kPoint[] = {{.name = "", .type = NumberType::kF64, .offset = 0, .n = 3}};
+constexpr PayloadMember kTrack[] = {{.name = "", .type = NumberType::kU64, .offset = 0, .may_be_none = true}};
+constexpr PayloadMember kPixel[] = {{.name = "", .type = NumberType::kU32, .offset = 0}};
+constexpr PayloadMember kImage[] = {
+    {.name = "width", .type = NumberType::kU32, .offset = offsetof(hw_points_t, width)},
+    {.name = "height", .type = NumberType::kU32, .offset = offsetof(hw_points_t, height)}};
+
 constexpr PayloadArray kPointArrays[] = {{.name = "points",
                                           .one = "point",
                                           .data = offsetof(hw_points_t, points),
                                           .count = offsetof(hw_points_t, count),
                                           .stride = offsetof(hw_points_t, stride),
                                           .element_bytes = sizeof(hw_point3_t),
-                                          .n_finite = 3},
+                                          .n_finite = 3,
+                                          .members = kPoint},
                                          {.name = "track",
                                           .one = "track",
                                           .data = offsetof(hw_points_t, track),
                                           .count = offsetof(hw_points_t, count),
                                           .element_bytes = sizeof(std::uint64_t),
-                                          .optional = true},
+                                          .optional = true,
+                                          .members = kTrack},
                                          // Without pixels the bytes are those of ABI 1.1.
                                          {.name = "pixel",
                                           .one = "pixel",
@@ -51,7 +60,8 @@ constexpr PayloadArray kPointArrays[] = {{.name = "points",
                                           .element_bytes = sizeof(std::uint32_t),
                                           .optional = true,
                                           .size_without = offsetof(hw_points_t, width),
-                                          .checked = true}};
+                                          .checked = true,
+                                          .members = kPixel}};
 
 }  // namespace
 
@@ -62,7 +72,8 @@ constexpr SampleKind kPointSamples{.kind = HW_SAMPLE_POINTS,
                                    .min_size = offsetof(hw_points_t, track) + sizeof(hw_points_t::track),
                                    .arrays = kPointArrays,
                                    .track = offsetof(hw_points_t, track),
-                                   .check = &check_point_payload};
+                                   .check = &check_point_payload,
+                                   .members = kImage};
 
 SensorInfo point_sensor(std::string name, std::uint32_t id) {
   return {.id = id, .kind = HW_SAMPLE_POINTS, .name = std::move(name)};

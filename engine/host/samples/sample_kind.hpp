@@ -18,6 +18,19 @@ namespace hallway::host {
 /// Of a member that a payload does not have.
 inline constexpr std::size_t kNoMember = SIZE_MAX;
 
+/// Of the numbers of a member.
+enum class NumberType : std::uint8_t { kU32, kU64, kF64 };
+
+/// Numbers in a payload's struct, or in an element of one of its arrays, as sample_json.hpp shows them.
+struct PayloadMember {
+  const char* name;  ///< in JSON; "": the element is this member alone, without a name
+  NumberType type;
+  std::size_t offset;        ///< in the struct or the element, in bytes
+  std::size_t n = 1;         ///< numbers that follow each other; more than one are a list
+  std::size_t lists = 0;     ///< how many such lists follow each other, as a list of lists; 0: it is none
+  bool may_be_none = false;  ///< of a whole number: all bits set say that there is none
+};
+
 /// An array that a payload points to. Members are told by their offsets in the payload's struct, in bytes.
 struct PayloadArray {
   const char* name;   ///< in messages: "points"
@@ -32,6 +45,7 @@ struct PayloadArray {
   bool optional = false;         ///< null where the sample does not have it, whatever the count
   std::size_t size_without = 0;  ///< of a payload without this array: its struct ends here; 0: as with it
   bool checked = false;          ///< SampleKind::check looks at the elements: a reader copies them before
+  std::span<const PayloadMember> members{};  ///< of an element: all of it, in the order of its bytes
 };
 
 /// A row of the table.
@@ -56,6 +70,8 @@ struct SampleKind {
   void (*detach)(void* payload) = nullptr;
   /// None of its samples may be missed: those of a frame that a host drops go into the next frame (carried_samples.hpp). Not with found_in.
   bool carried = false;
+  /// Of the struct: all but its own size and what belongs to arrays, in the order of its bytes.
+  std::span<const PayloadMember> members{};
 };
 
 /// Points, and planes.
