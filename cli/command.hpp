@@ -36,6 +36,7 @@ void add_plugin_validate_command(Command& plugin);
 
 /// Each adds its subcommand to the group `hallway log`.
 void add_log_info_command(Command& group);
+void add_log_frame_command(Command& group);
 void add_log_cut_command(Command& group);
 void add_log_recover_command(Command& group);
 void add_log_convert_command(Command& group);

@@ -34,7 +34,8 @@ TEST(Help, OfServe) {
 }
 
 TEST(Help, OfLog) {
-  expect_help({"log", "--help"}, {"info", "cut", "recover", "convert", "Example"});
+  expect_help({"log", "--help"}, {"info", "frame", "cut", "recover", "convert", "Example"});
+  expect_help({"log", "frame", "--help"}, {"--sensor", "--json", "status 1", "Example"});
   expect_help({"log", "info", "--help"}, {"--json", "status 1", "Example"});
   expect_help({"log", "cut", "--help"}, {"--from", "--to-iteration", "--out", "--force", "Example"});
   expect_help({"log", "recover", "--help"}, {"--out", "part-PID", "Example"});

@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "cli/small_world.hpp"
+#include "log/byte_io.hpp"
+#include "log/run_log.hpp"
 
 namespace hallway::test {
 namespace {
@@ -72,6 +76,140 @@ TEST_F(Log, InfoSaysWhatIsInARunsLog) {
   EXPECT_NE(text.out.find("/hallway/frame"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("0.000000000 s to 5.900000000 s"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("damage       none"), std::string::npos) << text.out;
+}
+
+/// The points of an iteration in observations.csv.
+Json points_in_table(const std::string& table, std::uint64_t iteration) {
+  Json points = Json::array();
+  std::istringstream lines(table);
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line);) {
+    std::vector<double> row;
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(std::stod(field));
+    if (row.at(0) == static_cast<double>(iteration)) points.push_back({row.at(2), row.at(3), row.at(4)});
+  }
+  return points;
+}
+
+TEST_F(Log, InfoCountsTheSamplesOfEachSensor) {
+  const Json sensors = info(log()).at("sensors");
+  const std::string table = read_file(run_folder() / "observations.csv");
+  const auto rows = std::count(table.begin(), table.end(), '\n') - 1;
+  EXPECT_EQ(sensors,
+            Json::parse(R"([{"id": 0, "name": "eyes", "kind": "points", "samples": 60, "elements": )" +
+                        std::to_string(rows) + R"(, "first_ns": 0, "last_ns": 5900000000}])"));
+  EXPECT_EQ(info(log()).at("warnings"), Json::array());
+  const std::string text = hallway({"log", "info", run_folder()}).out;
+  EXPECT_NE(text.find("  sensors      1\n    0 eyes "), std::string::npos) << text;
+  EXPECT_NE(text.find("60  points  " + std::to_string(rows) + " elements  0.000000000 s to 5.900000000 s\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST_F(Log, FrameIsPrintedAsItIs) {
+  const Ended ended = hallway({"log", "frame", run_folder(), "12"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_TRUE(ended.out.ends_with("}\n"));
+  const Json frame = Json::parse(ended.out);
+  EXPECT_EQ(frame.at("sequence"), 12);
+  EXPECT_EQ(frame.at("t_ns"), 1'200'000'000);
+  ASSERT_EQ(frame.at("samples").size(), 1u);
+  const Json& sample = frame.at("samples").front();
+  EXPECT_EQ(sample.at("sensor"), 0);
+  EXPECT_EQ(sample.at("kind"), "points");
+  EXPECT_EQ(sample.at("sequence"), 12);
+  EXPECT_EQ(sample.at("t_end_ns"), 1'200'000'000);
+  const Json expected = points_in_table(read_file(run_folder() / "observations.csv"), 12);
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(sample.at("payload").at("points"), expected);
+
+  const Ended document = hallway({"log", "frame", log(), "12", "--json"});
+  EXPECT_EQ(document.status, 0);
+  EXPECT_NE(document.out.find(R"("frame":)" + ended.out.substr(0, ended.out.size() - 1) + ","),
+            std::string::npos)
+      << "the same text";
+  EXPECT_EQ(Json::parse(document.out).at("schema"), "hallway.log_frame/1");
+  EXPECT_EQ(Json::parse(document.out).at("passed_over"), Json::array());
+}
+
+TEST_F(Log, FrameOfASensorByItsNameOrId) {
+  const std::string all = hallway({"log", "frame", log(), "12"}).out;
+  for (const char* eyes : {"eyes", "0"})
+    EXPECT_EQ(hallway({"log", "frame", log(), "12", "--sensor", eyes}).out, all);
+  for (const char* none : {"nose", "1", "eye"}) {
+    const Ended ended = hallway({"log", "frame", log(), "12", "--sensor", none});
+    EXPECT_EQ(ended.status, 2) << none;
+    EXPECT_NE(ended.err.find("0 (eyes)"), std::string::npos) << ended.err;
+  }
+}
+
+TEST_F(Log, FrameThatThereIsNot) {
+  const Ended ended = hallway({"log", "frame", log(), "60"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_NE(ended.err.find("run.mcap: holds no frame 60; its 60 frames are of the iterations 0 to 59"),
+            std::string::npos)
+      << ended.err;
+  const Json document = Json::parse(hallway({"log", "frame", log(), "60", "--json"}).out);
+  EXPECT_EQ(document.at("status"), 1);
+  EXPECT_TRUE(document.at("frame").is_null());
+  for (const char* wrong : {"-1", "x", "4294967296"})
+    EXPECT_EQ(hallway({"log", "frame", log(), wrong}).status, 2) << wrong;
+  // A part of a log keeps the numbers.
+  ASSERT_EQ(hallway({"log", "cut", log(), "--from-iteration", "10", "--to-iteration", "29", "--out",
+                     path("part.mcap")})
+                .status,
+            0);
+  EXPECT_EQ(hallway({"log", "frame", path("part.mcap"), "12"}).out,
+            hallway({"log", "frame", log(), "12"}).out);
+  const Ended before = hallway({"log", "frame", path("part.mcap"), "9"});
+  EXPECT_EQ(before.status, 1);
+  EXPECT_NE(before.err.find("its 20 frames are of the iterations 10 to 29"), std::string::npos) << before.err;
+}
+
+TEST_F(Log, FrameOfADamagedLogIsThereUpToTheDamage) {
+  const std::string whole = read_file(log());
+  const std::string cut = folder_.write("cut.mcap", whole.substr(0, whole.size() * 6 / 10));
+  EXPECT_EQ(hallway({"log", "frame", cut, "3"}).out, hallway({"log", "frame", log(), "3"}).out);
+  const Ended lost = hallway({"log", "frame", cut, "59"});
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_NE(lost.err.find("holds no frame 59 before the damage at byte "), std::string::npos) << lost.err;
+  const Json facts = info(cut);
+  EXPECT_EQ(facts.at("sensors").front().at("samples"), messages(facts, "/hallway/frame"));
+}
+
+TEST_F(Log, FramesThatCannotBeReadAreToldAndNothingWorse) {
+  hallway::log::StringOutput output;
+  hallway::log::RunLogWriter writer(output, "a test", "{}");
+  writer.add_activation(R"({"sensors": [{"id": 0}]})");
+  writer.add_frame({0, 0}, "no frame");
+  writer.add_frame({1, 1}, "none either");
+  writer.finish();
+  const std::string file = folder_.write("wrong.mcap", output.text());
+  const Ended told = hallway({"log", "info", file, "--json"});
+  EXPECT_EQ(told.status, 0) << "the file is not damaged";
+  const Json facts = Json::parse(told.out);
+  EXPECT_EQ(facts.at("sensors"), Json::array());
+  ASSERT_EQ(facts.at("warnings").size(), 2u) << told.out;
+  EXPECT_NE(told.err.find("the description of the sensors cannot be read"), std::string::npos) << told.err;
+  EXPECT_NE(told.err.find("wrong.mcap: 2 frames cannot be read; the first: "), std::string::npos) << told.err;
+  const Ended frame = hallway({"log", "frame", file, "0"});
+  EXPECT_EQ(frame.status, 3);
+  EXPECT_NE(frame.err.find("wrong.mcap"), std::string::npos) << frame.err;
+  EXPECT_NE(frame.err.find("frame, byte 0"), std::string::npos) << frame.err;
+}
+
+TEST_F(Log, FrameOfALogWithoutFramesIsAnError) {
+  hallway::log::StringOutput output;
+  hallway::log::RunLogWriter writer(output, "a test", "{}");
+  writer.finish();
+  const std::string file = folder_.write("empty.mcap", output.text());
+  const Ended frame = hallway({"log", "frame", file, "0"});
+  EXPECT_EQ(frame.status, 3);
+  EXPECT_NE(frame.err.find("empty.mcap: holds no frames of Hallway"), std::string::npos) << frame.err;
+  EXPECT_EQ(info(file).at("sensors"), Json::array());
 }
 
 TEST_F(Log, ReplayGivesTheSameAnswersAsTheRun) {
@@ -202,6 +340,9 @@ TEST_F(Log, WhatIsNoLogIsAnErrorWithItsName) {
       EXPECT_EQ(ended.status, 3);
       EXPECT_NE(ended.err.find("no.mcap"), std::string::npos) << ended.err;
     }
+    const Ended frame = hallway({"log", "frame", file, "0"});
+    EXPECT_EQ(frame.status, 3);
+    EXPECT_NE(frame.err.find("no.mcap"), std::string::npos) << frame.err;
     EXPECT_EQ(hallway({"replay", file, "--plugin", "slam_point", "--out", path("run")}).status, 3);
     EXPECT_FALSE(fs::exists(path("run")));
     EXPECT_FALSE(fs::exists(path("no.recovered.mcap")));

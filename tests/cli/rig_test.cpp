@@ -2,9 +2,11 @@
 // Robots with several sensors, as users have them: from the scenario to the tables and back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "log/observations.hpp"
 #include "support/data.hpp"
 #include "support/process.hpp"
 #include "support/temp_folder.hpp"
@@ -58,6 +60,33 @@ TEST_F(Rig, IsReplayedWholeFromItsLog) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* table : {"trajectory.tum", "landmarks.csv", "submaps.csv", "matches.csv"})
     EXPECT_EQ(read_file(out() / table), read_file(folder_.path() / "again" / table)) << table;
+}
+
+TEST_F(Rig, StandsInItsLogSensorBySensor) {
+  const std::string log = out() / "run.mcap";
+  const Json sensors = Json::parse(hallway({"log", "info", log, "--json"}).out).at("sensors");
+  ASSERT_EQ(sensors.size(), 2u);
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(sensors.at(i).at("id"), i);
+    EXPECT_EQ(sensors.at(i).at("name"), i == 0 ? "ahead" : "behind");
+    EXPECT_EQ(sensors.at(i).at("kind"), "points");
+    EXPECT_EQ(sensors.at(i).at("samples"), i == 0 ? 60 : 30);
+    const log::ReadLog table =
+        log::read_observations(out() / (i == 0 ? "observations_ahead.csv" : "observations_behind.csv"));
+    EXPECT_EQ(sensors.at(i).at("elements"), table.log.observations().size());
+  }
+  std::vector<std::size_t> samples;
+  for (const char* n : {"10", "11"}) {
+    const Json frame = Json::parse(hallway({"log", "frame", log, n}).out);
+    samples.push_back(frame.at("samples").size());
+    const Json behind = Json::parse(hallway({"log", "frame", log, n, "--sensor", "behind"}).out);
+    ASSERT_EQ(behind.at("samples").size(), samples.back() - 1);
+    if (samples.back() == 2) {
+      EXPECT_EQ(behind.at("samples").front(), frame.at("samples").back());
+    }
+  }
+  std::ranges::sort(samples);
+  EXPECT_EQ(samples, (std::vector<std::size_t>{1, 2})) << "one of them gives every other frame";
 }
 
 TEST_F(Rig, OfTablesAloneOneHasToBeNamed) {

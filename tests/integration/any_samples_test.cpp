@@ -13,6 +13,7 @@
 #include "host/pipeline.hpp"
 #include "host/samples/frame_bytes.hpp"
 #include "host/samples/point_kind.hpp"
+#include "host/samples/sample_json.hpp"
 #include "link/host_end.hpp"
 #include "link/robot_end.hpp"
 #include "log/byte_io.hpp"
@@ -242,6 +243,26 @@ TEST(AnySamples, AreTrackedWhereTheirRowHasATrack) {
   const Ran without = run(untracked, false);
   EXPECT_FALSE(read_recorded_run(log::MemoryInput(without.log)).facts.has_tracks);
   EXPECT_THROW(TrackedSource(std::make_unique<RaySource>(false)), Error) << "there is nothing to track by";
+}
+
+TEST(AnySamples, OfALogHaveTheirJson) {
+  MadeUpSource source;
+  const Ran ran = run(source, false);
+  const log::MemoryInput input(ran.log);
+  RecordedSource replayed(read_recorded_run(input), 0);
+  SourceFrame frame;
+  replayed.read(2, frame);
+  EXPECT_EQ(
+      host::frame_json(frame.samples()),
+      R"({"sequence":2,"t_ns":200000000,"samples":[)"
+      R"({"sensor":0,"kind":"points","sequence":2,"t_begin_ns":200000000,"t_end_ns":200000000,"flags":[],)"
+      R"("payload":{"points":[[1.2,2,3],[4,5.2,6]]}},)"
+      R"({"sensor":1,"kind":"made_up","sequence":8,"t_begin_ns":140000000,"t_end_ns":140001000,"flags":[],)"
+      R"("payload":{"temperature":20.2,"rays":[{"azimuth":0,"range":1.2},{"azimuth":0.5,"range":2},)"
+      R"({"azimuth":1,"range":2.8}]}},)"
+      R"({"sensor":1,"kind":"made_up","sequence":9,"t_begin_ns":170000000,"t_end_ns":170001000,"flags":[],)"
+      R"("payload":{"temperature":20.2,"rays":[{"azimuth":0,"range":1.2},{"azimuth":0.5,"range":2},)"
+      R"({"azimuth":1,"range":2.8}],"marks":[1]}}]})");
 }
 
 TEST(AnySamples, GoOverTheLinkAsTheyAre) {
