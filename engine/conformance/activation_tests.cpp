@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "conformance/instance.hpp"
@@ -13,18 +14,26 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// What `plugin` makes of two frames of the sensors `ids`, each of which sees the same.
-void look(Instance& plugin, const Subject& subject, const std::vector<std::uint32_t>& ids) {
+/// What `plugin` makes of two frames of ordinary sensors, whose ids begin at each of `first_ids`, and which see the same.
+void look(Instance& plugin, const std::vector<std::uint32_t>& first_ids = {0}) {
   for (std::uint64_t step = 0; step < 2; ++step) {
-    Frame frame = walk_frame(subject.seed, step);
-    const Reading reading = frame.readings.front();
-    frame.readings.clear();
-    for (const std::uint32_t id : ids) {
-      frame.readings.push_back(reading);
-      frame.readings.back().sensor = id;
+    Frame frame = plugin.ordinary().frame(step);
+    const std::vector<Reading> readings = std::exchange(frame.readings, {});
+    for (const std::uint32_t first : first_ids) {
+      for (Reading reading : readings) {
+        reading.sensor += first;
+        frame.readings.push_back(reading);
+      }
     }
     plugin.process(frame).demand_valid();
   }
+}
+
+/// Activates `plugin` with sensors, and looks.
+void activate_and_look(Instance& plugin, const std::vector<hw_sensor_info_t>& sensors,
+                       std::uint32_t first_id = 0) {
+  plugin.activate(sensors).demand_good();
+  look(plugin, {first_id});
 }
 
 void survives_no_sensors(const Subject& subject) {
@@ -32,64 +41,65 @@ void survives_no_sensors(const Subject& subject) {
   const Ended ended = plugin.activate({});
   ended.demand_reason();
   if (!ended.good()) return;
-  plugin.process({}).demand_valid();
+  plugin.process(Frame()).demand_valid();
   plugin.report(0).demand_valid();
 }
 
 void skips_unknown_sensors(const Subject& subject) {
   Instance plugin(subject);
-  hw_sensor_info_t unknown = ordinary_sensor(1);
+  std::vector<hw_sensor_info_t> sensors = plugin.ordinary().sensors();
+  hw_sensor_info_t unknown = sensors.front();
+  unknown.id = static_cast<std::uint32_t>(sensors.size());
   unknown.kind = 4711;
-  hw_sensor_info_t last = ordinary_sensor(2);
+  hw_sensor_info_t last = unknown;
+  last.id = unknown.id + 1;
   last.kind = UINT32_MAX;
-  const Ended ended = plugin.activate({unknown, ordinary_sensor(0), last});
-  if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
-  ended.demand_good();
-  look(plugin, subject, {0});
+  sensors.insert(sensors.begin(), unknown);
+  sensors.push_back(last);
+  activate_and_look(plugin, sensors);
 }
 
 void takes_unknown_facts(const Subject& subject) {
   Instance plugin(subject);
-  hw_sensor_info_t sensor = ordinary_sensor();
-  sensor.horizontal_fov = sensor.vertical_fov = sensor.min_range_m = sensor.max_range_m = kNan;
-  for (double& noise : sensor.noise_m) noise = kNan;
-  sensor.name = "";
-  const Ended ended = plugin.activate({sensor});
-  if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
-  ended.demand_good();
-  look(plugin, subject, {0});
+  std::vector<hw_sensor_info_t> sensors = plugin.ordinary().sensors();
+  for (hw_sensor_info_t& sensor : sensors) {
+    sensor.horizontal_fov = sensor.vertical_fov = sensor.min_range_m = sensor.max_range_m = kNan;
+    for (double& noise : sensor.noise_m) noise = kNan;
+    sensor.name = "";
+  }
+  activate_and_look(plugin, sensors);
 }
 
 void survives_two_sensors(const Subject& subject) {
   Instance plugin(subject);
-  const Ended ended = plugin.activate({ordinary_sensor(0), ordinary_sensor(1)});
+  std::vector<hw_sensor_info_t> sensors = plugin.ordinary().sensors();
+  const auto second = static_cast<std::uint32_t>(sensors.size());
+  for (const hw_sensor_info_t& sensor : plugin.ordinary().sensors(second)) sensors.push_back(sensor);
+  const Ended ended = plugin.activate(sensors);
   ended.demand_reason();
   if (!ended.good()) throw Skipped("the plugin refuses a second sensor, with a reason: " + ended.text());
-  look(plugin, subject, {0, 1});
-  look(plugin, subject, {1});
+  look(plugin, {0, second});
+  look(plugin, {second});
 }
 
 void takes_any_id(const Subject& subject) {
   const LoadedLibrary library(subject.file);
   for (const std::uint32_t id : {0x7fffffffu, 0x80000000u, UINT32_MAX}) {
     Instance plugin(library, subject);
-    const Ended ended = plugin.activate({ordinary_sensor(id)});
-    if (!ended.good()) plugin.activate();
-    ended.demand_good();
-    look(plugin, subject, {id});
+    const auto others = static_cast<std::uint32_t>(plugin.ordinary().sensors().size() - 1);
+    activate_and_look(plugin, plugin.ordinary().sensors(id - others), id - others);
   }
 }
 
 void takes_any_mount(const Subject& subject) {
   Instance plugin(subject);
-  hw_sensor_info_t sensor = ordinary_sensor();
-  sensor.name = "hinter der Tür";
+  std::vector<hw_sensor_info_t> sensors = plugin.ordinary().sensors();
   const double half = std::sqrt(0.5);
-  sensor.T_body_sensor = {{-0.3, 0.1, 1.2}, {half, 0.0, 0.0, -half}};
-  const Ended ended = plugin.activate({sensor});
-  if (!ended.good()) plugin.activate();
-  ended.demand_good();
-  look(plugin, subject, {0});
+  for (hw_sensor_info_t& sensor : sensors) {
+    sensor.name = "hinter der Tür";
+    sensor.T_body_sensor = {{-0.3, 0.1, 1.2}, {half, 0.0, 0.0, -half}};
+  }
+  activate_and_look(plugin, sensors);
 }
 
 constexpr Test kActivationTests[] = {

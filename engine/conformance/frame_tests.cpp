@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Frames as a robot may give them.
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -17,16 +19,17 @@ constexpr std::uint64_t kBefore = 3;  ///< ordinary frames before the one that a
 constexpr std::size_t kManyPoints = 100'000;
 constexpr double kSpread = 1e-3;  ///< times up to 10 m
 
-/// Gives `frame` (of step 0) to a new plugin first, and to another one at step kBefore of the walk, which then goes on. The answers are valid; with
-/// `may_fail` they may be failures with a reason.
-void try_frame(const Subject& subject, Frame frame, bool may_fail = false) {
+/// Gives the frame that `make` makes of the ordinary walk (of step 0) to a new plugin first, and to another one at step kBefore of the walk, which then
+/// goes on. The answers are valid; with `may_fail` they may be failures with a reason.
+void try_frame(const Subject& subject, const std::function<Frame(const Walk&)>& make, bool may_fail = false) {
   for (const std::uint64_t before : {std::uint64_t{0}, kBefore}) {
     Active plugin(subject);
     for (std::uint64_t step = 0; step < before; ++step) {
       plugin.step(step).demand_valid();
     }
+    Frame frame = make(plugin.ordinary());
     frame.sequence = before;
-    frame.t_ns = walk_frame(subject.seed, before).t_ns;
+    frame.t_ns = plugin.ordinary().frame(before).t_ns;
     for (Reading& reading : frame.readings) reading.sequence = before;
     const Answer answer = plugin.process(frame);
     if (may_fail) answer.demand_survived();
@@ -39,20 +42,25 @@ void try_frame(const Subject& subject, Frame frame, bool may_fail = false) {
   }
 }
 
-void try_points(const Subject& subject, Points points, bool may_fail = false) {
-  try_frame(subject, frame_of(0, std::move(points)), may_fail);
+void try_points(const Subject& subject, const Points& points, bool may_fail = false) {
+  const auto with_points = [&](const Walk& ordinary) {
+    Frame frame = ordinary.frame(0);
+    points_in(frame).points = points;
+    return frame;
+  };
+  try_frame(subject, with_points, may_fail);
 }
 
 void takes_no_samples(const Subject& subject) {
-  try_frame(subject, {});
+  try_frame(subject, [](const Walk&) { return Frame(); });
 }
 
-void takes_no_points(const Subject& subject) {
-  try_points(subject, {});
+void takes_no_elements(const Subject& subject) {
+  try_frame(subject, [](const Walk& ordinary) { return ordinary.frame(0, 0); });
 }
 
-void takes_one_point(const Subject& subject) {
-  try_points(subject, {{1.0, 2.0, 0.5}});
+void takes_one_element(const Subject& subject) {
+  try_frame(subject, [](const Walk& ordinary) { return ordinary.frame(0, 1); });
 }
 
 /// A close look at the walk's few places, since the ABI does not demand speed: a plugin that compares each point with each landmark gets along.
@@ -70,7 +78,9 @@ Points many_points(const Subject& subject) {
 void takes_many_points(const Subject& subject) {
   Active plugin(subject);
   plugin.step(0).demand_valid();
-  plugin.process(frame_of(1, many_points(subject))).demand_valid();
+  Frame frame = plugin.ordinary().frame(1);
+  points_in(frame).points = many_points(subject);
+  plugin.process(frame).demand_valid();
   plugin.step(2).demand_valid();
   plugin.report(0).demand_valid();
 }
@@ -109,17 +119,19 @@ void survives_points_that_are_not_finite(const Subject& subject) {
   try_points(subject, points, true);
 }
 
-/// What is put for three frames where each has `extra` at `place`, counted as if it had not.
+/// What is put for three frames where each has `extra` before or behind the others, counted as if it had not.
 std::string with_extra(const LoadedLibrary& library, const Subject& subject, const Reading* extra,
-                       std::size_t place) {
+                       bool before) {
   Active plugin(library, subject, {.counters = false});
   std::string bytes;
   for (std::uint64_t step = 0; step < 3; ++step) {
-    Frame frame = walk_frame(subject.seed, step);
-    std::vector<std::uint32_t> indices{0};
+    Frame frame = plugin.ordinary().frame(step);
+    std::vector<std::uint32_t> indices(frame.readings.size());
+    std::iota(indices.begin(), indices.end(), 0u);
     if (extra != nullptr) {
-      frame.readings.insert(frame.readings.begin() + static_cast<std::ptrdiff_t>(place), *extra);
-      indices = place == 0 ? std::vector<std::uint32_t>{1, 0} : std::vector<std::uint32_t>{0, 1};
+      const auto last = static_cast<std::uint32_t>(indices.size());
+      indices.insert(before ? indices.begin() : indices.end(), last);
+      frame.readings.insert(before ? frame.readings.begin() : frame.readings.end(), *extra);
     }
     InputMemory memory;
     bytes += plugin.process(memory.put_frame(frame), indices).demand_valid().bytes;
@@ -129,11 +141,11 @@ std::string with_extra(const LoadedLibrary& library, const Subject& subject, con
 
 void skips_unknown_kinds(const Subject& subject) {
   const LoadedLibrary library(subject.file);
-  const std::string expected = with_extra(library, subject, nullptr, 0);
+  const std::string expected = with_extra(library, subject, nullptr, false);
   for (const std::uint32_t kind : {0u, 4711u, UINT32_MAX}) {
     const Reading unknown{.kind = kind};
-    for (std::size_t place = 0; place < 2; ++place) {
-      const std::string bytes = with_extra(library, subject, &unknown, place);
+    for (const bool before : {true, false}) {
+      const std::string bytes = with_extra(library, subject, &unknown, before);
       demand_same(bytes, expected,
                   "a sample of the unknown kind " + std::to_string(kind) + " changes the answer");
     }
@@ -145,7 +157,7 @@ template <typename Change>
 void try_walk(const Subject& subject, bool may_fail, Change&& change) {
   Active plugin(subject);
   for (std::uint64_t step = 0; step < 6; ++step) {
-    Frame frame = walk_frame(subject.seed, step);
+    Frame frame = plugin.ordinary().frame(step);
     change(frame);
     const Answer answer = plugin.process(frame);
     if (!may_fail) answer.demand_valid();
@@ -157,7 +169,7 @@ void try_walk(const Subject& subject, bool may_fail, Change&& change) {
 
 void takes_tracks(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) {
-    Reading& reading = frame.readings.front();
+    Reading& reading = points_in(frame);
     for (std::size_t i = 0; i < reading.points.size(); ++i) {
       reading.track.push_back(i % 3 == 0 ? UINT64_MAX - i : (i + 7 * frame.sequence) % kWalkPoints);
     }
@@ -166,7 +178,7 @@ void takes_tracks(const Subject& subject) {
 
 void takes_pixels(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) {
-    Reading& reading = frame.readings.front();
+    Reading& reading = points_in(frame);
     // Rows of seven, the last points first, with a pixel without a point before every point.
     reading.width = 14;
     reading.height = static_cast<std::uint32_t>(reading.points.size() / 7 + 1);
@@ -197,23 +209,32 @@ void survives_gaps(const Subject& subject) {
 }
 
 void survives_unannounced_sensors(const Subject& subject) {
-  Frame frame = walk_frame(subject.seed, 0);
-  frame.readings.front().sensor = 77;
-  try_frame(subject, frame, true);
-  frame.readings.push_back(walk_frame(subject.seed, 0).readings.front());
-  try_frame(subject, frame, true);
+  for (const bool beside_others : {false, true}) {
+    const auto unannounced = [&](const Walk& ordinary) {
+      Frame frame = ordinary.frame(0);
+      const std::vector<Reading> others = frame.readings;
+      for (Reading& reading : frame.readings) reading.sensor += 77;
+      if (beside_others) frame.readings.insert(frame.readings.end(), others.begin(), others.end());
+      return frame;
+    };
+    try_frame(subject, unannounced, true);
+  }
 }
 
 void survives_two_readings(const Subject& subject) {
-  Frame frame = walk_frame(subject.seed, 0);
-  frame.readings.push_back(frame.readings.front());
-  try_frame(subject, frame, true);
+  const auto twice = [](const Walk& ordinary) {
+    const Frame once = ordinary.frame(0);
+    Frame frame;
+    for (const Reading& reading : once.readings) frame.readings.insert(frame.readings.end(), 2, reading);
+    return frame;
+  };
+  try_frame(subject, twice, true);
 }
 
 constexpr Test kFrameTests[] = {
     {"frame-no-samples", "A frame without samples is a valid one.", takes_no_samples},
-    {"frame-no-points", "A sample without points is a valid one.", takes_no_points},
-    {"frame-one-point", "A sample of one point is a valid one.", takes_one_point},
+    {"frame-no-points", "A sample without elements is a valid one.", takes_no_elements},
+    {"frame-one-point", "A sample of one element is a valid one.", takes_one_element},
     {"frame-many-points", "A sample of 100 000 points is answered.", takes_many_points},
     {"frame-equal-points", "Points that are equal are answered, or refused with a reason.",
      survives_equal_points},

@@ -16,13 +16,11 @@ constexpr std::uint32_t kUnknownFlag = 1u << 31;
 std::string put_by(const LoadedLibrary& library, const Subject& subject, const InputShape& shape,
                    const HostShape& host = {}, std::uint32_t sample_flags = 0) {
   Instance plugin(library, subject, host);
-  const Ended ended = plugin.activate({ordinary_sensor()}, shape);
-  if (!ended.good()) plugin.activate();  // skips the test where it needs more than points
-  ended.demand_good();
+  plugin.activate(plugin.ordinary().sensors(), shape).demand_good();
   std::string bytes;
   for (std::uint64_t step = 0; step < kGrowthFrames; ++step) {
-    Frame frame = walk_frame(subject.seed, step);
-    frame.readings.front().flags = sample_flags;
+    Frame frame = plugin.ordinary().frame(step);
+    for (Reading& reading : frame.readings) reading.flags = sample_flags;
     bytes += plugin.process(frame, shape).bytes();
   }
   return bytes + plugin.report(0).bytes();
@@ -40,11 +38,12 @@ void takes_a_larger_frame(const Subject& subject) {
 void takes_a_larger_sample(const Subject& subject) {
   compare(subject, "a larger hw_sample_t changes the answer", {.sample_growth = kGrowth});
 }
-void takes_larger_points(const Subject& subject) {
-  compare(subject, "a larger hw_points_t changes the answer", {.points_growth = kGrowth});
+void takes_larger_payloads(const Subject& subject) {
+  compare(subject, "a larger payload of a sample (hw_points_t, ...) changes the answer",
+          {.payload_growth = kGrowth});
 }
 void honours_the_stride(const Subject& subject) {
-  compare(subject, "a larger stride changes the answer", {.stride = sizeof(hw_point3_t) + 16});
+  compare(subject, "a larger stride changes the answer", {.stride_growth = 16});
 }
 void takes_a_larger_activation(const Subject& subject) {
   compare(subject, "a larger hw_activation_t changes the answer", {.activation_growth = kGrowth});
@@ -85,8 +84,9 @@ constexpr Test kGrowthTests[] = {
      takes_a_larger_frame},
     {"grown-sample", "A hw_sample_t of a later version, which is larger, is read as today's.",
      takes_a_larger_sample},
-    {"grown-points", "A hw_points_t of a later version, which is larger, is read as today's.",
-     takes_larger_points},
+    {"grown-points",
+     "The payload of a sample (hw_points_t, ...) of a later version, which is larger, is read as today's.",
+     takes_larger_payloads},
     {"grown-activation", "A hw_activation_t of a later version, which is larger, is read as today's.",
      takes_a_larger_activation},
     {"grown-sensor", "A hw_sensor_info_t of a later version, which is larger, is read as today's.",
@@ -95,7 +95,7 @@ constexpr Test kGrowthTests[] = {
      takes_a_larger_request},
     {"grown-host", "A hw_host_t of a later version, which is larger, is read as today's.",
      takes_a_larger_host},
-    {"stride", "Points stand as far apart as their stride says.", honours_the_stride},
+    {"stride", "Elements of a sample stand as far apart as their stride says.", honours_the_stride},
     {"unknown-sample-flags", "Flags of a sample that the plugin does not know are ignored.",
      ignores_unknown_flags},
     {"unknown-request-flags", "Flags of a report that the plugin does not know are ignored.",

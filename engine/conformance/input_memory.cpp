@@ -7,6 +7,8 @@
 #include <cstring>
 #include <new>
 
+#include "base/bytes.hpp"
+
 namespace hallway::conformance {
 namespace {
 
@@ -53,11 +55,50 @@ T& InputMemory::put(const T& value, std::uint32_t growth, const InputShape& shap
 }
 
 template <typename T>
-const T* InputMemory::put_list(const std::vector<T>& list, std::uint32_t stride, const InputShape& shape) {
-  blocks_.push_back(std::make_unique<Block>(list.size() * stride, shape.tight));
+const T* InputMemory::put_list(const std::vector<T>& list, const InputShape& shape) {
+  blocks_.push_back(std::make_unique<Block>(list.size() * sizeof(T), shape.tight));
   void* first = blocks_.back()->data();
-  for (std::size_t i = 0; i < list.size(); ++i) std::memcpy(at(first, i * stride), &list[i], sizeof(T));
+  if (!list.empty()) std::memcpy(first, list.data(), list.size() * sizeof(T));
   return static_cast<const T*>(first);
+}
+
+const void* InputMemory::put_payload(const host::SampleKind& kind, const void* payload,
+                                     const InputShape& shape) {
+  host::Payload copy;
+  copy.assign(kind, payload);
+  for (const host::PayloadArray& array : kind.arrays) {
+    if (!host::has_array(copy.get(), array)) continue;
+    const auto count = load<std::uint64_t>(copy.get() + array.count);
+    const auto* from = load<const std::byte*>(copy.get() + array.data);
+    const std::uint64_t from_stride = host::stride_of(copy.get(), array);
+    if (array.stride != host::kNoMember)
+      store(copy.get() + array.stride, static_cast<std::uint32_t>(array.element_bytes) + shape.stride_growth);
+    const std::uint64_t stride = host::stride_of(copy.get(), array);
+    blocks_.push_back(std::make_unique<Block>(count * stride, shape.tight));
+    void* first = blocks_.back()->data();
+    store(copy.get() + array.data, first);
+    for (std::uint64_t i = 0; i < count; ++i)
+      std::memcpy(at(first, i * stride), from + i * from_stride, array.element_bytes);
+  }
+  const auto size = static_cast<std::uint32_t>(kind.size) + shape.payload_growth;
+  store(copy.get(), size);
+  blocks_.push_back(std::make_unique<Block>(size, shape.tight));
+  return std::memcpy(blocks_.back()->data(), copy.get(), kind.size);
+}
+
+const void* InputMemory::put_points(const Reading& reading, const InputShape& shape) {
+  hw_points_t points{};
+  points.size = sizeof points;
+  points.stride = sizeof(hw_point3_t);
+  points.count = reading.points.size();
+  points.points = reading.points.data();
+  if (!reading.track.empty()) points.track = reading.track.data();
+  if (!reading.pixels.empty()) {
+    points.width = reading.width;
+    points.height = reading.height;
+    points.pixel = reading.pixels.data();
+  }
+  return put_payload(host::kPointSamples, &points, shape);
 }
 
 const hw_sample_t* InputMemory::put_reading(const Reading& reading, const Frame& frame,
@@ -68,22 +109,14 @@ const hw_sample_t* InputMemory::put_reading(const Reading& reading, const Frame&
   sample.sensor_id = reading.sensor;
   sample.sequence = reading.sequence;
   sample.t_begin_ns = sample.t_end_ns = frame.t_ns;
-  if (reading.kind != HW_SAMPLE_POINTS) {
+  if (reading.payload != nullptr) {
+    sample.payload = put_payload(reading.payload->kind(), reading.payload->get(), shape);
+  } else if (reading.kind == host::kPointSamples.kind) {
+    sample.payload = put_points(reading, shape);
+  } else {
     blocks_.push_back(std::make_unique<Block>(kUnknownPayloadBytes, shape.tight));
     sample.payload = std::memcpy(blocks_.back()->data(), &kUnknownPayloadBytes, sizeof kUnknownPayloadBytes);
-    return &put(sample, shape.sample_growth, shape);
   }
-  hw_points_t points{};
-  points.stride = shape.stride;
-  points.count = reading.points.size();
-  points.points = put_list(reading.points, shape.stride, shape);
-  if (!reading.track.empty()) points.track = put_list(reading.track, sizeof(std::uint64_t), shape);
-  if (!reading.pixels.empty()) {
-    points.width = reading.width;
-    points.height = reading.height;
-    points.pixel = put_list(reading.pixels, sizeof(std::uint32_t), shape);
-  }
-  sample.payload = &put(points, shape.points_growth, shape);
   return &put(sample, shape.sample_growth, shape);
 }
 
@@ -94,7 +127,7 @@ const hw_frame_t& InputMemory::put_frame(const Frame& frame, const InputShape& s
   placed.n_samples = static_cast<std::uint32_t>(samples.size());
   placed.sequence = frame.sequence;
   placed.t_ns = frame.t_ns;
-  placed.samples = samples.empty() ? nullptr : put_list(samples, sizeof(void*), shape);
+  placed.samples = samples.empty() ? nullptr : put_list(samples, shape);
   return put(placed, shape.frame_growth, shape);
 }
 
@@ -111,7 +144,7 @@ const hw_activation_t& InputMemory::put_activation(const std::vector<hw_sensor_i
   }
   hw_activation_t activation{};
   activation.n_sensors = static_cast<std::uint32_t>(pointers.size());
-  activation.sensors = pointers.empty() ? nullptr : put_list(pointers, sizeof(void*), shape);
+  activation.sensors = pointers.empty() ? nullptr : put_list(pointers, shape);
   return put(activation, shape.activation_growth, shape);
 }
 

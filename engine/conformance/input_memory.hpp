@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/samples/payload.hpp"
+
 namespace hallway::conformance {
 
 /// Memory of whole pages that can be taken away from whoever still points to it, with a page behind it that nobody may touch.
@@ -34,20 +36,22 @@ class Block {
 struct InputShape {
   std::uint32_t frame_growth = 0;       ///< bytes that hw_frame_t has more than today
   std::uint32_t sample_growth = 0;      ///< hw_sample_t
-  std::uint32_t points_growth = 0;      ///< hw_points_t
+  std::uint32_t payload_growth = 0;     ///< the payload of a sample
   std::uint32_t activation_growth = 0;  ///< hw_activation_t
   std::uint32_t sensor_growth = 0;      ///< hw_sensor_info_t
-  std::uint32_t stride = sizeof(hw_point3_t);
-  std::uint32_t reserved = 0;  ///< what members called `reserved` are
-  bool tight = false;          ///< see Block
+  std::uint32_t stride_growth = 0;      ///< from one element of a sample to the next, where there is a stride
+  std::uint32_t reserved = 0;           ///< what members called `reserved` are
+  bool tight = false;                   ///< see Block
 };
 
-/// One reading. Readings of an unknown kind get a payload that means nothing.
+/// One reading: of points; of any kind that the table has, with a payload; or of an unknown kind, which gets a payload that means nothing.
 struct Reading {
-  std::uint32_t kind = HW_SAMPLE_POINTS;
+  std::uint32_t kind = host::kPointSamples.kind;
   std::uint32_t flags = 0;
   std::uint32_t sensor = 0;
   std::uint64_t sequence = 0;
+  std::shared_ptr<const host::Payload>
+      payload{};                      ///< null: it is of points, which follow, or of an unknown kind
   std::vector<hw_point3_t> points{};  ///< sensor frame, metres
   std::vector<std::uint64_t> track{};
   std::uint32_t width = 0, height = 0;  ///< of the image whose pixels the points are
@@ -75,7 +79,10 @@ class InputMemory {
   template <typename T>
   T& put(const T& value, std::uint32_t growth, const InputShape& shape);
   template <typename T>
-  const T* put_list(const std::vector<T>& list, std::uint32_t stride, const InputShape& shape);
+  const T* put_list(const std::vector<T>& list, const InputShape& shape);
+  /// A payload with its arrays. `payload` is as its row says.
+  const void* put_payload(const host::SampleKind& kind, const void* payload, const InputShape& shape);
+  const void* put_points(const Reading& reading, const InputShape& shape);
   const hw_sample_t* put_reading(const Reading& reading, const Frame& frame, const InputShape& shape);
 
   std::vector<std::unique_ptr<Block>> blocks_;

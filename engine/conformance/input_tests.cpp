@@ -17,8 +17,8 @@ void does_not_keep_frames(const Subject& subject) {
   Active plugin(subject);
   std::vector<InputMemory> memories(kInputFrames);
   for (std::uint64_t step = 0; step < kInputFrames; ++step) {
-    const hw_frame_t& frame = memories[step].put_frame(walk_frame(subject.seed, step));
-    plugin.process(frame, {0}).demand_good();
+    const hw_frame_t& frame = memories[step].put_frame(plugin.ordinary().frame(step));
+    plugin.process(frame).demand_good();
     memories[step].protect(PROT_NONE);
   }
   plugin.report(HW_REPORT_REFINE).demand_good();
@@ -39,20 +39,18 @@ void does_not_write(const Subject& subject) {
   Active plugin(subject);
   for (std::uint64_t step = 0; step < kInputFrames; ++step) {
     InputMemory memory;
-    const hw_frame_t& frame = memory.put_frame(walk_frame(subject.seed, step));
+    const hw_frame_t& frame = memory.put_frame(plugin.ordinary().frame(step));
     memory.protect(PROT_READ);
-    plugin.process(frame, {0}).demand_good();
+    plugin.process(frame).demand_good();
   }
 }
 
 void does_not_read_on(const Subject& subject) {
   Instance plugin(subject);
   const InputShape tight{.tight = true};
-  const Ended ended = plugin.activate({ordinary_sensor()}, tight);
-  if (!ended.good()) plugin.activate();
+  plugin.activate(plugin.ordinary().sensors(), tight).demand_good();
   for (std::uint64_t step = 0; step < kInputFrames; ++step) {
-    Frame frame = walk_frame(subject.seed, step);
-    if (step == 1) frame.readings.front().points.clear();
+    const Frame frame = step == 1 ? plugin.ordinary().frame(step, 0) : plugin.ordinary().frame(step);
     plugin.process(frame, tight).demand_good();
   }
 }

@@ -39,24 +39,10 @@ void Answer::demand_survived() const {
   if (good()) demand_valid();
 }
 
-hw_sensor_info_t ordinary_sensor(std::uint32_t id) {
-  hw_sensor_info_t sensor{};
-  sensor.id = id;
-  sensor.kind = HW_SAMPLE_POINTS;
-  sensor.name = "sensor";
-  sensor.T_body_sensor.orientation[0] = 1.0;
-  sensor.horizontal_fov = 6.283185307179586;
-  sensor.vertical_fov = 3.0;
-  sensor.min_range_m = 0.1;
-  sensor.max_range_m = 30.0;
-  for (double& noise : sensor.noise_m) noise = 0.01;
-  return sensor;
-}
-
 Instance::Instance(const LoadedLibrary& library, const Subject& subject, const HostShape& shape)
-    : seed_(subject.seed), host_(shape) {
+    : host_(shape) {
   const hw_plugin_info_t& info = library.info(subject.plugin);
-  inputs_ = inputs_of(info);
+  walk_ = Walk(info, subject.seed);
   ended("create", [&](hw_error_t* error) {
     return library.factory().create(&host_.host(), info.id, &plugin_, error);
   }).demand_good();
@@ -137,11 +123,8 @@ Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const Inp
 }
 
 void Instance::activate() {
-  const Ended ended = activate({ordinary_sensor()});
-  if (ended.good()) return;
-  const bool points_alone = std::ranges::all_of(inputs_, [](auto kind) { return kind == HW_SAMPLE_POINTS; });
-  if (!points_alone) throw Skipped("the plugin needs other samples than points: " + ended.text());
-  throw Failed("a sensor of points with all facts known was refused: " + ended.text());
+  const Ended ended = activate(walk_.sensors());
+  demand(ended.good(), "a sensor of " + walk_.kinds() + " with all facts known was refused: " + ended.text());
 }
 
 void Instance::deactivate() {
@@ -169,9 +152,13 @@ Answer Instance::process(const hw_frame_t& frame, std::vector<std::uint32_t> ind
 
 Answer Instance::process(const Frame& frame, const InputShape& shape) {
   InputMemory memory;
-  std::vector<std::uint32_t> indices(frame.readings.size());
+  return process(memory.put_frame(frame, shape));
+}
+
+Answer Instance::process(const hw_frame_t& frame) {
+  std::vector<std::uint32_t> indices(frame.n_samples);
   std::iota(indices.begin(), indices.end(), 0u);
-  return process(memory.put_frame(frame, shape), std::move(indices));
+  return process(frame, std::move(indices));
 }
 
 Answer Instance::report(std::uint32_t flags, std::uint32_t growth) {

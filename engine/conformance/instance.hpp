@@ -57,9 +57,6 @@ struct Answer : Ended {
   void demand_survived() const;
 };
 
-/// The sensor of tests that are about something else: points, all facts known.
-hw_sensor_info_t ordinary_sensor(std::uint32_t id = 0);
-
 /// One instance of the plugin with the settings of the subject. Every function is called as the host calls it.
 class Instance {
  public:
@@ -81,8 +78,10 @@ class Instance {
   /// The same of hw_params_2_t.
   const hw_params_2_t* parameters_2();
 
+  /// Its ordinary sensors and frames.
+  const Walk& ordinary() const { return walk_; }
   Ended activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape = {});
-  /// With the ordinary sensor. Throws Failed where it is refused; Skipped where the plugin needs kinds of samples that this suite does not make.
+  /// With the ordinary sensors. Throws Failed where they are refused, and what Walk::sensors() throws.
   void activate();
   void deactivate();
   /// Takes the activation's memory away.
@@ -92,12 +91,14 @@ class Instance {
   void must_reset() { reset().demand_good(); }
   Answer process(const Frame& frame, const InputShape& shape = {});
   /// With frame `step` of the ordinary walk.
-  Answer step(std::uint64_t step) { return process(walk_frame(seed_, step)); }
+  Answer step(std::uint64_t step) { return process(walk_.frame(step)); }
   /// Bytes of everything that was put from frame `begin` to before `end` of the ordinary walk, with a report at the end. Throws Failed where a
   /// call fails.
   std::string walk(std::uint64_t begin, std::uint64_t end);
   /// In memory that the caller has; `indices` says how the samples count in what is put.
   Answer process(const hw_frame_t& frame, std::vector<std::uint32_t> indices);
+  /// The same; samples count as they stand.
+  Answer process(const hw_frame_t& frame);
   Answer report(std::uint32_t flags, std::uint32_t growth = 0);
   /// Deactivates it, if it is active, and destroys it.
   void close();
@@ -117,16 +118,15 @@ class Instance {
   Answer answer(const char* name, const hw_frame_t* frame, std::vector<std::uint32_t> indices, Call&& call);
 
   std::unique_ptr<const LoadedLibrary> own_library_;
-  std::uint64_t seed_;
+  Walk walk_;
   TestHost host_;
   hw_plugin_t plugin_{};
-  std::vector<std::uint32_t> inputs_;
   InputMemory activation_;
   bool active_ = false;
   bool gives_errors_ = true;
 };
 
-/// An instance that is active, with the ordinary sensor.
+/// An instance that is active, with the ordinary sensors.
 struct Active : Instance {
   explicit Active(const Subject& subject, const HostShape& shape = {}) : Instance(subject, shape) {
     activate();

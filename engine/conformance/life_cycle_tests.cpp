@@ -134,7 +134,8 @@ void use_leaves_nothing(const Subject& subject) {
   constexpr int kWarmUpRounds = 200;
   constexpr int kRounds = 320;
   const LoadedLibrary library(subject.file);
-  const std::vector<Frame> frames{walk_frame(subject.seed, 0), walk_frame(subject.seed, 1)};
+  const Walk ordinary = Instance(library, subject).ordinary();
+  const std::vector<Frame> frames{ordinary.frame(0), ordinary.frame(1)};
   std::size_t heap = 0;
   std::size_t resident = 0;
   for (int i = 0; i < kRounds; ++i) {

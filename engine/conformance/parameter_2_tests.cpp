@@ -108,18 +108,15 @@ void origins_are_told(const Subject& subject) {
   }
 }
 
-/// A sensor with a noise that no default is.
-hw_sensor_info_t odd_sensor() {
-  hw_sensor_info_t sensor = ordinary_sensor();
-  sensor.noise_m[0] = 0.0123;
-  sensor.noise_m[1] = 0.0456;
-  sensor.noise_m[2] = std::numeric_limits<double>::quiet_NaN();
-  return sensor;
-}
-
-/// Activates the plugin and feeds one frame. Throws Skipped where it needs other samples than points.
+/// Activates the plugin with sensors of a noise that no default is, and feeds one frame.
 void use(const Parameters& parameters) {
-  if (!parameters.plugin().activate({odd_sensor()}).good()) parameters.plugin().activate();
+  std::vector<hw_sensor_info_t> sensors = parameters.plugin().ordinary().sensors();
+  for (hw_sensor_info_t& sensor : sensors) {
+    sensor.noise_m[0] = 0.0123;
+    sensor.noise_m[1] = 0.0456;
+    sensor.noise_m[2] = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!parameters.plugin().activate(sensors).good()) parameters.plugin().activate();
   parameters.plugin().step(0).demand_good();
 }
 

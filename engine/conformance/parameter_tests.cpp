@@ -226,7 +226,7 @@ void survives_extremes(const Subject& subject) {
       const Parameters parameters(plugin);
       const hw_param_value_t value = parameters.good_values(i)[end];
       parameters.set(i, value).demand_good();
-      const Ended ended = plugin.activate({ordinary_sensor()});
+      const Ended ended = plugin.activate(plugin.ordinary().sensors());
       ended.demand_reason();
       if (!ended.good()) continue;
       for (std::uint64_t step = 0; step < 4; ++step) {

@@ -27,16 +27,35 @@ std::size_t Payload::used_size() const {
   return size;
 }
 
-void Payload::own_arrays(bool all) {
+std::byte* Payload::room_for(std::size_t index, std::uint64_t count) {
   if (arrays_.size() < kind_->arrays.size()) arrays_.resize(kind_->arrays.size());
+  // An empty array is not null.
+  arrays_[index].resize((count * kind_->arrays[index].element_bytes + 7) / 8 + 1);
+  return reinterpret_cast<std::byte*>(arrays_[index].data());
+}
+
+void Payload::point_to_copy(const PayloadArray& array, const std::byte* copy) {
+  store(get() + array.data, copy);
+  if (array.stride != kNoMember) store(get() + array.stride, static_cast<std::uint32_t>(array.element_bytes));
+}
+
+std::byte* Payload::make_array(std::size_t index, std::uint64_t count) {
+  const PayloadArray& array = kind_->arrays[index];
+  std::byte* elements = room_for(index, count);
+  std::fill_n(elements, count * array.element_bytes, std::byte{});
+  store(get() + array.count, count);
+  point_to_copy(array, elements);
+  return elements;
+}
+
+void Payload::own_arrays(bool all) {
   for (std::size_t i = 0; i < kind_->arrays.size(); ++i) {
     const PayloadArray& array = kind_->arrays[i];
     if (!(all || array.checked) || !has_array(get(), array)) continue;
     const auto count = load<std::uint64_t>(get() + array.count);
     const auto* first = load<const std::byte*>(get() + array.data);
     const std::uint64_t stride = stride_of(get(), array);
-    arrays_[i].resize((count * array.element_bytes + 7) / 8 + 1);  // an empty array is not null
-    auto* copy = reinterpret_cast<std::byte*>(arrays_[i].data());
+    std::byte* copy = room_for(i, count);
     if (first == copy) continue;
     if (stride == array.element_bytes) {
       if (count != 0) std::memcpy(copy, first, count * array.element_bytes);
@@ -44,9 +63,7 @@ void Payload::own_arrays(bool all) {
       for (std::uint64_t k = 0; k < count; ++k)
         std::memcpy(copy + k * array.element_bytes, first + k * stride, array.element_bytes);
     }
-    store(get() + array.data, copy);
-    if (array.stride != kNoMember)
-      store(get() + array.stride, static_cast<std::uint32_t>(array.element_bytes));
+    point_to_copy(array, copy);
   }
 }
 

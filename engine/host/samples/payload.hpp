@@ -31,6 +31,8 @@ class Payload {
   std::byte* begin(const SampleKind& kind);
   /// Copies a struct, as much of it as these headers know; its arrays stay where they are.
   void assign(const SampleKind& kind, const void* payload);
+  /// Gives it the array of that place in SampleKind::arrays, with `count` elements of zeros. @return the elements, packed, to be filled
+  std::byte* make_array(std::size_t index, std::uint64_t count);
 
   const SampleKind& kind() const { return *kind_; }
   std::byte* get() { return struct_.data(); }
@@ -49,6 +51,9 @@ class Payload {
 
  private:
   void own_arrays(bool all);
+  /// The memory for the copy of an array.
+  std::byte* room_for(std::size_t index, std::uint64_t count);
+  void point_to_copy(const PayloadArray& array, const std::byte* copy);
 
   const SampleKind* kind_ = nullptr;
   alignas(8) std::array<std::byte, kMaxSize> struct_;

@@ -2,9 +2,13 @@
 // The row of HW_SAMPLE_PLANES, and what makes samples of it.
 #include "host/samples/plane_kind.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <numbers>
 #include <span>
 
+#include "base/random.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
 
@@ -58,6 +62,69 @@ constexpr PayloadMember kFoundIn[] = {{.name = "sample",
                                        .offset = offsetof(hw_planes_t, sample),
                                        .may_be_none = true}};
 
+/// Where the robot of the examples stands: it walks on a circle of 1 m, and turns as it goes.
+struct Standpoint {
+  double x, y, yaw;
+};
+
+Standpoint standpoint_at(std::uint64_t step) {
+  const auto at = static_cast<double>(step);
+  return {std::sin(0.05 * at), 1.0 - std::cos(0.05 * at), 0.01 * at};
+}
+
+/// Upright wall `i` of a round of them, 4 to 8 m from where the robot starts, as it sees the wall. Its corners are its hull.
+hw_plane_t example_wall(const ExampleOf& of, std::uint64_t i, const Standpoint& robot) {
+  constexpr double kHalfWidth_m = 1.5, kLow_m = -1.0, kHigh_m = 1.5, kNoise_m = 0.005;
+  const Random random(of.seed, stream_id("planes"));
+  const double angle =
+      2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(of.elements) - robot.yaw;
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double turn_c = std::cos(robot.yaw), turn_s = std::sin(robot.yaw);
+  // The robot's place along the wall's normal and along the wall.
+  const double x = turn_c * robot.x + turn_s * robot.y, y = turn_c * robot.y - turn_s * robot.x;
+  const double distance = random.uniform(0, i, 4.0, 8.0) - (c * x + s * y) +
+                          kNoise_m * random.normal(static_cast<std::uint32_t>(of.step) + 1, i);
+  const double middle = s * x - c * y;
+  const auto place = [&](double(&to)[3], double along, double z) {
+    to[0] = c * distance - s * along;
+    to[1] = s * distance + c * along;
+    to[2] = z;
+  };
+  hw_plane_t wall{};
+  wall.id = i;
+  wall.normal[0] = -c;
+  wall.normal[1] = -s;
+  wall.offset_m = -distance;
+  place(wall.centroid, middle, 0.5 * (kLow_m + kHigh_m));
+  // Counter-clockwise, seen by the robot: its left is where `along` grows.
+  place(wall.corners[0], middle + kHalfWidth_m, kLow_m);
+  place(wall.corners[1], middle - kHalfWidth_m, kLow_m);
+  place(wall.corners[2], middle - kHalfWidth_m, kHigh_m);
+  place(wall.corners[3], middle + kHalfWidth_m, kHigh_m);
+  wall.n_points = 100;
+  wall.rms_m = kNoise_m;
+  wall.exclusive_share = 1.0;
+  return wall;
+}
+
+/// Walls all around, in an order that changes.
+void example_planes(Payload& payload, const ExampleOf& of) {
+  constexpr std::size_t kPlanes = 0, kHullPoints = 1, kMembers = 2;
+  constexpr std::uint64_t kCorners = 4;
+  std::byte* planes = payload.make_array(kPlanes, of.elements);
+  std::byte* hull_points = payload.make_array(kHullPoints, kCorners * of.elements);
+  payload.make_array(kMembers, 0);
+  const Standpoint robot = standpoint_at(of.step);
+  for (std::uint64_t k = 0; k < of.elements; ++k) {
+    hw_plane_t wall = example_wall(of, (k + 7 * (of.step % of.elements)) % of.elements, robot);
+    wall.first_hull = kCorners * k;
+    wall.n_hull = kCorners;
+    static_assert(sizeof wall.corners == kCorners * sizeof(hw_point3_t));
+    store(planes + k * sizeof wall, wall);
+    std::memcpy(hull_points + k * sizeof wall.corners, wall.corners, sizeof wall.corners);
+  }
+}
+
 constexpr PayloadArray kPlaneArrays[] = {{.name = "planes",
                                           .one = "plane",
                                           .data = offsetof(hw_planes_t, planes),
@@ -93,7 +160,8 @@ constexpr SampleKind kPlaneSamples{.kind = HW_SAMPLE_PLANES,
                                    .found_in = offsetof(hw_planes_t, sample),
                                    .check = &check_plane_payload,
                                    .detach = &detach_planes,
-                                   .members = kFoundIn};
+                                   .members = kFoundIn,
+                                   .example = &example_planes};
 
 PlaneReading add_planes(FrameBuilder& builder, std::uint32_t sensor_id) {
   Reading& reading = builder.add(kPlaneSamples, sensor_id);

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "base/random.hpp"
+#include "host/samples/payload.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
 
@@ -36,6 +38,14 @@ constexpr PayloadMember kPixel[] = {{.name = "", .type = NumberType::kU32, .offs
 constexpr PayloadMember kImage[] = {
     {.name = "width", .type = NumberType::kU32, .offset = offsetof(hw_points_t, width)},
     {.name = "height", .type = NumberType::kU32, .offset = offsetof(hw_points_t, height)}};
+
+/// Points in a box, without tracks and pixels.
+void example_points(Payload& payload, const ExampleOf& of) {
+  std::byte* points = payload.make_array(0, of.elements);
+  const Random random(of.seed, stream_id("points"));
+  for (std::uint64_t i = 0; i < 3 * of.elements; ++i)
+    store(points + i * sizeof(double), random.uniform(static_cast<std::uint32_t>(of.step), i, -10.0, 10.0));
+}
 
 constexpr PayloadArray kPointArrays[] = {{.name = "points",
                                           .one = "point",
@@ -73,7 +83,8 @@ constexpr SampleKind kPointSamples{.kind = HW_SAMPLE_POINTS,
                                    .arrays = kPointArrays,
                                    .track = offsetof(hw_points_t, track),
                                    .check = &check_point_payload,
-                                   .members = kImage};
+                                   .members = kImage,
+                                   .example = &example_points};
 
 SensorInfo point_sensor(std::string name, std::uint32_t id) {
   return {.id = id, .kind = HW_SAMPLE_POINTS, .name = std::move(name)};

@@ -48,6 +48,15 @@ struct PayloadArray {
   std::span<const PayloadMember> members{};  ///< of an element: all of it, in the order of its bytes
 };
 
+class Payload;
+
+/// Which example of a kind is made.
+struct ExampleOf {
+  std::uint64_t elements;  ///< how many
+  std::uint64_t seed;      ///< of what is random
+  std::uint64_t step;      ///< counts the readings of a robot that moves slowly, from 0
+};
+
 /// A row of the table.
 struct SampleKind {
   std::uint32_t kind;   ///< HW_SAMPLE_…
@@ -72,6 +81,8 @@ struct SampleKind {
   bool carried = false;
   /// Of the struct: all but its own size and what belongs to arrays, in the order of its bytes.
   std::span<const PayloadMember> members{};
+  /// Fills the arrays of a payload that make_example() (example.hpp) has begun, so that `check` accepts it. Null: any small numbers are valid.
+  void (*example)(Payload& payload, const ExampleOf& of) = nullptr;
 };
 
 /// Points, and planes.

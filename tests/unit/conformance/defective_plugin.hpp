@@ -9,11 +9,12 @@
 
 namespace hallway::conformance::test {
 
-/// The fixture `defective` under the name of a defect, which it then has; "defective": none.
+/// A fixture (`defective`, `defective_samples`) under the name of a defect, which it then has; under its own: none.
 class DefectivePlugin {
  public:
-  explicit DefectivePlugin(const std::string& defect) : file_(folder_ / (defect + ".so")) {
-    std::filesystem::create_symlink(FIXTURES "/defects/defective.so", file_);
+  explicit DefectivePlugin(const std::string& defect, const std::string& fixture = "defective")
+      : file_(folder_ / (defect + ".so")) {
+    std::filesystem::create_symlink(FIXTURES "/defects/" + fixture + ".so", file_);
   }
   const std::filesystem::path& file() const { return file_; }
   /// A setup that runs tests of it, two at a time.

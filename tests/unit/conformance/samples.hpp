@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "unit/conformance/defective_plugin.hpp"
+
+namespace hallway::conformance::test {
+
+/// A setup that runs tests of one plugin of the fixture `defective_samples`.
+inline SuiteSetup setup_of_samples(const DefectivePlugin& file, const std::string& plugin) {
+  SuiteSetup setup = file.setup();
+  setup.subject.plugin = plugin;
+  return setup;
+}
+
+/// Expects that no test fails. @return for each test that was skipped, why
+inline std::map<std::string, std::string> expect_good(const SuiteSetup& setup) {
+  std::map<std::string, std::string> skipped;
+  for (const Result& result : run_suite(setup)) {
+    EXPECT_TRUE(result.good()) << result.test->name << ": " << result.reason;
+    if (result.verdict == Verdict::kSkipped) skipped[result.test->name] = result.reason;
+  }
+  return skipped;
+}
+
+/// Expects that each defect of one plugin of the fixture `defective_samples` is found by its test: of the struct, of a stride, and of two arrays.
+inline void expect_defects_found(const std::string& plugin) {
+  std::map<std::string, std::string> defects{{"grown_payload", "grown-points"}, {"ignores_stride", "stride"}};
+  for (const std::string array : {"0", "1"}) {
+    defects["fails_for_elements_" + array] = "outputs-valid";
+    defects["keeps_input_" + array] = "input-not-kept";
+    defects["reads_on_" + array] = "input-not-overrun";
+    defects["writes_to_input_" + array] = "input-not-written";
+  }
+  for (const auto& [defect, test] : defects) {
+    const DefectivePlugin file(defect, "defective_samples");
+    SuiteSetup setup = setup_of_samples(file, plugin);
+    setup.only = {test};
+    EXPECT_FALSE(run_suite(setup).at(0).good()) << defect << " of " << plugin;
+  }
+}
+
+}  // namespace hallway::conformance::test

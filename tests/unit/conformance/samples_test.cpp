@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Plugins of other samples than points are given samples of theirs, and tests of memory and growth hold for these.
+#include "unit/conformance/samples.hpp"
+
+#include <map>
+#include <string>
+
+#include "base/helper.hpp"
+
+namespace hallway::conformance::test {
+namespace {
+
+/// Expects that a test was skipped since the plugin takes no points, has no parameters or texts, or for what `reason` may begin with.
+void expect_reasons(const std::map<std::string, std::string>& skipped, const std::string& also) {
+  for (const auto& [test, reason] : skipped) {
+    const bool uncounted = reserves_addresses() && test.ends_with("-memory");
+    EXPECT_TRUE(reason == "the plugin takes no points" || test.starts_with("params-") ||
+                reason.starts_with(also) || uncounted)
+        << test << ": " << reason;
+  }
+}
+
+TEST(Samples, APluginOfPlanesAloneIsGivenPlanes) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  const auto skipped = expect_good(setup_of_samples(none, "planes"));
+  EXPECT_TRUE(skipped.contains("frame-tracks") && skipped.contains("frame-pixels"));
+  expect_reasons(skipped, "the plugin refuses no sensors");
+}
+
+TEST(Samples, DefectsOfAPluginOfPlanesAreFound) {
+  expect_defects_found("planes");
+}
+
+TEST(Samples, SlamPlaneIsGivenPlanes) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  SuiteSetup setup = none.setup();
+  setup.subject.file = PLUGINS "/slam_plane.so";
+  const auto skipped = expect_good(setup);
+  expect_reasons(skipped, "the plugin refuses a second sensor");
+  EXPECT_FALSE(skipped.contains("params-sensor")) << "its noise is that of the sensor of planes";
+}
+
+TEST(Samples, OfAKindThatNoRowHasAreNotMade) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  SuiteSetup setup = setup_of_samples(none, "made_up");
+  setup.only = {"outputs-valid", "activate-unknown-kind", "stride"};
+  const auto skipped = expect_good(setup);
+  for (const std::string& test : setup.only) {
+    ASSERT_TRUE(skipped.contains(test)) << test;
+    EXPECT_EQ(skipped.at(test), "the plugin needs samples of kind 1000, which this suite does not make");
+  }
+}
+
+}  // namespace
+}  // namespace hallway::conformance::test
