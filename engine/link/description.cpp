@@ -16,28 +16,33 @@ namespace {
 
 constexpr std::uint32_t kLockStep = 1;
 
-/// What stands in a description of version 1.
+/// What stands in a description of either version behind what tells the sensor.
+struct SensorFacts {
+  hw_pose_t T_body_sensor{};
+  double horizontal_fov = 0;
+  double vertical_fov = 0;
+  double min_range_m = 0;
+  double max_range_m = 0;
+  double noise_m[3]{};
+};
+
+/// In version 1.
 struct Version1 {
   struct Robot {
     std::uint32_t flags = 0;
     std::uint32_t sensors = 0;
     std::int64_t period_ns = 0;
   };
-  struct Sensor {
+  struct SensorHead {
     std::uint32_t id = 0;
     std::uint32_t kind = 0;
-    hw_pose_t T_body_sensor{};
-    double horizontal_fov = 0;
-    double vertical_fov = 0;
-    double min_range_m = 0;
-    double max_range_m = 0;
-    double noise_m[3]{};
   };
+  struct Sensor : SensorHead, SensorFacts {};
   static constexpr bool kSized = false;
 };
 static_assert(sizeof(Version1::Robot) == 16 && sizeof(Version1::Sensor) == 120);
 
-/// And of version 2: each struct begins with its own size, a multiple of 8, and may grow at its end.
+/// In version 2 each struct begins with its own size, a multiple of 8, and may grow at its end.
 struct Version2 {
   struct Robot {
     std::uint32_t size = sizeof(Robot);
@@ -46,18 +51,13 @@ struct Version2 {
     std::uint32_t reserved = 0;
     std::int64_t period_ns = 0;
   };
-  struct Sensor {
-    std::uint32_t size = sizeof(Sensor);
+  struct SensorHead {
+    std::uint32_t size = 128;
     std::uint32_t id = 0;
     std::uint32_t kind = 0;
     std::uint32_t reserved = 0;
-    hw_pose_t T_body_sensor{};
-    double horizontal_fov = 0;
-    double vertical_fov = 0;
-    double min_range_m = 0;
-    double max_range_m = 0;
-    double noise_m[3]{};
   };
+  struct Sensor : SensorHead, SensorFacts {};
   static constexpr bool kSized = true;
 };
 static_assert(sizeof(Version2::Robot) == 24 && sizeof(Version2::Sensor) == 128);

@@ -137,6 +137,35 @@ TEST(Description, EveryTruncationIsRefusedAndNoChangedByteCrashes) {
   }
 }
 
+TEST(Description, OfVersion2HasTheBytesOfTheSpecification) {
+  Description robot = description(true);
+  robot.sensors[0].id = 9;
+  robot.sensors[0].kind = 77;
+  robot.sensors[0].T_body_sensor.position[0] = 0.25;
+  robot.sensors[0].noise_m[2] = 0.5;
+  const Bytes bytes = write_description(robot, kNewestVersion);
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  const auto real = [&](std::size_t at) {
+    double value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  EXPECT_EQ(word(0), 24u);
+  EXPECT_EQ(word(4), 1u) << "lock-step";
+  EXPECT_EQ(word(8), 1u) << "sensors";
+  EXPECT_EQ(word(24), 6u) << "the name's length";
+  EXPECT_EQ(word(40), 128u);
+  EXPECT_EQ(word(44), 9u);
+  EXPECT_EQ(word(48), 77u);
+  EXPECT_EQ(real(56), 0.25);
+  EXPECT_EQ(real(40 + 128 - 8), 0.5);
+  EXPECT_EQ(word(40 + 128), 4u) << "the sensor's name";
+}
+
 /// A description of version 2 whose struct at `offset` says that it has `more` bytes more, which stand behind it.
 Bytes grown(const Bytes& message, std::size_t offset, std::uint32_t more) {
   std::uint32_t size = 0;
