@@ -2,6 +2,8 @@
 #include "geometry/symmetric.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 namespace hallway {
 
@@ -11,7 +13,17 @@ Spectrum<N> spectrum(const Eigen::Matrix<double, N, N>& matrix) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-template Spectrum<2> spectrum(const Eigen::Matrix<double, 2, 2>&);
+/// Of two rows, which are tridiagonal as they are. Eigen's reduction to that form changes no bit of them, and takes a compiler as long as that of six rows.
+template <>
+Spectrum<2> spectrum(const Eigen::Matrix2d& matrix) {
+  const double largest = std::max({std::abs(matrix(0, 0)), std::abs(matrix(1, 0)), std::abs(matrix(1, 1))});
+  const double scale = largest == 0.0 ? 1.0 : largest;  // as Eigen scales
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeFromTridiagonal(Eigen::Vector2d(matrix(0, 0) / scale, matrix(1, 1) / scale),
+                                Eigen::Matrix<double, 1, 1>(matrix(1, 0) / scale));
+  return {solver.eigenvalues() * scale, solver.eigenvectors()};
+}
+
 template Spectrum<3> spectrum(const Eigen::Matrix<double, 3, 3>&);
 template Spectrum<6> spectrum(const Eigen::Matrix<double, 6, 6>&);
 template Spectrum<Eigen::Dynamic> spectrum(const Eigen::MatrixXd&);
