@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "base/text.hpp"
@@ -160,7 +161,8 @@ void IsolatedPlugin::submit(const hw_frame_t& frame, std::span<const std::byte> 
                 fmt::format("a frame of {} bytes; an isolated plugin takes {} at most", size, room.size()));
   }
   if (is_whole) {
-    std::ranges::copy(bytes, room.begin());
+    // std::ranges::copy would be a loop over single bytes (libstdc++ 12).
+    std::memcpy(room.data(), bytes.data(), size);
   } else {
     writer_.write(room.first(size));
   }
