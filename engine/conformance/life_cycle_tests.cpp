@@ -134,13 +134,16 @@ void use_leaves_nothing(const Subject& subject) {
   constexpr int kWarmUpRounds = 200;
   constexpr int kRounds = 320;
   const LoadedLibrary library(subject.file);
-  const Walk ordinary = Instance(library, subject).ordinary();
-  const std::vector<Frame> frames{ordinary.frame(0), ordinary.frame(1)};
+  std::vector<Frame> frames;
   std::size_t heap = 0;
   std::size_t resident = 0;
   for (int i = 0; i < kRounds; ++i) {
     if (i == kWarmUpRounds) heap = heap_bytes(), resident = resident_bytes();
     Instance plugin(library, subject);
+    if (frames.empty()) {
+      const Walk ordinary = plugin.ordinary();
+      frames = {ordinary.frame(0), ordinary.frame(1)};
+    }
     plugin.activate();
     for (const Frame& frame : frames) plugin.process(frame).demand_good();
     plugin.report(HW_REPORT_REFINE).demand_good();

@@ -31,7 +31,7 @@ copy() {
 }
 
 files() {
-  (cd "$source" && find geometry plugins/slam_plane/core plugins/slam_plane/thesis plugins/slam_plane/option_table.hpp tests/unit/slam_plane tests/unit/slam_plane_thesis \
+  (cd "$source" && find geometry plugins/options plugins/slam_plane/core plugins/slam_plane/thesis tests/unit/slam_plane tests/unit/slam_plane_thesis \
     tests/support bench/plane_road.hpp engine/base/random.hpp engine/base/random.cpp -name '*.[ch]pp' | sort)
 }
 
