@@ -53,7 +53,8 @@ failing() {
 }
 
 mkdir -p "$tree"
-mapfile -t wanted < <(files)
+list=$(files)  # by itself, so that a folder that is not there ends this
+mapfile -t wanted <<<"$list"
 copy "${wanted[@]}"
 (cd "$tree" && find . -type f -printf '%P\n' | sort) | comm -13 <(printf '%s\n' "${wanted[@]}") - |
   while read -r stale; do rm -f "$tree/$stale"; done
