@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "csg/surface.hpp"
-#include "sense/box_tree.hpp"
+#include "geom/box_tree.hpp"
 
 namespace hallway::sense {
 

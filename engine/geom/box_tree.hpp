@@ -6,7 +6,7 @@
 
 #include "geom/box.hpp"
 
-namespace hallway::sense {
+namespace hallway {
 
 /// Finds boxes that touch a box in O(log n + found) on average.
 class BoxTree {
@@ -32,4 +32,4 @@ class BoxTree {
   std::vector<Box> boxes_;  ///< in the order of items_
 };
 
-}  // namespace hallway::sense
+}  // namespace hallway

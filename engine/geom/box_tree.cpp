@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "sense/box_tree.hpp"
+#include "geom/box_tree.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace hallway::sense {
+namespace hallway {
 
 BoxTree::BoxTree(const std::vector<Box>& boxes) {
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
@@ -62,4 +62,4 @@ void BoxTree::find(const Box& box, std::vector<std::uint32_t>& found) const {
   std::sort(found.begin(), found.end());
 }
 
-}  // namespace hallway::sense
+}  // namespace hallway
