@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "contact/mover.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hallway::contact {
+namespace {
+
+/// Contacts that limit one part.
+constexpr std::size_t kMostContacts = 16;
+/// A body that is nearer than kClearance goes away from it with at most this share of its speed.
+constexpr double kRecovery = 0.1;
+
+/// A trial goes against a contact if it comes this much too near, metres; less than what SweepCheck lets a gap shrink.
+constexpr double kLeastIntrusion = 1e-10;
+/// A corner this far in front of a plane is on it, metres.
+constexpr double kBehind = 1e-6;
+/// Cosine of the angle up to which two normals are one.
+constexpr double kSameNormal = 1.0 - 1e-6;
+/// What is left of a motion is none if it is a smaller share of it.
+constexpr double kStandingShare = 1e-6;
+
+double seconds_in(const TwistRamp& ramp) {
+  return 1e-9 * static_cast<double>(ramp.duration_ns);
+}
+
+/// How far points within `radius` of the origin come at most.
+double reach_of(const TwistRamp& ramp, double radius) {
+  return seconds_in(ramp) * (std::max(ramp.from.speed(), ramp.to.speed()) +
+                             radius * std::max(std::abs(ramp.from.turn_rad_s), std::abs(ramp.to.turn_rad_s)));
+}
+
+TwistRamp beginning_of(const TwistRamp& ramp, std::int64_t duration_ns) {
+  if (duration_ns >= ramp.duration_ns) return ramp;
+  return {ramp.from, ramp.at(static_cast<double>(duration_ns) / static_cast<double>(ramp.duration_ns)),
+          duration_ns};
+}
+
+/// Whether a triangle is behind the plane that separates the body from another one, so that the other one is met first.
+bool lies_behind(const Triangle& triangle, const Separation& front) {
+  return std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& corner) {
+    return front.normal.dot(corner - front.on_triangle) <= kBehind;
+  });
+}
+
+/// How fast a ramp goes against a limit, at the end where it does so faster.
+double approach(const TwistLimit& limit, const TwistRamp& ramp) {
+  return -std::min(limit.speed(ramp.from), limit.speed(ramp.to));
+}
+
+Move standing(const Pose& pose, std::int64_t begin_ns, std::int64_t duration_ns, bool wanted_more) {
+  Move move;
+  move.part = make_part(begin_ns, pose, TwistRamp{{}, {}, duration_ns}, pose);
+  move.stands = wanted_more;
+  return move;
+}
+
+}  // namespace
+
+/// What became of a trial: a part that is free, or why there is none.
+struct Mover::Trial {
+  std::optional<Part> part{};
+  Stance stance{};
+  std::optional<std::uint32_t> blocker{};
+};
+
+std::int64_t Mover::longest(const TwistRamp& wanted) const {
+  const double speed = std::max(wanted.from.speed(), wanted.to.speed());
+  const double turn = std::max(std::abs(wanted.from.turn_rad_s), std::abs(wanted.to.turn_rad_s));
+  const double seconds =
+      std::min(kLongestPart / std::max(speed, 1e-9), kGreatestPartTurn / std::max(turn, 1e-9));
+  return std::clamp(static_cast<std::int64_t>(seconds * 1e9), std::int64_t{1}, wanted.duration_ns);
+}
+
+std::vector<TwistLimit> Mover::limits_of(const std::vector<ContactPoint>& contacts, const Pose& pose,
+                                         double seconds, double recovery) const {
+  std::vector<TwistLimit> limits;
+  for (const ContactPoint& contact : contacts) {
+    const double spare = contact.gap - kClearance;
+    const double least = spare >= 0.0 ? -spare / seconds : std::min(-spare / seconds, recovery);
+    limits.push_back(limit_at(pose, contact.on_body, contact.normal, least));
+  }
+  return limits;
+}
+
+std::optional<TwistRamp> Mover::limited(const TwistRamp& ramp, const std::vector<ContactPoint>& contacts,
+                                        const Pose& pose) const {
+  if (contacts.empty()) return ramp;
+  const double seconds = seconds_in(ramp);
+  for (const double recovery : {kRecovery * reach_of(ramp, options_.gyration) / seconds, 0.0}) {
+    const std::vector<TwistLimit> limits = limits_of(contacts, pose, seconds, recovery);
+    const auto nearest = [&](const PlanarTwist& twist) {
+      return options_.slide ? nearest_twist(twist, limits, options_.gyration)
+                            : shortened_twist(twist, limits);
+    };
+    const auto from = nearest(ramp.from), to = nearest(ramp.to);
+    if (from && to) return TwistRamp{*from, *to, ramp.duration_ns};
+  }
+  return std::nullopt;
+}
+
+Mover::Trial Mover::attempt(const Pose& pose, std::int64_t begin_ns, const TwistRamp& ramp, double least) {
+  Trial trial;
+  trial.stance = ground_.stand(pose * planar_motion(ramp, 1.0));
+  if (trial.stance.fault) return trial;
+  const Part part = make_part(begin_ns, pose, ramp, trial.stance.pose);
+  trial.blocker = check_.blocker(part, least);
+  if (!trial.blocker) trial.part = part;
+  return trial;
+}
+
+std::vector<ContactPoint> Mover::contacts_with(const Pose& pose, std::uint32_t blocker) {
+  std::vector<ContactPoint> found = contact_points(shape_, pose, obstacles_, blocker, kContactRange);
+  const double gap = check_.at(pose, blocker).gap;
+  bool is_behind = false;
+  for (const std::uint32_t other : check_.within(pose, kContactRange)) {
+    const Separation& front = check_.at(pose, other);
+    if (other == blocker || front.gap > gap || !lies_behind(obstacles_.triangle(blocker), front)) continue;
+    if (!std::exchange(is_behind, true)) found.clear();
+    for (const std::uint32_t one : {other, blocker}) {
+      for (const ContactPoint& contact : contact_points(shape_, pose, obstacles_, one, kContactRange)) {
+        if (contact.normal.dot(front.normal) > kSameNormal) found.push_back(contact);
+      }
+    }
+  }
+  return found;
+}
+
+std::optional<ContactPoint> Mover::next_contact(const Pose& pose, const TwistRamp& ramp,
+                                                std::uint32_t blocker) {
+  std::optional<ContactPoint> soonest;
+  double least = INFINITY;
+  for (const ContactPoint& contact : contacts_with(pose, blocker)) {
+    const TwistLimit limit = limit_at(pose, contact.on_body, contact.normal, 0.0);
+    if (Vec3(limit.x, limit.y, 0.0).norm() < 1e-6) continue;  // above or below: no twist leads away
+    const double speed = approach(limit, ramp), spare = contact.gap - kClearance;
+    if (!(speed * seconds_in(ramp) > spare + kLeastIntrusion) || speed <= 0.0) continue;
+    const double time = std::max(0.0, spare) / speed;
+    if (time < least) {
+      least = time;
+      soonest = contact;
+    }
+  }
+  return soonest;
+}
+
+std::vector<Press> Mover::pressed_by(const std::vector<ContactPoint>& contacts, const Pose& pose,
+                                     const TwistRamp& wanted) const {
+  std::vector<Press> pressed;
+  for (const ContactPoint& contact : contacts) {
+    const double speed = approach(limit_at(pose, contact.on_body, contact.normal, 0.0), wanted);
+    if (speed > 0.0) pressed.push_back({contact, std::nullopt, 0, speed});
+  }
+  return pressed;
+}
+
+Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wanted) {
+  if (wanted.from.is_zero() && wanted.to.is_zero())
+    return standing(pose, begin_ns, wanted.duration_ns, false);
+  std::vector<ContactPoint> contacts;
+  std::int64_t duration_ns = longest(wanted);
+  const std::int64_t standing_ns = std::min(kStandingPart_ns, wanted.duration_ns);
+  while (true) {
+    const TwistRamp ramp = beginning_of(wanted, duration_ns);
+    const TwistRamp way = limited(ramp, contacts, pose).value_or(TwistRamp{{}, {}, ramp.duration_ns});
+    if (reach_of(way, options_.gyration) <= kStandingShare * reach_of(ramp, options_.gyration)) {
+      Move move = standing(pose, begin_ns, standing_ns, true);
+      move.pressed = pressed_by(contacts, pose, ramp);
+      return move;
+    }
+    const Trial trial = attempt(pose, begin_ns, way, contacts.empty() ? kClearance : 0.5 * kClearance);
+    if (trial.part) {
+      Move move{*trial.part, false, pressed_by(contacts, pose, ramp)};
+      return move;
+    }
+    if (trial.blocker && contacts.size() < kMostContacts) {
+      if (const auto contact = next_contact(pose, way, *trial.blocker)) {
+        contacts.push_back(*contact);
+        continue;
+      }
+    }
+    if (duration_ns > 1 && reach_of(ramp, shape_.radius()) > kShortestPart) {
+      duration_ns /= 2;
+      continue;
+    }
+    Move move = standing(pose, begin_ns, standing_ns, true);
+    move.pressed = pressed_by(contacts, pose, ramp);
+    if (trial.blocker) {
+      const Separation& nearest = check_.at(pose, *trial.blocker);
+      move.pressed.push_back(
+          {{nearest.on_body, nearest.on_triangle, nearest.normal, nearest.gap, *trial.blocker},
+           std::nullopt,
+           0,
+           reach_of(ramp, 0.0) / seconds_in(ramp)});
+    } else {
+      const Stance& stance = trial.stance;
+      const Vec2& at = ground_.wheels().at[stance.wheel];
+      const Vec3 way_of_wheel = pose.q * Vec3(ramp.to.x_m_s - ramp.to.turn_rad_s * at.y(),
+                                              ramp.to.y_m_s + ramp.to.turn_rad_s * at.x(), 0.0);
+      const double speed = way_of_wheel.norm();
+      const Vec3 against = speed > 0.0 ? Vec3(-way_of_wheel / speed) : Vec3::UnitZ();
+      move.pressed.push_back(
+          {{stance.where, stance.where, against, 0.0, 0}, stance.fault, stance.wheel, speed});
+    }
+    return move;
+  }
+}
+
+}  // namespace hallway::contact
