@@ -7,6 +7,9 @@
 namespace hallway::contact {
 namespace {
 
+/// What is not this much lower is no fall, metres.
+constexpr double kLeastFall = 1e-3;
+
 /// The orientation of a body that is level, with the heading of a pose.
 Quat level(const Quat& q) {
   const Vec3 ahead = q * Vec3::UnitX();
@@ -40,7 +43,8 @@ Fall fall_over(const BodyShape& shape, const Ground& ground, SweepCheck& check, 
     if (check.blocker(make_drop(0, pose, out), kClearance)) break;
     const auto down = stance_below(ground, out, kDeepestFall);
     over_nothing = over_nothing || !down;
-    if (!down || down->fault || check.blocker(make_drop(0, out, down->pose), kClearance)) continue;
+    if (!down || down->fault || down->pose.t.z() >= pose.t.z() - kLeastFall) continue;
+    if (check.blocker(make_drop(0, out, down->pose), kClearance)) continue;
     fall.poses = {out, down->pose};
     fall.height_m = pose.t.z() - down->pose.t.z();
     return fall;

@@ -195,6 +195,7 @@ Stance Ground::settle(const Pose& guess) const {
   limits.step_m = std::max(limits.step_m, reach_ * std::tan(limits.slope_rad) + limits.step_m);
   limits.ledge_m = limits.step_m;
   limits.clearance_m = limits.step_m;
+  limits.may_hang = false;
   return stand(guess, limits);
 }
 

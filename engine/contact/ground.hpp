@@ -54,7 +54,7 @@ class Ground {
   /// O(log n + triangles under the body).
   Stance stand(const Pose& guess) const { return stand(guess, limits_); }
 
-  /// The same for a body that comes down from above: steps and ledges of up to its wheels' reach on the greatest slope count as floor.
+  /// The same for a body that comes down from above: steps and ledges of up to its wheels' reach on the greatest slope count as floor. No wheel may hang.
   Stance settle(const Pose& guess) const;
 
   /// Height of the highest point of a triangle at that x and y with z in [low, high], if there is one.

@@ -58,14 +58,14 @@ Start Robot::put(const Vec3& place, double yaw_rad, std::int64_t at_ns,
   pose_ = {level, place};
   history_.begin(pose_, at_ns);
   pushes_.clear();
-  touching_.clear();
+  known_.clear();
   counts_ = {};
   twist_ = {};
   parts_ = 0;
   is_lost_ = true;
   const auto stance = stance_below(ground_, {level, place + Vec3(0, 0, 1e-3)}, kDeepestFall);
   if (!stance) return Start::kNoFloor;
-  if (stance->fault) return *stance->fault == GroundFault::kLedge ? Start::kNoFloor : Start::kNoStance;
+  if (stance->fault) return Start::kNoStance;
   pose_ = stance->pose;
   history_.begin(pose_, at_ns);
   if (!mover_.check().within(pose_, kLeastStartGap).empty()) return Start::kInObstacle;
@@ -99,7 +99,6 @@ Advance Robot::advance(std::span<const TwistRamp> ramps) {
   for (const TwistRamp& ramp : ramps) check_ramp(ramp);
   Advance result;
   for (const TwistRamp& ramp : ramps) drive(ramp, result);
-  result.touching = touching_;
   return result;
 }
 
@@ -139,7 +138,7 @@ void Robot::drive(const TwistRamp& ramp, Advance& advance) {
 }
 
 void Robot::note(const Move& move, Advance& advance) {
-  std::vector<Touch> touching;
+  advance.touching.clear();
   for (const Press& press : move.pressed) {
     const ContactPoint& contact = press.contact;
     Touch touch{now_ns(),    kind_of(press),  contact.on_body,  contact.normal,
@@ -147,17 +146,20 @@ void Robot::note(const Move& move, Advance& advance) {
     const auto same = [&](const Touch& other) {
       return other.kind == touch.kind && other.normal.dot(touch.normal) > kSameContact;
     };
-    if (std::any_of(touching.begin(), touching.end(), same)) continue;
-    const auto before = std::find_if(touching_.begin(), touching_.end(), same);
-    if (before != touching_.end()) {
-      touch.t_ns = before->t_ns;
-    } else {
+    if (std::any_of(advance.touching.begin(), advance.touching.end(), same)) continue;
+    const auto known =
+        std::find_if(known_.begin(), known_.end(), [&](const Known& one) { return same(one.touch); });
+    if (known == known_.end()) {
       advance.begun.push_back(touch);
       ++counts_.contacts;
+      known_.push_back({touch, move.part.end_ns()});
+    } else {
+      touch.t_ns = known->touch.t_ns;
+      *known = {touch, move.part.end_ns()};
     }
-    touching.push_back(touch);
+    advance.touching.push_back(touch);
   }
-  touching_ = std::move(touching);
+  std::erase_if(known_, [&](const Known& one) { return one.last_ns + kSameContact_ns < move.part.end_ns(); });
 }
 
 bool Robot::fall(const Move& move, Advance& advance) {
@@ -171,6 +173,7 @@ bool Robot::fall(const Move& move, Advance& advance) {
     pose_ = pose;
   }
   twist_ = {};
+  advance.touching.clear();
   ++counts_.falls;
   advance.falls.push_back({now_ns(), found.height_m});
   return true;

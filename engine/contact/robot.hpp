@@ -33,7 +33,10 @@ inline constexpr int kMostParts = 2000;
 /// What a robot touches.
 enum class TouchKind { kWall, kLedge, kStep, kSlope };
 
-/// A contact that a robot is pressed against.
+/// A contact that is lost for less than this goes on.
+inline constexpr std::int64_t kSameContact_ns = 100'000'000;
+
+/// A contact that a robot is pressed against. One that turns by less than 30 degrees goes on.
 struct Touch {
   std::int64_t t_ns = 0;  ///< when it began
   TouchKind kind = TouchKind::kWall;
@@ -73,8 +76,8 @@ enum class Start {
   kStands,
   kInObstacle,  ///< overlaps a triangle, or is nearer to it than kLeastStartGap
   kInSolid,     ///< its middle is in the solid
-  kNoFloor,     ///< nothing below, or a ledge
-  kNoStance,    ///< the floor is too uneven or too steep
+  kNoFloor,     ///< nothing below
+  kNoStance,    ///< the floor is too uneven or too steep, or there is a ledge under a wheel
 };
 
 /// A rigid body on wheels among obstacles that do not move.
@@ -121,6 +124,12 @@ class Robot {
     std::int64_t end_ns;
   };
 
+  /// A contact that the robot is or was pressed against.
+  struct Known {
+    Touch touch;
+    std::int64_t last_ns;
+  };
+
   TwistRamp with_pushes(TwistRamp ramp);
   void drive(const TwistRamp& ramp, Advance& advance);
   void note(const Move& move, Advance& advance);
@@ -133,7 +142,7 @@ class Robot {
   Mover mover_;
   History history_;
   std::vector<Push> pushes_;
-  std::vector<Touch> touching_;
+  std::vector<Known> known_;
   Counts counts_;
   Pose pose_{};
   PlanarTwist twist_{};

@@ -92,7 +92,7 @@ Counts drive_wildly(const Body& body, const Scene& scene, const Vec3& place, dou
 }
 
 TEST(Drives, RandomRooms) {
-  const int seeds = hallway::test::long_mode() ? 400 : 18;
+  const int seeds = hallway::test::long_mode() ? 1000 : 60;
   std::uint64_t contacts = 0;
   double distance = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -118,7 +118,7 @@ TEST(Drives, RandomRooms) {
 }
 
 TEST(Drives, TightPlaces) {
-  const int seeds = hallway::test::long_mode() ? 40 : 3;
+  const int seeds = hallway::test::long_mode() ? 400 : 15;
   for (int seed = 0; seed < seeds; ++seed) {
     const auto key = static_cast<std::uint64_t>(seed);
     for (const Body& body : bodies()) {
@@ -151,7 +151,7 @@ TEST(Drives, TightPlaces) {
 
 TEST(Drives, ThinThingsHitFast) {
   for (const Body& body : bodies()) {
-    for (int seed = 0; seed < (hallway::test::long_mode() ? 100 : 10); ++seed) {
+    for (int seed = 0; seed < (hallway::test::long_mode() ? 1000 : 25); ++seed) {
       Dice dice(static_cast<std::uint64_t>(seed));
       Scene scene;
       scene.floor(-5, -5, 5, 5);
