@@ -10,7 +10,7 @@
 namespace hallway::drive {
 namespace {
 
-constexpr double kRoundingNs = 1e-3;  // so that 0.6 / 0.5 s is not one nanosecond more
+constexpr double kRoundingNs = 1e-3;  // so that (0.8 - 0.1) / 0.7 s is not one nanosecond more
 
 std::int64_t duration_ns(double change, double rate) {
   if (change == 0.0) return 0;

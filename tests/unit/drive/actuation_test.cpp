@@ -101,6 +101,15 @@ TEST(Actuation, SlippingCarStaysOnItsCircle) {
   EXPECT_NEAR(effect.body.angular_rad_s / effect.body.forward_m_s, 0.6, 1e-15);
 }
 
+TEST(Actuation, NoiseOfACarsSpeedKeepsItOnItsCircle) {
+  const DriveSpec spec{.kind = DriveKind::kAckermann, .forward_noise = {0.1, 0.2, 0}};
+  Actuation actuation(spec, 1);
+  for (std::int64_t t = 0; t < 1'000'000'000; t += 3'456'789) {
+    const Effect effect = actuation.at(t, {1.0, 0.0, 0.6});
+    EXPECT_NEAR(effect.body.angular_rad_s, 0.6 * effect.body.forward_m_s, 1e-15);
+  }
+}
+
 TEST(Actuation, DriftIsAShareOfTheForwardSpeed) {
   const DriveSpec spec{.lateral_drift = {.mean = 0.1}};
   const Effect effect = Actuation(spec, 1).at(0, {-0.5, 0.0, 0.0});

@@ -96,6 +96,21 @@ TEST(Drive, PiecesCoverTheTimeWithoutGaps) {
   EXPECT_TRUE(drive.advance(covered).empty());
 }
 
+TEST(Drive, NoiseActsAtEveryKnot) {
+  for (const DriveKind kind : testing::kKinds) {
+    DriveSpec spec{.kind = kind};
+    testing::add_noise(spec);
+    Drive drive(spec, 7);
+    Actuation actuation(spec, 7);
+    drive.command(0, {0.3, 0.0, 0.5});
+    for (std::int64_t t = 5 * kMs; t < 4 * kSecond; t += 5 * kMs) {
+      drive.advance(t);
+      if (t % kKnotNs != 0) continue;
+      EXPECT_EQ(drive.twist(), actuation.at(t, drive.driven()).body);
+    }
+  }
+}
+
 TEST(Drive, TwistOfAContactFadesWhileTheWheelsGoOn) {
   Drive drive({.max_acceleration_m_s2 = 1.0}, 1);
   drive.command(0, {0.5, 0.0, 0.0});

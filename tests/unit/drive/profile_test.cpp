@@ -34,6 +34,8 @@ TEST(Profile, DurationIsRoundedUp) {
   EXPECT_EQ(Profile(0, 0.0, 1.0, {.growing = 3.0, .shrinking = 3.0}).end_ns(), 333'333'334);
   EXPECT_EQ(Profile(0, 0.0, 1e-300, kRates).end_ns(), 1);
   EXPECT_EQ(Profile(7, 0.3, 0.3, kRates).end_ns(), 7);
+  EXPECT_EQ(Profile(0, 0.1, 0.8, {.growing = 0.7, .shrinking = 1.0}).end_ns(),
+            1'000'000'000);  // despite rounding
 }
 
 TEST(Profile, LineTakesTheLowestRateThatItNeeds) {
