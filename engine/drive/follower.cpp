@@ -48,7 +48,7 @@ Follower::Follower(const std::vector<Vec3>& points, const DriveSpec& spec, const
 double Follower::wanted_speed() const {
   const double speed = std::min(settings_.speed_m_s, spec_.max_speed_m_s);
   if (path_.is_closed()) return speed;
-  // Half the deceleration, and no farther than to the end until the next command acts: the robot always can stop before it.
+  // Half the deceleration, and no farther than to the end until the next command acts. A dead band makes the robot pass the end by up to one such way.
   const double rest = std::max(0.0, remaining_m());
   const double braking = std::sqrt(deceleration_limit(spec_) * rest);
   const double reaction = rest / (settings_.period_s + seconds(spec_.latency_ns));

@@ -23,7 +23,7 @@ struct FollowerSettings {
 struct FollowStep {
   Command command{};
   bool lost = false;        ///< too far from the path; the command is zero
-  bool done = false;        ///< at the end of an open path; the command is zero from now on
+  bool done = false;        ///< within 1 cm of an open path's end, along it; the command stays zero
   double along_m = 0.0;     ///< progress since the begin of the path; of a closed one over all rounds
   double distance_m = 0.0;  ///< from the path
 };
