@@ -29,8 +29,8 @@ std::optional<DriveKind> drive_kind_of(std::string_view name);
 struct Disturbance {
   double mean = 0.0;   ///< in [-1, 1]
   double sigma = 0.0;  ///< standard deviation, in [0, 1]
-  std::int64_t correlation_ns =
-      0;  ///< time after which the correlation is 1/e; 0: 10 ms apart is independent
+  /// The time after which the correlation is 1/e; 0: values 10 ms apart are independent.
+  std::int64_t correlation_ns = 0;
 
   bool operator==(const Disturbance&) const = default;
 };
