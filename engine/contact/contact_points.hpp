@@ -15,6 +15,7 @@ struct ContactPoint {
   Vec3 normal = Vec3::UnitZ();  ///< unit, from the obstacle to the body
   double gap = 0.0;             ///< normal . (on_body - on_obstacle), metres
   std::uint32_t obstacle = 0;   ///< index in Obstacles
+  double drift_m_s = 0.0;       ///< away from the obstacle besides what a twist does at once; set by Mover
 };
 
 /// Where a body and a triangle are nearer than `range`: their nearest points; and of a polytope also those that would be nearest if it were turned by a

@@ -45,6 +45,11 @@ bool lies_behind(const Triangle& triangle, const Separation& front) {
   });
 }
 
+/// Whether two contacts are one, found twice.
+bool is_same(const ContactPoint& a, const ContactPoint& b) {
+  return a.obstacle == b.obstacle && (a.on_body - b.on_body).norm() < 1e-9;
+}
+
 /// How fast a ramp goes against a limit, at the end where it does so faster.
 double approach(const TwistLimit& limit, const TwistRamp& ramp) {
   return -std::min(limit.speed(ramp.from), limit.speed(ramp.to));
@@ -75,11 +80,11 @@ std::int64_t Mover::longest(const TwistRamp& wanted) const {
 }
 
 std::vector<TwistLimit> Mover::limits_of(const std::vector<ContactPoint>& contacts, const Pose& pose,
-                                         double seconds, double recovery) const {
+                                         double seconds, double ease) const {
   std::vector<TwistLimit> limits;
   for (const ContactPoint& contact : contacts) {
     const double spare = contact.gap - kClearance;
-    const double least = spare >= 0.0 ? -spare / seconds : std::min(-spare / seconds, recovery);
+    const double least = std::min(-spare / seconds, ease) - (ease > 0.0 ? contact.drift_m_s : 0.0);
     limits.push_back(limit_at(pose, contact.on_body, contact.normal, least));
   }
   return limits;
@@ -89,8 +94,9 @@ std::optional<TwistRamp> Mover::limited(const TwistRamp& ramp, const std::vector
                                         const Pose& pose) const {
   if (contacts.empty()) return ramp;
   const double seconds = seconds_in(ramp);
-  for (const double recovery : {kRecovery * reach_of(ramp, options_.gyration) / seconds, 0.0}) {
-    const std::vector<TwistLimit> limits = limits_of(contacts, pose, seconds, recovery);
+  // With what leads it away from obstacles that are too near; without where it is squeezed between them.
+  for (const double ease : {kRecovery * reach_of(ramp, options_.gyration) / seconds, 0.0}) {
+    const std::vector<TwistLimit> limits = limits_of(contacts, pose, seconds, ease);
     const auto nearest = [&](const PlanarTwist& twist) {
       return options_.slide ? nearest_twist(twist, limits, options_.gyration)
                             : shortened_twist(twist, limits);
@@ -128,15 +134,19 @@ std::vector<ContactPoint> Mover::contacts_with(const Pose& pose, std::uint32_t b
   return found;
 }
 
-std::optional<ContactPoint> Mover::next_contact(const Pose& pose, const TwistRamp& ramp,
+std::optional<ContactPoint> Mover::next_contact(const Pose& pose, const Pose& end, const TwistRamp& ramp,
                                                 std::uint32_t blocker) {
+  const double seconds = seconds_in(ramp), fastest = reach_of(ramp, shape_.radius()) / seconds;
   std::optional<ContactPoint> soonest;
   double least = INFINITY;
-  for (const ContactPoint& contact : contacts_with(pose, blocker)) {
+  for (ContactPoint& contact : contacts_with(pose, blocker)) {
     const TwistLimit limit = limit_at(pose, contact.on_body, contact.normal, 0.0);
     if (Vec3(limit.x, limit.y, 0.0).norm() < 1e-6) continue;  // above or below: no twist leads away
-    const double speed = approach(limit, ramp), spare = contact.gap - kClearance;
-    if (!(speed * seconds_in(ramp) > spare + kLeastIntrusion) || speed <= 0.0) continue;
+    const Vec3 moved = end * (pose.inverse() * contact.on_body) - contact.on_body;
+    const double drift = contact.normal.dot(moved) / seconds - limit.speed(ramp.at(0.5));
+    contact.drift_m_s = std::clamp(drift, -fastest, 0.0);
+    const double speed = approach(limit, ramp) - contact.drift_m_s, spare = contact.gap - kClearance;
+    if (!(speed * seconds > spare + kLeastIntrusion) || speed <= 0.0) continue;
     const double time = std::max(0.0, spare) / speed;
     if (time < least) {
       least = time;
@@ -176,13 +186,17 @@ Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wante
       return move;
     }
     if (trial.blocker && contacts.size() < kMostContacts) {
-      if (const auto contact = next_contact(pose, way, *trial.blocker)) {
-        contacts.push_back(*contact);
-        continue;
+      if (const auto contact = next_contact(pose, trial.stance.pose, way, *trial.blocker)) {
+        if (std::none_of(contacts.begin(), contacts.end(),
+                         [&](const ContactPoint& one) { return is_same(one, *contact); })) {
+          contacts.push_back(*contact);
+          continue;
+        }
       }
     }
     if (duration_ns > 1 && reach_of(ramp, shape_.radius()) > kShortestPart) {
       duration_ns /= 2;
+      contacts.clear();  // their drifts were those of the longer trial
       continue;
     }
     Move move = standing(pose, begin_ns, standing_ns, true);

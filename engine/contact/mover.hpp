@@ -50,7 +50,7 @@ struct Move {
 /// Moves a body in its floor plane, part by part.
 ///
 /// Each part is proved to be free by SweepCheck, and its end is a stance of Ground. Where the wanted part is not free, it is halved; where what blocks it is in
-/// contact, the twist is limited there (twist_limits.hpp). A limit enters only if a trial without it fails, and a triangle behind the plane of a
+/// contact, the twist is limited there (twist_limits.hpp); what brings the body nearer besides the twist, as a floor that tilts it, counts too. A limit enters only if a trial without it fails, and a triangle behind the plane of a
 /// nearer one has no normals of its own: neighbours of the triangle that the body slides along do not stop it at their edges.
 class Mover {
  public:
@@ -68,16 +68,16 @@ class Mover {
 
  private:
   struct Trial;
-  struct Limits;
 
   std::int64_t longest(const TwistRamp& wanted) const;
   std::optional<TwistRamp> limited(const TwistRamp& ramp, const std::vector<ContactPoint>& contacts,
                                    const Pose& pose) const;
   std::vector<TwistLimit> limits_of(const std::vector<ContactPoint>& contacts, const Pose& pose,
-                                    double seconds, double recovery) const;
+                                    double seconds, double ease) const;
   Trial attempt(const Pose& pose, std::int64_t begin_ns, const TwistRamp& ramp, double least);
   std::vector<ContactPoint> contacts_with(const Pose& pose, std::uint32_t blocker);
-  std::optional<ContactPoint> next_contact(const Pose& pose, const TwistRamp& ramp, std::uint32_t blocker);
+  std::optional<ContactPoint> next_contact(const Pose& pose, const Pose& end, const TwistRamp& ramp,
+                                           std::uint32_t blocker);
   std::vector<Press> pressed_by(const std::vector<ContactPoint>& contacts, const Pose& pose,
                                 const TwistRamp& wanted) const;
 

@@ -188,7 +188,8 @@ TEST(Slide, PassesAPostThatIsNotInItsWay) {
 }
 
 TEST(Slide, NeverJittersBackwards) {
-  // Into a corner, along walls and through a narrowing wedge: no part leads against the wanted motion by more than the clearance.
+  // Into a corner, along walls and through a narrowing wedge: no part leads against the wanted motion by more than
+  // the range of contacts, altogether.
   Scene corner;
   corner.room(-3, -3, 1, 1);
   Scene wedge;
@@ -208,7 +209,7 @@ TEST(Slide, NeverJittersBackwards) {
           drive(robot, steady(way.x(), way.y(), 0, 0.1));
           for (const Part& part : robot.history().parts()) {
             const double along = part.to.t.x() + side * part.to.t.y();
-            EXPECT_GE(along, farthest - 2 * kClearance);
+            EXPECT_GE(along, farthest - kContactRange);
             farthest = std::max(farthest, along);
           }
           robot.forget_before(robot.now_ns() + 1);
