@@ -8,8 +8,8 @@
 namespace hallway::contact {
 namespace {
 
-/// Contacts that limit one part.
-constexpr std::size_t kMostContacts = 16;
+/// Trials of one duration.
+constexpr int kMostTrials = 24;
 /// A body that is nearer than kClearance goes away from it with at most this share of its speed.
 constexpr double kRecovery = 0.1;
 
@@ -45,9 +45,18 @@ bool lies_behind(const Triangle& triangle, const Separation& front) {
   });
 }
 
-/// Whether two contacts are one, found twice.
-bool is_same(const ContactPoint& a, const ContactPoint& b) {
-  return a.obstacle == b.obstacle && (a.on_body - b.on_body).norm() < 1e-9;
+/// Adds a contact, or its drift to the same contact if it is greater; false if nothing is new.
+bool add_contact(std::vector<ContactPoint>& contacts, const ContactPoint& contact) {
+  const auto same = std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& one) {
+    return one.obstacle == contact.obstacle && (one.on_body - contact.on_body).norm() < 1e-9;
+  });
+  if (same == contacts.end()) {
+    contacts.push_back(contact);
+    return true;
+  }
+  const bool is_new = contact.drift_m_s < same->drift_m_s - 1e-6;
+  same->drift_m_s = std::min(same->drift_m_s, contact.drift_m_s);
+  return is_new;
 }
 
 /// How fast a ramp goes against a limit, at the end where it does so faster.
@@ -142,11 +151,19 @@ std::optional<ContactPoint> Mover::next_contact(const Pose& pose, const Pose& en
   for (ContactPoint& contact : contacts_with(pose, blocker)) {
     const TwistLimit limit = limit_at(pose, contact.on_body, contact.normal, 0.0);
     if (Vec3(limit.x, limit.y, 0.0).norm() < 1e-6) continue;  // above or below: no twist leads away
-    const Vec3 moved = end * (pose.inverse() * contact.on_body) - contact.on_body;
-    const double drift = contact.normal.dot(moved) / seconds - limit.speed(ramp.at(0.5));
-    contact.drift_m_s = std::clamp(drift, -fastest, 0.0);
-    const double speed = approach(limit, ramp) - contact.drift_m_s, spare = contact.gap - kClearance;
-    if (!(speed * seconds > spare + kLeastIntrusion) || speed <= 0.0) continue;
+    // First what the twist does by itself; then, of a trial that is within the limits, what else brought it nearer.
+    double speed = approach(limit, ramp);
+    const double spare = contact.gap - kClearance;
+    if (speed * seconds <= spare + kLeastIntrusion) {
+      // Of a round body another point may be the nearest then.
+      const Vec3 local = shape_.vertices().empty() ? shape_.support(end.q.conjugate() * -contact.normal)
+                                                   : pose.inverse() * contact.on_body;
+      const Vec3 moved = end * local - contact.on_body;
+      const double drift = contact.normal.dot(moved) / seconds - limit.speed(ramp.at(0.5));
+      contact.drift_m_s = std::clamp(drift, -fastest, 0.0);
+      speed -= contact.drift_m_s;
+    }
+    if (speed * seconds <= spare + kLeastIntrusion || speed <= 0.0) continue;
     const double time = std::max(0.0, spare) / speed;
     if (time < least) {
       least = time;
@@ -170,6 +187,7 @@ Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wante
   if (wanted.from.is_zero() && wanted.to.is_zero())
     return standing(pose, begin_ns, wanted.duration_ns, false);
   std::vector<ContactPoint> contacts;
+  int trials = 0;  // of this duration
   std::int64_t duration_ns = longest(wanted);
   const std::int64_t standing_ns = std::min(kStandingPart_ns, wanted.duration_ns);
   while (true) {
@@ -185,17 +203,13 @@ Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wante
       Move move{*trial.part, false, pressed_by(contacts, pose, ramp)};
       return move;
     }
-    if (trial.blocker && contacts.size() < kMostContacts) {
-      if (const auto contact = next_contact(pose, trial.stance.pose, way, *trial.blocker)) {
-        if (std::none_of(contacts.begin(), contacts.end(),
-                         [&](const ContactPoint& one) { return is_same(one, *contact); })) {
-          contacts.push_back(*contact);
-          continue;
-        }
-      }
+    if (trial.blocker && ++trials < kMostTrials) {
+      const auto contact = next_contact(pose, trial.stance.pose, way, *trial.blocker);
+      if (contact && add_contact(contacts, *contact)) continue;
     }
     if (duration_ns > 1 && reach_of(ramp, shape_.radius()) > kShortestPart) {
       duration_ns /= 2;
+      trials = 0;
       contacts.clear();  // their drifts were those of the longer trial
       continue;
     }

@@ -58,7 +58,7 @@ class Mover {
   Mover(const BodyShape& shape, const Obstacles& obstacles, const Ground& ground, const MoveOptions& options)
       : shape_(shape), obstacles_(obstacles), ground_(ground), options_(options), check_(shape, obstacles) {}
 
-  /// The first part of a motion, of 1 ns up to its whole duration. At most some 100 trials.
+  /// The first part of a motion, of 1 ns up to its whole duration. At most some 500 trials, seldom more than ten.
   /// @param pose    where the body stands, clear of all obstacles
   /// @param wanted  as check_ramp() has it
   Move next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wanted);

@@ -62,6 +62,7 @@ Start Robot::put(const Vec3& place, double yaw_rad, std::int64_t at_ns,
   counts_ = {};
   twist_ = {};
   parts_ = 0;
+  standing_.reset();
   is_lost_ = true;
   const auto stance = stance_below(ground_, {level, place + Vec3(0, 0, 1e-3)}, kDeepestFall);
   if (!stance) return Start::kNoFloor;
@@ -125,7 +126,15 @@ void Robot::drive(const TwistRamp& ramp, Advance& advance) {
       counts_.stood_ns += left;
       continue;
     }
-    const Move move = mover_.next(pose_, now_ns(), wanted);
+    const bool is_steady = wanted.from == wanted.to;
+    if (!is_steady || wanted.from != standing_twist_) standing_.reset();
+    // What stands, stands until something else is wanted.
+    Move move = standing_ ? *standing_ : mover_.next(pose_, now_ns(), wanted);
+    if (standing_) move.part = make_part(now_ns(), pose_, TwistRamp{{}, {}, wanted.duration_ns}, pose_);
+    if (is_steady && move.stands) {
+      standing_ = move;
+      standing_twist_ = wanted.from;
+    }
     note(move, advance);
     if (spec_.falls && fall(move, advance)) continue;
     history_.add(move.part);
@@ -174,6 +183,7 @@ bool Robot::fall(const Move& move, Advance& advance) {
   }
   twist_ = {};
   advance.touching.clear();
+  standing_.reset();
   ++counts_.falls;
   advance.falls.push_back({now_ns(), found.height_m});
   return true;

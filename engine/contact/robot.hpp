@@ -143,6 +143,8 @@ class Robot {
   History history_;
   std::vector<Push> pushes_;
   std::vector<Known> known_;
+  std::optional<Move> standing_;  ///< the last move, if it stood still for a wanted twist that did not change
+  PlanarTwist standing_twist_{};
   Counts counts_;
   Pose pose_{};
   PlanarTwist twist_{};

@@ -197,5 +197,66 @@ TEST(Drives, UnevenFloors) {
   }
 }
 
+/// Drives straight on; at a contact backs off and turns. The longest time without motion, seconds.
+double longest_rest(Robot& robot, std::uint64_t seed, int frames) {
+  Dice dice(seed);
+  Pose last = robot.pose();
+  int back = 0, since = 0, longest = 0;
+  double turn = 1.0;
+  for (int i = 0; i < frames; ++i) {
+    const TwistRamp ramp = back > 10  ? steady(-0.3, 0, 0, 0.1)
+                           : back > 0 ? steady(0, 0, turn, 0.1)
+                                      : steady(0.5, 0, 0.05, 0.1);
+    const Advance advance = drive(robot, ramp);
+    robot.forget_before(robot.now_ns());
+    if (back > 0) --back;
+    if (back == 0 && !advance.touching.empty()) {
+      back = 12 + dice.below(12);
+      turn = dice.below(2) == 0 ? 1.0 : -1.0;
+    }
+    ++since;
+    if ((robot.pose().t - last.t).norm() > 0.02 || angle_between(robot.pose().q, last.q) > 0.05) {
+      last = robot.pose();
+      since = 0;
+    }
+    longest = std::max(longest, since);
+  }
+  return 0.1 * longest;
+}
+
+TEST(Drives, WandererNeverStandsForLong) {
+  // On a floor that tilts it, which brings it nearer to walls and away from them.
+  const int frames = hallway::test::long_mode() ? 36000 : 1500;
+  for (std::uint64_t seed = 0; seed < (hallway::test::long_mode() ? 10 : 2); ++seed) {
+    Dice dice(seed + 50);
+    Scene scene;
+    std::array<std::array<double, 62>, 62> height{};
+    for (auto& row : height) {
+      for (double& z : row) z = dice.in(0.0, 0.004);
+    }
+    const auto at = [&](std::size_t i, std::size_t j) {
+      return Vec3(0.12 * static_cast<double>(i) - 3.6, 0.12 * static_cast<double>(j) - 3.6, height[i][j]);
+    };
+    for (std::size_t i = 0; i < 61; ++i) {
+      for (std::size_t j = 0; j < 61; ++j) scene.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+    const double corner[5][2] = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-3, -3}};
+    for (int i = 0; i < 4; ++i)
+      scene.wall({corner[i][0], corner[i][1]}, {corner[i + 1][0], corner[i + 1][1]}, -0.1);
+    for (int i = 0; i < 14; ++i) {
+      const Vec2 middle(dice.in(-3, 3), dice.in(-3, 3));
+      if (middle.norm() > 0.9)
+        scene.box(middle, dice.in(0.05, 0.6), dice.in(0.05, 0.6), -0.1, 1.0, dice.in(0, 3));
+    }
+    const Obstacles obstacles(scene.triangles);
+    for (const Body& body : bodies()) {
+      Robot robot(obstacles, body.spec);
+      ASSERT_EQ(robot.put({0, 0, 0.01}, 0, 0), Start::kStands);
+      EXPECT_LT(longest_rest(robot, seed, frames), 10.0) << body.name << ", seed " << seed;
+      EXPECT_GT(robot.counts().distance_m, 0.015 * frames) << body.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hallway::contact::test
