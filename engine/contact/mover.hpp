@@ -33,8 +33,8 @@ struct MoveOptions {
 
 /// What the body was pressed against in a part.
 struct Press {
-  ContactPoint
-      contact{};  ///< of a ground fault: where the wheel is, against its way; its gap and obstacle are 0
+  /// Of a ground fault: where the wheel is, with the normal against its way; gap and obstacle are 0.
+  ContactPoint contact{};
   std::optional<GroundFault> fault{};  ///< none: an obstacle
   std::size_t wheel = 0;               ///< of a ground fault
   double speed_m_s = 0.0;              ///< of the wanted twist against it
@@ -49,9 +49,10 @@ struct Move {
 
 /// Moves a body in its floor plane, part by part.
 ///
-/// Each part is proved to be free by SweepCheck, and its end is a stance of Ground. Where the wanted part is not free, it is halved; where what blocks it is in
-/// contact, the twist is limited there (twist_limits.hpp); what brings the body nearer besides the twist, as a floor that tilts it, counts too. A limit enters only if a trial without it fails, and a triangle behind the plane of a
-/// nearer one has no normals of its own: neighbours of the triangle that the body slides along do not stop it at their edges.
+/// Each part is proved to be free by SweepCheck, and its end is a stance of Ground. Where the wanted part is not free, it is halved; where
+/// what blocks it is in contact, the twist is limited there (twist_limits.hpp). What brings the body nearer besides the twist, as a floor that
+/// tilts it, counts too. A limit enters only if a trial without it fails, and a triangle behind the plane of a nearer one has no normals of its
+/// own: neighbours of the triangle that the body slides along do not stop it at their edges.
 class Mover {
  public:
   /// Keeps references.
