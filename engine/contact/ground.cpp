@@ -161,7 +161,9 @@ Stance Ground::stand(const Pose& guess, const GroundLimits& limits) const {
         stance.where = Vec3(at.x(), at.y(), found.value_or(height[i]));
         return stance;
       }
-      const Vec3 support(arm.x(), arm.y(), found.value_or(-INFINITY));
+      Vec3 support(arm.x(), arm.y(), found.value_or(-INFINITY));
+      // A column that goes to and fro over an edge as the body tilts: the wheel stands on the upper side.
+      if (round >= 2) support.z() = std::max(support.z(), supports[i].z());
       moved = round == 0 ? 1.0 : std::max(moved, (support - supports[i]).head<2>().norm());
       supports[i] = support;
     }
