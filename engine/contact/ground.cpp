@@ -12,8 +12,9 @@ namespace {
 
 /// A point this far outside of a triangle is on it, metres: floors have no seams.
 constexpr double kSeam = 1e-9;
-/// The columns of wheels that tilt are found again at most this often.
-constexpr int kMostRounds = 8;
+/// A wheel that does not carry hangs over the floor by at most this share of the greatest depth. So a body that tips back onto it goes down by less than that,
+/// and a place that was reached can be left.
+constexpr double kHangingShare = 0.9;
 
 double cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -129,66 +130,73 @@ std::optional<Ground::Plane> Ground::fit(const std::vector<Vec3>& supports) cons
   return best;
 }
 
-Stance Ground::stand(const Pose& guess, const GroundLimits& limits) const {
-  const double up = std::max(limits.step_m, limits.clearance_m);
-  const std::size_t count = wheels_.at.size();
-  std::vector<double> height(count);  // where the guess has the wheels
-  Box box(guess.t);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 point = guess * Vec3(wheels_.at[i].x(), wheels_.at[i].y(), 0.0);
-    height[i] = point.z();
-    box.extend(point);
+std::optional<std::size_t> Ground::over_ledge(const Plane& plane, const std::vector<Vec3>& supports,
+                                              const std::vector<double>& before,
+                                              const GroundLimits& limits) const {
+  if (limits.may_hang) return std::nullopt;
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const double above = plane.height + plane.slope.dot(supports[i].head<2>()) - supports[i].z();
+    if (above > kHangingShare * limits_.ledge_m + kSeam) return i;
+    if (above <= kSeam && before[i] - supports[i].z() > limits.ledge_m + kSeam) return i;
   }
-  const Vec3 margin(0.5 * reach_ + kSeam, 0.5 * reach_ + kSeam, kSeam);
+  return std::nullopt;
+}
+
+Stance Ground::stand(const Pose& guess, const GroundLimits& limits) const {
+  const std::size_t count = wheels_.at.size();
+  const double up = std::max(limits.step_m, limits.clearance_m);
+  // A wheel that does not carry may be above what `guess` says, and its floor below that by more than `ledge_m`.
+  const double down = limits.may_hang ? limits.ledge_m : 2.0 * limits.ledge_m + 1e-3;
+  const Vec3 normal = guess.q * Vec3::UnitZ();
+  const Vec2 ahead = (guess.q * Vec3::UnitX()).head<2>().normalized();
+  std::vector<Vec3> supports(count);  // from the body's origin, but for their z
+  std::vector<double> before(count);  // where the guess has the wheels
+  Box box;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2& wheel = wheels_.at[i];
+    const Vec2 arm = wheel.x() * ahead + wheel.y() * Vec2(-ahead.y(), ahead.x());
+    before[i] = guess.t.z() - normal.head<2>().dot(arm) / normal.z();
+    supports[i] = Vec3(arm.x(), arm.y(), 0.0);
+    box.extend(Vec3(guess.t.x() + arm.x(), guess.t.y() + arm.y(), before[i]));
+  }
+  const Vec3 seam = Vec3::Constant(kSeam);
   std::vector<std::uint32_t> near;
-  obstacles_.near(
-      Box(Vec3(box.min() - margin - Vec3(0, 0, limits.ledge_m)), Vec3(box.max() + margin + Vec3(0, 0, up))),
-      near);
+  obstacles_.near(Box(Vec3(box.min() - seam - Vec3(0, 0, down)), Vec3(box.max() + seam + Vec3(0, 0, up))),
+                  near);
 
   Stance stance;
   stance.pose = guess;
-  std::vector<Vec3> supports(count, Vec3::Constant(NAN));
-  for (int round = 0; round < kMostRounds; ++round) {
-    double moved = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 arm = stance.pose.q * Vec3(wheels_.at[i].x(), wheels_.at[i].y(), 0.0);
-      const Vec2 at = guess.t.head<2>() + arm.head<2>();
-      const std::optional<double> found =
-          highest(obstacles_, near, at, height[i] - limits.ledge_m, height[i] + up);
-      if ((!found && !limits.may_hang) || (found && *found > height[i] + limits.step_m + kSeam)) {
-        stance.fault = found ? GroundFault::kStep : GroundFault::kLedge;
-        stance.wheel = i;
-        stance.where = Vec3(at.x(), at.y(), found.value_or(height[i]));
-        return stance;
-      }
-      Vec3 support(arm.x(), arm.y(), found.value_or(-INFINITY));
-      // A column that goes to and fro over an edge as the body tilts: the wheel stands on the upper side.
-      if (round >= 2) support.z() = std::max(support.z(), supports[i].z());
-      moved = round == 0 ? 1.0 : std::max(moved, (support - supports[i]).head<2>().norm());
-      supports[i] = support;
-    }
-    if (moved <= 1e-12) break;
-    const std::optional<Plane> plane = fit(supports);
-    if (!plane) {
-      stance.fault = GroundFault::kLedge;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!std::isfinite(supports[i].z())) stance.wheel = i;
-      }
-    } else if (1.0 / std::sqrt(1.0 + plane->slope.squaredNorm()) < std::cos(limits.slope_rad) - 1e-12) {
-      stance.fault = GroundFault::kSlope;
-      for (std::size_t i = 1; i < count; ++i) {
-        if (supports[i].z() - height[i] > supports[stance.wheel].z() - height[stance.wheel]) stance.wheel = i;
-      }
-    }
-    if (stance.fault) {
-      const Vec3& at = supports[stance.wheel];
-      stance.where = Vec3(guess.t.x() + at.x(), guess.t.y() + at.y(),
-                          std::isfinite(at.z()) ? at.z() : height[stance.wheel]);
-      return stance;
-    }
-    stance.pose.q = orientation(guess.q, plane->slope);
-    stance.pose.t.z() = plane->height;
+  const auto refuse = [&](GroundFault fault, std::size_t wheel, double z) {
+    stance.fault = fault;
+    stance.wheel = wheel;
+    stance.where = Vec3(guess.t.x() + supports[wheel].x(), guess.t.y() + supports[wheel].y(), z);
+    return stance;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto found = highest(obstacles_, near, guess.t.head<2>() + supports[i].head<2>(), before[i] - down,
+                               before[i] + up);
+    if (!found && !limits.may_hang) return refuse(GroundFault::kLedge, i, before[i]);
+    if (found && *found > before[i] + limits.step_m + kSeam) return refuse(GroundFault::kStep, i, *found);
+    supports[i].z() = found.value_or(-INFINITY);
   }
+  const std::optional<Plane> plane = fit(supports);
+  if (!plane) {
+    const auto hangs = std::ranges::find_if(supports, [](const Vec3& at) { return !std::isfinite(at.z()); });
+    const auto wheel = static_cast<std::size_t>(hangs - supports.begin());
+    return refuse(GroundFault::kLedge, wheel, before[wheel]);
+  }
+  if (const auto over = over_ledge(*plane, supports, before, limits))
+    return refuse(GroundFault::kLedge, *over, before[*over]);
+  if (1.0 / std::sqrt(1.0 + plane->slope.squaredNorm()) < std::cos(limits.slope_rad) - 1e-12) {
+    std::size_t wheel = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (supports[i].z() - before[i] > supports[wheel].z() - before[wheel]) wheel = i;
+    }
+    return refuse(GroundFault::kSlope, wheel,
+                  std::isfinite(supports[wheel].z()) ? supports[wheel].z() : before[wheel]);
+  }
+  stance.pose.q = orientation(guess.q, plane->slope);
+  stance.pose.t.z() = plane->height;
   return stance;
 }
 

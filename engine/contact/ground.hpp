@@ -17,8 +17,9 @@ struct Wheels {
 
 /// What wheels get over. Metres, radians.
 struct GroundLimits {
-  double step_m = 0.02;       ///< greatest height that a wheel climbs at once, [0, 10]
-  double ledge_m = 0.02;      ///< greatest depth that it goes down at once, [0, 10]
+  double step_m = 0.02;  ///< greatest height that a wheel climbs at once, [0, 10]
+  /// Greatest depth that it goes down at once, [0, 10]. A wheel that does not carry hangs by at most nine tenths of it.
+  double ledge_m = 0.02;
   double slope_rad = 0.35;    ///< greatest tilt of the body, [0, 1]
   double clearance_m = 0.02;  ///< height up to which a wheel looks for what is in its way, [0, 10]
   bool may_hang = false;      ///< true: a wheel may be in the air while the others carry the centre of mass
@@ -26,7 +27,7 @@ struct GroundLimits {
 
 /// Why a body does not stand somewhere.
 enum class GroundFault {
-  kLedge,  ///< no floor within `ledge_m` below a wheel
+  kLedge,  ///< a wheel would go down by more than `ledge_m`, or hang too far above its floor
   kStep,   ///< something higher than `step_m` and within `clearance_m` at a wheel
   kSlope,  ///< the body would tilt by more than `slope_rad`
 };
@@ -41,7 +42,8 @@ struct Stance {
 
 /// The floor under wheels: the highest points of triangles, whichever way these face.
 ///
-/// A wheel is a point on its vertical. A body of three wheels stands on the plane of their supports; one of four on the plane of those
+/// A wheel is a point on the vertical where it is while the body is level: so the stance depends on place and heading alone, and a body that stands, stands
+/// there again. On a plane the wheels of the tilted body are in that plane as well. A body of three wheels stands on the plane of their supports; one of four on the plane of those
 /// three that no other support exceeds and whose triangle holds the centre of mass. Where that is on both diagonals, the first such
 /// three in the order of the wheels. On a level floor of height z the pose has exactly that z and no tilt.
 class Ground {
@@ -70,6 +72,9 @@ class Ground {
   };
 
   Stance stand(const Pose& guess, const GroundLimits& limits) const;
+  /// A wheel that would go down too far, from its height before, or would hang too far above the floor.
+  std::optional<std::size_t> over_ledge(const Plane& plane, const std::vector<Vec3>& supports,
+                                        const std::vector<double>& before, const GroundLimits& limits) const;
   std::optional<Plane> fit(const std::vector<Vec3>& supports) const;
 
   const Obstacles& obstacles_;

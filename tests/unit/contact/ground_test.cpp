@@ -16,6 +16,18 @@ Pose level(double x, double y, double z, double yaw = 0.0) {
   return {from_yaw_pitch_roll(yaw, 0, 0), Vec3(x, y, z)};
 }
 
+/// The vertical of a wheel: where it is while the body is level.
+Vec2 vertical_of(const Pose& pose, const Vec2& wheel) {
+  const Vec2 ahead = (pose.q * Vec3::UnitX()).head<2>().normalized();
+  return pose.t.head<2>() + wheel.x() * ahead + wheel.y() * Vec2(-ahead.y(), ahead.x());
+}
+
+/// Height of the plane of the wheels on that vertical.
+double height_of(const Pose& pose, const Vec2& wheel) {
+  const Vec3 up = pose.q * Vec3::UnitZ();
+  return pose.t.z() - up.head<2>().dot(vertical_of(pose, wheel) - pose.t.head<2>()) / up.z();
+}
+
 TEST(Ground, LevelFloorIsExact) {
   for (const double z : {0.0, 0.1, -3.3, 1234.5678}) {
     Scene scene;
@@ -54,6 +66,45 @@ TEST(Ground, RampTiltsTheBody) {
   EXPECT_EQ(careful.stand(level(1.0, 0.3, 0.2)).fault, GroundFault::kSlope);
 }
 
+TEST(Ground, WhereABodyStandsItStandsAgain) {
+  Scene scene;
+  scene.floor(-9, -9, 15, 9, -0.6);
+  scene.ramp(0.0, 4.8, 0.0, -0.6, 1.0);  // its sides end 0 to 6 cm above the floor there
+  scene.box({7.0, 0.0}, 1.0, 1.0, -0.6, -0.578);
+  const Obstacles obstacles(scene.triangles);
+  const Wheels diamond{{Vec2(0.0, 0.15), Vec2(0.0, -0.15), Vec2(0.15, 0.0), Vec2(-0.15, 0.0)}, Vec2::Zero()};
+  Dice dice(5);
+  int stood = 0, refused = 0, hung = 0;
+  for (const Wheels& wheels : {diamond, square_wheels(), trike()}) {
+    const Ground ground(obstacles, wheels, {0.025, 0.025, 0.35, 0.03, false});
+    for (int i = 0; i < 20'000; ++i) {
+      const Vec2 at(dice.in(4.2, 7.7), dice.in(-1.3, 1.3));
+      const double floor = ground.floor_at(at, -1.0, 1.0).value();
+      const Stance stance = ground.settle(level(at.x(), at.y(), floor, dice.in(-3.1, 3.1)));
+      if (stance.fault) {
+        ++refused;
+        continue;
+      }
+      ++stood;
+      double highest = 0.0;  // of a wheel above what is under it
+      for (const Vec2& wheel : wheels.at) {
+        const double z = height_of(stance.pose, wheel);
+        const auto under = ground.floor_at(vertical_of(stance.pose, wheel), z - 0.1, z + 1e-6);
+        ASSERT_TRUE(under);
+        highest = std::max(highest, z - *under);
+      }
+      EXPECT_LE(highest, 0.9 * 0.025 + 1e-6);
+      if (highest > 0.005) ++hung;
+      const Stance again = ground.stand(stance.pose);
+      ASSERT_FALSE(again.fault) << i << " at " << at.transpose() << ", a wheel hangs by " << highest;
+      EXPECT_NEAR((again.pose.t - stance.pose.t).norm(), 0.0, 1e-9);
+    }
+  }
+  EXPECT_GT(stood, 40'000);
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(hung, 500);
+}
+
 TEST(Ground, StepsAndLedges) {
   Scene scene;
   scene.floor(-5, -5, 0, 5, 0.0);
@@ -69,7 +120,7 @@ TEST(Ground, StepsAndLedges) {
   const Stance stance = Ground(obstacles, trike(), {0.05, 0.05, 0.35, 0.05, false}).stand(level(-0.05, 0, 0));
   // The front wheels are 0.03 higher than the rear one, 0.2 m behind them.
   const Vec3 ahead = stance.pose.q * Vec3::UnitX();
-  EXPECT_NEAR(ahead.z(), 0.15, 1e-9);
+  EXPECT_NEAR(ahead.z() / ahead.x(), 0.15, 1e-9);
   EXPECT_EQ(Ground(obstacles, trike(), {0.05, 0.05, 0.1, 0.05, false}).stand(level(-0.05, 0, 0)).fault,
             GroundFault::kSlope);
 }
@@ -88,8 +139,7 @@ TEST(Ground, FourWheelsStandOnThree) {
       ASSERT_FALSE(stance.fault);
       int touching = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3 wheel = stance.pose * Vec3(wheels.at[i].x(), wheels.at[i].y(), 0);
-        const double height = wheel.z() - (i == high ? 0.02 : 0.0);
+        const double height = height_of(stance.pose, wheels.at[i]) - (i == high ? 0.02 : 0.0);
         EXPECT_GE(height, -1e-9);
         touching += height < 1e-9 ? 1 : 0;
       }
