@@ -28,8 +28,9 @@ double seconds_in(const TwistRamp& ramp) {
 
 /// How far points within `radius` of the origin come at most.
 double reach_of(const TwistRamp& ramp, double radius) {
-  return seconds_in(ramp) * (std::max(ramp.from.speed(), ramp.to.speed()) +
-                             radius * std::max(std::abs(ramp.from.turn_rad_s), std::abs(ramp.to.turn_rad_s)));
+  return seconds_in(ramp) *
+         (std::max(ramp.from.speed(), ramp.to.speed()) +
+          radius * std::max(std::abs(ramp.from.angular_rad_s), std::abs(ramp.to.angular_rad_s)));
 }
 
 TwistRamp beginning_of(const TwistRamp& ramp, std::int64_t duration_ns) {
@@ -82,7 +83,7 @@ struct Mover::Trial {
 
 std::int64_t Mover::longest(const TwistRamp& wanted) const {
   const double speed = std::max(wanted.from.speed(), wanted.to.speed());
-  const double turn = std::max(std::abs(wanted.from.turn_rad_s), std::abs(wanted.to.turn_rad_s));
+  const double turn = std::max(std::abs(wanted.from.angular_rad_s), std::abs(wanted.to.angular_rad_s));
   const double seconds =
       std::min(kLongestPart / std::max(speed, 1e-9), kGreatestPartTurn / std::max(turn, 1e-9));
   return std::clamp(static_cast<std::int64_t>(seconds * 1e9), std::int64_t{1}, wanted.duration_ns);
@@ -118,7 +119,7 @@ std::optional<TwistRamp> Mover::limited(const TwistRamp& ramp, const std::vector
 
 Mover::Trial Mover::attempt(const Pose& pose, std::int64_t begin_ns, const TwistRamp& ramp, double least) {
   Trial trial;
-  trial.stance = ground_.stand(pose * planar_motion(ramp, 1.0));
+  trial.stance = ground_.stand(pose * displacement(ramp).level());
   if (trial.stance.fault) return trial;
   const Part part = make_part(begin_ns, pose, ramp, trial.stance.pose);
   trial.blocker = check_.blocker(part, least);
@@ -225,8 +226,8 @@ Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wante
     } else {
       const Stance& stance = trial.stance;
       const Vec2& at = ground_.wheels().at[stance.wheel];
-      const Vec3 way_of_wheel = pose.q * Vec3(ramp.to.x_m_s - ramp.to.turn_rad_s * at.y(),
-                                              ramp.to.y_m_s + ramp.to.turn_rad_s * at.x(), 0.0);
+      const Vec3 way_of_wheel = pose.q * Vec3(ramp.to.forward_m_s - ramp.to.angular_rad_s * at.y(),
+                                              ramp.to.lateral_m_s + ramp.to.angular_rad_s * at.x(), 0.0);
       const double speed = way_of_wheel.norm();
       const Vec3 against = speed > 0.0 ? Vec3(-way_of_wheel / speed) : Vec3::UnitZ();
       move.pressed.push_back(

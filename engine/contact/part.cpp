@@ -11,14 +11,14 @@ double seconds_of(const TwistRamp& ramp) {
 }
 
 double greatest_turn(const TwistRamp& ramp) {
-  return std::max(std::abs(ramp.from.turn_rad_s), std::abs(ramp.to.turn_rad_s)) * seconds_of(ramp);
+  return std::max(std::abs(ramp.from.angular_rad_s), std::abs(ramp.to.angular_rad_s)) * seconds_of(ramp);
 }
 
 }  // namespace
 
 Part make_part(std::int64_t begin_ns, const Pose& from, const TwistRamp& ramp, const Pose& to) {
   Part part{begin_ns, ramp, from, to, Vec3::Zero(), Vec3::Zero()};
-  const Pose planar = from * planar_motion(ramp, 1.0);
+  const Pose planar = from * displacement(ramp).level();
   part.shift = to.t - planar.t;
   if (!(to.q.coeffs() == planar.q.coeffs())) part.turn = rotation_vector(to.q * planar.q.conjugate());
   return part;
@@ -31,7 +31,7 @@ Part make_drop(std::int64_t begin_ns, const Pose& from, const Pose& to) {
 Pose pose_in(const Part& part, double share) {
   if (share <= 0.0) return part.from;
   if (share >= 1.0) return part.to;
-  Pose pose = part.from * planar_motion(part.ramp, share);
+  Pose pose = part.from * displacement(part.ramp, share).level();
   pose.t += share * part.shift;
   if (!part.turn.isZero(0.0)) pose.q = (rotation_by(share * part.turn) * pose.q).normalized();
   return pose;
@@ -43,7 +43,8 @@ double bend(const Part& part, double radius) {
   const double way = std::max(part.ramp.from.speed(), part.ramp.to.speed()) * seconds;
   const double turn = greatest_turn(part.ramp), tilt = part.turn.norm();
   const double of_origin = way * turn + change.speed() * seconds;
-  const double of_arm = (turn + tilt) * (turn + tilt) + turn * tilt + std::abs(change.turn_rad_s) * seconds;
+  const double of_arm =
+      (turn + tilt) * (turn + tilt) + turn * tilt + std::abs(change.angular_rad_s) * seconds;
   return (of_origin + radius * of_arm) / 8.0;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "contact/planar_twist.hpp"
+#include "contact/twist_check.hpp"
 
 namespace hallway::contact {
 

@@ -37,9 +37,9 @@ TouchKind kind_of(const Press& press) {
 }
 
 PlanarTwist clamped(const PlanarTwist& twist) {
-  return {std::clamp(twist.x_m_s, -kGreatestSpeed, kGreatestSpeed),
-          std::clamp(twist.y_m_s, -kGreatestSpeed, kGreatestSpeed),
-          std::clamp(twist.turn_rad_s, -kGreatestTurn, kGreatestTurn)};
+  return {std::clamp(twist.forward_m_s, -kGreatestSpeed, kGreatestSpeed),
+          std::clamp(twist.lateral_m_s, -kGreatestSpeed, kGreatestSpeed),
+          std::clamp(twist.angular_rad_s, -kGreatestTurn, kGreatestTurn)};
 }
 
 }  // namespace

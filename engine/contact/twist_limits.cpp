@@ -102,7 +102,7 @@ std::optional<PlanarTwist> nearest_twist(const PlanarTwist& wanted, const std::v
     rows.push_back({Vec3(limit.x, limit.y, limit.turn / gyration), limit.least});
     standing = standing && limit.least <= 0.0;
   }
-  const Vec3 scaled(wanted.x_m_s, wanted.y_m_s, wanted.turn_rad_s * gyration);
+  const Vec3 scaled(wanted.forward_m_s, wanted.lateral_m_s, wanted.angular_rad_s * gyration);
   const std::optional<Vec3> found = nearest(rows, scaled);
   if (found) return PlanarTwist{found->x(), found->y(), found->z() / gyration};
   if (standing) return PlanarTwist{};

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "contact/planar_twist.hpp"
+#include "contact/twist_check.hpp"
 
 namespace hallway::contact {
 
-/// A half space of twists, in the body's frame: x * x_m_s + y * y_m_s + turn * turn_rad_s >= least.
+/// A half space of twists, in the body's frame: x * forward_m_s + y * lateral_m_s + turn * angular_rad_s >= least.
 struct TwistLimit {
   double x = 0.0;
   double y = 0.0;
@@ -17,7 +17,7 @@ struct TwistLimit {
 
   /// How fast a twist moves away: the left side of the inequality.
   double speed(const PlanarTwist& twist) const {
-    return x * twist.x_m_s + y * twist.y_m_s + turn * twist.turn_rad_s;
+    return x * twist.forward_m_s + y * twist.lateral_m_s + turn * twist.angular_rad_s;
   }
 };
 

@@ -26,18 +26,19 @@ bool Actuation::is_constant() const {
          left_slip_.is_constant() && right_slip_.is_constant();
 }
 
-Effect Actuation::at(std::int64_t t_ns, const Twist& driven) {
+Effect Actuation::at(std::int64_t t_ns, const PlanarTwist& driven) {
   const double speed = 1.0 + forward_noise_.at(t_ns);
   const double turn = (1.0 + angular_noise_.at(t_ns)) * (spec_.kind == DriveKind::kAckermann ? speed : 1.0);
-  const Twist actuated{speed * driven.forward_m_s, speed * driven.lateral_m_s, turn * driven.angular_rad_s};
+  const PlanarTwist actuated{speed * driven.forward_m_s, speed * driven.lateral_m_s,
+                             turn * driven.angular_rad_s};
   const PerWheel wheels = wheel_speeds(spec_, actuated);
   return {slipped(t_ns, actuated, wheels), wheels};
 }
 
-Twist Actuation::slipped(std::int64_t t_ns, const Twist& actuated, PerWheel speeds) {
+PlanarTwist Actuation::slipped(std::int64_t t_ns, const PlanarTwist& actuated, PerWheel speeds) {
   const double left = 1.0 - left_slip_.at(t_ns);
   const double right = 1.0 - right_slip_.at(t_ns);
-  Twist body;
+  PlanarTwist body;
   if (spec_.kind == DriveKind::kAckermann) {
     const double share = 0.5 * (left + right);
     body = {share * actuated.forward_m_s, 0.0, share * actuated.angular_rad_s};

@@ -12,8 +12,8 @@ namespace hallway::drive {
 
 /// What the motors' motion becomes at a time.
 struct Effect {
-  Twist body{};       ///< true twist of the body
-  PerWheel wheels{};  ///< speeds of the rims [m/s]
+  PlanarTwist body{};  ///< true twist of the body
+  PerWheel wheels{};   ///< speeds of the rims [m/s]
 };
 
 /// The effect at `part` of `whole` on the line between two.
@@ -30,13 +30,13 @@ class Actuation {
   Actuation(const DriveSpec& spec, std::uint64_t seed);
 
   /// The effect of a driven twist at a time, t_ns >= 0.
-  Effect at(std::int64_t t_ns, const Twist& driven);
+  Effect at(std::int64_t t_ns, const PlanarTwist& driven);
 
   /// Whether no disturbance changes with time.
   bool is_constant() const;
 
  private:
-  Twist slipped(std::int64_t t_ns, const Twist& actuated, PerWheel speeds);
+  PlanarTwist slipped(std::int64_t t_ns, const PlanarTwist& actuated, PerWheel speeds);
 
   DriveSpec spec_;
   DisturbanceProcess forward_noise_;

@@ -14,7 +14,7 @@ constexpr std::int64_t kLongestPieceNs = 10'000'000'000;  // where nothing chang
 
 using Numbers = std::array<double, 3>;
 
-Numbers numbers_of(const Twist& twist) {
+Numbers numbers_of(const PlanarTwist& twist) {
   return {twist.forward_m_s, twist.lateral_m_s, twist.angular_rad_s};
 }
 
@@ -69,7 +69,7 @@ std::array<Rates, 3> Drive::rates() const {
   return {linear, linear, Rates{turn, turn}};
 }
 
-Twist Drive::driven_at(const Parts& parts, std::int64_t t_ns) const {
+PlanarTwist Drive::driven_at(const Parts& parts, std::int64_t t_ns) const {
   const auto [forward, lateral, turn] = numbers_at(parts, t_ns);
   return {forward, lateral, is_steered() ? forward * std::tan(turn) / spec_.axle_distance_m : turn};
 }
@@ -112,13 +112,13 @@ Effect Drive::effect_at(std::int64_t t_ns) const {
   return between(plan_.from, plan_.to, t_ns - plan_.begin_ns, plan_.end_ns - plan_.begin_ns);
 }
 
-Twist Drive::body_at(std::int64_t t_ns) const {
-  const Twist body = effect_at(t_ns).body;
+PlanarTwist Drive::body_at(std::int64_t t_ns) const {
+  const PlanarTwist body = effect_at(t_ns).body;
   return {body.forward_m_s + push_[0].at(t_ns), body.lateral_m_s + push_[1].at(t_ns),
           body.angular_rad_s + push_[2].at(t_ns)};
 }
 
-Twist Drive::twist() const {
+PlanarTwist Drive::twist() const {
   return body_at(present_ns_);
 }
 
@@ -163,7 +163,7 @@ std::vector<Motion> Drive::advance(std::int64_t to_ns) {
   return motions;
 }
 
-void Drive::set_twist(const Twist& twist) {
+void Drive::set_twist(const PlanarTwist& twist) {
   cut_plan();
   const Numbers wanted = numbers_of(twist);
   const Numbers wheels = numbers_of(plan_.to.body);

@@ -23,7 +23,7 @@ struct Obeyed {
 
 /// A piece of the motion: body and wheels over the same time.
 struct Motion {
-  Ramp body{};         ///< true twist of the body
+  TwistRamp body{};    ///< true twist of the body
   WheelRamp wheels{};  ///< rims
 };
 
@@ -49,15 +49,15 @@ class Drive {
   std::vector<Motion> advance(std::int64_t to_ns);
 
   /// A contact gave the body another twist at the present time; the wheels go on. The difference from the wheels' twist fades at the limits of acceleration.
-  void set_twist(const Twist& twist);
+  void set_twist(const PlanarTwist& twist);
   /// Body and wheels are at rest at the present time, as motors that are blocked. The drive then accelerates anew, as last commanded.
   void stop();
 
   std::int64_t present_ns() const { return present_ns_; }
   /// The true twist of the body.
-  Twist twist() const;
+  PlanarTwist twist() const;
   /// The twist that the motors drive, without noise and slip.
-  Twist driven() const { return driven_at(present_ns_); }
+  PlanarTwist driven() const { return driven_at(present_ns_); }
   /// The steering angle, positive to the left; 0 for what does not steer [rad].
   double steering_rad() const;
   /// The way of each rim since time 0, for encoders [m].
@@ -80,14 +80,14 @@ class Drive {
 
   bool is_steered() const { return spec_.kind == DriveKind::kAckermann; }
   std::array<Rates, 3> rates() const;
-  Twist driven_at(std::int64_t t_ns) const { return driven_at(driven_, t_ns); }
-  Twist driven_at(const Parts& parts, std::int64_t t_ns) const;
+  PlanarTwist driven_at(std::int64_t t_ns) const { return driven_at(driven_, t_ns); }
+  PlanarTwist driven_at(const Parts& parts, std::int64_t t_ns) const;
   bool wheels_stay_within(const Parts& parts) const;
   void go_to(const std::array<double, 3>& targets);
   void act(const LimitedCommand& limited);
   void act_on_pending();
   Effect effect_at(std::int64_t t_ns) const;
-  Twist body_at(std::int64_t t_ns) const;
+  PlanarTwist body_at(std::int64_t t_ns) const;
   void cut_plan();
   void plan();
   Motion piece(std::int64_t end_ns) const;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // relative, of a wheel's speed at its limit
 
-double fastest_wheel(const DriveSpec& spec, const Twist& twist) {
+double fastest_wheel(const DriveSpec& spec, const PlanarTwist& twist) {
   double fastest = 0.0;
   for (const double speed : wheel_speeds(spec, twist)) fastest = std::max(fastest, std::abs(speed));
   return fastest;
@@ -63,7 +63,7 @@ void steer(const DriveSpec& spec, LimitedCommand& limited) {
 
 }  // namespace
 
-bool wheels_are_within(const DriveSpec& spec, const Twist& twist) {
+bool wheels_are_within(const DriveSpec& spec, const PlanarTwist& twist) {
   return spec.kind == DriveKind::kAckermann ||
          fastest_wheel(spec, twist) <= spec.max_speed_m_s * (1.0 + kRounding);
 }

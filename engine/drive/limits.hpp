@@ -31,7 +31,7 @@ struct LimitedCommand {
 
 /// Whether no wheel is faster than max_speed_m_s under this twist, but for rounding. Always true for ackermann, whose limit is that of the rear axle's
 /// middle.
-bool wheels_are_within(const DriveSpec& spec, const Twist& twist);
+bool wheels_are_within(const DriveSpec& spec, const PlanarTwist& twist);
 
 /// Limits a finite command of any size, without overflow.
 ///

@@ -31,7 +31,7 @@ PerWheel travel(const WheelRamp& ramp) {
   return way;
 }
 
-PerWheel wheel_speeds(const DriveSpec& spec, const Twist& twist) {
+PerWheel wheel_speeds(const DriveSpec& spec, const PlanarTwist& twist) {
   const double forward = twist.forward_m_s;
   if (spec.kind != DriveKind::kOmnidirectional) {
     const double turn = 0.5 * spec.wheel_base_m * twist.angular_rad_s;
@@ -43,7 +43,7 @@ PerWheel wheel_speeds(const DriveSpec& spec, const Twist& twist) {
           forward - lateral + turn};
 }
 
-Twist twist_of(const DriveSpec& spec, const PerWheel& speeds) {
+PlanarTwist twist_of(const DriveSpec& spec, const PerWheel& speeds) {
   if (spec.kind != DriveKind::kOmnidirectional) {
     return {0.5 * (speeds[0] + speeds[1]), 0.0, (speeds[1] - speeds[0]) / spec.wheel_base_m};
   }

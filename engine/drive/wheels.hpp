@@ -35,10 +35,10 @@ PerWheel travel(const WheelRamp& ramp);
 
 /// The speed of each rim for a twist of the body, if no wheel slips [m/s]. The body's origin is the middle between the wheels; for ackermann, the middle of
 /// the rear axle. Omnidirectional wheels are mecanum wheels with rollers at 45 degrees (Muir and Neuman, 1987).
-PerWheel wheel_speeds(const DriveSpec& spec, const Twist& twist);
+PerWheel wheel_speeds(const DriveSpec& spec, const PlanarTwist& twist);
 
 /// The twist of the body that the speeds of the rims make, without slip: the inverse of wheel_speeds() for the twists that a drive can do, the least-squares
 /// twist for other speeds.
-Twist twist_of(const DriveSpec& spec, const PerWheel& speeds);
+PlanarTwist twist_of(const DriveSpec& spec, const PerWheel& speeds);
 
 }  // namespace hallway::drive

@@ -240,22 +240,14 @@ Outcome wander(const Place& place, std::uint64_t seed, double seconds) {
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     const std::int64_t now = frame * kFrameNs;
     drive.command(now, wanderer.next(away));
-    std::vector<contact::TwistRamp> ramps;
-    for (const drive::Motion& motion : drive.advance(now + kFrameNs)) {
-      const drive::Twist &a = motion.body.from, &b = motion.body.to;
-      ramps.push_back({{a.forward_m_s, a.lateral_m_s, a.angular_rad_s},
-                       {b.forward_m_s, b.lateral_m_s, b.angular_rad_s},
-                       motion.body.duration_ns});
-    }
+    std::vector<TwistRamp> ramps;
+    for (const drive::Motion& motion : drive.advance(now + kFrameNs)) ramps.push_back(motion.body);
     const contact::Advance advance = robot.advance(ramps);
     away.setZero();
     for (const auto& touches : {advance.begun, advance.touching}) {
       for (const contact::Touch& touch : touches) away += robot.pose().q.conjugate() * touch.normal;
     }
-    if (!advance.touching.empty()) {
-      const contact::PlanarTwist left = robot.twist();
-      drive.set_twist({left.x_m_s, left.y_m_s, left.turn_rad_s});
-    }
+    if (!advance.touching.empty()) drive.set_twist(robot.twist());
     for (const std::int64_t t : {now + kFrameNs / 3, now + kFrameNs})
       inspector.look(robot.history().pose_at(t), t);
     robot.forget_before(now);

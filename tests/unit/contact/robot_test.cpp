@@ -18,10 +18,11 @@ Vec3 integrated(Vec3 state, const TwistRamp& ramp, int steps) {
   const double heading = state.z();
   const auto velocity = [&](double t) {
     const PlanarTwist twist = ramp.at(t / seconds);
-    const double angle = heading + t * ramp.from.turn_rad_s +
-                         0.5 * t * t / seconds * (ramp.to.turn_rad_s - ramp.from.turn_rad_s);
-    return Vec3(std::cos(angle) * twist.x_m_s - std::sin(angle) * twist.y_m_s,
-                std::sin(angle) * twist.x_m_s + std::cos(angle) * twist.y_m_s, twist.turn_rad_s);
+    const double angle = heading + t * ramp.from.angular_rad_s +
+                         0.5 * t * t / seconds * (ramp.to.angular_rad_s - ramp.from.angular_rad_s);
+    return Vec3(std::cos(angle) * twist.forward_m_s - std::sin(angle) * twist.lateral_m_s,
+                std::sin(angle) * twist.forward_m_s + std::cos(angle) * twist.lateral_m_s,
+                twist.angular_rad_s);
   };
   for (int i = 0; i < steps; ++i)
     state += h / 6.0 * (velocity(i * h) + 4.0 * velocity((i + 0.5) * h) + velocity((i + 1) * h));
@@ -57,7 +58,7 @@ TEST(Robot, FreeMotionIsTheIntegralOfItsTwist) {
       EXPECT_EQ(pose.t.z(), 0.25);
       EXPECT_NEAR(angle_between(pose.q, from_yaw_pitch_roll(there.z(), 0, 0)), 0.0, 1e-10);
       const PlanarTwist twist = robot.history().twist_at(begin + part_ns - (share == 1.0 ? 1 : 0));
-      EXPECT_NEAR(twist.x_m_s, ramp.at(exact).x_m_s, 1e-8);
+      EXPECT_NEAR(twist.forward_m_s, ramp.at(exact).forward_m_s, 1e-8);
     }
     expected = integrated(expected, ramp, 4000);
   }

@@ -42,10 +42,11 @@ TEST(TwistLimits, NearestAgreesWithAlternatingProjections) {
     const PlanarTwist wanted{dice.in(-1, 1), dice.in(-1, 1), dice.in(-5, 5)};
     const auto found = nearest_twist(wanted, limits, gyration);
     ASSERT_TRUE(found);
-    const Vec3 expected = projected(Vec3(wanted.x_m_s, wanted.y_m_s, wanted.turn_rad_s * gyration), rows);
-    EXPECT_NEAR(found->x_m_s, expected.x(), 1e-6) << i;
-    EXPECT_NEAR(found->y_m_s, expected.y(), 1e-6) << i;
-    EXPECT_NEAR(found->turn_rad_s * gyration, expected.z(), 1e-6) << i;
+    const Vec3 expected =
+        projected(Vec3(wanted.forward_m_s, wanted.lateral_m_s, wanted.angular_rad_s * gyration), rows);
+    EXPECT_NEAR(found->forward_m_s, expected.x(), 1e-6) << i;
+    EXPECT_NEAR(found->lateral_m_s, expected.y(), 1e-6) << i;
+    EXPECT_NEAR(found->angular_rad_s * gyration, expected.z(), 1e-6) << i;
     limited += *found == wanted ? 0 : 1;
   }
   EXPECT_GT(limited, 30);
@@ -61,12 +62,13 @@ TEST(TwistLimits, NeverTurnsBack) {
     }
     const PlanarTwist wanted{dice.in(-1, 1), dice.in(-1, 1), dice.in(-5, 5)};
     const PlanarTwist found = nearest_twist(wanted, limits, 0.2).value();
-    const double along =
-        wanted.x_m_s * found.x_m_s + wanted.y_m_s * found.y_m_s + 0.04 * wanted.turn_rad_s * found.turn_rad_s;
-    const double length2 = found.speed() * found.speed() + 0.04 * found.turn_rad_s * found.turn_rad_s;
+    const double along = wanted.forward_m_s * found.forward_m_s + wanted.lateral_m_s * found.lateral_m_s +
+                         0.04 * wanted.angular_rad_s * found.angular_rad_s;
+    const double length2 = found.speed() * found.speed() + 0.04 * found.angular_rad_s * found.angular_rad_s;
     EXPECT_GE(along, length2 - 1e-9);
     for (const TwistLimit& limit : limits) EXPECT_GE(limit.speed(found), -1e-9);
-    EXPECT_EQ(shortened_twist(wanted, limits)->turn_rad_s == 0.0, shortened_twist(wanted, limits)->is_zero());
+    EXPECT_EQ(shortened_twist(wanted, limits)->angular_rad_s == 0.0,
+              shortened_twist(wanted, limits)->is_zero());
   }
 }
 
@@ -94,7 +96,7 @@ TEST(Slide, AlongAWallAtTheTangentialSpeed) {
     const Advance advance = drive(robot, steady(std::cos(angle), std::sin(angle), 0, 4.0));
     EXPECT_NEAR(robot.pose().t.x() - before, 4.0 * std::cos(angle), 1e-6) << angle;
     EXPECT_NEAR(robot.pose().t.y(), 0.8 - kClearance, 1e-6);
-    EXPECT_NEAR(robot.twist().x_m_s, std::cos(angle), 1e-6);
+    EXPECT_NEAR(robot.twist().forward_m_s, std::cos(angle), 1e-6);
     EXPECT_EQ(robot.counts().contacts, 1u);
     ASSERT_EQ(advance.touching.size(), 1u);
     EXPECT_NEAR(advance.touching[0].normal.y(), -1.0, 1e-6);

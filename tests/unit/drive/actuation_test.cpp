@@ -42,7 +42,7 @@ TEST(Actuation, SlipAndNoiseAreAsDeclared) {
   DriveSpec spec{.wheel_base_m = 0.4};
   testing::add_noise(spec);
   Actuation actuation(spec, 21);
-  const Twist driven{0.5, 0.0, 0.8};
+  const PlanarTwist driven{0.5, 0.0, 0.8};
   std::array<Moments, 5> moments;
   for (std::int64_t knot = 0; knot < 1'000'000; ++knot) {
     const Effect effect = actuation.at(knot * kKnotNs, driven);
@@ -66,11 +66,11 @@ TEST(Actuation, WithoutFaultsTheBodyFollows) {
   for (int i = 0; i < 100; ++i) {
     DriveSpec spec = testing::random_spec(dice);
     spec.turn_slip = 0.0;
-    Twist driven = testing::random_command(dice);
+    PlanarTwist driven = testing::random_command(dice);
     if (spec.kind != DriveKind::kOmnidirectional) driven.lateral_m_s = 0.0;
     Actuation actuation(spec, 1);
     EXPECT_TRUE(actuation.is_constant());
-    const Twist body = actuation.at(0, driven).body;
+    const PlanarTwist body = actuation.at(0, driven).body;
     EXPECT_NEAR(body.forward_m_s, driven.forward_m_s, 1e-14);
     EXPECT_NEAR(body.lateral_m_s, driven.lateral_m_s, 1e-14);
     EXPECT_NEAR(body.angular_rad_s, driven.angular_rad_s, 1e-13);
@@ -133,7 +133,8 @@ TEST(Actuation, RobotAtRestStaysAtRest) {
   DriveSpec spec{.kind = DriveKind::kOmnidirectional};
   testing::add_noise(spec);
   Actuation actuation(spec, 5);
-  for (std::int64_t t = 0; t < 1'000'000'000; t += 3'456'789) EXPECT_EQ(actuation.at(t, {}).body, Twist{});
+  for (std::int64_t t = 0; t < 1'000'000'000; t += 3'456'789)
+    EXPECT_EQ(actuation.at(t, {}).body, PlanarTwist{});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr double kMore = 1.0 + 1e-9;
 
 void expect_within(const DriveSpec& spec, const Motion& motion) {
   const double turned = 1.0 - spec.turn_slip;
-  for (const Twist& twist : {motion.body.from, motion.body.to}) {
+  for (const PlanarTwist& twist : {motion.body.from, motion.body.to}) {
     ASSERT_LE(std::abs(twist.forward_m_s), spec.max_speed_m_s * kMore);
     ASSERT_LE(std::abs(twist.lateral_m_s), lateral_limit(spec) * kMore + 1e-12);
     if (spec.kind == DriveKind::kAckermann) {
@@ -42,7 +42,7 @@ void expect_rate(double from, double to, double growing, double shrinking, doubl
   ASSERT_LE(std::abs(to - from), rate * time * 1.000001 + 1e-12) << from << " " << to;
 }
 
-void expect_accelerations(const DriveSpec& spec, const Ramp& body) {
+void expect_accelerations(const DriveSpec& spec, const TwistRamp& body) {
   const double time = seconds(body.duration_ns);
   const double up = spec.max_acceleration_m_s2;
   const double down = deceleration_limit(spec);
@@ -58,7 +58,7 @@ TEST(DriveLimits, HoldForRandomSpecsAndCommands) {
   for (int i = 0; i < 1000; ++i) {
     const DriveSpec spec = testing::random_spec(dice);
     Drive drive(spec, 1);
-    Twist last{};
+    PlanarTwist last{};
     for (std::int64_t t = 0; t < 6 * kSecond; t += dice.whole(1, kSecond)) {
       for (const Motion& motion : drive.advance(t)) {
         expect_within(spec, motion);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "drive/drive.hpp"
+#include "support/planar_quadrature.hpp"
 #include "unit/drive/drives.hpp"
-#include "unit/drive/quadrature.hpp"
 
 namespace hallway::drive {
 namespace {

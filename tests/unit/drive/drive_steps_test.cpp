@@ -87,7 +87,7 @@ TEST(DriveSteps, CommandsMayBeGivenAhead) {
 std::vector<double> numbers_of(const std::vector<Motion>& motions) {
   std::vector<double> numbers;
   for (const Motion& m : motions) {
-    for (const Twist& t : {m.body.from, m.body.to}) {
+    for (const PlanarTwist& t : {m.body.from, m.body.to}) {
       numbers.insert(numbers.end(), {t.forward_m_s, t.lateral_m_s, t.angular_rad_s});
     }
     for (const PerWheel& w : {m.wheels.from, m.wheels.to}) numbers.insert(numbers.end(), w.begin(), w.end());

@@ -18,7 +18,7 @@ constexpr std::int64_t kMs = 1'000'000;
 TEST(Drive, LatencyIsExact) {
   Drive drive({.max_acceleration_m_s2 = 1.0, .latency_ns = 123'456'789}, 1);
   EXPECT_EQ(drive.command(kSecond, {0.5, 0.0, 0.0}).acts_from_ns, 1'123'456'789);
-  for (const Motion& motion : drive.advance(1'123'456'789)) EXPECT_EQ(motion.body.to, Twist{});
+  for (const Motion& motion : drive.advance(1'123'456'789)) EXPECT_EQ(motion.body.to, PlanarTwist{});
   drive.advance(1'123'456'789 + 1000);
   EXPECT_NEAR(drive.twist().forward_m_s, 1e-6, 1e-18);
 }
@@ -31,7 +31,7 @@ TEST(Drive, CommandHoldsUntilTheNextActs) {
   drive.advance(5 * kSecond + 100 * kMs);
   EXPECT_EQ(drive.twist().forward_m_s, 0.3);
   drive.advance(5 * kSecond + 400 * kMs);
-  EXPECT_EQ(drive.twist(), Twist{});
+  EXPECT_EQ(drive.twist(), PlanarTwist{});
 }
 
 TEST(Drive, LateCommandActsFromThePresent) {
@@ -121,7 +121,7 @@ TEST(Drive, TwistOfAContactFadesWhileTheWheelsGoOn) {
   EXPECT_EQ(drive.twist().lateral_m_s, 0.1);
   PlanarPose pose;
   testing::drive_on(drive, 3 * kSecond, pose);
-  EXPECT_EQ(drive.twist(), (Twist{0.5, 0.0, 0.0}));
+  EXPECT_EQ(drive.twist(), (PlanarTwist{0.5, 0.0, 0.0}));
   EXPECT_NEAR(pose.x_m, 0.5 - 0.5 * 0.5 * 0.5, 1e-12);  // half a second at half the speed
   EXPECT_NEAR(pose.y_m, 0.5 * 0.1 * 0.1, 1e-12);
   EXPECT_NEAR(drive.wheel_travel_m()[0] - before, 0.5, 1e-12);
@@ -132,8 +132,8 @@ TEST(Drive, BlockedMotorsAccelerateAnew) {
   drive.command(0, {0.5, 0.0, 0.0});
   drive.advance(2 * kSecond);
   drive.stop();
-  EXPECT_EQ(drive.twist(), Twist{});
-  EXPECT_EQ(drive.driven(), Twist{});
+  EXPECT_EQ(drive.twist(), PlanarTwist{});
+  EXPECT_EQ(drive.driven(), PlanarTwist{});
   PlanarPose pose;
   testing::drive_on(drive, 3 * kSecond, pose);
   EXPECT_EQ(drive.twist().forward_m_s, 0.5);
@@ -149,7 +149,7 @@ TEST(Drive, StandingCarKeepsItsSteering) {
   EXPECT_TRUE(drive.command(3 * kSecond, {0.0, 0.0, -1.0}).clamps.left_out);
   drive.advance(6 * kSecond);
   EXPECT_EQ(drive.steering_rad(), angle);
-  EXPECT_EQ(drive.twist(), Twist{});
+  EXPECT_EQ(drive.twist(), PlanarTwist{});
 }
 
 TEST(Drive, MisuseIsAnError) {

@@ -32,7 +32,7 @@ struct Ride {
 Ride ride(Follower follower, const DriveSpec& spec, Pose start, int steps) {
   Drive drive(spec, 17);
   Ride result{.pose = start};
-  for (int i = 1; i <= steps && !(result.last.done && drive.twist() == Twist{}); ++i) {
+  for (int i = 1; i <= steps && !(result.last.done && drive.twist() == PlanarTwist{}); ++i) {
     const FollowStep step = follower.next(result.pose);
     result.went_back = result.went_back || step.along_m < result.last.along_m;
     result.greatest_step_m = std::max(result.greatest_step_m, step.along_m - result.last.along_m);

@@ -30,9 +30,9 @@ TEST(Wheels, TwistOfSpeedsIsTheInverse) {
   testing::Dice dice(8);
   for (int i = 0; i < 200; ++i) {
     const DriveSpec spec = testing::random_spec(dice);
-    Twist twist = testing::random_command(dice);
+    PlanarTwist twist = testing::random_command(dice);
     if (spec.kind != DriveKind::kOmnidirectional) twist.lateral_m_s = 0.0;
-    const Twist back = twist_of(spec, wheel_speeds(spec, twist));
+    const PlanarTwist back = twist_of(spec, wheel_speeds(spec, twist));
     EXPECT_NEAR(back.forward_m_s, twist.forward_m_s, 1e-14);
     EXPECT_NEAR(back.lateral_m_s, twist.lateral_m_s, 1e-14);
     EXPECT_NEAR(back.angular_rad_s, twist.angular_rad_s, 1e-13);
@@ -71,7 +71,7 @@ TEST(Wheels, TravelIsTheMotionWithoutSlip) {
         turn += half * (motion.body.from.angular_rad_s + motion.body.to.angular_rad_s);
       }
     }
-    const Twist way = twist_of(spec, drive.wheel_travel_m());
+    const PlanarTwist way = twist_of(spec, drive.wheel_travel_m());
     EXPECT_NEAR(way.forward_m_s, forward, 1e-11);
     EXPECT_NEAR(way.lateral_m_s, lateral, 1e-11);
     EXPECT_NEAR(way.angular_rad_s, turn, 1e-10);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "drive/motion.hpp"
+#include "geometry/planar_motion.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-namespace hallway::drive {
+namespace hallway {
 namespace {
 
 struct Node {
@@ -21,15 +20,11 @@ constexpr std::array<Node, 4> kNodes{{{0.18343464249564980494, 0.362683783378361
 
 constexpr double kPanelTurn = 0.5;  // [rad]
 
-/// A ramp as functions of time in seconds.
+/// A ramp from its begin to a time in seconds.
 class Integrand {
  public:
-  explicit Integrand(const Ramp& ramp) : from_(ramp.from), duration_(seconds(ramp.duration_ns)) {
-    if (ramp.duration_ns == 0) return;
-    slope_.forward_m_s = (ramp.to.forward_m_s - from_.forward_m_s) / duration_;
-    slope_.lateral_m_s = (ramp.to.lateral_m_s - from_.lateral_m_s) / duration_;
-    slope_.angular_rad_s = (ramp.to.angular_rad_s - from_.angular_rad_s) / duration_;
-  }
+  Integrand(const PlanarTwist& from, const PlanarTwist& to, double duration)
+      : from_(from), slope_(duration == 0.0 ? PlanarTwist{} : (to - from) * (1.0 / duration)) {}
 
   double heading(double t) const { return t * (from_.angular_rad_s + 0.5 * t * slope_.angular_rad_s); }
 
@@ -43,37 +38,32 @@ class Integrand {
   }
 
  private:
-  Twist from_;
-  Twist slope_{};
-  double duration_;
+  PlanarTwist from_;
+  PlanarTwist slope_;
 };
 
 }  // namespace
 
-double between(double from, double to, std::int64_t part, std::int64_t whole) {
-  if (part == whole) return to;
-  return from + (to - from) * (static_cast<double>(part) / static_cast<double>(whole));
+PlanarTwist twist_at(const TwistRamp& ramp, std::int64_t t_ns) {
+  if (t_ns == ramp.duration_ns) return ramp.to;
+  return ramp.at(static_cast<double>(t_ns) / static_cast<double>(ramp.duration_ns));
 }
 
-Twist twist_at(const Ramp& ramp, std::int64_t t_ns) {
-  const auto at = [&](double from, double to) { return between(from, to, t_ns, ramp.duration_ns); };
-  return {at(ramp.from.forward_m_s, ramp.to.forward_m_s), at(ramp.from.lateral_m_s, ramp.to.lateral_m_s),
-          at(ramp.from.angular_rad_s, ramp.to.angular_rad_s)};
-}
-
-Ramp cut(const Ramp& ramp, std::int64_t begin_ns, std::int64_t end_ns) {
+TwistRamp cut(const TwistRamp& ramp, std::int64_t begin_ns, std::int64_t end_ns) {
   return {twist_at(ramp, begin_ns), twist_at(ramp, end_ns), end_ns - begin_ns};
 }
 
-PlanarPose displacement(const Ramp& ramp) {
-  const double duration = seconds(ramp.duration_ns);
-  const Integrand integrand(ramp);
+PlanarPose displacement(const TwistRamp& ramp, double share) {
+  const double duration = 1e-9 * static_cast<double>(ramp.duration_ns) * share;
+  const PlanarTwist& from = ramp.from;
+  const PlanarTwist to = ramp.at(share);
   // By the greater rate and not by the net turn, which is small where the turn changes its direction.
-  const double turn = std::max(std::abs(ramp.from.angular_rad_s), std::abs(ramp.to.angular_rad_s)) * duration;
+  const double turn = std::max(std::abs(from.angular_rad_s), std::abs(to.angular_rad_s)) * duration;
   if (turn == 0.0) {
-    return {0.5 * duration * (ramp.from.forward_m_s + ramp.to.forward_m_s),
-            0.5 * duration * (ramp.from.lateral_m_s + ramp.to.lateral_m_s), 0.0};
+    return {0.5 * duration * (from.forward_m_s + to.forward_m_s),
+            0.5 * duration * (from.lateral_m_s + to.lateral_m_s), 0.0};
   }
+  const Integrand integrand(from, to, duration);
   const double panels = std::max(1.0, std::ceil(turn / kPanelTurn));
   const double half = 0.5 * duration / panels;
   Vec2 sum = Vec2::Zero();
@@ -85,10 +75,10 @@ PlanarPose displacement(const Ramp& ramp) {
     }
   }
   sum *= half;
-  return {sum.x(), sum.y(), 0.5 * duration * (ramp.from.angular_rad_s + ramp.to.angular_rad_s)};
+  return {sum.x(), sum.y(), 0.5 * duration * (from.angular_rad_s + to.angular_rad_s)};
 }
 
-PlanarPose move(const PlanarPose& start, const Ramp& ramp) {
+PlanarPose move(const PlanarPose& start, const TwistRamp& ramp) {
   const PlanarPose step = displacement(ramp);
   const double c = std::cos(start.yaw_rad);
   const double s = std::sin(start.yaw_rad);
@@ -96,10 +86,8 @@ PlanarPose move(const PlanarPose& start, const Ramp& ramp) {
           start.yaw_rad + step.yaw_rad};
 }
 
-Pose move(const Pose& start, const Ramp& ramp) {
-  const PlanarPose step = displacement(ramp);
-  const Quat turn(std::cos(0.5 * step.yaw_rad), 0.0, 0.0, std::sin(0.5 * step.yaw_rad));
-  return start * Pose{turn, Vec3(step.x_m, step.y_m, 0.0)};
+Pose move(const Pose& start, const TwistRamp& ramp) {
+  return start * displacement(ramp).level();
 }
 
-}  // namespace hallway::drive
+}  // namespace hallway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drive/motion.hpp"
+#include "geometry/planar_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +7,36 @@
 #include <cmath>
 #include <vector>
 
-#include "unit/drive/drives.hpp"
-#include "unit/drive/quadrature.hpp"
+#include "base/random.hpp"
+#include "support/planar_quadrature.hpp"
 
-namespace hallway::drive {
+namespace hallway {
 namespace {
 
-using testing::Dice;
-using testing::kSecond;
+constexpr std::int64_t kSecond = 1'000'000'000;
 
-Ramp random_ramp(Dice& dice) {
+/// Random numbers in order.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : random_(seed, stream_id("planar_motion_test")) {}
+  double within(double low, double high) { return random_.uniform(0, next_++, low, high); }
+  std::int64_t whole(std::int64_t low, std::int64_t high) {
+    return std::min(high, low + static_cast<std::int64_t>(within(0.0, static_cast<double>(high - low + 1))));
+  }
+
+ private:
+  Random random_;
+  std::uint64_t next_ = 0;
+};
+
+TwistRamp random_ramp(Dice& dice) {
   const auto twist = [&] {
-    return Twist{dice.within(-2.0, 2.0), dice.within(-2.0, 2.0), dice.within(-4.0, 4.0)};
+    return PlanarTwist{dice.within(-2.0, 2.0), dice.within(-2.0, 2.0), dice.within(-4.0, 4.0)};
   };
   return {twist(), twist(), dice.whole(1, 3 * kSecond)};
 }
 
-oracle::Place integrated(const Ramp& ramp) {
+oracle::Place integrated(const TwistRamp& ramp) {
   const long double whole = static_cast<long double>(ramp.duration_ns) * 1e-9L;
   const auto rates = [&](long double t) -> oracle::Rates {
     const auto at = [&](double from, double to) {
@@ -35,23 +48,23 @@ oracle::Place integrated(const Ramp& ramp) {
   return oracle::integrate(rates, 8000, whole / 8000);
 }
 
-TEST(Motion, StraightRampIsExact) {
+TEST(PlanarMotion, StraightRampIsExact) {
   const PlanarPose moved = displacement({{0.25, 0.0, 0.0}, {0.75, 0.0, 0.0}, 4 * kSecond});
   EXPECT_DOUBLE_EQ(moved.x_m, 2.0);
   EXPECT_EQ(moved.y_m, 0.0);
   EXPECT_EQ(moved.yaw_rad, 0.0);
 }
 
-TEST(Motion, SidewaysIsToTheLeft) {
+TEST(PlanarMotion, SidewaysIsToTheLeft) {
   const PlanarPose moved = displacement({{0.0, 0.5, 0.0}, {0.0, 0.5, 0.0}, 2 * kSecond});
   EXPECT_EQ(moved.x_m, 0.0);
   EXPECT_DOUBLE_EQ(moved.y_m, 1.0);
 }
 
-TEST(Motion, CircleHasItsClosedForm) {
+TEST(PlanarMotion, CircleHasItsClosedForm) {
   for (const double rate : {1e-9, 1e-4, 0.3, -1.7, 4.0}) {
     for (const double time : {0.001, 1.0, 10.0}) {
-      const Twist twist{0.8, 0.0, rate};
+      const PlanarTwist twist{0.8, 0.0, rate};
       const PlanarPose moved = displacement({twist, twist, std::llround(time * 1e9)});
       const double angle = rate * time;
       const double x =
@@ -64,10 +77,10 @@ TEST(Motion, CircleHasItsClosedForm) {
   }
 }
 
-TEST(Motion, AgreesWithAnIndependentQuadrature) {
+TEST(PlanarMotion, AgreesWithAnIndependentQuadrature) {
   Dice dice(1);
   for (int i = 0; i < 40; ++i) {
-    const Ramp ramp = random_ramp(dice);
+    const TwistRamp ramp = random_ramp(dice);
     const PlanarPose moved = displacement(ramp);
     const oracle::Place place = integrated(ramp);
     EXPECT_NEAR(moved.x_m, static_cast<double>(place.x), 2e-13);
@@ -76,10 +89,10 @@ TEST(Motion, AgreesWithAnIndependentQuadrature) {
   }
 }
 
-TEST(Motion, PartsOfARampMakeTheWhole) {
+TEST(PlanarMotion, PartsOfARampMakeTheWhole) {
   Dice dice(2);
   for (int i = 0; i < 200; ++i) {
-    const Ramp ramp = random_ramp(dice);
+    const TwistRamp ramp = random_ramp(dice);
     std::vector<std::int64_t> cuts{0, ramp.duration_ns};
     for (int k = 0; k < 20; ++k) cuts.push_back(dice.whole(0, ramp.duration_ns));
     std::ranges::sort(cuts);
@@ -92,8 +105,8 @@ TEST(Motion, PartsOfARampMakeTheWhole) {
   }
 }
 
-TEST(Motion, TwistIsLinearAndExactAtTheEnds) {
-  const Ramp ramp{{0.1, 0.7, -0.3}, {0.3, 0.1, 0.9}, 3};
+TEST(PlanarMotion, TwistIsLinearAndExactAtTheEnds) {
+  const TwistRamp ramp{{0.1, 0.7, -0.3}, {0.3, 0.1, 0.9}, 3};
   EXPECT_EQ(twist_at(ramp, 0), ramp.from);
   EXPECT_EQ(twist_at(ramp, 3), ramp.to);
   EXPECT_NEAR(twist_at(ramp, 1).angular_rad_s, 0.1, 1e-15);
@@ -102,13 +115,13 @@ TEST(Motion, TwistIsLinearAndExactAtTheEnds) {
   EXPECT_EQ(displacement({{1.0, 1.0, 1.0}, {2.0, 2.0, 2.0}, 0}).x_m, 0.0);
 }
 
-TEST(Motion, PoseMovesInItsOwnPlane) {
+TEST(PlanarMotion, PoseMovesInItsOwnPlane) {
   Dice dice(3);
   const Pose start{from_yaw_pitch_roll(0.7, 0.3, -0.2), {1.0, 2.0, 3.0}};
   Pose pose = start;
   PlanarPose planar;
   for (int i = 0; i < 20; ++i) {
-    const Ramp ramp = random_ramp(dice);
+    const TwistRamp ramp = random_ramp(dice);
     pose = move(pose, ramp);
     planar = move(planar, ramp);
   }
@@ -121,4 +134,4 @@ TEST(Motion, PoseMovesInItsOwnPlane) {
 }
 
 }  // namespace
-}  // namespace hallway::drive
+}  // namespace hallway

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace hallway::drive::oracle {
+namespace hallway::oracle {
 
 /// Forward, lateral, angular [m/s, rad/s].
 using Rates = std::array<long double, 3>;
@@ -36,4 +36,4 @@ Place integrate(const Function& rates_at, int steps, long double step_s) {
   return place;
 }
 
-}  // namespace hallway::drive::oracle
+}  // namespace hallway::oracle
