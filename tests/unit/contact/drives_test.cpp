@@ -197,14 +197,14 @@ TEST(Drives, UnevenFloors) {
   }
 }
 
-/// Drives straight on; at a contact backs off and turns. The longest time without motion, seconds.
+/// Drives straight on; leaves what it touches, and turns. The longest time without motion, seconds.
 double longest_rest(Robot& robot, std::uint64_t seed, int frames) {
   Dice dice(seed);
   Pose last = robot.pose();
   int back = 0, since = 0, longest = 0;
-  double turn = 1.0;
+  double turn = 1.0, away = -0.3;
   for (int i = 0; i < frames; ++i) {
-    const TwistRamp ramp = back > 10  ? steady(-0.3, 0, 0, 0.1)
+    const TwistRamp ramp = back > 10  ? steady(away, 0, 0, 0.1)
                            : back > 0 ? steady(0, 0, turn, 0.1)
                                       : steady(0.5, 0, 0.05, 0.1);
     const Advance advance = drive(robot, ramp);
@@ -213,6 +213,9 @@ double longest_rest(Robot& robot, std::uint64_t seed, int frames) {
     if (back == 0 && !advance.touching.empty()) {
       back = 12 + dice.below(12);
       turn = dice.below(2) == 0 ? 1.0 : -1.0;
+      Vec3 normals = Vec3::Zero();
+      for (const Touch& touch : advance.touching) normals += touch.normal;
+      away = normals.dot(robot.pose().q * Vec3::UnitX()) < 0.0 ? -0.3 : 0.3;
     }
     ++since;
     if ((robot.pose().t - last.t).norm() > 0.02 || angle_between(robot.pose().q, last.q) > 0.05) {
