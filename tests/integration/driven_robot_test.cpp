@@ -25,7 +25,7 @@
 #include "sim/models.hpp"
 #include "support/data.hpp"
 #include "support/long_mode.hpp"
-#include "unit/contact/overlap_oracle.hpp"
+#include "support/overlap_oracle.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway {

@@ -5,7 +5,7 @@
 
 #include "support/errors.hpp"
 #include "support/long_mode.hpp"
-#include "unit/contact/overlap_oracle.hpp"
+#include "support/overlap_oracle.hpp"
 #include "unit/contact/scene.hpp"
 
 namespace hallway::contact::test {

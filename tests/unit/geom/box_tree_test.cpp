@@ -3,21 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "base/random.hpp"
+#include <vector>
+
+#include "support/scattered_points.hpp"
 
 namespace hallway {
 namespace {
 
-std::vector<Vec3> scattered(std::uint64_t count, const Vec3& low, const Vec3& high) {
-  const Random random(3, stream_id("test"));
-  std::vector<Vec3> points;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    points.push_back({random.uniform(0, 3 * i, low.x(), high.x()),
-                      random.uniform(0, 3 * i + 1, low.y(), high.y()),
-                      random.uniform(0, 3 * i + 2, low.z(), high.z())});
-  }
-  return points;
-}
+using test::scattered;
 
 TEST(BoxTree, FindsWhatTouches) {
   const std::vector<Vec3> corners = scattered(2000, {0, 0, 0}, {50, 50, 5});

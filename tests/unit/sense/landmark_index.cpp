@@ -7,24 +7,15 @@
 #include <numeric>
 #include <set>
 
-#include "base/random.hpp"
 #include "bsp/point_location.hpp"
 #include "support/errors.hpp"
+#include "support/scattered_points.hpp"
 #include "unit/sense/rooms.hpp"
 
 namespace hallway::sense {
 namespace {
 
-std::vector<Vec3> scattered(std::uint64_t count, const Vec3& low, const Vec3& high) {
-  const Random random(3, stream_id("test"));
-  std::vector<Vec3> points;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    points.push_back({random.uniform(0, 3 * i, low.x(), high.x()),
-                      random.uniform(0, 3 * i + 1, low.y(), high.y()),
-                      random.uniform(0, 3 * i + 2, low.z(), high.z())});
-  }
-  return points;
-}
+using test::scattered;
 
 void expect_each_landmark_once(const LandmarkIndex& index, const std::vector<Vec3>& landmarks) {
   std::vector<std::uint32_t> numbers(index.numbers().begin(), index.numbers().end());
