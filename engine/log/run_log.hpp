@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "log/drive_tables.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_answer.hpp"
 #include "log/mcap_writer.hpp"
@@ -38,6 +39,9 @@ inline constexpr std::string_view kAssociations = "/hallway/output/associations"
 inline constexpr std::string_view kCommand = "/hallway/output/command";  ///< how to drive
 inline constexpr std::string_view kPlanes = "/hallway/output/planes";    ///< found in the readings
 inline constexpr std::string_view kMap = "/hallway/output/map";          ///< at the end, as re-solved
+inline constexpr std::string_view kObeyed = "/hallway/drive/obeyed";     ///< the command from a frame on
+inline constexpr std::string_view kContact = "/hallway/drive/contact";   ///< that began
+inline constexpr std::string_view kEvent = "/hallway/drive/event";       ///< of the scenario
 }  // namespace topics
 
 /// Ids of channels and schemas below this one are the run's own.
@@ -89,6 +93,13 @@ class RunLogWriter {
   void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
   void add_associations(const FrameStamp& stamp, std::uint32_t sample, std::span<const LandmarkId> ids);
   void add_command(const FrameStamp& stamp, const CommandAnswer& command);
+  /// The command that the drive obeys from the frame on; its iteration is the stamp's. As the tables' add_row(), these three throw
+  /// Error{kInternal} for what could not be read back.
+  void add_obeyed(const FrameStamp& stamp, const ObeyedCommand& command);
+  /// A contact that began at the frame or before it and after the one before.
+  void add_contact(const FrameStamp& stamp, const ContactRow& contact);
+  /// An event of the same time.
+  void add_event(const FrameStamp& stamp, const EventRow& event);
   /// The planes that were found in it.
   void add_planes(const FrameStamp& stamp, std::uint32_t sample, std::span<const PlaneObservation> planes);
   /// The map at the end, under the stamp of the last frame.
@@ -139,6 +150,21 @@ using AnswerMessage = std::variant<std::monostate, PoseMessage, MapAnswer>;
 
 /// What a message says, by its channel's topic. Throws as parse_run_message() does.
 AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message);
+
+struct ContactMessage {
+  std::uint32_t iteration = 0;  ///< of the frame at its time or the first one after it
+  ContactRow contact;
+};
+struct EventMessage {
+  std::uint32_t iteration = 0;  ///< as of a contact
+  EventRow event;
+};
+
+/// What a drive did and what happened to the robot; std::monostate for all else.
+using DriveMessage = std::variant<std::monostate, ObeyedCommand, ContactMessage, EventMessage>;
+
+/// What a message says, by its channel's topic. Throws as parse_run_message() does.
+DriveMessage parse_drive_message(const McapChannel& channel, const McapMessage& message);
 
 /// The manifest that RunLogWriter was given, from its metadata record; empty for one of another name.
 std::optional<std::string> manifest_of(const McapMetadata& metadata);

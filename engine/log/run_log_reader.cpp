@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
@@ -187,6 +188,65 @@ AnswerMessage parse_answer(std::string_view topic, std::string_view data) {
   return {};
 }
 
+std::int64_t time_of(const Json& json, const char* member) {
+  return static_cast<std::int64_t>(whole(json.at(member), std::numeric_limits<std::int64_t>::max()));
+}
+
+double number_of(const Json& json, const char* member) {
+  return numbers<1>(Json::array({json.at(member)}))[0];
+}
+
+std::array<double, 3> vector_of(const Json& json, const std::array<const char*, 3>& members) {
+  return numbers<3>(Json::array({json.at(members[0]), json.at(members[1]), json.at(members[2])}));
+}
+
+template <typename Row>
+void require_sound(const Row& row) {
+  const std::string problem = problem_of(row);
+  if (!problem.empty()) bad(problem);
+}
+
+ObeyedCommand obeyed(const Json& json) {
+  ObeyedCommand command{.iteration = iteration_of(json),
+                        .linear_m_s = number_of(json, "linear_m_s"),
+                        .angular_rad_s = number_of(json, "angular_rad_s"),
+                        .lateral_m_s = number_of(json, "lateral_m_s"),
+                        .acts_from_ns = time_of(json, "acts_from_ns"),
+                        .changes = json.at("changes").get<std::string>()};
+  const auto cause = command_cause(json.at("cause").get<std::string>());
+  if (!cause) bad("a cause that is none");
+  command.cause = *cause;
+  require_sound(command);
+  return command;
+}
+
+ContactMessage contact(const Json& json) {
+  ContactMessage message{.iteration = iteration_of(json),
+                         .contact = {.t_ns = time_of(json, "t_ns"),
+                                     .kind = json.at("kind").get<std::string>(),
+                                     .position_m = vector_of(json, {"x_m", "y_m", "z_m"}),
+                                     .normal = vector_of(json, {"nx", "ny", "nz"}),
+                                     .speed_m_s = number_of(json, "speed_m_s")}};
+  require_sound(message.contact);
+  return message;
+}
+
+EventMessage event(const Json& json) {
+  EventMessage message{.iteration = iteration_of(json),
+                       .event = {.t_ns = time_of(json, "t_ns"),
+                                 .kind = json.at("kind").get<std::string>(),
+                                 .what = json.at("what").get<std::string>()}};
+  require_sound(message.event);
+  return message;
+}
+
+DriveMessage parse_drive(std::string_view topic, std::string_view data) {
+  if (topic == topics::kObeyed) return obeyed(parse_json(data));
+  if (topic == topics::kContact) return contact(parse_json(data));
+  if (topic == topics::kEvent) return event(parse_json(data));
+  return {};
+}
+
 /// Whatever goes wrong names the topic.
 template <typename Parse>
 auto parse_message(const McapChannel& channel, const McapMessage& message, Parse parse) {
@@ -211,6 +271,10 @@ RunMessage parse_run_message(const McapChannel& channel, const McapMessage& mess
 
 AnswerMessage parse_answer_message(const McapChannel& channel, const McapMessage& message) {
   return parse_message(channel, message, parse_answer);
+}
+
+DriveMessage parse_drive_message(const McapChannel& channel, const McapMessage& message) {
+  return parse_message(channel, message, parse_drive);
 }
 
 std::optional<std::string> manifest_of(const McapMetadata& metadata) {

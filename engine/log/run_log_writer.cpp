@@ -20,6 +20,16 @@ Json numbers(const std::array<double, N>& values) {
   return Json(values);
 }
 
+Json number(double value) {
+  return numbers(std::array{value})[0];
+}
+
+template <typename Row>
+void require_loggable(const Row& row) {
+  const std::string problem = problem_of(row);
+  if (!problem.empty()) throw Error(ErrorCode::kInternal, "a message for a log: " + problem);
+}
+
 Json pose_json(const std::array<double, 3>& position_m, const std::array<double, 4>& orientation) {
   return {{"position_m", numbers(position_m)}, {"orientation_wxyz", numbers(orientation)}};
 }
@@ -178,6 +188,44 @@ void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& com
     throw Error(ErrorCode::kInternal, "a number for a log is not finite");
   add(topics::kCommand, stamp,
       text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
+}
+
+void RunLogWriter::add_obeyed(const FrameStamp& stamp, const ObeyedCommand& command) {
+  require_loggable(command);
+  add(topics::kObeyed, stamp,
+      text_of({{"iteration", stamp.iteration},
+               {"linear_m_s", number(command.linear_m_s)},
+               {"angular_rad_s", number(command.angular_rad_s)},
+               {"lateral_m_s", number(command.lateral_m_s)},
+               {"acts_from_ns", command.acts_from_ns},
+               {"cause", command_cause_name(command.cause)},
+               {"changes", command.changes}}));
+}
+
+void RunLogWriter::add_contact(const FrameStamp& stamp, const ContactRow& contact) {
+  require_loggable(contact);
+  const Json position = numbers(contact.position_m);
+  const Json normal = numbers(contact.normal);
+  add(topics::kContact, stamp,
+      text_of({{"iteration", stamp.iteration},
+               {"t_ns", contact.t_ns},
+               {"kind", contact.kind},
+               {"x_m", position[0]},
+               {"y_m", position[1]},
+               {"z_m", position[2]},
+               {"nx", normal[0]},
+               {"ny", normal[1]},
+               {"nz", normal[2]},
+               {"speed_m_s", number(contact.speed_m_s)}}));
+}
+
+void RunLogWriter::add_event(const FrameStamp& stamp, const EventRow& event) {
+  require_loggable(event);
+  add(topics::kEvent, stamp,
+      text_of({{"iteration", stamp.iteration},
+               {"t_ns", event.t_ns},
+               {"kind", event.kind},
+               {"what", event.what}}));
 }
 
 void RunLogWriter::add_planes(const FrameStamp& stamp, std::uint32_t sample,
