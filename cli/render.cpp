@@ -36,6 +36,7 @@ struct RenderOptions {
   std::vector<std::string> show;
   std::vector<std::string> hide;
   std::optional<double> error_scale;
+  std::optional<std::uint32_t> iteration;
   std::optional<std::string> renderer;
   bool strict = false;
   bool json = false;
@@ -63,7 +64,11 @@ sim::PictureSpec spec_of(const RenderOptions& options) {
   spec.file = options.out;
   spec.view = options.view == "top"      ? sim::PictureView::kTop
               : options.view == "panels" ? sim::PictureView::kPanels
+              : options.view == "camera" ? sim::PictureView::kCamera
                                          : sim::PictureView::kPerspective;
+  spec.iteration = options.iteration;
+  if (spec.iteration && spec.view == sim::PictureView::kPanels)
+    refuse("--view panels shows no single iteration");
   parse_size(options.size, spec);
   spec.cut_z_m = options.cut_z_m;
   spec.eye_m = optional_place("--eye", options.eye);
@@ -139,6 +144,11 @@ std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
   if (!drawing.show.thing.empty())
     refuse("--show {} is of a map, not of the folder of a run", drawing.show.thing);
   run::Record record = run::read_record(options.input);
+  sim::PictureSpec spec = drawing.spec;
+  if (spec.iteration || spec.view == sim::PictureView::kCamera) {
+    run::read_history(record);
+    if (!spec.iteration) spec.iteration = run::last_iteration(record);
+  }
   if (drawing.show.map.anything() && !record.world) {
     throw Error(ErrorCode::kBadInput, "has no map to show", {.file = path_text(options.input)});
   }
@@ -147,7 +157,7 @@ std::string draw_run(const RenderOptions& options, const Drawing& drawing) {
     record.world = compile_map({.file = map, .level = pvs::Level::kFull, .use_cache = false}).world;
   }
   if (record.world) warn_of_area(drawing, *record.world);
-  return run::draw_run_picture(record, drawing.spec, drawing.show.map, drawing.options);
+  return run::draw_run_picture(record, spec, drawing.show.map, drawing.options);
 }
 
 int render(const RenderOptions& options) {
@@ -158,6 +168,8 @@ int render(const RenderOptions& options) {
   std::error_code code;
   const bool is_run = fs::is_directory(options.input, code);
   if (!is_run && spec.view == sim::PictureView::kPanels) refuse("--view panels is of the folder of a run");
+  if (!is_run && spec.view == sim::PictureView::kCamera) refuse("--view camera is of the folder of a run");
+  if (!is_run && spec.iteration) refuse("--iteration is of the folder of a run");
   const std::string ending = fs::path(options.input).extension().string();
   if (!is_run && (ending == ".toml" || ending == ".mcap" || ending == ".csv"))
     throw Error(ErrorCode::kBadInput,
@@ -183,7 +195,9 @@ void add_render_command(Command& app) {
   command.argument("input", &options.input, "A .map file, or the folder of a run")
       .required()
       .value("MAP|RUN");
-  add_shared(command, Shared::kView, &options.view).choices({"top", "perspective", "panels"}).show_default();
+  add_shared(command, Shared::kView, &options.view)
+      .choices({"top", "perspective", "panels", "camera"})
+      .show_default();
   add_shared(command, Shared::kOutFile, &options.out).required();
   command.option("--size", &options.size, "Width and height in pixels").value("WxH").show_default();
   command
@@ -214,11 +228,17 @@ void add_render_command(Command& app) {
               "Of a run: draw errors of landmarks longer by this factor [a power of ten that shows them]")
       .value("X")
       .range(1e-6, 1e9);
+  command
+      .option("--iteration", &options.iteration,
+              "Of a run: the robot at this iteration, with what it saw, did and touched until then [the "
+              "whole run]")
+      .value("N");
   add_renderer_option(command, options.renderer);
   add_shared(command, Shared::kStrict, &options.strict);
   add_shared(command, Shared::kJson, &options.json);
   command.footer(
       "Examples: hallway render out/office --view perspective --out office.png --hide errors\n"
+      "          hallway render out/office --iteration 120 --out at_120.png --hide estimate\n"
       "          hallway render maps/office.map --out seen.png --show pvs-from=2,3,1.5,portals");
 }
 

@@ -25,6 +25,7 @@ namespace {
 constexpr const char* kSchema = "hallway.scenario/1";
 constexpr std::int64_t kMaxSteps = 10'000'000;
 constexpr std::size_t kMaxPictures = 1000;
+constexpr std::int64_t kMaxPicturesOfOne = 10'000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
 constexpr std::size_t kMaxFileNameBytes = 200;
@@ -37,9 +38,11 @@ constexpr Range kBodySize_m{0.001, 100.0};
 constexpr Range kBodyHeight_m{-100.0, 100.0};
 constexpr Range kPeriod_s{1e-6, 60.0};
 
-const std::vector<std::string> kViews{"top", "perspective", "panels"};  // in the order of PictureView
-const std::vector<std::string> kLayers{"map",     "truth",   "estimate", "landmarks", "errors",
-                                       "submaps", "frustum", "walls"};  // in the order of PictureLayer
+const std::vector<std::string> kViews{"top", "perspective", "panels",
+                                      "camera"};  // in the order of PictureView
+const std::vector<std::string> kLayers{
+    "map",  "truth", "estimate", "landmarks", "errors", "submaps", "frustum", "walls",
+    "body", "trail", "contacts", "command",   "seen",   "events"};  // in the order of PictureLayer
 
 /// Reads one scenario, table by table.
 class ScenarioReader {
@@ -199,7 +202,26 @@ class ScenarioReader {
     } else {
       spec.show = default_picture_layers();
     }
+    read_moments(picture, spec);
     scenario_.pictures.push_back(std::move(spec));
+  }
+
+  void read_moments(TableReader& picture, PictureSpec& spec) const {
+    const bool has_one = picture.has("iteration"), has_many = picture.has("every");
+    if (has_one && has_many)
+      throw picture.error("every", "is given together with `iteration`; give one of them");
+    if ((has_one || has_many) && spec.view == PictureView::kPanels)
+      throw picture.error(has_one ? "iteration" : "every", "`panels` shows no single iteration");
+    if (has_one) {
+      spec.iteration =
+          static_cast<std::uint32_t>(picture.whole("iteration", 0, std::int64_t{scenario_.steps} - 1));
+    }
+    if (!has_many) return;
+    spec.every = static_cast<std::uint32_t>(picture.whole("every", 1, kMaxSteps));
+    const std::int64_t count = (std::int64_t{scenario_.steps} - 1) / spec.every + 1;
+    if (count > kMaxPicturesOfOne)
+      throw picture.error("every", "gives " + std::to_string(count) + " pictures; at most " +
+                                       std::to_string(kMaxPicturesOfOne) + " are drawn");
   }
 
   std::string read_picture_name(TableReader& picture) const {
@@ -238,6 +260,16 @@ std::vector<PictureLayer> default_picture_layers() {
     if (layer != PictureLayer::kSubmaps) layers.push_back(layer);
   }
   return layers;
+}
+
+PictureSpec PictureSpec::at(std::uint32_t shown_iteration) const {
+  PictureSpec one = *this;
+  one.iteration = shown_iteration;
+  one.every = 0;
+  std::string number = std::to_string(shown_iteration);
+  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
+  one.file.insert(one.file.rfind('.'), "_" + number);
+  return one;
 }
 
 bool PictureSpec::shows(PictureLayer layer) const {

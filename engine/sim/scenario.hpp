@@ -34,10 +34,25 @@ using host::OnFailure;
 using host::PluginLimits;
 using host::short_plugin_name;
 
-enum class PictureView { kTop, kPerspective, kPanels };
+enum class PictureView { kTop, kPerspective, kPanels, kCamera };
 
 /// What a picture can show.
-enum class PictureLayer { kMap, kTruth, kEstimate, kLandmarks, kErrors, kSubmaps, kFrustum, kPlanes };
+enum class PictureLayer {
+  kMap,
+  kTruth,
+  kEstimate,
+  kLandmarks,
+  kErrors,
+  kSubmaps,
+  kFrustum,
+  kPlanes,
+  kBody,
+  kTrail,
+  kContacts,
+  kCommand,
+  kSeen,
+  kEvents
+};
 
 /// The names of the layers, in the order of PictureLayer.
 const std::vector<std::string>& picture_layer_names();
@@ -56,8 +71,12 @@ struct PictureSpec {
   std::optional<Vec3> eye_m{};       ///< perspective: viewpoint, world, metres; set together with `target_m`
   std::optional<Vec3> target_m{};    ///< perspective: looked at, world, metres
   std::vector<PictureLayer> show{};  ///< without repetition
+  std::optional<std::uint32_t> iteration{};  ///< the moment that is shown; unset: the whole run
+  std::uint32_t every = 0;  ///< a picture for each so many iterations from 0 on; 0: one picture
 
   bool shows(PictureLayer layer) const;
+  /// The picture of one iteration of `every`: `top_000120.png` of `top.png`.
+  PictureSpec at(std::uint32_t shown_iteration) const;
 };
 
 /// What a sensor is, of one kind or the other.

@@ -42,8 +42,8 @@ inline const std::vector<std::string> kFaceSensorKeys{"kind",
                                                       "latency_s"};
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",
                                                  "speed",    "moving_share", "motion",   "groups"};
-inline const std::vector<std::string> kPictureKeys{"file",    "view",  "width_px", "height_px",
-                                                   "cut_z_m", "eye_m", "target_m", "show"};
+inline const std::vector<std::string> kPictureKeys{"file",  "view",     "width_px", "height_px", "cut_z_m",
+                                                   "eye_m", "target_m", "show",     "iteration", "every"};
 
 /// Those at the top that the command line may set as they are.
 inline const std::vector<std::string> kTopOverrideKeys{

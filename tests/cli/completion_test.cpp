@@ -50,7 +50,7 @@ TEST(Completion, OffersOptionsOnceUnlessTheyRepeat) {
 TEST(Completion, OffersValues) {
   EXPECT_EQ(offered({"run", "--on-failure", "r"}), (Strings{"restart"}));
   EXPECT_EQ(offered({"run", "--on-failure=r"}), (Strings{"--on-failure=restart"}));
-  EXPECT_EQ(offered({"render", "x", "--view", ""}), (Strings{"top", "perspective", "panels"}));
+  EXPECT_EQ(offered({"render", "x", "--view", ""}), (Strings{"top", "perspective", "panels", "camera"}));
   EXPECT_EQ(offered({"completion", "f"}), (Strings{"fish"}));
 }
 

@@ -32,6 +32,7 @@ MEANS_A_KIND = {
     "engine/host/samples/plane_kind.cpp": "the row of planes", "engine/host/output/output_kind.cpp": "which sample an output becomes",
     "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/plane_truth.cpp": "planes in points",
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "shows points",
+    "engine/run/pictures/history.cpp": "draws points and planes",
     "engine/run/feed/observation_tables.cpp": "writes tables of points and of planes", "engine/run/feed/found_table.hpp": "writes a table of planes",
 }
 KIND = re.compile(r"\bHW_SAMPLE_(?!TRACKED\b)[A-Z]")

@@ -63,6 +63,58 @@ TEST(Render, RunFromItsFolderIsThePictureTheRunMade) {
   EXPECT_EQ(read_file(world.folder() / "picture.png"), read_file(fs::path(world.out()) / "top.png"));
 }
 
+TEST(Render, EveryIterationIsThePictureOfThatIteration) {
+  const SmallWorld world;
+  const std::string size = "width_px = 320\nheight_px = 200\n";
+  world.folder().write("small.toml",
+                       small_scenario() + "\n[[picture]]\nfile = \"top.png\"\nevery = 25\n" + size +
+                           "[[picture]]\nfile = \"eye.png\"\nview = \"camera\"\niteration = 7\n" + size);
+  ASSERT_EQ(world.run({"--quiet"}).status, 0);
+  const fs::path out = world.out();
+  EXPECT_FALSE(fs::exists(out / "top.png"));
+  EXPECT_FALSE(fs::exists(out / "top_000075.png"));
+  for (const char* iteration : {"0", "25", "50"}) {
+    ASSERT_EQ(render(world, out, {"--iteration", iteration, "--size", "320x200"}).status, 0);
+    const std::string number = std::string(iteration).size() == 1 ? "00000" : "0000";
+    EXPECT_EQ(read_file(world.folder() / "picture.png"),
+              read_file(out / ("top_" + number + iteration + ".png")));
+  }
+  const std::vector<std::string> eye{"--view", "camera", "--iteration", "7", "--size", "320x200"};
+  ASSERT_EQ(render(world, out, eye).status, 0);
+  const std::string of_table = read_file(world.folder() / "picture.png");
+  EXPECT_EQ(of_table, read_file(out / "eye.png"));
+  fs::remove(out / "observations.csv");
+  ASSERT_EQ(render(world, out, eye).status, 0);
+  EXPECT_EQ(read_file(world.folder() / "picture.png"), of_table) << "the log has what the table had";
+}
+
+TEST(Render, AnIterationBeyondTheStepsOfARunIsRefused) {
+  const SmallWorld world;
+  world.folder().write("small.toml",
+                       small_scenario() + "\n[[picture]]\nfile = \"top.png\"\niteration = 40\n");
+  const Ended refused = world.run({"--steps", "40"});
+  EXPECT_EQ(refused.status, 3) << "of 40 steps the last is 39";
+  EXPECT_NE(refused.err.find("picture[1].iteration"), std::string::npos) << refused.err;
+}
+
+TEST(Render, IterationsThatThereAreNotAreRefused) {
+  const SmallWorld world;
+  ASSERT_EQ(world.run({"--quiet"}).status, 0);
+  const Ended beyond = render(world, world.out(), {"--iteration", "60"});
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_NE(beyond.err.find("iteration 60 is beyond the last one, 59"), std::string::npos) << beyond.err;
+  EXPECT_EQ(render(world, world.out(), {"--iteration", "-1"}).status, 2);
+  EXPECT_EQ(render(world, world.out(), {"--iteration", "1", "--view", "panels"}).status, 2);
+  EXPECT_EQ(render(world, world.folder() / "small.map", {"--iteration", "1"}).status, 2);
+  EXPECT_EQ(render(world, world.folder() / "small.map", {"--view", "camera"}).status, 2);
+  fs::remove(fs::path(world.out()) / "truth_poses.csv");
+  const Ended untrue = render(world, world.out(), {"--iteration", "1"});
+  EXPECT_EQ(untrue.status, 3);
+  EXPECT_NE(untrue.err.find("has no true poses"), std::string::npos) << untrue.err;
+  EXPECT_EQ(render(world, world.out(), {}).status, 0) << "other pictures need no iterations";
+  EXPECT_EQ(render(world, world.out(), {"--view", "camera"}).status, 3);
+}
+
 TEST(Render, PerspectiveFromAViewpoint) {
   const SmallWorld world;
   const Ended ended =

@@ -154,21 +154,48 @@ class EventView {
   std::size_t shown_ = 0;  ///< failures
 };
 
-/// Draws the pictures that the plan wants. @return their content, by name; `result` gets what was drawn and what could not be
+bool is_of_iterations(const sim::PictureSpec& picture) {
+  return picture.iteration || picture.every > 0 || picture.view == sim::PictureView::kCamera;
+}
+
+/// One for each iteration that a picture is wanted of.
+std::vector<sim::PictureSpec> single_pictures(sim::PictureSpec picture, const Record& record) {
+  if (picture.every == 0) {
+    if (picture.view == sim::PictureView::kCamera && !picture.iteration)
+      picture.iteration = last_iteration(record);
+    return {picture};
+  }
+  std::vector<sim::PictureSpec> single;
+  for (const std::uint32_t iteration : record.history->iterations) {
+    if (iteration % picture.every == 0) single.push_back(picture.at(iteration));
+  }
+  return single;
+}
+
+/// Draws the pictures that the plan wants. Foxglove does not get those of `every`: their bytes would stay in memory. @return their content, by name; `result` gets what was drawn and what could not be
 std::map<std::string, std::string> draw_pictures(const record::OutputFolder& output, const RunPlan& plan,
                                                  RunResult& result) {
   std::map<std::string, std::string> pictures;
   if (plan.pictures.empty()) return pictures;
-  const Record record = read_record(output.working_path());
-  for (const sim::PictureSpec& picture : plan.pictures) {
-    try {
-      pictures[picture.file] = draw_run_picture(record, picture, {}, {.renderer = plan.renderer});
-    } catch (const render::NoRenderer& missing) {
-      result.missing_pictures.push_back({picture.file, missing.message()});
-      continue;
+  Record record = read_record(output.working_path());
+  if (std::ranges::any_of(plan.pictures, is_of_iterations)) read_history(record);
+  for (const sim::PictureSpec& wanted : plan.pictures) {
+    for (const sim::PictureSpec& picture : single_pictures(wanted, record)) {
+      if (picture.iteration && *picture.iteration > last_iteration(record)) {
+        result.missing_pictures.push_back({picture.file, "the run ended before this iteration"});
+        continue;
+      }
+      std::string png;
+      try {
+        png = draw_run_picture(record, picture, {}, {.renderer = plan.renderer});
+      } catch (const render::NoRenderer& missing) {
+        result.missing_pictures.push_back({picture.file, missing.message()});
+        continue;
+      }
+      write_file_atomically(output.working_path() / picture.file, png);
+      result.pictures.push_back(output.path() / picture.file);
+      if (wanted.every == 0) pictures[picture.file] = std::move(png);
     }
-    write_file_atomically(output.working_path() / picture.file, pictures[picture.file]);
-    result.pictures.push_back(output.path() / picture.file);
   }
   return pictures;
 }

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/text.hpp"
 #include "geom/arrays.hpp"
 #include "render/colour.hpp"
 #include "render/draw.hpp"
 #include "render/png.hpp"
+#include "run/pictures/instant_layers.hpp"
 #include "run/pictures/landmark_layers.hpp"
 #include "run/pictures/picture_frame.hpp"
 #include "run/pictures/plane_layers.hpp"
@@ -22,15 +24,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The positions as a line, broken where poses are missing.
-std::vector<Vec3> line_of(const std::vector<log::StampedPose>& poses, const Pose& T_world_frame) {
+/// Whether one of the times is after `from` and not after `to`.
+bool is_any_between(const std::vector<std::int64_t>& times, double from_s, double to_s) {
+  return std::ranges::any_of(
+      times, [&](std::int64_t t) { return t > nanoseconds(from_s) && t <= nanoseconds(to_s); });
+}
+
+/// The positions as a line, broken where poses are missing and at the times of `breaks`.
+std::vector<Vec3> line_of(std::span<const log::StampedPose> poses, const Pose& T_world_frame,
+                          const std::vector<std::int64_t>& breaks) {
   double period_s = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < poses.size(); ++i)
     period_s = std::min(period_s, poses[i].t_s - poses[i - 1].t_s);
   std::vector<Vec3> line;
   line.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const bool gap = i > 0 && poses[i].t_s - poses[i - 1].t_s > 1.5 * period_s;
+    const bool gap = i > 0 && (poses[i].t_s - poses[i - 1].t_s > 1.5 * period_s ||
+                               is_any_between(breaks, poses[i - 1].t_s, poses[i].t_s));
     if (gap) line.push_back(Vec3::Constant(std::nan("")));
     line.push_back(T_world_frame * to_vec3(poses[i].position_m));
   }
@@ -44,16 +54,27 @@ std::string path_label(const Record& record) {
                      record.poses_in_other_parts);
 }
 
+/// The poses up to a moment, or all.
+std::span<const log::StampedPose> until(const std::vector<log::StampedPose>& poses,
+                                        const std::optional<Instant>& now) {
+  if (!now) return poses;
+  const auto later = std::ranges::upper_bound(
+      poses, now->t_ns, {}, [](const log::StampedPose& pose) { return nanoseconds(pose.t_s); });
+  return {poses.begin(), later};
+}
+
 void add_paths(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
-               const Pose& T_world_map) {
-  if (spec.shows(sim::PictureLayer::kTruth) && !record.truth.empty()) {
-    picture.polylines.push_back({.points = line_of(record.truth, Pose()),
+               const Pose& T_world_map, const std::optional<Instant>& now = std::nullopt) {
+  const std::vector<std::int64_t> breaks = kidnap_times(record);
+  const auto truth = until(record.truth, now), trajectory = until(record.trajectory, now);
+  if (spec.shows(now ? sim::PictureLayer::kTrail : sim::PictureLayer::kTruth) && !truth.empty()) {
+    picture.polylines.push_back({.points = line_of(truth, Pose(), breaks),
                                  .colour = render::palette::kTruth,
                                  .width_px = 5.0,
                                  .label = "true path"});
   }
-  if (spec.shows(sim::PictureLayer::kEstimate) && !record.trajectory.empty()) {
-    picture.polylines.push_back({.points = line_of(record.trajectory, T_world_map),
+  if (spec.shows(sim::PictureLayer::kEstimate) && !trajectory.empty()) {
+    picture.polylines.push_back({.points = line_of(trajectory, T_world_map, breaks),
                                  .colour = render::palette::kEstimate,
                                  .width_px = 1.8,
                                  .label = path_label(record)});
@@ -64,9 +85,9 @@ void add_paths(render::Picture& picture, const Record& record, const sim::Pictur
   }
 }
 
-/// A sensor at the last pose that is known.
-void add_frustum(render::Picture& picture, const Record& record, const Json& sensor,
-                 const Pose& T_world_map) {
+/// A sensor at a moment, or else at the last pose that is known.
+void add_frustum(render::Picture& picture, const Record& record, const Json& sensor, const Pose& T_world_map,
+                 const std::optional<Instant>& now = std::nullopt) {
   const auto number = [&](const char* key) {
     const Json value = value_at(sensor, {key});
     return value.is_number() ? value.get<double>() : std::nan("");
@@ -74,10 +95,12 @@ void add_frustum(render::Picture& picture, const Record& record, const Json& sen
   render::FrustumMark mark{.horizontal_fov = number("horizontal_fov_rad"),
                            .vertical_fov = number("vertical_fov_rad"),
                            .range_m = number("max_range_m"),
-                           .label = "field of view at the end"};
+                           .label = now ? "field of view" : "field of view at the end"};
   if (!(mark.horizontal_fov > 0.0) || !(mark.vertical_fov > 0.0) || !(mark.range_m > 0.0)) return;
   const Pose T_body_sensor = mount_of(sensor);
-  if (!record.truth.empty()) {
+  if (now) {
+    mark.T_world_sensor = now->T_world_body * T_body_sensor;
+  } else if (!record.truth.empty()) {
     mark.T_world_sensor = pose_of(record.truth.back()) * T_body_sensor;
   } else if (!record.trajectory.empty()) {
     mark.T_world_sensor = T_world_map * pose_of(record.trajectory.back()) * T_body_sensor;
@@ -143,6 +166,44 @@ Pose map_place(const Record& record) {
   return align_landmarks(record).value_or(path_place(record));
 }
 
+/// True landmarks as small dots: what is mapped at a moment no folder says.
+void add_landmark_dots(render::Picture& picture, const Record& record) {
+  render::Markers dots{.colour = render::palette::kMutedInk, .size_px = 2.2, .label = "true landmarks"};
+  for (const log::Landmark& landmark : record.true_landmarks)
+    dots.positions.push_back(to_vec3(landmark.position_m));
+  if (!dots.positions.empty()) picture.markers.push_back(std::move(dots));
+}
+
+/// What a picture of a moment shows over the map.
+void add_instant(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
+                 const Instant& now) {
+  using enum sim::PictureLayer;
+  const bool from_robot = spec.view == sim::PictureView::kCamera;  // it does not see itself
+  picture.subtitle = instant_text(record, now);
+  if (spec.shows(kTruth)) add_landmark_dots(picture, record);
+  if (spec.shows(kFrustum) && !from_robot) {
+    for (const Json& sensor : sensors_of(record)) add_frustum(picture, record, sensor, Pose(), now);
+  }
+  add_paths(picture, record, spec, path_place(record), now);
+  if (spec.shows(kSeen)) add_seen(picture, record, now);
+  if (spec.shows(kCommand) && !from_robot) add_command(picture, record, now);
+  if (spec.shows(kBody) && !from_robot) add_body(picture, record, now);
+  if (spec.shows(kContacts)) add_contacts(picture, record, now);
+  if (spec.shows(kEvents)) add_events(picture, record, now);
+}
+
+/// The view ahead from the first sensor, or else from the body.
+void look_ahead(const Record& record, const Instant& now, render::View& view) {
+  const Json sensor = sensor_of(record);
+  const Pose eye = sensor.is_object() ? now.T_world_body * mount_of(sensor) : now.T_world_body;
+  view.eye = eye.t;
+  view.target = eye * Vec3::UnitX();
+  const Json fov = value_at(sensor, {"vertical_fov_rad"});
+  constexpr double kWidest = 2.0;
+  view.vertical_fov = fov.is_number() && fov.get<double>() > 0.0 ? std::min(fov.get<double>(), kWidest)
+                                                                 : std::numbers::pi / 3.0;
+}
+
 /// How the map is opened: as the picture's description says, else as the building suggests.
 render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec& spec,
                       const MapView& map_view) {
@@ -153,9 +214,8 @@ render::Plan plan_for(const world::CompiledWorld& world, const sim::PictureSpec&
   return render::plan_of(world.partition, focus);
 }
 
-std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, const render::Plan& plan,
+std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spec, render::View view,
                      const DrawOptions& options) {
-  render::View view = view_of_plan(spec, plan, options.renderer);
   if (options.vertical_fov) view.vertical_fov = *options.vertical_fov;
   if (options.area && view.kind == render::ViewKind::kTop) {
     const Box ground(Vec3(options.area->min().x(), options.area->min().y(), 0.0),
@@ -184,8 +244,9 @@ std::string map_subtitle(const world::CompiledWorld& world, const MapView& view)
 
 render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan, render::Renderer renderer) {
   render::View view;
-  view.kind =
-      spec.view == sim::PictureView::kPerspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
+  const bool is_perspective =
+      spec.view == sim::PictureView::kPerspective || spec.view == sim::PictureView::kCamera;
+  view.kind = is_perspective ? render::ViewKind::kPerspective : render::ViewKind::kTop;
   view.cut_z_m = plan.cut_z_m;
   view.eye = spec.eye_m;
   view.target = spec.target_m;
@@ -194,7 +255,9 @@ render::View view_of_plan(const sim::PictureSpec& spec, const render::Plan& plan
 }
 
 render::Plan picture_plan(const Record& record, const sim::PictureSpec& spec, const MapView& map_view) {
-  return record.world ? plan_for(*record.world, spec, map_view) : render::Plan{{}, spec.cut_z_m};
+  const bool from_inside = spec.view == sim::PictureView::kCamera;
+  return record.world && !from_inside ? plan_for(*record.world, spec, map_view)
+                                      : render::Plan{{}, spec.cut_z_m};
 }
 
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec, const MapView& map_view,
@@ -204,6 +267,11 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   picture.subtitle = subtitle_of(record);
   if (record.world && (spec.shows(sim::PictureLayer::kMap) || map_view.anything()))
     add_map(picture, *record.world, map_view, faces, record.models);
+  if (spec.iteration) {
+    add_instant(picture, record, spec, instant_of(record, *spec.iteration));
+    cut_to(frame_of(record, picture.surfaces), picture);
+    return picture;
+  }
   const Pose T_world_path = path_place(record);
   const Pose T_world_map = map_place(record);
   add_planes(picture, record, spec, T_world_map);
@@ -212,6 +280,8 @@ render::Picture compose_picture(const Record& record, const sim::PictureSpec& sp
   }
   add_landmarks(picture, record, spec, T_world_map, error_scale);
   add_paths(picture, record, spec, T_world_path);
+  if (spec.shows(sim::PictureLayer::kContacts)) add_contacts(picture, record, std::nullopt);
+  if (spec.shows(sim::PictureLayer::kEvents)) add_events(picture, record, std::nullopt);
   cut_to(frame_of(record, picture.surfaces), picture);
   return picture;
 }
@@ -245,13 +315,17 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
   DrawOptions framed = options;
   if (!framed.area && !frame.isEmpty())
     framed.area = Eigen::AlignedBox2d(frame.min().head<2>(), frame.max().head<2>());
-  return draw_png(picture, spec, plan, framed);
+  render::View view = view_of_plan(spec, plan, options.renderer);
+  if (spec.view == sim::PictureView::kCamera)
+    look_ahead(record, instant_of(record, spec.iteration.value()), view);
+  return draw_png(picture, spec, view, framed);
 }
 
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec, const MapView& map_view,
                              const DrawOptions& options) {
   const render::Plan plan = plan_for(subject.world, spec, map_view);
-  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec, plan, options);
+  return draw_png(compose_map_picture(subject, map_view, plan.faces), spec,
+                  view_of_plan(spec, plan, options.renderer), options);
 }
 
 }  // namespace hallway::run

@@ -21,6 +21,7 @@ namespace hallway::run {
 /// A picture of a run: the map, true and estimated path, true and mapped landmarks with lines between, submaps, and what
 /// the sensor saw at the end. Estimates are drawn where the best rigid fit to the truth puts them, and cut off at the border of frame_of(). Errors too small to be
 /// seen are drawn longer, by a power of ten that the legend states.
+/// A picture of an iteration shows that moment; the record needs its history then. Throws as instant_of() does.
 /// @param faces        which of the map are shown
 /// @param error_scale  by how much errors are drawn longer; empty: as error_scale_of() says
 render::Picture compose_picture(const Record& record, const sim::PictureSpec& spec,

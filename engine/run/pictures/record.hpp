@@ -18,6 +18,7 @@
 #include "log/tum.hpp"
 #include "record/files.hpp"
 #include "render/picture.hpp"
+#include "run/pictures/history.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway::run {
@@ -41,6 +42,9 @@ struct Record {
   std::vector<log::IdPair> matches;           ///< landmark or plane, true landmark or plane
   std::vector<log::IdPair> submaps;           ///< submap, landmark or plane
   std::vector<log::SubmapPose> submap_poses;  ///< T_map_submap
+  std::vector<log::ContactRow> contacts;      ///< of the body, in the order of time
+  std::vector<log::EventRow> events;          ///< of the scenario, in the order of time
+  std::optional<History> history;             ///< where read_history() was called
 };
 
 /// A pose of a table, normalised again.

@@ -158,6 +158,19 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Picture, WrongScenario,
     testing::Values(
+        Wrong{"IterationBelowZero", picture("file = 'a.png'\niteration = -1"), 10, "picture[1].iteration",
+              "0"},
+        Wrong{"IterationBeyondSteps", picture("file = 'a.png'\niteration = 10000000"), 10,
+              "picture[1].iteration", "0"},
+        Wrong{"EveryZero", picture("file = 'a.png'\nevery = 0"), 10, "picture[1].every", "1"},
+        Wrong{"EveryAndIteration", picture("file = 'a.png'\nevery = 1\niteration = 0"), 10,
+              "picture[1].every", "give one of them"},
+        Wrong{"EveryOfPanels", picture("file = 'a.png'\nview = 'panels'\nevery = 1"), 11, "picture[1].every",
+              "no single iteration"},
+        Wrong{"TooManyOfEvery",
+              "map = 'm'\nsteps = 20001\n[robot]\npath = 'p'\nspeed_m_s = 1\n[[picture]]\nfile = "
+              "'a.png'\nevery = 2\n",
+              8, "picture[1].every", "gives 10001 pictures; at most 10000"},
         Wrong{"FileMissing", picture("view = 'top'"), 8, "picture[1].file", "is missing"},
         Wrong{"FileInFolder", picture("file = 'a/b.png'"), 9, "picture[1].file", "plain file name"},
         Wrong{"FileOutside", picture("file = '../b.png'"), 9, "picture[1].file", "plain file name"},

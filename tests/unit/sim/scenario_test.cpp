@@ -161,10 +161,27 @@ TEST(LoadScenario, ReadsAPicture) {
   EXPECT_FALSE(picture.shows(PictureLayer::kErrors));
 }
 
+TEST(ScenarioPictures, MayBeOfIterations) {
+  const Scenario scenario =
+      load(test::scenario_text("[[picture]]\nfile = 'a.png'\niteration = 0\n"
+                               "[[picture]]\nfile = 'b.x.png'\nview = 'camera'\nevery = 7\n"));
+  EXPECT_EQ(scenario.pictures.at(0).iteration, 0u);
+  const PictureSpec& many = scenario.pictures.at(1);
+  EXPECT_EQ(many.view, PictureView::kCamera);
+  EXPECT_EQ(many.every, 7u);
+  EXPECT_FALSE(many.iteration);
+  EXPECT_EQ(many.at(120).file, "b.x_000120.png");
+  EXPECT_EQ(many.at(120).iteration, 120u);
+  EXPECT_EQ(many.at(120).every, 0u);
+  EXPECT_EQ(many.at(12'345'678).file, "b.x_12345678.png");
+}
+
 TEST(LoadScenario, APictureShowsAllButTheSubmapsUnlessToldOtherwise) {
   const PictureSpec picture = load(test::scenario_text("[[picture]]\nfile = 'a.png'\n")).pictures.at(0);
   EXPECT_EQ(picture.view, PictureView::kTop);
-  EXPECT_EQ(picture.show.size(), 7u);
+  EXPECT_EQ(picture.show.size(), picture_layer_names().size() - 1);
+  EXPECT_FALSE(picture.iteration);
+  EXPECT_EQ(picture.every, 0u);
   EXPECT_TRUE(picture.shows(PictureLayer::kFrustum));
   EXPECT_FALSE(picture.shows(PictureLayer::kSubmaps));
 }
