@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <unordered_map>
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr Colour kTemporaryColour{0.44, 0.463, 0.502};
 constexpr Colour kDynamicColour{0.667, 0.2, 0.467};
+constexpr Colour kCommandColour{0.902, 0.624, 0.0};
+constexpr Colour kContactColour{0.667, 0.133, 0.353};
 
 /// After Okabe and Ito; in turn.
 constexpr std::array<Colour, 6> kSubmapColours{{{0.0, 0.62, 0.451},
@@ -114,6 +117,54 @@ Entity mapped_plane_outlines(std::span<const log::PlaneLandmark> planes) {
     }
   }
   return entity;
+}
+
+Entity robot_body(std::span<const Vec2> corners, double bottom_m, double top_m) {
+  Line edges{.kind = Line::Kind::kPairs, .width_px = 2.0, .colour = kTruthColour};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    for (const double z : {bottom_m, top_m}) {
+      edges.points.emplace_back(a.x(), a.y(), z);
+      edges.points.emplace_back(b.x(), b.y(), z);
+    }
+    edges.points.emplace_back(a.x(), a.y(), bottom_m);
+    edges.points.emplace_back(a.x(), a.y(), top_m);
+  }
+  return {.frame = frames::kTrueBody, .id = "robot", .lines = {std::move(edges)}};
+}
+
+Entity command_arrow(const log::ObeyedCommand& command) {
+  constexpr double kBarbShare = 0.25, kBarbAngle = 0.45, kArcRadius_m = 0.5;
+  constexpr int kArcSteps = 16;
+  Entity entity{.frame = frames::kTrueBody, .id = "command"};
+  const Vec2 way(command.linear_m_s, command.lateral_m_s);
+  if (way.norm() > 0.0) {
+    Line arrow{.kind = Line::Kind::kPairs, .width_px = 3.0, .colour = kCommandColour};
+    const Vec3 tip(way.x(), way.y(), 0.0);
+    arrow.points = {Vec3::Zero(), tip};
+    for (const double angle : {kBarbAngle, -kBarbAngle}) {
+      const Vec2 barb = way - kBarbShare * (Eigen::Rotation2Dd(angle) * way);
+      arrow.points.insert(arrow.points.end(), {tip, Vec3(barb.x(), barb.y(), 0.0)});
+    }
+    entity.lines.push_back(std::move(arrow));
+  }
+  if (command.angular_rad_s != 0.0) {
+    Line arc{.width_px = 3.0, .colour = kCommandColour};
+    const double swept = std::clamp(command.angular_rad_s, -6.0, 6.0);
+    for (int i = 0; i <= kArcSteps; ++i) {
+      const double angle = swept * i / kArcSteps;
+      arc.points.emplace_back(kArcRadius_m * std::cos(angle), kArcRadius_m * std::sin(angle), 0.0);
+    }
+    entity.lines.push_back(std::move(arc));
+  }
+  return entity;
+}
+
+Entity contact_ball(const log::ContactRow& contact, std::uint32_t number) {
+  constexpr double kDiameter_m = 0.1;
+  return {.frame = frames::kWorld,
+          .id = "contact " + std::to_string(number),
+          .balls = {{to_vec3(contact.position_m), kDiameter_m, kContactColour}}};
 }
 
 Entity submap_stars(const log::MapAnswer& map) {

@@ -26,6 +26,9 @@ constexpr const char* kSubmaps = "/foxglove/submaps";
 constexpr const char* kTruePose = "/foxglove/truth/pose";
 constexpr const char* kTruePath = "/foxglove/truth/path";
 constexpr const char* kTrueLandmarks = "/foxglove/truth/landmarks";
+constexpr const char* kBody = "/foxglove/robot/body";
+constexpr const char* kCommand = "/foxglove/robot/command";
+constexpr const char* kContacts = "/foxglove/robot/contacts";
 constexpr const char* kLog = "/foxglove/log";
 constexpr const char* kPictures = "/foxglove/pictures/";  ///< and the picture's name
 }  // namespace topics
@@ -69,6 +72,7 @@ void View::begin() {
   if (!true_landmarks_.empty()) {
     put_scene(topics::kTrueLandmarks, now_, true_landmark_balls(true_landmarks_));
   }
+  if (body_) put_scene(topics::kBody, now_, *body_);
   for (const LogLine& line : early_) put_log(line);
 }
 
@@ -110,6 +114,22 @@ void View::add_map(const log::FrameStamp& stamp, const log::MapAnswer& map) {
   put_scene(topics::kLandmarks, stamp, landmark_balls(map.landmarks));
   if (!map.planes.empty()) put_scene(topics::kMappedPlanes, stamp, mapped_plane_outlines(map.planes));
   put_scene(topics::kSubmaps, stamp, submap_stars(map));
+}
+
+void View::set_body(std::span<const Vec2> corners, double bottom_m, double top_m) {
+  body_ = robot_body(corners, bottom_m, top_m);
+}
+
+void View::add_obeyed(const log::FrameStamp& stamp, const log::ObeyedCommand& command) {
+  put_scene(topics::kCommand, stamp, command_arrow(command));
+}
+
+void View::add_contact(const log::FrameStamp& stamp, const log::ContactRow& contact) {
+  put_scene(topics::kContacts, stamp, contact_ball(contact, contacts_++));
+}
+
+void View::add_event(const log::EventRow& event) {
+  add_log({HW_LOG_INFO, "hallway", event.what.empty() ? event.kind : event.kind + ": " + event.what});
 }
 
 void View::add_log(const LogLine& line) {

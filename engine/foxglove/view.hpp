@@ -47,6 +47,13 @@ class View {
   void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
   void add_map(const log::FrameStamp& stamp, const log::MapAnswer& map);
 
+  /// The robot's body, for the first frame; before it. Corners as of robot_body().
+  void set_body(std::span<const Vec2> corners, double bottom_m, double top_m);
+  /// What the drive obeys, what the body touched, and what happened to the robot.
+  void add_obeyed(const log::FrameStamp& stamp, const log::ObeyedCommand& command);
+  void add_contact(const log::FrameStamp& stamp, const log::ContactRow& contact);
+  void add_event(const log::EventRow& event);
+
   /// Something that was said, at the time of the frame that was added last or, before there is one, of the first.
   void add_log(const LogLine& line);
   /// A picture of the run, at the time of the frame that was added last.
@@ -77,6 +84,8 @@ class View {
   log::FrameStamp now_;         ///< of the last frame
   std::vector<LogLine> early_;  ///< said before the first frame
   std::vector<log::Landmark> true_landmarks_;
+  std::optional<Entity> body_;
+  std::uint32_t contacts_ = 0;
   std::map<std::uint32_t, Pose> T_body_sensor_;  ///< by the sensor's id
   std::set<std::uint32_t> placed_sensors_;
 

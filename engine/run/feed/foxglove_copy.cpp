@@ -17,6 +17,7 @@
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
 #include "record/sensor_json.hpp"
+#include "run/pictures/robot_shape.hpp"
 
 namespace hallway::run {
 namespace {
@@ -81,6 +82,7 @@ class Shower {
     stamp_ = stamp_of(message);
     std::visit(*this, log::parse_run_message(channel, message));
     std::visit(*this, log::parse_answer_message(channel, message));
+    std::visit(*this, log::parse_drive_message(channel, message));
   }
   std::uint32_t frames() const { return frames_; }
 
@@ -96,6 +98,17 @@ class Shower {
   void operator()(const std::vector<log::TruePlane>&) {}  // no view shows them
   void operator()(const log::PoseMessage& message) { view_.add_pose(stamp_, message.pose); }
   void operator()(const log::MapAnswer& map) { view_.add_map(stamp_, map); }
+  void operator()(const log::ObeyedCommand& command) { view_.add_obeyed(stamp_, command); }
+  void operator()(const log::ContactMessage& message) { view_.add_contact(stamp_, message.contact); }
+  void operator()(const log::EventMessage& message) { view_.add_event(message.event); }
+
+  void show_manifest(const std::string& text) {
+    log::check_json_size(text);
+    const Json manifest = Json::parse(text, nullptr, false);  // what is no JSON has no body
+    if (!manifest.is_object()) return;
+    if (const auto shape = robot_shape(manifest))
+      view_.set_body(shape->corners, shape->bottom_m, shape->top_m);
+  }
 
  private:
   foxglove::View& view_;
@@ -125,7 +138,10 @@ class Copier {
     shower_.show(channel, message);
   }
   void operator()(const log::McapAttachment& attachment) { writer_.add(attachment); }
-  void operator()(const log::McapMetadata& metadata) { writer_.add(metadata); }
+  void operator()(const log::McapMetadata& metadata) {
+    writer_.add(metadata);
+    if (const auto manifest = log::manifest_of(metadata)) shower_.show_manifest(*manifest);
+  }
 
   std::uint32_t frames() const { return shower_.frames(); }
 

@@ -12,7 +12,8 @@ LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
                          .sensors = source.sensors(),
                          .period_ns = manifest.value("period_ns", std::int64_t{0}),
                          .has_identities = source.has_identities()}),
-      source_(source) {
+      source_(source),
+      shape_(robot_shape(manifest)) {
   if (source.true_landmarks()) recorder_.writer().add_true_landmarks(*source.true_landmarks());
   if (source.true_planes()) recorder_.writer().add_true_planes(*source.true_planes());
 }
@@ -21,6 +22,7 @@ void LogRecorder::add_view(bool has_answers) {
   view_.emplace(recorder_.writer().file(),
                 foxglove::ViewOptions{.first_id = log::kFirstOtherId, .has_answers = has_answers});
   view_->set_sensors(source_.sensors());
+  if (shape_) view_->set_body(shape_->corners, shape_->bottom_m, shape_->top_m);
   if (source_.true_landmarks()) view_->set_true_landmarks(*source_.true_landmarks());
 }
 
@@ -51,6 +53,21 @@ void LogRecorder::record_answer(const host::Outputs& outputs) {
   recorder_.record_pose(outputs);  // what is shown of a message follows it, as in a log that is copied
   if (view_ && outputs.pose()) view_->add_pose(recorder_.stamp(), record::pose_answer(outputs));
   recorder_.record_the_rest(outputs);
+}
+
+void LogRecorder::record_obeyed(const log::ObeyedCommand& command) {
+  recorder_.writer().add_obeyed(recorder_.stamp(), command);
+  if (view_) view_->add_obeyed(recorder_.stamp(), command);
+}
+
+void LogRecorder::record_contact(const log::ContactRow& contact) {
+  recorder_.writer().add_contact(recorder_.stamp(), contact);
+  if (view_) view_->add_contact(recorder_.stamp(), contact);
+}
+
+void LogRecorder::record_event(const log::EventRow& event) {
+  recorder_.writer().add_event(recorder_.stamp(), event);
+  if (view_) view_->add_event(event);
 }
 
 void LogRecorder::record_map(const record::FinalMap& map) {

@@ -7,6 +7,7 @@
 #include "foxglove/view.hpp"
 #include "host/output/outputs.hpp"
 #include "record/answer_recorder.hpp"
+#include "run/pictures/robot_shape.hpp"
 #include "run/sources/source.hpp"
 
 namespace hallway::run {
@@ -33,6 +34,10 @@ class LogRecorder {
   void record_answer(const host::Outputs& outputs);
   /// For what else there is to record of the same frames.
   log::RunLogWriter& writer() { return recorder_.writer(); }
+  /// What the drive obeys from the frame that was recorded last on, and what the body touched and what happened to the robot until then.
+  void record_obeyed(const log::ObeyedCommand& command);
+  void record_contact(const log::ContactRow& contact);
+  void record_event(const log::EventRow& event);
   /// The map at the end.
   void record_map(const record::FinalMap& map);
   /// Writes what is left and the index.
@@ -41,6 +46,7 @@ class LogRecorder {
  private:
   record::AnswerRecorder recorder_;
   const Source& source_;
+  std::optional<RobotShape> shape_;  ///< of the robot, for the view
   std::optional<foxglove::View> view_;
 };
 

@@ -13,63 +13,22 @@
 #include "geom/arrays.hpp"
 #include "render/colour.hpp"
 #include "run/pictures/picture_frame.hpp"
+#include "run/pictures/robot_shape.hpp"
 
 namespace hallway::run {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// Of the extent of the picture: how long the arrow of the fastest command is at least, and the radius of the arc.
 constexpr double kArrowShare = 0.05;
 constexpr double kArcShare = 0.025;
 constexpr int kArcSteps = 24;
-constexpr int kRoundCorners = 32;
-
-/// A convex body: corners of its outline, in the body's frame.
-struct BodyShape {
-  std::vector<Vec2> corners;
-  double bottom_m = 0.0;
-  double top_m = 0.0;
-};
-
-Vec2 point_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>()};
-}
-
-BodyShape read_body(const Json& body) {
-  BodyShape shape{
-      .corners = {}, .bottom_m = body.at("bottom_m").get<double>(), .top_m = body.at("top_m").get<double>()};
-  if (body.contains("corners_m")) {
-    for (const Json& corner : body.at("corners_m")) shape.corners.push_back(point_of(corner));
-    return shape;
-  }
-  const double radius_m = body.at("radius_m").get<double>();
-  const Vec2 middle = body.contains("middle_m") ? point_of(body.at("middle_m")) : Vec2(0.0, 0.0);
-  for (int i = 0; i < kRoundCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kRoundCorners;
-    shape.corners.emplace_back(middle + radius_m * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  return shape;
-}
-
-/// Empty where run.json names none.
-std::optional<BodyShape> body_of(const Record& record) {
-  const Json body = value_at(record.run, {"robot", "body"});
-  if (!body.is_object()) return std::nullopt;
-  try {
-    return read_body(body);
-  } catch (const nlohmann::json::exception& failure) {
-    throw Error(ErrorCode::kBadInput, printable(failure.what()),
-                {.file = printable((record.folder / files::kRun).string()), .element = "robot.body"});
-  }
-}
 
 Vec3 on_body(const Instant& now, const Vec2& place, double z) {
   return now.T_world_body * Vec3(place.x(), place.y(), z);
 }
 
-void add_shape(render::Picture& picture, const BodyShape& shape, const Instant& now) {
+void add_shape(render::Picture& picture, const RobotShape& shape, const Instant& now) {
   render::Patches areas{.colour = render::palette::kTruth, .opacity = 0.35, .label = "robot"};
   render::Segments edges{.colour = render::palette::kInk, .width_px = 1.6};
   for (const double z : {shape.bottom_m, shape.top_m}) {
@@ -79,7 +38,7 @@ void add_shape(render::Picture& picture, const BodyShape& shape, const Instant& 
       edges.pairs.push_back({area.back(), on_body(now, shape.corners[(i + 1) % shape.corners.size()], z)});
     }
   }
-  if (shape.corners.size() < static_cast<std::size_t>(kRoundCorners)) {
+  if (!shape.is_round) {
     for (const Vec2& corner : shape.corners)
       edges.pairs.push_back({on_body(now, corner, shape.bottom_m), on_body(now, corner, shape.top_m)});
   }
@@ -155,11 +114,12 @@ void mark_event(render::Picture& picture, render::Markers& marks, const std::opt
 }  // namespace
 
 void add_body(render::Picture& picture, const Record& record, const Instant& now) {
-  if (const auto shape = body_of(record)) add_shape(picture, *shape, now);
+  const std::optional<RobotShape> shape = robot_shape(record.run);
+  if (shape) add_shape(picture, *shape, now);
   picture.markers.push_back({.positions = {now.T_world_body.t},
                              .colour = render::palette::kInk,
                              .size_px = 6.0,
-                             .label = value_at(record.run, {"robot", "body"}).is_object() ? "" : "robot"});
+                             .label = shape ? "" : "robot"});
 }
 
 void add_seen(render::Picture& picture, const Record& record, const Instant& now) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hallway::foxglove {
 namespace {
 
@@ -30,6 +33,37 @@ TEST(FoxgloveScenes, ALandmarksColourIsItsStatus) {
     EXPECT_EQ(entity.balls[i].centre.x(), landmarks[i].position_m[0]);
     EXPECT_EQ(entity.balls[i].centre.z(), landmarks[i].position_m[2]);
   }
+}
+
+TEST(FoxgloveScenes, ABodyHasTheEdgesOfAPrism) {
+  const std::vector<Vec2> corners{{0.2, -0.1}, {0.2, 0.1}, {-0.3, 0.0}};
+  const Entity entity = robot_body(corners, 0.05, 0.4);
+  EXPECT_EQ(entity.frame, "body_truth");
+  ASSERT_EQ(entity.lines.size(), 1u);
+  EXPECT_EQ(entity.lines[0].kind, Line::Kind::kPairs);
+  EXPECT_EQ(entity.lines[0].points.size(), 18u) << "nine edges";
+  for (const Vec3& point : entity.lines[0].points) {
+    EXPECT_TRUE(point.z() == 0.05 || point.z() == 0.4);
+    EXPECT_NE(std::ranges::find(corners, Vec2(point.head<2>())), corners.end());
+  }
+}
+
+TEST(FoxgloveScenes, ACommandIsTheWayAndTheTurnOfOneSecond) {
+  EXPECT_TRUE(command_arrow({}).lines.empty());
+  const Entity both = command_arrow({.linear_m_s = 0.5, .angular_rad_s = -0.7, .lateral_m_s = 0.25});
+  EXPECT_EQ(both.frame, "body_truth");
+  ASSERT_EQ(both.lines.size(), 2u);
+  EXPECT_EQ(both.lines[0].points[0], Vec3(0, 0, 0));
+  EXPECT_EQ(both.lines[0].points[1], Vec3(0.5, 0.25, 0));
+  const Vec3 end = both.lines[1].points.back();
+  EXPECT_NEAR(std::atan2(end.y(), end.x()), -0.7, 1e-12);
+}
+
+TEST(FoxgloveScenes, EachContactIsAnEntityOfItsOwn) {
+  const log::ContactRow contact{.kind = "wall", .position_m = {1, 2, 3}};
+  EXPECT_EQ(contact_ball(contact, 0).frame, "world");
+  EXPECT_EQ(contact_ball(contact, 0).balls.at(0).centre, Vec3(1, 2, 3));
+  EXPECT_NE(contact_ball(contact, 0).id, contact_ball(contact, 1).id);
 }
 
 TEST(FoxgloveScenes, BallsGrowWithTheExtent) {

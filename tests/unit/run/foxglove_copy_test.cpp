@@ -72,6 +72,26 @@ std::map<std::string, std::vector<std::string>> messages(const std::string& byte
   return topics;
 }
 
+/// A log of forty frames of a robot with a body that a drive moves.
+std::string record_driven(bool with_view) {
+  LogSource source = forty_frames();
+  log::StringOutput out;
+  LogRecorder recorder(
+      out, source,
+      {{"name", "driven"}, {"robot", {{"body", {{"radius_m", 0.3}, {"bottom_m", 0.1}, {"top_m", 0.5}}}}}});
+  if (with_view) recorder.add_view(false);
+  SourceFrame frame;
+  for (std::uint32_t i = 0; i < source.iterations(); ++i) {
+    source.read(i, frame);
+    recorder.record_input(frame);
+    if (i == 7 || i == 8) recorder.record_contact({.t_ns = 650'000'000, .kind = "wall"});
+    if (i == 9) recorder.record_event({.t_ns = 850'000'000, .kind = "push", .what = "left"});
+    recorder.record_obeyed({.iteration = i, .linear_m_s = 0.5});
+  }
+  recorder.finish();
+  return out.text();
+}
+
 /// Those of the run's own channels.
 std::map<std::string, std::vector<std::string>> own_messages(const std::string& bytes) {
   auto topics = messages(bytes);
@@ -88,6 +108,18 @@ TEST(FoxgloveCopy, GivesTheBytesThatRecordingWithAViewGives) {
   EXPECT_FALSE(copied.how.damage);
   EXPECT_EQ(copied.how.frames, 40u);
   EXPECT_EQ(copied.bytes, with_view);
+}
+
+TEST(FoxgloveCopy, ShowsARobotThatADriveMoves) {
+  const std::string with_view = record_driven(true);
+  EXPECT_EQ(copy(record_driven(false)).bytes, with_view);
+  const auto topics = messages(with_view);
+  EXPECT_EQ(topics.at("/foxglove/robot/body").size(), 1u);
+  EXPECT_EQ(topics.at("/foxglove/robot/command").size(), 40u);
+  EXPECT_EQ(topics.at("/foxglove/robot/contacts").size(), 2u);
+  ASSERT_EQ(topics.at("/foxglove/log").size(), 1u);
+  EXPECT_NE(topics.at("/foxglove/log")[0].find("push: left"), std::string::npos);
+  EXPECT_FALSE(messages(record(true)).contains("/foxglove/robot/body")) << "nor of older logs";
 }
 
 TEST(FoxgloveCopy, AViewThatIsThereIsMadeAnew) {
