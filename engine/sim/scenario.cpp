@@ -203,7 +203,23 @@ class ScenarioReader {
       spec.show = default_picture_layers();
     }
     read_moments(picture, spec);
+    for (const PictureSpec& other : scenario_.pictures) {
+      if (is_one_of(spec.file, other) || is_one_of(other.file, spec))
+        throw picture.error("file", "\"" + spec.file + "\" and \"" + other.file +
+                                        "\" may give pictures of one name, since one has `every`");
+    }
     scenario_.pictures.push_back(std::move(spec));
+  }
+
+  /// Whether a file name may be that of a picture of `every`.
+  static bool is_one_of(const std::string& file, const PictureSpec& many) {
+    if (many.every == 0) return false;
+    const std::string stem = many.file.substr(0, many.file.rfind('.')) + "_";
+    const std::string_view ending = ".png";
+    if (!file.starts_with(stem) || file.size() < stem.size() + 6 + ending.size()) return false;
+    const std::string_view number =
+        std::string_view(file).substr(stem.size(), file.size() - stem.size() - ending.size());
+    return number.find_first_not_of("0123456789") == std::string_view::npos;
   }
 
   void read_moments(TableReader& picture, PictureSpec& spec) const {

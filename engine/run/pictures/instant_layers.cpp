@@ -126,9 +126,10 @@ void add_seen(render::Picture& picture, const Record& record, const Instant& now
   render::Markers points{.colour = render::palette::kSensor, .size_px = 4.0, .label = "points in view"};
   render::Segments rays{.colour = render::palette::kSensor, .width_px = 0.8, .opacity = 0.18};
   render::Segments outlines{.colour = render::palette::kSensor, .width_px = 2.2, .label = "planes in view"};
-  const auto samples =
-      std::ranges::equal_range(record.history->seen, now.iteration, {}, &SeenSample::iteration);
-  for (const SeenSample& sample : samples) {
+  const std::vector<SeenSample>& seen = record.history->seen;
+  const auto first = std::ranges::lower_bound(seen, now.iteration, {}, &SeenSample::iteration);
+  for (auto it = first; it != seen.end() && it->iteration == now.iteration; ++it) {
+    const SeenSample& sample = *it;
     const Vec3 eye = now.T_world_body * sample.eye;
     for (const Vec3& point : sample.points) {
       points.positions.push_back(now.T_world_body * point);
