@@ -27,6 +27,7 @@ hw_drive_command_t command_of(const host::DriveCommand& command) {
   output.size = sizeof output;
   output.linear_m_s = command.linear_m_s;
   output.angular_rad_s = command.angular_rad_s;
+  output.lateral_m_s = command.lateral_m_s;
   return output;
 }
 

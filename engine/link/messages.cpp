@@ -23,7 +23,7 @@ struct AnswerBytes {
   double angular_rad_s = 0;
   std::array<double, 3> position{};
   std::array<double, 4> orientation{1, 0, 0, 0};
-  std::uint64_t reserved = 0;
+  double lateral_m_s = 0;  // reserved before ABI 1.4, and written as 0
 };
 static_assert(sizeof(AnswerBytes) == 104);
 
@@ -38,6 +38,7 @@ void write_answer(const Answer& answer, Bytes& payload) {
     bytes.flags |= kHasCommand;
     bytes.linear_m_s = answer.command->linear_m_s;
     bytes.angular_rad_s = answer.command->angular_rad_s;
+    bytes.lateral_m_s = answer.command->lateral_m_s;
   }
   if (answer.pose) bytes.flags |= kHasPose;
   if (answer.pose && answer.pose->valid) {
@@ -56,13 +57,15 @@ std::optional<Answer> read_answer(const Datagram& datagram) {
   }
   const auto bytes = load<AnswerBytes>(datagram.payload.data());
   const bool sound = bytes.status <= HW_ANSWER_END && std::isfinite(bytes.linear_m_s) &&
-                     std::isfinite(bytes.angular_rad_s) && is_pose(bytes.position, bytes.orientation);
+                     std::isfinite(bytes.angular_rad_s) && std::isfinite(bytes.lateral_m_s) &&
+                     is_pose(bytes.position, bytes.orientation);
   if (!sound) return std::nullopt;
   Answer answer{.number = bytes.number,
                 .status = bytes.status,
                 .sequence = datagram.header.sequence,
                 .t_ns = bytes.t_ns};
-  if ((bytes.flags & kHasCommand) != 0) answer.command = {bytes.linear_m_s, bytes.angular_rad_s};
+  if ((bytes.flags & kHasCommand) != 0)
+    answer.command = {bytes.linear_m_s, bytes.angular_rad_s, bytes.lateral_m_s};
   if ((bytes.flags & kHasPose) != 0) {
     answer.pose.emplace();
     answer.pose->valid = (bytes.flags & kPoseValid) != 0;

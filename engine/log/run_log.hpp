@@ -70,6 +70,7 @@ struct PoseAnswer {
 struct CommandAnswer {
   double linear_m_s = 0;
   double angular_rad_s = 0;
+  double lateral_m_s = 0;
 };
 
 /// Records a run. The same calls give the same bytes. All functions throw Error{kIo}, and Error{kInternal} for a number that

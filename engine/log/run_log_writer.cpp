@@ -183,11 +183,12 @@ void RunLogWriter::add_associations(const FrameStamp& stamp, std::uint32_t sampl
 }
 
 void RunLogWriter::add_command(const FrameStamp& stamp, const CommandAnswer& command) {
-  const auto [linear, angular] = command;
-  if (!std::isfinite(linear) || !std::isfinite(angular))
+  const auto [linear, angular, lateral] = command;
+  if (!std::isfinite(linear) || !std::isfinite(angular) || !std::isfinite(lateral))
     throw Error(ErrorCode::kInternal, "a number for a log is not finite");
-  add(topics::kCommand, stamp,
-      text_of({{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}}));
+  Json json{{"iteration", stamp.iteration}, {"linear_m_s", linear}, {"angular_rad_s", angular}};
+  if (lateral != 0) json["lateral_m_s"] = lateral;
+  add(topics::kCommand, stamp, text_of(json));
 }
 
 void RunLogWriter::add_obeyed(const FrameStamp& stamp, const ObeyedCommand& command) {

@@ -72,7 +72,9 @@ void AnswerRecorder::record_the_rest(const host::Outputs& outputs) {
     if (const auto ids = outputs.associations(k)) writer_.add_associations(stamp_, k, *ids);
   }
   if (const auto& command = outputs.drive_command())
-    writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s, .angular_rad_s = command->angular_rad_s});
+    writer_.add_command(stamp_, {.linear_m_s = command->linear_m_s,
+                                 .angular_rad_s = command->angular_rad_s,
+                                 .lateral_m_s = command->lateral_m_s});
   for (std::uint32_t k = 0; k < n_samples_; ++k) {
     if (const auto planes = outputs.planes(k)) writer_.add_planes(stamp_, k, plane_observations(*planes));
   }

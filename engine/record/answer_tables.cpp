@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "log/commands.hpp"
 #include "log/pose_covariances.hpp"
 #include "log/timing.hpp"
 #include "log/tum.hpp"
@@ -30,10 +29,11 @@ void AnswerTables::add(const AnsweredFrame& frame, const host::Outputs& outputs,
                                                      .cpu_ms = milliseconds(time.cpu_ns)});
   if (const auto& pose = outputs.pose(); pose && pose->valid) add_pose(iteration, t_ns, *pose);
   if (const auto& command = outputs.drive_command()) {
-    if (!commands_) commands_.emplace(folder_ / files::kCommands, ',', log::kCommandColumns);
-    log::add_row(commands_->next_row(), log::IterationCommand{.iteration = iteration,
-                                                              .linear_m_s = command->linear_m_s,
-                                                              .angular_rad_s = command->angular_rad_s});
+    if (!commands_) commands_.emplace(folder_ / files::kCommands);
+    commands_->add({.iteration = iteration,
+                    .linear_m_s = command->linear_m_s,
+                    .angular_rad_s = command->angular_rad_s,
+                    .lateral_m_s = command->lateral_m_s});
   }
   for (std::uint32_t k = 0; k < n_samples; ++k) {
     if (const auto planes = outputs.planes(k)) add_planes(iteration, *planes);

@@ -7,6 +7,7 @@
 
 #include "host/output/outputs.hpp"
 #include "host/stage.hpp"
+#include "log/command_file.hpp"
 #include "log/row_file.hpp"
 #include "log/tum.hpp"
 
@@ -41,7 +42,7 @@ class AnswerTables {
   log::RowFile trajectory_;
   log::RowFile times_;
   std::optional<log::RowFile> covariances_;
-  std::optional<log::RowFile> commands_;
+  std::optional<log::CommandFile> commands_;
   std::optional<log::RowFile> planes_;
 };
 

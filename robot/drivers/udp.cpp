@@ -168,7 +168,8 @@ class Counters {
 
 link_::Answer answer_of(const hw_answer_t& from) {
   link_::Answer answer{.status = from.status, .sequence = from.sequence, .t_ns = from.t_ns};
-  if (from.command != nullptr) answer.command = {from.command->linear_m_s, from.command->angular_rad_s};
+  if (from.command != nullptr)
+    answer.command = {from.command->linear_m_s, from.command->angular_rad_s, hw_lateral_m_s(from.command)};
   if (from.pose != nullptr) {
     answer.pose.emplace();
     answer.pose->valid = from.pose->status == HW_POSE_VALID;

@@ -69,11 +69,12 @@ AT(hw_pose_output_t, status, 4);
 AT(hw_pose_output_t, T_map_body, 8);
 AT(hw_pose_output_t, covariance, 64);
 
-SIZE(hw_drive_command_t, 24);
+SIZE(hw_drive_command_t, 32);
 AT(hw_drive_command_t, size, 0);
 AT(hw_drive_command_t, reserved, 4);
 AT(hw_drive_command_t, linear_m_s, 8);
 AT(hw_drive_command_t, angular_rad_s, 16);
+AT(hw_drive_command_t, lateral_m_s, 24);
 
 SIZE(hw_landmark_t, 40);
 AT(hw_landmark_t, id, 0);

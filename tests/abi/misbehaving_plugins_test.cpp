@@ -60,6 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"unknown_pose_status", "pose: an unknown status"},
                     Case{"two_poses", "pose: a second one"},
                     Case{"nan_command", "drive_command: a speed that is not finite"},
+                    Case{"nan_sideways", "drive_command: a speed that is not finite"},
                     Case{"two_commands", "drive_command: a second one"},
                     Case{"too_few_associations", "associations: 1 for a sample of 2 points"},
                     Case{"associations_of_no_sample", "associations: sample 1 of a frame of 1"},

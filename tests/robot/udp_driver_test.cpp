@@ -84,7 +84,7 @@ class Serve {
 
 /// A command that tells which frame it answers.
 hw_drive_command_t command_for(std::uint64_t sequence) {
-  return {sizeof(hw_drive_command_t), 0, 0.01 * static_cast<double>(sequence), -0.5};
+  return {sizeof(hw_drive_command_t), 0, 0.01 * static_cast<double>(sequence), -0.5, 0};
 }
 
 void answer(Driver& driver, const hw_frame_t& frame) {
@@ -336,7 +336,7 @@ TEST(UdpBase, SpeaksTheProtocolInPlainC) {
   const auto& points = *static_cast<const hw_points_t*>(frame->samples[0]->payload);
   ASSERT_EQ(points.count, 2u);
   EXPECT_EQ(hw_point_at(&points, 1)->y, -1.0);
-  const hw_drive_command_t command{sizeof command, 0, 0.25, -0.5};
+  const hw_drive_command_t command{sizeof command, 0, 0.25, -0.5, 0};
   hw_answer_t answer{};
   answer.size = sizeof answer;
   answer.sequence = frame->sequence;

@@ -126,7 +126,7 @@ class Run {
       if (found == HW_READ_FRAME) take(*frame, frames);
     }
     if (frames != nullptr) std::fclose(frames);
-    const hw_drive_command_t stop{sizeof stop, 0, 0, 0};
+    const hw_drive_command_t stop{sizeof stop, 0, 0, 0, 0};
     last_.command = &stop;
     last_.status = HW_ANSWER_END;
     check(driver_.vtable->write(driver_.self, &last_, &error_));
@@ -181,7 +181,7 @@ class Run {
   void answer(const hw_frame_t& frame) {
     const double k = static_cast<double>(frame.sequence);
     const bool late = frame.sequence == 3;
-    const hw_drive_command_t command{sizeof command, 0, late ? 0 : 0.25 + k, late ? 0 : -0.5};
+    const hw_drive_command_t command{sizeof command, 0, late ? 0 : 0.25 + k, late ? 0 : -0.5, 0};
     const hw_pose_output_t pose{
         sizeof pose, late ? HW_POSE_LOST : HW_POSE_VALID, {{k, 2 * k, 0.5}, {0.6, 0, 0, 0.8}}, nullptr};
     const hw_landmark_t list[2] = {{7, {k, 0.1, -1}, 3, HW_LANDMARK_MAPPED},

@@ -41,11 +41,14 @@ inline std::vector<log::IterationTime> parse_timing(std::string_view text, const
 }
 
 inline std::vector<log::IterationCommand> parse_commands(std::string_view text, const std::string& file) {
-  return parse_rows<log::IterationCommand>(text, file, {{"iteration"}, {"linear_m_s"}, {"angular_rad_s"}},
-                                           [](const auto& row, auto& command) {
-                                             command.linear_m_s = row.number(1);
-                                             command.angular_rad_s = row.number(2);
-                                           });
+  std::vector<log::CsvColumn> columns{{"iteration"}, {"linear_m_s"}, {"angular_rad_s"}};
+  const bool is_wide = text.starts_with(log::kLateralCommandColumns);
+  if (is_wide) columns.push_back({"lateral_m_s"});
+  return parse_rows<log::IterationCommand>(text, file, columns, [&](const auto& row, auto& command) {
+    command.linear_m_s = row.number(1);
+    command.angular_rad_s = row.number(2);
+    if (is_wide) command.lateral_m_s = row.number(3);
+  });
 }
 
 inline std::vector<log::IterationCovariance> parse_pose_covariances(std::string_view text,

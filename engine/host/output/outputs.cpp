@@ -171,8 +171,10 @@ hw_status_t OutputCollector::copy_drive_command(const hw_drive_command_t& comman
   demand(HW_HAS(&command, hw_drive_command_t, angular_rad_s), "a payload that is too small");
   demand(frame_ != nullptr, "it answers a frame, and this call has none");
   demand(!outputs_.drive_command_, "a second one in one call");
-  const DriveCommand copy{command.linear_m_s, command.angular_rad_s};
-  demand(std::isfinite(copy.linear_m_s) && std::isfinite(copy.angular_rad_s), "a speed that is not finite");
+  const DriveCommand copy{command.linear_m_s, command.angular_rad_s, hw_lateral_m_s(&command)};
+  demand(
+      std::isfinite(copy.linear_m_s) && std::isfinite(copy.angular_rad_s) && std::isfinite(copy.lateral_m_s),
+      "a speed that is not finite");
   outputs_.drive_command_ = copy;
   return HW_OK;
 }

@@ -32,6 +32,7 @@ using LandmarkCovariance = std::array<double, 6>;
 struct DriveCommand {
   double linear_m_s = 0;     ///< along the body's x axis
   double angular_rad_s = 0;  ///< about the body's z axis
+  double lateral_m_s = 0;    ///< along the body's y axis
 
   friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
 };

@@ -49,6 +49,7 @@ void read_drive_command(AlignedByteReader& reader, OutputCollector& collector) {
   auto command = sized<hw_drive_command_t>();
   command.linear_m_s = reader.get<double>();
   command.angular_rad_s = reader.get<double>();
+  command.lateral_m_s = reader.get<double>();
   put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
 }
 
@@ -177,6 +178,7 @@ void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint3
   if (command) {
     writer.put(command->linear_m_s);
     writer.put(command->angular_rad_s);
+    writer.put(command->lateral_m_s);
   }
   writer.put_list(outputs.landmarks());
   writer.put_list(outputs.landmark_covariances());

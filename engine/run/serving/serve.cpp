@@ -59,7 +59,8 @@ class Folder {
                                           .orientation = std::to_array(pose.orientation)});
     }
     if (answer.command)
-      recorder_.writer().add_command(stamp, {answer.command->linear_m_s, answer.command->angular_rad_s});
+      recorder_.writer().add_command(
+          stamp, {answer.command->linear_m_s, answer.command->angular_rad_s, answer.command->lateral_m_s});
   }
 
   void finish(ServeResult& result, const std::vector<log::IterationCommand>& commands) {
@@ -68,8 +69,7 @@ class Folder {
     write_attachments(folder, plan_.attachments);
     truth_.write(folder, source_);
     result.metrics = path_.write(folder, source_);
-    if (!commands.empty())
-      write_file_atomically(folder / files::kCommands, log::print_table(log::kCommandColumns, commands));
+    if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));
     nlohmann::ordered_json manifest = plan_.manifest;
     manifest["sensors"] = record::print_sensors(source_.sensors());
     manifest["iterations"] = result.frames;
@@ -169,7 +169,9 @@ class Server {
       if (answer.status == HW_ANSWER_FAILED) ++result_.failed;
       if (answered_.insert(k).second && came->round_trip)
         round_trips_ms_.push_back(std::chrono::duration<double, std::milli>(*came->round_trip).count());
-      if (answer.command) commands_[k] = {k, answer.command->linear_m_s, answer.command->angular_rad_s};
+      if (answer.command)
+        commands_[k] = {k, answer.command->linear_m_s, answer.command->angular_rad_s,
+                        answer.command->lateral_m_s};
       if (folder_) folder_->add_answer(answer, times_[k]);
     }
   }

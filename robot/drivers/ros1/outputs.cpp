@@ -100,16 +100,17 @@ void Outputs::publish(const hw_answer_t& answer, const std::vector<hw_counter_t>
 }
 
 void Outputs::stop() {
-  if (moves_) publish_command({sizeof(hw_drive_command_t), 0, 0, 0});
+  if (moves_) publish_command({sizeof(hw_drive_command_t), 0, 0, 0, 0});
 }
 
 void Outputs::publish_command(const hw_drive_command_t& command) {
   if (!command_) return;
   geometry_msgs::Twist twist;
   twist.linear.x = command.linear_m_s;
+  twist.linear.y = hw_lateral_m_s(&command);
   twist.angular.z = command.angular_rad_s;
   command_.publish(twist);
-  moves_ = command.linear_m_s != 0 || command.angular_rad_s != 0;
+  moves_ = twist.linear.x != 0 || twist.linear.y != 0 || twist.angular.z != 0;
 }
 
 void Outputs::publish_pose(const hw_pose_t& T_map_body, const ros::Time& stamp) {

@@ -8,6 +8,10 @@
 #include "planes.h"
 #include "pose.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /// Kinds of outputs, and what hw_output_t.payload points to. Numbers without a payload type are reserved. A
 /// host skips kinds that it does not know.
 enum {
@@ -58,7 +62,13 @@ typedef struct hw_drive_command_t {
   uint32_t reserved;     ///< 0
   double linear_m_s;     ///< along the body's x axis, forward positive; finite
   double angular_rad_s;  ///< about the body's z axis, to the left positive; finite
+  double lateral_m_s;    ///< along the body's y axis, to the left positive; finite; not there: 0. Since 1.4.
 } hw_drive_command_t;
+
+/// How fast a command moves the robot to the left; 0 where it was written before 1.4. [any]
+static inline double hw_lateral_m_s(const hw_drive_command_t* command) {
+  return HW_HAS(command, hw_drive_command_t, lateral_m_s) ? command->lateral_m_s : 0.0;
+}
 
 /// Stands for "no landmark"; never the id of one.
 #define HW_NO_LANDMARK UINT64_MAX
@@ -141,3 +151,7 @@ typedef struct hw_counters_t {
   uint64_t count;        ///< number of counters
   const void* counters;  ///< hw_counter_t by `stride`
 } hw_counters_t;
+
+#ifdef __cplusplus
+}
+#endif

@@ -158,11 +158,12 @@ class Host {
     put(HW_OUTPUT_PLANES, payload);
   }
 
-  /// Answers how the robot shall move from now on: forward, and to the left about its vertical axis.
-  void put_drive_command(double linear_m_s, double angular_rad_s) const {
+  /// Answers how the robot shall move from now on: forward, to the left about its vertical axis, and sideways to the left.
+  void put_drive_command(double linear_m_s, double angular_rad_s, double lateral_m_s = 0.0) const {
     hw_drive_command_t payload{};
     payload.linear_m_s = linear_m_s;
     payload.angular_rad_s = angular_rad_s;
+    payload.lateral_m_s = lateral_m_s;
     put(HW_OUTPUT_DRIVE_COMMAND, payload);
   }
 

@@ -61,7 +61,11 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
     put_plane();
 #endif
     host().put_pose({{x_sum, 0, 0}, {1, 0, 0, 0}});
+#if HW_ABI_MINOR >= 4
+    host().put_drive_command(0.5, -x_sum, 0.25);
+#else
     host().put_drive_command(0.5, -x_sum);
+#endif
     const hw_counter_t counters[] = {
         {"sensor_sum", sensor_sum_},
         {"last_noise", last_noise_},

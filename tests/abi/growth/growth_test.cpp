@@ -25,7 +25,7 @@ struct Build {
   const char* name;
   const char* file;
   bool has_grown;
-  bool knows_planes = true;
+  bool is_later = true;  ///< than 1.0
 };
 
 class Growth : public testing::TestWithParam<Build> {
@@ -83,7 +83,7 @@ TEST_P(Growth, OutputsOfAFrameArrive) {
   const Outputs& outputs = process_three_samples();
   ASSERT_TRUE(outputs.pose());
   EXPECT_EQ(outputs.pose()->T_map_body.position[0], 14);
-  EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -14}));
+  EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -14, GetParam().is_later ? 0.25 : 0.0}));
   const auto ids = outputs.associations(2);
   ASSERT_TRUE(ids);
   EXPECT_EQ(std::vector<std::uint64_t>(ids->begin(), ids->end()), std::vector<std::uint64_t>({2, 2, 2}));
@@ -92,7 +92,7 @@ TEST_P(Growth, OutputsOfAFrameArrive) {
 TEST_P(Growth, PlanesArriveWhereTheyAreKnown) {
   plugin_.activate(three_sensors());
   const auto planes = process_three_samples().planes(0);
-  ASSERT_EQ(planes.has_value(), GetParam().knows_planes);
+  ASSERT_EQ(planes.has_value(), GetParam().is_later);
   if (!planes) return;
   ASSERT_EQ(planes->planes.size(), 1u);
   EXPECT_EQ(planes->planes[0].id, 3u);
@@ -105,7 +105,7 @@ TEST_P(Growth, TheMapArrives) {
   ASSERT_EQ(map.landmarks().size(), 2u);
   EXPECT_EQ(map.landmarks()[1].id, 8u);
   EXPECT_EQ(map.landmarks()[1].position[2], 7);
-  ASSERT_EQ(map.plane_landmarks().planes().size(), GetParam().knows_planes ? 1u : 0u);
+  ASSERT_EQ(map.plane_landmarks().planes().size(), GetParam().is_later ? 1u : 0u);
   for (const hw_mapped_plane_t& plane : map.plane_landmarks().planes()) {
     ASSERT_EQ(map.plane_landmarks().outline(plane).size(), 3u);
     EXPECT_EQ(map.plane_landmarks().outline(plane)[0].flags, HW_EDGE_CERTAIN);

@@ -28,7 +28,7 @@ void put_everything(OutputCollector& collector) {
   covariance[1] = covariance[6] = -0.25;
   hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}, covariance};
   put(collector, HW_OUTPUT_POSE, &pose);
-  const hw_drive_command_t command{sizeof command, 0, 0.5, -0.25};
+  const hw_drive_command_t command{sizeof command, 0, 0.5, -0.25, 0.125};
   put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
   const hw_landmark_t points[]{{7, {1, 2, 3}, 4, HW_LANDMARK_MAPPED},
                                {9, {4, 5, 6}, 1, HW_LANDMARK_TEMPORARY}};
@@ -107,7 +107,7 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   ASSERT_EQ(read(std::as_bytes(std::span(room_))), "");
   const Outputs& outputs = reader_.outputs();
   EXPECT_EQ(outputs.pose()->T_map_body.orientation[1], 0.8);
-  EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -0.25}));
+  EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -0.25, 0.125}));
   ASSERT_EQ(outputs.landmarks().size(), 2u);
   EXPECT_EQ(outputs.landmarks()[1].position[2], 6);
   ASSERT_EQ(outputs.landmark_covariances().size(), 2u);

@@ -73,6 +73,29 @@ TEST(Outputs, ADriveCommandAnswersAFrame) {
   EXPECT_FALSE(collector.outputs().drive_command());
 }
 
+TEST(Outputs, ADriveCommandIsReadAsFarAsItWasWritten) {
+  FrameBuilder builder;
+  builder.begin(0, 0);
+  OutputCollector collector;
+  hw_drive_command_t command{sizeof command, 0, 0.5, 0.25, -0.125};
+  hw_output_t output{};
+  output.size = sizeof output;
+  output.kind = HW_OUTPUT_DRIVE_COMMAND;
+  output.payload = &command;
+  collector.begin(&builder.finish(), {});
+  EXPECT_EQ(collector.put(&output), HW_OK);
+  EXPECT_EQ(collector.outputs().drive_command(), (DriveCommand{0.5, 0.25, -0.125}));
+  command.size = offsetof(hw_drive_command_t, lateral_m_s);
+  command.lateral_m_s = std::numeric_limits<double>::quiet_NaN();
+  collector.begin(&builder.finish(), {});
+  EXPECT_EQ(collector.put(&output), HW_OK) << "written before 1.4";
+  EXPECT_EQ(collector.outputs().drive_command(), (DriveCommand{0.5, 0.25, 0}));
+  command.size = sizeof command;
+  collector.begin(&builder.finish(), {});
+  EXPECT_EQ(collector.put(&output), HW_ERROR_DATA);
+  EXPECT_EQ(collector.finish(), "drive_command: a speed that is not finite");
+}
+
 /// Hands over one counter.
 void put_counter(OutputCollector& collector, const char* name, double value) {
   const hw_counter_t counter{name, value};

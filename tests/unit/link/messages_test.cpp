@@ -47,7 +47,7 @@ TEST(Answer, IsReadBack) {
 
 TEST(Answer, OfALaterHostIsReadAsFarAsItIsKnown) {
   Bytes payload;
-  write_answer({.number = 5, .sequence = 77, .command = host::DriveCommand{0.25, 0.5}}, payload);
+  write_answer({.number = 5, .sequence = 77, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload);
   payload.resize(payload.size() + 16, std::byte{0x5a});
   const auto read = [&](std::uint8_t version) {
     const Bytes bytes = datagram_of({.type = Type::kAnswer, .sequence = 77, .version = version}, payload);
@@ -57,12 +57,23 @@ TEST(Answer, OfALaterHostIsReadAsFarAsItIsKnown) {
   const auto answer = read(kNewestVersion);
   ASSERT_TRUE(answer && answer->command);
   EXPECT_EQ(answer->number, 5u);
-  EXPECT_EQ(*answer->command, (host::DriveCommand{0.25, 0.5}));
+  EXPECT_EQ(*answer->command, (host::DriveCommand{0.25, 0.5, -0.125}));
+}
+
+TEST(Answer, SidewaysSpeedIsItsLastNumber) {
+  Bytes payload, before;
+  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload);
+  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5}}, before);
+  ASSERT_EQ(payload.size(), 104u);
+  EXPECT_EQ(load<double>(payload.data() + 96), -0.125);
+  EXPECT_EQ(load<std::uint64_t>(before.data() + 96), 0u) << "as hosts before it wrote";
+  EXPECT_TRUE(std::equal(payload.begin(), payload.begin() + 96, before.begin()));
 }
 
 TEST(Answer, WithoutSenseIsRefused) {
   EXPECT_FALSE(through({.status = HW_ANSWER_END + 1}));
   EXPECT_FALSE(through({.command = host::DriveCommand{kNan, 0}}));
+  EXPECT_FALSE(through({.command = host::DriveCommand{0, 0, kNan}}));
   EXPECT_FALSE(through({.command = host::DriveCommand{0, std::numeric_limits<double>::infinity()}}));
   EXPECT_FALSE(through({.pose = host::PoseOutput{true, {{0, kNan, 0}, {1, 0, 0, 0}}}}));
   EXPECT_FALSE(through({.pose = host::PoseOutput{true, {{0, 0, 0}, {1, 1, 0, 0}}}}));

@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "base/random.hpp"
+#include "log/command_file.hpp"
 #include "log/id_pairs.hpp"
 #include "log/landmarks.hpp"
 #include "log/map_landmarks.hpp"
@@ -199,20 +200,40 @@ TEST(Timing, IsPrintedInTheDocumentedForm) {
 TEST(Commands, ReadBackToTheSameBits) {
   std::vector<IterationCommand> commands;
   const std::vector<double> values = test::random_doubles(600, 9);
-  for (std::uint32_t i = 0; i < 300; ++i) commands.push_back({3 * i, values[2 * i], values[2 * i + 1]});
-  const std::vector<IterationCommand> back =
-      test::parse_commands(print_table(kCommandColumns, commands), "commands.csv");
+  for (std::uint32_t i = 0; i < 200; ++i)
+    commands.push_back({3 * i, values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+  const std::vector<IterationCommand> back = test::parse_commands(print_commands(commands), "commands.csv");
   ASSERT_EQ(back.size(), commands.size());
   for (std::size_t i = 0; i < commands.size(); ++i) {
     EXPECT_EQ(back[i].iteration, commands[i].iteration);
     EXPECT_TRUE(same_bits(back[i].linear_m_s, commands[i].linear_m_s));
     EXPECT_TRUE(same_bits(back[i].angular_rad_s, commands[i].angular_rad_s));
+    EXPECT_TRUE(same_bits(back[i].lateral_m_s, commands[i].lateral_m_s));
   }
 }
 
 TEST(Commands, ArePrintedInTheDocumentedForm) {
-  EXPECT_EQ(print_table(kCommandColumns, std::vector<IterationCommand>{{2, 0.25, -0.5}}),
-            "iteration,linear_m_s,angular_rad_s\n2,0.25,-0.5\n");
+  const std::vector<IterationCommand> ahead{{2, 0.25, -0.5}};
+  EXPECT_EQ(print_commands(ahead), "iteration,linear_m_s,angular_rad_s\n2,0.25,-0.5\n");
+  const std::vector<IterationCommand> sideways{{2, 0.25, -0.5}, {3, 0, 0, 0.125}};
+  EXPECT_EQ(print_commands(sideways),
+            "iteration,linear_m_s,angular_rad_s,lateral_m_s\n2,0.25,-0.5,0\n3,0,0,0.125\n");
+}
+
+TEST(Commands, AFileThatGrowsHasTheBytesOfTheTable) {
+  const test::TempFolder folder;
+  for (const std::size_t first_sideways : {0u, 1u, 9'000u, 20'000u}) {
+    std::vector<IterationCommand> commands;
+    const std::filesystem::path path = folder / std::to_string(first_sideways);
+    CommandFile file(path);
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+      commands.push_back({i, 0.1 * i, -1.0 / (i + 1), i >= first_sideways && i % 3 == 0 ? 0.01 * i + 1 : 0});
+      file.add(commands.back());
+    }
+    file.close();
+    EXPECT_EQ(read_file(path), print_commands(commands));
+    EXPECT_FALSE(std::filesystem::exists(path.string() + ".narrow"));
+  }
 }
 
 TEST(Commands, WhatIsWrongIsNamedWithItsLine) {

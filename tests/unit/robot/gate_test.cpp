@@ -40,7 +40,7 @@ class GateTest : public testing::Test {
   }
 
   Clock::time_point start_ = Clock::now();
-  hw_drive_command_t command_{sizeof command_, 0, 0.5, 0.1};
+  hw_drive_command_t command_{sizeof command_, 0, 0.5, 0.1, 0};
   std::vector<Written> written_;
   bool dead_ = false;
 };
