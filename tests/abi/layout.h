@@ -34,6 +34,27 @@ AT(hw_sample_t, t_begin_ns, 24);
 AT(hw_sample_t, t_end_ns, 32);
 AT(hw_sample_t, payload, 40);
 
+SIZE(hw_bump_zone_t, 40);
+AT(hw_bump_zone_t, direction, 0);
+AT(hw_bump_zone_t, depth_m, 24);
+AT(hw_bump_zone_t, zone, 32);
+AT(hw_bump_zone_t, pressed, 36);
+
+SIZE(hw_bump_t, 24);
+AT(hw_bump_t, size, 0);
+AT(hw_bump_t, stride, 4);
+AT(hw_bump_t, count, 8);
+AT(hw_bump_t, zones, 16);
+
+SIZE(hw_wheel_ticks_t, 8);
+AT(hw_wheel_ticks_t, ticks, 0);
+
+SIZE(hw_encoder_t, 24);
+AT(hw_encoder_t, size, 0);
+AT(hw_encoder_t, stride, 4);
+AT(hw_encoder_t, count, 8);
+AT(hw_encoder_t, wheels, 16);
+
 SIZE(hw_point3_t, 24);
 AT(hw_point3_t, x, 0);
 AT(hw_point3_t, y, 8);

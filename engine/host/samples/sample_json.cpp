@@ -52,6 +52,8 @@ void append_number(std::string& out, const std::byte* at, const PayloadMember& m
       return append_whole_or_none(out, load<std::uint32_t>(at), member.may_be_none);
     case NumberType::kU64:
       return append_whole_or_none(out, load<std::uint64_t>(at), member.may_be_none);
+    case NumberType::kI64:
+      return append_whole_or_none(out, load<std::int64_t>(at), member.may_be_none);
     case NumberType::kF64:
       return append_real(out, load<double>(at));
   }

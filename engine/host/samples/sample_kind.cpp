@@ -15,7 +15,8 @@ namespace hallway::host {
 namespace {
 
 std::vector<const SampleKind*>& table() {
-  static std::vector<const SampleKind*> kinds{&kPointSamples, &kPlaneSamples};
+  static std::vector<const SampleKind*> kinds{&kPointSamples, &kPlaneSamples, &kBumpSamples,
+                                              &kEncoderSamples};
   return kinds;
 }
 

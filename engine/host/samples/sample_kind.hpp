@@ -19,7 +19,7 @@ namespace hallway::host {
 inline constexpr std::size_t kNoMember = SIZE_MAX;
 
 /// Of the numbers of a member.
-enum class NumberType : std::uint8_t { kU32, kU64, kF64 };
+enum class NumberType : std::uint8_t { kU32, kU64, kI64, kF64 };
 
 /// Numbers in a payload's struct, or in an element of one of its arrays, as sample_json.hpp shows them.
 struct PayloadMember {
@@ -85,9 +85,11 @@ struct SampleKind {
   void (*example)(Payload& payload, const ExampleOf& of) = nullptr;
 };
 
-/// Points, and planes.
+/// The rows of the kinds that the SDK has.
 extern const SampleKind kPointSamples;
 extern const SampleKind kPlaneSamples;
+extern const SampleKind kBumpSamples;
+extern const SampleKind kEncoderSamples;
 
 /// The row of a kind; null for one that is not known.
 const SampleKind* find_sample_kind(std::uint32_t kind);

@@ -15,8 +15,8 @@ enum {
   HW_SAMPLE_PLANES = 2,      ///< hw_planes_t (planes.h); since 1.1
   HW_SAMPLE_SEGMENTS = 3,    ///< reserved
   HW_SAMPLE_RANGE_SCAN = 4,  ///< reserved
-  HW_SAMPLE_BUMP = 5,        ///< reserved
-  HW_SAMPLE_ENCODER = 6,     ///< reserved
+  HW_SAMPLE_BUMP = 5,        ///< hw_bump_t (bump.h); since 1.4
+  HW_SAMPLE_ENCODER = 6,     ///< hw_encoder_t (encoder.h); since 1.4
   HW_SAMPLE_ODOMETRY = 7,    ///< reserved
   HW_SAMPLE_IMAGE = 8,       ///< reserved
   HW_SAMPLE_DEPTH = 9        ///< reserved

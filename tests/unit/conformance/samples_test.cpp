@@ -28,7 +28,18 @@ TEST(Samples, APluginOfPlanesAloneIsGivenPlanes) {
 }
 
 TEST(Samples, DefectsOfAPluginOfPlanesAreFound) {
-  expect_defects_found("planes");
+  expect_defects_found("planes", 2);
+}
+
+TEST(Samples, PluginsOfContactZonesAndEncodersAreGivenThem) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  for (const char* plugin : {"bump", "encoder"})
+    expect_reasons(expect_good(setup_of_samples(none, plugin)), "the plugin refuses no sensors");
+}
+
+TEST(Samples, DefectsOfPluginsOfContactZonesAndEncodersAreFound) {
+  expect_defects_found("bump", 1);
+  expect_defects_found("encoder", 1);
 }
 
 TEST(Samples, SlamPlaneIsGivenPlanes) {
