@@ -18,11 +18,13 @@ constexpr const char* kSchema = "hallway.robot/1";
 constexpr std::uint64_t kMaxConfigBytes = 1u << 20;
 constexpr Range kRate_hz{0.1, 10'000.0};
 constexpr Range kReportEvery_s{0.0, 1e6};
+constexpr Range kCommandTimeout_s{0.0, 1e6};
 constexpr std::int64_t kMaxBacklog = 10'000;
 constexpr std::int64_t kMaxWatchdog_ms = 60'000;
 
 const std::vector<std::string> kTopKeys{"schema", "driver", "plugin", "limits", "robot"};
-const std::vector<std::string> kRobotKeys{"watchdog_ms", "rate_hz", "backlog", "report_every_s", "record"};
+const std::vector<std::string> kRobotKeys{"watchdog_ms",    "rate_hz", "backlog",
+                                          "report_every_s", "record",  "command_timeout_s"};
 
 /// Reads one configuration, table by table.
 class ConfigReader {
@@ -74,6 +76,8 @@ class ConfigReader {
       config_.backlog = static_cast<std::size_t>(robot.whole("backlog", 1, kMaxBacklog));
     config_.report_every_s = robot.number("report_every_s", kReportEvery_s, config_.report_every_s);
     config_.record = robot.flag("record", config_.record);
+    config_.command_timeout_s =
+        robot.number("command_timeout_s", kCommandTimeout_s, config_.command_timeout_s);
   }
 
   std::filesystem::path path_;

@@ -32,9 +32,10 @@ struct Config {
   std::optional<std::chrono::milliseconds> watchdog{};  ///< unset: by the period
   std::optional<double> rate_hz{};                      ///< unset: as frames come
   std::size_t backlog = 8;                              ///< frames that may wait while the plugins are busy
-  double report_every_s = 0.0;    ///< how often the map is asked for and given to the robot; 0: never
-  bool record = true;             ///< whether a log is written
-  std::vector<Setting> settings;  ///< every effective setting, in the order of the file
+  double report_every_s = 0.0;     ///< how often the map is asked for and given to the robot; 0: never
+  double command_timeout_s = 0.0;  ///< how long a command holds when no new one comes; 0: until the next
+  bool record = true;              ///< whether a log is written
+  std::vector<Setting> settings;   ///< every effective setting, in the order of the file
 
   /// A short name for titles: the file's, without folder and extension.
   std::string name() const { return std::filesystem::path(file).stem().string(); }

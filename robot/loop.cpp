@@ -37,7 +37,8 @@ Loop::Loop(const Parts& parts, const LoopPlan& plan, LoopHooks hooks)
     : parts_(parts),
       plan_(plan),
       hooks_(std::move(hooks)),
-      arrivals_(parts.driver, parts.robot, plan.backlog) {}
+      arrivals_(parts.driver, parts.robot, plan.backlog),
+      command_timeout_(plan.command_timeout_ns) {}
 
 LoopEnd Loop::run() {
   struct Stopper {
@@ -102,6 +103,7 @@ void Loop::answer_frame() {
     current_.time = parts_.pipeline.last_call();
   } else {
     parts_.gate.fail(failure ? failure->message : "the plugins have failed", now);
+    command_timeout_.forget();
   }
   parts_.recorder.add(current_);
   const std::uint32_t iteration = counts_.iterations++;
@@ -123,6 +125,10 @@ void Loop::hand_on(const host::Outputs& outputs, Clock::time_point now) {
   if (outputs.drive_command()) {
     command = command_of(*outputs.drive_command());
     answer.command = &command;
+  } else if (command_timeout_.expires(current_.t_ns)) {
+    command = command_of({});
+    answer.command = &command;
+    answer.message = "no new command within command_timeout_s";
   }
   if (outputs.pose()) {
     pose = pose_of(*outputs.pose());
@@ -135,7 +141,9 @@ void Loop::hand_on(const host::Outputs& outputs, Clock::time_point now) {
   add_counters(outputs);
   counters = {sizeof counters, sizeof(hw_counter_t), counters_.size(), counters_.data()};
   answer.counters = &counters;
-  parts_.gate.answer(answer, now);
+  const bool in_time = parts_.gate.answer(answer, now);
+  if (!in_time) command_timeout_.forget();
+  if (in_time && outputs.drive_command()) command_timeout_.obey(current_.t_ns);
   map_.reset();
 }
 
@@ -177,6 +185,7 @@ void Loop::ask_for_map() {
   });
   if (!failure) return;
   parts_.gate.fail(failure->message, Clock::now());
+  command_timeout_.forget();
   after_failure(std::move(*failure), std::nullopt);
 }
 

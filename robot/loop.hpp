@@ -13,6 +13,7 @@
 #include "host/samples/frame_bytes.hpp"
 #include "record/failures.hpp"
 #include "robot/arrivals.hpp"
+#include "robot/command_timeout.hpp"
 #include "robot/gate.hpp"
 #include "robot/latency.hpp"
 #include "robot/recorder.hpp"
@@ -27,6 +28,7 @@ struct LoopPlan {
   std::optional<Clock::duration> deadline{};  ///< for an answer, from its frame or tick; unset: there is none
   std::size_t backlog = 8;           ///< frames that may wait while the plugins are busy; not with a schedule
   std::int64_t report_every_ns = 0;  ///< of the frames' time; 0: the map is not asked for
+  std::int64_t command_timeout_ns = 0;  ///< of the frames' time, that a command holds; 0: until the next
   std::optional<Clock::duration> duration{};  ///< after which it ends
   host::OnFailure on_failure = host::OnFailure::kStop;
 };
@@ -67,6 +69,8 @@ class Loop {
 
   const LoopCounts& counts() const { return counts_; }
   IntakeCounts intake() const { return arrivals_.counts(); }
+  /// How often a command did not hold any longer.
+  std::uint64_t command_timeouts() const { return command_timeout_.count(); }
   const SampleCounter& samples() const { return samples_; }
   const record::Failures& failures() const { return failures_; }
   /// The map at the end: refined, as it stands where that fails, empty where the pipeline has failed before.
@@ -94,6 +98,7 @@ class Loop {
   Arrival arrival_;
   FrameRecord current_;
   Clock::time_point due_from_{};  ///< what the current frame's deadline counts from
+  CommandTimeout command_timeout_;
   bool alive_ = true;
   std::int64_t next_report_ns_ = 0;
   std::optional<std::vector<hw_landmark_t>> map_;  ///< asked for and not yet handed on

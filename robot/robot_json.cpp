@@ -98,13 +98,15 @@ Json print_robot(const RobotFacts& facts) {
               {"answered", facts.loop.counts().answered},
               {"unrecorded", facts.unrecorded}};
   if (Json missing = print_missing(facts); !missing.empty()) frames["samples_missing"] = std::move(missing);
+  Json timing = print_timing(facts);
+  if (facts.command_timeout_s > 0) timing["command_timeouts"] = facts.loop.command_timeouts();
   return {{"name", facts.robot.name},
           {"lock_step", facts.robot.lock_step},
           {"watchdog_ms", watched ? Json(milliseconds(facts.timing.watchdog)) : Json()},
           {"ended_by", facts.end},
           {"frames", std::move(frames)},
           {"driver_counters", counters},
-          {"timing", print_timing(facts)}};
+          {"timing", std::move(timing)}};
 }
 
 }  // namespace hallway::robot

@@ -27,6 +27,7 @@ struct RobotFacts {
   GateCounts gate{};
   std::uint64_t unrecorded = 0;
   const std::vector<host::Counter>& driver_counters;
+  double command_timeout_s = 0;  ///< 0: a command holds until the next
   std::string end{};
 };
 

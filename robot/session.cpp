@@ -79,6 +79,7 @@ class Session {
             .deadline = timing_.deadline,
             .backlog = config_.backlog,
             .report_every_ns = static_cast<std::int64_t>(config_.report_every_s * 1e9),
+            .command_timeout_ns = static_cast<std::int64_t>(config_.command_timeout_s * 1e9),
             .duration = plan_.duration,
             .on_failure = config_.limits.on_failure};
   }
@@ -122,6 +123,7 @@ class Session {
                                              .gate = gate.counts(),
                                              .unrecorded = recorder.unrecorded(),
                                              .driver_counters = driver_counters,
+                                             .command_timeout_s = config_.command_timeout_s,
                                              .end = end_name()});
     record::write_json(output_.working_path() / record::files::kRun, result_.manifest);
     output_.commit();

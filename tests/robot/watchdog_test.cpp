@@ -99,6 +99,22 @@ TEST(Watchdog, ACrashingPluginStopsTheRobotAtOnceAndIsStartedAgain) {
   EXPECT_EQ(world.manifest().at("verdict").at("what"), "crash");
 }
 
+TEST(CommandTimeout, StopsARobotWhosePluginFallsSilent) {
+  const std::string silent = drives("silent_from = 5");
+  for (const bool limited : {true, false}) {
+    const RobotWorld world("frames = 12\nlock_step = true\nperiod_ms = 100", silent,
+                           limited ? "[robot]\ncommand_timeout_s = 0.25" : "");
+    ASSERT_EQ(world.run().status, 0);
+    std::vector<std::uint64_t> stopped;
+    for (const Note& note : world.notes())
+      if (note.is_answer(HW_ANSWER_DONE) && note.stops()) stopped.push_back(note.sequence);
+    EXPECT_EQ(stopped, limited ? std::vector<std::uint64_t>{7} : std::vector<std::uint64_t>{})
+        << "frame 4 had the last command";
+    const auto timing = world.manifest().at("robot").at("timing");
+    EXPECT_EQ(timing.value("command_timeouts", -1), limited ? 1 : -1);
+  }
+}
+
 TEST(Watchdog, ACrashedPluginThatIsNotStartedAgainStopsTheRobotInEveryFrame) {
   const RobotWorld world("frames = 12\nlock_step = true", breaks("segv", 5),
                          "[limits]\non_failure = \"continue\"\n");

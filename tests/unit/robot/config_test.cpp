@@ -31,6 +31,7 @@ on_failure = "restart"
 watchdog_ms = 80
 rate_hz = 50
 report_every_s = 1
+command_timeout_s = 0.5
 record = false
 )";
 
@@ -54,6 +55,7 @@ TEST(Config, IsReadAsItStands) {
   EXPECT_EQ(config.watchdog, milliseconds(80));
   EXPECT_EQ(config.rate_hz, 50.0);
   EXPECT_EQ(config.report_every_s, 1.0);
+  EXPECT_EQ(config.command_timeout_s, 0.5);
   EXPECT_FALSE(config.record);
 }
 
@@ -62,6 +64,7 @@ TEST(Config, WhatIsNotSaidHasDefaults) {
   EXPECT_FALSE(config.watchdog);
   EXPECT_FALSE(config.rate_hz);
   EXPECT_TRUE(config.record);
+  EXPECT_EQ(config.command_timeout_s, 0.0);
   EXPECT_EQ(config.limits.call_timeout_s, 10.0);
   EXPECT_EQ(config.limits.on_failure, host::OnFailure::kStop);
 }
@@ -139,6 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"UnknownOfRobot", kBoth + "[robot]\nwatchdg_ms = 5\n", 6, "robot.watchdg_ms",
               "did you mean \"watchdog_ms\"?"},
         Wrong{"NoTimeForTheWatchdog", kBoth + "[robot]\nwatchdog_ms = 0\n", 6, "robot.watchdog_ms",
+              "out of range"},
+        Wrong{"NoTimeForACommand", kBoth + "[robot]\ncommand_timeout_s = -1\n", 6, "robot.command_timeout_s",
               "out of range"},
         Wrong{"NoRate", kBoth + "[robot]\nrate_hz = 0\n", 6, "robot.rate_hz", "out of range"},
         Wrong{"RecordIsText", kBoth + "[robot]\nrecord = 'yes'\n", 6, "robot.record", "true or false"},
