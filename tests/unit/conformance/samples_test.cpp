@@ -51,6 +51,13 @@ TEST(Samples, SlamPlaneIsGivenPlanes) {
   EXPECT_FALSE(skipped.contains("params-sensor")) << "its noise is that of the sensor of planes";
 }
 
+TEST(Samples, TheExampleThatDrivesIsGood) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  SuiteSetup setup = none.setup();
+  setup.subject.file = EXAMPLE_THAT_DRIVES;
+  expect_reasons(expect_good(setup), "the plugin refuses no sensors");
+}
+
 TEST(Samples, OfAKindThatNoRowHasAreNotMade) {
   const DefectivePlugin none("defective_samples", "defective_samples");
   SuiteSetup setup = setup_of_samples(none, "made_up");
