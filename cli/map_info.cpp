@@ -29,7 +29,8 @@ struct Facts {
   std::vector<map::LeftOutCount> left_out;
   Box bounds;
   double metres_per_unit = 0.0;
-  std::size_t points = 0;  ///< for point sensors
+  std::size_t points = 0;           ///< for point sensors
+  std::vector<std::string> starts;  ///< names of the robot starts; empty for the unnamed one
 };
 
 const char* role_name(map::BrushRole role) {
@@ -62,6 +63,9 @@ Facts facts_of(const map::Document& document) {
   facts.bounds = world.bounds;
   facts.metres_per_unit = world.metres_per_unit;
   facts.points = sense::make_landmarks(document, world, csg::build_surface(world)).size();
+  for (const map::Entity& entity : document.entities) {
+    if (entity.classname() == "hw_robot_start") facts.starts.push_back(printable(entity.value("name"), 60));
+  }
   return facts;
 }
 
@@ -88,6 +92,13 @@ std::string bounds_text(const Box& box) {
                      box.max().y(), box.max().z());
 }
 
+std::string starts_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : ", ") + (name.empty() ? "one without a name" : name);
+  return text;
+}
+
 std::string text_of(const std::string& map, const Facts& facts) {
   constexpr std::size_t kMostNames = 12;
   Counts left_out;
@@ -102,6 +113,7 @@ std::string text_of(const std::string& map, const Facts& facts) {
   if (!left_out.empty()) row("left out", list_of(left_out, kMostNames));
   if (facts.bad_brushes > 0) row("no solids", fmt::to_string(facts.bad_brushes));
   row("materials", fmt::format("{}: {} faces", facts.materials.size(), list_of(facts.materials, kMostNames)));
+  if (!facts.starts.empty()) row("starts", starts_text(facts.starts));
   row("bounds", bounds_text(facts.bounds));
   row("scale", fmt::format("{} m per unit", format_double(facts.metres_per_unit)));
   row("points", fmt::to_string(facts.points));
@@ -133,6 +145,7 @@ Json document_of(const std::string& map, const Facts& facts) {
             {"left_out", left_out},
             {"no_solids", facts.bad_brushes}}},
           {"materials", json_of(facts.materials)},
+          {"robot_starts", facts.starts},
           {"bounds_m", bounds},
           {"metres_per_unit", facts.metres_per_unit},
           {"points", facts.points}};

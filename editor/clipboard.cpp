@@ -88,11 +88,13 @@ class Copier {
 
  private:
   void leave_out_starts(const State& source, std::vector<Thing>& things) {
-    const auto is_start = [](const EntityItem& entity) { return entity.classname() == "hw_robot_start"; };
+    const auto is_start = [](const EntityItem& entity) {
+      return entity.classname() == "hw_robot_start" && entity.value("name").empty();
+    };
     if (!find_entity(edit_.state, is_start)) return;
     const auto gone =
         std::erase_if(things, [&](const Thing& thing) { return is_start(*source.entities[thing.entity]); });
-    if (gone > 0) copies_.notes.push_back("the robot's start is left out: a map has one");
+    if (gone > 0) copies_.notes.push_back("the robot start without a name is left out: a map has one");
   }
 
   void choose_names(const State& source, const std::vector<Thing>& things) {

@@ -98,7 +98,7 @@ class PlanMaker {
     const PlanColumns columns(surface_);
     columns_ = &columns;
     plan_.below = edges_below(surface_, columns, height);
-    add_start();
+    add_starts();
     add_lights();
     add_paths();
     for (std::size_t e = 0; e < state_.entities.size(); ++e) add_name(e);
@@ -134,14 +134,16 @@ class PlanMaker {
     }
   }
 
-  void add_start() {
-    or_note("the robot's start", [&] {
-      const auto start = map::find_robot_start(document_);
+  void add_starts() {
+    or_note("a robot start", [&] {
+      const auto starts = map::robot_starts(document_);
       if (const auto off = map::start_off_all_paths(document_))
         plan_.notes.push_back("warning: " + map::start_off_path_text(*off));
-      if (!start || !is_seen(*columns_, start->T_world_body.t, plan_.height_m)) return;
-      const Vec3 ahead = start->T_world_body.q * Vec3::UnitX();
-      plan_.start = PlanStart{start->T_world_body.t.head<2>(), ahead.head<2>().normalized()};
+      for (const map::RobotStart& start : starts) {
+        if (!is_seen(*columns_, start.T_world_body.t, plan_.height_m)) continue;
+        const Vec3 ahead = start.T_world_body.q * Vec3::UnitX();
+        plan_.starts.push_back({start.T_world_body.t.head<2>(), ahead.head<2>().normalized()});
+      }
     });
   }
 
@@ -271,7 +273,7 @@ PlanBox FloorPlan::bounds() const {
     for (const Vec2& point : path) box.extend(point);
   }
   for (const Vec2& light : lights) box.extend(light);
-  if (start) box.extend(start->at);
+  for (const PlanStart& start : starts) box.extend(start.at);
   return box;
 }
 

@@ -29,7 +29,7 @@ struct FloorPlan {
   double height_m = 0.0;
   Section section{};
   std::vector<PlanLine> below{};  ///< edges of what is lower, as seen from above
-  std::optional<PlanStart> start{};
+  std::vector<PlanStart> starts{};
   std::vector<std::vector<Vec2>> paths{};  ///< as far as they are seen
   std::vector<Vec2> lights{};
   std::vector<PlanName> names{};

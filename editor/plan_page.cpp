@@ -113,7 +113,7 @@ class PlanDrawer {
     draw_solid();
     draw_paths();
     draw_lights();
-    draw_start();
+    draw_starts();
     if (paper_.dimensions) draw_dimensions();
     draw_names();
     draw_frame();
@@ -234,15 +234,17 @@ class PlanDrawer {
     }
   }
 
-  void draw_start() {
-    if (!plan_.start) return;
+  void draw_starts() {
+    if (plan_.starts.empty()) return;
     begin("start");
-    const Vec2 at = on_paper(plan_.start->at), ahead = plan_.start->ahead;
-    const Vec2 left(-ahead.y(), ahead.x());
-    const Pen pen{.colour = kRobot, .width_mm = 0.35};
-    circle(at, 1.6, pen);
-    line({at, at + 4.0 * ahead}, pen);
-    area({{at + 5.2 * ahead, at + 3.4 * ahead + 0.8 * left, at + 3.4 * ahead - 0.8 * left}}, kRobot);
+    for (const PlanStart& start : plan_.starts) {
+      const Vec2 at = on_paper(start.at), ahead = start.ahead;
+      const Vec2 left(-ahead.y(), ahead.x());
+      const Pen pen{.colour = kRobot, .width_mm = 0.35};
+      circle(at, 1.6, pen);
+      line({at, at + 4.0 * ahead}, pen);
+      area({{at + 5.2 * ahead, at + 3.4 * ahead + 0.8 * left, at + 3.4 * ahead - 0.8 * left}}, kRobot);
+    }
   }
 
   /// A line between two places on paper with its ends ticked, and a measure over it.

@@ -17,6 +17,7 @@
 #include "editor/commands/making.hpp"
 #include "editor/commands/topics.hpp"
 #include "editor/selection.hpp"
+#include "map/entities.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
 #include "map/sensors.hpp"
@@ -31,7 +32,8 @@ constexpr ArgSpec kHeading =
     ArgSpec{"heading", ArgKind::kAngle, "counter-clockwise from above, 0 along x", "0"}.within(-3600, 3600);
 constexpr ArgSpec kOptionalName{"name", ArgKind::kName, "what it is called"};
 
-constexpr std::array kStart{kAt, kHeading};
+constexpr std::array kStart{kAt, kHeading,
+                            ArgSpec{"name", ArgKind::kName, "of the start [the default one has none]"}};
 
 constexpr std::array kSensor{
     ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
@@ -94,18 +96,25 @@ map::Entity point_entity(const Edit& edit, const char* classname, const Vec3& at
   return entity;
 }
 
+/// Makes the start of a name, or moves it; without a name the default one.
 void start(Edit& edit, const Arguments& arguments) {
   worldspawn(edit.state);
-  const auto starts = entities_where(
-      edit.state, [](const EntityItem& entity) { return entity.classname() == "hw_robot_start"; });
+  const std::string name = arguments.has("name") ? arguments.text("name") : std::string();
+  if (name == map::kFreeStart)
+    refuse("start: no robot start may be named `free`: scenarios mean any free place by it");
+  const auto starts = entities_where(edit.state, [&](const EntityItem& entity) {
+    return entity.classname() == "hw_robot_start" && entity.value("name") == name;
+  });
   if (starts.size() > 1) {
-    refuse("start: there are {} robot starts, and a map has one; `delete` the others than {}", starts.size(),
+    refuse("start: there are {} robot starts {}, and a map has one; `delete` the others than {}",
+           starts.size(), name.empty() ? "without a name" : "of that name",
            describe(edit.state, starts.front()));
   }
   const std::string heading = degrees_text(arguments.number("heading"));
   if (starts.empty()) {
     map::Entity entity = point_entity(edit, "hw_robot_start", arguments.place("at"));
     entity.add("angle", heading);
+    if (!name.empty()) entity.add("name", name);
     return say_made(edit, {add_entity(edit.state, std::move(entity))});
   }
   set_key(edit.state, starts[0].entity, "origin", vector_text(edit.units(arguments.place("at"))));
@@ -390,14 +399,15 @@ void mesh(Edit& edit, const Arguments& arguments) {
 }
 
 constexpr std::array kPlacesCommands{
-    CommandSpec{.name = "start",
-                .summary = "put the robot's start somewhere; a map has one",
-                .details =
-                    "A robot that follows a path begins where the path does; `validate` warns where no "
-                    "path begins at the start.",
-                .arguments = kStart,
-                .example = "start at 1,1,0.2 heading 90",
-                .run = &start},
+    CommandSpec{
+        .name = "start",
+        .summary = "put a robot start somewhere, or move the one of that name",
+        .details = "A start without a name is the default, and a map has at most one such; scenarios choose "
+                   "others by name. A robot that follows a path begins where the path does; `validate` warns "
+                   "where no path begins at the default start.",
+        .arguments = kStart,
+        .example = "start at 1,1,0.2 heading 90",
+        .run = &start},
     CommandSpec{.name = "sensor",
                 .summary = "put a sensor on the robot, or change the one of that name",
                 .details = "Scenarios without sensors of their own take those of their map. Of a sensor that "

@@ -12,6 +12,7 @@
 
 #include "base/text.hpp"
 #include "map/content.hpp"
+#include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
@@ -55,6 +56,7 @@ class Checker {
     const Names paths = check_names("hw_path");
     check_names("hw_landmark_cloud");
     check_names("hw_sensor");
+    check_names("hw_robot_start");
     check_sensors();
     check_references("hw_waypoint", paths);
     check_references("hw_landmark_cloud", paths);
@@ -162,18 +164,26 @@ class Checker {
     }
   }
 
+  /// Those without a name; of those with one, check_names() says which are doubled.
   void check_robot_starts() {
     const Entity* first = nullptr;
     for (const Entity& entity : document_.entities) {
       if (entity.classname() != "hw_robot_start") continue;
-      if (!first) {
-        first = &entity;
-        continue;
+      const EntityKeys keys(document_, entity);
+      if (entity.value("name") == kFreeStart) {
+        add(Severity::kError,
+            keys.error("no robot start may be named `free`: scenarios mean any free place by it", "name"),
+            "bad-value");
       }
-      add(Severity::kError,
-          EntityKeys(document_, entity)
-              .error("a second robot start; the first is at line " + std::to_string(first->line)),
-          "two-robot-starts");
+      if (entity.find("name")) continue;
+      if (first) {
+        add(Severity::kError,
+            keys.error("a second robot start without a name; the first is at line " +
+                       std::to_string(first->line)),
+            "two-robot-starts");
+      } else {
+        first = &entity;
+      }
     }
   }
 

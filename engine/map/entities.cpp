@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "map/entities.hpp"
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/text.hpp"
@@ -35,19 +37,74 @@ void read_motion(const EntityKeys& keys, LandmarkCloud& cloud) {
   cloud.groups = static_cast<std::uint32_t>(groups);
 }
 
+/// "`hall`, `door` and an unnamed one".
+std::string list_of(const std::vector<RobotStart>& starts) {
+  constexpr std::size_t kMost = 20;
+  if (starts.empty()) return "none";
+  std::string out;
+  for (std::size_t i = 0; i < std::min(starts.size(), kMost); ++i) {
+    const std::string& name = starts[i].name;
+    out += (i == 0 ? "" : ", ") + (name.empty() ? "an unnamed one" : "`" + printable(name, 60) + "`");
+  }
+  return starts.size() > kMost ? out + ", …" : out;
+}
+
+Error second_start(const EntityKeys& keys, const std::string& name, int first_line) {
+  const std::string which = name.empty() ? "without a name" : "named `" + printable(name, 60) + "`";
+  return keys.error("a second robot start " + which + "; the first is at line " + std::to_string(first_line),
+                    "name");
+}
+
+Error reserved_start(const EntityKeys& keys) {
+  return keys.error("no robot start may be named `free`: scenarios mean any free place by it", "name");
+}
+
 }  // namespace
 
-std::optional<RobotStart> find_robot_start(const Document& document) {
-  std::optional<RobotStart> start;
+std::vector<RobotStart> robot_starts(const Document& document) {
+  std::vector<RobotStart> starts;
+  std::map<std::string, int> lines;
   for (const Entity& entity : document.entities) {
     if (entity.classname() != "hw_robot_start") continue;
     const EntityKeys keys(document, entity);
-    if (start) throw keys.error("a second robot start; the first is at line " + std::to_string(start->line));
     keys.refuse_unknown();
-    start =
-        RobotStart{{from_yaw_pitch_roll(keys.angle(), 0.0, 0.0), keys.origin_m()}, keys.index(), entity.line};
+    RobotStart start;
+    if (keys.has("name")) start.name = keys.text("name");
+    const auto [first, is_new] = lines.emplace(start.name, entity.line);
+    if (!is_new) throw second_start(keys, first->first, first->second);
+    if (start.name == kFreeStart) throw reserved_start(keys);
+    start.T_world_body = {from_yaw_pitch_roll(keys.angle(), 0.0, 0.0), keys.origin_m()};
+    start.entity = keys.index();
+    start.line = entity.line;
+    starts.push_back(std::move(start));
   }
-  return start;
+  return starts;
+}
+
+std::optional<RobotStart> default_robot_start(const Document& document) {
+  std::vector<RobotStart> starts = robot_starts(document);
+  if (starts.size() == 1) return std::move(starts.front());
+  const auto unnamed = std::ranges::find(starts, std::string(), &RobotStart::name);
+  return unnamed == starts.end() ? std::nullopt : std::optional(std::move(*unnamed));
+}
+
+std::optional<RobotStart> find_robot_start(const Document& document, std::string_view name) {
+  const std::vector<RobotStart> starts = robot_starts(document);
+  if (!name.empty()) {
+    const auto found = std::ranges::find(starts, name, &RobotStart::name);
+    if (found != starts.end()) return *found;
+    std::vector<std::string> names;
+    for (const RobotStart& start : starts) names.push_back(start.name);
+    throw Error(ErrorCode::kBadInput,
+                "the map has no robot start `" + printable(name, 60) + "`" + suggestion(name, names) +
+                    "; it has " + list_of(starts),
+                {document.file, 0, {}});
+  }
+  if (auto start = default_robot_start(document)) return start;
+  if (starts.empty()) return std::nullopt;
+  throw Error(ErrorCode::kBadInput,
+              "the map has several robot starts, and none is chosen: " + list_of(starts),
+              {document.file, starts.front().line, {}});
 }
 
 std::vector<LandmarkCloud> landmark_clouds(const Document& document) {

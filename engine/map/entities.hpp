@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/se3.hpp"
@@ -13,8 +14,9 @@ namespace hallway::map {
 
 /// Entity `hw_robot_start`: where a robot stands at first.
 struct RobotStart {
-  Pose T_world_body;  ///< level, turned by `angle` about z
-  int entity = 0;     ///< index in Document::entities
+  std::string name{};  ///< empty for the unnamed one, which is the default
+  Pose T_world_body;   ///< level, turned by `angle` about z
+  int entity = 0;      ///< index in Document::entities
   int line = 0;
 };
 
@@ -43,8 +45,20 @@ struct FacePoints {
   std::uint64_t seed = 0;
 };
 
-/// The robot's start, if the map has one. Throws Error{kBadInput} for two, or a bad key.
-std::optional<RobotStart> find_robot_start(const Document& document);
+/// A name that no robot start may have: scenarios mean any free place by it.
+inline constexpr std::string_view kFreeStart = "free";
+
+/// All robot starts in the order of the file. Throws Error{kBadInput} for two unnamed ones, two of one name, or a bad key.
+std::vector<RobotStart> robot_starts(const Document& document);
+
+/// The start of a robot that is given none: the only start, or the unnamed one among others. None where the map has no start, or several
+/// that are all named. Throws as robot_starts() does.
+std::optional<RobotStart> default_robot_start(const Document& document);
+
+/// The start of that name; by an empty name the default. None only where no name is given and the map has no start at all. Throws
+/// Error{kBadInput} with the starts there are for a name that no start has, and where no name is given and several starts have one each; and
+/// as robot_starts() does.
+std::optional<RobotStart> find_robot_start(const Document& document, std::string_view name = {});
 
 /// All clouds in the order of the file. Throws Error{kBadInput} for a bad key or two clouds of one name; whether the path
 /// exists is find_path()'s to say.

@@ -62,7 +62,7 @@ constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""), number("_scale", 1
                             KeySpec{.name = "_point_seed", .kind = KeyKind::kSeed, .fallback = "0"}};
 constexpr std::array kGroup{kOwnPoints};
 constexpr std::array kOrdered{kOrder, kOwnPoints};
-constexpr std::array kStart{kOrigin, kAngle};
+constexpr std::array kStart{kOrigin, kAngle, KeySpec{.name = "name", .kind = KeyKind::kName}};
 constexpr std::array kPath{
     required("name", KeyKind::kName),
     KeySpec{.name = "shape",

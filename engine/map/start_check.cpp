@@ -60,14 +60,14 @@ std::string place_text(const Vec3& place) {
 }  // namespace
 
 std::optional<StartOffPath> start_off_path(const Document& document, std::string_view path) {
-  const auto start = find_robot_start(document);
+  const auto start = default_robot_start(document);
   return start ? compare(document, *start, path) : std::nullopt;
 }
 
 std::optional<StartOffPath> start_off_all_paths(const Document& document) {
   std::optional<StartOffPath> nearest;
   try {
-    const auto start = find_robot_start(document);
+    const auto start = default_robot_start(document);
     if (!start) return std::nullopt;
     std::size_t tried = 0;
     for (const Entity& entity : document.entities) {

@@ -18,10 +18,10 @@ struct StartOffPath {
   double distance_m = 0;  ///< between the two
 };
 
-/// Compares the map's robot start with the beginning of one path; empty where they agree within a centimetre on the ground and a metre in
-/// height, or the map has no start. A
+/// Compares the map's default robot start (default_robot_start()) with the beginning of one path; empty where they agree within a centimetre on the ground and a metre in
+/// height, or the map has no such start. A
 /// closed path with a rounded corner at its first waypoint agrees with a start at that waypoint too. Headings are not compared.
-/// Throws Error{kBadInput} as find_robot_start() and find_path() do.
+/// Throws Error{kBadInput} as default_robot_start() and find_path() do.
 std::optional<StartOffPath> start_off_path(const Document& document, std::string_view path);
 
 /// The same for a map whose path is not chosen yet: empty where any path begins at the start or cannot be made; else the path that

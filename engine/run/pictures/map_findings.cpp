@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -160,20 +161,21 @@ std::vector<std::uint32_t> connected_parts(const bsp::PortalGraph& graph) {
   return parts;
 }
 
-/// Waypoints to which no opening leads from the robot's start. Those in solid are said already.
+/// Waypoints to which no opening leads from any robot start. Those in solid are said already.
 void add_unreachable_waypoints(Findings& findings, const world::CompiledWorld& world) {
-  const auto start = std::find_if(world.occupants.begin(), world.occupants.end(), [](const auto& occupant) {
-    return occupant.classname == "hw_robot_start";
-  });
-  if (start == world.occupants.end()) return;
   const bsp::Tree& tree = world.partition.tree;
-  const std::int32_t home = bsp::cluster_at(tree, start->position_m);
-  if (home < 0) return;
   const auto parts = connected_parts(world.partition.portals);
+  std::set<std::uint32_t> reached;
+  for (const map::Occupant& occupant : world.occupants) {
+    const std::int32_t cluster =
+        occupant.classname == "hw_robot_start" ? bsp::cluster_at(tree, occupant.position_m) : -1;
+    if (cluster >= 0) reached.insert(parts[static_cast<std::size_t>(cluster)]);
+  }
+  if (reached.empty()) return;
   for (const map::Occupant& occupant : world.occupants) {
     const std::int32_t cluster = bsp::cluster_at(tree, occupant.position_m);
     if (occupant.classname != "hw_waypoint" || cluster < 0) continue;
-    if (parts[static_cast<std::size_t>(cluster)] == parts[static_cast<std::size_t>(home)]) continue;
+    if (reached.contains(parts[static_cast<std::size_t>(cluster)])) continue;
     findings.add(
         Severity::kError, occupant.entity, occupant.line,
         fmt::format("waypoint {} at {} cannot be reached from the robot's start: no opening leads there",

@@ -66,7 +66,7 @@ void add_paths(render::Picture& picture, const map::Document& document) {
 
 /// Where the robot begins: at its start, else at the first path's.
 std::optional<Pose> first_pose(const map::Document& document) {
-  if (const auto start = unless_wrong([&] { return map::find_robot_start(document); }))
+  if (const auto start = unless_wrong([&] { return map::default_robot_start(document); }))
     return start->T_world_body;
   for (const map::Entity& entity : document.entities) {
     const std::string* name = entity.classname() == "hw_path" ? entity.find("name") : nullptr;
@@ -76,18 +76,19 @@ std::optional<Pose> first_pose(const map::Document& document) {
   return std::nullopt;
 }
 
-void add_start(render::Picture& picture, const map::Document& document) {
+void add_starts(render::Picture& picture, const map::Document& document) {
   constexpr double kHeading_m = 0.7;
-  const auto start = unless_wrong([&] { return map::find_robot_start(document); });
-  if (!start) return;
-  const Pose& T = start->T_world_body;
-  picture.polylines.push_back(
-      {.points = {T.t, T * Vec3(kHeading_m, 0, 0)}, .colour = kStartColour, .width_px = 3.0});
-  picture.markers.push_back({.positions = {T.t},
-                             .shape = render::MarkerShape::kDiamond,
-                             .colour = kStartColour,
-                             .size_px = 11.0,
-                             .label = "robot start"});
+  for (const map::RobotStart& start : unless_wrong([&] { return map::robot_starts(document); })) {
+    const Pose& T = start.T_world_body;
+    picture.polylines.push_back(
+        {.points = {T.t, T * Vec3(kHeading_m, 0, 0)}, .colour = kStartColour, .width_px = 3.0});
+    picture.markers.push_back(
+        {.positions = {T.t},
+         .shape = render::MarkerShape::kDiamond,
+         .colour = kStartColour,
+         .size_px = 11.0,
+         .label = start.name.empty() ? "robot start" : "robot start " + printable(start.name, 80)});
+  }
 }
 
 /// What all kinds of sensors have.
@@ -177,7 +178,7 @@ void add_map_things(render::Picture& picture, const map::Document& document,
   if (things.paths) add_paths(picture, document);
   if (things.sensors) add_sensors(picture, document);
   if (things.lights) add_lights(picture, world);
-  if (things.start) add_start(picture, document);
+  if (things.start) add_starts(picture, document);
 }
 
 }  // namespace hallway::run

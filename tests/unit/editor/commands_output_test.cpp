@@ -296,7 +296,7 @@ TEST(Import, ASecondStartStaysOutside) {
   for (const auto& entity : editing.session->state().entities)
     starts += entity->classname() == "hw_robot_start" ? 1u : 0u;
   EXPECT_EQ(starts, 1u);
-  EXPECT_TRUE(mentions(report.lines.at(0), "robot's start is left out"));
+  EXPECT_TRUE(mentions(report.lines.at(0), "robot start without a name is left out"));
 }
 
 TEST(Import, Refuses) {

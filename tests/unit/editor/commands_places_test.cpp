@@ -41,6 +41,18 @@ TEST(PlacesCommands, StartIsOneAndKeepsItsNumber) {
   EXPECT_TRUE(mentions(refusal(map, "start 1,1"), "2 robot starts"));
 }
 
+TEST(PlacesCommands, StartsWithNamesStandBesideTheDefault) {
+  Places map;
+  map.run("start at 1,2,0");
+  const auto made = map.run("start at 3,2,0 name=hall").data["made"];
+  EXPECT_EQ(map.run("start at 4,2,0 heading=90 name=hall").data["changed"], made);
+  const auto document = document_of(map);
+  EXPECT_EQ(map::robot_starts(document).size(), 2u);
+  EXPECT_LT((map::find_robot_start(document)->T_world_body.t - Vec3(1, 2, 0)).norm(), 1e-9);
+  EXPECT_LT((map::find_robot_start(document, "hall")->T_world_body.t - Vec3(4, 2, 0)).norm(), 1e-9);
+  EXPECT_TRUE(mentions(refusal(map, "start at 1,1,0 name=free"), "free"));
+}
+
 TEST(PlacesCommands, ASensorIsMadeAndThenChanged) {
   Places map;
   const auto made =

@@ -186,8 +186,8 @@ TEST(Plan, ThingsOfOtherStoreysAreLeftOut) {
                    "path tour 0.5,0.5;3.5,0.5 corner_radius=0.2"});
   const FloorPlan ground = plan_of(editing);
   EXPECT_EQ(ground.lights.size(), 2u);
-  ASSERT_TRUE(ground.start);
-  EXPECT_NEAR(ground.start->ahead.y(), 1.0, 1e-12);
+  ASSERT_EQ(ground.starts.size(), 1u);
+  EXPECT_NEAR(ground.starts[0].ahead.y(), 1.0, 1e-12);
   ASSERT_EQ(ground.paths.size(), 1u);
   EXPECT_NEAR((ground.paths[0].back() - ground.paths[0].front()).norm(), 3.0, 1e-9);
   ASSERT_EQ(ground.names.size(), 1u);
@@ -198,7 +198,7 @@ TEST(Plan, ThingsOfOtherStoreysAreLeftOut) {
   EXPECT_NEAR((ground.widths[1].to - ground.widths[1].from).norm(), 3.0, 1e-9);
   const FloorPlan upper = plan_of(editing, 4.2);
   EXPECT_EQ(upper.lights.size(), 1u);
-  EXPECT_FALSE(upper.start);
+  EXPECT_TRUE(upper.starts.empty());
   ASSERT_EQ(upper.names.size(), 1u);
   EXPECT_EQ(upper.names[0].text, "above");
 }

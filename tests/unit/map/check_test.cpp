@@ -67,6 +67,16 @@ TEST(Check, TwoRobotStarts) {
   EXPECT_EQ(findings_of(kWorld + start + start + start), "9 two-robot-starts!\n13 two-robot-starts!\n");
 }
 
+TEST(Check, NamedRobotStarts) {
+  const auto start = [](const std::string& name) {
+    return entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"name", name}});
+  };
+  const std::string unnamed = entity_text({{"classname", "hw_robot_start"}, {"origin", "0 0 0"}});
+  EXPECT_EQ(findings_of(kWorld + start("a") + start("b") + unnamed), "");
+  EXPECT_EQ(findings_of(kWorld + start("a") + start("a")), "13 doubled-name!\n");
+  EXPECT_EQ(findings_of(kWorld + start("free")), "8 bad-value!\n");
+}
+
 std::string waypoint_text(const std::string& path, int index, const std::string& origin) {
   return entity_text(
       {{"classname", "hw_waypoint"}, {"path", path}, {"index", std::to_string(index)}, {"origin", origin}});

@@ -53,7 +53,56 @@ TEST(RobotStart, MayBeAbsent) {
 
 TEST(RobotStart, TwoAreAnError) {
   const Pairs start{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}};
-  expect_error(find_robot_start, {start, start}, 5, "the first is at line 1");
+  expect_error(robot_starts, {start, start}, 5, "the first is at line 1");
+}
+
+Pairs named_start(const std::string& name, const std::string& origin) {
+  return {{"classname", "hw_robot_start"}, {"origin", origin}, {"name", name}};
+}
+
+const Pairs kUnnamedStart{{"classname", "hw_robot_start"}, {"origin", "1 0 0"}};
+
+TEST(RobotStart, SeveralMayHaveNames) {
+  const Document document =
+      document_of({named_start("hall", "2 0 0"), kUnnamedStart, named_start("door", "3 0 0")});
+  const auto starts = robot_starts(document);
+  ASSERT_EQ(starts.size(), 3u);
+  EXPECT_EQ(starts[0].name, "hall");
+  EXPECT_EQ(starts[1].name, "");
+  EXPECT_EQ(starts[2].name, "door");
+  EXPECT_EQ(find_robot_start(document)->entity, 1) << "the unnamed one is the default";
+  EXPECT_EQ(find_robot_start(document, "hall")->entity, 0);
+  EXPECT_EQ(find_robot_start(document, "door")->entity, 2);
+}
+
+TEST(RobotStart, TheOnlyOneIsTheDefaultWithANameToo) {
+  const Document document = document_of({named_start("hall", "2 0 0")});
+  EXPECT_EQ(find_robot_start(document)->name, "hall");
+  EXPECT_EQ(default_robot_start(document)->name, "hall");
+}
+
+TEST(RobotStart, OfSeveralNamedOnesOneMustBeChosen) {
+  const std::vector<Pairs> both{named_start("hall", "2 0 0"), named_start("door", "3 0 0")};
+  const auto find = [](const Document& document) { return find_robot_start(document); };
+  expect_error(find, both, 1, "several robot starts, and none is chosen: `hall`, `door`");
+  EXPECT_FALSE(default_robot_start(document_of(both)));
+}
+
+TEST(RobotStart, AnUnknownNameGivesASuggestionAndTheList) {
+  const auto find = [](const Document& document) { return find_robot_start(document, "hal"); };
+  expect_error(find, {named_start("hall", "2 0 0"), kUnnamedStart}, 0,
+               "no robot start `hal` (did you mean \"hall\"?); it has `hall`, an unnamed one");
+  expect_error(find, {kWorld}, 0, "no robot start `hal`; it has none");
+}
+
+TEST(RobotStart, TwoOfOneNameAreAnError) {
+  expect_error(robot_starts, {named_start("hall", "2 0 0"), named_start("hall", "3 0 0")}, 9,
+               "a second robot start named `hall`; the first is at line 1");
+}
+
+TEST(RobotStart, FreeAndEmptyAreNoNames) {
+  expect_error(robot_starts, {named_start("free", "2 0 0")}, 4, "no robot start may be named `free`");
+  expect_error(robot_starts, {named_start("", "2 0 0")}, 4, "key `name` is empty");
 }
 
 TEST(Sensors, AreThoseOfTheFileInItsOrder) {
@@ -95,18 +144,17 @@ TEST(Sensors, SixtyFourAreTheMost) {
 }
 
 TEST(RobotStart, NeedsAnOrigin) {
-  expect_error(find_robot_start, {{{"classname", "hw_robot_start"}}}, 1, "key `origin` is missing");
+  expect_error(robot_starts, {{{"classname", "hw_robot_start"}}}, 1, "key `origin` is missing");
 }
 
 TEST(RobotStart, OriginsThatAreNone) {
   for (const char* origin : {"", "1 2", "1 2 3 4", "1 2 x", "1 2 nan", "1 2 3e7", "1,5 2 3"}) {
-    expect_error(find_robot_start, {{{"classname", "hw_robot_start"}, {"origin", origin}}}, 3,
-                 "key `origin`");
+    expect_error(robot_starts, {{{"classname", "hw_robot_start"}, {"origin", origin}}}, 3, "key `origin`");
   }
 }
 
 TEST(RobotStart, AnUnknownKeyIsNamedWithASuggestion) {
-  expect_error(find_robot_start, {{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"angel", "90"}}}, 4,
+  expect_error(robot_starts, {{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"angel", "90"}}}, 4,
                "did you mean \"angle\"");
 }
 
@@ -119,8 +167,7 @@ TEST(RobotStart, KeysOfEditorsPass) {
 }
 
 TEST(RobotStart, AKeyThatStandsTwiceIsAnError) {
-  expect_error(find_robot_start,
-               {{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"origin", "1 1 1"}}}, 4,
+  expect_error(robot_starts, {{{"classname", "hw_robot_start"}, {"origin", "0 0 0"}, {"origin", "1 1 1"}}}, 4,
                "key `origin` stands twice, first at line 3");
 }
 
