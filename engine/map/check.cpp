@@ -16,6 +16,7 @@
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
 #include "map/path.hpp"
+#include "map/robot_file.hpp"
 #include "map/sensors.hpp"
 #include "map/start_check.hpp"
 #include "map/world.hpp"
@@ -51,8 +52,14 @@ class Checker {
       check_class(entity);
     }
     check_worldspawns();
-    check_robot_starts();
     check_targetnames();
+    if (is_robot_file(document_)) {
+      check_robot();
+      sort();
+      return std::move(findings_);
+    }
+    check_no_robot();
+    check_robot_starts();
     const Names paths = check_names("hw_path");
     check_names("hw_landmark_cloud");
     check_names("hw_sensor");
@@ -141,7 +148,7 @@ class Checker {
   void check_shape(const Entity& entity, const EntitySpec& spec) {
     const EntityKeys keys(document_, entity);
     const bool wants_brushes = spec.shape == EntityShape::kBrushes;
-    if (wants_brushes && !spec.open && entity.brushes.empty())
+    if (wants_brushes && !spec.open && !spec.brushless && entity.brushes.empty())
       add(Severity::kWarning, keys.error("the entity has no brushes and so no effect"), "no-brushes");
     if (!wants_brushes && !entity.brushes.empty())
       add(Severity::kWarning, keys.error("brushes of an entity of this class have no part in the world"),
@@ -184,6 +191,31 @@ class Checker {
       } else {
         first = &entity;
       }
+    }
+  }
+
+  /// What is wrong with a robot file, at most one thing of its body and zones.
+  void check_robot() {
+    check_names("hw_sensor");
+    check_names("hw_bump_zone");
+    check_sensors();
+    try {
+      read_robot(document_);
+    } catch (const Error& error) {
+      if (faulty_.empty()) add(Severity::kError, error, "bad-robot");
+    }
+  }
+
+  /// What only robot files have.
+  void check_no_robot() {
+    for (const Entity& entity : document_.entities) {
+      const std::string_view name = entity.classname();
+      if (name != "hw_body" && name != "hw_bump_zone" && name != "hw_drive") continue;
+      add(Severity::kError,
+          EntityKeys(document_, entity)
+              .error("only a robot file, whose worldspawn has `_hallway_robot 1`, has a " + quote(name),
+                     "classname"),
+          "not-in-maps");
     }
   }
 
@@ -357,11 +389,11 @@ class Checker {
 
 const std::vector<std::string>& finding_ids() {
   static const std::vector<std::string> ids{
-      "bad-brush",        "bad-path",           "bad-value",       "brushes-ignored", "doubled-key",
-      "doubled-name",     "doubled-targetname", "duplicate-plane", "many-paths",      "missing-key",
-      "no-brushes",       "no-class",           "no-worldspawn",   "start-off-path",  "tied-order",
-      "two-robot-starts", "two-worldspawns",    "unknown-class",   "unknown-key",     "unknown-path",
-      "unread-shape"};
+      "bad-brush",      "bad-path",     "bad-robot",          "bad-value",       "brushes-ignored",
+      "doubled-key",    "doubled-name", "doubled-targetname", "duplicate-plane", "many-paths",
+      "missing-key",    "no-brushes",   "no-class",           "no-worldspawn",   "not-in-maps",
+      "start-off-path", "tied-order",   "two-robot-starts",   "two-worldspawns", "unknown-class",
+      "unknown-key",    "unknown-path", "unread-shape"};
   return ids;
 }
 

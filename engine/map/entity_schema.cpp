@@ -23,6 +23,7 @@ constexpr double kFarthestMount_m = 1e3;
 constexpr double kFastest_m_s = 1e3;
 constexpr double kFastestSensor_hz = 1e4;
 constexpr double kLongestDelay_s = 3600.0;
+constexpr double kFarthestOfRobot_m = 100.0;
 
 constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
   return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
@@ -57,7 +58,9 @@ constexpr KeySpec kAngle = number("angle", -kLargestAngle_deg, kLargestAngle_deg
 constexpr KeySpec kOrder{.name = "order", .kind = KeyKind::kWhole, .fallback = "0"};
 constexpr KeySpec kOwnPoints = number("_points_per_m2", 0.0, kMostPoints, "");
 
-constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""), number("_scale", 1e-6, 1e3, "0.03125"),
+constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""),
+                            KeySpec{.name = "_hallway_robot", .kind = KeyKind::kFlag, .fallback = "0"},
+                            number("_scale", 1e-6, 1e3, "0.03125"),
                             number("_points_per_m2", 0.0, kMostPoints, "0"),
                             KeySpec{.name = "_point_seed", .kind = KeyKind::kSeed, .fallback = "0"}};
 constexpr std::array kGroup{kOwnPoints};
@@ -111,6 +114,55 @@ constexpr std::array kSensor{
     of_variant("planes", number("min_length_m", 0.0, kLongest_m, "0.05")),
     of_variant("planes", number("noise_angle_deg", 0.0, kLargestNoise_deg, "0")),
     of_variant("planes", number("noise_end_m", 0.0, kLargestNoise_m, "0"))};
+constexpr std::array kBody{number("radius_m", kShortest_m, kFarthestOfRobot_m, ""),
+                           number("bottom_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, ""),
+                           number("top_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, "")};
+constexpr std::array kBumpZone{required("name", KeyKind::kName),
+                               number("from_deg", -kFullTurn_deg, kFullTurn_deg, ""),
+                               number("to_deg", -kFullTurn_deg, kFullTurn_deg, ""),
+                               number("bottom_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, ""),
+                               number("top_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, "")};
+// What a drive may be (drive/spec.hpp), and of the robot what does not belong to its drive.
+constexpr std::array kDrive{KeySpec{.name = "kind",
+                                    .kind = KeyKind::kChoice,
+                                    .fallback = "differential",
+                                    .choices = "differential tracked ackermann omnidirectional"},
+                            number("wheel_base_m", 0.001, 100.0, "0.3"),
+                            number("axle_distance_m", 0.001, 100.0, "0.3"),
+                            number("wheel_radius_m", 0.001, 100.0, "0.05"),
+                            number("greatest_steering_rad", 0.001, 1.5, "0.6"),
+                            number("max_steering_rate_rad_s", 0.001, 1000.0, "2"),
+                            number("max_speed_m_s", 0.001, 1000.0, "0.6"),
+                            number("max_lateral_m_s", 0.001, 1000.0, ""),
+                            number("max_angular_rad_s", 0.001, 1000.0, "2"),
+                            number("max_acceleration_m_s2", 0.001, 1000.0, "1"),
+                            number("max_deceleration_m_s2", 0.001, 1000.0, ""),
+                            number("max_angular_acceleration_rad_s2", 0.001, 1000.0, "4"),
+                            number("latency_s", 0.0, 10.0, "0"),
+                            number("dead_band_m_s", 0.0, 1000.0, "0"),
+                            number("dead_band_rad_s", 0.0, 1000.0, "0"),
+                            number("turn_slip", 0.0, 1.0, "0"),
+                            number("forward_noise_mean", -1.0, 1.0, "0"),
+                            number("forward_noise_sigma", 0.0, 1.0, "0"),
+                            number("forward_noise_correlation_s", 0.0, 10000.0, "0"),
+                            number("angular_noise_mean", -1.0, 1.0, "0"),
+                            number("angular_noise_sigma", 0.0, 1.0, "0"),
+                            number("angular_noise_correlation_s", 0.0, 10000.0, "0"),
+                            number("lateral_drift_mean", -1.0, 1.0, "0"),
+                            number("lateral_drift_sigma", 0.0, 1.0, "0"),
+                            number("lateral_drift_correlation_s", 0.0, 10000.0, "0"),
+                            number("left_slip_mean", -1.0, 1.0, "0"),
+                            number("left_slip_sigma", 0.0, 1.0, "0"),
+                            number("left_slip_correlation_s", 0.0, 10000.0, "0"),
+                            number("right_slip_mean", -1.0, 1.0, "0"),
+                            number("right_slip_sigma", 0.0, 1.0, "0"),
+                            number("right_slip_correlation_s", 0.0, 10000.0, "0"),
+                            number("step_m", 0.0, 10.0, ""),
+                            number("ledge_m", 0.0, 10.0, ""),
+                            number("slope_deg", 0.0, 90.0, ""),
+                            number("clearance_m", 0.0, 10.0, ""),
+                            KeySpec{.name = "ledges", .kind = KeyKind::kChoice, .choices = "contact fall"},
+                            KeySpec{.name = "contact", .kind = KeyKind::kChoice, .choices = "slide stop"}};
 constexpr std::array kMesh{kOrigin,
                            required("model", KeyKind::kText),
                            kAngle,
@@ -140,6 +192,10 @@ constexpr std::array kSchema{
     point("hw_waypoint", kWaypoint),
     point("hw_landmark_cloud", kCloud),
     EntitySpec{.classname = "hw_sensor", .selector = "kind", .keys = kSensor},
+    EntitySpec{.classname = "hw_body", .shape = EntityShape::kBrushes, .brushless = true, .keys = kBody},
+    EntitySpec{
+        .classname = "hw_bump_zone", .shape = EntityShape::kBrushes, .brushless = true, .keys = kBumpZone},
+    point("hw_drive", kDrive),
     point("hw_mesh", kMesh),
     point("light", kLight, true),
 };

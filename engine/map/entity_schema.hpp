@@ -46,7 +46,8 @@ enum class EntityShape { kPoint, kBrushes };
 struct EntitySpec {
   std::string_view classname{};
   EntityShape shape = EntityShape::kPoint;
-  bool open = false;  ///< other programs have keys of their own there
+  bool open = false;       ///< other programs have keys of their own there
+  bool brushless = false;  ///< of a kBrushes: keys may take the place of brushes
   std::string_view
       selector{};  ///< key whose value (or fallback) names the variant; empty where there are none
   std::span<const KeySpec> keys{};

@@ -18,6 +18,7 @@
 #include "bsp/point_location.hpp"
 #include "bsp/segment.hpp"
 #include "map/path.hpp"
+#include "map/robot_file.hpp"
 #include "render/map_layers.hpp"
 #include "run/pictures/map_view.hpp"
 #include "world/compiled_world.hpp"
@@ -295,7 +296,7 @@ const std::vector<std::string>& world_finding_ids() {
 
 std::vector<Finding> find_faults(const map::Document& document) {
   std::vector<Finding> findings = map::check(document);
-  add_world_findings(findings, document);
+  if (!map::is_robot_file(document)) add_world_findings(findings, document);
   std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
     return std::tie(a.where.line, a.id, a.message) < std::tie(b.where.line, b.id, b.message);
   });
