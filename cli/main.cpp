@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     add_planes_command(app);
     add_bench_em_command(app);
     add_scenario_command(app);
+    add_robot_command(app);
     add_import_command(app);
     add_align_command(app);
     add_compile_command(app);

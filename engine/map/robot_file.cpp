@@ -43,6 +43,7 @@ void read_drive(const Document& document, RobotFile& robot) {
     const EntityKeys keys(document, entity);
     if (first) throw keys.error("a second `hw_drive`; the first is at line " + std::to_string(first->line));
     first = &entity;
+    robot.has_drive = true;
     check_keys_of(keys, "hw_drive");
     for (RobotKey& key : known_keys(entity)) {
       const bool of_robot = std::ranges::find(kRobotKeys, key.key) != kRobotKeys.end();

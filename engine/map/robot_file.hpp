@@ -32,6 +32,7 @@ struct RobotFile {
   RobotBody body{};
   std::vector<BumpZone> zones{};
   std::vector<RobotKey> robot{};  ///< step_m, ledge_m, slope_deg, clearance_m, ledges, contact: of `hw_drive`
+  bool has_drive = false;         ///< whether there is an `hw_drive`
   std::vector<RobotKey> drive{};  ///< all other keys of `hw_drive`, by the names of entity_schema.hpp
   std::vector<RobotSensor> sensors{};  ///< in the order of the file
 };

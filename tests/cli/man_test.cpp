@@ -47,6 +47,7 @@ TEST(ManPages, OneForEachCommand) {
     const auto parsed = nlohmann::json::parse(tree.out);
     for (const auto& command : parsed.at("commands")) {
       std::string name = command.at("command").get<std::string>();
+      if (name == "hallway robot") name += " file";  // beside the page of the program hallway-robot
       std::replace(name.begin(), name.end(), ' ', '-');
       EXPECT_TRUE(fs::exists(pages.folder() / (name + ".1"))) << name;
       ++commands;
