@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "eval/metrics_json.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 
 namespace hallway::cli {
@@ -142,6 +143,16 @@ void add_errors(const Rows& row, const Metrics& metrics) {
   }
 }
 
+void add_drive(const Rows& row, const sim::DriveCounts& drive) {
+  row("commands", fmt::format("{}, {} clamped, {} with a part left out; {} by watchdog or time-out",
+                              drive.commands, drive.clamped, drive.left_out, counted(drive.stops, "stop")));
+  row("driven", fmt::format("{:.2f} m; {}, {}, stood {:.1f} s against something", drive.distance_m,
+                            counted(drive.contacts, "contact"), counted(drive.falls, "fall"), drive.stood_s));
+  if (drive.floor_cells > 0)
+    row("floor", fmt::format("{} of {} cells of 0.5 m, {} of {}", drive.cells_visited, drive.floor_cells,
+                             drive.rooms_entered, counted(drive.rooms, "room")));
+}
+
 void add_times(const Rows& row, const char* label, const std::optional<eval::TimeSummary>& times) {
   if (!times) return;
   row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean, times->p50,
@@ -170,6 +181,7 @@ std::string table_of(const Outcome& outcome) {
     add_errors(row, metrics);
   }
   add_relative(row, metrics);
+  if (result.drive) add_drive(row, *result.drive);
   add_times(row, "iteration, wall clock", metrics.iteration_ms);
   add_times(row, "iteration, thread CPU", metrics.iteration_cpu_ms);
   row("written to", path_text(outcome.folder));
@@ -193,6 +205,12 @@ Json print_first(const record::Failures& failures) {
   return record::print_verdict(failures.verdicts.front().verdict, failures.verdicts.front().iteration);
 }
 
+Json metrics_of(const run::RunResult& result) {
+  Json metrics = eval::to_json(result.metrics);
+  if (result.drive) metrics["drive"] = run::to_json(*result.drive);
+  return metrics;
+}
+
 Json document_of(const Outcome& outcome) {
   return {{"schema", "hallway.result/1"},
           {"status", status_of(outcome.result)},
@@ -206,7 +224,7 @@ Json document_of(const Outcome& outcome) {
           {"failures", outcome.result.failures.count},
           {"restarts", outcome.result.failures.restarts},
           {"submaps", outcome.result.submaps},
-          {"metrics", eval::to_json(outcome.result.metrics)}};
+          {"metrics", metrics_of(outcome.result)}};
 }
 
 /// One warning for the pictures of one cause, which is the same for all as a rule.

@@ -16,6 +16,7 @@
 #include "plugin_argument.hpp"
 #include "renderer_option.hpp"
 #include "report.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 #include "run/pictures/record.hpp"
 #include "run/sources/simulated_source.hpp"
@@ -68,9 +69,15 @@ int run_scenario(const RunOptions& options) {
   if (run::maps_planes(pipeline)) source.add_walls();
   opened.facts.command = "run";
   opened.facts.parameters = record::origins_of(scenario.pipeline);
+  nlohmann::ordered_json manifest = run::make_manifest(opened.facts, pipeline);
+  if (const auto& driven = scenario.robot.driven) {
+    manifest["robot"] = run::print_driven(scenario);
+    if (driven->by == sim::DrivenBy::kPlugin && pipeline.started())
+      pipeline.drive_by(run::driving_plugin(pipeline, scenario));
+  }
   const run::RunPlan plan{.folder = output_folder(options.out, opened.facts.name),
                           .replace = options.force,
-                          .manifest = run::make_manifest(opened.facts, pipeline),
+                          .manifest = std::move(manifest),
                           .attachments = std::move(opened.attachments),
                           .pictures = scenario.pictures,
                           .renderer = renderer,

@@ -18,6 +18,7 @@
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
 #include "log_input.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 #include "run/pictures/record.hpp"
 #include "run/sources/simulated_source.hpp"
@@ -135,6 +136,8 @@ int serve(const ServeOptions& options) {
   run::ServePlan plan{.lock_step = options.lock_step, .rate = options.rate, .replace = options.force};
   if (!options.out.empty()) plan.folder = options.out;
   plan.manifest = run::make_manifest(facts);
+  if (input.source->is_closed_loop())
+    plan.manifest["robot"] = run::print_driven(input.scenario.simulator->scenario());
   plan.attachments = std::move(input.scenario.attachments);
 
   link::UdpWire socket(listen);

@@ -135,10 +135,11 @@ std::size_t Pipeline::capacity() const {
   return least;
 }
 
-/// Whether a frame has something that a plugin takes.
+/// Whether a frame has something that a plugin takes, or the plugin drives.
 bool Pipeline::is_for(std::size_t stage, const hw_frame_t& frame) const {
   const PluginInfo& plugin = facts_[stage].info;
-  return std::any_of(frame.samples, frame.samples + frame.n_samples,
+  return stage == driver_ ||
+         std::any_of(frame.samples, frame.samples + frame.n_samples,
                      [&](const hw_sample_t* sample) { return plugin.takes(sample->kind); });
 }
 
@@ -156,10 +157,12 @@ void Pipeline::submit(const hw_frame_t& frame, std::span<const std::byte> bytes)
   submitted_bytes_ = bytes;
 }
 
-const Outputs& Pipeline::collect(Stage& plugin) {
+const Outputs& Pipeline::collect(std::size_t stage) {
+  Stage& plugin = *stages_[stage];
   const Outputs& outputs = plugin.collect();
   last_call_.wall_ns += plugin.last_call().wall_ns;
   last_call_.cpu_ns += plugin.last_call().cpu_ns;
+  if (stage == driver_) drive_command_ = outputs.drive_command();
   return outputs;
 }
 
@@ -173,7 +176,7 @@ const Outputs& Pipeline::collect_in_turn() {
     was_called_ = is_for(i, *frame);
     if (!was_called_) continue;
     stages_[i]->submit(*frame, bytes);
-    outputs = &collect(*stages_[i]);
+    outputs = &collect(i);
     bytes = {};  // of the frame without what is added now
     frame = &found_samples_.add(*outputs);
   }
@@ -183,12 +186,13 @@ const Outputs& Pipeline::collect_in_turn() {
 
 const Outputs& Pipeline::collect() {
   last_call_ = {};
+  drive_command_.reset();
   if (in_turn_) return collect_in_turn();
   if (called_.empty()) throw Error(ErrorCode::kInternal, "collect() without a frame");
   const std::vector<bool> called = std::move(called_.front());
   called_.pop_front();
   const Outputs* outputs = nullptr;
-  for (std::size_t i = 0; i < stages_.size(); ++i) outputs = called[i] ? &collect(*stages_[i]) : &no_outputs_;
+  for (std::size_t i = 0; i < stages_.size(); ++i) outputs = called[i] ? &collect(i) : &no_outputs_;
   was_called_ = called.back();
   return *outputs;
 }

@@ -76,6 +76,11 @@ class Pipeline {
   const Outputs& collect();
   /// Whether the last plugin was called for the frame that was collected last: it has a sample that the plugin takes.
   bool was_called() const { return was_called_; }
+  /// From now on one plugin is called for every frame, whatever it holds: the one whose commands the robot obeys.
+  /// @param stage  index in specs()
+  void drive_by(std::size_t stage) { driver_ = stage; }
+  /// What that plugin commanded at the frame that was collected last; nothing where it put no command.
+  const std::optional<DriveCommand>& drive_command() const { return drive_command_; }
   /// Feeds one frame to every plugin, in order. @return the last one's outputs, valid until the next call
   const Outputs& process(const hw_frame_t& frame, std::span<const std::byte> bytes = {});
   /// The frame that was collected last with the planes that plugins found in it; null where no plugin takes what another one finds. Valid until
@@ -103,7 +108,7 @@ class Pipeline {
   bool takes_what_others_find() const;
   bool is_for(std::size_t stage, const hw_frame_t& frame) const;
   const Outputs& collect_in_turn();
-  const Outputs& collect(Stage& plugin);
+  const Outputs& collect(std::size_t stage);
   std::unique_ptr<Stage> make_stage(const std::string& plugin);
 
   std::vector<StageSpec> specs_;
@@ -122,6 +127,8 @@ class Pipeline {
   const hw_frame_t* with_planes_ = nullptr;
   std::deque<std::vector<bool>> called_;  ///< else: for each frame under way which plugins it was given to
   bool was_called_ = false;
+  std::optional<std::size_t> driver_;  ///< which plugin drives
+  std::optional<DriveCommand> drive_command_;
   const Outputs no_outputs_{};
   CallTime last_call_;
 };

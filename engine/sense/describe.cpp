@@ -38,4 +38,12 @@ host::SensorInfo describe(const PlaneSensorSpec& spec, std::uint32_t id) {
           .noise_m = {spec.noise_m, spec.noise_m, level ? 0.0 : spec.noise_m}};
 }
 
+host::SensorInfo describe(const BumpSensorSpec& spec, std::uint32_t id) {
+  return {.id = id, .kind = HW_SAMPLE_BUMP, .name = spec.name};
+}
+
+host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id) {
+  return {.id = id, .kind = HW_SAMPLE_ENCODER, .name = spec.name};
+}
+
 }  // namespace hallway::sense

@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "host/sensor_info.hpp"
+#include "sense/bump_sensor.hpp"
+#include "sense/encoder_sensor.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
 
@@ -13,5 +15,8 @@ namespace hallway::sense {
 /// @param id  the number that its samples carry
 host::SensorInfo describe(const PointSensorSpec& spec, std::uint32_t id);
 host::SensorInfo describe(const PlaneSensorSpec& spec, std::uint32_t id);
+
+host::SensorInfo describe(const BumpSensorSpec& spec, std::uint32_t id);
+host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id);
 
 }  // namespace hallway::sense

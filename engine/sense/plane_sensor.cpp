@@ -20,6 +20,11 @@ Vec3 at_height(const Vec2& point, double z) {
   return {point.x(), point.y(), z};
 }
 
+bool is_level(const Pose& T_world_sensor) {
+  const Vec3 up = T_world_sensor.q * Vec3::UnitZ();
+  return up.head<2>().norm() <= kLevel && up.z() >= 0.0;
+}
+
 }  // namespace
 
 const PlaneSensorSpec& checked(const PlaneSensorSpec& spec) {
@@ -42,12 +47,15 @@ PlaneSensor::PlaneSensor(PlaneSensorSpec spec, const WallPlan& plan, std::uint64
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
+bool PlaneSensor::sees_from(const Pose& T_world_body) const {
+  const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
+  return is_level(T_world_sensor) && std::abs(T_world_sensor.t.z() - plan_.height_m) <= kSameHeight_m;
+}
+
 void PlaneSensor::check_pose(const Pose& T_world_body, std::uint32_t step) const {
   const Pose T_world_sensor = T_world_body * spec_.T_body_sensor;
   sense::check_pose(spec_.name, step, T_world_sensor);
-  const Vec3 up = T_world_sensor.q * Vec3::UnitZ();
-  if (up.head<2>().norm() > kLevel || up.z() < 0.0)
-    refuse_pose(spec_.name, step, "is not level, as a sensor of planes must be");
+  if (!is_level(T_world_sensor)) refuse_pose(spec_.name, step, "is not level, as a sensor of planes must be");
   const double height_m = T_world_sensor.t.z();
   if (std::abs(height_m - plan_.height_m) > kSameHeight_m) {
     refuse_pose(spec_.name, step,

@@ -64,6 +64,9 @@ class PlaneSensor {
   /// or farther from the origin than trace::Scene::kMaxRayCoordinate.
   void check_pose(const Pose& T_world_body, std::uint32_t step) const;
 
+  /// Whether check_pose() takes the pose: the sensor is level and at the height of its plan.
+  bool sees_from(const Pose& T_world_body) const;
+
   const PlaneSensorSpec& spec() const { return spec_; }
 
  private:

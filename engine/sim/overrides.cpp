@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "base/toml_reader.hpp"
 #include "host/plugin_table.hpp"
+#include "sim/drive_keys.hpp"
 #include "sim/schema.hpp"
 
 namespace hallway::sim {
@@ -42,9 +43,16 @@ std::vector<std::string> sensor_names(const TomlTable& scenario) {
 std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wanted) {
   std::vector<std::string> keys = kTopOverrideKeys;
   keys.push_back("plugin");
-  for (const std::string& key : kRobotKeys) keys.push_back("robot." + key);
+  for (const std::vector<std::string>& known : {kRobotKeys, kDrivenKeys})
+    for (const std::string& key : known) keys.push_back("robot." + key);
+  for (const std::string& key : kDriveKeys) {
+    if (!holds(kDisturbances, key)) keys.push_back("robot.drive." + key);
+  }
+  for (const std::string& disturbance : kDisturbances)
+    for (const std::string& key : kDisturbanceKeys) keys.push_back("robot.drive." + disturbance + "." + key);
   for (const std::string& name : sensor_names(scenario)) {
-    for (const std::vector<std::string>& known : {kPointSensorKeys, kPlaneSensorKeys, kFaceSensorKeys}) {
+    for (const std::vector<std::string>& known :
+         {kPointSensorKeys, kPlaneSensorKeys, kFaceSensorKeys, kBumpSensorKeys, kEncoderSensorKeys}) {
       for (const std::string& key : known) keys.push_back("sensor." + name + "." + key);
     }
   }
@@ -73,11 +81,25 @@ void set_robot(TomlTable& scenario, const std::string& key, TomlNode value) {
   if (key == "loop_steps") remove_key(*robot, "speed_m_s");
 }
 
+/// Makes the tables that are not there. False if drives have no such key.
+bool set_drive(TomlTable& scenario, std::span<const std::string_view> key, TomlNode value) {
+  const bool is_key = key.size() == 1 && holds(kDriveKeys, key[0]) && !holds(kDisturbances, key[0]);
+  const bool is_part = key.size() == 2 && holds(kDisturbances, key[0]) && holds(kDisturbanceKeys, key[1]);
+  if (!is_key && !is_part) return false;
+  TomlTable* table = table_in(scenario, "robot");
+  if (table != nullptr) table = table_in(*table, "drive");
+  if (table != nullptr && is_part) table = table_in(*table, std::string(key[0]));
+  if (table != nullptr) assign(*table, std::string(key.back()), std::move(value));
+  return true;  // where something else stands, the reader says what is wrong there
+}
+
 /// True if the scenario has a sensor of that name, and there are sensors with such a key.
 bool set_sensor(TomlTable& scenario, std::string_view name, std::string_view key, TomlNode value) {
   if (!holds(sensor_names(scenario), name)) return false;
-  if (!holds(kPointSensorKeys, key) && !holds(kPlaneSensorKeys, key) && !holds(kFaceSensorKeys, key))
-    return false;
+  const bool is_known = holds(kPointSensorKeys, key) || holds(kPlaneSensorKeys, key) ||
+                        holds(kFaceSensorKeys, key) || holds(kBumpSensorKeys, key) ||
+                        holds(kEncoderSensorKeys, key);
+  if (!is_known) return false;
   assign(*table_in(*table_in(scenario, "sensor"), name), key, std::move(value));
   return true;
 }
@@ -95,7 +117,11 @@ void apply(TomlTable& scenario, const Override& setting) {
     assign(scenario, parts[0], toml_value_or_text(setting.value));
     return;
   }
-  if (parts.size() == 2 && parts[0] == "robot" && holds(kRobotKeys, parts[1])) {
+  if (parts.size() >= 3 && parts[0] == "robot" && parts[1] == "drive" &&
+      set_drive(scenario, std::span(parts).subspan(2), toml_value_or_text(setting.value)))
+    return;
+  if (parts.size() == 2 && parts[0] == "robot" && parts[1] != "drive" &&
+      (holds(kRobotKeys, parts[1]) || holds(kDrivenKeys, parts[1]))) {
     set_robot(scenario, std::string(parts[1]), toml_value_or_text(setting.value));
     return;
   }

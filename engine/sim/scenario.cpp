@@ -14,6 +14,7 @@
 #include "map/sensors.hpp"
 #include "sim/clouds.hpp"
 #include "sim/default_scenario.hpp"
+#include "sim/drive_keys.hpp"
 #include "sim/overrides.hpp"
 #include "sim/schema.hpp"
 #include "sim/sensors.hpp"
@@ -91,9 +92,12 @@ class ScenarioReader {
   }
 
   void read_robot(const TableReader& top) {
-    TableReader robot = reader("robot", top.table("robot"), top.line("robot"), kRobotKeys);
+    std::vector<std::string> keys = kRobotKeys;
+    keys.insert(keys.end(), kDrivenKeys.begin(), kDrivenKeys.end());
+    TableReader robot = reader("robot", top.table("robot"), top.line("robot"), keys);
     if (robot.has("path")) scenario_.robot.path = robot.text("path");
     if (!robot.has("path") && !top.has("robot")) throw robot.error("path", "is missing");
+    read_drive(robot);
     if (!robot.has("path")) {
       if (robot.has("speed_m_s") || robot.has("loop_steps"))
         throw robot.error("path", "is missing; a robot that moves needs one");
@@ -111,6 +115,25 @@ class ScenarioReader {
       throw robot.error("speed_m_s", "is missing; give it or `loop_steps`");
     }
     read_body(robot);
+  }
+
+  void read_start(TableReader& robot, bool has_path) {
+    scenario_.robot.start = robot.text("start");
+    if (has_path)
+      throw robot.error("start", "is given together with `path`, at whose beginning the robot stands");
+    if (scenario_.robot.start == "free" && !robot.has("drive"))
+      throw robot.error("start", "\"free\" needs a [robot.drive]");
+  }
+
+  void read_drive(TableReader& robot) {
+    const bool has_path = robot.has("path");
+    if (!robot.has("drive")) {
+      if (robot.has("start")) read_start(robot, has_path);
+      refuse_driven_keys(robot);
+      return;
+    }
+    if (robot.has("start")) read_start(robot, has_path);
+    scenario_.robot.driven = read_driven(robot, {path_, scenario_.file, scenario_.settings}, has_path);
   }
 
   /// A cylinder where there is a radius, a box where there is a length, else a point.

@@ -15,19 +15,25 @@
 #include "host/plugin_limits.hpp"
 #include "host/plugin_table.hpp"
 #include "map/document.hpp"
+#include "sense/bump_sensor.hpp"
+#include "sense/encoder_sensor.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sim/driven_spec.hpp"
 #include "sim/setting.hpp"
 
 namespace hallway::sim {
 
-/// How the robot moves: along a path of the map, where exactly one of `speed_m_s` and `loop_steps` is set; or not at all.
+/// How the robot moves: along a path of the map, where exactly one of `speed_m_s` and `loop_steps` is set; by a drive; or not at all.
 struct RobotSpec {
   std::string path;  ///< name of an `hw_path` entity; empty: it stays at the map's `hw_robot_start`
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
       loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one
   std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point
+  std::string
+      start{};  ///< name of an `hw_robot_start`; "free": a seeded place of the floor; empty: where the path begins, or the unnamed one
+  std::optional<DrivenSpec> driven{};  ///< set: a drive moves the robot
 };
 
 using host::OnFailure;
@@ -79,8 +85,9 @@ struct PictureSpec {
   PictureSpec at(std::uint32_t shown_iteration) const;
 };
 
-/// What a sensor is, of one kind or the other.
-using SensorSpec = std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec>;
+/// What a sensor is, of one kind or another.
+using SensorSpec = std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec, sense::BumpSensorSpec,
+                                sense::EncoderSensorSpec>;
 
 /// Keys of an `hw_landmark_cloud` of the map that a scenario sets in its place.
 struct CloudSpec {

@@ -66,9 +66,11 @@ TomlTable table_of(const map::Entity& entity) {
   return table;
 }
 
-const std::vector<std::string> kKinds{"points", "planes", "faces"};
+const std::vector<std::string> kKinds{"points", "planes", "faces", "bump", "encoders"};
 constexpr std::size_t kPlanes = 1;
 constexpr std::size_t kFaces = 2;
+constexpr std::size_t kBump = 3;
+constexpr std::size_t kEncoders = 4;
 
 /// The keys of sensors of a table's kind; all there are where that is none, so that it is the kind that is refused.
 std::vector<std::string> known_keys(const TomlTable& table) {
@@ -77,6 +79,8 @@ std::vector<std::string> known_keys(const TomlTable& table) {
   if (name == nullptr || *name == kKinds[0]) return kPointSensorKeys;
   if (*name == kKinds[kPlanes]) return kPlaneSensorKeys;
   if (*name == kKinds[kFaces]) return kFaceSensorKeys;
+  if (*name == kKinds[kBump]) return kBumpSensorKeys;
+  if (*name == kKinds[kEncoders]) return kEncoderSensorKeys;
   std::vector<std::string> all = kPointSensorKeys;
   all.insert(all.end(), kPlaneSensorKeys.begin(), kPlaneSensorKeys.end());
   return all;
@@ -149,6 +153,43 @@ sense::PlaneSensorSpec read_faces(const std::string& name, TableReader& sensor) 
   return spec;
 }
 
+/// Equal sectors, counter-clockwise from straight ahead.
+std::vector<sense::BumpZone> equal_zones(std::int64_t n) {
+  std::vector<sense::BumpZone> zones;
+  const double each = 2.0 * std::numbers::pi / static_cast<double>(n);
+  for (std::int64_t i = 0; i < n; ++i)
+    zones.push_back({.name = "zone_" + std::to_string(i + 1),
+                     .from_rad = each * static_cast<double>(i),
+                     .to_rad = each * static_cast<double>(i + 1)});
+  return zones;
+}
+
+sense::BumpSensorSpec read_bump(const std::string& name, TableReader& sensor) {
+  constexpr std::int64_t kMostZones = 64;
+  constexpr Range kSkin_m{1e-4, 1.0}, kRate{0.0, 1.0};
+  sense::BumpSensorSpec spec;
+  spec.name = name;
+  if (sensor.has("zones")) spec.zones = equal_zones(sensor.whole("zones", 1, kMostZones));
+  if (sensor.has("depth")) spec.depth = sensor.flag("depth");
+  if (sensor.has("skin_m")) spec.skin_m = sensor.number("skin_m", kSkin_m);
+  if (sensor.has("missed_rate")) spec.missed_rate = sensor.number("missed_rate", kRate);
+  if (sensor.has("false_rate")) spec.false_rate = sensor.number("false_rate", kRate);
+  spec.timing = timing(sensor);
+  return spec;
+}
+
+/// The wheels' radius is the drive's.
+sense::EncoderSensorSpec read_encoders(const std::string& name, TableReader& sensor) {
+  constexpr Range kTicks{1.0, 1e9}, kSigma{0.0, 0.1};
+  sense::EncoderSensorSpec spec;
+  spec.name = name;
+  if (sensor.has("ticks_per_revolution"))
+    spec.ticks_per_revolution = sensor.number("ticks_per_revolution", kTicks);
+  if (sensor.has("radius_error_sigma")) spec.radius_error_sigma = sensor.number("radius_error_sigma", kSigma);
+  spec.timing = timing(sensor);
+  return spec;
+}
+
 }  // namespace
 
 SensorSpec read_sensor(const std::string& name, const SensorTable& where,
@@ -160,6 +201,10 @@ SensorSpec read_sensor(const std::string& name, const SensorTable& where,
       return read_planes(name, sensor);
     case kFaces:
       return read_faces(name, sensor);
+    case kBump:
+      return read_bump(name, sensor);
+    case kEncoders:
+      return read_encoders(name, sensor);
     default:
       return read_points(name, sensor);
   }

@@ -9,16 +9,19 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "drive/wheels.hpp"
 #include "map/content.hpp"
 #include "map/entities.hpp"
 #include "map/entity_keys.hpp"
 #include "map/reader.hpp"
+#include "map/robot_file.hpp"
 #include "map/start_check.hpp"
 #include "sense/cloud_landmarks.hpp"
 #include "sense/face_landmarks.hpp"
 #include "sense/mesh_landmarks.hpp"
 #include "sense/occluders.hpp"
 #include "sim/clouds.hpp"
+#include "sim/obstacle.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::sim {
@@ -29,21 +32,32 @@ double find_step_length(const Scenario& scenario, const map::Path& path) {
   return scenario.robot.speed_m_s.value_or(0.0) * scenario.period_s();
 }
 
-/// The path of the scenario; without one, a piece of the straight line ahead of the robot start, on which it stays.
-map::Path path_of(const map::Document& document, const RobotSpec& robot) {
-  if (!robot.path.empty()) return map::find_path(document, robot.path);
-  const std::optional<map::RobotStart> start = map::find_robot_start(document);
-  if (!start) {
-    throw Error(ErrorCode::kBadInput, "the scenario names no path, and the map has no hw_robot_start",
-                Where{printable(document.file), 0, {}});
-  }
-  const Pose& pose = start->T_world_body;
+map::Path line_ahead(const Pose& pose) {
   const Vec3 line[]{pose.t, pose.t + pose.q * Vec3::UnitX()};
   return map::Path(map::RoundedPolyline(line, false, 1.0));
 }
 
+/// The path of the scenario; without one, a piece of the straight line ahead of the robot start, on which it stays.
+/// @param driven  of a robot with a drive
+map::Path path_of(const map::Document& document, const RobotSpec& robot, const DrivenWorld* driven) {
+  if (!robot.path.empty()) return map::find_path(document, robot.path);
+  if (driven != nullptr) return line_ahead(driven->start());
+  const std::optional<map::RobotStart> start = map::find_robot_start(document, robot.start);
+  if (!start) {
+    throw Error(ErrorCode::kBadInput, "the scenario names no path, and the map has no hw_robot_start",
+                Where{printable(document.file), 0, {}});
+  }
+  return line_ahead(start->T_world_body);
+}
+
 std::string file_of(const map::Document& document) {
   return printable(document.file);
+}
+
+map::Document load_world(const std::filesystem::path& file) {
+  map::Document document = map::load(file);
+  map::require_world(document);
+  return document;
 }
 
 /// What the cache has is used; a run adds nothing to it and is content with the fast sets, since they change no result.
@@ -106,17 +120,28 @@ void report_brushes(const map::Document& document, const map::World& world, std:
   }
 }
 
-/// Throws if the robot start is in solid.
-void check_robot_start(const map::Document& document, const world::CompiledWorld& world) {
-  const std::optional<map::RobotStart> start = map::find_robot_start(document);
-  if (!start) return;
-  for (const std::size_t index : world.partition.enclosure.in_solid) {
-    const map::Occupant& occupant = world.occupants[index];
-    if (occupant.entity != start->entity) continue;
-    throw Error(ErrorCode::kBadInput, "the robot start is in solid",
-                Where{file_of(document), start->line, "hw_robot_start"});
+/// Throws if a robot start is in solid.
+void check_robot_starts(const map::Document& document, const world::CompiledWorld& world) {
+  for (const map::RobotStart& start : map::robot_starts(document)) {
+    for (const std::size_t index : world.partition.enclosure.in_solid) {
+      if (world.occupants[index].entity != start.entity) continue;
+      throw Error(ErrorCode::kBadInput, "the robot start is in solid",
+                  Where{file_of(document), start.line, "hw_robot_start"});
+    }
   }
 }
+
+/// Of a robot that its path moves: it meets nothing, and has no wheels.
+class PathMotion final : public Motion {
+ public:
+  explicit PathMotion(const Simulator& simulator) : simulator_(simulator) {}
+  Pose pose_at_time(std::int64_t t_ns) const override { return simulator_.pose_at_time(t_ns); }
+  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const override { return {}; }
+  std::vector<double> wheel_travel_at(std::int64_t) const override { return {}; }
+
+ private:
+  const Simulator& simulator_;
+};
 
 std::string place_text(const Vec3& place) {
   const auto rounded = [](double value) { return format_double(std::round(value * 100.0) / 100.0 + 0.0); };
@@ -128,10 +153,13 @@ std::string place_text(const Vec3& place) {
 Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend backend)
     : scenario_(scenario),
       threads_(std::max(threads, 1u)),
-      document_(map::load(scenario.map_file)),
+      document_(load_world(scenario.map_file)),
       world_(compile_for_run(document_, scenario.map_file, threads_)),
       models_(load_models(document_, scenario.map_file.parent_path())),
-      path_(path_of(document_, scenario.robot)),
+      driven_world_(scenario.robot.driven
+                        ? std::make_unique<const DrivenWorld>(scenario, document_, world_, models_)
+                        : nullptr),
+      path_(path_of(document_, scenario.robot, driven_world_.get())),
       step_length_m_(find_step_length(scenario, path_)),
       scene_(sense::make_occluders(world_.partition.surface, triangles_of(models_)), backend),
       landmarks_(find_landmarks(with_clouds(document_, scenario), world_, models_)),
@@ -140,7 +168,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   make_sensors();
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
-  check_robot_start(document_, world_);
+  check_robot_starts(document_, world_);
   // A start at which another path of the map begins belongs to that path.
   if (!scenario.robot.path.empty() && map::start_off_all_paths(document_)) {
     if (const auto off = map::start_off_path(document_, scenario.robot.path)) {
@@ -148,8 +176,10 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
                              Where{file_of(document_), off->start.line, "hw_robot_start"});
     }
   }
-  stop_at_obstacle();
-  check_poses();
+  if (!driven_world_) {
+    stop_at_obstacle();
+    check_poses();
+  }
   report_silent_sensors();
 }
 
@@ -170,28 +200,51 @@ void Simulator::check_rate(const SensorSpec& spec) const {
 
 void Simulator::make_sensors() {
   sensors_.reserve(scenario_.sensors.size());
-  for (const SensorSpec& spec : scenario_.sensors) {
+  for (SensorSpec& spec : scenario_.sensors) {
     check_rate(spec);
     clocks_.push_back(std::visit(
         [this](const auto& sensor) { return sense::ReadingClock(sensor.timing, scenario_.period_ns); },
         spec));
-    std::unique_ptr<const sense::WallPlan>& plan = plans_.emplace_back();
-    std::unique_ptr<const sense::FacePlan>& faces = face_plans_.emplace_back();
-    const auto* planes = std::get_if<sense::PlaneSensorSpec>(&spec);
-    if (planes != nullptr && planes->shape == sense::PlaneShape::faces) {
-      const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
-      faces =
-          std::make_unique<const sense::FacePlan>(sense::make_face_plan(world_.partition.surface, wanted));
-      sensors_.emplace_back(std::in_place_type<sense::FaceSensor>, *planes, *faces, scenario_.seed);
-    } else if (planes != nullptr) {
-      const double height_m = (path_.at(0.0) * planes->T_body_sensor).t.z();
-      plan = std::make_unique<const sense::WallPlan>(walls_at(height_m));
-      sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, *planes, *plan, scenario_.seed);
-    } else {
-      sensors_.emplace_back(std::in_place_type<sense::PointSensor>, std::get<sense::PointSensorSpec>(spec),
-                            landmark_index_, scene_, scenario_.seed);
-    }
+    plans_.emplace_back();
+    face_plans_.emplace_back();
+    if (auto* encoders = std::get_if<sense::EncoderSensorSpec>(&spec); encoders != nullptr && driven_world_)
+      encoders->wheel_radius_m = scenario_.robot.driven->drive.wheel_radius_m;
+    make_sensor(spec);
   }
+}
+
+void Simulator::make_sensor(const SensorSpec& spec) {
+  const auto demand_drive = [&](const std::string& name) {
+    if (!driven_world_)
+      throw Error(ErrorCode::kBadInput, "needs a [robot.drive], whose body or wheels it senses",
+                  Where{printable(scenario_.file), 0, "sensor `" + printable(name) + "`"});
+  };
+  if (const auto* bump = std::get_if<sense::BumpSensorSpec>(&spec)) {
+    demand_drive(bump->name);
+    sensors_.emplace_back(std::in_place_type<sense::BumpSensor>, *bump, scenario_.seed);
+  } else if (const auto* encoders = std::get_if<sense::EncoderSensorSpec>(&spec)) {
+    demand_drive(encoders->name);
+    sensors_.emplace_back(std::in_place_type<sense::EncoderSensor>, *encoders,
+                          drive::wheel_count(scenario_.robot.driven->drive.kind), scenario_.seed);
+  } else if (const auto* points = std::get_if<sense::PointSensorSpec>(&spec)) {
+    sensors_.emplace_back(std::in_place_type<sense::PointSensor>, *points, landmark_index_, scene_,
+                          scenario_.seed);
+  } else {
+    make_plane_sensor(std::get<sense::PlaneSensorSpec>(spec));
+  }
+}
+
+void Simulator::make_plane_sensor(const sense::PlaneSensorSpec& spec) {
+  if (spec.shape == sense::PlaneShape::faces) {
+    const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
+    face_plans_.back() =
+        std::make_unique<const sense::FacePlan>(sense::make_face_plan(world_.partition.surface, wanted));
+    sensors_.emplace_back(std::in_place_type<sense::FaceSensor>, spec, *face_plans_.back(), scenario_.seed);
+    return;
+  }
+  const double height_m = (start() * spec.T_body_sensor).t.z();
+  plans_.back() = std::make_unique<const sense::WallPlan>(walls_at(height_m));
+  sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, spec, *plans_.back(), scenario_.seed);
 }
 
 sense::WallPlan Simulator::walls_at(double height_m) const {
@@ -259,27 +312,44 @@ Pose Simulator::pose_at_time(std::int64_t t_ns) const {
 }
 
 Frame Simulator::step(std::uint32_t index) const {
+  Frame frame = step(index, PathMotion(*this));
+  frame.T_world_body = pose_at(index);
+  return frame;
+}
+
+Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
   if (index >= scenario_.steps)
     throw Error(ErrorCode::kInternal, "a frame beyond the scenario's last step was asked for");
   Frame frame;
   frame.step = index;
   frame.t_ns = scenario_.period_ns * std::int64_t{index};
-  frame.T_world_body = pose_at(index);
+  frame.T_world_body = motion.pose_at_time(frame.t_ns);
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const std::uint64_t first = index == 0 ? 0 : clocks_[i].arrived_by(frame.t_ns - scenario_.period_ns);
     const std::uint64_t end = clocks_[i].arrived_by(frame.t_ns);
     for (std::uint64_t k = first; k < end; ++k) {
       frame.readings.push_back({.sensor = i, .sequence = k, .t_ns = clocks_[i].time_of(k)});
-      read(i, frame.readings.back());
+      if (!read(i, motion, frame.readings.back())) frame.readings.pop_back();
     }
   }
   return frame;
 }
 
-void Simulator::read(std::size_t sensor, Reading& reading) const {
-  const Pose T_world_body = pose_at_time(reading.t_ns);
+/// False where the sensor gives no reading.
+bool Simulator::read(std::size_t sensor, const Motion& motion, Reading& reading) const {
   const auto sequence = static_cast<std::uint32_t>(reading.sequence);
+  if (const auto* bump = std::get_if<sense::BumpSensor>(&sensors_[sensor])) {
+    const std::int64_t last_ns = reading.sequence == 0 ? -1 : clocks_[sensor].time_of(reading.sequence - 1);
+    reading.bump = bump->read(motion.contacts_in(last_ns, reading.t_ns), sequence);
+    return true;
+  }
+  if (const auto* encoders = std::get_if<sense::EncoderSensor>(&sensors_[sensor])) {
+    reading.encoders = encoders->read(motion.wheel_travel_at(reading.t_ns));
+    return true;
+  }
+  const Pose T_world_body = motion.pose_at_time(reading.t_ns);
   if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[sensor])) {
+    if (driven_world_ && !planes->sees_from(T_world_body)) return false;
     planes->observe(T_world_body, sequence, reading.planes);
   } else if (const auto* faces = std::get_if<sense::FaceSensor>(&sensors_[sensor])) {
     faces->observe(T_world_body, sequence, reading.planes);
@@ -289,6 +359,7 @@ void Simulator::read(std::size_t sensor, Reading& reading) const {
     std::get<sense::PointSensor>(sensors_[sensor])
         .observe(T_world_body, sequence, moved, threads_, reading.observations);
   }
+  return true;
 }
 
 }  // namespace hallway::sim

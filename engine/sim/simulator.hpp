@@ -19,8 +19,9 @@
 #include "sense/point_sensor.hpp"
 #include "sense/timing.hpp"
 #include "sense/wall_plan.hpp"
-#include "sim/drive.hpp"
+#include "sim/driven_world.hpp"
 #include "sim/models.hpp"
+#include "sim/motion.hpp"
 #include "sim/scenario.hpp"
 #include "trace/scene.hpp"
 #include "world/compiled_world.hpp"
@@ -34,6 +35,8 @@ struct Reading {
   std::int64_t t_ns = 0;                                ///< when it was taken
   std::vector<sense::PointObservation> observations{};  ///< of a sensor of points
   std::vector<PlaneObservation> planes{};               ///< of a sensor of planes
+  sense::BumpReading bump{};                            ///< of a bumper
+  sense::EncoderReading encoders{};                     ///< of encoders
 };
 
 /// One moment of a run.
@@ -67,6 +70,8 @@ class Simulator {
   /// Frame `index`, 0 <= index < Scenario::steps: a pure function of scenario and index, so that frames may be asked for in
   /// any order. Throws Error{kInternal} beyond the last one.
   Frame step(std::uint32_t index) const;
+  /// The frame of a robot that is moved in another way, e.g. by its drive. A sensor of planes that the robot holds too far from level gives no reading.
+  Frame step(std::uint32_t index, const Motion& motion) const;
   /// The true pose in that frame, without sensing.
   Pose pose_at(std::uint32_t index) const;
   /// The true pose at a time from 0; at the time of a frame the same to the last bit.
@@ -83,6 +88,8 @@ class Simulator {
   const world::CompiledWorld& compiled() const { return world_; }
   const PlacedModels& models() const { return models_; }
   const map::Path& path() const { return path_; }
+  /// What a robot with a drive can meet, and where it begins; null for one that its path moves.
+  const DrivenWorld* driven_world() const { return driven_world_.get(); }
   const trace::Scene& scene() const { return scene_; }
   /// Every point that a sensor can see, world metres, in frame 0; the index is the landmark's number.
   const std::vector<Vec3>& landmarks() const { return landmarks_.places; }
@@ -99,7 +106,8 @@ class Simulator {
   double step_length_m() const { return step_length_m_; }
 
  private:
-  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor>;
+  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor, sense::BumpSensor,
+                              sense::EncoderSensor>;
 
   void check_rate(const SensorSpec& spec) const;
   void make_sensors();
@@ -107,13 +115,17 @@ class Simulator {
   void check_poses() const;
   void report_silent_sensors();
   Pose pose_after(double distance_m) const;
-  void read(std::size_t sensor, Reading& reading) const;
+  bool read(std::size_t sensor, const Motion& motion, Reading& reading) const;
+  void make_sensor(const SensorSpec& spec);
+  void make_plane_sensor(const sense::PlaneSensorSpec& spec);
+  Pose start() const { return driven_world_ ? driven_world_->start() : path_.at(0.0); }
 
   Scenario scenario_;
   unsigned threads_;
   map::Document document_;
   world::CompiledWorld world_;
   PlacedModels models_;
+  std::unique_ptr<const DrivenWorld> driven_world_;
   map::Path path_;
   double step_length_m_;
   std::optional<double> stop_m_;  ///< of the path, where an obstacle stops the robot

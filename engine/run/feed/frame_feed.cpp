@@ -11,7 +11,9 @@ FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& pl
     : source_(source),
       pipeline_(pipeline),
       policy_(plan.on_failure),
-      window_(plan.lock_step || !pipeline.started() ? 1 : static_cast<std::uint32_t>(pipeline.capacity())),
+      window_(plan.lock_step || source.is_closed_loop() || !pipeline.started()
+                  ? 1
+                  : static_cast<std::uint32_t>(pipeline.capacity())),
       alive_(pipeline.started()),
       frames_(window_) {
   failures_.verdicts = plan.start_failures;
@@ -20,7 +22,7 @@ FrameFeed::FrameFeed(Source& source, host::Pipeline& pipeline, const RunPlan& pl
 }
 
 bool FrameFeed::has_next() const {
-  const bool ended = !alive_ && policy_ == sim::OnFailure::kStop;
+  const bool ended = !alive_ && policy_ == sim::OnFailure::kStop && !source_.is_moving();
   return !ended && done_ < source_.iterations();
 }
 
@@ -47,12 +49,23 @@ void FrameFeed::next(bool last, const std::function<void(const SourceFrame&)>& g
     answer.with_planes = pipeline_.frame_with_planes();
   });
   take(answer);
+  if (source_.is_closed_loop()) obey(failure.has_value());
   const std::uint32_t iteration = done_++;
   if (failure) {
     note(std::move(*failure), iteration);
     submitted_ = done_;  // those under way are lost with the plugin; a frame can be read again
     if (policy_ == sim::OnFailure::kRestart) restart();
   }
+}
+
+/// What was answered to the frame that was read last.
+void FrameFeed::obey(bool failed) {
+  sim::DriveAnswer answer{.failed = failed || !alive_};
+  if (const auto& command = pipeline_.drive_command(); command && !answer.failed)
+    answer.command = drive::Command{.forward_m_s = command->linear_m_s,
+                                    .lateral_m_s = command->lateral_m_s,
+                                    .angular_rad_s = command->angular_rad_s};
+  source_.obey(answer);
 }
 
 void FrameFeed::restart() {

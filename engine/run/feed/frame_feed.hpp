@@ -32,7 +32,7 @@ class FrameFeed {
 
   /// How many frames have been answered or failed.
   std::uint32_t done() const { return done_; }
-  /// Whether there is a next one: not at the end, not after a failure that stops the run.
+  /// Whether there is a next one: not at the end, not after a failure that stops the run; a robot that obeys comes to rest before.
   bool has_next() const;
   /// Whether a frame is submitted only when the one before it has been answered.
   bool one_at_a_time() const { return window_ == 1; }
@@ -54,6 +54,7 @@ class FrameFeed {
  private:
   void submit(const std::function<void(const SourceFrame&)>& give);
   void note(host::Verdict verdict, std::optional<std::uint32_t> iteration);
+  void obey(bool failed);
   void restart();
 
   Source& source_;

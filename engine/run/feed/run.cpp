@@ -20,6 +20,7 @@
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
 #include "render/renderer.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/found_table.hpp"
 #include "run/feed/frame_feed.hpp"
 #include "run/feed/log_recorder.hpp"
@@ -231,6 +232,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   record::AnswerTables tables(folder);
   record::EpochTable epochs;
   FoundTable found(folder);
+  DriveRecord drive(folder, source);
   Tally tally(source, plan.write_observations, maps_planes(pipeline));
   FrameFeed feed(source, pipeline, plan);
   EventView events(plan, feed, recorder);
@@ -255,6 +257,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
     };
     const std::uint64_t restarts = feed.failures().restarts;
     feed.next(result.stopped, give, take);
+    drive.update(source, recorder);
     if (feed.failures().restarts != restarts) epochs.restart();
     events.update();
     if (hooks.progress) hooks.progress(feed.done());
@@ -269,6 +272,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   tables.close();
   epochs.write(folder, online.joined_epochs);
   found.close();
+  drive.close();
   feed.close();
   result.failures = feed.failures();
   events.update();
@@ -283,7 +287,10 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   write_input(folder, plan, source, tally.collected());
   record::write_map(folder, refined);
   write_matches(folder, tally.evaluator());
-  record::write_json(folder / files::kMetrics, eval::to_json(result.metrics));
+  nlohmann::ordered_json metrics = eval::to_json(result.metrics);
+  result.drive = source.drive_counts();
+  if (result.drive) metrics["drive"] = to_json(*result.drive);
+  record::write_json(folder / files::kMetrics, metrics);
   nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
   record::write_json(folder / files::kRun, manifest);
   events.add_pictures(draw_pictures(output, plan, result));

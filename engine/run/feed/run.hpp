@@ -56,6 +56,7 @@ struct MissingPicture {
 /// How a run went.
 struct RunResult {
   eval::Metrics metrics;
+  std::optional<sim::DriveCounts> drive;        ///< of a robot that obeys
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names
   std::vector<MissingPicture> missing_pictures;

@@ -99,13 +99,15 @@ struct FieldOfView {
   double range_m = 0.0;
 };
 
-FieldOfView field_of(const sim::SensorSpec& sensor) {
+/// Nothing for a sensor that does not look: a bumper, encoders.
+std::optional<FieldOfView> field_of(const sim::SensorSpec& sensor) {
   if (const auto* points = std::get_if<sense::PointSensorSpec>(&sensor))
-    return {points->name, points->T_body_sensor, points->horizontal_fov, points->vertical_fov,
-            points->max_range_m};
-  const auto& planes = std::get<sense::PlaneSensorSpec>(sensor);
-  return {planes.name, planes.T_body_sensor, planes.view.horizontal_fov, planes.vertical_fov,
-          planes.view.max_range_m};
+    return FieldOfView{points->name, points->T_body_sensor, points->horizontal_fov, points->vertical_fov,
+                       points->max_range_m};
+  const auto* planes = std::get_if<sense::PlaneSensorSpec>(&sensor);
+  if (planes == nullptr) return std::nullopt;
+  return FieldOfView{planes->name, planes->T_body_sensor, planes->view.horizontal_fov, planes->vertical_fov,
+                     planes->view.max_range_m};
 }
 
 render::Polyline outline_of(const FieldOfView& field, const Pose& T_world_body) {
@@ -135,7 +137,7 @@ void add_sensors(render::Picture& picture, const map::Document& document) {
     return scenario.sensors;
   });
   for (const sim::SensorSpec& sensor : sensors)
-    picture.polylines.push_back(outline_of(field_of(sensor), *T_world_body));
+    if (const auto field = field_of(sensor)) picture.polylines.push_back(outline_of(*field, *T_world_body));
 }
 
 void add_lights(render::Picture& picture, const world::CompiledWorld& world) {

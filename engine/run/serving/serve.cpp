@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "base/file.hpp"
 #include "eval/metrics_json.hpp"
@@ -16,6 +17,7 @@
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/log_recorder.hpp"
 #include "run/feed/truth_tables.hpp"
 #include "run/pictures/record.hpp"
@@ -40,13 +42,17 @@ class Folder {
         source_(source),
         output_(*plan.folder, plan.replace),
         log_file_(output_.working_path() / files::kLog),
-        recorder_(log_file_, source, plan.manifest) {}
+        recorder_(log_file_, source, plan.manifest),
+        drive_(output_.working_path(), source) {}
 
   void add_frame(std::uint32_t iteration, const SourceFrame& frame) {
     recorder_.record_input(frame);
     truth_.add(iteration, frame);
     path_.add_frame(frame);
   }
+
+  /// What a robot that obeys has done since the last call.
+  void add_drive(Source& source) { drive_.update(source, recorder_); }
 
   /// @param t_ns  of the frame
   void add_answer(const link::Answer& answer, std::int64_t t_ns) {
@@ -65,6 +71,7 @@ class Folder {
 
   void finish(ServeResult& result, const std::vector<log::IterationCommand>& commands) {
     recorder_.finish();
+    drive_.close();
     const std::filesystem::path& folder = output_.working_path();
     write_attachments(folder, plan_.attachments);
     truth_.write(folder, source_);
@@ -86,6 +93,7 @@ class Folder {
   record::OutputFolder output_;
   log::FileOutput log_file_;
   LogRecorder recorder_;
+  DriveRecord drive_;
   TruthTables truth_;
   ServedPath path_;
 };
@@ -103,12 +111,14 @@ class Server {
     for (std::uint32_t k = 0; k < source_.iterations() && !ended(); ++k) {
       send(k);
       take_answers();
+      if (plan_.lock_step) obey();
       if (hooks_.progress) hooks_.progress(k + 1);
     }
     if (!plan_.lock_step && result_.frames > 0) {
       wait_until([this] { return answered_.contains(result_.frames - 1); }, Clock::now() + kLastAnswer);
     }
     take_answers();
+    if (!plan_.lock_step && result_.frames > 0) obey();
     note_end();
     robot_.leave();
     take_answers();
@@ -128,10 +138,16 @@ class Server {
   }
 
   void send(std::uint32_t k) {
+    const bool at_its_time = source_.is_closed_loop() && !plan_.lock_step;
+    if (at_its_time) {  // the frame is made when the commands before it have come
+      pace(period_ns() * std::int64_t{k});
+      if (ended()) return;
+      if (k > 0) obey();
+    }
     source_.read(k, frame_);
     const std::span<const std::byte> bytes = frame_.bytes();
-    if (!plan_.lock_step) {
-      pace();
+    if (!plan_.lock_step && !at_its_time) {
+      pace(frame_.t_ns());
       if (ended()) return;
     }
     if (folder_) folder_->add_frame(k, frame_);
@@ -144,8 +160,27 @@ class Server {
     }
   }
 
-  /// Waits for the time of the present frame on the schedule that began with the first one: a late frame makes no other one late.
-  void pace() {
+  std::int64_t period_ns() const { return plan_.manifest.value("period_ns", std::int64_t{0}); }
+
+  /// A robot that obeys takes the newest command that has come since the last call; a command to an older frame than one before it is not taken.
+  void obey() {
+    if (!source_.is_closed_loop()) return;
+    source_.obey(std::exchange(fresh_, {}));
+    if (folder_) folder_->add_drive(source_);
+  }
+
+  /// Keeps the answer's command for obey().
+  void note_command(const link::Answer& answer) {
+    if (!answer.command || answer.sequence < newest_) return;
+    if (answer.sequence + 1 < times_.size()) ++result_.commands_late;
+    newest_ = answer.sequence;
+    fresh_.command = drive::Command{.forward_m_s = answer.command->linear_m_s,
+                                    .lateral_m_s = answer.command->lateral_m_s,
+                                    .angular_rad_s = answer.command->angular_rad_s};
+  }
+
+  /// Waits for the time of a frame on the schedule that began with the first one: a late frame makes no other one late.
+  void pace(std::int64_t frame_ns) {
     const Clock::time_point now = Clock::now();
     if (times_.empty()) {
       start_ = now;
@@ -155,7 +190,7 @@ class Server {
       return start_ + std::chrono::nanoseconds(
                           static_cast<std::int64_t>(static_cast<double>(t_ns - times_.front()) / plan_.rate));
     };
-    const Clock::time_point due = after(frame_.t_ns());
+    const Clock::time_point due = after(frame_ns);
     if (now - due >= due - after(times_.back())) ++result_.sent_late;
     wait_until([] { return false; }, due);
   }
@@ -169,6 +204,7 @@ class Server {
       if (answer.status == HW_ANSWER_FAILED) ++result_.failed;
       if (answered_.insert(k).second && came->round_trip)
         round_trips_ms_.push_back(std::chrono::duration<double, std::milli>(*came->round_trip).count());
+      if (source_.is_closed_loop()) note_command(answer);
       if (answer.command)
         commands_[k] = {k, answer.command->linear_m_s, answer.command->angular_rad_s,
                         answer.command->lateral_m_s};
@@ -204,6 +240,8 @@ class Server {
   std::optional<Folder> folder_;
   ServeResult result_;
   SourceFrame frame_;
+  sim::DriveAnswer fresh_;                                   ///< what has come since the robot last obeyed
+  std::uint64_t newest_ = 0;                                 ///< the newest frame that a command came to
   Clock::time_point start_;                                  ///< when the first frame was sent
   std::vector<std::int64_t> times_;                          ///< of the frames that were sent
   std::set<std::uint32_t> answered_;                         ///< frames
@@ -235,6 +273,7 @@ nlohmann::ordered_json print_serving(const ServeResult& result) {
           {"answers_failed", result.failed},
           {"answers_repeated", counters.repeated_answers},
           {"commands", result.commands},
+          {"commands_late", result.commands_late},
           {"sent_late", result.sent_late},
           {"datagrams_sent", counters.datagrams},
           {"datagrams_resent", counters.resent},

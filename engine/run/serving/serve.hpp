@@ -30,12 +30,13 @@ struct ServeResult {
   enum class End { kAllSent, kLeft, kSilent, kStopped };
   End end = End::
       kAllSent;  ///< kLeft: the robot program said bye; kSilent: it was given up; kStopped: by RunHooks::stop
-  std::uint32_t frames = 0;     ///< sent
-  std::uint64_t answered = 0;   ///< frames that have an answer
-  std::uint64_t late = 0;       ///< answers that say so (HW_ANSWER_LATE)
-  std::uint64_t failed = 0;     ///< answers that say so (HW_ANSWER_FAILED)
-  std::uint64_t commands = 0;   ///< frames whose last answer has a drive command
-  std::uint64_t sent_late = 0;  ///< real time: frames sent a period or more after their time
+  std::uint32_t frames = 0;         ///< sent
+  std::uint64_t answered = 0;       ///< frames that have an answer
+  std::uint64_t late = 0;           ///< answers that say so (HW_ANSWER_LATE)
+  std::uint64_t failed = 0;         ///< answers that say so (HW_ANSWER_FAILED)
+  std::uint64_t commands = 0;       ///< frames whose last answer has a drive command
+  std::uint64_t commands_late = 0;  ///< taken by a robot that obeys, but not before the next frame was sent
+  std::uint64_t sent_late = 0;      ///< real time: frames sent a period or more after their time
   std::optional<eval::TimeSummary> round_trip_ms{};  ///< from a frame's first datagram to its first answer
   link::RobotCounters counters{};
   std::optional<eval::Metrics> metrics{};  ///< of the path that came back, where a folder was written

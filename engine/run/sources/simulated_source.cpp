@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <variant>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "geom/arrays.hpp"
+#include "host/samples/bump_kind.hpp"
+#include "host/samples/encoder_kind.hpp"
 #include "host/samples/plane_kind.hpp"
 #include "host/samples/point_kind.hpp"
 #include "record/plane_observations.hpp"
@@ -18,6 +21,46 @@
 namespace hallway::run {
 
 namespace {
+
+/// The names of what a drive changed in a command, as drive.csv has them.
+std::string changes_of(const drive::Clamps& clamps) {
+  const std::array changed{clamps.speed,    clamps.lateral,  clamps.angular, clamps.steering,
+                           clamps.left_out, clamps.dead_band};  // in the order of kCommandChanges
+  std::string names;
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    if (!changed.at(i)) continue;
+    if (!names.empty()) names += '+';
+    names += log::kCommandChanges.at(i);
+  }
+  return names;
+}
+
+log::CommandCause cause_of(sim::CommandCause cause) {
+  switch (cause) {
+    case sim::CommandCause::kNone:
+      return log::CommandCause::kNone;
+    case sim::CommandCause::kPlugin:
+      return log::CommandCause::kPlugin;
+    case sim::CommandCause::kPath:
+      return log::CommandCause::kPath;
+    case sim::CommandCause::kCommands:
+      return log::CommandCause::kCommands;
+    case sim::CommandCause::kHeld:
+      return log::CommandCause::kHeld;
+    case sim::CommandCause::kWatchdog:
+      return log::CommandCause::kWatchdog;
+    case sim::CommandCause::kTimeout:
+      return log::CommandCause::kTimeout;
+    case sim::CommandCause::kFailure:
+      return log::CommandCause::kFailure;
+  }
+  return log::CommandCause::kNone;
+}
+
+const char* kind_of(contact::TouchKind kind) {
+  static constexpr std::array kNames{"wall", "ledge", "step", "slope"};  // in the order of TouchKind
+  return kNames.at(static_cast<std::size_t>(kind));
+}
 
 /// Four corners for a face: its own, the last one twice where it has three, or those of a rectangle around it.
 std::array<std::array<double, 3>, 4> corners_of(const Polygon& face) {
@@ -94,6 +137,42 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
   }
   for (const sim::SensorSpec& sensor : scenario.sensors)
     std::visit([this](const auto& spec) { add_sensor(spec); }, sensor);
+  if (simulator.driven_world() != nullptr)
+    robot_.emplace(*simulator.driven_world(), scenario, simulator.path());
+}
+
+void SimulatedSource::move_to(std::uint32_t iteration) {
+  if (iteration < robot_->frame())
+    throw Error(ErrorCode::kInternal, "a frame of a closed loop was asked for again");
+  while (robot_->frame() < iteration) {
+    const contact::Advance& advance = robot_->advance();
+    std::vector<log::ContactRow> rows;
+    for (const contact::Touch& touch : advance.begun)
+      rows.push_back(
+          {touch.t_ns, kind_of(touch.kind), to_array(touch.point), to_array(touch.normal), touch.speed_m_s});
+    for (const contact::FallEvent& fall : advance.falls)
+      rows.push_back({fall.t_ns, "fall", to_array(robot_->pose_at_time(fall.t_ns).t), {0.0, 0.0, 1.0}, 0.0});
+    std::ranges::stable_sort(rows, {}, &log::ContactRow::t_ns);
+    for (log::ContactRow& row : rows) notes_.contacts.push_back(std::move(row));
+  }
+}
+
+void SimulatedSource::obey(const sim::DriveAnswer& answer) {
+  if (!robot_) return;
+  const sim::CommandInForce now = robot_->obey(answer);
+  const drive::Command& command = now.obeyed.command;
+  notes_.commands.push_back({.iteration = robot_->frame(),
+                             .linear_m_s = command.forward_m_s,
+                             .angular_rad_s = command.angular_rad_s,
+                             .lateral_m_s = command.lateral_m_s,
+                             .acts_from_ns = now.obeyed.acts_from_ns,
+                             .cause = cause_of(now.cause),
+                             .changes = changes_of(now.obeyed.clamps)});
+}
+
+std::optional<sim::DriveCounts> SimulatedSource::drive_counts() const {
+  if (!robot_) return std::nullopt;
+  return robot_->counts();
 }
 
 void SimulatedSource::add_sensor(const sense::PointSensorSpec& spec) {
@@ -116,9 +195,20 @@ void SimulatedSource::add_sensor(const sense::PlaneSensorSpec& spec) {
       add_true_planes(walls != nullptr ? true_planes_of(*walls) : true_planes_of(*simulator_.faces(index))));
 }
 
+void SimulatedSource::add_sensor(const sense::BumpSensorSpec& spec) {
+  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  first_true_plane_.emplace_back();
+}
+
+void SimulatedSource::add_sensor(const sense::EncoderSensorSpec& spec) {
+  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  first_true_plane_.emplace_back();
+}
+
 void SimulatedSource::add_walls() {
   if (facts_.true_planes) return;
-  const double height_m = (simulator_.pose_at(0) * pose_of(facts_.sensors.front().T_body_sensor)).t.z();
+  const Pose start = robot_ ? robot_->pose_at_time(0) : simulator_.pose_at(0);
+  const double height_m = (start * pose_of(facts_.sensors.front().T_body_sensor)).t.z();
   add_true_planes(true_planes_of(simulator_.walls_at(height_m)));
 }
 
@@ -158,8 +248,31 @@ void SimulatedSource::add_reading(const sense::PlaneSensorSpec&, const sim::Read
   }
 }
 
+void SimulatedSource::add_reading(const sense::BumpSensorSpec& spec, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  std::vector<hw_bump_zone_t>& zones = host::add_bump(builder, facts_.sensors[reading.sensor].id);
+  for (const sense::ZoneReading& zone : reading.bump.zones) {
+    const bool has_depth = zone.pressed && spec.depth;
+    zones.push_back({.direction = {zone.direction.x(), zone.direction.y(), zone.direction.z()},
+                     .depth_m = has_depth ? zone.depth_m : std::numeric_limits<double>::quiet_NaN(),
+                     .zone = static_cast<std::uint32_t>(zones.size()),
+                     .pressed = zone.pressed ? 1u : 0u});
+    frame.identities.push_back(log::kNoLandmark);
+  }
+}
+
+void SimulatedSource::add_reading(const sense::EncoderSensorSpec&, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  std::vector<hw_wheel_ticks_t>& wheels = host::add_encoder(builder, facts_.sensors[reading.sensor].id);
+  for (const std::int64_t ticks : reading.encoders.ticks) {
+    wheels.push_back({ticks});
+    frame.identities.push_back(log::kNoLandmark);
+  }
+}
+
 void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
-  const sim::Frame step = simulator_.step(iteration);
+  if (robot_) move_to(iteration);
+  const sim::Frame step = robot_ ? simulator_.step(iteration, *robot_) : simulator_.step(iteration);
   host::FrameBuilder& builder = frame.begin(iteration, step.t_ns);
   frame.T_world_body = step.T_world_body;
   for (const sim::Reading& reading : step.readings) {

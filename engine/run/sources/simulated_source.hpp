@@ -3,14 +3,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "run/sources/source.hpp"
+#include "sim/driven_robot.hpp"
 #include "sim/simulator.hpp"
 
 namespace hallway::run {
 
-/// The frames of a simulated robot.
+/// The frames of a simulated robot, which its path moves, or a drive that obeys.
 class SimulatedSource : public Source {
  public:
   /// Keeps a reference to the simulator. Throws Error{kBadInput} if the scenario has no sensor.
@@ -20,18 +22,33 @@ class SimulatedSource : public Source {
   void add_walls();
 
   std::uint32_t iterations() const override { return simulator_.scenario().steps; }
+  bool is_closed_loop() const override { return robot_.has_value(); }
+  void obey(const sim::DriveAnswer& answer) override;
+  bool is_moving() const override { return robot_ && robot_->is_moving(); }
+  DriveNotes take_drive_notes() override { return std::exchange(notes_, {}); }
+  std::optional<sim::DriveCounts> drive_counts() const override;
 
  private:
   void fill(std::uint32_t iteration, SourceFrame& frame) override;
+  void move_to(std::uint32_t iteration);
   void add_sensor(const sense::PointSensorSpec& spec);
   void add_sensor(const sense::PlaneSensorSpec& spec);
+  void add_sensor(const sense::BumpSensorSpec& spec);
+  void add_sensor(const sense::EncoderSensorSpec& spec);
   std::uint64_t add_true_planes(std::vector<log::TruePlane> planes);
   void add_reading(const sense::PointSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
   void add_reading(const sense::PlaneSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
 
+  void add_reading(const sense::BumpSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::EncoderSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+
   const sim::Simulator& simulator_;
+  std::optional<sim::DrivenRobot> robot_;  ///< where a drive moves it
+  DriveNotes notes_;                       ///< since they were taken
   /// By sensor: the number of its first one in true_planes(); none where it sees no planes.
   std::vector<std::optional<std::uint64_t>> first_true_plane_;
 };

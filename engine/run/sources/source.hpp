@@ -12,9 +12,11 @@
 #include "host/plugin.hpp"
 #include "host/samples/frame_builder.hpp"
 #include "host/samples/frame_bytes.hpp"
+#include "log/drive_tables.hpp"
 #include "log/landmark_id.hpp"
 #include "log/landmarks.hpp"
 #include "log/true_planes.hpp"
+#include "sim/driven_robot.hpp"
 
 namespace hallway::run {
 
@@ -67,7 +69,14 @@ struct SourceFacts {
   std::optional<std::vector<log::TruePlane>> true_planes{};    ///< likewise
 };
 
-/// Where a run's input comes from: a simulator or a log. A frame is a pure function of its number.
+/// What a drive obeyed and what its robot touched.
+struct DriveNotes {
+  std::vector<log::ObeyedCommand> commands{};
+  std::vector<log::ContactRow> contacts{};  ///< before the frame that was read last
+};
+
+/// Where a run's input comes from: a simulator or a log. A frame is a pure function of its number, or, in a closed loop, of that and of what was obeyed
+/// before it.
 class Source {
  public:
   explicit Source(SourceFacts facts = {}) : facts_(std::move(facts)) {}
@@ -80,6 +89,18 @@ class Source {
     fill(iteration, frame);
     frame.finish();
   }
+
+  /// Whether a frame depends on the answers to those before it: a robot that obeys. Then frames are read in their order, each after obey() for the one before,
+  /// and one is under way.
+  virtual bool is_closed_loop() const { return false; }
+  /// Closed loop: takes the answer to the frame that was read last; once for each.
+  virtual void obey(const sim::DriveAnswer&) {}
+  /// Closed loop: whether the robot, whose plugins failed, has still to come to rest.
+  virtual bool is_moving() const { return false; }
+  /// Closed loop: what is new since the last call.
+  virtual DriveNotes take_drive_notes() { return {}; }
+  /// Closed loop: what the robot did until now.
+  virtual std::optional<sim::DriveCounts> drive_counts() const { return std::nullopt; }
 
   const SourceFacts& facts() const { return facts_; }
   const std::vector<host::SensorInfo>& sensors() const { return facts_.sensors; }

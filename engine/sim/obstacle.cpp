@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/drive.hpp"
+#include "sim/obstacle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "run/feed/drive_record.hpp"
+
+#include <fmt/format.h>
+#include <hallway/output.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "log/drive_tables.hpp"
+#include "record/files.hpp"
+
+namespace hallway::run {
+namespace {
+
+namespace files = record::files;
+
+bool puts_commands(const host::StageFacts& plugin) {
+  return std::ranges::count(plugin.info.outputs, std::uint32_t{HW_OUTPUT_DRIVE_COMMAND}) > 0;
+}
+
+nlohmann::ordered_json print_body(const bsp::Body& body) {
+  if (const auto* box = std::get_if<bsp::UprightBox>(&body)) {
+    const double x = box->half_length_m, y = box->half_width_m;
+    return {{"corners_m", {{x, y}, {-x, y}, {-x, -y}, {x, -y}}},
+            {"bottom_m", box->z_low_m},
+            {"top_m", box->z_high_m}};
+  }
+  const auto& cylinder = std::get<bsp::Cylinder>(body);
+  return {{"radius_m", cylinder.radius_m},
+          {"middle_m", {0.0, 0.0}},
+          {"bottom_m", cylinder.z_low_m},
+          {"top_m", cylinder.z_high_m}};
+}
+
+}  // namespace
+
+DriveRecord::DriveRecord(const std::filesystem::path& folder, const Source& source) {
+  if (!source.is_closed_loop()) return;
+  commands_.emplace(folder / files::kObeyedCommands, ',', log::kObeyedColumns);
+  contacts_.emplace(folder / files::kContacts, ',', log::kContactColumns);
+}
+
+void DriveRecord::update(Source& source, LogRecorder& recorder) {
+  if (!commands_) return;
+  const DriveNotes notes = source.take_drive_notes();
+  for (const log::ContactRow& contact : notes.contacts) {
+    log::add_row(contacts_->next_row(), contact);
+    recorder.record_contact(contact);
+  }
+  for (const log::ObeyedCommand& command : notes.commands) {
+    log::add_row(commands_->next_row(), command);
+    recorder.record_obeyed(command);
+  }
+}
+
+void DriveRecord::close() {
+  if (!commands_) return;
+  commands_->close();
+  contacts_->close();
+}
+
+nlohmann::ordered_json to_json(const sim::DriveCounts& counts) {
+  return {{"commands", counts.commands},
+          {"commands_clamped", counts.clamped},
+          {"commands_left_out", counts.left_out},
+          {"stops", counts.stops},
+          {"distance_m", counts.distance_m},
+          {"contacts", counts.contacts},
+          {"falls", counts.falls},
+          {"stood_s", counts.stood_s},
+          {"floor_cells", counts.floor_cells},
+          {"cells_visited", counts.cells_visited},
+          {"rooms", counts.rooms},
+          {"rooms_entered", counts.rooms_entered}};
+}
+
+nlohmann::ordered_json print_driven(const sim::Scenario& scenario) {
+  static constexpr std::array kDrivers{"plugin", "path", "commands"};  // in the order of DrivenBy
+  const sim::DrivenSpec& driven = *scenario.robot.driven;
+  return {{"closed_loop", true},
+          {"driven_by", kDrivers.at(static_cast<std::size_t>(driven.by))},
+          {"body", print_body(*scenario.robot.body)},
+          {"drive", {{"kind", drive::name_of(driven.drive.kind)}}}};
+}
+
+std::size_t driving_plugin(const host::Pipeline& pipeline, const sim::Scenario& scenario) {
+  const std::string& wanted = scenario.robot.driven->plugin;
+  const std::vector<host::StageFacts>& plugins = pipeline.facts();
+  const Where where{printable(scenario.file), 0, "table `robot`"};
+  std::vector<std::size_t> able;
+  for (std::size_t i = 0; i < plugins.size(); ++i) {
+    if (!wanted.empty() && plugins[i].info.id != wanted) continue;
+    if (!wanted.empty() && !puts_commands(plugins[i]))
+      throw Error(ErrorCode::kBadInput, "the plugin `" + printable(wanted) + "` gives no drive commands",
+                  where);
+    if (puts_commands(plugins[i])) able.push_back(i);
+  }
+  if (able.size() == 1) return able.front();
+  if (!wanted.empty() && able.empty())
+    throw Error(ErrorCode::kBadInput,
+                "driving_plugin = \"" + printable(wanted) + "\" is no plugin of the scenario", where);
+  if (able.empty())
+    throw Error(
+        ErrorCode::kBadInput,
+        "a plugin is to drive the robot, and none of the scenario's gives drive commands; `driven_by` may be "
+        "\"path\" or \"commands\"",
+        where);
+  throw Error(ErrorCode::kBadInput,
+              "several plugins give drive commands; `driving_plugin` says which one drives", where);
+}
+
+}  // namespace hallway::run

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+#include "host/pipeline.hpp"
+#include "log/row_file.hpp"
+#include "run/feed/log_recorder.hpp"
+#include "run/sources/source.hpp"
+#include "sim/driven_robot.hpp"
+#include "sim/simulator.hpp"
+
+namespace hallway::run {
+
+/// Writes what a drive obeys and what its robot touches into the tables drive.csv and contacts.csv and into the log, while the run goes on. A source without a
+/// drive leaves nothing. All functions throw Error{kIo}.
+class DriveRecord {
+ public:
+  DriveRecord(const std::filesystem::path& folder, const Source& source);
+
+  /// Takes what is new in the source.
+  void update(Source& source, LogRecorder& recorder);
+  void close();
+
+ private:
+  std::optional<log::RowFile> commands_;
+  std::optional<log::RowFile> contacts_;
+};
+
+/// The member `drive` of metrics.json (docs/metrics.md).
+nlohmann::ordered_json to_json(const sim::DriveCounts& counts);
+
+/// The member `robot` of run.json (docs/formats.md): body and drive of a simulated robot with a drive.
+nlohmann::ordered_json print_driven(const sim::Scenario& scenario);
+
+/// The index of the plugin that drives: the one that the scenario names, or the only one that puts drive commands.
+/// Throws Error{kBadInput} where there is none or several.
+/// @param pipeline  was started
+std::size_t driving_plugin(const host::Pipeline& pipeline, const sim::Scenario& scenario);
+
+}  // namespace hallway::run

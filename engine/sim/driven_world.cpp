@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "sim/driven_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "bsp/point_location.hpp"
+#include "csg/surface.hpp"
+#include "map/entities.hpp"
+#include "map/path.hpp"
+
+namespace hallway::sim {
+namespace {
+
+constexpr const char* kFreeStart = "free";
+
+Error robot_error(const Scenario& scenario, const std::string& message) {
+  return {ErrorCode::kBadInput, message, Where{printable(scenario.file), 0, "table `robot`"}};
+}
+
+void add_triangles(const trace::TriangleMesh& mesh, std::vector<contact::Triangle>& triangles) {
+  for (const auto& corners : mesh.triangles)
+    triangles.push_back({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]});
+}
+
+contact::Obstacles make_obstacles(const world::CompiledWorld& world, const PlacedModels& models) {
+  std::vector<contact::Triangle> triangles;
+  const csg::Surface& surface = world.partition.surface;
+  for (const csg::SurfacePolygon& polygon : surface.polygons) {
+    for (const auto& t : csg::triangulate(surface, polygon))
+      triangles.push_back({surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
+  }
+  for (const trace::TriangleMesh& mesh : triangles_of(models)) add_triangles(mesh, triangles);
+  return contact::Obstacles(std::move(triangles));
+}
+
+/// Where a drive's wheels are. Two driven wheels have casters before and behind them.
+contact::Wheels wheels_of(const drive::DriveSpec& spec) {
+  const double side = 0.5 * spec.wheel_base_m, front = 0.5 * spec.axle_distance_m;
+  switch (spec.kind) {
+    case drive::DriveKind::kAckermann:
+      return {.at = {{0.0, side}, {0.0, -side}, {2.0 * front, side}, {2.0 * front, -side}},
+              .centre_of_mass = {front, 0.0}};
+    case drive::DriveKind::kTracked:
+    case drive::DriveKind::kOmnidirectional:
+      return {.at = {{front, side}, {front, -side}, {-front, side}, {-front, -side}}};
+    default:
+      return {.at = {{0.0, side}, {0.0, -side}, {side, 0.0}, {-side, 0.0}}};
+  }
+}
+
+/// How far a scenario's body reaches below and above its origin.
+std::pair<double, double> height_of(const bsp::Body& body) {
+  if (const auto* box = std::get_if<bsp::UprightBox>(&body)) return {box->z_low_m, box->z_high_m};
+  const auto& cylinder = std::get<bsp::Cylinder>(body);
+  return {cylinder.z_low_m, cylinder.z_high_m};
+}
+
+contact::BodyShape shape_of(const bsp::Body& body, double low, double high) {
+  if (const auto* box = std::get_if<bsp::UprightBox>(&body))
+    return contact::BodyShape::box({-box->half_length_m, -box->half_width_m, low},
+                                   {box->half_length_m, box->half_width_m, high});
+  return contact::BodyShape::cylinder(std::get<bsp::Cylinder>(body).radius_m, low, high);
+}
+
+/// The radius of gyration of a body of even density about the vertical.
+double gyration_of(const bsp::Body& body) {
+  constexpr double kLeast = 1e-3;
+  if (const auto* box = std::get_if<bsp::UprightBox>(&body))
+    return std::max(std::hypot(box->half_length_m, box->half_width_m) / std::numbers::sqrt3, kLeast);
+  return std::max(std::get<bsp::Cylinder>(body).radius_m / std::numbers::sqrt2, kLeast);
+}
+
+contact::RobotSpec robot_of(const Scenario& scenario) {
+  const DrivenSpec& driven = *scenario.robot.driven;
+  if (!scenario.robot.body) {
+    throw robot_error(
+        scenario,
+        "a robot with a drive needs a body: `radius_m`, or `length_m` and `width_m`, with `bottom_m` and "
+        "`top_m`");
+  }
+  const bsp::Body& body = *scenario.robot.body;
+  const auto [low, high] = height_of(body);
+  try {
+    contact::RobotSpec spec{.shape = shape_of(body, driven.clearance_m, driven.clearance_m + high - low),
+                            .wheels = wheels_of(driven.drive)};
+    spec.ground.step_m = driven.step_m;
+    spec.ground.ledge_m = driven.ledge_m;
+    spec.ground.slope_rad = driven.slope_rad;
+    spec.ground.clearance_m = driven.clearance_m;
+    spec.move.slide = driven.slides;
+    spec.move.gyration = gyration_of(body);
+    spec.falls = driven.falls;
+    return spec;
+  } catch (const Error& error) {
+    throw robot_error(scenario, error.message());
+  }
+}
+
+double heading(const Pose& pose) {
+  const Vec3 ahead = pose.q * Vec3::UnitX();
+  return std::atan2(ahead.y(), ahead.x());
+}
+
+std::string cause_of(contact::Start start) {
+  switch (start) {
+    case contact::Start::kInObstacle:
+      return "the robot overlaps something at its start";
+    case contact::Start::kInSolid:
+      return "the robot start is in solid";
+    case contact::Start::kNoFloor:
+      return "there is no floor below the robot's start";
+    default:
+      return "the floor at the robot's start is too uneven or too steep, or there is a ledge under a wheel";
+  }
+}
+
+}  // namespace
+
+DrivenWorld::DrivenWorld(const Scenario& scenario, const map::Document& document,
+                         const world::CompiledWorld& world, const PlacedModels& models)
+    : world_(world), obstacles_(make_obstacles(world, models)), robot_(robot_of(scenario)) {
+  T_floor_body_.t.z() = scenario.robot.driven->clearance_m - height_of(*scenario.robot.body).first;
+  find_start(scenario, document);
+}
+
+bool DrivenWorld::is_solid(const Vec3& point) const {
+  return bsp::cluster_at(world_.partition.tree, point) < 0;
+}
+
+contact::Start DrivenWorld::put(contact::Robot& robot, const Pose& T_world_body) const {
+  return robot.put(T_world_body.t, heading(T_world_body), 0,
+                   [this](const Vec3& point) { return is_solid(point); });
+}
+
+void DrivenWorld::put_at_start(contact::Robot& robot) const {
+  put(robot, place_);
+}
+
+const contact::ReachableFloor& DrivenWorld::floor() const {
+  if (!floor_)
+    floor_.emplace(obstacles_, robot_, start_ * T_floor_body_.inverse(),
+                   [this](const Vec3& point) { return is_solid(point); });
+  return *floor_;
+}
+
+void DrivenWorld::find_start(const Scenario& scenario, const map::Document& document) {
+  const RobotSpec& spec = scenario.robot;
+  std::optional<contact::Robot> robot;
+  try {
+    robot.emplace(obstacles_, robot_);
+  } catch (const Error& error) {
+    throw robot_error(scenario, error.message());
+  }
+  if (spec.start == kFreeStart) {
+    auto found = contact::find_free_start(
+        obstacles_, robot_, world_.partition.tree.bounds,
+        [this](const Vec3& point) { return is_solid(point); }, scenario.seed);
+    if (!found) throw robot_error(scenario, "no free place was found on which the robot can move");
+    place_.t = found->place.position;
+    place_.q = from_yaw_pitch_roll(found->place.yaw_rad, 0.0, 0.0);
+    floor_.emplace(std::move(found->floor));
+    if (put(*robot, place_) != contact::Start::kStands)
+      throw Error(ErrorCode::kInternal, "the robot's free start is not free");
+  } else {
+    Where where{printable(document.file), 0, "hw_robot_start"};
+    if (!spec.path.empty()) {
+      place_ = map::find_path(document, spec.path).at(0.0);
+      where.element = "path `" + printable(spec.path) + "`";
+    } else if (const auto start = map::find_robot_start(document, spec.start)) {
+      place_ = start->T_world_body;
+      where.line = start->line;
+    } else {
+      throw Error(
+          ErrorCode::kBadInput,
+          "the scenario names no path, and the map has no hw_robot_start; `start = \"free\"` finds a place",
+          Where{printable(document.file), 0, {}});
+    }
+    if (const contact::Start how = put(*robot, place_); how != contact::Start::kStands)
+      throw Error(ErrorCode::kBadInput, cause_of(how), where);
+  }
+  start_ = robot->pose() * T_floor_body_;
+}
+
+}  // namespace hallway::sim

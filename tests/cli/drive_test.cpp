@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// A robot that a plugin drives, as a user of the program sees it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/small_world.hpp"
+#include "log/drive_tables.hpp"
+#include "support/data.hpp"
+
+namespace hallway::test {
+namespace {
+
+namespace fs = std::filesystem;
+using log::CommandCause;
+
+std::string office_drive() {
+  return source_folder() / "maps/office_drive.toml";
+}
+
+/// Its commands are functions of the points that it sees.
+std::string drives() {
+  return (binary_folder() / "tests/abi/fixtures/drives.so").string();
+}
+
+Ended drive_office(const std::string& plugin, const fs::path& out,
+                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"run",   office_drive(), "--plugin", plugin,  "--steps", "60",
+                                     "--out", out.string(),   "--quiet",  "--set", "seed=3"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return hallway(arguments);
+}
+
+std::vector<CommandCause> causes_of(const fs::path& folder) {
+  std::vector<CommandCause> causes;
+  for (const log::ObeyedCommand& command : log::read_obeyed_commands(folder / "drive.csv"))
+    causes.push_back(command.cause);
+  return causes;
+}
+
+nlohmann::json drive_of(const fs::path& folder) {
+  return nlohmann::json::parse(read_file(folder / "metrics.json")).at("drive");
+}
+
+TEST(DriveRuns, APluginMovesTheRobot) {
+  const TempFolder folder;
+  ASSERT_EQ(drive_office("wanderer", folder / "a").status, 0);
+  const std::string fast = "wanderer:speed_m_s=0.25";
+  ASSERT_EQ(drive_office(fast, folder / "b").status, 0);
+  EXPECT_NE(read_file(folder / "a/truth.tum"), read_file(folder / "b/truth.tum"));
+  EXPECT_GT(drive_of(folder / "a").at("distance_m").get<double>(),
+            drive_of(folder / "b").at("distance_m").get<double>());
+  EXPECT_EQ(causes_of(folder / "a"), std::vector<CommandCause>(60, CommandCause::kPlugin));
+}
+
+/// A plugin that is too slow is ended for it; a frame is 0.1 s, the watchdog's time 0.2 s.
+TEST(DriveRuns, ARobotWhosePluginHangsStandsAfterTheWatchdogsTime) {
+  const TempFolder folder;
+  const std::string hangs = drives() + ":slow_from=20,slow_frames=1,slow_ms=60000";
+  for (const char* policy : {"stop", "continue"}) {
+    for (const char* name : {"a", "b"}) {
+      const Ended ended =
+          drive_office(hangs, folder / (std::string(policy) + name),
+                       {"--set", "call_timeout_s=2", "--set", std::string("on_failure=") + policy});
+      EXPECT_EQ(ended.status, 5) << ended.err;
+    }
+    const fs::path a = folder / (std::string(policy) + "a"), b = folder / (std::string(policy) + "b");
+    for (const char* table : {"drive.csv", "truth.tum", "contacts.csv", "commands.csv"})
+      EXPECT_EQ(read_file(a / table), read_file(b / table)) << policy << ": " << table;
+    const std::vector<CommandCause> causes = causes_of(a);
+    ASSERT_GT(causes.size(), 23u) << policy << ": the run goes on until the robot stands";
+    EXPECT_EQ(causes[19], CommandCause::kPlugin);
+    EXPECT_EQ(causes[20], CommandCause::kWatchdog);
+    EXPECT_EQ(causes[21], CommandCause::kWatchdog);
+    EXPECT_EQ(causes[22], CommandCause::kFailure);
+    EXPECT_EQ(causes.back(), CommandCause::kFailure);
+    EXPECT_EQ(causes.size() == 60, policy == std::string("continue")) << policy;
+    EXPECT_EQ(drive_of(a).at("stops"), 1) << policy;
+    const std::string truth = read_file(a / "truth.tum");  // its last two lines differ in their times alone
+    const std::size_t last = truth.rfind('\n', truth.size() - 2), before = truth.rfind('\n', last - 1);
+    const auto pose = [](const std::string& line) { return line.substr(line.find(' ')); };
+    if (policy == std::string("continue")) {
+      EXPECT_EQ(pose(truth.substr(last + 1)), pose(truth.substr(before + 1, last - before)));
+    }
+  }
+}
+
+TEST(DriveRuns, ASilentPluginsLastCommandHolds) {
+  const TempFolder folder;
+  const std::string falls_silent = drives() + ":silent_from=10";
+  ASSERT_EQ(drive_office(falls_silent, folder / "held").status, 0);
+  EXPECT_EQ(causes_of(folder / "held").back(), CommandCause::kHeld);
+  ASSERT_EQ(drive_office(falls_silent, folder / "timed", {"--set", "robot.command_timeout_s=1"}).status, 0);
+  const std::vector<CommandCause> causes = causes_of(folder / "timed");
+  EXPECT_EQ(causes[18], CommandCause::kHeld);
+  EXPECT_EQ(causes[19], CommandCause::kTimeout) << "a second after the last command, at frame 9";
+}
+
+TEST(DriveRuns, WhoDrivesIsClear) {
+  const TempFolder folder;
+  const auto told = [&](const std::string& plugin, const std::vector<std::string>& more,
+                        const std::string& part) {
+    const Ended ended = drive_office(plugin, folder / "none", more);
+    EXPECT_EQ(ended.status, 3) << ended.err;
+    EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+    EXPECT_FALSE(fs::exists(folder / "none"));
+  };
+  told("slam_point", {}, "none of the scenario's gives drive commands");
+  told("slam_point", {"--set", "robot.driving_plugin=slam_point"}, "gives no drive commands");
+  told("wanderer", {"--set", "robot.driving_plugin=wonderer"}, "is no plugin of the scenario");
+  told("wanderer", {"--set", "robot.commands=no.csv"}, "no.csv");
+  told("wanderer", {"--set", "robot.start=nowhere"}, "nowhere");
+}
+
+}  // namespace
+}  // namespace hallway::test
