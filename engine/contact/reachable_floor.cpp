@@ -65,9 +65,9 @@ void ReachableFloor::make_cells() {
 std::optional<std::uint32_t> ReachableFloor::cell_at(const Vec3& body_origin) const {
   if (!body_origin.allFinite()) return std::nullopt;
   const std::pair square(index_of(body_origin.x(), kFloorCell), index_of(body_origin.y(), kFloorCell));
-  const auto found = std::ranges::equal_range(cells_, square, {},
-                                              [](const Cell& cell) { return std::pair(cell.cx, cell.cy); });
-  for (auto cell = found.begin(); cell != found.end(); ++cell) {
+  const auto square_of = [](const Cell& cell) { return std::pair(cell.cx, cell.cy); };
+  auto cell = std::ranges::lower_bound(cells_, square, {}, square_of);
+  for (; cell != cells_.end() && square_of(*cell) == square; ++cell) {
     if (body_origin.z() >= cell->low - 0.5 * kStorey && body_origin.z() < cell->high + 0.5 * kStorey)
       return static_cast<std::uint32_t>(cell - cells_.begin());
   }
@@ -77,15 +77,15 @@ std::optional<std::uint32_t> ReachableFloor::cell_at(const Vec3& body_origin) co
 std::optional<std::uint32_t> ReachableFloor::node_at(const Vec3& body_origin) const {
   if (!body_origin.allFinite()) return std::nullopt;
   const std::pair square(index_of(body_origin.x(), kFloorSpacing), index_of(body_origin.y(), kFloorSpacing));
-  const auto found = std::ranges::equal_range(
-      order_, square, {}, [&](std::uint32_t i) { return std::pair(nodes()[i].ix, nodes()[i].iy); });
+  const auto square_of = [&](std::uint32_t i) { return std::pair(nodes()[i].ix, nodes()[i].iy); };
   std::optional<std::uint32_t> best;
   double least = 0.5 * kStorey;
-  for (const std::uint32_t node : found) {
-    const double away = std::abs(nodes()[node].z - body_origin.z());
+  auto node = std::ranges::lower_bound(order_, square, {}, square_of);
+  for (; node != order_.end() && square_of(*node) == square; ++node) {
+    const double away = std::abs(nodes()[*node].z - body_origin.z());
     if (away > least) continue;
     least = away;
-    best = node;
+    best = *node;
   }
   return best;
 }
