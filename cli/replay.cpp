@@ -20,6 +20,7 @@
 #include "output_file.hpp"
 #include "plugin_argument.hpp"
 #include "report.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 #include "run/feed/run.hpp"
 #include "run/pictures/record.hpp"
@@ -195,6 +196,7 @@ int replay(const ReplayOptions& options) {
       // At their own pace frames would be waited for while answers are there; what a plugin logs belongs to its frame.
       .lock_step = options.rate.has_value() || options.foxglove,
       .on_failure = limits.on_failure,
+      .compare_commands = run::puts_commands(pipeline),
       .start_failures = std::move(start_failures),
       .foxglove = plugin_log};
   return execute_and_report(source, pipeline, plan, {.name = input.name, .warnings = input.warnings},

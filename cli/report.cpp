@@ -153,6 +153,14 @@ void add_drive(const Rows& row, const sim::DriveCounts& drive) {
                              drive.rooms_entered, counted(drive.rooms, "room")));
 }
 
+/// The frames of a replay do not depend on its commands.
+std::string comparison_text(const run::CommandComparison& commands) {
+  const std::string compared = counted(commands.compared(), "frame") + " with one in the log";
+  if (!commands.first_different()) return compared + ", all the same";
+  return fmt::format("{}; {} different, the first at iteration {}", compared, commands.different(),
+                     *commands.first_different());
+}
+
 void add_times(const Rows& row, const char* label, const std::optional<eval::TimeSummary>& times) {
   if (!times) return;
   row(label, fmt::format("{:.4f} ms mean, {:.4f} median, {:.4f} p99, {:.4f} worst", times->mean, times->p50,
@@ -182,6 +190,7 @@ std::string table_of(const Outcome& outcome) {
   }
   add_relative(row, metrics);
   if (result.drive) add_drive(row, *result.drive);
+  if (result.commands) row("commands, open loop", comparison_text(*result.commands));
   add_times(row, "iteration, wall clock", metrics.iteration_ms);
   add_times(row, "iteration, thread CPU", metrics.iteration_cpu_ms);
   row("written to", path_text(outcome.folder));

@@ -71,6 +71,8 @@ struct CommandAnswer {
   double linear_m_s = 0;
   double angular_rad_s = 0;
   double lateral_m_s = 0;
+
+  bool operator==(const CommandAnswer&) const = default;
 };
 
 /// Records a run. The same calls give the same bytes. All functions throw Error{kIo}, and Error{kInternal} for a number that
@@ -133,9 +135,16 @@ struct IdentitiesMessage {
   std::vector<LandmarkId> ids;
 };
 
+/// A drive command as a plugin gave it.
+struct CommandMessage {
+  std::uint32_t iteration = 0;
+  CommandAnswer command;
+};
+
 /// What replay needs of a log, with the true pose of a frame, and the true landmarks and planes of the world; std::monostate for all else.
-using RunMessage = std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose,
-                                IdentitiesMessage, std::vector<Landmark>, std::vector<TruePlane>>;
+using RunMessage =
+    std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose, IdentitiesMessage,
+                 std::vector<Landmark>, std::vector<TruePlane>, CommandMessage>;
 
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.

@@ -172,10 +172,17 @@ MapAnswer map_answer(const Json& json) {
   return map;
 }
 
+CommandMessage command(const Json& json) {
+  return {static_cast<std::uint32_t>(whole(json.at("iteration"), UINT32_MAX)),
+          {json.at("linear_m_s").get<double>(), json.at("angular_rad_s").get<double>(),
+           json.value("lateral_m_s", 0.0)}};
+}
+
 RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kFrame) return FrameMessage{data};
   if (topic == topics::kActivation) return ActivationMessage{std::string(data)};
   if (topic == topics::kTruePose) return true_pose(parse_json(data));
+  if (topic == topics::kCommand) return command(parse_json(data));
   if (topic == topics::kIdentities) return identities(parse_json(data));
   if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
   if (topic == topics::kTruePlanes) return true_planes(parse_json(data));

@@ -98,6 +98,28 @@ TEST(DriveRuns, ASilentPluginsLastCommandHolds) {
   EXPECT_EQ(causes[19], CommandCause::kTimeout) << "a second after the last command, at frame 9";
 }
 
+/// The frames of a replay are those of the log, whatever is commanded.
+TEST(DriveRuns, AReplaySaysWhereItsCommandsDiffer) {
+  const TempFolder folder;
+  ASSERT_EQ(drive_office("wanderer", folder / "run").status, 0);
+  const auto replayed = [&](const std::string& plugin, const std::string& name) {
+    const Ended ended =
+        hallway({"replay", folder / "run/run.mcap", "--plugin", plugin, "--out", folder / name});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(read_file(folder / name / "truth.tum"), read_file(folder / "run/truth.tum"));
+    EXPECT_NE(ended.out.find("commands, open loop"), std::string::npos) << ended.out;
+    return nlohmann::json::parse(read_file(folder / name / "run.json")).at("replayed_commands");
+  };
+  const nlohmann::json same = replayed("wanderer", "same");
+  EXPECT_EQ(same.at("compared"), 60);
+  EXPECT_EQ(same.at("different"), 0);
+  EXPECT_TRUE(same.at("first_different").is_null());
+  const nlohmann::json faster = replayed("wanderer:speed_m_s=0.6", "faster");
+  EXPECT_EQ(faster.at("compared"), 60);
+  EXPECT_EQ(faster.at("first_different"), 0);
+  EXPECT_GT(faster.at("different"), 0);
+}
+
 TEST(DriveRuns, WhoDrivesIsClear) {
   const TempFolder folder;
   const auto told = [&](const std::string& plugin, const std::vector<std::string>& more,

@@ -89,6 +89,10 @@ nlohmann::ordered_json print_driven(const sim::Scenario& scenario) {
           {"drive", {{"kind", drive::name_of(driven.drive.kind)}}}};
 }
 
+bool puts_commands(const host::Pipeline& pipeline) {
+  return !pipeline.facts().empty() && puts_commands(pipeline.facts().back());
+}
+
 std::size_t driving_plugin(const host::Pipeline& pipeline, const sim::Scenario& scenario) {
   const std::string& wanted = scenario.robot.driven->plugin;
   const std::vector<host::StageFacts>& plugins = pipeline.facts();

@@ -36,6 +36,9 @@ nlohmann::ordered_json to_json(const sim::DriveCounts& counts);
 /// The member `robot` of run.json (docs/formats.md): body and drive of a simulated robot with a drive.
 nlohmann::ordered_json print_driven(const sim::Scenario& scenario);
 
+/// Whether the last plugin of a pipeline that was started gives drive commands.
+bool puts_commands(const host::Pipeline& pipeline);
+
 /// The index of the plugin that drives: the one that the scenario names, or the only one that puts drive commands.
 /// Throws Error{kBadInput} where there is none or several.
 /// @param pipeline  was started

@@ -119,6 +119,7 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
   manifest["sensors"] = record::print_sensors(source.sensors());
   manifest["iterations"] = done;
   manifest["stopped_early"] = result.stopped;
+  if (result.commands) manifest["replayed_commands"] = to_json(*result.commands);
   record::describe_failures(plan.on_failure, result.failures, manifest);
   return manifest;
 }
@@ -233,6 +234,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   record::EpochTable epochs;
   FoundTable found(folder);
   DriveRecord drive(folder, source);
+  CommandComparison commands;
   Tally tally(source, plan.write_observations, maps_planes(pipeline));
   FrameFeed feed(source, pipeline, plan);
   EventView events(plan, feed, recorder);
@@ -253,6 +255,8 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
         epoch = epochs.add(answer.iteration, *answer.outputs);
       }
       found.add(answer);
+      if (plan.compare_commands && answer.was_called)
+        commands.add(answer.iteration, answer.frame.recorded_command, answer.outputs);
       tally.add(answer, epoch);
     };
     const std::uint64_t restarts = feed.failures().restarts;
@@ -291,6 +295,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   result.drive = source.drive_counts();
   if (result.drive) metrics["drive"] = to_json(*result.drive);
   record::write_json(folder / files::kMetrics, metrics);
+  if (commands.compared() > 0) result.commands = commands;
   nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
   record::write_json(folder / files::kRun, manifest);
   events.add_pictures(draw_pictures(output, plan, result));

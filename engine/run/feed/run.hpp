@@ -14,6 +14,7 @@
 #include "record/failures.hpp"
 #include "record/manifest.hpp"
 #include "render/renderer.hpp"
+#include "run/feed/command_comparison.hpp"
 #include "run/feed/plugin_log.hpp"
 #include "run/sources/source.hpp"
 #include "sim/scenario.hpp"
@@ -36,6 +37,7 @@ struct RunPlan {
   bool write_observations = false;                      ///< also the input, in the form that replay reads
   bool lock_step = true;  ///< one frame at a time; else as many as the pipeline takes are under way
   sim::OnFailure on_failure = sim::OnFailure::kStop;  ///< what becomes of it when a plugin fails
+  bool compare_commands = false;                      ///< a replay's drive commands with those in the log
   std::vector<Failure> start_failures{};              ///< what start_plugins() has given
   /// Set: the log shows the run in Foxglove too, with what the plugins have logged here.
   std::shared_ptr<PluginLog> foxglove{};
@@ -57,6 +59,7 @@ struct MissingPicture {
 struct RunResult {
   eval::Metrics metrics;
   std::optional<sim::DriveCounts> drive;        ///< of a robot that obeys
+  std::optional<CommandComparison> commands;    ///< where the plan wants it and the log has any
   std::uint64_t submaps = 0;                    ///< of the map at the end
   std::vector<std::filesystem::path> pictures;  ///< under their final names
   std::vector<MissingPicture> missing_pictures;

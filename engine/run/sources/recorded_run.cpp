@@ -59,6 +59,10 @@ class Collector {
     frame->orientation_known = pose.orientation_known;
     frame->T_world_body = to_pose(pose.position_m, pose.orientation);
   }
+  void operator()(const log::CommandMessage& message) {
+    if (RecordedFrame* frame = frame_of(message.iteration); frame != nullptr)
+      frame->command = message.command;
+  }
   void operator()(const log::IdentitiesMessage& message) {
     RecordedFrame* frame = frame_of(message.iteration);
     if (frame == nullptr) return;
@@ -179,6 +183,7 @@ void RecordedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
   if (has_identities()) frame.identities = recorded.identities;
   frame.T_world_body = recorded.T_world_body;
   frame.orientation_known = recorded.orientation_known;
+  frame.recorded_command = recorded.command;
 }
 
 }  // namespace hallway::run

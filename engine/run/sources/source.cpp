@@ -11,6 +11,7 @@ void SourceFrame::forget() {
   identities.clear();
   T_world_body.reset();
   orientation_known = true;
+  recorded_command.reset();
 }
 
 host::FrameBuilder& SourceFrame::begin(std::uint32_t iteration, std::int64_t t_ns) {

@@ -15,6 +15,7 @@
 #include "log/drive_tables.hpp"
 #include "log/landmark_id.hpp"
 #include "log/landmarks.hpp"
+#include "log/run_log.hpp"
 #include "log/true_planes.hpp"
 #include "sim/driven_robot.hpp"
 
@@ -48,6 +49,8 @@ class SourceFrame {
   std::span<const log::LandmarkId> identities_of(std::uint32_t k) const;
   std::optional<Pose> T_world_body;  ///< at the time of the frame, where known
   bool orientation_known = true;     ///< false: only the position of T_world_body is meant
+  std::optional<log::CommandAnswer>
+      recorded_command;  ///< of a log: the drive command that was answered to it then
 
  private:
   void forget();
