@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "console.hpp"
 #include "map/reader.hpp"
+#include "map/robot_file.hpp"
 #include "plugin_argument.hpp"
 #include "run/pictures/record.hpp"
 #include "sim/default_scenario.hpp"
@@ -35,7 +36,9 @@ ScenarioInput read_scenario_input(const fs::path& path, std::span<const Override
     input.text = read_file(path, sim::kMaxScenarioBytes);
     return input;
   }
-  sim::DefaultScenario made = sim::default_scenario(map::load(path), path.filename().string());
+  const map::Document document = map::load(path);
+  map::require_world(document);
+  sim::DefaultScenario made = sim::default_scenario(document, path.filename().string());
   for (const sim::Assumption& one : made.assumed) {
     const bool is_untrue = std::ranges::any_of(one.unless, [&](const std::string& key) {
       return std::ranges::find(overrides, key, &Override::key) != overrides.end();

@@ -120,6 +120,12 @@ TEST(DriveRuns, AReplaySaysWhereItsCommandsDiffer) {
   EXPECT_GT(faster.at("different"), 0);
 }
 
+TEST(DriveRuns, ARobotFileIsNoMap) {
+  const Ended ended = hallway({"run", source_folder() / "maps/robots/first.map"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("robot file"), std::string::npos) << ended.err;
+}
+
 TEST(DriveRuns, WhoDrivesIsClear) {
   const TempFolder folder;
   const auto told = [&](const std::string& plugin, const std::vector<std::string>& more,
