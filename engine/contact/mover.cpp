@@ -178,10 +178,41 @@ std::vector<Press> Mover::pressed_by(const std::vector<ContactPoint>& contacts, 
                                      const TwistRamp& wanted) const {
   std::vector<Press> pressed;
   for (const ContactPoint& contact : contacts) {
-    const double speed = approach(limit_at(pose, contact.on_body, contact.normal, 0.0), wanted);
+    // What nears it besides the twist counts too: a floor that tilts the body may press it against what no twist leads to.
+    const double speed =
+        approach(limit_at(pose, contact.on_body, contact.normal, 0.0), wanted) - contact.drift_m_s;
     if (speed > 0.0) pressed.push_back({contact, std::nullopt, 0, speed});
   }
   return pressed;
+}
+
+/// A wheel that the floor stops, where it is, with the normal against its way.
+Press Mover::press_of_wheel(const Pose& pose, const TwistRamp& ramp, std::size_t wheel,
+                            GroundFault fault) const {
+  const Vec2& at = ground_.wheels().at[wheel];
+  const Vec3 way = pose.q * Vec3(ramp.to.forward_m_s - ramp.to.angular_rad_s * at.y(),
+                                 ramp.to.lateral_m_s + ramp.to.angular_rad_s * at.x(), 0.0);
+  const double speed = way.norm();
+  const Vec3 against = speed > 0.0 ? Vec3(-way / speed) : Vec3::UnitZ();
+  const Vec3 where = pose * Vec3(at.x(), at.y(), 0.0);
+  return {{where, where, against, 0.0, 0}, fault, wheel, speed};
+}
+
+/// The wheel whose height changes most by more than the twist itself does.
+std::size_t Mover::stepping_wheel(const Pose& pose, const TwistRamp& way, const Pose& end) const {
+  const Pose moved = pose * displacement(way).level();
+  std::size_t found = 0;
+  double greatest = -1.0;
+  for (std::size_t i = 0; i < ground_.wheels().at.size(); ++i) {
+    const Vec2& at = ground_.wheels().at[i];
+    const Vec3 wheel(at.x(), at.y(), 0.0);
+    const double change = std::abs((end * wheel - moved * wheel).z());
+    if (change > greatest) {
+      greatest = change;
+      found = i;
+    }
+  }
+  return found;
 }
 
 Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wanted) {
@@ -216,22 +247,21 @@ Move Mover::next(const Pose& pose, std::int64_t begin_ns, const TwistRamp& wante
     }
     Move move = standing(pose, begin_ns, standing_ns, true);
     move.pressed = pressed_by(contacts, pose, ramp);
-    if (trial.blocker) {
+    if (trial.blocker && check_.at(pose, *trial.blocker).gap <= kContactRange) {
       const Separation& nearest = check_.at(pose, *trial.blocker);
       move.pressed.push_back(
           {{nearest.on_body, nearest.on_triangle, nearest.normal, nearest.gap, *trial.blocker},
            std::nullopt,
            0,
            reach_of(ramp, 0.0) / seconds_in(ramp)});
-    } else {
-      const Stance& stance = trial.stance;
-      const Vec2& at = ground_.wheels().at[stance.wheel];
-      const Vec3 way_of_wheel = pose.q * Vec3(ramp.to.forward_m_s - ramp.to.angular_rad_s * at.y(),
-                                              ramp.to.lateral_m_s + ramp.to.angular_rad_s * at.x(), 0.0);
-      const double speed = way_of_wheel.norm();
-      const Vec3 against = speed > 0.0 ? Vec3(-way_of_wheel / speed) : Vec3::UnitZ();
+    } else if (trial.blocker) {
+      // So short a part meets nothing that is farther away: a wheel comes to a step that tilts the body into it.
       move.pressed.push_back(
-          {{stance.where, stance.where, against, 0.0, 0}, stance.fault, stance.wheel, speed});
+          press_of_wheel(pose, ramp, stepping_wheel(pose, way, trial.stance.pose), GroundFault::kStep));
+    } else {
+      move.pressed.push_back(press_of_wheel(pose, ramp, trial.stance.wheel, *trial.stance.fault));
+      ContactPoint& contact = move.pressed.back().contact;
+      contact.on_body = contact.on_obstacle = trial.stance.where;
     }
     return move;
   }

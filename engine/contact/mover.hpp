@@ -81,6 +81,8 @@ class Mover {
                                            std::uint32_t blocker);
   std::vector<Press> pressed_by(const std::vector<ContactPoint>& contacts, const Pose& pose,
                                 const TwistRamp& wanted) const;
+  Press press_of_wheel(const Pose& pose, const TwistRamp& ramp, std::size_t wheel, GroundFault fault) const;
+  std::size_t stepping_wheel(const Pose& pose, const TwistRamp& way, const Pose& end) const;
 
   const BodyShape& shape_;
   const Obstacles& obstacles_;

@@ -124,6 +124,9 @@ void Robot::drive(const TwistRamp& ramp, Advance& advance) {
           std::clamp((slice + 1) * kSlice_ns - now_ns(), std::int64_t{1}, wanted.duration_ns);
       rest(left);
       counts_.stood_ns += left;
+      if (advance.touching.empty()) {
+        for (const Known& one : known_) advance.touching.push_back(one.touch);
+      }
       continue;
     }
     const bool is_steady = wanted.from == wanted.to;

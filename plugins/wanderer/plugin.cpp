@@ -2,6 +2,7 @@
 // Drives a robot through a place of which it knows nothing: ahead in gentle curves, off what its bumper touches, and on in another direction.
 #include <hallway/plugin.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -30,7 +31,8 @@ class Wanderer final : public hallway::sdk::Plugin {
   void reset() override {
     state_ = State::kAhead;
     random_ = 1;
-    t_ns_ = until_ns_ = left_ns_ = bent_ns_ = 0;
+    t_ns_ = until_ns_ = on_ns_ = bent_ns_ = 0;
+    tries_ = 0;
     bumps_ = 0.0;
     away_ = sign_ = 1.0;
     bend_ = 0.0;
@@ -41,8 +43,8 @@ class Wanderer final : public hallway::sdk::Plugin {
     t_ns_ = frame.t_ns;
     double ahead = 0.0;  // where the pressed zones are: in front of the middle, or behind it
     const bool touches = look(frame, ahead);
-    if (touches && (state_ == State::kAhead || t_ns_ >= until_ns_)) leave(ahead);
-    if (t_ns_ >= until_ns_ && state_ == State::kTurn) state_ = State::kAhead;
+    if (touches && state_ == State::kAhead) leave(ahead);
+    if (t_ns_ >= until_ns_ && state_ == State::kTurn) go_on();
     if (t_ns_ >= until_ns_ && state_ == State::kLeave) turn();
     command();
     const hw_counter_t counters[] = {{"bumps", bumps_}};
@@ -70,15 +72,21 @@ class Wanderer final : public hallway::sdk::Plugin {
     return touches;
   }
 
-  /// Drives to the free side. If it has left something just now, in vain as it seems, it tries the other one.
+  /// Drives to the free side. If it has left something just now, in vain as it seems, it tries the other one, and each time goes twice as far: so it comes out of
+  /// a gap that is as narrow as itself.
   void leave(double ahead) {
-    const bool in_vain = bumps_ > 0.0 && t_ns_ - left_ns_ < ns(4.0);
+    const bool in_vain = bumps_ > 0.0 && t_ns_ - on_ns_ < ns(1.5);
+    tries_ = in_vain ? std::min(tries_ + 1, 4) : 0;
     away_ = in_vain ? -away_ : (ahead > 0.0 ? -1.0 : 1.0);
     sign_ = next() < 0.5 ? -1.0 : 1.0;
     state_ = State::kLeave;
-    left_ns_ = t_ns_;
-    until_ns_ = t_ns_ + ns(leave_s_);
+    until_ns_ = t_ns_ + ns(leave_s_ * (1 << tries_));
     ++bumps_;
+  }
+
+  void go_on() {
+    state_ = State::kAhead;
+    on_ns_ = t_ns_;
   }
 
   void turn() {
@@ -116,7 +124,8 @@ class Wanderer final : public hallway::sdk::Plugin {
   double speed_m_s_ = 0.5, turn_rad_s_ = 1.2, bend_rad_s_ = 0.4, leave_s_ = 0.5, longest_turn_s_ = 2.4;
   State state_ = State::kAhead;
   std::uint64_t random_ = 1;
-  std::int64_t t_ns_ = 0, until_ns_ = 0, left_ns_ = 0, bent_ns_ = 0;
+  std::int64_t t_ns_ = 0, until_ns_ = 0, on_ns_ = 0, bent_ns_ = 0;
+  int tries_ = 0;
   double bumps_ = 0.0;
   double away_ = 1.0, sign_ = 1.0, bend_ = 0.0;
 };

@@ -127,6 +127,47 @@ TEST(Robot, SameCallsSameBytes) {
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
 }
 
+/// Ramps, low things that wheels climb or not and that undersides meet, and posts.
+Scene uneven_scene(Dice& dice) {
+  Scene scene = plain();
+  for (int i = 0; i < 12; ++i) {
+    const double x = dice.in(-3, 3), run = dice.in(0.2, 1.5), rise = run * dice.in(0.05, 0.3);
+    scene.ramp(x, x + run, 0.0, rise, dice.in(0.1, 2.0));
+    scene.ramp(x + run, x + run + dice.in(0.5, 1.5), rise, 0.0, dice.in(0.1, 2.0));
+  }
+  for (int i = 0; i < 12; ++i) {
+    scene.box({dice.in(-3, 3), dice.in(-3, 3)}, dice.in(0.05, 0.8), dice.in(0.05, 0.8), -0.1,
+              dice.in(0.005, 0.06), dice.in(0, 3));
+  }
+  return scene;
+}
+
+TEST(Robot, WhatStandsTouchesSomething) {
+  std::int64_t stood = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Dice dice(seed);
+    const Obstacles obstacles(uneven_scene(dice).triangles);
+    Robot robot(obstacles, seed % 3 == 0 ? round_robot() : seed % 3 == 1 ? box_robot() : odd_robot());
+    int tries = 0;
+    while (robot.put({dice.in(-3, 3), dice.in(-3, 3), 0.5}, dice.in(0, 6), 0) != Start::kStands &&
+           ++tries < 100) {
+    }
+    TwistRamp wanted = steady(0, 0, 0, 0.05);
+    for (int i = 0; i < 600; ++i) {
+      if (i % 40 == 0)
+        wanted = steady(dice.in(-0.6, 0.6), dice.in(-0.2, 0.2), i % 80 == 0 ? 0.0 : dice.in(-1.5, 1.5), 0.05);
+      const std::int64_t before_ns = robot.counts().stood_ns;
+      const Advance advance = drive(robot, wanted);
+      const std::int64_t stood_ns = robot.counts().stood_ns - before_ns;
+      stood += stood_ns;
+      ASSERT_FALSE(stood_ns == wanted.duration_ns && advance.touching.empty()) << "slice " << i;
+      for (const Touch& touch : advance.touching) ASSERT_LE(touch.gap_m, kContactRange) << "slice " << i;
+    }
+  }
+  EXPECT_GT(stood, 10 * kSecond);
+}
+
 TEST(Robot, HistoryHasNoGaps) {
   Scene scene = plain();
   scene.wall({1, -50}, {1, 50});
