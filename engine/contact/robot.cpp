@@ -23,6 +23,11 @@ RobotSpec checked(RobotSpec spec) {
   return spec;
 }
 
+void require_place(const Vec3& place, double yaw_rad) {
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kGreatestCoordinate || !std::isfinite(yaw_rad))
+    throw Error(ErrorCode::kBadInput, "a robot's start must be within 1000 km of the origin");
+}
+
 TouchKind kind_of(const Press& press) {
   if (!press.fault) return TouchKind::kWall;
   switch (*press.fault) {
@@ -50,31 +55,54 @@ Robot::Robot(const Obstacles& obstacles, RobotSpec spec)
       ground_(obstacles, spec_.wheels, spec_.ground),
       mover_(spec_.shape, obstacles_, ground_, spec_.move) {}
 
+/// @param found  the stance; unchanged where there is none
+Start Robot::find_stance(const Vec3& place, double yaw_rad, const std::function<bool(const Vec3&)>& is_solid,
+                         Pose& found) {
+  const Quat level(std::cos(0.5 * yaw_rad), 0.0, 0.0, std::sin(0.5 * yaw_rad));
+  const auto stance = stance_below(ground_, {level, place + Vec3(0, 0, 1e-3)}, kDeepestFall);
+  if (!stance) return Start::kNoFloor;
+  if (stance->fault) return Start::kNoStance;
+  found = stance->pose;
+  if (!mover_.check().within(found, kLeastStartGap).empty()) return Start::kInObstacle;
+  const Vec3 middle =
+      found * Vec3(0.5 * (spec_.shape.support(Vec3::UnitZ()) + spec_.shape.support(-Vec3::UnitZ())));
+  if (is_solid && is_solid(middle)) return Start::kInSolid;
+  return Start::kStands;
+}
+
 Start Robot::put(const Vec3& place, double yaw_rad, std::int64_t at_ns,
                  const std::function<bool(const Vec3&)>& is_solid) {
-  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kGreatestCoordinate || !std::isfinite(yaw_rad))
-    throw Error(ErrorCode::kBadInput, "a robot's start must be within 1000 km of the origin");
-  const Quat level(std::cos(0.5 * yaw_rad), 0.0, 0.0, std::sin(0.5 * yaw_rad));
-  pose_ = {level, place};
-  history_.begin(pose_, at_ns);
+  require_place(place, yaw_rad);
+  pose_ = {Quat(std::cos(0.5 * yaw_rad), 0.0, 0.0, std::sin(0.5 * yaw_rad)), place};
   pushes_.clear();
   known_.clear();
   counts_ = {};
   twist_ = {};
   parts_ = 0;
   standing_.reset();
-  is_lost_ = true;
-  const auto stance = stance_below(ground_, {level, place + Vec3(0, 0, 1e-3)}, kDeepestFall);
-  if (!stance) return Start::kNoFloor;
-  if (stance->fault) return Start::kNoStance;
-  pose_ = stance->pose;
+  const Start start = find_stance(place, yaw_rad, is_solid, pose_);
+  is_lost_ = start != Start::kStands;
   history_.begin(pose_, at_ns);
-  if (!mover_.check().within(pose_, kLeastStartGap).empty()) return Start::kInObstacle;
-  const Vec3 middle =
-      pose_ * Vec3(0.5 * (spec_.shape.support(Vec3::UnitZ()) + spec_.shape.support(-Vec3::UnitZ())));
-  if (is_solid && is_solid(middle)) return Start::kInSolid;
+  return start;
+}
+
+Start Robot::carry(const Vec3& place, double yaw_rad, const std::function<bool(const Vec3&)>& is_solid) {
+  require_place(place, yaw_rad);
+  Pose found;
+  const Start start = find_stance(place, yaw_rad, is_solid, found);
+  if (start != Start::kStands) return start;
+  history_.add(make_drop(now_ns(), pose_, found));
+  pose_ = found;
+  pushes_.clear();
+  known_.clear();
+  twist_ = {};
+  standing_.reset();
   is_lost_ = false;
-  return Start::kStands;
+  return start;
+}
+
+bool Robot::is_pushed() const {
+  return std::ranges::any_of(pushes_, [&](const Push& push) { return push.end_ns > now_ns(); });
 }
 
 void Robot::push(const PlanarTwist& twist, std::int64_t duration_ns) {

@@ -100,12 +100,19 @@ class Robot {
   Start put(const Vec3& place, double yaw_rad, std::int64_t at_ns,
             const std::function<bool(const Vec3&)>& is_solid = {});
 
+  /// Takes the robot up, at the present time, and puts it down elsewhere as put() does, at rest and in no contact. History and counts go on; pushes end.
+  /// After any other result than kStands nothing has changed. Throws as put() does.
+  Start carry(const Vec3& place, double yaw_rad, const std::function<bool(const Vec3&)>& is_solid = {});
+
   /// Drives a list of ramps, one after the other. All are checked first: throws Error{kBadInput} as check_ramp() does, and nothing has moved.
   Advance advance(std::span<const TwistRamp> ramps);
 
   /// Adds a twist, in the body's frame, to what is wanted for a duration from now on; pushes add up. With them a twist may exceed the limits of
   /// check_twist(); it is then clamped to them. Throws as check_ramp() does.
   void push(const PlanarTwist& twist, std::int64_t duration_ns);
+
+  /// Whether a push acts at the present time.
+  bool is_pushed() const;
 
   std::int64_t now_ns() const { return history_.end_ns(); }
   const Pose& pose() const { return pose_; }
@@ -130,6 +137,8 @@ class Robot {
     std::int64_t last_ns;
   };
 
+  Start find_stance(const Vec3& place, double yaw_rad, const std::function<bool(const Vec3&)>& is_solid,
+                    Pose& found);
   TwistRamp with_pushes(TwistRamp ramp);
   void drive(const TwistRamp& ramp, Advance& advance);
   void note(const Move& move, Advance& advance);

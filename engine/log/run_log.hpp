@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -32,6 +33,7 @@ inline constexpr std::string_view kFrame = "/hallway/frame";                    
 inline constexpr std::string_view kActivation = "/hallway/activation";          ///< facts given once
 inline constexpr std::string_view kTruePose = "/hallway/truth/pose";            ///< T_world_body
 inline constexpr std::string_view kIdentities = "/hallway/truth/identities";    ///< of the observations
+inline constexpr std::string_view kSampleTruth = "/hallway/truth/sample";       ///< of one sample
 inline constexpr std::string_view kTrueLandmarks = "/hallway/truth/landmarks";  ///< world
 inline constexpr std::string_view kTruePlanes = plane_names::kTruePlanesTopic;  ///< world
 inline constexpr std::string_view kPose = "/hallway/output/pose";               ///< T_map_body
@@ -75,6 +77,18 @@ struct CommandAnswer {
   bool operator==(const CommandAnswer&) const = default;
 };
 
+/// What is true of one sample of a frame, beside the frame's own truth.
+struct SampleTruth {
+  std::uint32_t sample = 0;  ///< index in the frame
+  std::optional<std::array<double, 3>>
+      position_m{};  ///< of the body at the sample's time, world, where that is not the frame's
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
+  /// By name, such as `travel_m`; what they are stands in docs/formats.md. Letters a-z, digits and `_`; finite.
+  std::map<std::string, std::vector<double>> values{};
+
+  bool operator==(const SampleTruth&) const = default;
+};
+
 /// Records a run. The same calls give the same bytes. All functions throw Error{kIo}, and Error{kInternal} for a number that
 /// is not finite.
 class RunLogWriter {
@@ -93,6 +107,7 @@ class RunLogWriter {
   void add_true_pose(const FrameStamp& stamp, const IterationPose& pose);
   /// Of one sample of the frame, by its index; so are associations and planes.
   void add_identities(const FrameStamp& stamp, std::uint32_t sample, std::span<const LandmarkId> ids);
+  void add_sample_truth(const FrameStamp& stamp, const SampleTruth& truth);
   void add_pose(const FrameStamp& stamp, const PoseAnswer& pose);
   void add_associations(const FrameStamp& stamp, std::uint32_t sample, std::span<const LandmarkId> ids);
   void add_command(const FrameStamp& stamp, const CommandAnswer& command);
@@ -135,6 +150,11 @@ struct IdentitiesMessage {
   std::vector<LandmarkId> ids;
 };
 
+struct SampleTruthMessage {
+  std::uint32_t iteration = 0;
+  SampleTruth truth;
+};
+
 /// A drive command as a plugin gave it.
 struct CommandMessage {
   std::uint32_t iteration = 0;
@@ -144,7 +164,7 @@ struct CommandMessage {
 /// What replay needs of a log, with the true pose of a frame, and the true landmarks and planes of the world; std::monostate for all else.
 using RunMessage =
     std::variant<std::monostate, FrameMessage, ActivationMessage, IterationPose, IdentitiesMessage,
-                 std::vector<Landmark>, std::vector<TruePlane>, CommandMessage>;
+                 std::vector<Landmark>, std::vector<TruePlane>, CommandMessage, SampleTruthMessage>;
 
 /// What a message says, by its channel's topic. Throws Error{kBadInput} with the cause if it is not what the topic
 /// promises.

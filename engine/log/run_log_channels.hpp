@@ -21,7 +21,7 @@ inline constexpr const char* kFrameEncoding = "x-hallway-frame";
 inline constexpr std::array kRunTopics{
     topics::kActivation, topics::kTrueLandmarks, topics::kFrame,   topics::kTruePose, topics::kIdentities,
     topics::kPose,       topics::kAssociations,  topics::kMap,     topics::kCommand,  topics::kPlanes,
-    topics::kTruePlanes, topics::kObeyed,        topics::kContact, topics::kEvent};
+    topics::kTruePlanes, topics::kObeyed,        topics::kContact, topics::kEvent,    topics::kSampleTruth};
 
 /// The id of a topic's channel.
 inline std::uint16_t run_channel_id(std::string_view topic) {

@@ -73,6 +73,26 @@ IdentitiesMessage identities(const Json& json) {
   return message;
 }
 
+SampleTruthMessage sample_truth(const Json& json) {
+  SampleTruthMessage message{.iteration = iteration_of(json), .truth = {}};
+  message.truth.sample = static_cast<std::uint32_t>(whole(json.at("sample"), kMaxSample));
+  if (const auto pose = json.find("T_world_body"); pose != json.end()) {
+    message.truth.position_m = numbers<3>(pose->at("position_m"));
+    message.truth.orientation = numbers<4>(pose->at("orientation_wxyz"));
+    if (!is_unit_quaternion(message.truth.orientation, kUnitFileTolerance))
+      bad("a quaternion that is not of unit length");
+  }
+  if (const auto values = json.find("values"); values != json.end()) {
+    if (!values->is_object()) bad("values that have no names");
+    for (const auto& [name, list] : values->items()) {
+      std::vector<double>& numbers_of_name = message.truth.values[name];
+      if (!list.is_array()) bad("values that are no list");
+      for (const Json& value : list) numbers_of_name.push_back(numbers<1>(Json::array({value}))[0]);
+    }
+  }
+  return message;
+}
+
 std::vector<Landmark> true_landmarks(const Json& json) {
   std::vector<Landmark> landmarks;
   std::unordered_set<LandmarkId> seen;
@@ -184,6 +204,7 @@ RunMessage parse(std::string_view topic, std::string_view data) {
   if (topic == topics::kTruePose) return true_pose(parse_json(data));
   if (topic == topics::kCommand) return command(parse_json(data));
   if (topic == topics::kIdentities) return identities(parse_json(data));
+  if (topic == topics::kSampleTruth) return sample_truth(parse_json(data));
   if (topic == topics::kTrueLandmarks) return true_landmarks(parse_json(data));
   if (topic == topics::kTruePlanes) return true_planes(parse_json(data));
   return {};

@@ -162,6 +162,17 @@ void RunLogWriter::add_true_pose(const FrameStamp& stamp, const IterationPose& p
                {"orientation_known", pose.orientation_known}}));
 }
 
+void RunLogWriter::add_sample_truth(const FrameStamp& stamp, const SampleTruth& truth) {
+  Json json{{"iteration", stamp.iteration}, {"sample", truth.sample}};
+  if (truth.position_m) json["T_world_body"] = pose_json(*truth.position_m, truth.orientation);
+  for (const auto& [name, values] : truth.values) {
+    Json list = Json::array();
+    for (const double value : values) list.push_back(number(value));
+    json["values"][name] = std::move(list);
+  }
+  add(topics::kSampleTruth, stamp, text_of(json));
+}
+
 void RunLogWriter::add_identities(const FrameStamp& stamp, std::uint32_t sample,
                                   std::span<const LandmarkId> ids) {
   add(topics::kIdentities, stamp,

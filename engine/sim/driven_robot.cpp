@@ -57,6 +57,7 @@ drive::Follower make_follower(const Scenario& scenario, const map::Path& path) {
 DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, const map::Path& path)
     : world_(world),
       spec_(*scenario.robot.driven),
+      events_(scenario.events),
       period_ns_(scenario.period_ns),
       kept_ns_(history_of(scenario)),
       robot_(world.obstacles(), world.robot()),
@@ -65,6 +66,7 @@ DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, con
   world.put_at_start(robot_);
   if (spec_.by == DrivenBy::kPath) follower_.emplace(make_follower(scenario, path));
   if (spec_.by == DrivenBy::kCommands) table_.emplace(drive::CommandTable::read(spec_.commands));
+  happen_until(0);
 }
 
 void DrivenRobot::give(std::int64_t t_ns, const drive::Command& command, CommandCause cause) {
@@ -131,24 +133,81 @@ CommandInForce DrivenRobot::obey(const DriveAnswer& answer) {
   }
 }
 
+/// Of the period that comes: slices of at most 50 ms, which end where an event happens and where one is over.
+std::vector<std::int64_t> DrivenRobot::slice_ends() const {
+  const std::int64_t begin_ns = now_ns(), end_ns = begin_ns + period_ns_;
+  const std::int64_t slices = (period_ns_ + kSlice_ns - 1) / kSlice_ns;
+  std::vector<std::int64_t> ends;
+  for (std::int64_t i = 1; i <= slices; ++i) ends.push_back(begin_ns + period_ns_ * i / slices);
+  const auto cut = [&](std::int64_t t_ns) {
+    if (t_ns > begin_ns && t_ns < end_ns) ends.push_back(t_ns);
+  };
+  cut(blocked_until_ns_);
+  for (std::size_t i = next_event_; i < events_.size() && events_[i].t_ns < end_ns; ++i) {
+    cut(events_[i].t_ns);
+    if (events_[i].kind == EventKind::kWheelsBlocked) cut(events_[i].t_ns + events_[i].duration_ns);
+  }
+  std::ranges::sort(ends);
+  const auto same = std::ranges::unique(ends);
+  ends.erase(same.begin(), same.end());
+  return ends;
+}
+
+void DrivenRobot::happen(const EventSpec& event, std::size_t index) {
+  switch (event.kind) {
+    case EventKind::kKidnap:
+      world_.carry(robot_, index);
+      drive_.stop();
+      break;
+    case EventKind::kPush:
+      robot_.push(event.twist, event.duration_ns);
+      break;
+    case EventKind::kWheelsBlocked:
+      blocked_until_ns_ = std::max(blocked_until_ns_, event.t_ns + event.duration_ns);
+      drive_.stop();
+      break;
+    default:
+      break;  // of sensors, which the simulator switches
+  }
+}
+
+void DrivenRobot::happen_until(std::int64_t t_ns) {
+  for (; next_event_ < events_.size() && events_[next_event_].t_ns <= t_ns; ++next_event_) {
+    happen(events_[next_event_], next_event_);
+    if (events_[next_event_].kind == EventKind::kKidnap) advance_.touching.clear();
+  }
+}
+
+/// Goes on to the end of a slice.
+void DrivenRobot::move(std::int64_t to_ns, std::vector<TwistRamp>& ramps) {
+  ramps.clear();
+  if (to_ns <= blocked_until_ns_) {
+    const std::int64_t duration_ns = to_ns - drive_.present_ns();
+    drive_.advance(to_ns);
+    drive_.stop();
+    ramps.push_back({{}, {}, duration_ns});
+    wheels_.add({.duration_ns = duration_ns});
+    return;
+  }
+  for (const drive::Motion& motion : drive_.advance(to_ns)) {
+    ramps.push_back(motion.body);
+    wheels_.add(motion.wheels);
+  }
+}
+
 const contact::Advance& DrivenRobot::advance() {
   advance_ = {};
-  const std::int64_t begin_ns = now_ns();
-  const std::int64_t slices = (period_ns_ + kSlice_ns - 1) / kSlice_ns;
   std::vector<TwistRamp> ramps;
-  for (std::int64_t i = 1; i <= slices; ++i) {
-    ramps.clear();
-    for (const drive::Motion& motion : drive_.advance(begin_ns + period_ns_ * i / slices)) {
-      ramps.push_back(motion.body);
-      wheels_.add(motion.wheels);
-    }
+  for (const std::int64_t end_ns : slice_ends()) {
+    move(end_ns, ramps);
     contact::Advance slice = robot_.advance(ramps);
-    if (!slice.touching.empty()) drive_.set_twist(robot_.twist());
+    if (!slice.touching.empty() && !robot_.is_pushed()) drive_.set_twist(robot_.twist());
     note_contacts(slice.begun, true);
     note_contacts(slice.touching, false);
     advance_.begun.insert(advance_.begun.end(), slice.begun.begin(), slice.begun.end());
     advance_.falls.insert(advance_.falls.end(), slice.falls.begin(), slice.falls.end());
     advance_.touching = std::move(slice.touching);
+    happen_until(end_ns);
   }
   ++frame_;
   const std::int64_t oldest_ns = now_ns() - kept_ns_;

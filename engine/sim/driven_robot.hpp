@@ -62,7 +62,8 @@ struct DriveCounts {
 
 /// A robot that its drive moves, frame by frame: body, drive, and who commands it.
 ///
-/// At the time of each frame a command is taken (obey()); then the robot moves to the time of the next one (advance()). The same answers give the same bytes.
+/// At the time of each frame a command is taken (obey()); then the robot moves to the time of the next one (advance()). Events of the scenario happen at
+/// their times; what happens at a frame's time has happened in that frame. The same answers give the same bytes.
 /// A contact acts on the drive at the end of a slice of at most 50 ms.
 class DrivenRobot final : public Motion {
  public:
@@ -92,11 +93,18 @@ class DrivenRobot final : public Motion {
   CommandInForce follow();
   CommandInForce read_table();
   CommandInForce hold(const DriveAnswer& answer);
+  std::vector<std::int64_t> slice_ends() const;
+  void happen(const EventSpec& event, std::size_t index);
+  void happen_until(std::int64_t t_ns);
+  void move(std::int64_t to_ns, std::vector<TwistRamp>& ramps);
   void note_contacts(const std::vector<contact::Touch>& touches, bool at_their_time);
   void give(std::int64_t t_ns, const drive::Command& command, CommandCause cause);
 
   const DrivenWorld& world_;
   DrivenSpec spec_;
+  std::vector<EventSpec> events_;
+  std::size_t next_event_ = 0;
+  std::int64_t blocked_until_ns_ = 0;  ///< the wheels
   std::int64_t period_ns_;
   std::int64_t kept_ns_;  ///< of the history
   contact::Robot robot_;

@@ -109,16 +109,26 @@ double heading(const Pose& pose) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-std::string cause_of(contact::Start start) {
+/// @param where  that names the start
+Pose named_start(const map::Document& document, const std::string& name, const Where& where) {
+  try {
+    if (const auto start = map::find_robot_start(document, name)) return start->T_world_body;
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kBadInput, error.message(), where);
+  }
+  throw Error(ErrorCode::kBadInput, "the map has no robot start", where);
+}
+
+std::string cause_of(contact::Start start, const std::string& place) {
   switch (start) {
     case contact::Start::kInObstacle:
-      return "the robot overlaps something at its start";
+      return "the robot overlaps something " + place;
     case contact::Start::kInSolid:
-      return "the robot start is in solid";
+      return "the robot is in solid " + place;
     case contact::Start::kNoFloor:
-      return "there is no floor below the robot's start";
+      return "there is no floor below the robot " + place;
     default:
-      return "the floor at the robot's start is too uneven or too steep, or there is a ledge under a wheel";
+      return "the floor is too uneven or too steep, or there is a ledge under a wheel, " + place;
   }
 }
 
@@ -129,6 +139,7 @@ DrivenWorld::DrivenWorld(const Scenario& scenario, const map::Document& document
     : world_(world), obstacles_(make_obstacles(world, models)), robot_(robot_of(scenario)) {
   T_floor_body_.t.z() = scenario.robot.driven->clearance_m - height_of(*scenario.robot.body).first;
   find_start(scenario, document);
+  find_kidnaps(scenario, document);
 }
 
 bool DrivenWorld::is_solid(const Vec3& point) const {
@@ -184,9 +195,32 @@ void DrivenWorld::find_start(const Scenario& scenario, const map::Document& docu
           Where{printable(document.file), 0, {}});
     }
     if (const contact::Start how = put(*robot, place_); how != contact::Start::kStands)
-      throw Error(ErrorCode::kBadInput, cause_of(how), where);
+      throw Error(ErrorCode::kBadInput, cause_of(how, "at its start"), where);
   }
   start_ = robot->pose() * T_floor_body_;
+}
+
+/// Tries each place to which the robot will be carried.
+void DrivenWorld::find_kidnaps(const Scenario& scenario, const map::Document& document) {
+  kidnaps_.resize(scenario.events.size());
+  contact::Robot robot(obstacles_, robot_);
+  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
+    const EventSpec& event = scenario.events[i];
+    if (event.kind != EventKind::kKidnap) continue;
+    const Where where{printable(scenario.file), event.line, "a kidnap"};
+    if (event.place_m) {
+      kidnaps_[i] = {from_yaw_pitch_roll(event.yaw_rad, 0.0, 0.0), *event.place_m};
+    } else {
+      kidnaps_[i] = named_start(document, event.to, where);
+    }
+    if (const contact::Start how = put(robot, kidnaps_[i]); how != contact::Start::kStands)
+      throw Error(ErrorCode::kBadInput, cause_of(how, "where it is carried to"), where);
+  }
+}
+
+void DrivenWorld::carry(contact::Robot& robot, std::size_t event) const {
+  const Pose& place = kidnaps_.at(event);
+  robot.carry(place.t, heading(place), [this](const Vec3& point) { return is_solid(point); });
 }
 
 }  // namespace hallway::sim

@@ -18,8 +18,8 @@ namespace hallway::sim {
 class DrivenWorld {
  public:
   /// Keeps a reference to the world. O(n log n) in its triangles.
-  /// Throws Error{kBadInput} for a robot without a body or with one that cannot stand on its wheels, and for a start at which it does not stand or which the
-  /// map does not have.
+  /// Throws Error{kBadInput} for a robot without a body or with one that cannot stand on its wheels, and for a start, or a place that it is carried to, at which
+  /// it does not stand or which the map does not have.
   /// @param scenario  of a robot with a drive
   DrivenWorld(const Scenario& scenario, const map::Document& document, const world::CompiledWorld& world,
               const PlacedModels& models);
@@ -37,11 +37,14 @@ class DrivenWorld {
   const contact::ReachableFloor& floor() const;
   /// Puts a robot there, at time 0.
   void put_at_start(contact::Robot& robot) const;
+  /// Carries a robot to the place of a kidnap of the scenario, by the event's index, at the present time.
+  void carry(contact::Robot& robot, std::size_t event) const;
 
  private:
   bool is_solid(const Vec3& point) const;
   contact::Start put(contact::Robot& robot, const Pose& T_world_body) const;
   void find_start(const Scenario& scenario, const map::Document& document);
+  void find_kidnaps(const Scenario& scenario, const map::Document& document);
 
   const world::CompiledWorld& world_;
   contact::Obstacles obstacles_;
@@ -49,6 +52,7 @@ class DrivenWorld {
   Pose T_floor_body_;
   Pose place_;  ///< given to put(): the start before the robot has come down to its floor
   Pose start_;
+  std::vector<Pose> kidnaps_;  ///< by event: given to carry()
   mutable std::optional<contact::ReachableFloor> floor_;
 };
 

@@ -26,6 +26,7 @@ namespace {
 constexpr const char* kSchema = "hallway.scenario/1";
 constexpr std::int64_t kMaxSteps = 10'000'000;
 constexpr std::size_t kMaxPictures = 1000;
+constexpr std::size_t kMaxEvents = 100'000;
 constexpr std::int64_t kMaxPicturesOfOne = 10'000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
@@ -64,6 +65,7 @@ class ScenarioReader {
     read_robot(top);
     read_sensors(top);
     read_clouds(top);
+    read_events(top);
     scenario_.pipeline = host::read_plugin_tables(path_, root_, scenario_.settings);
     for_each_table(top, root_, "picture", kMaxPictures,
                    [&](const TomlTable& table, int line) { read_picture(table, line); });
@@ -194,6 +196,20 @@ class ScenarioReader {
       const Where where{printable(scenario_.file), all.line(name), "table `cloud." + printable(name) + "`"};
       scenario_.clouds.push_back({name, read_cloud_keys(cloud), where});
     }
+  }
+
+  void read_events(const TableReader& top) {
+    for_each_table(top, root_, "event", kMaxEvents, [&](const TomlTable& table, int line) {
+      const std::string prefix = "event[" + std::to_string(scenario_.events.size() + 1) + "]";
+      scenario_.events.push_back(read_event(scenario_.file, prefix, table, line, scenario_.settings));
+      if (acts_on_drive(scenario_.events.back().kind) && !scenario_.robot.driven) {
+        throw Error(ErrorCode::kBadInput,
+                    "a " + std::string(event_kind_name(scenario_.events.back().kind)) +
+                        " needs a [robot.drive]; a robot that its path moves meets nothing",
+                    Where{printable(scenario_.file), line, "table `" + prefix + "`"});
+      }
+    });
+    std::ranges::stable_sort(scenario_.events, {}, &EventSpec::t_ns);
   }
 
   void read_picture(const TomlTable& table, int line) {

@@ -20,6 +20,7 @@
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
 #include "sim/driven_spec.hpp"
+#include "sim/event.hpp"
 #include "sim/setting.hpp"
 
 namespace hallway::sim {
@@ -109,6 +110,7 @@ struct Scenario {
   RobotSpec robot;
   std::vector<SensorSpec> sensors;        ///< in the order of the file; none: those of the map count
   std::vector<CloudSpec> clouds;          ///< in the order of the file
+  std::vector<EventSpec> events;          ///< by time, those of one time in the order of the file
   std::vector<host::StageSpec> pipeline;  ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order

@@ -166,6 +166,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       landmark_index_(make_index(landmarks_.places, world_)) {
   take_map_sensors(scenario_, document_);
   make_sensors();
+  find_times_off();
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
   check_robot_starts(document_, world_);
@@ -263,6 +264,29 @@ void Simulator::check_poses() const {
   }
 }
 
+void Simulator::find_times_off() {
+  switches_.resize(scenario_.sensors.size());
+  const auto name_of = [](const SensorSpec& sensor) {
+    return std::visit([](const auto& spec) { return spec.name; }, sensor);
+  };
+  for (const EventSpec& event : scenario_.events) {
+    if (event.kind != EventKind::kSensorOff && event.kind != EventKind::kSensorOn) continue;
+    const auto sensor = std::ranges::find(scenario_.sensors, event.sensor, name_of);
+    if (sensor == scenario_.sensors.end())
+      throw Error(
+          ErrorCode::kBadInput, "there is no sensor `" + printable(event.sensor) + "`",
+          Where{printable(scenario_.file), event.line, "a " + std::string(event_kind_name(event.kind))});
+    auto& times = switches_[static_cast<std::size_t>(sensor - scenario_.sensors.begin())];
+    const bool is_off = times.size() % 2 == 1;
+    if (is_off != (event.kind == EventKind::kSensorOff)) times.push_back(event.t_ns);
+  }
+}
+
+bool Simulator::is_off(std::size_t sensor, std::int64_t t_ns) const {
+  const auto later = std::ranges::upper_bound(switches_[sensor], t_ns);
+  return (later - switches_[sensor].begin()) % 2 == 1;
+}
+
 /// Of a sensor whose first reading arrives after the last frame.
 void Simulator::report_silent_sensors() {
   const std::int64_t end_ns = scenario_.period_ns * (std::int64_t{scenario_.steps} - 1);
@@ -328,6 +352,7 @@ Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
     const std::uint64_t first = index == 0 ? 0 : clocks_[i].arrived_by(frame.t_ns - scenario_.period_ns);
     const std::uint64_t end = clocks_[i].arrived_by(frame.t_ns);
     for (std::uint64_t k = first; k < end; ++k) {
+      if (is_off(i, clocks_[i].time_of(k))) continue;
       frame.readings.push_back({.sensor = i, .sequence = k, .t_ns = clocks_[i].time_of(k)});
       if (!read(i, motion, frame.readings.back())) frame.readings.pop_back();
     }
@@ -338,16 +363,20 @@ Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
 /// False where the sensor gives no reading.
 bool Simulator::read(std::size_t sensor, const Motion& motion, Reading& reading) const {
   const auto sequence = static_cast<std::uint32_t>(reading.sequence);
+  const Pose T_world_body = reading.T_world_body = motion.pose_at_time(reading.t_ns);
   if (const auto* bump = std::get_if<sense::BumpSensor>(&sensors_[sensor])) {
     const std::int64_t last_ns = reading.sequence == 0 ? -1 : clocks_[sensor].time_of(reading.sequence - 1);
-    reading.bump = bump->read(motion.contacts_in(last_ns, reading.t_ns), sequence);
+    const std::vector<sense::BumpContact> contacts = motion.contacts_in(last_ns, reading.t_ns);
+    reading.bump = bump->read(contacts, sequence);
+    reading.bump_truth = bump->truth(contacts);
     return true;
   }
   if (const auto* encoders = std::get_if<sense::EncoderSensor>(&sensors_[sensor])) {
-    reading.encoders = encoders->read(motion.wheel_travel_at(reading.t_ns));
+    const std::vector<double> travel_m = motion.wheel_travel_at(reading.t_ns);
+    reading.encoders = encoders->read(travel_m);
+    reading.encoder_truth = encoders->truth(travel_m);
     return true;
   }
-  const Pose T_world_body = motion.pose_at_time(reading.t_ns);
   if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[sensor])) {
     if (driven_world_ && !planes->sees_from(T_world_body)) return false;
     planes->observe(T_world_body, sequence, reading.planes);

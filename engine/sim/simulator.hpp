@@ -36,7 +36,10 @@ struct Reading {
   std::vector<sense::PointObservation> observations{};  ///< of a sensor of points
   std::vector<PlaneObservation> planes{};               ///< of a sensor of planes
   sense::BumpReading bump{};                            ///< of a bumper
-  sense::EncoderReading encoders{};                     ///< of encoders
+  sense::BumpTruth bump_truth{};
+  sense::EncoderReading encoders{};  ///< of encoders
+  sense::EncoderTruth encoder_truth{};
+  Pose T_world_body{};  ///< the truth at its time
 };
 
 /// One moment of a run.
@@ -114,6 +117,8 @@ class Simulator {
   void stop_at_obstacle();
   void check_poses() const;
   void report_silent_sensors();
+  void find_times_off();
+  bool is_off(std::size_t sensor, std::int64_t t_ns) const;
   Pose pose_after(double distance_m) const;
   bool read(std::size_t sensor, const Motion& motion, Reading& reading) const;
   void make_sensor(const SensorSpec& spec);
@@ -135,7 +140,8 @@ class Simulator {
   std::vector<std::unique_ptr<const sense::WallPlan>> plans_;       ///< by sensor
   std::vector<std::unique_ptr<const sense::FacePlan>> face_plans_;  ///< by sensor
   std::vector<Sensor> sensors_;
-  std::vector<sense::ReadingClock> clocks_;  ///< by sensor
+  std::vector<sense::ReadingClock> clocks_;          ///< by sensor
+  std::vector<std::vector<std::int64_t>> switches_;  ///< by sensor: when it goes off, on, off, …
   std::vector<Error> problems_;
 };
 

@@ -120,6 +120,27 @@ TEST(DriveRuns, AReplaySaysWhereItsCommandsDiffer) {
   EXPECT_GT(faster.at("different"), 0);
 }
 
+TEST(DriveRuns, EventsStandInTheTableTheLogAndTheReplay) {
+  const TempFolder folder;
+  const std::string scenario = source_folder() / "maps/office_events.toml";
+  for (const char* name : {"a", "b"}) {
+    std::vector<std::string> arguments{"run", scenario, "--steps", "400", "--out", folder / name, "--quiet"};
+    if (name[0] == 'b') arguments.insert(arguments.end(), {"--in-process", "--threads", "4"});
+    const Ended ended = hallway(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+  }
+  const std::vector<log::EventRow> events = log::read_events(folder / "a/events.csv");
+  ASSERT_EQ(events.size(), 4u) << "the kidnap comes after the last frame";
+  EXPECT_EQ(events[0], (log::EventRow{10'000'000'000, "push", "0 m/s 0.8 m/s 1 rad/s for 0.5 s"}));
+  EXPECT_EQ(events[2], (log::EventRow{30'000'000'000, "sensor_off", "eyes"}));
+  for (const char* table : {"events.csv", "truth.tum", "drive.csv", "contacts.csv"})
+    EXPECT_EQ(read_file(folder / "a" / table), read_file(folder / "b" / table)) << table;
+  const Ended replayed =
+      hallway({"replay", folder / "a/run.mcap", "--plugin", "wanderer", "--out", folder / "again"});
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_EQ(read_file(folder / "again/events.csv"), read_file(folder / "a/events.csv"));
+}
+
 TEST(DriveRuns, ARobotFileIsNoMap) {
   const Ended ended = hallway({"run", source_folder() / "maps/robots/first.map"});
   EXPECT_EQ(ended.status, 3);

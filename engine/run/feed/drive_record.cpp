@@ -41,12 +41,18 @@ nlohmann::ordered_json print_body(const bsp::Body& body) {
 }  // namespace
 
 DriveRecord::DriveRecord(const std::filesystem::path& folder, const Source& source) {
+  if (!source.facts().events.empty()) events_.emplace(folder / files::kEvents, ',', log::kEventColumns);
   if (!source.is_closed_loop()) return;
   commands_.emplace(folder / files::kObeyedCommands, ',', log::kObeyedColumns);
   contacts_.emplace(folder / files::kContacts, ',', log::kContactColumns);
 }
 
 void DriveRecord::update(Source& source, LogRecorder& recorder) {
+  const std::vector<log::EventRow>& events = source.facts().events;
+  for (; next_event_ < events.size() && events[next_event_].t_ns <= recorder.stamp().t_ns; ++next_event_) {
+    log::add_row(events_->next_row(), events[next_event_]);
+    recorder.record_event(events[next_event_]);
+  }
   if (!commands_) return;
   const DriveNotes notes = source.take_drive_notes();
   for (const log::ContactRow& contact : notes.contacts) {
@@ -60,6 +66,7 @@ void DriveRecord::update(Source& source, LogRecorder& recorder) {
 }
 
 void DriveRecord::close() {
+  if (events_) events_->close();
   if (!commands_) return;
   commands_->close();
   contacts_->close();

@@ -15,19 +15,21 @@
 
 namespace hallway::run {
 
-/// Writes what a drive obeys and what its robot touches into the tables drive.csv and contacts.csv and into the log, while the run goes on. A source without a
-/// drive leaves nothing. All functions throw Error{kIo}.
+/// Writes what a drive obeys, what its robot touches and what is made to happen into the tables drive.csv, contacts.csv and events.csv and into the log, while
+/// the run goes on. A source without a drive leaves nothing of the first two, one without events nothing of the last. All functions throw Error{kIo}.
 class DriveRecord {
  public:
   DriveRecord(const std::filesystem::path& folder, const Source& source);
 
-  /// Takes what is new in the source.
+  /// Takes what is new in the source until the frame that was recorded last.
   void update(Source& source, LogRecorder& recorder);
   void close();
 
  private:
   std::optional<log::RowFile> commands_;
   std::optional<log::RowFile> contacts_;
+  std::optional<log::RowFile> events_;
+  std::size_t next_event_ = 0;
 };
 
 /// The member `drive` of metrics.json (docs/metrics.md).

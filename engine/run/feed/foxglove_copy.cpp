@@ -88,6 +88,7 @@ class Shower {
 
   void operator()(std::monostate) {}
   void operator()(const log::IdentitiesMessage&) {}
+  void operator()(const log::SampleTruthMessage&) {}
   void operator()(const log::CommandMessage&) {}  // what was obeyed is shown
   void operator()(const log::FrameMessage& message) {
     view_.add_frame(stamp_, reader_.read(std::as_bytes(std::span(message.bytes))));

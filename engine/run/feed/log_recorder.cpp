@@ -35,6 +35,7 @@ void LogRecorder::record_input(const SourceFrame& frame) {
   if (view_) view_->add_frame(stamp, frame.samples());
   for (std::uint32_t k = 0; source_.has_identities() && k < frame.n_samples(); ++k)
     writer.add_identities(stamp, k, frame.identities_of(k));
+  for (const log::SampleTruth& truth : frame.sample_truths) writer.add_sample_truth(stamp, truth);
   if (!frame.T_world_body) return;
   const Pose& pose = *frame.T_world_body;
   const log::IterationPose true_pose{.iteration = stamp.iteration,

@@ -34,6 +34,8 @@ class LogRecorder {
   void record_answer(const host::Outputs& outputs);
   /// For what else there is to record of the same frames.
   log::RunLogWriter& writer() { return recorder_.writer(); }
+  /// Of the frame that was recorded last.
+  const log::FrameStamp& stamp() const { return recorder_.stamp(); }
   /// What the drive obeys from the frame that was recorded last on, and what the body touched and what happened to the robot until then.
   void record_obeyed(const log::ObeyedCommand& command);
   void record_contact(const log::ContactRow& contact);

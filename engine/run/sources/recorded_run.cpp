@@ -37,6 +37,11 @@ class Collector {
     const bool named = run_.manifest->is_object() && run_.manifest->contains("name");
     if (!named || !run_.manifest->at("name").is_string()) bad("a manifest without a name");
   }
+  /// What was made to happen; the rest of what a drive does is made anew by none.
+  void take(const log::DriveMessage& message) {
+    if (const auto* event = std::get_if<log::EventMessage>(&message))
+      run_.facts.events.push_back(event->event);
+  }
   void operator()(std::monostate) {}
   void operator()(const log::FrameMessage& message) {
     add_frame(reader_.read(std::as_bytes(std::span(message.bytes))));
@@ -62,6 +67,12 @@ class Collector {
   void operator()(const log::CommandMessage& message) {
     if (RecordedFrame* frame = frame_of(message.iteration); frame != nullptr)
       frame->command = message.command;
+  }
+  void operator()(const log::SampleTruthMessage& message) {
+    RecordedFrame* frame = frame_of(message.iteration);
+    if (frame == nullptr) return;
+    if (message.truth.sample >= frame->elements.size()) bad("truth of a sample that its frame does not have");
+    frame->sample_truths.push_back(message.truth);
   }
   void operator()(const log::IdentitiesMessage& message) {
     RecordedFrame* frame = frame_of(message.iteration);
@@ -156,7 +167,9 @@ RecordedRun read_recorded_run(const log::ByteInput& input) {
       if (const auto* metadata = std::get_if<log::McapMetadata>(item)) collector.take(*metadata);
       const auto* message = std::get_if<log::McapMessage>(item);
       if (message == nullptr) continue;
-      std::visit(collector, log::parse_run_message(reader.channels().at(message->channel_id), *message));
+      const log::McapChannel& channel = reader.channels().at(message->channel_id);
+      std::visit(collector, log::parse_run_message(channel, *message));
+      if (channel.topic == log::topics::kEvent) collector.take(log::parse_drive_message(channel, *message));
     }
     run.damage = reader.damage();
   } catch (const Error& error) {
@@ -181,6 +194,7 @@ void RecordedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
   const RecordedFrame& recorded = frames_[iteration];
   frame.take(std::as_bytes(std::span(recorded.bytes)));
   if (has_identities()) frame.identities = recorded.identities;
+  frame.sample_truths = recorded.sample_truths;
   frame.T_world_body = recorded.T_world_body;
   frame.orientation_known = recorded.orientation_known;
   frame.recorded_command = recorded.command;

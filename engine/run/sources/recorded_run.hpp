@@ -20,6 +20,7 @@ struct RecordedFrame {
       identities{};  ///< of all elements, in their order; kNoLandmark where none is told
   std::optional<Pose> T_world_body{};
   bool orientation_known = true;
+  std::vector<log::SampleTruth> sample_truths{};
   std::optional<log::CommandAnswer> command{};  ///< the drive command that a plugin answered
 };
 

@@ -122,6 +122,30 @@ bool are_the_same(std::span<const log::TruePlane> a, std::span<const log::TruePl
   });
 }
 
+/// What is true of a reading and not of the whole frame.
+void add_truth(const sim::Reading& reading, const sim::Frame& step, SourceFrame& frame) {
+  log::SampleTruth truth{.sample = static_cast<std::uint32_t>(&reading - step.readings.data())};
+  if (reading.t_ns != step.t_ns) {
+    truth.position_m = to_array(reading.T_world_body.t);
+    truth.orientation = to_array(reading.T_world_body.q);
+  }
+  if (const auto& pressed = reading.bump_truth.pressed; !pressed.empty()) {
+    truth.values.emplace("pressed", std::vector<double>(pressed.begin(), pressed.end()));
+    std::vector<double> counts, places;
+    for (const auto& points : reading.bump_truth.points) {
+      counts.push_back(static_cast<double>(points.size()));
+      for (const Vec3& point : points) places.insert(places.end(), {point.x(), point.y(), point.z()});
+    }
+    truth.values.emplace("points", std::move(counts));
+    truth.values.emplace("points_m", std::move(places));
+  }
+  if (const sense::EncoderTruth& encoders = reading.encoder_truth; !encoders.travel_m.empty()) {
+    truth.values.emplace("travel_m", encoders.travel_m);
+    truth.values.emplace("m_per_tick", encoders.m_per_tick);
+  }
+  if (truth.position_m || !truth.values.empty()) frame.sample_truths.push_back(std::move(truth));
+}
+
 }  // namespace
 
 SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(simulator) {
@@ -137,6 +161,8 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
   }
   for (const sim::SensorSpec& sensor : scenario.sensors)
     std::visit([this](const auto& spec) { add_sensor(spec); }, sensor);
+  for (const sim::EventSpec& event : scenario.events)
+    facts_.events.push_back({event.t_ns, std::string(event_kind_name(event.kind)), text_of(event)});
   if (simulator.driven_world() != nullptr)
     robot_.emplace(*simulator.driven_world(), scenario, simulator.path());
 }
@@ -279,6 +305,7 @@ void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
     std::visit([&](const auto& spec) { add_reading(spec, reading, frame, builder); },
                simulator_.scenario().sensors[reading.sensor]);
     builder.set_reading(reading.sequence, reading.t_ns, reading.t_ns);
+    add_truth(reading, step, frame);
   }
 }
 

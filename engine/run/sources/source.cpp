@@ -9,6 +9,7 @@ void SourceFrame::forget() {
   samples_ = nullptr;
   bytes_ = {};
   identities.clear();
+  sample_truths.clear();
   T_world_body.reset();
   orientation_known = true;
   recorded_command.reset();

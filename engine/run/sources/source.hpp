@@ -47,6 +47,8 @@ class SourceFrame {
   std::vector<log::LandmarkId> identities;
   /// Those of one sample.
   std::span<const log::LandmarkId> identities_of(std::uint32_t k) const;
+  std::vector<log::SampleTruth>
+      sample_truths;  ///< what is true of samples beside that, by sample; none where nothing is
   std::optional<Pose> T_world_body;  ///< at the time of the frame, where known
   bool orientation_known = true;     ///< false: only the position of T_world_body is meant
   std::optional<log::CommandAnswer>
@@ -70,6 +72,7 @@ struct SourceFacts {
   bool has_tracks = false;                  ///< whether a sensor follows its points in any frame
   std::optional<std::vector<log::Landmark>> true_landmarks{};  ///< world, where that is known
   std::optional<std::vector<log::TruePlane>> true_planes{};    ///< likewise
+  std::vector<log::EventRow> events{};  ///< what is made to happen, by time; known beforehand
 };
 
 /// What a drive obeyed and what its robot touched.

@@ -132,6 +132,50 @@ TEST(RunLog, TruePlanesReadBackToTheSameBits) {
   }
 }
 
+TEST(RunLog, TruthOfSamplesReadsBackToTheSameBits) {
+  const std::vector<SampleTruth> truths{
+      {.sample = 0, .position_m = std::array{0.1, -1e-300, 1.0 / 3.0}, .orientation = {0.5, -0.5, 0.5, -0.5}},
+      {.sample = 2, .values = {{"travel_m", {0.1, 1.0 / 3.0}}, {"m_per_tick", {}}}},
+      {.sample = 7}};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  for (const SampleTruth& truth : truths) writer.add_sample_truth({3, 20}, truth);
+  EXPECT_TRUE(test::error_of([&] { writer.add_sample_truth({3, 20}, {.values = {{"x", {NAN}}}}); }));
+  writer.finish();
+  const MemoryInput input(out.text());
+  McapReader reader(input);
+  std::vector<SampleTruth> back;
+  while (const McapItem* item = reader.next()) {
+    const auto* message = std::get_if<McapMessage>(item);
+    if (message == nullptr) continue;
+    const McapChannel& channel = reader.channels().at(message->channel_id);
+    const auto read = std::get<SampleTruthMessage>(parse_run_message(channel, *message));
+    EXPECT_EQ(read.iteration, 3u);
+    back.push_back(read.truth);
+  }
+  EXPECT_EQ(back, truths);
+}
+
+TEST(RunLog, TruthOfSamplesThatIsNoneIsRefused) {
+  for (const char* text :
+       {"{\"iteration\":1}", "{\"iteration\":1,\"sample\":-1}", "{\"iteration\":1,\"sample\":0,\"values\":3}",
+        "{\"iteration\":1,\"sample\":0,\"values\":{\"a\":3}}",
+        "{\"iteration\":1,\"sample\":0,\"values\":{\"a\":[1e999]}}",
+        "{\"iteration\":1,\"sample\":0,\"values\":{\"a\":[\"b\"]}}",
+        "{\"iteration\":1,\"sample\":0,\"T_world_body\":{\"position_m\":[0,0,0],"
+        "\"orientation_wxyz\":[1,1,0,0]}}"}) {
+    const McapChannel channel{.id = 1,
+                              .schema_id = 0,
+                              .topic = std::string(topics::kSampleTruth),
+                              .encoding = "json",
+                              .metadata = {}};
+    const auto error = test::error_of(
+        [&] { parse_run_message(channel, {.channel_id = 1, .data = std::string_view(text)}); });
+    ASSERT_TRUE(error) << text;
+    EXPECT_EQ(error->code(), ErrorCode::kBadInput) << text;
+  }
+}
+
 TEST(RunLog, PlanesStandInAChannelOfTheirOwn) {
   const PlaneObservation plane{.id = 5,
                                .normal = {0, 0, -1},

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "host/samples/frame_bytes.hpp"
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
+#include "unit/sim/drive_world.hpp"
 #include "unit/sim/small_world.hpp"
 
 namespace hallway::run {
@@ -116,6 +119,65 @@ TEST(SimulatedSource, GivesSamplesBySensorAndThenBySequence) {
         EXPECT_EQ(next[2], 16u) << "4 in a second from 0.05 s on, by 3.9 s";
       },
       test::pillars());
+}
+
+/// The values of that name; empty where there are none.
+std::vector<double> values_of(const log::SampleTruth& truth, const std::string& name) {
+  const auto found = truth.values.find(name);
+  return found == truth.values.end() ? std::vector<double>() : found->second;
+}
+
+TEST(SimulatedSource, TellsTheTruthOfEachSample) {
+  const test::TempFolder folder;
+  folder.write("small.map", test::map_text(sim::test::room(), sim::test::start_at("0 0 50")));
+  const std::string eyes = "[sensor.eyes]\nkind = 'points'\nrate_hz = 8\nlatency_s = 0.03\n";
+  const sim::Scenario scenario =
+      sim::load_scenario(folder.write("s.toml", sim::test::driven_text("", "kind = 'differential'\n", eyes)));
+  const sim::Simulator simulator(scenario, 1, trace::Backend::kBruteForce);
+  SimulatedSource source(simulator);
+  SourceFrame frame;
+  std::size_t at_other_times = 0, presses = 0;
+  Pose before;
+  for (std::uint32_t i = 0; i < 150; ++i) {
+    source.read(i, frame);
+    for (const log::SampleTruth& truth : frame.sample_truths) {
+      const hw_sample_t& sample = frame.sample(truth.sample);
+      EXPECT_EQ(truth.position_m.has_value(), sample.t_end_ns != frame.t_ns());
+      if (truth.position_m) {
+        ++at_other_times;
+        EXPECT_GE((*truth.position_m)[0], before.t.x() - 0.05) << "it drives ahead";
+        EXPECT_LE((*truth.position_m)[0], frame.T_world_body->t.x());
+      }
+      if (sample.kind == HW_SAMPLE_ENCODER) {
+        const auto& encoder = *static_cast<const hw_encoder_t*>(sample.payload);
+        const auto ways = values_of(truth, "travel_m"), ticks_m = values_of(truth, "m_per_tick");
+        ASSERT_EQ(ways.size(), 2u);
+        for (std::size_t wheel = 0; wheel < 2; ++wheel)
+          EXPECT_EQ(static_cast<double>(hw_wheel_ticks_at(&encoder, wheel)),
+                    std::floor(ways[wheel] / ticks_m[wheel]));
+      }
+      if (sample.kind == HW_SAMPLE_BUMP) {
+        const auto pressed = values_of(truth, "pressed"), counts = values_of(truth, "points");
+        ASSERT_EQ(pressed.size(), 4u);
+        ASSERT_EQ(counts.size(), 4u);
+        double points = 0;
+        for (std::size_t zone = 0; zone < 4; ++zone) {
+          EXPECT_EQ(pressed[zone] != 0, counts[zone] != 0);
+          points += counts[zone];
+        }
+        presses += points > 0 ? 1u : 0u;
+        const auto places = values_of(truth, "points_m");
+        EXPECT_EQ(static_cast<double>(places.size()), 3.0 * points);
+        if (points > 0) {
+          EXPECT_NEAR(places[0], 5.0, 0.001) << "the wall";
+        }
+      }
+    }
+    before = *frame.T_world_body;
+    source.obey({.command = drive::Command{.forward_m_s = 0.5}});
+  }
+  EXPECT_GT(at_other_times, 50u);
+  EXPECT_GT(presses, 10u);
 }
 
 }  // namespace

@@ -12,55 +12,20 @@
 #include "sim/simulator.hpp"
 #include "support/errors.hpp"
 #include "support/temp_folder.hpp"
+#include "unit/sim/drive_world.hpp"
 #include "unit/sim/small_world.hpp"
 
 namespace hallway::sim {
 namespace {
 
+using test::driven_text;
+using test::DriveWorld;
+using test::forward;
+using test::room;
+using test::start_at;
+
 constexpr double kWall_m = 5.0;
 constexpr double kRadius_m = 0.2;
-
-std::string room() {
-  return test::block(-500, -500, -20, 500, 500, 0) + test::block(-520, -500, 0, -500, 500, 250) +
-         test::block(500, -500, 0, 520, 500, 250) + test::block(-500, -520, 0, 500, -500, 250) +
-         test::block(-500, 500, 0, 500, 520, 250);
-}
-
-std::string start_at(const std::string& origin, const std::string& name = "") {
-  const std::string named = name.empty() ? "" : "\"name\" \"" + name + "\"\n";
-  return "{\n\"classname\" \"hw_robot_start\"\n\"origin\" \"" + origin + "\"\n" + named + "}\n";
-}
-
-std::string driven_text(const std::string& robot = "", const std::string& drive = "kind = 'differential'\n",
-                        const std::string& more = "") {
-  return "map = \"small.map\"\nseed = 5\nsteps = 400\nperiod_s = 0.1\n[robot]\nradius_m = 0.2\nbottom_m = "
-         "0.03\n"
-         "top_m = 0.5\n" +
-         robot + "[robot.drive]\n" + drive +
-         "[sensor.bumper]\nkind = 'bump'\n[sensor.wheels]\nkind = 'encoders'\n" + more;
-}
-
-/// A simulator and its robot.
-struct DriveWorld {
-  explicit DriveWorld(const std::string& scenario, const std::string& entities = start_at("0 0 50")) {
-    folder.write("small.map", test::map_text(room(), entities));
-    folder.write("commands.csv", "t_ns,forward_m_s,angular_rad_s\n0,0.5,0\n5000000000,1e300,0\n");
-    simulator = std::make_unique<Simulator>(load_scenario(folder.write("s.toml", scenario)), 1,
-                                            trace::Backend::kBruteForce);
-    robot =
-        std::make_unique<DrivenRobot>(*simulator->driven_world(), simulator->scenario(), simulator->path());
-  }
-
-  Pose pose() const { return robot->pose_at_time(std::int64_t{robot->frame()} * 100'000'000); }
-
-  test::TempFolder folder;
-  std::unique_ptr<Simulator> simulator;
-  std::unique_ptr<DrivenRobot> robot;
-};
-
-DriveAnswer forward(double m_s, double left_m_s = 0.0) {
-  return {.command = drive::Command{.forward_m_s = m_s, .lateral_m_s = left_m_s}};
-}
 
 TEST(SimulatedDrive, ACommandOfATableMovesAsItsClosedFormSays) {
   DriveWorld world(driven_text("commands = 'commands.csv'\n"));
