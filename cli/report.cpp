@@ -143,16 +143,6 @@ void add_errors(const Rows& row, const Metrics& metrics) {
   }
 }
 
-void add_drive(const Rows& row, const sim::DriveCounts& drive) {
-  row("commands", fmt::format("{}, {} clamped, {} with a part left out; {} by watchdog or time-out",
-                              drive.commands, drive.clamped, drive.left_out, counted(drive.stops, "stop")));
-  row("driven", fmt::format("{:.2f} m; {}, {}, stood {:.1f} s against something", drive.distance_m,
-                            counted(drive.contacts, "contact"), counted(drive.falls, "fall"), drive.stood_s));
-  if (drive.floor_cells > 0)
-    row("floor", fmt::format("{} of {} cells of 0.5 m, {} of {}", drive.cells_visited, drive.floor_cells,
-                             drive.rooms_entered, counted(drive.rooms, "room")));
-}
-
 /// The frames of a replay do not depend on its commands.
 std::string comparison_text(const run::CommandComparison& commands) {
   const std::string compared = counted(commands.compared(), "frame") + " with one in the log";
@@ -248,6 +238,16 @@ void warn_of_missing(const std::vector<run::MissingPicture>& missing) {
 }
 
 }  // namespace
+
+void add_drive(const Rows& row, const sim::DriveCounts& drive) {
+  row("commands", fmt::format("{}, {} clamped, {} with a part left out; {} by watchdog or time-out",
+                              drive.commands, drive.clamped, drive.left_out, counted(drive.stops, "stop")));
+  row("driven", fmt::format("{:.2f} m; {}, {}, stood {:.1f} s against something", drive.distance_m,
+                            counted(drive.contacts, "contact"), counted(drive.falls, "fall"), drive.stood_s));
+  if (drive.floor_cells > 0)
+    row("floor", fmt::format("{} of {} cells of 0.5 m, {} of {}", drive.cells_visited, drive.floor_cells,
+                             drive.rooms_entered, counted(drive.rooms, "room")));
+}
 
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,
                        const Report& report, const OutputOptions& output) {

@@ -17,6 +17,9 @@ struct Report {
   std::vector<std::string> warnings;  ///< already shown on standard error
 };
 
+/// Rows of what a robot that a drive moves did.
+void add_drive(const Rows& row, const sim::DriveCounts& drive);
+
 /// Runs a plan with a progress bar, ended in good order by Ctrl-C or SIGTERM, and prints the short table or the document.
 /// @return the exit status
 int execute_and_report(run::Source& source, host::Pipeline& pipeline, const run::RunPlan& plan,

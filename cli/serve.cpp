@@ -18,6 +18,7 @@
 #include "link/udp_wire.hpp"
 #include "log/observations.hpp"
 #include "log_input.hpp"
+#include "report.hpp"
 #include "run/feed/drive_record.hpp"
 #include "run/feed/manifest.hpp"
 #include "run/pictures/record.hpp"
@@ -115,6 +116,9 @@ std::string table_of(const std::string& name, const ServeOptions& options, const
                                counters.resent, counters.malformed, counters.foreign));
   if (!options.lock_step) row("sent late", fmt::format("{} frames", result.sent_late));
   row("round trip", round_trip_text(result.round_trip_ms));
+  if (result.frames_alone > 0)
+    row("after it had gone", fmt::format("{}, until the robot stood", counted(result.frames_alone, "frame")));
+  if (result.drive) add_drive(row, *result.drive);
   if (result.metrics) row("position RMSE, aligned", rmse_text(*result.metrics));
   if (!options.out.empty()) row("written to", path_text(options.out));
   return text;
@@ -167,6 +171,7 @@ int serve(const ServeOptions& options) {
     document["serving"] = run::print_serving(result);
     document["metrics"] = nullptr;
     if (result.metrics) document["metrics"] = eval::to_json(*result.metrics);
+    if (result.drive) document["metrics"]["drive"] = run::to_json(*result.drive);
     print_json(document);
   } else if (!options.quiet) {
     print_result(table_of(facts.name, options, result));

@@ -2,13 +2,10 @@
 // One plugin binary in every host: the simulator, a log, a robot that replays a log, and a robot at the other end of a network give the same
 // bytes for the same input, whatever is lost on the way, isolated or not, on any number of threads.
 #include <gtest/gtest.h>
-#include <signal.h>
 
-#include <chrono>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <vector>
 
 #include "log/byte_io.hpp"
@@ -16,6 +13,7 @@
 #include "support/data.hpp"
 #include "support/long_mode.hpp"
 #include "support/process.hpp"
+#include "support/served.hpp"
 
 namespace hallway::test {
 namespace {
@@ -77,45 +75,6 @@ void expect_same_answers(const fs::path& a, const fs::path& b) {
   EXPECT_TRUE(hash.is_string());
   EXPECT_EQ(hash, manifest_of(b).at("plugins").at(0).at("hash")) << "the same file in both";
 }
-
-/// `hallway serve` of a scenario, started and listening.
-class Served {
- public:
-  explicit Served(std::vector<std::string> more) : process_(arguments(std::move(more))) {
-    for (int i = 0; i < 6000 && address_.empty(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      const std::string printed = process_.err_so_far();
-      const std::size_t at = printed.find(" on 127.0.0.1:");
-      const std::size_t end = printed.find('\n', at);
-      if (at != std::string::npos && end != std::string::npos)
-        address_ = printed.substr(at + 4, end - at - 4);
-    }
-  }
-  ~Served() {
-    if (!waited_) stop();
-  }
-  const std::string& address() const { return address_; }
-  Ended wait() {
-    waited_ = true;
-    return process_.wait();
-  }
-  /// Where no robot has come.
-  Ended stop() {
-    ::kill(process_.pid(), SIGTERM);
-    return wait();
-  }
-
- private:
-  static std::vector<std::string> arguments(std::vector<std::string> more) {
-    std::vector<std::string> all{hallway_program(), "serve", "--udp", "127.0.0.1:0", "--lockstep"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-
-  Process process_;
-  std::string address_;
-  bool waited_ = false;
-};
 
 /// A rig of several sensors, with slam_point.
 constexpr const char* kTwoCameras = "two_cameras";
@@ -183,8 +142,8 @@ class Hosts : public testing::TestWithParam<std::string> {
   void rehearse(const std::string& name, double loss) const {
     if (fs::exists(out(name))) return;
     const std::string share = std::to_string(loss);
-    Served served({scenario_of(GetParam()), "--steps", steps(), "--out", out(name + "_served"), "--loss",
-                   share, "--loss-seed", "3"});
+    Served served({"--lockstep", scenario_of(GetParam()), "--steps", steps(), "--out", out(name + "_served"),
+                   "--loss", share, "--loss-seed", "3"});
     ASSERT_NE(served.address(), "") << served.stop().err;
     robot(name, "name = \"udp\"\naddress = \"" + served.address() + "\"\nlockstep = true\nloss = " + share +
                     "\nseed = 5\n");
@@ -233,6 +192,7 @@ TEST_P(Hosts, ServingScoresThePathThatCameBack) {
   const Json there = Json::parse(read_file(out("far_served") / "metrics.json"));
   for (const char* member : {"iterations", "lost_iterations", "position_final_m", "rpe"})
     EXPECT_EQ(here.at(member), there.at(member)) << member;
+  EXPECT_EQ(here.value("drive", Json()), there.value("drive", Json())) << "of a robot that obeys";
   const bool has_poses = GetParam() != "em" && GetParam() != kWanderer;
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose").is_number(), has_poses);
   EXPECT_EQ(here.at("position_rmse_m").at("first_pose"), there.at("position_rmse_m").at("first_pose"));

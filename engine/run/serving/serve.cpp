@@ -75,11 +75,12 @@ class Folder {
     const std::filesystem::path& folder = output_.working_path();
     write_attachments(folder, plan_.attachments);
     truth_.write(folder, source_);
-    result.metrics = path_.write(folder, source_);
+    result.drive = source_.drive_counts();
+    result.metrics = path_.write(folder, source_, result.drive);
     if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));
     nlohmann::ordered_json manifest = plan_.manifest;
     manifest["sensors"] = record::print_sensors(source_.sensors());
-    manifest["iterations"] = result.frames;
+    manifest["iterations"] = result.frames + result.frames_alone;
     manifest["stopped_early"] = result.end != ServeResult::End::kAllSent;
     manifest["lock_step"] = plan_.lock_step;
     manifest["host"]["serving"] = print_serving(result);
@@ -120,6 +121,7 @@ class Server {
     take_answers();
     if (!plan_.lock_step && result_.frames > 0) obey();
     note_end();
+    go_on_alone();
     robot_.leave();
     take_answers();
     return finish();
@@ -160,11 +162,26 @@ class Server {
     }
   }
 
+  /// The robot program has gone: a robot that obeys keeps its last command for the watchdog's time, and stops.
+  void go_on_alone() {
+    if (!folder_ || !source_.is_closed_loop() || !robot_.over() || stopped()) return;
+    while (made() < source_.iterations() && source_.is_moving()) {
+      source_.read(made(), frame_);
+      folder_->add_frame(made(), frame_);
+      ++result_.frames_alone;
+      obey();
+    }
+  }
+
+  /// Frames.
+  std::uint32_t made() const { return result_.frames + result_.frames_alone; }
+
   std::int64_t period_ns() const { return plan_.manifest.value("period_ns", std::int64_t{0}); }
 
   /// A robot that obeys takes the newest command that has come since the last call; a command to an older frame than one before it is not taken.
   void obey() {
     if (!source_.is_closed_loop()) return;
+    if (robot_.over() && !fresh_.command) fresh_.failed = !answered_.contains(made() - 1);
     source_.obey(std::exchange(fresh_, {}));
     if (folder_) folder_->add_drive(source_);
   }
@@ -267,6 +284,7 @@ nlohmann::ordered_json print_serving(const ServeResult& result) {
   static constexpr std::array kEnds{"all_sent", "left", "silent", "stopped"};  // in the order of End
   return {{"end", kEnds.at(static_cast<std::size_t>(result.end))},
           {"frames", result.frames},
+          {"frames_alone", result.frames_alone},
           {"answered", result.answered},
           {"unanswered", result.frames - result.answered},
           {"answers_late", result.late},

@@ -31,6 +31,7 @@ struct ServeResult {
   End end = End::
       kAllSent;  ///< kLeft: the robot program said bye; kSilent: it was given up; kStopped: by RunHooks::stop
   std::uint32_t frames = 0;         ///< sent
+  std::uint32_t frames_alone = 0;   ///< made after the robot program had gone, until the robot stood
   std::uint64_t answered = 0;       ///< frames that have an answer
   std::uint64_t late = 0;           ///< answers that say so (HW_ANSWER_LATE)
   std::uint64_t failed = 0;         ///< answers that say so (HW_ANSWER_FAILED)
@@ -39,13 +40,15 @@ struct ServeResult {
   std::uint64_t sent_late = 0;      ///< real time: frames sent a period or more after their time
   std::optional<eval::TimeSummary> round_trip_ms{};  ///< from a frame's first datagram to its first answer
   link::RobotCounters counters{};
-  std::optional<eval::Metrics> metrics{};  ///< of the path that came back, where a folder was written
+  std::optional<eval::Metrics> metrics{};   ///< of the path that came back, where a folder was written
+  std::optional<sim::DriveCounts> drive{};  ///< of a robot that obeys, where a folder was written
 };
 
 /// What a robot says of itself that gives the frames of `source`.
 link::Description describe_robot(const Source& source, const ServePlan& plan, const std::string& name);
 
 /// Waits for a host, sends it the frames of `source` exactly as plugins get them in a run, takes its answers down, and says bye.
+/// Where the robot program goes before the last frame, a robot that obeys goes on alone until it stands, as after a failure of plugins in a run.
 /// With a folder, writes it (docs/formats.md): it appears whole or not at all.
 /// Throws Error{kIo} if the folder cannot be written, which is checked first, and Error{kBadInput} for a frame too large for the protocol.
 ServeResult serve(Source& source, link::RobotEnd& robot, const ServePlan& plan, const RunHooks& hooks);

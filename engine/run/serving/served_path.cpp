@@ -9,6 +9,7 @@
 #include "record/answer_tables.hpp"
 #include "record/files.hpp"
 #include "record/manifest.hpp"
+#include "run/feed/drive_record.hpp"
 #include "run/scoring/truth_of.hpp"
 #include "run/sources/abi_pose.hpp"
 
@@ -39,7 +40,8 @@ void ServedPath::add_answer(const link::Answer& answer) {
   }
 }
 
-eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Source& source) const {
+eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Source& source,
+                                const std::optional<sim::DriveCounts>& drive) const {
   eval::Evaluator evaluator(path_truth(source));
   std::vector<log::StampedPose> trajectory;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
@@ -56,7 +58,9 @@ eval::Metrics ServedPath::write(const std::filesystem::path& folder, const Sourc
   }
   log::write_tum(folder / record::files::kTrajectory, trajectory);
   eval::Metrics metrics = evaluator.metrics({}, std::nullopt);
-  record::write_json(folder / record::files::kMetrics, eval::to_json(metrics));
+  nlohmann::ordered_json document = eval::to_json(metrics);
+  if (drive) document["drive"] = to_json(*drive);
+  record::write_json(folder / record::files::kMetrics, document);
   return metrics;
 }
 

@@ -22,7 +22,9 @@ class ServedPath {
 
   /// Writes trajectory.tum and metrics.json, as a run has them. The metrics are of the path alone: no map comes back, and no
   /// associations. Throws Error{kIo}. @return the metrics
-  eval::Metrics write(const std::filesystem::path& folder, const Source& source) const;
+  /// @param drive  of a robot that obeyed
+  eval::Metrics write(const std::filesystem::path& folder, const Source& source,
+                      const std::optional<sim::DriveCounts>& drive) const;
 
  private:
   struct Frame {
