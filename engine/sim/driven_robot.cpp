@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::int64_t kSlice_ns = 50'000'000;
 constexpr double kVisited_m = 0.1;
-constexpr double kPathPoint_m = 0.02;  // from point to point of a path that is followed
+constexpr std::size_t kMostCommands = 1000;  // of a table within one period
+constexpr double kPathPoint_m = 0.02;        // from point to point of a path that is followed
 
 /// How far back in time readings are taken.
 std::int64_t history_of(const Scenario& scenario) {
@@ -52,6 +53,19 @@ drive::Follower make_follower(const Scenario& scenario, const map::Path& path) {
   }
 }
 
+/// Throws Error{kBadInput} for more commands in a period than a robot is moved by.
+drive::CommandTable read_commands(const std::filesystem::path& file, std::int64_t period_ns) {
+  drive::CommandTable table = drive::CommandTable::read(file);
+  const auto& commands = table.commands();
+  for (std::size_t i = kMostCommands; i < commands.size(); ++i) {
+    if (commands[i].t_ns - commands[i - kMostCommands].t_ns >= period_ns) continue;
+    throw Error(ErrorCode::kBadInput,
+                "more than " + std::to_string(kMostCommands) + " commands within one period",
+                {.file = printable(file.string()), .line = static_cast<int>(i) + 2});
+  }
+  return table;
+}
+
 }  // namespace
 
 DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, const map::Path& path)
@@ -65,7 +79,7 @@ DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, con
       wheels_(drive::wheel_count(spec_.drive.kind)) {
   world.put_at_start(robot_);
   if (spec_.by == DrivenBy::kPath) follower_.emplace(make_follower(scenario, path));
-  if (spec_.by == DrivenBy::kCommands) table_.emplace(drive::CommandTable::read(spec_.commands));
+  if (spec_.by == DrivenBy::kCommands) table_.emplace(read_commands(spec_.commands, period_ns_));
   happen_until(0);
 }
 
