@@ -37,7 +37,7 @@ constexpr std::array kStart{kAt, kHeading,
 
 constexpr std::array kSensor{
     ArgSpec{"name", ArgKind::kName, "what it is called"}.needed(),
-    ArgSpec{"kind", ArgKind::kChoice, "what it sees [points]", "", "points planes"},
+    ArgSpec{"kind", ArgKind::kChoice, "what it sees, or feels [points]", "", "points planes bump encoders"},
     ArgSpec{"horizontal_fov", ArgKind::kAngle, "its whole field of view from side to side [90]"},
     ArgSpec{"vertical_fov", ArgKind::kAngle, "its whole field of view from top to bottom [60]"},
     ArgSpec{"min_range", ArgKind::kLength, "nearest distance seen [0]"},

@@ -67,9 +67,8 @@ std::string EntityKeys::text(std::string_view key) const {
 void EntityKeys::check_range(const KeySpec& key, double value) const {
   if (value >= key.low && value <= key.high && !(key.above_low && value == key.low)) return;
   const std::string low = format_double(key.low), high = format_double(key.high);
-  throw error("key " + quote(key.name) + " is " + format_double(value) + "; it must " +
-                  (key.above_low ? "be above " + low + " and at most " + high
-                                 : "lie between " + low + " and " + high),
+  throw error("key " + quote(key.name) + ": " + format_double(value) + " is out of range: must be " +
+                  (key.above_low ? "above " : "at least ") + low + " and at most " + high,
               key.name);
 }
 
@@ -227,7 +226,8 @@ void EntityKeys::check_value(const KeySpec& key) const {
       check_range(key, number(key.name, -kAnything, kAnything));
       break;
     case KeyKind::kWhole:
-      integer(key.name);
+      if (const auto value = static_cast<double>(integer(key.name)); key.low != key.high)
+        check_range(key, value);
       break;
     case KeyKind::kSeed:
       seed_or(key.name, 0);

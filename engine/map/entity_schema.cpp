@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
+
 namespace hallway::map {
 namespace {
 
@@ -93,17 +96,22 @@ constexpr std::array kCloud{required("name", KeyKind::kName),
                                     .choices = "independent group"},
                             KeySpec{.name = "groups", .kind = KeyKind::kWhole, .fallback = "4"}};
 // What a scenario's sensor may be too.
+constexpr std::string_view kSeeing = "points planes";
 constexpr std::array kSensor{
     required("name", KeyKind::kName),
-    KeySpec{.name = "kind", .kind = KeyKind::kChoice, .fallback = "points", .choices = "points planes"},
-    field_of_view("horizontal_fov_deg", "90"),
-    field_of_view("vertical_fov_deg", "60"),
-    number("min_range_m", 0.0, kLongest_m, "0"),
-    number("max_range_m", 0.0, kLongest_m, "100"),
-    numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0"),
+    KeySpec{.name = "kind",
+            .kind = KeyKind::kChoice,
+            .fallback = "points",
+            .choices = "points planes bump encoders"},
+    of_variant(kSeeing, field_of_view("horizontal_fov_deg", "90")),
+    of_variant(kSeeing, field_of_view("vertical_fov_deg", "60")),
+    of_variant(kSeeing, number("min_range_m", 0.0, kLongest_m, "0")),
+    of_variant(kSeeing, number("max_range_m", 0.0, kLongest_m, "100")),
+    of_variant(kSeeing, numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0")),
     of_variant("points", numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0")),
-    numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0"),
-    number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0"),
+    of_variant(kSeeing,
+               numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0")),
+    of_variant(kSeeing, number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
     number("rate_hz", 0.0, kFastestSensor_hz, "0"),
     number("phase_s", 0.0, kLongestDelay_s, "0"),
     number("latency_s", 0.0, kLongestDelay_s, "0"),
@@ -113,7 +121,14 @@ constexpr std::array kSensor{
     of_variant("planes", {.name = "occlusion", .kind = KeyKind::kFlag, .fallback = "1"}),
     of_variant("planes", number("min_length_m", 0.0, kLongest_m, "0.05")),
     of_variant("planes", number("noise_angle_deg", 0.0, kLargestNoise_deg, "0")),
-    of_variant("planes", number("noise_end_m", 0.0, kLargestNoise_m, "0"))};
+    of_variant("planes", number("noise_end_m", 0.0, kLargestNoise_m, "0")),
+    of_variant("bump", {.name = "zones", .kind = KeyKind::kWhole, .low = 1.0, .high = 64.0}),
+    of_variant("bump", {.name = "depth", .kind = KeyKind::kFlag, .fallback = "0"}),
+    of_variant("bump", number("skin_m", 1e-4, 1.0, "0.005")),
+    of_variant("bump", number("missed_rate", 0.0, 1.0, "0")),
+    of_variant("bump", number("false_rate", 0.0, 1.0, "0")),
+    of_variant("encoders", number("ticks_per_revolution", 1.0, 1e9, "1024")),
+    of_variant("encoders", number("radius_error_sigma", 0.0, 0.1, "0"))};
 constexpr std::array kBody{number("radius_m", kShortest_m, kFarthestOfRobot_m, ""),
                            number("bottom_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, ""),
                            number("top_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, "")};
@@ -122,47 +137,48 @@ constexpr std::array kBumpZone{required("name", KeyKind::kName),
                                number("to_deg", -kFullTurn_deg, kFullTurn_deg, ""),
                                number("bottom_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, ""),
                                number("top_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, "")};
-// What a drive may be (drive/spec.hpp), and of the robot what does not belong to its drive.
-constexpr std::array kDrive{KeySpec{.name = "kind",
-                                    .kind = KeyKind::kChoice,
-                                    .fallback = "differential",
-                                    .choices = "differential tracked ackermann omnidirectional"},
-                            number("wheel_base_m", 0.001, 100.0, "0.3"),
-                            number("axle_distance_m", 0.001, 100.0, "0.3"),
-                            number("wheel_radius_m", 0.001, 100.0, "0.05"),
-                            number("greatest_steering_rad", 0.001, 1.5, "0.6"),
-                            number("max_steering_rate_rad_s", 0.001, 1000.0, "2"),
-                            number("max_speed_m_s", 0.001, 1000.0, "0.6"),
-                            number("max_lateral_m_s", 0.001, 1000.0, ""),
-                            number("max_angular_rad_s", 0.001, 1000.0, "2"),
-                            number("max_acceleration_m_s2", 0.001, 1000.0, "1"),
-                            number("max_deceleration_m_s2", 0.001, 1000.0, ""),
-                            number("max_angular_acceleration_rad_s2", 0.001, 1000.0, "4"),
-                            number("latency_s", 0.0, 10.0, "0"),
-                            number("dead_band_m_s", 0.0, 1000.0, "0"),
-                            number("dead_band_rad_s", 0.0, 1000.0, "0"),
-                            number("turn_slip", 0.0, 1.0, "0"),
-                            number("forward_noise_mean", -1.0, 1.0, "0"),
-                            number("forward_noise_sigma", 0.0, 1.0, "0"),
-                            number("forward_noise_correlation_s", 0.0, 10000.0, "0"),
-                            number("angular_noise_mean", -1.0, 1.0, "0"),
-                            number("angular_noise_sigma", 0.0, 1.0, "0"),
-                            number("angular_noise_correlation_s", 0.0, 10000.0, "0"),
-                            number("lateral_drift_mean", -1.0, 1.0, "0"),
-                            number("lateral_drift_sigma", 0.0, 1.0, "0"),
-                            number("lateral_drift_correlation_s", 0.0, 10000.0, "0"),
-                            number("left_slip_mean", -1.0, 1.0, "0"),
-                            number("left_slip_sigma", 0.0, 1.0, "0"),
-                            number("left_slip_correlation_s", 0.0, 10000.0, "0"),
-                            number("right_slip_mean", -1.0, 1.0, "0"),
-                            number("right_slip_sigma", 0.0, 1.0, "0"),
-                            number("right_slip_correlation_s", 0.0, 10000.0, "0"),
-                            number("step_m", 0.0, 10.0, ""),
-                            number("ledge_m", 0.0, 10.0, ""),
-                            number("slope_deg", 0.0, 90.0, ""),
-                            number("clearance_m", 0.0, 10.0, ""),
-                            KeySpec{.name = "ledges", .kind = KeyKind::kChoice, .choices = "contact fall"},
-                            KeySpec{.name = "contact", .kind = KeyKind::kChoice, .choices = "slide stop"}};
+// What a scenario's [robot.drive] may be too, and of its [robot] what does not belong to the drive. The defaults are those of drive/spec.hpp.
+constexpr std::array kDrive{
+    KeySpec{.name = "kind",
+            .kind = KeyKind::kChoice,
+            .fallback = "differential",
+            .choices = "differential tracked ackermann omnidirectional"},
+    number("wheel_base_m", 0.001, 100.0, "0.3"),
+    number("axle_distance_m", 0.001, 100.0, "0.3"),
+    number("wheel_radius_m", 0.001, 100.0, "0.05"),
+    number("greatest_steering_rad", 0.001, 1.5, "0.6"),
+    number("max_steering_rate_rad_s", 0.001, 1000.0, "2"),
+    number("max_speed_m_s", 0.001, 1000.0, "0.6"),
+    number("max_lateral_m_s", 0.001, 1000.0, ""),
+    number("max_angular_rad_s", 0.001, 1000.0, "2"),
+    number("max_acceleration_m_s2", 0.001, 1000.0, "1"),
+    number("max_deceleration_m_s2", 0.001, 1000.0, ""),
+    number("max_angular_acceleration_rad_s2", 0.001, 1000.0, "4"),
+    number("latency_s", 0.0, 10.0, "0"),
+    number("dead_band_m_s", 0.0, 1000.0, "0"),
+    number("dead_band_rad_s", 0.0, 1000.0, "0"),
+    number("turn_slip", 0.0, 1.0, "0"),
+    number("forward_noise_mean", -1.0, 1.0, "0"),
+    number("forward_noise_sigma", 0.0, 1.0, "0"),
+    number("forward_noise_correlation_s", 0.0, 10000.0, "0"),
+    number("angular_noise_mean", -1.0, 1.0, "0"),
+    number("angular_noise_sigma", 0.0, 1.0, "0"),
+    number("angular_noise_correlation_s", 0.0, 10000.0, "0"),
+    number("lateral_drift_mean", -1.0, 1.0, "0"),
+    number("lateral_drift_sigma", 0.0, 1.0, "0"),
+    number("lateral_drift_correlation_s", 0.0, 10000.0, "0"),
+    number("left_slip_mean", -1.0, 1.0, "0"),
+    number("left_slip_sigma", 0.0, 1.0, "0"),
+    number("left_slip_correlation_s", 0.0, 10000.0, "0"),
+    number("right_slip_mean", -1.0, 1.0, "0"),
+    number("right_slip_sigma", 0.0, 1.0, "0"),
+    number("right_slip_correlation_s", 0.0, 10000.0, "0"),
+    number("step_m", 0.0, 10.0, "0.025"),
+    number("ledge_m", 0.0, 10.0, "0.025"),
+    number("slope_deg", 0.0, 57.0, ""),
+    number("clearance_m", 0.002, 10.0, "0.03"),
+    KeySpec{.name = "ledges", .kind = KeyKind::kChoice, .fallback = "contact", .choices = "contact fall"},
+    KeySpec{.name = "contact", .kind = KeyKind::kChoice, .fallback = "slide", .choices = "slide stop"}};
 constexpr std::array kMesh{kOrigin,
                            required("model", KeyKind::kText),
                            kAngle,
@@ -216,6 +232,13 @@ const EntitySpec* find_entity_spec(std::string_view classname) {
   return found == kSchema.end() ? nullptr : &*found;
 }
 
+const KeySpec& entity_key(std::string_view classname, std::string_view key) {
+  const EntitySpec* spec = find_entity_spec(classname);
+  const KeySpec* found = spec != nullptr ? spec->key(key) : nullptr;
+  if (found != nullptr) return *found;
+  throw Error(ErrorCode::kInternal, std::string(classname) + " has no key " + std::string(key));
+}
+
 std::string_view variant_of(const EntitySpec& spec, const Entity& entity) {
   if (spec.selector.empty()) return {};
   if (const std::string* value = entity.find(spec.selector)) return *value;
@@ -223,7 +246,9 @@ std::string_view variant_of(const EntitySpec& spec, const Entity& entity) {
 }
 
 bool belongs(const KeySpec& key, std::string_view variant) {
-  return key.variant.empty() || key.variant == variant;
+  if (key.variant.empty()) return true;
+  const auto variants = split(key.variant, ' ');
+  return std::ranges::find(variants, variant) != variants.end();
 }
 
 std::span<const std::string_view> common_keys() {

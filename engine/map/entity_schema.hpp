@@ -31,12 +31,12 @@ struct KeySpec {
   KeyKind kind = KeyKind::kText;
   bool required = false;
   double low =
-      0.0;  ///< of a kNumber, and of each number of a kNumbers or kVector; of a kVector any where both are 0
+      0.0;  ///< of a kNumber or kWhole, and of each number of a kNumbers or kVector; of others than kNumber any where both are 0
   double high = 0.0;
   bool above_low = false;       ///< `low` itself is refused
   std::string_view fallback{};  ///< what counts where the key is absent; empty where that is nothing
   std::string_view choices{};   ///< of a kChoice, between blanks
-  std::string_view variant{};   ///< the key is one of this variant of the class only; empty for all
+  std::string_view variant{};   ///< variants of the class that have the key, between blanks; empty for all
 };
 
 /// Where the entities of a class have their place.
@@ -61,6 +61,9 @@ std::span<const EntitySpec> entity_schema();
 
 /// The class of that very name, or null.
 const EntitySpec* find_entity_spec(std::string_view classname);
+
+/// What a key of a class may be. Throws Error{kInternal} if there is no such key.
+const KeySpec& entity_key(std::string_view classname, std::string_view key);
 
 /// The variant of a class that an entity is: the value of the selector, else its fallback.
 std::string_view variant_of(const EntitySpec& spec, const Entity& entity);

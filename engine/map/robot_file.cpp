@@ -44,6 +44,7 @@ void read_drive(const Document& document, RobotFile& robot) {
     if (first) throw keys.error("a second `hw_drive`; the first is at line " + std::to_string(first->line));
     first = &entity;
     robot.has_drive = true;
+    robot.drive_line = entity.line;
     check_keys_of(keys, "hw_drive");
     for (RobotKey& key : known_keys(entity)) {
       const bool of_robot = std::ranges::find(kRobotKeys, key.key) != kRobotKeys.end();
@@ -56,12 +57,14 @@ std::string metres_text(const Vec3& place) {
   return format_double(place.x()) + " " + format_double(place.y()) + " " + format_double(place.z());
 }
 
-/// The mount: `origin`, or `position_m` where there is no origin.
+/// The mount of a sensor that has one: `origin`, or `position_m` where there is no origin.
 RobotSensor read_sensor(const Document& document, const Entity& entity) {
   const EntityKeys keys(document, entity);
   RobotSensor sensor{keys.text("name"), known_keys(entity), entity.line};
   std::erase_if(sensor.keys, [](const RobotKey& key) { return key.key == "name"; });
-  if (!keys.has("origin")) return sensor;
+  const bool has_mount =
+      belongs(sensor_key("position_m"), variant_of(*find_entity_spec("hw_sensor"), entity));
+  if (!keys.has("origin") || !has_mount) return sensor;
   const Vec3 mount_m = keys.origin_m();
   if (keys.has("position_m")) {
     constexpr double kSame_m = 1e-6;

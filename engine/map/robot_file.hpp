@@ -21,7 +21,7 @@ struct RobotKey {
 struct RobotSensor {
   std::string name{};
   std::vector<RobotKey>
-      keys{};  ///< with `position_m`, the mount, which is the entity's `origin`; without `name`
+      keys{};  ///< with `position_m`, the mount, which is the entity's `origin`, of those that have one; without `name`
   int line = 0;
 };
 
@@ -33,6 +33,7 @@ struct RobotFile {
   std::vector<BumpZone> zones{};
   std::vector<RobotKey> robot{};  ///< step_m, ledge_m, slope_deg, clearance_m, ledges, contact: of `hw_drive`
   bool has_drive = false;         ///< whether there is an `hw_drive`
+  int drive_line = 0;             ///< of that
   std::vector<RobotKey> drive{};  ///< all other keys of `hw_drive`, by the names of entity_schema.hpp
   std::vector<RobotSensor> sensors{};  ///< in the order of the file
 };

@@ -36,10 +36,7 @@ bool is_sensor_name(std::string_view name) {
 }
 
 const KeySpec& sensor_key(std::string_view name) {
-  for (const KeySpec& key : find_entity_spec(kClass)->keys) {
-    if (key.name == name) return key;
-  }
-  throw Error(ErrorCode::kInternal, "a sensor has no key " + std::string(name));
+  return entity_key(kClass, name);
 }
 
 void check_sensor(const EntityKeys& keys) {

@@ -7,22 +7,19 @@
 #include <string_view>
 
 #include "host/plugin_table.hpp"
+#include "map/entity_schema.hpp"
 
 namespace hallway::sim {
 namespace {
 
-constexpr Range kLength_m{0.001, 100.0};
-constexpr Range kRate{0.001, 1000.0};
-constexpr Range kSteering_rad{0.001, 1.5};
-constexpr Range kLatency_s{0.0, 10.0};
-constexpr Range kBand{0.0, 1000.0};
-constexpr Range kShare{0.0, 1.0};
-constexpr Range kSignedShare{-1.0, 1.0};
-constexpr Range kCorrelation_s{0.0, 1e4};
+constexpr Range kLookAhead_m{0.001, 100.0};
 constexpr Range kHold_s{0.0, 3600.0};
-constexpr Range kStep_m{0.0, 10.0};
-constexpr Range kSlope_deg{0.0, 57.0};
-constexpr Range kClearance_m{0.002, 10.0};
+
+/// What keys may be that robot files have too stands in the classes of maps.
+Range range_of(const std::string& key) {
+  const map::KeySpec& spec = map::entity_key("hw_drive", key);
+  return {spec.low, spec.high, spec.above_low};
+}
 
 std::int64_t to_ns(double seconds) {
   return std::llround(seconds * 1e9);
@@ -31,15 +28,16 @@ std::int64_t to_ns(double seconds) {
 /// Reads keys that may be left out without being noted.
 struct DriveReader {
   TableReader& table;
+  std::string prefix{};  ///< of the keys in robot files
 
-  void number(std::string_view key, const Range& range, double& value) {
-    if (table.has(key)) value = table.number(key, range);
+  void number(const std::string& key, double& value) {
+    if (table.has(key)) value = table.number(key, range_of(prefix + key));
   }
-  void number(std::string_view key, const Range& range, std::optional<double>& value) {
-    if (table.has(key)) value = table.number(key, range);
+  void number(const std::string& key, std::optional<double>& value) {
+    if (table.has(key)) value = table.number(key, range_of(prefix + key));
   }
-  void seconds(std::string_view key, const Range& range, std::int64_t& value_ns) {
-    if (table.has(key)) value_ns = to_ns(table.number(key, range));
+  void seconds(const std::string& key, std::int64_t& value_ns) {
+    if (table.has(key)) value_ns = to_ns(table.number(key, range_of(prefix + key)));
   }
 };
 
@@ -49,10 +47,10 @@ drive::Disturbance read_disturbance(const TableReader& drive, const DriveTables&
   if (!drive.has(key)) return disturbance;
   TableReader table(tables.file, "robot.drive." + key, drive.table(key), drive.line(key), kDisturbanceKeys,
                     tables.settings);
-  DriveReader keys{table};
-  keys.number("mean", kSignedShare, disturbance.mean);
-  keys.number("sigma", kShare, disturbance.sigma);
-  keys.seconds("correlation_s", kCorrelation_s, disturbance.correlation_ns);
+  DriveReader keys{table, key + "_"};
+  keys.number("mean", disturbance.mean);
+  keys.number("sigma", disturbance.sigma);
+  keys.seconds("correlation_s", disturbance.correlation_ns);
   return disturbance;
 }
 
@@ -61,21 +59,21 @@ drive::DriveSpec read_drive(TableReader& table, const DriveTables& tables) {
   drive::DriveSpec spec;
   spec.kind = static_cast<drive::DriveKind>(table.choice("kind", kinds));
   DriveReader keys{table};
-  keys.number("wheel_base_m", kLength_m, spec.wheel_base_m);
-  keys.number("axle_distance_m", kLength_m, spec.axle_distance_m);
-  keys.number("wheel_radius_m", kLength_m, spec.wheel_radius_m);
-  keys.number("greatest_steering_rad", kSteering_rad, spec.greatest_steering_rad);
-  keys.number("max_steering_rate_rad_s", kRate, spec.max_steering_rate_rad_s);
-  keys.number("max_speed_m_s", kRate, spec.max_speed_m_s);
-  keys.number("max_lateral_m_s", kRate, spec.max_lateral_m_s);
-  keys.number("max_angular_rad_s", kRate, spec.max_angular_rad_s);
-  keys.number("max_acceleration_m_s2", kRate, spec.max_acceleration_m_s2);
-  keys.number("max_deceleration_m_s2", kRate, spec.max_deceleration_m_s2);
-  keys.number("max_angular_acceleration_rad_s2", kRate, spec.max_angular_acceleration_rad_s2);
-  keys.seconds("latency_s", kLatency_s, spec.latency_ns);
-  keys.number("dead_band_m_s", kBand, spec.dead_band_m_s);
-  keys.number("dead_band_rad_s", kBand, spec.dead_band_rad_s);
-  keys.number("turn_slip", kShare, spec.turn_slip);
+  keys.number("wheel_base_m", spec.wheel_base_m);
+  keys.number("axle_distance_m", spec.axle_distance_m);
+  keys.number("wheel_radius_m", spec.wheel_radius_m);
+  keys.number("greatest_steering_rad", spec.greatest_steering_rad);
+  keys.number("max_steering_rate_rad_s", spec.max_steering_rate_rad_s);
+  keys.number("max_speed_m_s", spec.max_speed_m_s);
+  keys.number("max_lateral_m_s", spec.max_lateral_m_s);
+  keys.number("max_angular_rad_s", spec.max_angular_rad_s);
+  keys.number("max_acceleration_m_s2", spec.max_acceleration_m_s2);
+  keys.number("max_deceleration_m_s2", spec.max_deceleration_m_s2);
+  keys.number("max_angular_acceleration_rad_s2", spec.max_angular_acceleration_rad_s2);
+  keys.seconds("latency_s", spec.latency_ns);
+  keys.number("dead_band_m_s", spec.dead_band_m_s);
+  keys.number("dead_band_rad_s", spec.dead_band_rad_s);
+  keys.number("turn_slip", spec.turn_slip);
   spec.forward_noise = read_disturbance(table, tables, "forward_noise");
   spec.angular_noise = read_disturbance(table, tables, "angular_noise");
   spec.lateral_drift = read_disturbance(table, tables, "lateral_drift");
@@ -151,14 +149,15 @@ DrivenSpec read_driven(TableReader& robot, const DriveTables& tables, bool has_p
   if (robot.has("commands"))
     spec.commands = host::beside(tables.scenario, robot.text("commands"), robot.line("commands"));
   DriveReader keys{robot};
-  keys.seconds("watchdog_s", kHold_s, spec.watchdog_ns);
-  keys.seconds("command_timeout_s", kHold_s, spec.command_timeout_ns);
-  keys.number("look_ahead_m", kLength_m, spec.look_ahead_m);
-  keys.number("clearance_m", kClearance_m, spec.clearance_m);
-  keys.number("step_m", kStep_m, spec.step_m);
-  keys.number("ledge_m", kStep_m, spec.ledge_m);
+  if (robot.has("watchdog_s")) spec.watchdog_ns = to_ns(robot.number("watchdog_s", kHold_s));
+  if (robot.has("command_timeout_s"))
+    spec.command_timeout_ns = to_ns(robot.number("command_timeout_s", kHold_s));
+  if (robot.has("look_ahead_m")) spec.look_ahead_m = robot.number("look_ahead_m", kLookAhead_m);
+  keys.number("clearance_m", spec.clearance_m);
+  keys.number("step_m", spec.step_m);
+  keys.number("ledge_m", spec.ledge_m);
   if (robot.has("slope_deg"))
-    spec.slope_rad = robot.number("slope_deg", kSlope_deg) * std::numbers::pi / 180.0;
+    spec.slope_rad = robot.number("slope_deg", range_of("slope_deg")) * std::numbers::pi / 180.0;
   static const std::vector<std::string> ledges{"contact", "fall"}, contacts{"slide", "stop"};
   if (robot.has("ledges")) spec.falls = robot.choice("ledges", ledges) == 1;
   if (robot.has("contact")) spec.slides = robot.choice("contact", contacts) == 0;

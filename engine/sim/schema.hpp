@@ -40,7 +40,6 @@ inline const std::vector<std::string> kFaceSensorKeys{"kind",
                                                       "rate_hz",
                                                       "phase_s",
                                                       "latency_s"};
-/// Of scenarios alone.
 inline const std::vector<std::string> kBumpSensorKeys{
     "kind", "zones", "depth", "skin_m", "missed_rate", "false_rate", "rate_hz", "phase_s", "latency_s"};
 inline const std::vector<std::string> kEncoderSensorKeys{

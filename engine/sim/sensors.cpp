@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/sensors.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,9 @@ TomlNode node_of(const map::KeyValue& pair) {
 
 /// A key's value as a scenario would have it.
 TomlNode value_of(const map::KeySpec& key, const map::KeyValue& pair) {
+  if (key.kind == map::KeyKind::kWhole) {
+    if (const auto whole = parse_int(trim(pair.value))) return {.value = *whole, .line = pair.line};
+  }
   if (key.kind == map::KeyKind::kFlag && (pair.value == "0" || pair.value == "1"))
     return {.value = pair.value == "1", .line = pair.line};
   return node_of(pair);
@@ -165,27 +169,26 @@ std::vector<sense::BumpZone> equal_zones(std::int64_t n) {
 }
 
 sense::BumpSensorSpec read_bump(const std::string& name, TableReader& sensor) {
-  constexpr std::int64_t kMostZones = 64;
-  constexpr Range kSkin_m{1e-4, 1.0}, kRate{0.0, 1.0};
   sense::BumpSensorSpec spec;
   spec.name = name;
-  if (sensor.has("zones")) spec.zones = equal_zones(sensor.whole("zones", 1, kMostZones));
+  if (sensor.has("zones")) {
+    const Range most = range_of("zones");
+    spec.zones = equal_zones(sensor.whole("zones", std::llround(most.low), std::llround(most.high)));
+  }
   if (sensor.has("depth")) spec.depth = sensor.flag("depth");
-  if (sensor.has("skin_m")) spec.skin_m = sensor.number("skin_m", kSkin_m);
-  if (sensor.has("missed_rate")) spec.missed_rate = sensor.number("missed_rate", kRate);
-  if (sensor.has("false_rate")) spec.false_rate = sensor.number("false_rate", kRate);
+  if (sensor.has("skin_m")) spec.skin_m = number(sensor, "skin_m");
+  if (sensor.has("missed_rate")) spec.missed_rate = number(sensor, "missed_rate");
+  if (sensor.has("false_rate")) spec.false_rate = number(sensor, "false_rate");
   spec.timing = timing(sensor);
   return spec;
 }
 
 /// The wheels' radius is the drive's.
 sense::EncoderSensorSpec read_encoders(const std::string& name, TableReader& sensor) {
-  constexpr Range kTicks{1.0, 1e9}, kSigma{0.0, 0.1};
   sense::EncoderSensorSpec spec;
   spec.name = name;
-  if (sensor.has("ticks_per_revolution"))
-    spec.ticks_per_revolution = sensor.number("ticks_per_revolution", kTicks);
-  if (sensor.has("radius_error_sigma")) spec.radius_error_sigma = sensor.number("radius_error_sigma", kSigma);
+  if (sensor.has("ticks_per_revolution")) spec.ticks_per_revolution = number(sensor, "ticks_per_revolution");
+  if (sensor.has("radius_error_sigma")) spec.radius_error_sigma = number(sensor, "radius_error_sigma");
   spec.timing = timing(sensor);
   return spec;
 }

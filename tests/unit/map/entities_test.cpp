@@ -127,8 +127,8 @@ TEST(Sensors, WrongOnesAreErrorsWithTheirLine) {
   expect_error(sensors, {{{"classname", "hw_sensor"}}}, 1, "key `name` is missing");
   expect_error(sensors, {{{"classname", "hw_sensor"}, {"name", "my eyes"}}}, 3, "is no sensor's name");
   expect_error(sensors, with("horizontal_fov_deg", "0"), 4, "must be above 0 and at most 360");
-  expect_error(sensors, with("noise_m", "0 -1 0"), 4, "must lie between 0 and 1000");
-  expect_error(sensors, with("max_range_m", "-1"), 4, "must lie between 0 and 1e+06");
+  expect_error(sensors, with("noise_m", "0 -1 0"), 4, "must be at least 0 and at most 1000");
+  expect_error(sensors, with("max_range_m", "-1"), 4, "must be at least 0 and at most 1e+06");
   expect_error(sensors, with("min_range_m", "101"), 4, "`min_range_m` 101 is above `max_range_m` 100");
   expect_error(sensors, with("rang_m", "1"), 4, "unknown key `rang_m`");
   expect_error(sensors, with("kind", "lidar"), 4, "unknown kind `lidar`");
@@ -202,10 +202,10 @@ TEST(LandmarkCloud, ReadsItsKeys) {
 }
 
 TEST(LandmarkCloud, BadValuesAreErrors) {
-  expect_error(landmark_clouds, {cloud_with("per_100m", "-1")}, 5, "must lie between 0 and");
-  expect_error(landmark_clouds, {cloud_with("per_100m", "1e12")}, 5, "must lie between 0 and");
+  expect_error(landmark_clouds, {cloud_with("per_100m", "-1")}, 5, "must be at least 0 and at most");
+  expect_error(landmark_clouds, {cloud_with("per_100m", "1e12")}, 5, "must be at least 0 and at most");
   expect_error(landmark_clouds, {cloud_with("sideways_m", "wide")}, 6, "`wide` is no finite decimal number");
-  expect_error(landmark_clouds, {cloud_with("height_m", "-5")}, 7, "must lie between");
+  expect_error(landmark_clouds, {cloud_with("height_m", "-5")}, 7, "out of range");
   expect_error(landmark_clouds, {cloud_with("path", "")}, 4, "key `path` is empty");
 }
 
@@ -235,7 +235,7 @@ TEST(FacePoints, ReadsDensityAndSeed) {
 TEST(FacePoints, ANegativeDensityIsAnError) {
   Pairs pairs = kWorld;
   pairs.push_back({"_points_per_m2", "-1"});
-  expect_error(face_points, {pairs}, 4, "must lie between 0 and");
+  expect_error(face_points, {pairs}, 4, "must be at least 0 and at most");
 }
 
 }  // namespace

@@ -320,7 +320,7 @@ TEST(FindPath, ARiseTooSteep) {
                  {"origin", "0 0 0"},
                  {"length_m", "100"},
                  {"rise_m", "26"}}},
-               "e", 7, "must lie between -25 and 25");
+               "e", 7, "must be at least -25 and at most 25");
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST(RobotFile, WhatIsNoBodyIsRefused) {
            entity_text(
                {{"classname", "hw_body"}, {"radius_m", radius}, {"bottom_m", bottom}, {"top_m", top}});
   };
-  expect_refused(cylinder("0", "0", "1"), 8, "must lie between 0.001 and 100");
+  expect_refused(cylinder("0", "0", "1"), 8, "must be at least 0.001 and at most 100");
   expect_refused(cylinder("nan", "0", "1"), 8, "is no finite decimal number");
   expect_refused(cylinder("1e999", "0", "1"), 8, "is no finite decimal number");
   expect_refused(cylinder("0.1", "1", "0.5"), 10, "`top_m` 0.5 must be at least 0.001 above `bottom_m` 1");
