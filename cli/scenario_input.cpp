@@ -79,6 +79,10 @@ OpenedScenario open_scenario(const std::string& file, std::span<const Override> 
   inputs = {{fs::path(scenario.file).filename().string(), read.text},
             {scenario.map_file.filename().string(), read_file(scenario.map_file)}};
   opened.attachments = {{run::files::kScenario, inputs[0].content}, {run::files::kMap, inputs[1].content}};
+  if (!scenario.robot_file.empty()) {
+    inputs.push_back({scenario.robot_file.filename().string(), read_file(scenario.robot_file)});
+    opened.attachments.push_back({run::files::kRobotFile, inputs.back().content});
+  }
   const fs::path folder = scenario.map_file.parent_path();
   for (const fs::path& model : opened.simulator->models().files) {
     inputs.push_back({model.lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string(),

@@ -18,7 +18,7 @@ namespace hallway::cli {
 struct OpenedScenario {
   std::unique_ptr<sim::Simulator> simulator{};
   run::ManifestFacts facts{};                  ///< all but the command and the plugins' parameters
-  std::vector<run::Attachment> attachments{};  ///< scenario, map and models
+  std::vector<run::Attachment> attachments{};  ///< scenario, map, robot file and models
 };
 
 /// Reads a scenario file, or makes a scenario for a `.map` file and prints what it assumes, and loads its map. What the user should know of the

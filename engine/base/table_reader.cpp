@@ -51,16 +51,21 @@ int TableReader::line(std::string_view key) const {
   return node != nullptr ? node->line : line_;
 }
 
+const std::string& TableReader::file(std::string_view key) const {
+  const TomlNode* node = find(table_, key);
+  return node != nullptr && !node->file.empty() ? node->file : file_;
+}
+
 std::string TableReader::origin(std::string_view key) const {
   const TomlNode* node = find(table_, key);
-  return node != nullptr ? origin_of(file_, node->line) : "default";
+  return node != nullptr ? origin_of(file(key), node->line) : "default";
 }
 
 Error TableReader::error(std::string_view key, const std::string& message) const {
   const TomlNode* node = find(table_, key);
   const bool from_command_line = node != nullptr && node->line == 0;
   Where where{.element = "key `" + printable(full_key(key)) + "`"};
-  where.file = from_command_line ? kCommandLine : printable(file_);
+  where.file = from_command_line ? kCommandLine : printable(file(key));
   where.line = line(key);
   return Error(from_command_line ? ErrorCode::kUsage : ErrorCode::kBadInput, message, where);
 }

@@ -64,6 +64,8 @@ class TableReader {
   const TomlTable& table(std::string_view key) const;
   /// The line of a key, of the table itself where it is missing, 0 for what the command line gave.
   int line(std::string_view key) const;
+  /// The file that gave a key; the table's own where it is missing.
+  const std::string& file(std::string_view key) const;
   /// Where the value of a key stands: "office.toml:12", "default" or "command line".
   std::string origin(std::string_view key) const;
   /// The key with the table's name before it.

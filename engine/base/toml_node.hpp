@@ -22,7 +22,8 @@ struct TomlDate {};
 /// A value and where it came from.
 struct TomlNode {
   std::variant<TomlDate, bool, std::int64_t, double, std::string, TomlArray, TomlTable> value;
-  int line = 0;  ///< 1-based line in the file; 0 for what the command line gave
+  int line = 0;        ///< 1-based line in the file; 0 for what the command line gave
+  std::string file{};  ///< set: another file gave it than the one that the document was read from
 };
 
 /// One `key = value` or `[key]`.

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/origin.hpp"
 
 namespace hallway::batch {
 namespace {
@@ -30,15 +31,17 @@ std::string input_hash(const fs::path& file) {
   return file_hash(fs::is_directory(file, none) ? file / "run.json" : file);
 }
 
-/// Where the map stands that a scenario names.
-fs::path map_of(const fs::path& scenario, const Json& run) {
+/// Where the file stands that a setting names, seen from the scenario or, if the command line gave it, from here; empty where there is no such setting.
+fs::path file_of(const fs::path& scenario, const Json& run, const char* key) {
   for (const Json& setting : run.at("settings")) {
-    if (setting.at("key") == "map") return scenario.parent_path() / setting.at("value").get<std::string>();
+    if (setting.at("key") != key) continue;
+    const fs::path name = setting.at("value").get<std::string>();
+    return setting.at("origin") == kCommandLine ? name : scenario.parent_path() / name;
   }
   return {};
 }
 
-/// Where the input stands that run.json names: its first one is the cell's own; a map stands where the scenario says, models beside the map, and what
+/// Where the input stands that run.json names: its first one is the cell's own; a map and a robot file stand where the scenario says, models beside the map, and what
 /// belongs to a log beside that.
 fs::path place_of(const Cell& cell, const Json& run, std::size_t i) {
   std::error_code none;
@@ -47,7 +50,8 @@ fs::path place_of(const Cell& cell, const Json& run, std::size_t i) {
   if (fs::is_directory(own, none)) return own / name;
   if (i == 0) return own;
   if (run.at("command") != "run") return own.parent_path() / name;
-  const fs::path map = map_of(own, run);
+  const fs::path map = file_of(own, run, "map"), robot = file_of(own, run, "robot.file");
+  if (i == 2 && !robot.empty()) return robot;
   return i == 1 ? map : map.parent_path() / name;
 }
 

@@ -10,6 +10,7 @@ inline constexpr const char* kRun = "run.json";
 inline constexpr const char* kMetrics = "metrics.json";
 inline constexpr const char* kScenario = "scenario.toml";
 inline constexpr const char* kMap = "map.map";
+inline constexpr const char* kRobotFile = "robot.map";
 inline constexpr const char* kObservations = "observations.csv";
 inline constexpr const char* kObservedPlanes = "observed_planes.csv";
 inline constexpr const char* kLog = "run.mcap";

@@ -31,6 +31,13 @@ bool in_sector(double angle, const BumpZone& zone) {
   return at >= from || at < to;
 }
 
+/// To a millionth of a metre.
+bool is_in_region(const Vec3& at, const BumpZone& zone) {
+  constexpr double kOnBorder_m = 1e-6;
+  return std::ranges::all_of(zone.region,
+                             [&](const Plane& plane) { return plane.distance(at) <= kOnBorder_m; });
+}
+
 }  // namespace
 
 std::vector<BumpZone> default_bump_zones() {
@@ -62,6 +69,7 @@ BumpSensor::BumpSensor(BumpSensorSpec spec, std::uint64_t seed) : spec_(std::mov
 bool BumpSensor::presses(const BumpContact& contact, const BumpZone& zone) const {
   if (!(contact.gap_m < spec_.skin_m)) return false;
   const Vec3 at = contact.T_world_body.inverse() * contact.point;
+  if (!zone.region.empty()) return is_in_region(at, zone);
   return at.z() >= zone.bottom_m && at.z() < zone.top_m && in_sector(std::atan2(at.y(), at.x()), zone);
 }
 

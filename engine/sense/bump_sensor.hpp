@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "geom/plane.hpp"
 #include "geometry/se3.hpp"
 #include "sense/timing.hpp"
 
 namespace hallway::sense {
 
-/// A part of a bumper: a sector about the body's z axis, from one direction counter-clockwise to another, and a range of heights. Body frame.
-/// It has its first direction and lower height and not its last: zones that tile the circle share no direction.
+/// A part of a bumper: a sector about the body's z axis, from one direction counter-clockwise to another, and a range of heights; or a convex region.
+/// Body frame. A sector has its first direction and lower height and not its last: zones that tile the circle share no direction.
 struct BumpZone {
   std::string name{};
   double from_rad = 0.0;  ///< any multiple of a turn may be added; equal ends are the whole circle
   double to_rad = 0.0;
   double bottom_m = -1e3;
   double top_m = 1e3;
+  std::vector<Plane> region{};  ///< outward, with their borders; not empty: it counts, and not the sector
 };
 
 /// Quarters of the circle: front_left [0, 90), rear_left [90, 180), rear_right [180, 270), front_right [270, 360) degrees.

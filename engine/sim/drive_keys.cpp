@@ -45,8 +45,8 @@ drive::Disturbance read_disturbance(const TableReader& drive, const DriveTables&
                                     const std::string& key) {
   drive::Disturbance disturbance;
   if (!drive.has(key)) return disturbance;
-  TableReader table(tables.file, "robot.drive." + key, drive.table(key), drive.line(key), kDisturbanceKeys,
-                    tables.settings);
+  TableReader table(drive.file(key), "robot.drive." + key, drive.table(key), drive.line(key),
+                    kDisturbanceKeys, tables.settings);
   DriveReader keys{table, key + "_"};
   keys.number("mean", disturbance.mean);
   keys.number("sigma", disturbance.sigma);
@@ -54,10 +54,12 @@ drive::Disturbance read_disturbance(const TableReader& drive, const DriveTables&
   return disturbance;
 }
 
-drive::DriveSpec read_drive(TableReader& table, const DriveTables& tables) {
+/// @param kind  where the table has none; none: it must have one
+drive::DriveSpec read_drive(TableReader& table, const DriveTables& tables,
+                            const std::optional<std::size_t>& kind) {
   static const std::vector<std::string> kinds(drive::kDriveKindNames.begin(), drive::kDriveKindNames.end());
   drive::DriveSpec spec;
-  spec.kind = static_cast<drive::DriveKind>(table.choice("kind", kinds));
+  spec.kind = static_cast<drive::DriveKind>(table.choice("kind", kinds, kind));
   DriveReader keys{table};
   keys.number("wheel_base_m", spec.wheel_base_m);
   keys.number("axle_distance_m", spec.axle_distance_m);
@@ -141,9 +143,9 @@ const std::vector<std::string> kDisturbanceKeys{"mean", "sigma", "correlation_s"
 
 DrivenSpec read_driven(TableReader& robot, const DriveTables& tables, bool has_path) {
   DrivenSpec spec;
-  TableReader drive(tables.file, "robot.drive", robot.table("drive"), robot.line("drive"), kDriveKeys,
+  TableReader drive(robot.file("drive"), "robot.drive", robot.table("drive"), robot.line("drive"), kDriveKeys,
                     tables.settings);
-  spec.drive = read_drive(drive, tables);
+  spec.drive = read_drive(drive, tables, tables.kind);
   spec.by = read_driver(robot, has_path);
   if (robot.has("driving_plugin")) spec.plugin = robot.text("driving_plugin");
   if (robot.has("commands"))

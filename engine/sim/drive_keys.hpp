@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct DriveTables {
   std::filesystem::path scenario;  ///< names of files are relative to its folder
   std::string file;                ///< for messages
   std::vector<Setting>& settings;
+  std::optional<std::size_t> kind{};  ///< of a drive that names none; none: it must name one
 };
 
 /// Reads what [robot] and its table `drive` say of a robot with a drive. What is not said is not noted as a setting. Throws Error as TableReader does, and for

@@ -15,6 +15,7 @@
 #include "csg/surface.hpp"
 #include "map/entities.hpp"
 #include "map/path.hpp"
+#include "sim/robot_body.hpp"
 
 namespace hallway::sim {
 namespace {
@@ -56,47 +57,23 @@ contact::Wheels wheels_of(const drive::DriveSpec& spec) {
   }
 }
 
-/// How far a scenario's body reaches below and above its origin.
-std::pair<double, double> height_of(const bsp::Body& body) {
-  if (const auto* box = std::get_if<bsp::UprightBox>(&body)) return {box->z_low_m, box->z_high_m};
-  const auto& cylinder = std::get<bsp::Cylinder>(body);
-  return {cylinder.z_low_m, cylinder.z_high_m};
-}
-
-contact::BodyShape shape_of(const bsp::Body& body, double low, double high) {
-  if (const auto* box = std::get_if<bsp::UprightBox>(&body))
-    return contact::BodyShape::box({-box->half_length_m, -box->half_width_m, low},
-                                   {box->half_length_m, box->half_width_m, high});
-  return contact::BodyShape::cylinder(std::get<bsp::Cylinder>(body).radius_m, low, high);
-}
-
-/// The radius of gyration of a body of even density about the vertical.
-double gyration_of(const bsp::Body& body) {
-  constexpr double kLeast = 1e-3;
-  if (const auto* box = std::get_if<bsp::UprightBox>(&body))
-    return std::max(std::hypot(box->half_length_m, box->half_width_m) / std::numbers::sqrt3, kLeast);
-  return std::max(std::get<bsp::Cylinder>(body).radius_m / std::numbers::sqrt2, kLeast);
-}
-
 contact::RobotSpec robot_of(const Scenario& scenario) {
   const DrivenSpec& driven = *scenario.robot.driven;
-  if (!scenario.robot.body) {
+  if (!has_body(scenario.robot)) {
     throw robot_error(
         scenario,
         "a robot with a drive needs a body: `radius_m`, or `length_m` and `width_m`, with `bottom_m` and "
-        "`top_m`");
+        "`top_m`, or a robot file");
   }
-  const bsp::Body& body = *scenario.robot.body;
-  const auto [low, high] = height_of(body);
   try {
-    contact::RobotSpec spec{.shape = shape_of(body, driven.clearance_m, driven.clearance_m + high - low),
+    contact::RobotSpec spec{.shape = shape_of(scenario.robot, driven.clearance_m),
                             .wheels = wheels_of(driven.drive)};
     spec.ground.step_m = driven.step_m;
     spec.ground.ledge_m = driven.ledge_m;
     spec.ground.slope_rad = driven.slope_rad;
     spec.ground.clearance_m = driven.clearance_m;
     spec.move.slide = driven.slides;
-    spec.move.gyration = gyration_of(body);
+    spec.move.gyration = gyration_of(scenario.robot);
     spec.falls = driven.falls;
     return spec;
   } catch (const Error& error) {
@@ -137,7 +114,7 @@ std::string cause_of(contact::Start start, const std::string& place) {
 DrivenWorld::DrivenWorld(const Scenario& scenario, const map::Document& document,
                          const world::CompiledWorld& world, const PlacedModels& models)
     : world_(world), obstacles_(make_obstacles(world, models)), robot_(robot_of(scenario)) {
-  T_floor_body_.t.z() = scenario.robot.driven->clearance_m - height_of(*scenario.robot.body).first;
+  T_floor_body_.t.z() = scenario.robot.driven->clearance_m - height_of(scenario.robot).first;
   find_start(scenario, document);
   find_kidnaps(scenario, document);
 }

@@ -27,9 +27,11 @@ void remove_key(TomlTable& table, std::string_view key) {
   std::erase_if(table, [&](const TomlEntry& entry) { return entry.key == key; });
 }
 
-/// The names of the [sensor.NAME] tables.
-std::vector<std::string> sensor_names(const TomlTable& scenario) {
-  std::vector<std::string> names;
+using SensorNames = std::span<const std::string>;
+
+/// The names of the [sensor.NAME] tables, and more of them.
+std::vector<std::string> names_of_sensors(const TomlTable& scenario, SensorNames more) {
+  std::vector<std::string> names(more.begin(), more.end());
   const TomlNode* node = find(scenario, "sensor");
   const auto* sensors = node != nullptr ? std::get_if<TomlTable>(&node->value) : nullptr;
   if (sensors == nullptr) return names;
@@ -40,7 +42,7 @@ std::vector<std::string> sensor_names(const TomlTable& scenario) {
 }
 
 /// Every key that could have been meant, for suggestions.
-std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wanted) {
+std::vector<std::string> settable_keys(TomlTable& scenario, SensorNames sensors, std::string_view wanted) {
   std::vector<std::string> keys = kTopOverrideKeys;
   keys.push_back("plugin");
   for (const std::vector<std::string>& known : {kRobotKeys, kDrivenKeys})
@@ -50,20 +52,21 @@ std::vector<std::string> settable_keys(TomlTable& scenario, std::string_view wan
   }
   for (const std::string& disturbance : kDisturbances)
     for (const std::string& key : kDisturbanceKeys) keys.push_back("robot.drive." + disturbance + "." + key);
-  for (const std::string& name : sensor_names(scenario)) {
+  for (const std::string& name : names_of_sensors(scenario, sensors)) {
     for (const std::vector<std::string>& known :
          {kPointSensorKeys, kPlaneSensorKeys, kFaceSensorKeys, kBumpSensorKeys, kEncoderSensorKeys}) {
       for (const std::string& key : known) keys.push_back("sensor." + name + "." + key);
     }
+    keys.push_back("sensor." + name + "." + kMounted);
   }
   for (const std::string& key : kCloudKeys) keys.push_back("cloud.NAME." + key);
   for (std::string& key : host::plugin_parameter_keys(scenario, wanted)) keys.push_back(std::move(key));
   return keys;
 }
 
-[[noreturn]] void refuse(TomlTable& scenario, const std::string& key) {
-  std::string hint = suggestion(key, settable_keys(scenario, key));
-  if (key.starts_with("sensor.") && sensor_names(scenario).empty())
+[[noreturn]] void refuse(TomlTable& scenario, SensorNames sensors, const std::string& key) {
+  std::string hint = suggestion(key, settable_keys(scenario, sensors, key));
+  if (key.starts_with("sensor.") && names_of_sensors(scenario, sensors).empty())
     hint =
         "; its sensors are the map's, which `hallway edit MAP key` changes; a `[sensor.NAME]` of the "
         "scenario replaces them all";
@@ -94,13 +97,16 @@ bool set_drive(TomlTable& scenario, std::span<const std::string_view> key, TomlN
 }
 
 /// True if the scenario has a sensor of that name, and there are sensors with such a key.
-bool set_sensor(TomlTable& scenario, std::string_view name, std::string_view key, TomlNode value) {
-  if (!holds(sensor_names(scenario), name)) return false;
-  const bool is_known = holds(kPointSensorKeys, key) || holds(kPlaneSensorKeys, key) ||
+bool set_sensor(TomlTable& scenario, SensorNames sensors, std::string_view name, std::string_view key,
+                TomlNode value) {
+  if (!holds(names_of_sensors(scenario, sensors), name)) return false;
+  const bool is_known = key == kMounted || holds(kPointSensorKeys, key) || holds(kPlaneSensorKeys, key) ||
                         holds(kFaceSensorKeys, key) || holds(kBumpSensorKeys, key) ||
                         holds(kEncoderSensorKeys, key);
   if (!is_known) return false;
-  assign(*table_in(*table_in(scenario, "sensor"), name), key, std::move(value));
+  TomlTable* all = table_in(scenario, "sensor");
+  TomlTable* table = all != nullptr ? table_in(*all, name) : nullptr;
+  if (table != nullptr) assign(*table, key, std::move(value));  // else the reader says what is wrong there
   return true;
 }
 
@@ -111,7 +117,7 @@ void set_cloud(TomlTable& scenario, std::string_view name, std::string_view key,
   if (cloud != nullptr) assign(*cloud, key, std::move(value));  // else the reader says what is wrong there
 }
 
-void apply(TomlTable& scenario, const Override& setting) {
+void apply(TomlTable& scenario, SensorNames sensors, const Override& setting) {
   const std::vector<std::string_view> parts = split(setting.key, '.');
   if (parts.size() == 1 && holds(kTopOverrideKeys, parts[0])) {
     assign(scenario, parts[0], toml_value_or_text(setting.value));
@@ -126,7 +132,7 @@ void apply(TomlTable& scenario, const Override& setting) {
     return;
   }
   if (parts.size() == 3 && parts[0] == "sensor" &&
-      set_sensor(scenario, parts[1], parts[2], toml_value_or_text(setting.value)))
+      set_sensor(scenario, sensors, parts[1], parts[2], toml_value_or_text(setting.value)))
     return;
   if (parts.size() == 3 && parts[0] == "cloud" && holds(kCloudKeys, parts[2])) {
     set_cloud(scenario, parts[1], parts[2], toml_value_or_text(setting.value));
@@ -136,17 +142,18 @@ void apply(TomlTable& scenario, const Override& setting) {
   const bool bare = setting.key.find('.') == std::string::npos;
   const bool misspelt = bare && (holds(kTopKeys, setting.key) || nearest_name(setting.key, kTopOverrideKeys));
   if (misspelt || !host::set_plugin_parameter(scenario, setting.key, toml_value_or_text(setting.value)))
-    refuse(scenario, setting.key);
+    refuse(scenario, sensors, setting.key);
 }
 
 }  // namespace
 
-void apply_overrides(TomlTable& scenario, std::span<const Override> overrides) {
+void apply_overrides(TomlTable& scenario, std::span<const Override> overrides,
+                     std::span<const std::string> sensors) {
   for (const Override& setting : overrides) {
     if (setting.key == "plugin") host::leave_plugin_alone(scenario, setting.value);
   }
   for (const Override& setting : overrides) {
-    if (setting.key != "plugin") apply(scenario, setting);
+    if (setting.key != "plugin") apply(scenario, sensors, setting);
   }
 }
 

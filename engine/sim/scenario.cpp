@@ -16,6 +16,7 @@
 #include "sim/default_scenario.hpp"
 #include "sim/drive_keys.hpp"
 #include "sim/overrides.hpp"
+#include "sim/robot_defaults.hpp"
 #include "sim/schema.hpp"
 #include "sim/sensors.hpp"
 #include "sim/table_reader.hpp"
@@ -31,8 +32,7 @@ constexpr std::int64_t kMaxPicturesOfOne = 10'000;
 constexpr std::int64_t kMaxPictureSide_px = 16384;
 constexpr std::int64_t kMaxPicturePixels = std::int64_t{32} << 20;
 constexpr std::size_t kMaxFileNameBytes = 200;
-constexpr const char* kCopyOfScenario = "scenario.toml";  // in the folder of a run
-constexpr const char* kCopyOfMap = "map.map";
+constexpr const char* kCopyOfMap = "map.map";  // in the folder of a run
 
 constexpr Range kWorld_m{-1e7, 1e7};
 constexpr Range kSpeed_m_s{0.0, 1e3};
@@ -49,14 +49,20 @@ const std::vector<std::string> kLayers{
 /// Reads one scenario, table by table.
 class ScenarioReader {
  public:
-  ScenarioReader(const std::filesystem::path& path, const TomlTable& root) : path_(path), root_(root) {
+  /// @param robot  what the robot file says, which is in `root` too; may be null
+  ScenarioReader(const std::filesystem::path& path, const TomlTable& root, const map::RobotFile* robot)
+      : path_(path), root_(root), robot_file_(robot) {
     scenario_.file = path.string();
+    if (robot == nullptr) return;
+    scenario_.robot_file = robot->file;
+    scenario_.bump_zones = bump_zones_of(*robot);
   }
 
   Scenario read() {
     TableReader top = reader("", root_, 1, kTopKeys);
     if (top.has("schema")) read_schema(top);
-    scenario_.map_file = map_of(host::beside(path_, top.text("map"), top.line("map")));
+    scenario_.map_file =
+        named_or_copy(path_, host::beside(path_, top.text("map"), top.line("map")), kCopyOfMap);
     scenario_.seed =
         static_cast<std::uint64_t>(top.whole("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
     scenario_.steps = static_cast<std::uint32_t>(top.whole("steps", 1, kMaxSteps));
@@ -73,13 +79,6 @@ class ScenarioReader {
   }
 
  private:
-  /// The folder of a run has the scenario as it was, and its map under another name.
-  std::filesystem::path map_of(const std::filesystem::path& named) const {
-    const std::filesystem::path copy = path_.parent_path() / kCopyOfMap;
-    const bool in_run = path_.filename() == kCopyOfScenario && !std::filesystem::exists(named);
-    return in_run && std::filesystem::exists(copy) ? copy : named;
-  }
-
   TableReader reader(const std::string& prefix, const TomlTable& table, int line,
                      const std::vector<std::string>& known) {
     return TableReader(scenario_.file, prefix, table, line, known, scenario_.settings);
@@ -97,6 +96,7 @@ class ScenarioReader {
     std::vector<std::string> keys = kRobotKeys;
     keys.insert(keys.end(), kDrivenKeys.begin(), kDrivenKeys.end());
     TableReader robot = reader("robot", top.table("robot"), top.line("robot"), keys);
+    if (robot.has("file")) robot.text("file");
     if (robot.has("path")) scenario_.robot.path = robot.text("path");
     if (!robot.has("path") && !top.has("robot")) throw robot.error("path", "is missing");
     read_drive(robot);
@@ -135,7 +135,9 @@ class ScenarioReader {
       return;
     }
     if (robot.has("start")) read_start(robot, has_path);
-    scenario_.robot.driven = read_driven(robot, {path_, scenario_.file, scenario_.settings}, has_path);
+    DriveTables tables{path_, scenario_.file, scenario_.settings};
+    if (robot_file_ != nullptr && robot_file_->has_drive) tables.kind = 0;
+    scenario_.robot.driven = read_driven(robot, tables, has_path);
   }
 
   /// A cylinder where there is a radius, a box where there is a length, else a point.
@@ -149,6 +151,7 @@ class ScenarioReader {
       for (const char* key : {"bottom_m", "top_m"}) {
         if (robot.has(key)) throw robot.error(key, "needs `radius_m`, or `length_m` and `width_m`");
       }
+      if (robot_file_ != nullptr) take_hull();
       return;
     }
     const double low = robot.number("bottom_m", kBodyHeight_m);
@@ -161,6 +164,17 @@ class ScenarioReader {
       const double width = robot.number("width_m", kBodySize_m);
       scenario_.robot.body = bsp::UprightBox{0.5 * length, 0.5 * width, 0.0, low, high};
     }
+  }
+
+  void take_hull() {
+    if (!scenario_.robot.driven) {
+      throw Error(
+          ErrorCode::kBadInput,
+          "this body needs a drive: without one a body is a cylinder, or a box along the axes, about the "
+          "z axis",
+          {printable(robot_file_->file), robot_file_->body.line, {}});
+    }
+    scenario_.robot.hull = robot_file_->body.vertices;
   }
 
   void read_sensors(const TableReader& top) {
@@ -179,9 +193,25 @@ class ScenarioReader {
       if (!map::is_sensor_name(name)) {
         throw all.error(name, "a sensor's name is 1 to 64 of the characters a-z, A-Z, 0-9, _ and -");
       }
-      scenario_.sensors.push_back(
-          read_sensor(name, {scenario_.file, all.table(name), all.line(name), scenario_.settings}));
+      read_sensor_table(name, all);
     }
+    scenario_.takes_map_sensors = names.empty();
+  }
+
+  void read_sensor_table(const std::string& name, const TableReader& all) {
+    const auto table = [&](std::vector<Setting>& settings) {
+      return SensorTable{all.file(name), all.table(name), all.line(name), settings, scenario_.bump_zones};
+    };
+    const bool of_file =
+        robot_file_ != nullptr &&
+        std::ranges::find(robot_file_->sensors, name, &map::RobotSensor::name) != robot_file_->sensors.end();
+    const auto kind = of_file ? std::optional<std::size_t>(0) : std::nullopt;
+    if (is_mounted(name, table(scenario_.settings))) {
+      scenario_.sensors.push_back(read_sensor(name, table(scenario_.settings), kind));
+      return;
+    }
+    std::vector<Setting> unused;
+    read_sensor(name, table(unused), kind);
   }
 
   void read_clouds(const TableReader& top) {
@@ -299,6 +329,7 @@ class ScenarioReader {
 
   std::filesystem::path path_;
   const TomlTable& root_;
+  const map::RobotFile* robot_file_;
   Scenario scenario_;
 };
 
@@ -338,8 +369,15 @@ Scenario load_scenario(const std::filesystem::path& file, std::span<const Overri
 Scenario parse_scenario(const std::string& text, const std::filesystem::path& file,
                         std::span<const Override> overrides) {
   TomlTable root = parse_toml(text, file.string());
-  apply_overrides(root, overrides);
-  return ScenarioReader(file, root).read();
+  const auto robot_file = find_robot_file(root, overrides, file);
+  if (!robot_file) {
+    apply_overrides(root, overrides);
+    return ScenarioReader(file, root, nullptr).read();
+  }
+  const map::RobotFile robot = map::load_robot_file(*robot_file);
+  apply_overrides(root, overrides, sensor_names(robot));
+  take_robot_file(root, robot);
+  return ScenarioReader(file, root, &robot).read();
 }
 
 }  // namespace hallway::sim

@@ -31,7 +31,9 @@ struct RobotSpec {
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
       loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one
-  std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point
+  std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point, or `hull`
+  std::vector<Vec3>
+      hull{};  ///< corners of a convex body of another form, in its frame; of robots with a drive
   std::string
       start{};  ///< name of an `hw_robot_start`; "free": a seeded place of the floor; empty: where the path begins, or the unnamed one
   std::optional<DrivenSpec> driven{};  ///< set: a drive moves the robot
@@ -107,11 +109,15 @@ struct Scenario {
   std::uint32_t steps = 1;               ///< number of frames
   std::int64_t period_ns = 100'000'000;  ///< from frame to frame
   PluginLimits limits{};
+  std::filesystem::path robot_file{};  ///< as `map_file`; empty: none
   RobotSpec robot;
-  std::vector<SensorSpec> sensors;        ///< in the order of the file; none: those of the map count
-  std::vector<CloudSpec> clouds;          ///< in the order of the file
-  std::vector<EventSpec> events;          ///< by time, those of one time in the order of the file
-  std::vector<host::StageSpec> pipeline;  ///< in the order of the file
+  std::vector<SensorSpec>
+      sensors;  ///< those of the robot file first, in its order; then in the order of the scenario
+  bool takes_map_sensors = true;  ///< neither the scenario nor its robot file has any: those of the map count
+  std::vector<sense::BumpZone> bump_zones{};  ///< of the robot file, for bumpers that say no number of zones
+  std::vector<CloudSpec> clouds;              ///< in the order of the file
+  std::vector<EventSpec> events;              ///< by time, those of one time in the order of the file
+  std::vector<host::StageSpec> pipeline;      ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order
 
@@ -122,10 +128,10 @@ struct Scenario {
 inline constexpr std::uint64_t kMaxScenarioBytes = 1u << 20;
 
 /// Reads a scenario file (format: docs/formats.md) and sets `overrides` above it, the later of two of one key counting.
-/// The map is not opened.
+/// What a robot file says that it names counts where it says nothing. The map is not opened.
 /// Throws Error{kIo} if the file cannot be read; Error{kBadInput} with file, line and key for what is no TOML, unknown and
 /// duplicate keys (with a suggestion), missing ones, wrong types and numbers out of range; Error{kUsage} for an override
-/// whose key is unknown or whose value is wrong.
+/// whose key is unknown or whose value is wrong; and what map::load_robot_file() throws.
 Scenario load_scenario(const std::filesystem::path& file, std::span<const Override> overrides = {});
 
 }  // namespace hallway::sim

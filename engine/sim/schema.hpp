@@ -10,8 +10,9 @@ namespace hallway::sim {
 inline const std::vector<std::string> kTopKeys{
     "schema",     "map",   "seed",   "steps", "period_s", "call_timeout_s", "memory_limit_mib",
     "on_failure", "robot", "sensor", "cloud", "event",    "plugin",         "picture"};
-inline const std::vector<std::string> kRobotKeys{"path",    "speed_m_s", "loop_steps", "radius_m", "length_m",
-                                                 "width_m", "bottom_m",  "top_m",      "start",    "drive"};
+inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
+                                                 "length_m", "width_m",   "bottom_m",   "top_m",
+                                                 "start",    "drive",     "file"};
 /// By kind of sensor, in the order of map::entity_schema()'s kinds.
 inline const std::vector<std::string> kPointSensorKeys{
     "kind",        "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m", "noise_m",
@@ -44,6 +45,8 @@ inline const std::vector<std::string> kBumpSensorKeys{
     "kind", "zones", "depth", "skin_m", "missed_rate", "false_rate", "rate_hz", "phase_s", "latency_s"};
 inline const std::vector<std::string> kEncoderSensorKeys{
     "kind", "ticks_per_revolution", "radius_error_sigma", "rate_hz", "phase_s", "latency_s"};
+/// Of sensors of all kinds, in scenarios alone.
+inline constexpr const char* kMounted = "mounted";
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",
                                                  "speed",    "moving_share", "motion",   "groups"};
 inline const std::vector<std::string> kPictureKeys{"file",  "view",     "width_px", "height_px", "cut_z_m",

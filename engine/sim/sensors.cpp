@@ -38,24 +38,14 @@ bool flag(TableReader& sensor, const char* key) {
 }
 
 /// A list where it is several numbers.
-TomlNode node_of(const map::KeyValue& pair) {
+TomlNode node_of(const std::string& value) {
   TomlArray numbers;
-  for (const std::string_view part : split(pair.value, ' ')) {
-    if (const auto value = parse_double(trim(part))) numbers.push_back({.value = *value, .line = pair.line});
+  for (const std::string_view part : split(value, ' ')) {
+    if (const auto number = parse_double(trim(part))) numbers.push_back({.value = *number});
   }
-  if (numbers.empty()) return {.value = pair.value, .line = pair.line};
+  if (numbers.empty()) return {.value = value};
   if (numbers.size() == 1) return std::move(numbers.front());
-  return {.value = std::move(numbers), .line = pair.line};
-}
-
-/// A key's value as a scenario would have it.
-TomlNode value_of(const map::KeySpec& key, const map::KeyValue& pair) {
-  if (key.kind == map::KeyKind::kWhole) {
-    if (const auto whole = parse_int(trim(pair.value))) return {.value = *whole, .line = pair.line};
-  }
-  if (key.kind == map::KeyKind::kFlag && (pair.value == "0" || pair.value == "1"))
-    return {.value = pair.value == "1", .line = pair.line};
-  return node_of(pair);
+  return {.value = std::move(numbers)};
 }
 
 /// The table that a scenario would have for a sensor of a map.
@@ -64,7 +54,9 @@ TomlTable table_of(const map::Entity& entity) {
   for (const map::KeySpec& key : map::find_entity_spec(entity.classname())->keys) {
     if (key.name == "name") continue;
     for (const map::KeyValue& pair : entity.keys) {
-      if (pair.key == key.name) table.push_back({pair.key, value_of(key, pair)});
+      if (pair.key != key.name) continue;
+      table.push_back({pair.key, scenario_value(key, pair.value)});
+      table.back().node.line = pair.line;
     }
   }
   return table;
@@ -76,18 +68,11 @@ constexpr std::size_t kFaces = 2;
 constexpr std::size_t kBump = 3;
 constexpr std::size_t kEncoders = 4;
 
-/// The keys of sensors of a table's kind; all there are where that is none, so that it is the kind that is refused.
+/// With those of all kinds.
 std::vector<std::string> known_keys(const TomlTable& table) {
-  const TomlNode* kind = find(table, "kind");
-  const auto* name = kind != nullptr ? std::get_if<std::string>(&kind->value) : nullptr;
-  if (name == nullptr || *name == kKinds[0]) return kPointSensorKeys;
-  if (*name == kKinds[kPlanes]) return kPlaneSensorKeys;
-  if (*name == kKinds[kFaces]) return kFaceSensorKeys;
-  if (*name == kKinds[kBump]) return kBumpSensorKeys;
-  if (*name == kKinds[kEncoders]) return kEncoderSensorKeys;
-  std::vector<std::string> all = kPointSensorKeys;
-  all.insert(all.end(), kPlaneSensorKeys.begin(), kPlaneSensorKeys.end());
-  return all;
+  std::vector<std::string> keys = sensor_keys(table);
+  keys.emplace_back(kMounted);
+  return keys;
 }
 
 void check_ranges(const TableReader& sensor, double min_range_m, double max_range_m) {
@@ -168,9 +153,11 @@ std::vector<sense::BumpZone> equal_zones(std::int64_t n) {
   return zones;
 }
 
-sense::BumpSensorSpec read_bump(const std::string& name, TableReader& sensor) {
+sense::BumpSensorSpec read_bump(const std::string& name, TableReader& sensor,
+                                std::span<const sense::BumpZone> zones) {
   sense::BumpSensorSpec spec;
   spec.name = name;
+  if (!zones.empty()) spec.zones.assign(zones.begin(), zones.end());
   if (sensor.has("zones")) {
     const Range most = range_of("zones");
     spec.zones = equal_zones(sensor.whole("zones", std::llround(most.low), std::llround(most.high)));
@@ -195,6 +182,34 @@ sense::EncoderSensorSpec read_encoders(const std::string& name, TableReader& sen
 
 }  // namespace
 
+std::vector<std::string> sensor_keys(const TomlTable& table) {
+  const TomlNode* kind = find(table, "kind");
+  const auto* name = kind != nullptr ? std::get_if<std::string>(&kind->value) : nullptr;
+  if (name == nullptr || *name == kKinds[0]) return kPointSensorKeys;
+  if (*name == kKinds[kPlanes]) return kPlaneSensorKeys;
+  if (*name == kKinds[kFaces]) return kFaceSensorKeys;
+  if (*name == kKinds[kBump]) return kBumpSensorKeys;
+  if (*name == kKinds[kEncoders]) return kEncoderSensorKeys;
+  std::vector<std::string> all = kPointSensorKeys;
+  all.insert(all.end(), kPlaneSensorKeys.begin(), kPlaneSensorKeys.end());
+  return all;
+}
+
+TomlNode scenario_value(const map::KeySpec& key, const std::string& value) {
+  if (key.kind == map::KeyKind::kWhole) {
+    if (const auto whole = parse_int(trim(value))) return {.value = *whole};
+  }
+  if (key.kind == map::KeyKind::kFlag && (value == "0" || value == "1")) return {.value = value == "1"};
+  if (key.kind == map::KeyKind::kChoice) return {.value = value};
+  return node_of(value);
+}
+
+bool is_mounted(const std::string& name, const SensorTable& where) {
+  TableReader sensor(where.file, "sensor." + name, where.table, where.line, known_keys(where.table),
+                     where.settings);
+  return !sensor.has(kMounted) || sensor.flag(kMounted);
+}
+
 SensorSpec read_sensor(const std::string& name, const SensorTable& where,
                        const std::optional<std::size_t>& kind) {
   TableReader sensor(where.file, "sensor." + name, where.table, where.line, known_keys(where.table),
@@ -205,7 +220,7 @@ SensorSpec read_sensor(const std::string& name, const SensorTable& where,
     case kFaces:
       return read_faces(name, sensor);
     case kBump:
-      return read_bump(name, sensor);
+      return read_bump(name, sensor, where.zones);
     case kEncoders:
       return read_encoders(name, sensor);
     default:
@@ -214,11 +229,12 @@ SensorSpec read_sensor(const std::string& name, const SensorTable& where,
 }
 
 void take_map_sensors(Scenario& scenario, const map::Document& document) {
-  if (!scenario.sensors.empty()) return;
+  if (!scenario.takes_map_sensors) return;
   for (const map::Entity* entity : map::sensors(document)) {
     const std::string name = map::EntityKeys(document, *entity).text("name");
     const TomlTable table = table_of(*entity);
-    scenario.sensors.push_back(read_sensor(name, {document.file, table, entity->line, scenario.settings}, 0));
+    scenario.sensors.push_back(
+        read_sensor(name, {document.file, table, entity->line, scenario.settings, scenario.bump_zones}, 0));
   }
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "map/document.hpp"
+#include "map/entity_schema.hpp"
 #include "sim/scenario.hpp"
 #include "sim/table_reader.hpp"
 
@@ -18,7 +20,17 @@ struct SensorTable {
   const TomlTable& table;
   int line = 0;
   std::vector<Setting>& settings;
+  std::span<const sense::BumpZone> zones{};  ///< of a bumper that says no number of zones; none: its default
 };
+
+/// The keys that a sensor of the table's kind has; those of points where it names none, and those of points and planes where that is none.
+std::vector<std::string> sensor_keys(const TomlTable& table);
+
+/// The value of a map's key as a scenario would have it, with line 0.
+TomlNode scenario_value(const map::KeySpec& key, const std::string& value);
+
+/// False for a sensor whose table has `mounted = false`.
+bool is_mounted(const std::string& name, const SensorTable& where);
 
 /// What a sensor's table says. Ranges and defaults are those of a map's sensors (map::sensor_key()).
 /// @param kind  counts where the table has no `kind`; none: it must have one

@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "log/drive_tables.hpp"
 #include "record/files.hpp"
+#include "sim/robot_body.hpp"
 
 namespace hallway::run {
 namespace {
@@ -24,18 +25,16 @@ bool puts_commands(const host::StageFacts& plugin) {
   return std::ranges::count(plugin.info.outputs, std::uint32_t{HW_OUTPUT_DRIVE_COMMAND}) > 0;
 }
 
-nlohmann::ordered_json print_body(const bsp::Body& body) {
-  if (const auto* box = std::get_if<bsp::UprightBox>(&body)) {
-    const double x = box->half_length_m, y = box->half_width_m;
-    return {{"corners_m", {{x, y}, {-x, y}, {-x, -y}, {x, -y}}},
-            {"bottom_m", box->z_low_m},
-            {"top_m", box->z_high_m}};
+nlohmann::ordered_json print_body(const sim::RobotSpec& robot) {
+  const auto [bottom_m, top_m] = sim::height_of(robot);
+  const std::vector<Vec2> outline = sim::outline_of(robot);
+  if (outline.empty()) {
+    const double radius_m = std::get<bsp::Cylinder>(*robot.body).radius_m;
+    return {{"radius_m", radius_m}, {"middle_m", {0.0, 0.0}}, {"bottom_m", bottom_m}, {"top_m", top_m}};
   }
-  const auto& cylinder = std::get<bsp::Cylinder>(body);
-  return {{"radius_m", cylinder.radius_m},
-          {"middle_m", {0.0, 0.0}},
-          {"bottom_m", cylinder.z_low_m},
-          {"top_m", cylinder.z_high_m}};
+  nlohmann::ordered_json corners = nlohmann::ordered_json::array();
+  for (const Vec2& corner : outline) corners.push_back({corner.x(), corner.y()});
+  return {{"corners_m", corners}, {"bottom_m", bottom_m}, {"top_m", top_m}};
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ nlohmann::ordered_json print_driven(const sim::Scenario& scenario) {
   const sim::DrivenSpec& driven = *scenario.robot.driven;
   return {{"closed_loop", true},
           {"driven_by", kDrivers.at(static_cast<std::size_t>(driven.by))},
-          {"body", print_body(*scenario.robot.body)},
+          {"body", print_body(scenario.robot)},
           {"drive", {{"kind", drive::name_of(driven.drive.kind)}}}};
 }
 
