@@ -31,11 +31,43 @@ bool in_sector(double angle, const BumpZone& zone) {
   return at >= from || at < to;
 }
 
-/// To a millionth of a metre.
+constexpr double kOnBorder_m = 1e-6;
+
 bool is_in_region(const Vec3& at, const BumpZone& zone) {
-  constexpr double kOnBorder_m = 1e-6;
   return std::ranges::all_of(zone.region,
                              [&](const Plane& plane) { return plane.distance(at) <= kOnBorder_m; });
+}
+
+/// What of a convex polygon, a line or a point is within planes.
+std::vector<Vec3> part_within(std::vector<Vec3> polygon, std::span<const Plane> planes) {
+  for (const Plane& plane : planes) {
+    std::vector<Vec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double da = plane.distance(a) - kOnBorder_m, db = plane.distance(b) - kOnBorder_m;
+      if (da <= 0.0) kept.push_back(a);
+      if (da * db < 0.0) kept.push_back(a + (da / (da - db)) * (b - a));
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
+}
+
+/// Whether a zone has some of a patch, in the body's frame. A sector is looked at quarter turn by quarter turn, since each is convex.
+bool has_some(const BumpZone& zone, const std::vector<Vec3>& patch) {
+  if (!zone.region.empty()) return !part_within(patch, zone.region).empty();
+  const double from = in_turn(zone.from_rad);
+  double to = in_turn(zone.to_rad);
+  if (to <= from) to += kTurn;
+  for (double begin = from; begin < to; begin += kTurn / 4.0) {
+    const double end = std::min(begin + kTurn / 4.0, to);
+    const Plane wedge[]{{Vec3(std::sin(begin), -std::cos(begin), 0.0), 0.0},
+                        {Vec3(-std::sin(end), std::cos(end), 0.0), 0.0},
+                        {Vec3::UnitZ(), zone.top_m},
+                        {-Vec3::UnitZ(), -zone.bottom_m}};
+    if (!part_within(patch, wedge).empty()) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -68,7 +100,13 @@ BumpSensor::BumpSensor(BumpSensorSpec spec, std::uint64_t seed) : spec_(std::mov
 
 bool BumpSensor::presses(const BumpContact& contact, const BumpZone& zone) const {
   if (!(contact.gap_m < spec_.skin_m)) return false;
-  const Vec3 at = contact.T_world_body.inverse() * contact.point;
+  const Pose T_body_world = contact.T_world_body.inverse();
+  if (!contact.patch.empty()) {
+    std::vector<Vec3> patch;
+    for (const Vec3& corner : contact.patch) patch.push_back(T_body_world * corner);
+    return has_some(zone, patch);
+  }
+  const Vec3 at = T_body_world * contact.point;
   if (!zone.region.empty()) return is_in_region(at, zone);
   return at.z() >= zone.bottom_m && at.z() < zone.top_m && in_sector(std::atan2(at.y(), at.x()), zone);
 }

@@ -42,6 +42,8 @@ struct BumpContact {
   Vec3 normal = Vec3::UnitX();  ///< unit, from the obstacle to the body, world frame
   double gap_m = 0.0;           ///< between body and obstacle
   Pose T_world_body{};
+  std::vector<Vec3>
+      patch{};  ///< where body and obstacle are against each other, convex, world frame; empty: at the point
 };
 
 struct ZoneReading {
@@ -68,7 +70,7 @@ class BumpSensor {
   BumpSensor(BumpSensorSpec spec, std::uint64_t seed);
 
   /// What the contacts since the last reading say: one that is over is still in it. A contact is in a zone by where its point is in the body's frame; one
-  /// with a gap of the skin or more presses nothing. Missed and false presses follow from the seed, the sensor's name, the sequence and the zone.
+  /// with a patch is in each zone that has some of it, borders included; one with a gap of the skin or more presses nothing. Missed and false presses follow from the seed, the sensor's name, the sequence and the zone.
   BumpReading read(std::span<const BumpContact> contacts, std::uint32_t sequence) const;
   BumpTruth truth(std::span<const BumpContact> contacts) const;
 

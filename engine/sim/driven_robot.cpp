@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/text.hpp"
+#include "contact/patch.hpp"
 
 namespace hallway::sim {
 namespace {
@@ -74,6 +75,7 @@ DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, con
       events_(scenario.events),
       period_ns_(scenario.period_ns),
       kept_ns_(history_of(scenario)),
+      has_zones_(!scenario.bump_zones.empty()),
       robot_(world.obstacles(), world.robot()),
       drive_(spec_.drive, scenario.seed),
       wheels_(drive::wheel_count(spec_.drive.kind)) {
@@ -243,8 +245,16 @@ void DrivenRobot::note_contacts(const std::vector<contact::Touch>& touches, bool
     const auto later =
         std::upper_bound(contacts_.begin(), contacts_.end(), t_ns,
                          [](std::int64_t t, const PastContact& past) { return t < past.t_ns; });
-    contacts_.insert(later, {t_ns, {touch.point, touch.normal, touch.gap_m, pose_at_time(t_ns)}});
+    contacts_.insert(
+        later, {t_ns, {touch.point, touch.normal, touch.gap_m, pose_at_time(t_ns), patch_of(touch, t_ns)}});
   }
+}
+
+/// For the zones of a robot file, which may be at some height only.
+std::vector<Vec3> DrivenRobot::patch_of(const contact::Touch& touch, std::int64_t t_ns) const {
+  if (!has_zones_ || touch.kind != contact::TouchKind::kWall) return {};
+  return contact::contact_patch(world_.robot().shape, robot_.history().pose_at(t_ns),
+                                world_.obstacles().triangle(touch.obstacle), touch.point, touch.normal);
 }
 
 std::vector<sense::BumpContact> DrivenRobot::contacts_in(std::int64_t after_ns, std::int64_t until_ns) const {

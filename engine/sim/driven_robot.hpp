@@ -98,6 +98,7 @@ class DrivenRobot final : public Motion {
   void happen_until(std::int64_t t_ns);
   void move(std::int64_t to_ns, std::vector<TwistRamp>& ramps);
   void note_contacts(const std::vector<contact::Touch>& touches, bool at_their_time);
+  std::vector<Vec3> patch_of(const contact::Touch& touch, std::int64_t t_ns) const;
   void give(std::int64_t t_ns, const drive::Command& command, CommandCause cause);
 
   const DrivenWorld& world_;
@@ -107,6 +108,7 @@ class DrivenRobot final : public Motion {
   std::int64_t blocked_until_ns_ = 0;  ///< the wheels
   std::int64_t period_ns_;
   std::int64_t kept_ns_;  ///< of the history
+  bool has_zones_;        ///< of a robot file
   contact::Robot robot_;
   drive::Drive drive_;
   std::optional<drive::Follower> follower_;

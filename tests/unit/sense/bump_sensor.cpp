@@ -49,6 +49,30 @@ TEST(BumpSensor, ZonesMayPassTheBack) {
   }
 }
 
+TEST(BumpSensor, APatchPressesEachZoneThatHasSomeOfIt) {
+  const auto region = [](double low, double high) {
+    return BumpZone{.name = "region",
+                    .region = {{Vec3::UnitZ(), high}, {-Vec3::UnitZ(), -low}, {-Vec3::UnitX(), 0.0}}};
+  };
+  const BumpSensor bump({.name = "bump",
+                         .zones = {{"left", 0.0, 1.0},
+                                   {"right", -1.0, 0.0},
+                                   {"low", -1.0, 1.0, 0.0, 0.09},
+                                   {"middle", -1.0, 1.0, 0.1, 0.11},
+                                   {"above", -1.0, 1.0, 0.21, 0.3},
+                                   {"behind", 2.0, 4.0},
+                                   region(0.15, 0.16),
+                                   region(0.21, 0.3)}},
+                        1);
+  BumpContact contact = contact_at(0.0);
+  EXPECT_FALSE(bump.read({&contact, 1}, 0).zones[2].pressed) << "its point alone is higher";
+  for (const auto& [y, z] : {std::pair(-0.1, 0.05), {0.1, 0.05}, {0.1, 0.2}, {-0.1, 0.2}})
+    contact.patch.push_back(kBody * Vec3(0.2, y, z));
+  const auto zones = bump.read({&contact, 1}, 0).zones;
+  const std::vector<bool> expected{true, true, true, true, false, false, true, false};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(zones[i].pressed, expected[i]) << i;
+}
+
 TEST(BumpSensor, DepthIsThatOfTheSkin) {
   const BumpSensor bump({.name = "bump", .depth = true, .skin_m = 0.004}, 1);
   for (const auto& [gap, depth] : {std::pair(0.0, 0.004), {0.001, 0.003}, {0.004, 0.0}, {1.0, 0.0}}) {
