@@ -47,8 +47,7 @@ void read_drive(const Document& document, RobotFile& robot) {
     robot.drive_line = entity.line;
     check_keys_of(keys, "hw_drive");
     for (RobotKey& key : known_keys(entity)) {
-      const bool of_robot = std::ranges::find(kRobotKeys, key.key) != kRobotKeys.end();
-      (of_robot ? robot.robot : robot.drive).push_back(std::move(key));
+      (is_key_of_robot(key.key) ? robot.robot : robot.drive).push_back(std::move(key));
     }
   }
 }
@@ -79,6 +78,10 @@ RobotSensor read_sensor(const Document& document, const Entity& entity) {
 }
 
 }  // namespace
+
+bool is_key_of_robot(std::string_view key) {
+  return std::ranges::find(kRobotKeys, key) != kRobotKeys.end();
+}
 
 bool is_robot_file(const Document& document) {
   const Entity* world = document.worldspawn();

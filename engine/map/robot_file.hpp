@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "map/document.hpp"
@@ -40,6 +41,9 @@ struct RobotFile {
 
 /// Whether worldspawn has `_hallway_robot 1`.
 bool is_robot_file(const Document& document);
+
+/// Whether a key of `hw_drive` is of the robot and not of its drive: RobotFile::robot has it.
+bool is_key_of_robot(std::string_view key);
 
 /// Throws Error{kBadInput} if the document is a robot file: for those who need a world.
 void require_world(const Document& document);
