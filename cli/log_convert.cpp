@@ -103,7 +103,7 @@ void warn_of_times(std::uint32_t iteration, const run::SourceFrame& frame, std::
 void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   record::OutputFolder folder(options.out, options.force);
   run::Source& source = *opened.source;
-  run::ObservationTables observations(source);
+  run::ObservationTables observations(folder.working_path(), source);
   std::vector<log::IterationPose> poses;
   run::SourceFrame frame;
   bool regular = true;
@@ -119,7 +119,7 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   manifest["sensors"] = record::print_sensors(source.sensors());
   manifest["iterations"] = source.iterations();
   const fs::path& path = folder.working_path();
-  observations.write(path);
+  observations.close();
   if (!poses.empty()) log::write_poses(path / run::files::kTruePoses, poses);
   if (source.true_landmarks())
     log::write_landmarks(path / run::files::kTrueLandmarks, *source.true_landmarks());

@@ -25,6 +25,32 @@ void add_id(RowWriter& out, std::uint64_t id) {
   }
 }
 
+/// Of a table as it is written.
+struct PointColumns {
+  bool identities = false;
+  bool tracks = false;
+
+  std::string header() const {
+    return std::string("iteration") + (identities ? ",landmark_id" : "") + ",x,y,z" +
+           (tracks ? ",track" : "");
+  }
+  void add_row(RowWriter& out, std::uint32_t iteration, const Observation& observation) const {
+    out.whole(iteration);
+    if (identities) add_id(out, observation.landmark);
+    out.numbers(observation.point);
+    if (tracks) add_id(out, observation.track);
+    out.end_row();
+  }
+  /// Empty frames need no row but the last one, without which the log would seem to end earlier.
+  void add_empty_row(RowWriter& out, std::uint32_t iteration) const {
+    out.whole(iteration);
+    if (identities) out.word("");
+    out.word("").word("").word("");
+    if (tracks) out.word("");
+    out.end_row();
+  }
+};
+
 }  // namespace
 
 ReadLog parse_observations(std::string_view text, const std::string& file) {
@@ -50,30 +76,33 @@ std::string describe(const Damage& damage, const ObservationLog& kept, const std
 }
 
 std::string print_observations(const ObservationLog& log) {
+  const PointColumns columns{log.has_identities(), log.has_tracks()};
   RowWriter out(',');
-  out.word("iteration");
-  if (log.has_identities()) out.word("landmark_id");
-  out.word("x").word("y").word("z");
-  if (log.has_tracks()) out.word("track");
-  out.end_row();
+  out.word(columns.header()).end_row();
   for (const std::uint32_t iteration : log.filled_iterations()) {
-    for (const Observation& observation : log.frame(iteration)) {
-      out.whole(iteration);
-      if (log.has_identities()) add_id(out, observation.landmark);
-      out.numbers(observation.point);
-      if (log.has_tracks()) add_id(out, observation.track);
-      out.end_row();
-    }
+    for (const Observation& observation : log.frame(iteration)) columns.add_row(out, iteration, observation);
   }
-  // Empty frames need no row but the last one, without which the log would seem to end earlier.
-  if (log.iterations() > 0 && log.frame(log.iterations() - 1).empty()) {
-    out.whole(log.iterations() - 1);
-    if (log.has_identities()) out.word("");
-    out.word("").word("").word("");
-    if (log.has_tracks()) out.word("");
-    out.end_row();
-  }
+  if (log.iterations() > 0 && log.frame(log.iterations() - 1).empty())
+    columns.add_empty_row(out, log.iterations() - 1);
   return out.take();
+}
+
+ObservationFile::ObservationFile(const std::filesystem::path& path, bool has_identities, bool has_tracks)
+    : has_identities_(has_identities),
+      has_tracks_(has_tracks),
+      rows_(path, ',', PointColumns{has_identities, has_tracks}.header()) {}
+
+void ObservationFile::add_frame(std::uint32_t iteration, std::span<const Observation> observations) {
+  last_empty_.reset();
+  if (observations.empty()) last_empty_ = iteration;
+  const PointColumns columns{has_identities_, has_tracks_};
+  for (const Observation& observation : observations)
+    columns.add_row(rows_.next_row(), iteration, observation);
+}
+
+void ObservationFile::close() {
+  if (last_empty_) PointColumns{has_identities_, has_tracks_}.add_empty_row(rows_.next_row(), *last_empty_);
+  rows_.close();
 }
 
 void write_observations(const std::filesystem::path& path, const ObservationLog& log) {

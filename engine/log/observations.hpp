@@ -14,6 +14,7 @@
 #include "log/frame_list.hpp"
 #include "log/frame_rows.hpp"
 #include "log/landmark_id.hpp"
+#include "log/row_file.hpp"
 
 namespace hallway::log {
 
@@ -75,5 +76,23 @@ std::string print_observations(const ObservationLog& log);
 
 /// print_observations() to a file, atomically. Throws Error{kIo}.
 void write_observations(const std::filesystem::path& path, const ObservationLog& log);
+
+/// Writes the file of write_observations() frame by frame while a run goes on, in memory that does not grow with it. All functions throw Error{kIo}.
+class ObservationFile {
+ public:
+  /// @param path  a file that is not there yet
+  ObservationFile(const std::filesystem::path& path, bool has_identities, bool has_tracks);
+
+  /// The next frame; iterations increase.
+  void add_frame(std::uint32_t iteration, std::span<const Observation> observations);
+  /// No more frames come.
+  void close();
+
+ private:
+  bool has_identities_;
+  bool has_tracks_;
+  RowFile rows_;
+  std::optional<std::uint32_t> last_empty_;  ///< the last frame, where it has nothing
+};
 
 }  // namespace hallway::log

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
 #include "log/csv_reader.hpp"
@@ -45,6 +48,34 @@ void add_geometry(RowWriter& out, const PlaneObservation& plane) {
   out.numbers(plane.normal).number(plane.offset_m).numbers(plane.centroid_m);
   for (const auto& corner : plane.corners_m) out.numbers(corner);
 }
+
+/// Of a table of observed planes as it is written.
+struct ObservedColumns {
+  bool identities = false;
+  bool hulls = false;
+
+  std::string header() const {
+    std::string text = "iteration";
+    if (identities) text += "," + std::string(plane_names::kTruePlaneColumn);
+    for (const std::string_view name : geometry_columns()) text += "," + std::string(name);
+    return hulls ? text + ",hull" : text;
+  }
+  void add_row(RowWriter& out, std::uint32_t iteration, const PlaneObservation& plane) const {
+    out.whole(iteration);
+    if (identities && plane.true_plane == kNoLandmark) out.word("-1");
+    if (identities && plane.true_plane != kNoLandmark) out.whole(plane.true_plane);
+    add_geometry(out, plane);
+    if (hulls) out.word(hull_text(plane.hull_m));
+    out.end_row();
+  }
+  /// Empty frames need no row but the last one, without which the log would seem to end earlier.
+  void add_empty_row(RowWriter& out, std::uint32_t iteration) const {
+    out.whole(iteration);
+    for (std::size_t column = identities ? kName : kNormal; column < kHull; ++column) out.word("");
+    if (hulls) out.word("");
+    out.end_row();
+  }
+};
 
 bool is_empty_frame(const CsvReader& row) {
   for (std::size_t column = kName; column < kHull; ++column) {
@@ -116,31 +147,58 @@ std::string describe(const Damage& damage, const PlaneObservationLog& kept, cons
 }
 
 std::string print_observed_planes(const PlaneObservationLog& log) {
-  const bool hulls = any_hull(log.all());
+  const ObservedColumns columns{log.has_identities(), any_hull(log.all())};
   RowWriter out(',');
-  out.word("iteration");
-  if (log.has_identities()) out.word(plane_names::kTruePlaneColumn);
-  for (const std::string_view name : geometry_columns()) out.word(name);
-  if (hulls) out.word("hull");
-  out.end_row();
+  out.word(columns.header()).end_row();
   for (const std::uint32_t iteration : log.filled_iterations()) {
-    for (const PlaneObservation& plane : log.frame(iteration)) {
-      out.whole(iteration);
-      if (log.has_identities() && plane.true_plane == kNoLandmark) out.word("-1");
-      if (log.has_identities() && plane.true_plane != kNoLandmark) out.whole(plane.true_plane);
-      add_geometry(out, plane);
-      if (hulls) out.word(hull_text(plane.hull_m));
-      out.end_row();
-    }
+    for (const PlaneObservation& plane : log.frame(iteration)) columns.add_row(out, iteration, plane);
   }
-  // Empty frames need no row but the last one, without which the log would seem to end earlier.
-  if (log.iterations() > 0 && log.frame(log.iterations() - 1).empty()) {
-    out.whole(log.iterations() - 1);
-    for (std::size_t column = log.has_identities() ? kName : kNormal; column < kHull; ++column) out.word("");
-    if (hulls) out.word("");
-    out.end_row();
-  }
+  if (log.iterations() > 0 && log.frame(log.iterations() - 1).empty())
+    columns.add_empty_row(out, log.iterations() - 1);
   return out.take();
+}
+
+ObservedPlaneFile::ObservedPlaneFile(std::filesystem::path path, bool has_identities)
+    : path_(std::move(path)), has_identities_(has_identities) {}
+
+void ObservedPlaneFile::begin_rows() {
+  rows_.emplace(path_, ',', ObservedColumns{has_identities_, has_hulls_}.header());
+}
+
+void ObservedPlaneFile::add_hull_column() {
+  has_hulls_ = true;
+  if (!rows_) return;
+  rows_->close();
+  const std::filesystem::path before = path_.string() + ".without_hulls";
+  std::error_code failure;
+  std::filesystem::rename(path_, before, failure);
+  if (failure) throw Error(ErrorCode::kIo, "cannot rename: " + failure.message(), {.file = path_.string()});
+  begin_rows();
+  std::ifstream lines(before);
+  std::string line;
+  std::getline(lines, line);  // the header
+  while (std::getline(lines, line)) rows_->next_row().word(line).word("").end_row();
+  if (!lines.eof()) throw Error(ErrorCode::kIo, "cannot read", {.file = before.string()});
+  std::filesystem::remove(before, failure);
+}
+
+void ObservedPlaneFile::add_frame(std::uint32_t iteration, std::span<const PlaneObservation> planes) {
+  last_empty_.reset();
+  if (planes.empty()) {
+    last_empty_ = iteration;
+    return;
+  }
+  if (!has_hulls_ && any_hull(planes)) add_hull_column();
+  if (!rows_) begin_rows();
+  for (const PlaneObservation& plane : planes)
+    ObservedColumns{has_identities_, has_hulls_}.add_row(rows_->next_row(), iteration, plane);
+}
+
+void ObservedPlaneFile::close() {
+  if (!rows_) begin_rows();
+  if (last_empty_)
+    ObservedColumns{has_identities_, has_hulls_}.add_empty_row(rows_->next_row(), *last_empty_);
+  rows_->close();
 }
 
 void write_observed_planes(const std::filesystem::path& path, const PlaneObservationLog& log) {

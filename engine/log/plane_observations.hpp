@@ -13,6 +13,7 @@
 #include "log/frame_list.hpp"
 #include "log/frame_rows.hpp"
 #include "log/landmark_id.hpp"
+#include "log/row_file.hpp"
 #include "log/row_writer.hpp"
 
 namespace hallway::log {
@@ -97,5 +98,28 @@ std::string print_observed_planes(const PlaneObservationLog& log);
 
 /// print_observed_planes() to a file, atomically. Throws Error{kIo}.
 void write_observed_planes(const std::filesystem::path& path, const PlaneObservationLog& log);
+
+/// Writes the file of write_observed_planes() frame by frame while a run goes on, in memory that does not grow with it. The column of hulls comes with the
+/// first hull: where that is not in the first frame with planes, the file is written anew. All functions throw Error{kIo}.
+class ObservedPlaneFile {
+ public:
+  /// @param path  a file that is not there yet
+  ObservedPlaneFile(std::filesystem::path path, bool has_identities);
+
+  /// The next frame; iterations increase.
+  void add_frame(std::uint32_t iteration, std::span<const PlaneObservation> planes);
+  /// No more frames come.
+  void close();
+
+ private:
+  void begin_rows();
+  void add_hull_column();
+
+  std::filesystem::path path_;
+  bool has_identities_;
+  bool has_hulls_ = false;
+  std::optional<RowFile> rows_;              ///< from the first plane on
+  std::optional<std::uint32_t> last_empty_;  ///< the last frame, where it has nothing
+};
 
 }  // namespace hallway::log

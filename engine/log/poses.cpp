@@ -48,15 +48,21 @@ std::vector<IterationPose> read_poses(const std::filesystem::path& path) {
   return parse_poses(read_file(path), path.string());
 }
 
+std::string_view pose_columns(bool orientations) {
+  return orientations ? "iteration,x,y,z,qw,qx,qy,qz" : "iteration,x,y,z";
+}
+
+void add_row(RowWriter& out, const IterationPose& pose, bool orientations) {
+  out.whole(pose.iteration).numbers(pose.position_m);
+  if (orientations) out.numbers(pose.orientation);
+  out.end_row();
+}
+
 std::string print_poses(std::span<const IterationPose> poses) {
   const bool orientations = poses.empty() || poses.front().orientation_known;
   RowWriter out(',');
-  out.word(orientations ? "iteration,x,y,z,qw,qx,qy,qz" : "iteration,x,y,z").end_row();
-  for (const IterationPose& pose : poses) {
-    out.whole(pose.iteration).numbers(pose.position_m);
-    if (orientations) out.numbers(pose.orientation);
-    out.end_row();
-  }
+  out.word(pose_columns(orientations)).end_row();
+  for (const IterationPose& pose : poses) add_row(out, pose, orientations);
   return out.take();
 }
 

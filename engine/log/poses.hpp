@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "log/row_writer.hpp"
+
 namespace hallway::log {
 
 /// A pose at an iteration: the body in the world (or in a map), T_world_body.
@@ -30,6 +32,11 @@ std::vector<IterationPose> parse_poses(std::string_view text, const std::string&
 
 /// parse_poses() of a file. Throws Error{kIo} if it cannot be read.
 std::vector<IterationPose> read_poses(const std::filesystem::path& path);
+
+/// The first line of the table, with or without orientations.
+std::string_view pose_columns(bool orientations);
+/// Adds a row. Throws Error{kInternal} for a number that is not finite.
+void add_row(RowWriter& out, const IterationPose& pose, bool orientations);
 
 /// The text that parse_poses() reads back to the same values, without orientations unless the first pose has one. Throws
 /// Error{kInternal} for a number that is not finite.

@@ -3,6 +3,9 @@
 
 #include <hallway/planes.h>
 
+#include <iterator>
+#include <utility>
+
 #include "record/files.hpp"
 #include "record/plane_observations.hpp"
 
@@ -17,9 +20,21 @@ std::string file_of(const host::SensorInfo& sensor, bool alone) {
   return alone ? name.string() : name.stem().string() + "_" + sensor.name + name.extension().string();
 }
 
-template <typename T>
-void append(std::vector<T>& list, std::vector<T>&& more) {
-  list.insert(list.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+/// The rows of all samples of a sensor in a frame.
+template <typename Samples, typename Row>
+std::vector<Row> seen_by(const SourceFrame& frame, std::uint32_t kind, std::uint32_t sensor) {
+  std::vector<Row> rows;
+  for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
+    const hw_sample_t& sample = frame.sample(k);
+    if (sample.sensor_id != sensor || sample.kind != kind) continue;
+    std::vector<Row> more =
+        observations_of(*static_cast<const Samples*>(sample.payload), frame.identities_of(k));
+    if (rows.empty())
+      rows = std::move(more);
+    else
+      rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  }
+  return rows;
 }
 
 }  // namespace
@@ -48,45 +63,29 @@ std::vector<log::PlaneObservation> observations_of(const hw_planes_t& planes,
   return list;
 }
 
-ObservationTables::ObservationTables(const Source& source) {
+ObservationTables::ObservationTables(const std::filesystem::path& folder, const Source& source) {
   for (const host::SensorInfo& sensor : source.sensors()) {
-    if (sensor.kind != HW_SAMPLE_POINTS && sensor.kind != HW_SAMPLE_PLANES) continue;
-    seen_.push_back({.sensor = sensor.id,
-                     .kind = sensor.kind,
-                     .file = file_of(sensor, source.sensors().size() == 1),
-                     .points = log::ObservationLog(source.has_identities(), source.has_tracks()),
-                     .planes = log::PlaneObservationLog(source.has_identities())});
+    const std::filesystem::path file = folder / file_of(sensor, source.sensors().size() == 1);
+    if (sensor.kind == HW_SAMPLE_POINTS)
+      points_.push_back({sensor.id, std::make_unique<log::ObservationFile>(file, source.has_identities(),
+                                                                           source.has_tracks())});
+    if (sensor.kind == HW_SAMPLE_PLANES)
+      planes_.push_back({sensor.id, std::make_unique<log::ObservedPlaneFile>(file, source.has_identities())});
   }
 }
 
 void ObservationTables::add(std::uint32_t iteration, const SourceFrame& frame) {
-  for (Seen& seen : seen_) {
-    std::vector<log::Observation> points;
-    std::vector<log::PlaneObservation> planes;
-    for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
-      const hw_sample_t& sample = frame.sample(k);
-      if (sample.sensor_id != seen.sensor || sample.kind != seen.kind) continue;
-      if (seen.kind == HW_SAMPLE_POINTS)
-        append(points,
-               observations_of(*static_cast<const hw_points_t*>(sample.payload), frame.identities_of(k)));
-      else
-        append(planes,
-               observations_of(*static_cast<const hw_planes_t*>(sample.payload), frame.identities_of(k)));
-    }
-    if (seen.kind == HW_SAMPLE_POINTS)
-      seen.points.add_frame(iteration, points);
-    else
-      seen.planes.add_frame(iteration, planes);
-  }
+  for (const auto& table : points_)
+    table.file->add_frame(iteration,
+                          seen_by<hw_points_t, log::Observation>(frame, HW_SAMPLE_POINTS, table.sensor));
+  for (const auto& table : planes_)
+    table.file->add_frame(iteration,
+                          seen_by<hw_planes_t, log::PlaneObservation>(frame, HW_SAMPLE_PLANES, table.sensor));
 }
 
-void ObservationTables::write(const std::filesystem::path& folder) const {
-  for (const Seen& seen : seen_) {
-    if (seen.kind == HW_SAMPLE_POINTS)
-      log::write_observations(folder / seen.file, seen.points);
-    else
-      log::write_observed_planes(folder / seen.file, seen.planes);
-  }
+void ObservationTables::close() {
+  for (const auto& table : points_) table.file->close();
+  for (const auto& table : planes_) table.file->close();
 }
 
 }  // namespace hallway::run

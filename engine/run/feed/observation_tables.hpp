@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "log/observations.hpp"
@@ -19,28 +19,26 @@ std::vector<log::Observation> observations_of(const hw_points_t& points,
 std::vector<log::PlaneObservation> observations_of(const hw_planes_t& planes,
                                                    std::span<const log::LandmarkId> identities);
 
-/// What the sensors of a run saw, as tables that replay reads: observations.csv of a sensor of points, observed_planes.csv of one of planes. Where there
-/// are several sensors, the name of each stands in that of its table: observations_NAME.csv. Other kinds have no table.
+/// Writes what the sensors of a run saw while it goes on, as tables that replay reads: observations.csv of a sensor of points, observed_planes.csv of one of planes. Where there
+/// are several sensors, the name of each stands in that of its table: observations_NAME.csv. Other kinds have no table. All functions throw Error{kIo}.
 class ObservationTables {
  public:
-  explicit ObservationTables(const Source& source);
+  ObservationTables(const std::filesystem::path& folder, const Source& source);
 
   /// Frames in their order.
   void add(std::uint32_t iteration, const SourceFrame& frame);
-  /// Throws Error{kIo}.
-  void write(const std::filesystem::path& folder) const;
+  /// No more frames come.
+  void close();
 
  private:
-  /// What one sensor saw.
-  struct Seen {
+  template <typename File>
+  struct Table {
     std::uint32_t sensor = 0;  ///< id
-    std::uint32_t kind = 0;
-    std::string file;
-    log::ObservationLog points;
-    log::PlaneObservationLog planes;
+    std::unique_ptr<File> file;
   };
 
-  std::vector<Seen> seen_;
+  std::vector<Table<log::ObservationFile>> points_;
+  std::vector<Table<log::ObservedPlaneFile>> planes_;
 };
 
 }  // namespace hallway::run

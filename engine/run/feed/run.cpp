@@ -39,25 +39,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Everything that is collected while a run goes on and written at its end.
-struct Collected {
-  std::optional<ObservationTables> observations;  ///< where they are kept
-  TruthTables truth;
-};
-
 /// Takes down what comes back of the frames, and scores it.
 class Tally {
  public:
   /// @param maps_planes  whether what the pipeline maps is planes
-  Tally(const Source& source, bool keep_observations, bool maps_planes)
+  Tally(const Source& source, bool maps_planes)
       : iterations_(source), evaluator_(truth_for(source, maps_planes)) {
-    if (keep_observations) collected_.observations.emplace(source);
     if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
   }
 
   /// @param map_epoch  the part of the map that the answer's pose is in
   void add(const FrameAnswer& answer, std::optional<std::uint64_t> map_epoch) {
-    keep_truth(answer.iteration, answer.frame);
     if (!answer.was_called) return;
     eval::Iteration iteration = iterations_.make(answer);
     iteration.map_epoch = map_epoch;
@@ -76,7 +68,6 @@ class Tally {
   /// No more frames come. @param joined  parts of the map that are one
   void finish(std::span<const eval::JoinedEpoch> joined) { evaluator_.finish(joined); }
   const eval::Evaluator& evaluator() const { return evaluator_; }
-  const Collected& collected() const { return collected_; }
 
  private:
   static eval::Truth truth_for(const Source& source, bool maps_planes) {
@@ -85,23 +76,33 @@ class Tally {
     return truth;
   }
 
-  void keep_truth(std::uint32_t iteration, const SourceFrame& frame) {
-    if (collected_.observations) collected_.observations->add(iteration, frame);
-    collected_.truth.add(iteration, frame);
-  }
-
   IterationMaker iterations_;
   eval::Evaluator evaluator_;
   std::optional<PlaneTruth> plane_truth_;  ///< where maps of planes are scored
-  Collected collected_;
 };
 
-void write_input(const fs::path& folder, const RunPlan& plan, const Source& source,
-                 const Collected& collected) {
-  write_attachments(folder, plan.attachments);
-  collected.truth.write(folder, source);
-  if (collected.observations) collected.observations->write(folder);
-}
+/// Writes what is given and what is true, frame by frame.
+class InputTables {
+ public:
+  InputTables(const fs::path& folder, const RunPlan& plan, const Source& source) : truth_(folder) {
+    write_attachments(folder, plan.attachments);
+    if (plan.write_observations) observations_.emplace(folder, source);
+  }
+
+  void add(const FrameAnswer& answer) {
+    if (observations_) observations_->add(answer.iteration, answer.frame);
+    truth_.add(answer.iteration, answer.frame);
+  }
+  /// No more frames come.
+  void finish(const Source& source) {
+    if (observations_) observations_->close();
+    truth_.finish(source);
+  }
+
+ private:
+  std::optional<ObservationTables> observations_;  ///< where the plan wants them
+  TruthTables truth_;
+};
 
 void write_matches(const fs::path& folder, const eval::Evaluator& evaluator) {
   if (!evaluator.has_identities()) return;
@@ -235,7 +236,8 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   FoundTable found(folder);
   DriveRecord drive(folder, source);
   CommandComparison commands;
-  Tally tally(source, plan.write_observations, maps_planes(pipeline));
+  InputTables inputs(folder, plan, source);
+  Tally tally(source, maps_planes(pipeline));
   FrameFeed feed(source, pipeline, plan);
   EventView events(plan, feed, recorder);
   RunResult result;
@@ -257,6 +259,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
       found.add(answer);
       if (plan.compare_commands && answer.was_called)
         commands.add(answer.iteration, answer.frame.recorded_command, answer.outputs);
+      inputs.add(answer);
       tally.add(answer, epoch);
     };
     const std::uint64_t restarts = feed.failures().restarts;
@@ -288,7 +291,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   }
   result.submaps = refined.submaps.size();
 
-  write_input(folder, plan, source, tally.collected());
+  inputs.finish(source);
   record::write_map(folder, refined);
   write_matches(folder, tally.evaluator());
   nlohmann::ordered_json metrics = eval::to_json(result.metrics);

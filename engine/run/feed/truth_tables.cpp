@@ -3,6 +3,7 @@
 
 #include "geom/arrays.hpp"
 #include "log/landmarks.hpp"
+#include "log/poses.hpp"
 #include "log/true_planes.hpp"
 #include "record/files.hpp"
 
@@ -18,21 +19,26 @@ log::StampedPose stamped_pose(std::int64_t t_ns, const Pose& pose) {
 
 void TruthTables::add(std::uint32_t iteration, const SourceFrame& frame) {
   if (!frame.T_world_body) return;
+  if (!trajectory_) {
+    orientations_ = frame.orientation_known;
+    trajectory_.emplace(folder_ / files::kTrueTrajectory, ' ', std::string_view{});
+    poses_.emplace(folder_ / files::kTruePoses, ',', log::pose_columns(orientations_));
+  }
   const log::StampedPose pose = stamped_pose(frame.t_ns(), *frame.T_world_body);
-  trajectory_.push_back(pose);
-  poses_.push_back({.iteration = iteration,
-                    .position_m = pose.position_m,
-                    .orientation = pose.orientation,
-                    .orientation_known = frame.orientation_known});
+  log::add_row(trajectory_->next_row(), pose);
+  log::add_row(poses_->next_row(),
+               {.iteration = iteration, .position_m = pose.position_m, .orientation = pose.orientation},
+               orientations_);
 }
 
-void TruthTables::write(const std::filesystem::path& folder, const Source& source) const {
-  if (!trajectory_.empty()) {
-    log::write_tum(folder / files::kTrueTrajectory, trajectory_);
-    log::write_poses(folder / files::kTruePoses, poses_);
+void TruthTables::finish(const Source& source) {
+  if (trajectory_) {
+    trajectory_->close();
+    poses_->close();
   }
-  if (source.true_landmarks()) log::write_landmarks(folder / files::kTrueLandmarks, *source.true_landmarks());
-  if (source.true_planes()) log::write_true_planes(folder / files::kTruePlanes, *source.true_planes());
+  if (source.true_landmarks())
+    log::write_landmarks(folder_ / files::kTrueLandmarks, *source.true_landmarks());
+  if (source.true_planes()) log::write_true_planes(folder_ / files::kTruePlanes, *source.true_planes());
 }
 
 }  // namespace hallway::run

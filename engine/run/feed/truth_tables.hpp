@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <optional>
+#include <utility>
 
-#include "log/poses.hpp"
+#include "log/row_file.hpp"
 #include "log/tum.hpp"
 #include "run/sources/source.hpp"
 
@@ -13,17 +14,22 @@ namespace hallway::run {
 /// A pose at a time, as the tables have it.
 log::StampedPose stamped_pose(std::int64_t t_ns, const Pose& pose);
 
-/// What is true of the frames of a run, as files of its folder.
+/// Writes what is true of a run into its folder while it goes on: truth.tum and truth_poses.csv from the first known pose on. All functions throw
+/// Error{kIo}.
 class TruthTables {
  public:
+  explicit TruthTables(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
   /// Frames in their order.
   void add(std::uint32_t iteration, const SourceFrame& frame);
-  /// Writes truth.tum, truth_poses.csv, truth_landmarks.csv and true_walls.csv, as far as the truth is known. Throws Error{kIo}.
-  void write(const std::filesystem::path& folder, const Source& source) const;
+  /// No more frames come. Writes truth_landmarks.csv and true_walls.csv, as far as the truth is known.
+  void finish(const Source& source);
 
  private:
-  std::vector<log::IterationPose> poses_;
-  std::vector<log::StampedPose> trajectory_;
+  std::filesystem::path folder_;
+  std::optional<log::RowFile> trajectory_;
+  std::optional<log::RowFile> poses_;
+  bool orientations_ = true;  ///< whether truth_poses.csv has them: whether its first pose has
 };
 
 }  // namespace hallway::run

@@ -43,7 +43,10 @@ class Folder {
         output_(*plan.folder, plan.replace),
         log_file_(output_.working_path() / files::kLog),
         recorder_(log_file_, source, plan.manifest),
-        drive_(output_.working_path(), source) {}
+        drive_(output_.working_path(), source),
+        truth_(output_.working_path()) {
+    write_attachments(output_.working_path(), plan.attachments);
+  }
 
   void add_frame(std::uint32_t iteration, const SourceFrame& frame) {
     recorder_.record_input(frame);
@@ -73,8 +76,7 @@ class Folder {
     recorder_.finish();
     drive_.close();
     const std::filesystem::path& folder = output_.working_path();
-    write_attachments(folder, plan_.attachments);
-    truth_.write(folder, source_);
+    truth_.finish(source_);
     result.drive = source_.drive_counts();
     result.metrics = path_.write(folder, source_, result.drive);
     if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));

@@ -320,6 +320,35 @@ TEST(WriteObservations, WritesWhatReadObservationsReads) {
   expect_same_log(read.log, whole(kSample));
 }
 
+TEST(ObservationFile, IsTheFileOfWriteObservations) {
+  const test::TempFolder folder;
+  const std::vector<double> values = test::random_doubles(30'000, 2);
+  for (const bool flags : {false, true}) {
+    for (const bool ends_empty : {false, true}) {
+      ObservationLog log(flags, flags);
+      const auto name = std::string(flags ? "flags" : "plain") + (ends_empty ? "_empty" : "");
+      ObservationFile file(folder / name, flags, flags);
+      std::vector<Observation> frame;
+      const auto add = [&](std::uint32_t iteration) {
+        log.add_frame(iteration, frame);
+        file.add_frame(iteration, frame);
+        frame.clear();
+      };
+      for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+        frame.push_back({i % 7 == 0 ? kNoLandmark : i, {values[i], values[i + 1], values[i + 2]}, i % 4});
+        if (i % 5 == 0) add(static_cast<std::uint32_t>(i));
+        if (i % 50 == 0) add(static_cast<std::uint32_t>(i + 1));
+      }
+      frame.resize(ends_empty ? 0 : 1);
+      add(99'000);
+      file.close();
+      EXPECT_EQ(read_file(folder / name), print_observations(log)) << name;
+    }
+  }
+  ObservationFile(folder / "none", true, false).close();
+  EXPECT_EQ(read_file(folder / "none"), print_observations(ObservationLog(true)));
+}
+
 TEST(ReadObservations, NamesAMissingFile) {
   const test::TempFolder folder;
   const auto error = error_of([&] { read_observations(folder / "none.csv"); });

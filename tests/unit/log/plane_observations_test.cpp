@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
+#include "base/file.hpp"
 #include "log/true_planes.hpp"
 #include "support/errors.hpp"
 #include "support/random_doubles.hpp"
+#include "support/temp_folder.hpp"
 
 namespace hallway::log {
 namespace {
@@ -103,6 +106,31 @@ TEST(ObservedPlanes, NeedNoIdentities) {
   const ReadPlaneObservations back = parse(text);
   EXPECT_FALSE(back.log.has_identities());
   EXPECT_EQ(back.log.frame(0)[0].true_plane, kNoLandmark);
+}
+
+TEST(ObservedPlanes, AFileThatGrowsIsTheSameFile) {
+  const test::TempFolder folder;
+  constexpr std::uint32_t kFrames = 1000;  // more bytes than are written at once
+  for (const std::uint32_t first_hull : {0u, 700u, kFrames}) {
+    for (const bool identities : {false, true}) {
+      const auto name = std::to_string(first_hull) + (identities ? "_ids" : "");
+      PlaneObservationLog log(identities);
+      ObservedPlaneFile file(folder / name, identities);
+      for (std::uint32_t i = 0; i < kFrames; ++i) {
+        std::vector<PlaneObservation> seen;
+        for (std::uint32_t k = 0; k < i % 3; ++k)
+          seen.push_back(random_plane(i % 5 == 0 ? kNoLandmark : i, 3 * i + k));
+        if (i >= first_hull && !seen.empty()) seen[0].hull_m = {{0, 0, 1e-7}, {1, -2, 5}, {7, 8, 9.5}};
+        log.add_frame(i, seen);
+        file.add_frame(i, seen);
+      }
+      file.close();
+      EXPECT_EQ(read_file(folder / name), print_observed_planes(log)) << name;
+      EXPECT_FALSE(std::filesystem::exists(folder / (name + ".without_hulls")));
+    }
+  }
+  ObservedPlaneFile(folder / "none", true).close();
+  EXPECT_EQ(read_file(folder / "none"), print_observed_planes(PlaneObservationLog(true)));
 }
 
 TEST(ObservedPlanes, AreToldFromPointsByTheirHeader) {
