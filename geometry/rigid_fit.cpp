@@ -7,30 +7,38 @@
 namespace hallway {
 namespace {
 
-/// `weight_of(i)` is the weight of pair i.
-template <typename WeightOf>
-std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec3> to, WeightOf weight_of) {
-  if (from.size() != to.size()) throw std::invalid_argument("rigid_fit: the spans differ in length");
+/// `each(take)` calls `take(from, to, weight)` for each pair.
+template <typename Each>
+std::optional<Pose> weighted_fit(const Each& each) {
   double weight = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) weight += weight_of(i);
+  each([&](const Vec3&, const Vec3&, double w) { weight += w; });
   if (!(weight > 0.0)) return std::nullopt;
   const double scale = 1.0 / weight;
   Vec3 from_mean = Vec3::Zero();
   Vec3 to_mean = Vec3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    from_mean += weight_of(i) * from[i];
-    to_mean += weight_of(i) * to[i];
-  }
+  each([&](const Vec3& from, const Vec3& to, double w) {
+    from_mean += w * from;
+    to_mean += w * to;
+  });
   from_mean *= scale;
   to_mean *= scale;
   Mat3 covariance = Mat3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    covariance += weight_of(i) * (to[i] - to_mean) * (from[i] - from_mean).transpose();
-  }
+  each([&](const Vec3& from, const Vec3& to, double w) {
+    covariance += w * (to - to_mean) * (from - from_mean).transpose();
+  });
   Pose fit;
   fit.q = nearest_rotation(covariance);
   fit.t = to_mean - fit.q * from_mean;
   return fit;
+}
+
+/// `weight_of(i)` is the weight of pair i.
+template <typename WeightOf>
+std::optional<Pose> weighted_fit(std::span<const Vec3> from, std::span<const Vec3> to, WeightOf weight_of) {
+  if (from.size() != to.size()) throw std::invalid_argument("rigid_fit: the spans differ in length");
+  return weighted_fit([&](const auto& take) {
+    for (std::size_t i = 0; i < from.size(); ++i) take(from[i], to[i], weight_of(i));
+  });
 }
 
 Quat rotation_of(const Singular& svd) {
@@ -44,6 +52,11 @@ Quat rotation_of(const Singular& svd) {
 
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to) {
   return weighted_fit(from, to, [](std::size_t) { return 1.0; });
+}
+
+std::optional<Pose> rigid_fit(const EachPair& each) {
+  return weighted_fit(
+      [&](const auto& take) { each([&](const Vec3& from, const Vec3& to) { take(from, to, 1.0); }); });
 }
 
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -14,6 +15,12 @@ namespace hallway {
 /// Collinear or coincident points leave part of the rotation open; the answer is then one of the best fits, the same on
 /// every call. Empty for no points. O(n). Umeyama 1991 without scale (Kabsch 1976).
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to);
+
+/// Calls its argument with each of some pairs of points, from and to, in their order; the same ones at each call.
+using EachPair = std::function<void(const std::function<void(const Vec3& from, const Vec3& to)>& take)>;
+
+/// The same, to the same bits, of points that need not be in memory: calls `each` three times.
+std::optional<Pose> rigid_fit(const EachPair& each);
 
 /// The same for the weighted sum of squared distances; weights >= 0, one for each pair. Empty where they sum to 0.
 std::optional<Pose> rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,

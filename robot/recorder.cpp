@@ -15,7 +15,7 @@ constexpr std::size_t kQueuedFrames = 128;
 
 Recorder::Recorder(const std::filesystem::path& folder, const std::optional<record::LogFacts>& log,
                    bool may_wait)
-    : folder_(folder), may_wait_(may_wait), tables_(folder), queue_(kQueuedFrames) {
+    : folder_(folder), may_wait_(may_wait), tables_(folder), epochs_(folder), queue_(kQueuedFrames) {
   if (log) {
     log_file_.emplace(folder / record::files::kLog);
     log_.emplace(*log_file_, *log);

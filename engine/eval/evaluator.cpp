@@ -98,9 +98,18 @@ std::uint64_t count_mapped(std::span<const MapLandmark> map) {
   return count;
 }
 
+std::vector<double> values_of(const SpillList<double>& list) {
+  std::vector<double> values;
+  values.reserve(list.size());
+  SpillList<double>::Reader reader(list);
+  while (const double* value = reader.next()) values.push_back(*value);
+  return values;
+}
+
 }  // namespace
 
-Evaluator::Evaluator(Truth truth) : truth_(std::move(truth)) {
+Evaluator::Evaluator(Truth truth, const std::filesystem::path& folder)
+    : truth_(std::move(truth)), path_(folder), refitted_path_(folder), wall_ms_(folder), cpu_ms_(folder) {
   if (truth_.has_identities && truth_.landmarks)
     motion_.emplace(*truth_.landmarks, kMovedNoises * truth_.noise_m);
   if (truth_.has_identities && truth_.planes) planes_.emplace(*truth_.planes);
@@ -169,8 +178,8 @@ Metrics Evaluator::metrics(std::span<const MapLandmark> online,
   if (refined) score_refitted_path(*refined, metrics);
   if (summary.last != summary.scored) T_map_world.reset();
   score_path(summary, scored, T_map_world, metrics);
-  metrics.iteration_ms = summarize(wall_ms_);
-  metrics.iteration_cpu_ms = summarize(cpu_ms_);
+  metrics.iteration_ms = summarize(values_of(wall_ms_));
+  metrics.iteration_cpu_ms = summarize(values_of(cpu_ms_));
   return metrics;
 }
 
@@ -193,7 +202,7 @@ void Evaluator::score_path(const PathParts::Summary& summary, const PartPath& pa
                                      path_.orientations_known() ? Judged::kAll : Judged::kPositions,
                                      Alignment::kRigid, truth_.noise_m);
   if (metrics.divergence && metrics.divergence->first)
-    metrics.diverged_at = path.pair_frames[*metrics.divergence->first];
+    metrics.diverged_at = path.frame_of(*metrics.divergence->first);
   metrics.verdict = judge(summary.poses, metrics.divergence);
   const TrajectoryScore& score = path.score;
   metrics.position_pairs = score.pairs();

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "base/spill_list.hpp"
 #include "eval/association_score.hpp"
 #include "eval/metrics.hpp"
 #include "eval/motion_score.hpp"
@@ -51,12 +53,13 @@ struct Truth {
   double noise_m = 0.0;  ///< of the sensor: the largest of its axes, standard deviation
 };
 
-/// Scores a run while it goes on. Memory grows with the iterations, the landmarks and the different pairs (map landmark,
-/// true landmark) that observations have joined, and with the points given where true poses are known (see RefittedPath); O(1)
-/// per observation.
+/// Scores a run while it goes on. Memory grows with the landmarks and the different pairs (map landmark, true landmark) that observations have joined, and,
+/// while metrics() runs, with 16 bytes an iteration. What grows with the iterations and the points given (see RefittedPath) is kept in a
+/// folder, if there is one; of maps of planes it is in memory. O(1) per observation.
 class Evaluator {
  public:
-  explicit Evaluator(Truth truth);
+  /// @param folder  see SpillList, as all that throws
+  explicit Evaluator(Truth truth, const std::filesystem::path& folder = {});
 
   /// Adds the next iteration. Throws Error{kInternal} if the truth has identities and the two spans differ in length.
   void add(const Iteration& iteration);
@@ -105,8 +108,8 @@ class Evaluator {
   std::optional<PlaneScore> planes_;   ///< where the truth has planes
   PathParts path_;
   RefittedPath refitted_path_;
-  std::vector<double> wall_ms_;
-  std::vector<double> cpu_ms_;
+  SpillList<double> wall_ms_;
+  SpillList<double> cpu_ms_;
 };
 
 }  // namespace hallway::eval

@@ -26,15 +26,17 @@ const char* name_of(PathVerdict verdict) {
   return kNames.at(static_cast<std::size_t>(verdict));
 }
 
-double extent_of(std::span<const Vec3> path) {
+double extent_of(const Sequence<Vec3>& path) {
   Vec3 mean = Vec3::Zero();
-  for (const Vec3& position : path) mean += position / static_cast<double>(path.size());
+  for (auto next = path.read(); const Vec3* position = next();)
+    mean += *position / static_cast<double>(path.size());
   double farthest = 0.0;
-  for (const Vec3& position : path) farthest = std::max(farthest, (position - mean).norm());
+  for (auto next = path.read(); const Vec3* position = next();)
+    farthest = std::max(farthest, (*position - mean).norm());
   return 2.0 * farthest;
 }
 
-std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, double extent_m, Judged judged,
+std::optional<Divergence> divergence_of(const Sequence<PosePair>& pairs, double extent_m, Judged judged,
                                         Alignment alignment, double noise_m) {
   constexpr std::size_t kFewestPairs = 3;
   if (pairs.size() < kFewestPairs) return std::nullopt;
@@ -46,18 +48,19 @@ std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, double 
   Quat q_world_map = Quat::Identity();
   if (judge_rotation) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const PosePair& pair : pairs)
-      sum += (pair.T_world_body.q * pair.T_map_body.q.conjugate()).toRotationMatrix();
+    for (auto next = pairs.read(); const PosePair* pair = next();)
+      sum += (pair->T_world_body.q * pair->T_map_body.q.conjugate()).toRotationMatrix();
     q_world_map = nearest_rotation(sum);
     divergence.worst_deg = 0.0;
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double error_m = (fit * pairs[i].T_map_body.t - pairs[i].T_world_body.t).norm();
+  std::size_t i = 0;
+  for (auto next = pairs.read(); const PosePair* pair = next(); ++i) {
+    const double error_m = (fit * pair->T_map_body.t - pair->T_world_body.t).norm();
     divergence.worst_m = worse_of(divergence.worst_m, error_m);
     bool over = !(error_m <= divergence.limit_m);
     if (judge_rotation) {
-      const double error_deg = 180.0 / std::numbers::pi *
-                               angle_between(pairs[i].T_world_body.q, q_world_map * pairs[i].T_map_body.q);
+      const double error_deg =
+          180.0 / std::numbers::pi * angle_between(pair->T_world_body.q, q_world_map * pair->T_map_body.q);
       divergence.worst_deg = worse_of(*divergence.worst_deg, error_deg);
       over = over || !(error_deg <= Divergence::kLimit_deg);
     }

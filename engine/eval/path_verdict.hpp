@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "eval/pose_pairs.hpp"
 
@@ -36,7 +35,7 @@ struct Divergence {
 };
 
 /// Twice the largest distance of a true position from the mean of all, metres; 0 of none.
-double extent_of(std::span<const Vec3> path);
+double extent_of(const Sequence<Vec3>& path);
 
 /// What is judged of a path: `kAll` for an estimate of the body whose true poses are given. Of other programs' files the bodies may differ
 /// by a turn that nobody states.
@@ -46,7 +45,7 @@ enum class Judged { kPositions, kAll };
 /// @param fit      kRigid, or kSimilarity for an estimate without scale
 /// @param noise_m  of the sensor, standard deviation; 0 where it is not known. Ten times as much is within the limit, for a robot at rest shakes
 /// @return empty for fewer than three pairs. O(n).
-std::optional<Divergence> divergence_of(std::span<const PosePair> pairs, double extent_m, Judged judged,
+std::optional<Divergence> divergence_of(const Sequence<PosePair>& pairs, double extent_m, Judged judged,
                                         Alignment fit = Alignment::kRigid, double noise_m = 0.0);
 
 /// How many frames have a pose, and where.

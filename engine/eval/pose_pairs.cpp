@@ -5,35 +5,35 @@
 
 #include "base/error.hpp"
 #include "eval/point_error.hpp"
-#include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
 namespace {
 
 constexpr std::size_t kFewestPairs = 3;
 
-PathFit fit_positions(std::span<const PosePair> pairs, bool with_scale) {
+PathFit fit_positions(const Sequence<PosePair>& pairs, bool with_scale) {
   if (pairs.size() < kFewestPairs)
     throw Error(ErrorCode::kBadInput,
                 fmt::format("a fit needs {} pairs of poses, and there are {}", kFewestPairs, pairs.size()));
   PathFit fit;
-  for (const PosePair& pair : pairs) {
-    fit.from += pair.T_map_body.t / static_cast<double>(pairs.size());
-    fit.to += pair.T_world_body.t / static_cast<double>(pairs.size());
+  for (auto next = pairs.read(); const PosePair* pair = next();) {
+    fit.from += pair->T_map_body.t / static_cast<double>(pairs.size());
+    fit.to += pair->T_world_body.t / static_cast<double>(pairs.size());
   }
-  std::vector<Vec3> from, to;
-  for (const PosePair& pair : pairs) {
-    from.push_back(pair.T_map_body.t - fit.from);
-    to.push_back(pair.T_world_body.t - fit.to);
-  }
-  fit.q = rigid_fit(from, to)->q;
-  fit.rotation_known = determine_a_pose(from) && determine_a_pose(to);
+  const Sequence<PointPair> centred =
+      transformed(pairs, [from = fit.from, to = fit.to](const PosePair& pair) {
+        return PointPair{pair.T_world_body.t - to, pair.T_map_body.t - from};
+      });
+  fit.q = rigid_fit_of(centred)->q;
+  fit.rotation_known =
+      determine_a_pose(transformed(centred, [](const PointPair& pair) { return pair.estimate; })) &&
+      determine_a_pose(transformed(centred, [](const PointPair& pair) { return pair.truth; }));
   if (!with_scale) return fit;
   double common = 0.0, spread = 0.0, reference_spread = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    common += to[i].dot(fit.q * from[i]);
-    spread += from[i].squaredNorm();
-    reference_spread += to[i].squaredNorm();
+  for (auto next = centred.read(); const PointPair* pair = next();) {
+    common += pair->truth.dot(fit.q * pair->estimate);
+    spread += pair->estimate.squaredNorm();
+    reference_spread += pair->truth.squaredNorm();
   }
   constexpr double kRest = 1e-18;  // of the other's spread: a billionth of its way
   const bool both_move = spread > kRest * reference_spread && reference_spread > kRest * spread;
@@ -47,13 +47,14 @@ PathFit fit_positions(std::span<const PosePair> pairs, bool with_scale) {
 
 }  // namespace
 
-PathFit align(std::span<const PosePair> pairs, Alignment alignment) {
+PathFit align(const Sequence<PosePair>& pairs, Alignment alignment) {
   if (pairs.empty()) throw Error(ErrorCode::kBadInput, "there are no pairs of poses");
   switch (alignment) {
     case Alignment::kNone:
       return {};
     case Alignment::kFirstPose: {
-      const PosePair& first = pairs.front();
+      const auto read = pairs.read();
+      const PosePair& first = *read();
       return {.scale = 1.0,
               .q = (first.T_world_body.q * first.T_map_body.q.conjugate()).normalized(),
               .from = first.T_map_body.t,

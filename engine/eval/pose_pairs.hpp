@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-#include <vector>
-
+#include "eval/sequence.hpp"
 #include "geometry/se3.hpp"
 
 namespace hallway::eval {
@@ -41,6 +39,6 @@ struct PathFit {
 
 /// The motion of that kind. Throws Error{kBadInput} where there is none: no pairs, fewer than three pairs for a fit, an estimate
 /// that does not move where its scale is asked for. O(n).
-PathFit align(std::span<const PosePair> pairs, Alignment alignment);
+PathFit align(const Sequence<PosePair>& pairs, Alignment alignment);
 
 }  // namespace hallway::eval

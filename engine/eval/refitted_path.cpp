@@ -2,9 +2,11 @@
 #include "eval/refitted_path.hpp"
 
 #include <unordered_map>
+#include <vector>
 
 #include "base/error.hpp"
 #include "eval/point_error.hpp"
+#include "geom/arrays.hpp"
 #include "geometry/rigid_fit.hpp"
 
 namespace hallway::eval {
@@ -32,13 +34,13 @@ void RefittedPath::add(const Vec3& true_position, std::span<const Vec3> points,
   if (!complete_) return;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (associations[i] != log::kNoLandmark && points[i].allFinite())
-      sights_.push_back({associations[i], points[i]});
+      sights_.push_back({associations[i], to_array(points[i])});
   }
-  frames_.push_back({true_position, sights_.size()});
+  frames_.push_back({to_array(true_position), sights_.size()});
   if (sights_.size() <= kMaxPoints) return;
   complete_ = false;
-  sights_ = {};
-  frames_ = {};
+  sights_.clear();
+  frames_.clear();
 }
 
 std::optional<RefittedPath::Error> RefittedPath::error(std::span<const log::MapLandmark> map) const {
@@ -47,27 +49,36 @@ std::optional<RefittedPath::Error> RefittedPath::error(std::span<const log::MapL
   for (const log::MapLandmark& landmark : map) {
     if (landmark.status == log::LandmarkStatus::kMapped) mapped.emplace(landmark.id, &landmark);
   }
-  std::vector<Vec3> truth;
-  std::vector<Vec3> estimate;
+  using Places = std::array<std::array<double, 3>, 2>;  // true and estimated
+  SpillList<Places> placed(folder_);
   Matches matches;
-  std::size_t next = 0;
-  for (const Frame& frame : frames_) {
+  std::uint64_t read = 0;
+  SpillList<Sight>::Reader sights(sights_);
+  SpillList<Frame>::Reader frames(frames_);
+  while (const Frame* frame = frames.next()) {
     matches.clear();
-    for (; next < frame.end; ++next) {
-      const auto found = mapped.find(sights_[next].landmark);
+    for (; read < frame->end; ++read) {
+      const Sight& sight = *sights.next();
+      const auto found = mapped.find(sight.landmark);
       if (found == mapped.end()) continue;
       const double n = static_cast<double>(found->second->observations);
-      matches.points.push_back(sights_[next].point);
+      matches.points.emplace_back(sight.point.data());
       matches.landmarks.emplace_back(found->second->position_m.data());
       matches.weights.push_back(n / (n + 1.0));
     }
     if (!determine_a_pose(matches.points) || !determine_a_pose(matches.landmarks)) continue;
     const std::optional<Pose> T_map_body = rigid_fit(matches.points, matches.landmarks, matches.weights);
-    if (!T_map_body) continue;
-    truth.push_back(frame.true_position);
-    estimate.push_back(T_map_body->t);
+    if (T_map_body) placed.push_back({frame->true_position, to_array(T_map_body->t)});
   }
-  return Error{truth.size(), aligned_rmse(truth, estimate)};
+  const Sequence<PointPair> pairs(placed.size(), [&] {
+    return [places = SpillList<Places>::Reader(placed), pair = PointPair()]() mutable -> const PointPair* {
+      const Places* next = places.next();
+      if (next == nullptr) return nullptr;
+      pair = {Vec3((*next)[0].data()), Vec3((*next)[1].data())};
+      return &pair;
+    };
+  });
+  return Error{placed.size(), aligned_rmse(pairs)};
 }
 
 }  // namespace hallway::eval

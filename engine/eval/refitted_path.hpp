@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
-#include <vector>
 
+#include "base/spill_list.hpp"
 #include "geometry/se3.hpp"
 #include "log/map_landmarks.hpp"
 
 namespace hallway::eval {
 
 /// The path as the map at the end shows it: each frame placed anew where its points, as the plugin associated them while the
-/// run went on, lie best on the landmarks of that map. Keeps the points until then: 32 bytes each, for at most kMaxPoints.
+/// run went on, lie best on the landmarks of that map. Keeps the points until then, for at most kMaxPoints: in a folder, if there is one.
 class RefittedPath {
  public:
+  /// @param folder  see SpillList, as all that throws
+  explicit RefittedPath(const std::filesystem::path& folder = {})
+      : folder_(folder), sights_(folder), frames_(folder) {}
+
   /// Above so many points nothing is kept and no error is known.
   static constexpr std::size_t kMaxPoints = std::size_t{1} << 23;
 
@@ -36,14 +42,15 @@ class RefittedPath {
  private:
   struct Sight {
     log::LandmarkId landmark = 0;
-    Vec3 point = Vec3::Zero();
+    std::array<double, 3> point{};
   };
   struct Frame {
-    Vec3 true_position = Vec3::Zero();
-    std::size_t end = 0;  // of its sights
+    std::array<double, 3> true_position{};
+    std::uint64_t end = 0;  // of its sights
   };
-  std::vector<Sight> sights_;
-  std::vector<Frame> frames_;
+  std::filesystem::path folder_;
+  SpillList<Sight> sights_;
+  SpillList<Frame> frames_;
   bool complete_ = true;
 };
 

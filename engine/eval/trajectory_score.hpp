@@ -3,27 +3,33 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
+#include <utility>
 
 #include "eval/consistency.hpp"
 #include "eval/metrics.hpp"
+#include "eval/point_error.hpp"
+#include "eval/pose_pairs.hpp"
+#include "eval/sequence.hpp"
 #include "geometry/se3.hpp"
 
 namespace hallway::eval {
 
-/// Compares true and estimated poses, paired by iteration.
+/// A covariance that is stated for the estimate of a pair of poses.
+struct StatedCovariance {
+  std::size_t pair = 0;                                                          ///< by index
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as hw_pose_output_t says
+};
+
+/// Compares true and estimated poses, paired by iteration. Each function reads them once or a few times, in memory that does not grow with them.
 class TrajectoryScore {
  public:
-  /// Adds an iteration that has both poses.
-  /// @param covariance  of the estimate's error, as hw_pose_output_t says, if it is told
-  void add(const Pose& T_world_body, const Pose& T_map_body,
-           const std::optional<Eigen::Matrix<double, 6, 6>>& covariance = std::nullopt);
+  TrajectoryScore() = default;
+  /// @param orientations_known  of the true poses; false: there are neither rotation errors nor a frame of the first pose
+  /// @param stated              by increasing pair
+  TrajectoryScore(Sequence<PosePair> pairs, bool orientations_known, Sequence<StatedCovariance> stated = {})
+      : pairs_(std::move(pairs)), orientations_known_(orientations_known), stated_(std::move(stated)) {}
 
-  /// Adds an iteration whose true orientation is not known: from then on there are neither rotation errors nor a frame of
-  /// the first pose.
-  void add_position(const Vec3& true_position, const Pose& T_map_body);
-
-  std::size_t pairs() const { return truth_.size(); }
+  std::size_t pairs() const { return pairs_.size(); }
   /// T_world_map that lets the first estimate coincide with the truth; empty without pairs or without orientations.
   std::optional<Pose> first_pose_frame() const;
   /// Position errors, metres; `aligned` (from three pairs on) is the absolute trajectory error.
@@ -39,16 +45,14 @@ class TrajectoryScore {
   std::optional<double> position_final_m() const;
 
  private:
+  Sequence<PointPair> positions() const;
+  /// With unit quaternions.
+  Sequence<PosePair> poses() const;
+  double rotation_rmse(const Quat& q_world_map) const;
+
+  Sequence<PosePair> pairs_;
   bool orientations_known_ = true;
-  std::vector<Vec3> truth_;
-  std::vector<Vec3> estimate_;
-  std::vector<Quat> truth_q_;
-  std::vector<Quat> estimate_q_;
-  struct Stated {
-    std::size_t pair = 0;
-    Eigen::Matrix<double, 6, 6> covariance;
-  };
-  std::vector<Stated> stated_;
+  Sequence<StatedCovariance> stated_;
 };
 
 }  // namespace hallway::eval

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "log/csv_reader.hpp"
+#include "log/row_file.hpp"
 #include "record/files.hpp"
 
 namespace hallway::record {
@@ -33,18 +34,23 @@ void EpochTable::restart() {
 }
 
 void EpochTable::write(const std::filesystem::path& folder, std::span<const log::IdPair> joined) const {
+  if (rows_.empty()) return;
+  std::map<std::uint64_t, std::uint64_t> merged;
+  for (const log::IdPair& pair : joined) merged.try_emplace(first_ + pair.first, first_ + pair.second);
   const auto number = [&](const Row& row) {
-    const auto into = std::ranges::find_if(
-        joined, [&](const log::IdPair& pair) { return first_ + pair.first == row.epoch; });
-    return into == joined.end() ? row.epoch : first_ + into->second;
+    const auto into = merged.find(row.epoch);
+    return into == merged.end() ? row.epoch : into->second;
   };
-  const bool several = std::any_of(rows_.begin(), rows_.end(),
-                                   [&](const Row& row) { return number(row) != number(rows_.front()); });
+  const std::uint64_t first = number(rows_[0]);
+  bool several = false;
+  SpillList<Row>::Reader seen(rows_);
+  for (const Row* row = seen.next(); row != nullptr && !several; row = seen.next())
+    several = number(*row) != first;
   if (!several) return;
-  std::string text = "iteration,map_epoch\n";
-  for (const Row& row : rows_)
-    text += std::to_string(row.iteration) + "," + std::to_string(number(row)) + "\n";
-  write_file_atomically(folder / files::kMapEpochs, text);
+  log::RowFile file(folder / files::kMapEpochs, ',', "iteration,map_epoch");
+  SpillList<Row>::Reader rows(rows_);
+  while (const Row* row = rows.next()) file.next_row().whole(row->iteration).whole(number(*row)).end_row();
+  file.close();
 }
 
 std::size_t keep_scored_part(const std::filesystem::path& folder, std::vector<log::StampedPose>& trajectory) {

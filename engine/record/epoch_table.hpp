@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/spill_list.hpp"
 #include "host/output/outputs.hpp"
 #include "log/id_pairs.hpp"
 #include "log/tum.hpp"
@@ -18,6 +19,9 @@ namespace hallway::record {
 /// is one of an earlier instance. Written as map_epochs.csv of a run folder, a row for each row of trajectory.tum, where there are several parts.
 class EpochTable {
  public:
+  /// @param folder  see SpillList, as all that throws
+  explicit EpochTable(const std::filesystem::path& folder = {}) : rows_(folder) {}
+
   /// Takes the answer to a frame; iterations increase. @return the part that its pose is in; empty without a pose
   std::optional<std::uint64_t> add(std::uint32_t iteration, const host::Outputs& outputs);
   /// What is answered from now on is of a new instance with an empty map.
@@ -32,7 +36,7 @@ class EpochTable {
     std::uint32_t iteration = 0;
     std::uint64_t epoch = 0;
   };
-  std::vector<Row> rows_;
+  SpillList<Row> rows_;
   std::uint64_t first_ = 0;
   std::uint64_t largest_ = 0;
   std::uint64_t own_ = 0;  ///< the present instance's last number

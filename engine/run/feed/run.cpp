@@ -43,8 +43,9 @@ namespace fs = std::filesystem;
 class Tally {
  public:
   /// @param maps_planes  whether what the pipeline maps is planes
-  Tally(const Source& source, bool maps_planes)
-      : iterations_(source), evaluator_(truth_for(source, maps_planes)) {
+  /// @param folder  where what is scored at the end is kept
+  Tally(const Source& source, bool maps_planes, const fs::path& folder)
+      : iterations_(source), evaluator_(truth_for(source, maps_planes), folder) {
     if (evaluator_.planes() != nullptr) plane_truth_.emplace(source);
   }
 
@@ -232,12 +233,12 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   log::FileOutput log_file(folder / files::kLog);
   LogRecorder recorder(log_file, source, plan.manifest);
   record::AnswerTables tables(folder);
-  record::EpochTable epochs;
+  record::EpochTable epochs(folder);
   FoundTable found(folder);
   DriveRecord drive(folder, source);
   CommandComparison commands;
   InputTables inputs(folder, plan, source);
-  Tally tally(source, maps_planes(pipeline));
+  Tally tally(source, maps_planes(pipeline), folder);
   FrameFeed feed(source, pipeline, plan);
   EventView events(plan, feed, recorder);
   RunResult result;

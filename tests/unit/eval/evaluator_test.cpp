@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "eval/metrics_json.hpp"
 #include "support/errors.hpp"
+#include "support/temp_folder.hpp"
 
 namespace hallway::eval {
 namespace {
@@ -246,6 +251,45 @@ TEST(Evaluator, RefusesIdentitiesThatDoNotMatchTheObservations) {
   const auto error = test::error_of([&] { evaluator.add(seen({100}, {})); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::kInternal);
+}
+
+/// A long run in several parts, with covariances and points, given to an evaluator.
+Metrics metrics_of_long_run(Evaluator evaluator) {
+  Map map = kExactMap;
+  for (MapLandmark& landmark : map) landmark.observations = 100;
+  constexpr std::uint32_t kFrames = 5000;  // of which no list fits into one window
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    const Pose truth{from_yaw_pitch_roll(0.01 * i, 0, 0), {0.001 * i, std::sin(0.01 * i), 0.2}};
+    const Pose error{from_yaw_pitch_roll(1e-3 * (i % 7), 0, 0), {1e-3 * (i % 5), 1e-3 * (i % 3), 0}};
+    const std::vector<Vec3> points = {truth.inverse() * Vec3(0, 0, 0), truth.inverse() * Vec3(10, 0, 0),
+                                      truth.inverse() * Vec3(0, 10, 0)};
+    Iteration iteration;
+    iteration.T_world_body = truth;
+    if (i % 11 != 0) iteration.T_map_body = truth * error;
+    if (i % 3 != 0) iteration.pose_covariance = 1e-6 * (1 + i % 4) * Eigen::Matrix<double, 6, 6>::Identity();
+    iteration.map_epoch = i / 1000;
+    iteration.t_s = 0.1 * i;
+    iteration.associations = kAllMapped;
+    iteration.identities = kAllTrue;
+    iteration.points = points;
+    iteration.wall_ms = 1.0 + i % 13;
+    iteration.cpu_ms = 0.5 + i % 17;
+    evaluator.add(iteration);
+  }
+  const std::vector<JoinedEpoch> joined = {{1, 0}, {3, 0}};
+  evaluator.finish(joined);
+  return evaluator.metrics(map, map, joined);
+}
+
+TEST(Evaluator, AFolderChangesNoBit) {
+  const test::TempFolder folder;
+  const Metrics in_memory = metrics_of_long_run(Evaluator(triangle()));
+  const Metrics in_folder = metrics_of_long_run(Evaluator(triangle(), folder.path()));
+  EXPECT_EQ(to_json(in_folder).dump(), to_json(in_memory).dump());
+  EXPECT_EQ(in_folder.parts.count, 3u);
+  EXPECT_EQ(in_folder.position_refitted_pairs, 5000u);
+  EXPECT_GT(in_folder.pose_consistency.count(), 1000u);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace
