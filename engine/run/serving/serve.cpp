@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include "base/file.hpp"
 #include "eval/metrics_json.hpp"
 #include "eval/time_summary.hpp"
-#include "log/commands.hpp"
 #include "record/manifest.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
@@ -44,7 +41,8 @@ class Folder {
         log_file_(output_.working_path() / files::kLog),
         recorder_(log_file_, source, plan.manifest),
         drive_(output_.working_path(), source),
-        truth_(output_.working_path()) {
+        truth_(output_.working_path()),
+        path_(output_.working_path()) {
     write_attachments(output_.working_path(), plan.attachments);
   }
 
@@ -72,14 +70,13 @@ class Folder {
           stamp, {answer.command->linear_m_s, answer.command->angular_rad_s, answer.command->lateral_m_s});
   }
 
-  void finish(ServeResult& result, const std::vector<log::IterationCommand>& commands) {
+  void finish(ServeResult& result) {
     recorder_.finish();
     drive_.close();
     const std::filesystem::path& folder = output_.working_path();
     truth_.finish(source_);
     result.drive = source_.drive_counts();
-    result.metrics = path_.write(folder, source_, result.drive);
-    if (!commands.empty()) write_file_atomically(folder / files::kCommands, log::print_commands(commands));
+    result.metrics = path_.write(source_, result.drive);
     nlohmann::ordered_json manifest = plan_.manifest;
     manifest["sensors"] = record::print_sensors(source_.sensors());
     manifest["iterations"] = result.frames + result.frames_alone;
@@ -118,7 +115,7 @@ class Server {
       if (hooks_.progress) hooks_.progress(k + 1);
     }
     if (!plan_.lock_step && result_.frames > 0) {
-      wait_until([this] { return answered_.contains(result_.frames - 1); }, Clock::now() + kLastAnswer);
+      wait_until([this] { return answered_[result_.frames - 1]; }, Clock::now() + kLastAnswer);
     }
     take_answers();
     if (!plan_.lock_step && result_.frames > 0) obey();
@@ -156,6 +153,8 @@ class Server {
     }
     if (folder_) folder_->add_frame(k, frame_);
     times_.push_back(frame_.t_ns());
+    answered_.push_back(false);
+    commanded_.push_back(false);
     ++result_.frames;
     if (plan_.lock_step) {
       robot_.deliver(k, bytes, [this] { return stopped(); });
@@ -221,18 +220,24 @@ class Server {
       const auto k = static_cast<std::uint32_t>(answer.sequence);
       if (answer.status == HW_ANSWER_LATE) ++result_.late;
       if (answer.status == HW_ANSWER_FAILED) ++result_.failed;
-      if (answered_.insert(k).second && came->round_trip)
+      if (note(answered_[k], result_.answered) && came->round_trip)
         round_trips_ms_.push_back(std::chrono::duration<double, std::milli>(*came->round_trip).count());
       if (source_.is_closed_loop()) note_command(answer);
-      if (answer.command)
-        commands_[k] = {k, answer.command->linear_m_s, answer.command->angular_rad_s,
-                        answer.command->lateral_m_s};
+      if (answer.command) note(commanded_[k], result_.commands);
       if (folder_) folder_->add_answer(answer, times_[k]);
     }
   }
 
+  /// Sets a mark of a frame and counts it. @return whether it was not set before
+  static bool note(std::vector<bool>::reference mark, std::uint64_t& count) {
+    if (mark) return false;
+    mark = true;
+    ++count;
+    return true;
+  }
+
   void note_end() {
-    if (result_.frames == source_.iterations() && (!plan_.lock_step || answered_.size() == result_.frames)) {
+    if (result_.frames == source_.iterations() && (!plan_.lock_step || result_.answered == result_.frames)) {
       result_.end = ServeResult::End::kAllSent;
     } else if (robot_.gave_up()) {
       result_.end = ServeResult::End::kSilent;
@@ -242,13 +247,9 @@ class Server {
   }
 
   ServeResult finish() {
-    result_.answered = answered_.size();
-    result_.commands = commands_.size();
     result_.round_trip_ms = eval::summarize(std::move(round_trips_ms_));
     result_.counters = robot_.counters();
-    std::vector<log::IterationCommand> commands;
-    for (const auto& entry : commands_) commands.push_back(entry.second);
-    if (folder_) folder_->finish(result_, commands);
+    if (folder_) folder_->finish(result_);
     return result_;
   }
 
@@ -259,12 +260,12 @@ class Server {
   std::optional<Folder> folder_;
   ServeResult result_;
   SourceFrame frame_;
-  sim::DriveAnswer fresh_;                                   ///< what has come since the robot last obeyed
-  std::uint64_t newest_ = 0;                                 ///< the newest frame that a command came to
-  Clock::time_point start_;                                  ///< when the first frame was sent
-  std::vector<std::int64_t> times_;                          ///< of the frames that were sent
-  std::set<std::uint32_t> answered_;                         ///< frames
-  std::map<std::uint32_t, log::IterationCommand> commands_;  ///< the last word on each frame
+  sim::DriveAnswer fresh_;           ///< what has come since the robot last obeyed
+  std::uint64_t newest_ = 0;         ///< the newest frame that a command came to
+  Clock::time_point start_;          ///< when the first frame was sent
+  std::vector<std::int64_t> times_;  ///< of the frames that were sent
+  std::vector<bool> answered_;       ///< by frame
+  std::vector<bool> commanded_;      ///< by frame: whether an answer to it has a command
   std::vector<double> round_trips_ms_;
 };
 
