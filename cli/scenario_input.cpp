@@ -83,6 +83,8 @@ OpenedScenario open_scenario(const std::string& file, std::span<const Override> 
     inputs.push_back({scenario.robot_file.filename().string(), read_file(scenario.robot_file)});
     opened.attachments.push_back({run::files::kRobotFile, inputs.back().content});
   }
+  if (const auto& driven = scenario.robot.driven; driven && !driven->commands.empty())
+    inputs.push_back({driven->commands.filename().string(), read_file(driven->commands)});
   const fs::path folder = scenario.map_file.parent_path();
   for (const fs::path& model : opened.simulator->models().files) {
     inputs.push_back({model.lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string(),

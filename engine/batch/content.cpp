@@ -41,7 +41,7 @@ fs::path file_of(const fs::path& scenario, const Json& run, const char* key) {
   return {};
 }
 
-/// Where the input stands that run.json names: its first one is the cell's own; a map and a robot file stand where the scenario says, models beside the map, and what
+/// Where the input stands that run.json names: its first one is the cell's own; map, robot file and commands stand where the scenario says, models beside the map, and what
 /// belongs to a log beside that.
 fs::path place_of(const Cell& cell, const Json& run, std::size_t i) {
   std::error_code none;
@@ -50,9 +50,11 @@ fs::path place_of(const Cell& cell, const Json& run, std::size_t i) {
   if (fs::is_directory(own, none)) return own / name;
   if (i == 0) return own;
   if (run.at("command") != "run") return own.parent_path() / name;
-  const fs::path map = file_of(own, run, "map"), robot = file_of(own, run, "robot.file");
-  if (i == 2 && !robot.empty()) return robot;
-  return i == 1 ? map : map.parent_path() / name;
+  std::vector<fs::path> named{file_of(own, run, "map")};
+  for (const char* key : {"robot.file", "robot.commands"}) {
+    if (fs::path file = file_of(own, run, key); !file.empty()) named.push_back(std::move(file));
+  }
+  return i <= named.size() ? named[i - 1] : named.front().parent_path() / name;
 }
 
 bool inputs_are_the_same(const Cell& cell, const Json& run) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -76,6 +77,17 @@ TimedCommand read_row(RowReader& rows, std::size_t columns) {
 }
 
 }  // namespace
+
+CommandTable::CommandTable(std::vector<TimedCommand> commands) : commands_(std::move(commands)) {
+  if (commands_.empty()) throw Error(ErrorCode::kBadInput, "there are no commands");
+  std::int64_t last_ns = -1;
+  for (const TimedCommand& command : commands_) {
+    if (command.t_ns <= last_ns)
+      throw Error(ErrorCode::kBadInput,
+                  "a command at " + std::to_string(command.t_ns) + " ns comes after one that is not earlier");
+    last_ns = command.t_ns;
+  }
+}
 
 CommandTable CommandTable::read(const std::filesystem::path& file) {
   return parse(read_file(file), file.string());

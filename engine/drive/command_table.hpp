@@ -20,6 +20,8 @@ struct TimedCommand {
 /// Commands of a file. Each holds from its time until the next one's.
 class CommandTable {
  public:
+  /// Throws Error{kBadInput} for no commands, and for times that do not grow or are below 0.
+  explicit CommandTable(std::vector<TimedCommand> commands);
   /// From a CSV file with the header `t_ns,forward_m_s,angular_rad_s` or `t_ns,forward_m_s,angular_rad_s,lateral_m_s`. Times are whole numbers from 0 on and
   /// grow from row to row; the other numbers are finite. Lines may end with CR LF. Throws Error{kIo} if the file cannot be read, Error{kBadInput} with file,
   /// line and cause for anything else, and for a table without rows.
@@ -33,6 +35,8 @@ class CommandTable {
   Command at(std::int64_t t_ns) const;
 
  private:
+  CommandTable() = default;
+
   std::vector<TimedCommand> commands_;
 };
 

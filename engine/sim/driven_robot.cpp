@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "contact/patch.hpp"
+#include "sim/recorded_commands.hpp"
 
 namespace hallway::sim {
 namespace {
@@ -55,14 +56,14 @@ drive::Follower make_follower(const Scenario& scenario, const map::Path& path) {
 }
 
 /// Throws Error{kBadInput} for more commands in a period than a robot is moved by.
-drive::CommandTable read_commands(const std::filesystem::path& file, std::int64_t period_ns) {
-  drive::CommandTable table = drive::CommandTable::read(file);
+drive::CommandTable commands_of(const DrivenSpec& spec, std::int64_t period_ns) {
+  drive::CommandTable table = read_commands(spec.commands, spec.drive.latency_ns);
   const auto& commands = table.commands();
   for (std::size_t i = kMostCommands; i < commands.size(); ++i) {
     if (commands[i].t_ns - commands[i - kMostCommands].t_ns >= period_ns) continue;
     throw Error(ErrorCode::kBadInput,
                 "more than " + std::to_string(kMostCommands) + " commands within one period",
-                {.file = printable(file.string()), .line = static_cast<int>(i) + 2});
+                {.file = printable(spec.commands.string()), .line = static_cast<int>(i) + 2});
   }
   return table;
 }
@@ -81,7 +82,7 @@ DrivenRobot::DrivenRobot(const DrivenWorld& world, const Scenario& scenario, con
       wheels_(drive::wheel_count(spec_.drive.kind)) {
   world.put_at_start(robot_);
   if (spec_.by == DrivenBy::kPath) follower_.emplace(make_follower(scenario, path));
-  if (spec_.by == DrivenBy::kCommands) table_.emplace(read_commands(spec_.commands, period_ns_));
+  if (spec_.by == DrivenBy::kCommands) table_.emplace(commands_of(spec_, period_ns_));
   happen_until(0);
 }
 

@@ -18,7 +18,7 @@ struct DrivenSpec {
   DrivenBy by = DrivenBy::kPlugin;
   std::string plugin{};  ///< by kPlugin: the id of the one that drives; empty: the only one that can
   std::filesystem::path
-      commands{};  ///< by kCommands: a table (drive::CommandTable), usable from the current folder
+      commands{};  ///< by kCommands: as read_commands() reads it, usable from the current folder
   std::int64_t watchdog_ns = 200'000'000;  ///< how long the last command holds after a failure of the plugins
   std::int64_t command_timeout_ns = 0;     ///< how long it holds when no new one comes; 0: until the next one
   double look_ahead_m = 0.5;               ///< by kPath: of the pursuit

@@ -124,21 +124,44 @@ TEST(DriveRuns, EventsStandInTheTableTheLogAndTheReplay) {
   const TempFolder folder;
   const std::string scenario = source_folder() / "maps/office_events.toml";
   for (const char* name : {"a", "b"}) {
-    std::vector<std::string> arguments{"run", scenario, "--steps", "400", "--out", folder / name, "--quiet"};
+    std::vector<std::string> arguments{"run", scenario, "--steps", "600", "--out", folder / name, "--quiet"};
     if (name[0] == 'b') arguments.insert(arguments.end(), {"--in-process", "--threads", "4"});
     const Ended ended = hallway(arguments);
     ASSERT_EQ(ended.status, 0) << ended.err;
   }
   const std::vector<log::EventRow> events = log::read_events(folder / "a/events.csv");
-  ASSERT_EQ(events.size(), 4u) << "the kidnap comes after the last frame";
+  ASSERT_EQ(events.size(), 5u);
   EXPECT_EQ(events[0], (log::EventRow{10'000'000'000, "push", "0 m/s 0.8 m/s 1 rad/s for 0.5 s"}));
   EXPECT_EQ(events[2], (log::EventRow{30'000'000'000, "sensor_off", "eyes"}));
+  EXPECT_EQ(events[4], (log::EventRow{50'000'000'000, "kidnap", "to 18 7.6 0.5"}));
   for (const char* table : {"events.csv", "truth.tum", "drive.csv", "contacts.csv"})
     EXPECT_EQ(read_file(folder / "a" / table), read_file(folder / "b" / table)) << table;
   const Ended replayed =
       hallway({"replay", folder / "a/run.mcap", "--plugin", "wanderer", "--out", folder / "again"});
   ASSERT_EQ(replayed.status, 0) << replayed.err;
   EXPECT_EQ(read_file(folder / "again/events.csv"), read_file(folder / "a/events.csv"));
+}
+
+/// What a plugin drove once is driven again without it, from the run's log or table.
+TEST(DriveRuns, CommandsOfARunMoveTheRobotAsTheyDid) {
+  const TempFolder folder;
+  ASSERT_EQ(drive_office("wanderer", folder / "a").status, 0);
+  for (const char* file : {"run.mcap", "drive.csv"}) {
+    const fs::path out = folder / (std::string("again_") + file);
+    const Ended again = drive_office(
+        "wanderer", out,
+        {"--set", "robot.driven_by=commands", "--set", "robot.commands=" + (folder / "a" / file).string()});
+    ASSERT_EQ(again.status, 0) << again.err;
+    for (const char* same : {"truth.tum", "contacts.csv"})
+      EXPECT_EQ(read_file(out / same), read_file(folder / "a" / same)) << file << ": " << same;
+    EXPECT_EQ(causes_of(out).front(), CommandCause::kCommands);
+  }
+  folder.write("short.mcap", read_file(folder / "a/run.mcap").substr(0, 4000));
+  const Ended cut = drive_office(
+      "wanderer", folder / "cut",
+      {"--set", "robot.driven_by=commands", "--set", "robot.commands=" + (folder / "short.mcap").string()});
+  EXPECT_EQ(cut.status, 3);
+  EXPECT_NE(cut.err.find("short.mcap"), std::string::npos) << cut.err;
 }
 
 TEST(DriveRuns, ARobotFileIsNoMap) {
