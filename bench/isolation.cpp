@@ -37,7 +37,7 @@ std::unique_ptr<host::Stage> make(const std::string& plugin, bool isolated) {
     stage = std::make_unique<host::Plugin>(host::find_plugin(plugin, {}));
   }
   const host::SensorInfo sensor = host::point_sensor("eyes");
-  stage->activate({&sensor, 1});
+  stage->activate({sensor});
   return stage;
 }
 

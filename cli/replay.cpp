@@ -176,7 +176,7 @@ int replay(const ReplayOptions& options) {
   const sim::PluginLimits limits = apply(options.isolation, {});
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
-      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), source.sensors(),
+      host::Pipeline::unstarted(stages.specs, plugin_folders(options.plugin_path), source.activation(),
                                 plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, limits.on_failure);

@@ -62,7 +62,7 @@ int run_scenario(const RunOptions& options) {
   run::SimulatedSource source(*opened.simulator);
   const auto plugin_log = options.foxglove ? std::make_shared<run::PluginLog>() : nullptr;
   host::Pipeline pipeline =
-      host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), source.sensors(),
+      host::Pipeline::unstarted(scenario.pipeline, plugin_folders(options.plugin_path), source.activation(),
                                 plugin_log ? plugin_log->sink(print_plugin_log) : print_plugin_log,
                                 isolation_of(options.isolation, scenario.limits));
   std::vector<record::Failure> start_failures = record::start_plugins(pipeline, scenario.limits.on_failure);

@@ -50,7 +50,9 @@ void check_plugin(Findings& findings, const host::StageSpec& spec, const Surroun
   note_problem(findings, [&] {
     const auto isolation = surroundings.isolation.value_or(host::Isolation{});
     if (findings.robot) {
-      host::Pipeline pipeline({spec}, surroundings.plugin_folders, findings.robot->sensors, surroundings.log,
+      const host::RobotInfo& robot = *findings.robot;
+      host::Pipeline pipeline({spec}, surroundings.plugin_folders,
+                              host::Activation{robot.sensors, robot.drive, robot.body}, surroundings.log,
                               isolation);
       findings.plugins.push_back(pipeline.stage(0).info().id + " " + pipeline.stage(0).info().version);
       return;

@@ -40,7 +40,8 @@ class Session {
     driver_.open(config.driver.settings, config.folder());
     robot_ = driver_.describe();
     timing_ = timing_of(config, robot_);
-    pipeline_.emplace(config.pipeline, surroundings.plugin_folders, robot_.sensors, surroundings.log,
+    pipeline_.emplace(config.pipeline, surroundings.plugin_folders,
+                      host::Activation{robot_.sensors, robot_.drive, robot_.body}, surroundings.log,
                       surroundings.isolation);
     result_.manifest = record::make_manifest(facts_of(config, timing_), *pipeline_);
     result_.manifest["driver"] = print_driver(config, driver_);
@@ -69,7 +70,7 @@ class Session {
   std::optional<record::LogFacts> log_facts() const {
     if (!config_.record) return std::nullopt;
     return record::LogFacts{.manifest = result_.manifest,
-                            .sensors = robot_.sensors,
+                            .activation = {robot_.sensors, robot_.drive, robot_.body},
                             .period_ns = timing_.period_ns,
                             .has_identities = false};
   }

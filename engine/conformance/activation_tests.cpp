@@ -51,6 +51,7 @@ void skips_unknown_sensors(const Subject& subject) {
   hw_sensor_info_t unknown = sensors.front();
   unknown.id = static_cast<std::uint32_t>(sensors.size());
   unknown.kind = 4711;
+  unknown.intrinsics = &unknown;  // a struct that begins with its size
   hw_sensor_info_t last = unknown;
   last.id = unknown.id + 1;
   last.kind = UINT32_MAX;

@@ -51,6 +51,16 @@ void takes_a_larger_activation(const Subject& subject) {
 void takes_a_larger_sensor(const Subject& subject) {
   compare(subject, "a larger hw_sensor_info_t changes the answer", {.sensor_growth = kGrowth});
 }
+void takes_a_larger_drive(const Subject& subject) {
+  compare(subject, "a larger hw_drive_info_t changes the answer", {.drive_growth = kGrowth});
+}
+void takes_a_larger_body(const Subject& subject) {
+  compare(subject, "a larger hw_body_info_t changes the answer", {.body_growth = kGrowth});
+}
+void takes_larger_intrinsics(const Subject& subject) {
+  compare(subject, "larger intrinsics (hw_encoder_info_t, ...) change the answer",
+          {.intrinsics_growth = kGrowth});
+}
 void takes_a_larger_host(const Subject& subject) {
   compare(subject, "a larger hw_host_t changes the answer", {}, {.growth = kGrowth});
 }
@@ -91,6 +101,14 @@ constexpr Test kGrowthTests[] = {
      takes_a_larger_activation},
     {"grown-sensor", "A hw_sensor_info_t of a later version, which is larger, is read as today's.",
      takes_a_larger_sensor},
+    {"grown-drive", "A hw_drive_info_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_drive},
+    {"grown-body", "A hw_body_info_t of a later version, which is larger, is read as today's.",
+     takes_a_larger_body},
+    {"grown-intrinsics",
+     "Intrinsics of a sensor (hw_encoder_info_t, ...) of a later version, which are larger, are read as "
+     "today's.",
+     takes_larger_intrinsics},
     {"grown-request", "A hw_report_request_t of a later version, which is larger, is read as today's.",
      takes_a_larger_request},
     {"grown-host", "A hw_host_t of a later version, which is larger, is read as today's.",

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstring>
 #include <new>
 
@@ -131,20 +132,72 @@ const hw_frame_t& InputMemory::put_frame(const Frame& frame, const InputShape& s
   return put(placed, shape.frame_growth, shape);
 }
 
-const hw_activation_t& InputMemory::put_activation(const std::vector<hw_sensor_info_t>& sensors,
-                                                   const InputShape& shape) {
-  std::vector<const hw_sensor_info_t*> pointers;
-  for (hw_sensor_info_t sensor : sensors) {
-    const std::string name = sensor.name;
-    blocks_.push_back(std::make_unique<Block>(name.size() + 1, shape.tight));
-    sensor.name =
-        static_cast<const char*>(std::memcpy(blocks_.back()->data(), name.c_str(), name.size() + 1));
-    sensor.reserved = shape.reserved;
-    pointers.push_back(&put(sensor, shape.sensor_growth, shape));
+template <typename T>
+const T& InputMemory::put_beginning(const T& value, std::size_t bytes, const InputShape& shape) {
+  blocks_.push_back(std::make_unique<Block>(bytes, shape.tight));
+  void* placed = std::memcpy(blocks_.back()->data(), &value, bytes);
+  store(placed, static_cast<std::uint32_t>(bytes));
+  return *static_cast<const T*>(placed);
+}
+
+const char* InputMemory::put_text(const char* text, const InputShape& shape) {
+  const std::size_t bytes = std::strlen(text) + 1;
+  blocks_.push_back(std::make_unique<Block>(bytes, shape.tight));
+  return static_cast<const char*>(std::memcpy(blocks_.back()->data(), text, bytes));
+}
+
+const void* InputMemory::put_intrinsics(const hw_sensor_info_t& sensor, const InputShape& shape) {
+  const auto put_parts = [&](auto info, auto member, auto at_part) {
+    const auto* first = static_cast<const std::byte*>(static_cast<const void*>(at_part(&info, 0)));
+    const std::uint32_t bytes = info.stride;
+    info.stride += shape.stride_growth;
+    blocks_.push_back(std::make_unique<Block>(info.count * info.stride, shape.tight));
+    void* parts = blocks_.back()->data();
+    for (std::uint64_t i = 0; i < info.count; ++i)
+      std::memcpy(at(parts, i * info.stride), first + i * bytes, bytes);
+    info.*member = parts;
+    return &put(info, shape.intrinsics_growth, shape);
+  };
+  if (sensor.intrinsics == nullptr) return nullptr;
+  if (const hw_encoder_info_t* encoder = hw_encoder_info_of(&sensor))
+    return put_parts(*encoder, &hw_encoder_info_t::wheels, hw_encoder_wheel_at);
+  if (const hw_bump_info_t* bump = hw_bump_info_of(&sensor)) {
+    const auto* placed = put_parts(*bump, &hw_bump_info_t::zones, hw_bump_zone_info_at);
+    for (std::uint64_t i = 0; i < placed->count; ++i) {
+      auto* zone = const_cast<hw_bump_zone_info_t*>(hw_bump_zone_info_at(placed, i));
+      zone->name = put_text(zone->name, shape);
+    }
+    return placed;
   }
+  blocks_.push_back(std::make_unique<Block>(kUnknownPayloadBytes, shape.tight));
+  return std::memcpy(blocks_.back()->data(), &kUnknownPayloadBytes, sizeof kUnknownPayloadBytes);
+}
+
+const hw_sensor_info_t* InputMemory::put_sensor(hw_sensor_info_t sensor, const InputShape& shape) {
+  sensor.size = sizeof sensor;
+  sensor.name = put_text(sensor.name, shape);
+  sensor.reserved = shape.reserved;
+  if (shape.first_version) return &put_beginning(sensor, offsetof(hw_sensor_info_t, intrinsics), shape);
+  sensor.intrinsics = put_intrinsics(sensor, shape);
+  return &put(sensor, shape.sensor_growth, shape);
+}
+
+const hw_body_info_t* InputMemory::put_body(hw_body_info_t body, const InputShape& shape) {
+  if (body.n_corners > 0)
+    body.corners = put_list(std::vector<double>(body.corners, hw_body_corner(&body, body.n_corners)), shape);
+  return &put(body, shape.body_growth, shape);
+}
+
+const hw_activation_t& InputMemory::put_activation(const std::vector<hw_sensor_info_t>& sensors,
+                                                   const InputShape& shape, const RobotFacts& robot) {
+  std::vector<const hw_sensor_info_t*> pointers;
+  for (const hw_sensor_info_t& sensor : sensors) pointers.push_back(put_sensor(sensor, shape));
   hw_activation_t activation{};
   activation.n_sensors = static_cast<std::uint32_t>(pointers.size());
   activation.sensors = pointers.empty() ? nullptr : put_list(pointers, shape);
+  if (shape.first_version) return put_beginning(activation, offsetof(hw_activation_t, drive), shape);
+  if (robot.drive) activation.drive = &put(*robot.drive, shape.drive_growth, shape);
+  if (robot.body) activation.body = put_body(*robot.body, shape);
   return put(activation, shape.activation_growth, shape);
 }
 

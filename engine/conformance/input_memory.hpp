@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "conformance/ordinary_robot.hpp"
 #include "host/samples/payload.hpp"
 
 namespace hallway::conformance {
@@ -39,6 +40,10 @@ struct InputShape {
   std::uint32_t payload_growth = 0;     ///< the payload of a sample
   std::uint32_t activation_growth = 0;  ///< hw_activation_t
   std::uint32_t sensor_growth = 0;      ///< hw_sensor_info_t
+  std::uint32_t drive_growth = 0;       ///< hw_drive_info_t
+  std::uint32_t body_growth = 0;        ///< hw_body_info_t
+  std::uint32_t intrinsics_growth = 0;  ///< hw_encoder_info_t, hw_bump_info_t
+  bool first_version = false;           ///< hw_activation_t and hw_sensor_info_t end as in version 1.0
   std::uint32_t stride_growth = 0;      ///< from one element of a sample to the next, where there is a stride
   std::uint32_t reserved = 0;           ///< what members called `reserved` are
   bool tight = false;                   ///< see Block
@@ -70,9 +75,9 @@ class InputMemory {
  public:
   /// The frame that stands in this memory.
   const hw_frame_t& put_frame(const Frame& frame, const InputShape& shape = {});
-  /// The activation that stands in this memory. `sensors` and their names are copied.
-  const hw_activation_t& put_activation(const std::vector<hw_sensor_info_t>& sensors,
-                                        const InputShape& shape = {});
+  /// The activation that stands in this memory. `sensors` and what they point to are copied.
+  const hw_activation_t& put_activation(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape,
+                                        const RobotFacts& robot);
   void protect(int protection) const;
 
  private:
@@ -83,6 +88,13 @@ class InputMemory {
   /// A payload with its arrays. `payload` is as its row says.
   const void* put_payload(const host::SampleKind& kind, const void* payload, const InputShape& shape);
   const void* put_points(const Reading& reading, const InputShape& shape);
+  /// The first `bytes` of a struct, whose `size` says so.
+  template <typename T>
+  const T& put_beginning(const T& value, std::size_t bytes, const InputShape& shape);
+  const char* put_text(const char* text, const InputShape& shape);
+  const void* put_intrinsics(const hw_sensor_info_t& sensor, const InputShape& shape);
+  const hw_sensor_info_t* put_sensor(hw_sensor_info_t sensor, const InputShape& shape);
+  const hw_body_info_t* put_body(hw_body_info_t body, const InputShape& shape);
   const hw_sample_t* put_reading(const Reading& reading, const Frame& frame, const InputShape& shape);
 
   std::vector<std::unique_ptr<Block>> blocks_;

@@ -113,8 +113,9 @@ const hw_params_2_t* Instance::parameters_2() {
   return params;
 }
 
-Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape) {
-  const hw_activation_t& activation = activation_.put_activation(sensors, shape);
+Ended Instance::activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape,
+                         const RobotFacts& robot) {
+  const hw_activation_t& activation = activation_.put_activation(sensors, shape, robot);
   const Ended activated = ended("activate", [&](hw_error_t* error) {
     return plugin_.vtable->activate(plugin_.self, &activation, error);
   });

@@ -80,7 +80,9 @@ class Instance {
 
   /// Its ordinary sensors and frames.
   const Walk& ordinary() const { return walk_; }
-  Ended activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape = {});
+  /// For a robot that is the ordinary one, where nothing else is said.
+  Ended activate(const std::vector<hw_sensor_info_t>& sensors, const InputShape& shape = {},
+                 const RobotFacts& robot = ordinary_robot());
   /// With the ordinary sensors. Throws Failed where they are refused, and what Walk::sensors() throws.
   void activate();
   void deactivate();

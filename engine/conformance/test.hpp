@@ -68,6 +68,7 @@ std::span<const Test> life_cycle_tests();
 std::span<const Test> parameter_tests();
 std::span<const Test> parameter_2_tests();
 std::span<const Test> activation_tests();
+std::span<const Test> robot_tests();
 std::span<const Test> frame_tests();
 std::span<const Test> input_tests();
 std::span<const Test> growth_tests();

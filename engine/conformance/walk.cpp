@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "conformance/loaded_library.hpp"
+#include "conformance/ordinary_robot.hpp"
 #include "conformance/test.hpp"
 #include "host/samples/example.hpp"
 
@@ -81,6 +82,8 @@ std::vector<hw_sensor_info_t> Walk::sensors(std::uint32_t first_id) const {
     sensor.min_range_m = 0.1;
     sensor.max_range_m = 30.0;
     for (double& noise : sensor.noise_m) noise = 0.01;
+    sensor.size = sizeof sensor;
+    sensor.intrinsics = ordinary_intrinsics(kind->kind);
     sensors.push_back(sensor);
   }
   return sensors;

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "host/stage.hpp"
+#include "host/sensor_info.hpp"
 
 namespace hallway::host {
 
-/// Copies what every form of a sensor's facts has, but for its name: SensorInfo, that of the ABI, that of a datagram.
+/// Copies what every form of a sensor's facts has, but for its name and its intrinsics: SensorInfo, that of the ABI, that of a datagram.
 template <typename From, typename To>
 void copy_sensor_facts(const From& from, To& to) {
   to.id = from.id;
@@ -20,15 +20,6 @@ void copy_sensor_facts(const From& from, To& to) {
   to.min_range_m = from.min_range_m;
   to.max_range_m = from.max_range_m;
   std::ranges::copy(from.noise_m, to.noise_m);
-}
-
-/// A sensor's facts as the ABI has them; the name stays that of `sensor`.
-inline hw_sensor_info_t c_sensor(const SensorInfo& sensor) {
-  hw_sensor_info_t info{};
-  info.size = sizeof info;
-  info.name = sensor.name.c_str();
-  copy_sensor_facts(sensor, info);
-  return info;
 }
 
 }  // namespace hallway::host

@@ -23,20 +23,19 @@ bool is_kept_out(const ParameterSetting& setting, std::span<const Parameter> par
 }  // namespace
 
 Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
-                   std::vector<SensorInfo> sensors, LogSink log, std::optional<Isolation> isolation)
-    : Pipeline(unstarted(std::move(stages), std::move(folders), std::move(sensors), std::move(log),
+                   Activation activation, LogSink log, std::optional<Isolation> isolation)
+    : Pipeline(unstarted(std::move(stages), std::move(folders), std::move(activation), std::move(log),
                          std::move(isolation))) {
   start();
 }
 
 Pipeline Pipeline::unstarted(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
-                             std::vector<SensorInfo> sensors, LogSink log,
-                             std::optional<Isolation> isolation) {
+                             Activation activation, LogSink log, std::optional<Isolation> isolation) {
   if (stages.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
   Pipeline pipeline;
   pipeline.specs_ = std::move(stages);
   pipeline.folders_ = std::move(folders);
-  pipeline.sensors_ = std::move(sensors);
+  pipeline.activation_ = std::move(activation);
   pipeline.log_ = std::move(log);
   pipeline.isolation_ = std::move(isolation);
   return pipeline;
@@ -90,7 +89,7 @@ void Pipeline::prepare_stages() {
 
 void Pipeline::activate_stages() {
   for (std::size_t i = 0; i < stages_.size(); ++i) {
-    stages_[i]->activate(sensors_);
+    stages_[i]->activate(activation_);
     note_values(i);  // what it has taken from the sensors
   }
 }
@@ -113,7 +112,7 @@ void Pipeline::note_values(std::size_t stage) {
 void Pipeline::check_kinds() const {
   std::vector<PluginInfo> plugins;
   for (const StageFacts& plugin : facts_) plugins.push_back(plugin.info);
-  host::check_kinds(plugins, sensors_);
+  host::check_kinds(plugins, activation_.sensors);
 }
 
 /// Whether a plugin takes samples of a kind that one before it gives.

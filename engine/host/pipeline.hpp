@@ -48,13 +48,12 @@ class Pipeline {
   /// sample that one needs is given by a sensor or by a plugin before it (check_kinds()). Throws what find_plugin(), Plugin and IsolatedPlugin throw, and Error{kBadInput} if `stages` is empty.
   /// @param isolation  unset: the plugins run in this process. Set: each has a process of its own, and what the kernel
   ///                   does not keep them from is logged once, as a warning
-  Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
-           std::vector<SensorInfo> sensors, LogSink log = {}, std::optional<Isolation> isolation = {});
+  Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders, Activation activation,
+           LogSink log = {}, std::optional<Isolation> isolation = {});
 
   /// The same, but starts nothing: restart() does.
   static Pipeline unstarted(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
-                            std::vector<SensorInfo> sensors, LogSink log = {},
-                            std::optional<Isolation> isolation = {});
+                            Activation activation, LogSink log = {}, std::optional<Isolation> isolation = {});
 
   /// Whether the last start brought all plugins to activation.
   bool started() const { return started_; }
@@ -113,7 +112,7 @@ class Pipeline {
 
   std::vector<StageSpec> specs_;
   std::vector<std::filesystem::path> folders_;
-  std::vector<SensorInfo> sensors_;
+  Activation activation_;
   LogSink log_;
   std::optional<Isolation> isolation_;
   bool warned_ = false;

@@ -12,7 +12,7 @@
 
 #include "base/origin.hpp"
 #include "base/text.hpp"
-#include "host/c_sensor.hpp"
+#include "host/c_activation.hpp"
 #include "host/load/error_text.hpp"
 #include "host/load/load_step.hpp"
 #include "host/text_parameter.hpp"
@@ -218,17 +218,10 @@ void Plugin::set_parameter(std::string_view name, std::string_view value, const 
   }
 }
 
-void Plugin::activate(std::span<const SensorInfo> sensors) {
-  std::vector<hw_sensor_info_t> infos;
-  std::vector<const hw_sensor_info_t*> pointers;
-  for (const SensorInfo& sensor : sensors) infos.push_back(c_sensor(sensor));
-  for (const hw_sensor_info_t& sensor : infos) pointers.push_back(&sensor);
-  hw_activation_t activation{};
-  activation.size = sizeof activation;
-  activation.n_sensors = static_cast<std::uint32_t>(pointers.size());
-  activation.sensors = pointers.data();
+void Plugin::activate(const Activation& facts) {
+  const CActivation activation(facts);
   const hw_status_t status =
-      guarded("activate", [&] { return plugin_.vtable->activate(plugin_.self, &activation, &error_); });
+      guarded("activate", [&] { return plugin_.vtable->activate(plugin_.self, &activation.get(), &error_); });
   if (status != HW_OK) {
     fail(is_refusal(status) ? ErrorCode::kBadInput : ErrorCode::kPluginFault, "activate",
          error_text(error_, status));

@@ -29,7 +29,7 @@ class Plugin final : public Stage {
   std::string parameter_text(std::size_t index) override;
   bool parameter_is_from_sensor(std::size_t index) override;
   void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) override;
-  void activate(std::span<const SensorInfo> sensors) override;
+  void activate(const Activation& facts) override;
   void reset() override;
   std::size_t capacity() const override { return 1; }
   using Stage::submit;

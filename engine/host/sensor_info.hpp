@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host/intrinsics.hpp"
+
 namespace hallway::host {
 
 /// What is known of one sensor; see hw_sensor_info_t. A number that is not known is NaN.
@@ -20,6 +22,7 @@ struct SensorInfo {
   double max_range_m = kUnknown;
   double noise_m[3] = {kUnknown, kUnknown,
                        kUnknown};  ///< standard deviation along x, y, z of the sensor's frame
+  Intrinsics intrinsics{};         ///< fits the kind
 
   static constexpr double kUnknown = __builtin_nan("");
 };

@@ -11,10 +11,10 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "host/activation.hpp"
 #include "host/load/plugin_info.hpp"
 #include "host/output/outputs.hpp"
 #include "host/parameter.hpp"
-#include "host/sensor_info.hpp"
 
 namespace hallway::host {
 
@@ -58,7 +58,7 @@ class Stage {
   /// Makes it ready for frames. Throws Error{kBadInput} with the plugin's reason where it does not accept its
   /// parameters or sensors (HW_ERROR_ARGUMENT, HW_ERROR_RANGE, HW_ERROR_UNSUPPORTED), else
   /// PluginFailure.
-  virtual void activate(std::span<const SensorInfo> sensors) = 0;
+  virtual void activate(const Activation& facts) = 0;
   /// Forgets the map, as if newly activated.
   virtual void reset() = 0;
 

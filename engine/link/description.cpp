@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
 #include "host/c_sensor.hpp"
+#include "link/description_parts.hpp"
 
 namespace hallway::link {
 namespace {
@@ -78,28 +79,57 @@ void check_mount(const host::SensorInfo& sensor) {
     bad(fmt::format("the mount of sensor {} is no pose", sensor.id));
 }
 
+void check_intrinsics(const host::SensorInfo& sensor) {
+  const std::string problem = host::problem_of_intrinsics(sensor);
+  if (!problem.empty()) bad(fmt::format("sensor {}: {}", sensor.id, problem));
+  if (const auto* bump = std::get_if<host::BumpIntrinsics>(&sensor.intrinsics)) {
+    for (const host::BumpZoneInfo& zone : bump->zones) check_name(zone.name);
+  }
+}
+
+void check_parts(const Description& description) {
+  if (description.drive) {
+    const std::string problem = host::problem_of(*description.drive);
+    if (!problem.empty()) bad("the drive: " + problem);
+  }
+  if (description.body) {
+    const std::string problem = host::problem_of(*description.body);
+    if (!problem.empty()) bad(problem);
+  }
+}
+
 void check(const Description& description) {
   if (description.period_ns < 0) bad("a period below 0");
   if (description.sensors.size() > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
   check_name(description.name);
+  check_parts(description);
   std::set<std::uint32_t> ids;
   for (const host::SensorInfo& sensor : description.sensors) {
     check_name(sensor.name);
     check_mount(sensor);
+    check_intrinsics(sensor);
     if (!ids.insert(sensor.id).second) bad(fmt::format("two sensors have the id {}", sensor.id));
   }
 }
 
+/// A struct of a message, and the bytes behind what `T` has, where it says how large it is.
+template <typename T>
+struct Taken {
+  T head{};
+  std::span<const std::byte> rest{};
+};
+
 /// Takes a struct that may be larger than `T`, where it says how large it is.
 template <typename T, bool kSized>
-T take_struct(AlignedByteReader& reader) {
+Taken<T> take_struct(AlignedByteReader& reader) {
   if constexpr (kSized) {
     AlignedByteReader ahead = reader;
     const auto size = ahead.get<std::uint32_t>();
     if (size < sizeof(T) || size % 8 != 0) bad(fmt::format("a size of {} bytes", size));
-    return load<T>(reader.take_raw(size).data());
+    const auto bytes = std::as_bytes(std::span(reader.take_raw(size)));
+    return {load<T>(bytes.data()), bytes.subspan(sizeof(T))};
   } else {
-    return reader.get<T>();
+    return {reader.get<T>(), {}};
   }
 }
 
@@ -108,17 +138,32 @@ Description read_parts(std::span<const std::byte> message) {
   AlignedByteReader reader(message);
   const auto robot = take_struct<typename Version::Robot, Version::kSized>(reader);
   Description description;
-  description.lock_step = (robot.flags & kLockStep) != 0;
-  description.period_ns = robot.period_ns;
+  description.lock_step = (robot.head.flags & kLockStep) != 0;
+  description.period_ns = robot.head.period_ns;
+  read_robot_parts(robot.rest, description);
   description.name = reader.get_text();
-  if (robot.sensors > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
-  for (std::uint32_t i = 0; i < robot.sensors; ++i) {
+  if (robot.head.sensors > kMaxSensors) bad(fmt::format("more than {} sensors", kMaxSensors));
+  for (std::uint32_t i = 0; i < robot.head.sensors; ++i) {
     host::SensorInfo& sensor = description.sensors.emplace_back();
-    host::copy_sensor_facts(take_struct<typename Version::Sensor, Version::kSized>(reader), sensor);
+    const auto taken = take_struct<typename Version::Sensor, Version::kSized>(reader);
+    host::copy_sensor_facts(taken.head, sensor);
+    read_intrinsics(taken.rest, sensor);
     sensor.name = reader.get_text();
   }
   reader.expect_end();
   return description;
+}
+
+/// Puts a struct, with `rest` behind it where it says how large it is.
+template <typename Version, typename T>
+void put_struct(AlignedByteWriter& writer, T head, std::span<const std::byte> rest) {
+  if constexpr (Version::kSized) {
+    head.size = static_cast<std::uint32_t>(sizeof(T) + rest.size());
+    writer.put(head);
+    for (std::size_t at = 0; at < rest.size(); at += 8) writer.put(load<std::uint64_t>(rest.data() + at));
+  } else {
+    writer.put(head);
+  }
 }
 
 template <typename Version>
@@ -127,12 +172,12 @@ void put_parts(const Description& description, AlignedByteWriter& writer) {
   robot.flags = description.lock_step ? kLockStep : 0;
   robot.sensors = static_cast<std::uint32_t>(description.sensors.size());
   robot.period_ns = description.period_ns;
-  writer.put(robot);
+  put_struct<Version>(writer, robot, robot_parts_bytes(description));
   writer.put_text(description.name);
   for (const host::SensorInfo& sensor : description.sensors) {
     typename Version::Sensor bytes;
     host::copy_sensor_facts(sensor, bytes);
-    writer.put(bytes);
+    put_struct<Version>(writer, bytes, intrinsics_bytes(sensor.intrinsics));
     writer.put_text(sensor.name);
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "record/plane_observations.hpp"
+#include "record/robot_parts_json.hpp"
 #include "record/sensor_json.hpp"
 #include "record/version.hpp"
 
@@ -24,14 +25,17 @@ std::string manifest_text(Json manifest) {
 
 std::string activation_text(const LogFacts& facts) {
   Json sensors = Json::array();
-  for (const host::SensorInfo& info : facts.sensors) {
+  for (const host::SensorInfo& info : facts.activation.sensors) {
     Json sensor = print_sensor(info);
     sensor["id"] = info.id;
     sensors.push_back(std::move(sensor));
   }
-  return text_of({{"period_ns", facts.period_ns},
-                  {"has_identities", facts.has_identities},
-                  {"sensors", std::move(sensors)}});
+  Json json{{"period_ns", facts.period_ns},
+            {"has_identities", facts.has_identities},
+            {"sensors", std::move(sensors)}};
+  if (facts.activation.drive) json["drive"] = print_drive(*facts.activation.drive);
+  if (facts.activation.body) json["body"] = print_body(*facts.activation.body);
+  return text_of(json);
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ namespace hallway::record {
 /// What stands in a log once, for those who read it.
 struct LogFacts {
   nlohmann::ordered_json
-      manifest;  ///< run.json as known before the first frame; its member `host` is left out
-  std::span<const host::SensorInfo> sensors;
-  std::int64_t period_ns = 0;   ///< from frame to frame; 0 where it is not regular
-  bool has_identities = false;  ///< whether the observations' true landmarks are recorded too
+      manifest;                   ///< run.json as known before the first frame; its member `host` is left out
+  host::Activation activation{};  ///< what plugins are given once
+  std::int64_t period_ns = 0;     ///< from frame to frame; 0 where it is not regular
+  bool has_identities = false;    ///< whether the observations' true landmarks are recorded too
 };
 
 /// The pose that was put, with the part of the map that it is in, as logs have them. There must be one.

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "host/samples/sample_kind.hpp"
+#include "record/robot_parts_json.hpp"
 
 namespace hallway::record {
 namespace {
@@ -49,14 +50,17 @@ hw_pose_t read_pose(const Json& json) {
 }
 
 Json print_sensor(const host::SensorInfo& sensor) {
-  return {{"name", sensor.name},
-          {"kind", host::sample_kind_name(sensor.kind)},
-          {"T_body_sensor", print_pose(sensor.T_body_sensor)},
-          {"horizontal_fov_rad", known(sensor.horizontal_fov)},
-          {"vertical_fov_rad", known(sensor.vertical_fov)},
-          {"min_range_m", known(sensor.min_range_m)},
-          {"max_range_m", known(sensor.max_range_m)},
-          {"noise_m", {known(sensor.noise_m[0]), known(sensor.noise_m[1]), known(sensor.noise_m[2])}}};
+  Json json{{"name", sensor.name},
+            {"kind", host::sample_kind_name(sensor.kind)},
+            {"T_body_sensor", print_pose(sensor.T_body_sensor)},
+            {"horizontal_fov_rad", known(sensor.horizontal_fov)},
+            {"vertical_fov_rad", known(sensor.vertical_fov)},
+            {"min_range_m", known(sensor.min_range_m)},
+            {"max_range_m", known(sensor.max_range_m)},
+            {"noise_m", {known(sensor.noise_m[0]), known(sensor.noise_m[1]), known(sensor.noise_m[2])}}};
+  if (Json intrinsics = print_intrinsics(sensor.intrinsics); !intrinsics.is_null())
+    json["intrinsics"] = std::move(intrinsics);
+  return json;
 }
 
 Json print_sensors(std::span<const host::SensorInfo> sensors) {
@@ -84,6 +88,7 @@ host::SensorInfo read_sensor(const Json& json) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sensor.noise_m[axis] = number_or_unknown(json.at("noise_m").at(axis));
     }
+    if (json.contains("intrinsics")) read_intrinsics(json["intrinsics"], sensor);
     return sensor;
   });
 }

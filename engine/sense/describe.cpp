@@ -3,12 +3,33 @@
 
 #include <hallway/sample.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
 namespace hallway::sense {
 namespace {
 
 /// A pose as the ABI has it.
 hw_pose_t abi_pose(const Pose& pose) {
   return {{pose.t.x(), pose.t.y(), pose.t.z()}, {pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()}};
+}
+
+/// A height, unless it is the default, which is no end of the zone.
+double height_or_unknown(double height_m, double default_m) {
+  return height_m == default_m ? std::numeric_limits<double>::quiet_NaN() : height_m;
+}
+
+host::BumpZoneInfo zone_info(const BumpZone& zone) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  double width = std::fmod(zone.to_rad - zone.from_rad, turn);
+  if (width <= 0.0) width += turn;
+  return {.name = zone.name,
+          .middle_rad = std::remainder(zone.from_rad + 0.5 * width, turn),
+          .width_rad = width,
+          .bottom_m = height_or_unknown(zone.bottom_m, BumpZone{}.bottom_m),
+          .top_m = height_or_unknown(zone.top_m, BumpZone{}.top_m)};
 }
 
 }  // namespace
@@ -39,7 +60,9 @@ host::SensorInfo describe(const PlaneSensorSpec& spec, std::uint32_t id) {
 }
 
 host::SensorInfo describe(const BumpSensorSpec& spec, std::uint32_t id) {
-  return {.id = id, .kind = HW_SAMPLE_BUMP, .name = spec.name};
+  host::BumpIntrinsics zones;
+  for (const BumpZone& zone : spec.zones) zones.zones.push_back(zone_info(zone));
+  return {.id = id, .kind = HW_SAMPLE_BUMP, .name = spec.name, .intrinsics = std::move(zones)};
 }
 
 host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id) {

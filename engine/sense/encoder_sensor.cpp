@@ -49,12 +49,12 @@ EncoderSensor::EncoderSensor(EncoderSensorSpec spec, std::size_t n_wheels, std::
   for (std::size_t wheel = 0; wheel < n_wheels; ++wheel) {
     const double mean = wheel < spec_.radius_error.size() ? spec_.radius_error[wheel] : 0.0;
     const double error = mean + spec_.radius_error_sigma * std::clamp(random.normal(0, wheel), -4.0, 4.0);
-    m_per_tick_.push_back(nominal_m_per_tick() * (1.0 + error));
+    m_per_tick_.push_back(spec_.nominal_m_per_tick() * (1.0 + error));
   }
 }
 
-double EncoderSensor::nominal_m_per_tick() const {
-  return 2.0 * std::numbers::pi * spec_.wheel_radius_m / spec_.ticks_per_revolution;
+double EncoderSensorSpec::nominal_m_per_tick() const {
+  return 2.0 * std::numbers::pi * wheel_radius_m / ticks_per_revolution;
 }
 
 void EncoderSensor::check(std::span<const double> travel_m) const {

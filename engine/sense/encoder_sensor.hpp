@@ -19,6 +19,9 @@ struct EncoderSensorSpec {
   std::vector<double>
       radius_error{};  ///< mean of this share for each wheel, [-0.5, 0.5]; wheels that are not named: 0
   SensorTiming timing{};
+
+  /// As plugins know it.
+  double nominal_m_per_tick() const;
 };
 
 /// Counts since the start.
@@ -40,8 +43,6 @@ class EncoderSensor {
   /// sensor's name and the wheel's number; they are cut at four sigma.
   EncoderSensor(EncoderSensorSpec spec, std::size_t n_wheels, std::uint64_t seed);
 
-  /// As plugins know it.
-  double nominal_m_per_tick() const;
   /// Of each wheel, in truth.
   const std::vector<double>& m_per_tick() const { return m_per_tick_; }
 

@@ -18,7 +18,7 @@ std::vector<StudyRun> make_runs(const std::vector<RunSpec>& specs, const RunnerS
     }
     host::Pipeline pipeline =
         host::Pipeline::unstarted(ground->stages(spec.plugin), setup.plugin_folders,
-                                  ground->source().sensors(), setup.log, setup.isolation);
+                                  ground->source().activation(), setup.log, setup.isolation);
     const std::uint64_t before = done;
     const auto progress = [&] {
       ++done;

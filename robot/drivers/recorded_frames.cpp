@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "host/c_sensor.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
+#include "record/robot_parts_json.hpp"
 #include "record/sensor_json.hpp"
 
 namespace hallway::robot {
@@ -64,19 +64,15 @@ void RecordedFrames::read_activation(const std::string& text) {
     const auto json = nlohmann::ordered_json::parse(text);
     period_ns_ = std::max<std::int64_t>(0, json.value("period_ns", std::int64_t{0}));
     for (const auto& entry : json.at("sensors")) {
-      sensors_.push_back(record::read_sensor(entry));
-      sensors_.back().id = entry.value("id", 0u);
+      activation_.sensors.push_back(record::read_sensor(entry));
+      activation_.sensors.back().id = entry.value("id", 0u);
     }
+    activation_.drive = record::read_drive_in(json);
+    activation_.body = record::read_body_in(json);
   } catch (const nlohmann::json::exception& failure) {
     bad(name_, "the activation: " + printable(failure.what()));
   }
   described_ = true;
-}
-
-std::vector<hw_sensor_info_t> RecordedFrames::c_sensors() const {
-  std::vector<hw_sensor_info_t> infos;
-  for (const host::SensorInfo& sensor : sensors_) infos.push_back(host::c_sensor(sensor));
-  return infos;
 }
 
 const hw_frame_t* RecordedFrames::next(bool again) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <hallway/robot.h>
 #include <hallway/sample.h>
 
 #include <cstdint>
@@ -22,8 +21,8 @@ class RecordedFrames {
   /// Reads the facts that stand before the first frame. Throws Error{kIo}; Error{kBadInput} if it is no log of Hallway's.
   explicit RecordedFrames(const std::filesystem::path& file);
 
-  /// The sensors; names live as long as this.
-  std::vector<hw_sensor_info_t> c_sensors() const;
+  /// What its plugins were given once.
+  const host::Activation& activation() const { return activation_; }
   std::int64_t period_ns() const { return period_ns_; }
 
   /// The next frame, null at the end. With `again` it goes on with the first one after the last: numbers and times are moved so that they
@@ -40,7 +39,7 @@ class RecordedFrames {
   log::FileInput input_;
   std::unique_ptr<log::McapReader> reader_;
   host::FrameReader frame_reader_;
-  std::vector<host::SensorInfo> sensors_;
+  host::Activation activation_;
   bool described_ = false;
   std::int64_t period_ns_ = 0;
   const hw_frame_t* first_ = nullptr;  ///< read together with the facts and not yet given

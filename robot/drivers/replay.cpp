@@ -10,10 +10,10 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "host/c_activation.hpp"
 #include "robot/drivers/recorded_frames.hpp"
 
 namespace {
@@ -83,16 +83,13 @@ class Replay final : public hallway::sdk::Driver {
   }
 
   const hw_robot_info_t& describe() override {
-    sensors_ = frames_->c_sensors();
-    pointers_.clear();
-    for (const hw_sensor_info_t& sensor : sensors_) pointers_.push_back(&sensor);
+    facts_.emplace(frames_->activation());
     robot_ = {};
     robot_.size = sizeof robot_;
     robot_.flags = lock_step_ ? HW_ROBOT_LOCK_STEP : 0;
     robot_.name = "a recorded robot";
     robot_.period_ns = rate_hz_ ? period_ns() : frames_->period_ns();
-    robot_.sensors = pointers_.data();
-    robot_.n_sensors = static_cast<std::uint32_t>(pointers_.size());
+    facts_->fill(robot_);
     return robot_;
   }
 
@@ -161,8 +158,7 @@ class Replay final : public hallway::sdk::Driver {
   bool loop_ = false;
   std::uint64_t steps_ = 0;
   std::optional<RecordedFrames> frames_;
-  std::vector<hw_sensor_info_t> sensors_;
-  std::vector<const hw_sensor_info_t*> pointers_;
+  std::optional<hallway::host::CActivation> facts_;  ///< what robot_ points to
   hw_robot_info_t robot_{};
   const hw_frame_t* next_ = nullptr;  ///< read and not yet given
   std::uint64_t given_ = 0;

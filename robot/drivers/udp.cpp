@@ -7,11 +7,10 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "host/c_sensor.hpp"
+#include "host/c_activation.hpp"
 #include "link/host_end.hpp"
 #include "link/lossy_wire.hpp"
 #include "link/udp_wire.hpp"
@@ -108,20 +107,16 @@ decltype(auto) translated(Work&& work) {
   }
 }
 
-/// A robot's description in the form of the ABI, whose texts stand in the description.
+/// A robot's description in the form of the ABI. Its name stands in the description.
 class RobotInfo {
  public:
-  explicit RobotInfo(const link_::Description& description) {
-    sensors_.reserve(description.sensors.size());
-    for (const hallway::host::SensorInfo& sensor : description.sensors)
-      sensors_.push_back(hallway::host::c_sensor(sensor));
-    for (const hw_sensor_info_t& info : sensors_) pointers_.push_back(&info);
+  explicit RobotInfo(const link_::Description& description)
+      : facts_({description.sensors, description.drive, description.body}) {
     info_.size = sizeof info_;
     info_.flags = description.lock_step ? HW_ROBOT_LOCK_STEP : 0;
     info_.name = description.name.c_str();
     info_.period_ns = description.period_ns;
-    info_.sensors = pointers_.data();
-    info_.n_sensors = static_cast<std::uint32_t>(pointers_.size());
+    facts_.fill(info_);
   }
   RobotInfo(const RobotInfo&) = delete;
   RobotInfo& operator=(const RobotInfo&) = delete;
@@ -129,8 +124,7 @@ class RobotInfo {
   const hw_robot_info_t& info() const { return info_; }
 
  private:
-  std::vector<hw_sensor_info_t> sensors_;
-  std::vector<const hw_sensor_info_t*> pointers_;
+  hallway::host::CActivation facts_;
   hw_robot_info_t info_{};
 };
 

@@ -3,7 +3,8 @@
 // A whole plugin in plain C that drives, to be read beside example_c.c, which explains what every plugin has.
 //
 // It goes straight ahead. When a contact zone is pressed, it backs off and turns away from the side that was touched,
-// then goes on. It needs no samples, and takes those of contact zones where a sensor gives any.
+// then goes on. It needs no samples, and takes those of contact zones where a sensor gives any. It commands no more than
+// the robot's drive can do, as far as that is known.
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +33,8 @@ static const hw_plugin_info_t kInfo = {
 
 typedef struct plugin_t {
   const hw_host_t* host;
+  double speed_m_s;  // within the limits of the drive
+  double greatest_turn_rad_s;
   int64_t away_until_ns;  // time of the frames until which it backs off
   double turn_rad_s;      // meanwhile
 } plugin_t;
@@ -64,12 +67,12 @@ static hw_status_t process(void* self, const hw_frame_t* frame, hw_error_t* erro
   }
   if (touching) {
     plugin->away_until_ns = frame->t_ns + kAway_ns;
-    plugin->turn_rad_s = side > 0 ? -kTurn_rad_s : kTurn_rad_s;
+    plugin->turn_rad_s = side > 0 ? -plugin->greatest_turn_rad_s : plugin->greatest_turn_rad_s;
   }
   const int away = frame->t_ns < plugin->away_until_ns;
   // Members that are not named here, such as the sideways speed, are 0.
   const hw_drive_command_t command = {.size = sizeof command,
-                                      .linear_m_s = away ? -0.5 * kSpeed_m_s : kSpeed_m_s,
+                                      .linear_m_s = away ? -0.5 * plugin->speed_m_s : plugin->speed_m_s,
                                       .angular_rad_s = away ? plugin->turn_rad_s : 0};
   const hw_output_t output = {.size = sizeof output, .kind = HW_OUTPUT_DRIVE_COMMAND, .payload = &command};
   const hw_status_t status = plugin->host->vtable->put(plugin->host->self, &output);
@@ -84,9 +87,16 @@ static void forget(plugin_t* plugin) {
 }
 
 static hw_status_t activate(void* self, const hw_activation_t* activation, hw_error_t* error) {
-  (void)activation;
   (void)error;
-  forget(self);
+  plugin_t* plugin = self;
+  plugin->speed_m_s = kSpeed_m_s;
+  plugin->greatest_turn_rad_s = kTurn_rad_s;
+  const hw_drive_info_t* drive = hw_drive_of(activation);
+  if (drive) {  // a limit that is not known is NaN, and limits nothing
+    plugin->speed_m_s = hw_within_limit(kSpeed_m_s, drive->max_speed_m_s);
+    plugin->greatest_turn_rad_s = hw_within_limit(kTurn_rad_s, drive->max_angular_rad_s);
+  }
+  forget(plugin);
   return HW_OK;
 }
 

@@ -333,8 +333,7 @@ std::string copied(const test::TempFolder& folder, const std::string& plugin) {
 TEST_F(DeadlyPlugins, AFileThatIsReplacedWhileItRunsChangesNothing) {
   const test::TempFolder folder;
   IsolatedPlugin plugin(copied(folder, EXAMPLE), {}, isolation());
-  const SensorInfo sensor = point_sensor();
-  plugin.activate({&sensor, 1});
+  plugin.activate({point_sensor()});
   write_file_atomically(folder.path() / "plugin.so", "no plugin any more");
   FrameBuilder builder;
   add_points(builder, 0) = {{1, 2, 3}};
@@ -345,8 +344,7 @@ TEST_F(DeadlyPlugins, AFileThatIsReplacedWhileItRunsChangesNothing) {
 TEST_F(DeadlyPlugins, AFileThatIsCutWhileItRunsIsItsOwnLoss) {
   const test::TempFolder folder;
   IsolatedPlugin plugin(copied(folder, EXAMPLE), {}, isolation());
-  const SensorInfo sensor = point_sensor();
-  plugin.activate({&sensor, 1});
+  plugin.activate({point_sensor()});
   fs::resize_file(folder.path() / "plugin.so", 0);
   FrameBuilder builder;
   add_points(builder, 0) = {{1, 2, 3}};

@@ -55,6 +55,30 @@ AT(hw_encoder_t, stride, 4);
 AT(hw_encoder_t, count, 8);
 AT(hw_encoder_t, wheels, 16);
 
+SIZE(hw_bump_zone_info_t, 40);
+AT(hw_bump_zone_info_t, name, 0);
+AT(hw_bump_zone_info_t, middle_rad, 8);
+AT(hw_bump_zone_info_t, width_rad, 16);
+AT(hw_bump_zone_info_t, bottom_m, 24);
+AT(hw_bump_zone_info_t, top_m, 32);
+
+SIZE(hw_bump_info_t, 24);
+AT(hw_bump_info_t, size, 0);
+AT(hw_bump_info_t, stride, 4);
+AT(hw_bump_info_t, count, 8);
+AT(hw_bump_info_t, zones, 16);
+
+SIZE(hw_encoder_wheel_t, 56);
+AT(hw_encoder_wheel_t, m_per_tick, 0);
+AT(hw_encoder_wheel_t, position, 8);
+AT(hw_encoder_wheel_t, direction, 32);
+
+SIZE(hw_encoder_info_t, 24);
+AT(hw_encoder_info_t, size, 0);
+AT(hw_encoder_info_t, stride, 4);
+AT(hw_encoder_info_t, count, 8);
+AT(hw_encoder_info_t, wheels, 16);
+
 SIZE(hw_point3_t, 24);
 AT(hw_point3_t, x, 0);
 AT(hw_point3_t, y, 8);
@@ -190,7 +214,7 @@ AT(hw_counters_t, stride, 4);
 AT(hw_counters_t, count, 8);
 AT(hw_counters_t, counters, 16);
 
-SIZE(hw_sensor_info_t, 136);
+SIZE(hw_sensor_info_t, 144);
 AT(hw_sensor_info_t, size, 0);
 AT(hw_sensor_info_t, id, 4);
 AT(hw_sensor_info_t, kind, 8);
@@ -202,11 +226,40 @@ AT(hw_sensor_info_t, vertical_fov, 88);
 AT(hw_sensor_info_t, min_range_m, 96);
 AT(hw_sensor_info_t, max_range_m, 104);
 AT(hw_sensor_info_t, noise_m, 112);
+AT(hw_sensor_info_t, intrinsics, 136);
 
-SIZE(hw_activation_t, 16);
+SIZE(hw_activation_t, 32);
 AT(hw_activation_t, size, 0);
 AT(hw_activation_t, n_sensors, 4);
 AT(hw_activation_t, sensors, 8);
+AT(hw_activation_t, drive, 16);
+AT(hw_activation_t, body, 24);
+
+SIZE(hw_drive_info_t, 120);
+AT(hw_drive_info_t, size, 0);
+AT(hw_drive_info_t, kind, 4);
+AT(hw_drive_info_t, max_speed_m_s, 8);
+AT(hw_drive_info_t, max_lateral_m_s, 16);
+AT(hw_drive_info_t, max_angular_rad_s, 24);
+AT(hw_drive_info_t, max_acceleration_m_s2, 32);
+AT(hw_drive_info_t, max_deceleration_m_s2, 40);
+AT(hw_drive_info_t, max_angular_acceleration_rad_s2, 48);
+AT(hw_drive_info_t, greatest_steering_rad, 56);
+AT(hw_drive_info_t, max_steering_rate_rad_s, 64);
+AT(hw_drive_info_t, wheel_base_m, 72);
+AT(hw_drive_info_t, axle_distance_m, 80);
+AT(hw_drive_info_t, wheel_radius_m, 88);
+AT(hw_drive_info_t, latency_s, 96);
+AT(hw_drive_info_t, dead_band_m_s, 104);
+AT(hw_drive_info_t, dead_band_rad_s, 112);
+
+SIZE(hw_body_info_t, 40);
+AT(hw_body_info_t, size, 0);
+AT(hw_body_info_t, n_corners, 4);
+AT(hw_body_info_t, corners, 8);
+AT(hw_body_info_t, radius_m, 16);
+AT(hw_body_info_t, bottom_m, 24);
+AT(hw_body_info_t, top_m, 32);
 
 SIZE(hw_host_vtable_t, 16);
 AT(hw_host_vtable_t, put, 0);
@@ -321,6 +374,8 @@ static_assert(HW_LOG_DEBUG == 0 && HW_LOG_INFO == 1 && HW_LOG_WARNING == 2 && HW
               "log levels");
 static_assert(HW_SAMPLE_TRACKED == 1u && HW_REPORT_REFINE == 1u && HW_NO_LANDMARK == UINT64_MAX, "flags");
 static_assert(HW_NO_SAMPLE == UINT32_MAX, "no sample");
+static_assert(HW_DRIVE_UNKNOWN == 0 && HW_DRIVE_DIFFERENTIAL == 1 && HW_DRIVE_TRACKED == 2, "drives");
+static_assert(HW_DRIVE_ACKERMANN == 3 && HW_DRIVE_OMNIDIRECTIONAL == 4, "drives");
 
 SIZE(hw_setting_t, 16);
 AT(hw_setting_t, key, 0);
@@ -332,7 +387,7 @@ AT(hw_driver_settings_t, n_settings, 4);
 AT(hw_driver_settings_t, settings, 8);
 AT(hw_driver_settings_t, folder, 16);
 
-SIZE(hw_robot_info_t, 40);
+SIZE(hw_robot_info_t, 56);
 AT(hw_robot_info_t, size, 0);
 AT(hw_robot_info_t, flags, 4);
 AT(hw_robot_info_t, name, 8);
@@ -340,6 +395,8 @@ AT(hw_robot_info_t, period_ns, 16);
 AT(hw_robot_info_t, sensors, 24);
 AT(hw_robot_info_t, n_sensors, 32);
 AT(hw_robot_info_t, reserved, 36);
+AT(hw_robot_info_t, drive, 40);
+AT(hw_robot_info_t, body, 48);
 
 SIZE(hw_answer_t, 64);
 AT(hw_answer_t, size, 0);

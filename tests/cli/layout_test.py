@@ -31,6 +31,8 @@ MEANS_A_KIND = {
     "engine/host/samples/sample_kind.cpp": "names of kinds that are reserved", "engine/host/samples/point_kind.cpp": "the row of points",
     "engine/host/samples/plane_kind.cpp": "the row of planes", "engine/host/samples/bump_kind.cpp": "the row of contact zones",
     "engine/host/samples/encoder_kind.cpp": "the row of wheel encoders", "engine/host/output/output_kind.cpp": "which sample an output becomes",
+    "engine/host/robot_parts.cpp": "checks the intrinsics of contact zones and encoders",
+    "engine/link/description_parts.cpp": "the intrinsics of contact zones and encoders on the wire",
     "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/plane_truth.cpp": "planes in points",
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "shows points",
     "engine/run/pictures/history.cpp": "draws points and planes",

@@ -46,6 +46,22 @@ std::map<std::string, std::string> answers(const fs::path& folder) {
   return channels;
 }
 
+/// What plugins were told of sensors, drive and body.
+Json robot_of(const fs::path& folder) {
+  const log::FileInput input(folder / "run.mcap");
+  log::McapReader reader(input);
+  while (const log::McapItem* item = reader.next()) {
+    const auto* message = std::get_if<log::McapMessage>(item);
+    if (message == nullptr || reader.channels().at(message->channel_id).topic != "/hallway/activation")
+      continue;
+    const Json facts = Json::parse(message->data);
+    return {{"sensors", facts.at("sensors")},
+            {"drive", facts.value("drive", Json())},
+            {"body", facts.value("body", Json())}};
+  }
+  return {};
+}
+
 Json manifest_of(const fs::path& folder) {
   return Json::parse(read_file(folder / "run.json"));
 }
@@ -70,6 +86,7 @@ void expect_same_answers(const fs::path& a, const fs::path& b) {
     ASSERT_TRUE(there.contains(topic)) << topic << " in " << b;
     EXPECT_TRUE(messages == there.at(topic)) << topic << " in " << b;
   }
+  EXPECT_EQ(robot_of(a), robot_of(b));
   EXPECT_EQ(parameters_of(a), parameters_of(b)) << "the noise is that of the sensor in both";
   const Json hash = manifest_of(a).at("plugins").at(0).at("hash");
   EXPECT_TRUE(hash.is_string());

@@ -124,8 +124,8 @@ void IsolatedPlugin::set_parameter(std::string_view name, std::string_view value
   settings_.push_back(std::move(setting));
 }
 
-void IsolatedPlugin::activate(std::span<const SensorInfo> sensors) {
-  call(Request::kActivate, [&](AlignedByteWriter& writer) { write_sensors(writer, sensors); });
+void IsolatedPlugin::activate(const Activation& facts) {
+  call(Request::kActivate, [&](AlignedByteWriter& writer) { write_activation(writer, facts); });
   active_ = true;
 }
 

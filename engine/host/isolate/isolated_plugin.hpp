@@ -38,7 +38,7 @@ class IsolatedPlugin final : public Stage {
   std::string parameter_text(std::size_t index) override { return parameter_state(index).text; }
   bool parameter_is_from_sensor(std::size_t index) override { return parameter_state(index).from_sensor; }
   void set_parameter(std::string_view name, std::string_view value, const Where& where = {}) override;
-  void activate(std::span<const SensorInfo> sensors) override;
+  void activate(const Activation& facts) override;
   void reset() override;
   std::size_t capacity() const override { return kSlots / 2; }
   using Stage::submit;

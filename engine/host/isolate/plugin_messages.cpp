@@ -69,11 +69,72 @@ void pass(Archive& archive, Passed<Archive, StartReply>& reply) {
 }
 
 template <typename Archive>
+void pass(Archive& archive, Passed<Archive, BumpZoneInfo>& zone) {
+  archive.lists(zone.name);
+  archive.values(zone.middle_rad, zone.width_rad, zone.bottom_m, zone.top_m);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, BumpIntrinsics>& bump) {
+  pass_all(archive, bump.zones);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, EncoderIntrinsics>& encoder) {
+  archive.lists(encoder.wheels);
+}
+
+/// Which of the alternatives it is, and that.
+template <typename Archive, typename Choice>
+void pass_choice(Archive& archive, Choice& choice) {
+  std::uint64_t index = choice.index();
+  archive.values(index);
+  if constexpr (Archive::kReads) {
+    if (index == 1) choice = BumpIntrinsics{};
+    if (index == 2) choice = EncoderIntrinsics{};
+    if (index > 2) throw BadBytes{"intrinsics of an unknown kind"};
+  }
+  if (auto* bump = std::get_if<BumpIntrinsics>(&choice)) pass(archive, *bump);
+  if (auto* encoder = std::get_if<EncoderIntrinsics>(&choice)) pass(archive, *encoder);
+}
+
+template <typename Archive>
 void pass(Archive& archive, Passed<Archive, SensorInfo>& sensor) {
   archive.values(sensor.id, sensor.kind);
   archive.lists(sensor.name);
   archive.values(sensor.T_body_sensor, sensor.horizontal_fov, sensor.vertical_fov, sensor.min_range_m,
                  sensor.max_range_m, sensor.noise_m[0], sensor.noise_m[1], sensor.noise_m[2]);
+  pass_choice(archive, sensor.intrinsics);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, DriveInfo>& drive) {
+  archive.template value_as<std::uint64_t>(drive.kind);
+  for (const DriveNumber& number : drive_numbers()) archive.values(drive.*number.host);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, BodyInfo>& body) {
+  archive.lists(body.corners);
+  archive.values(body.radius_m, body.bottom_m, body.top_m);
+}
+
+/// A value that may be missing.
+template <typename Archive, typename Optional>
+void pass_optional(Archive& archive, Optional& value) {
+  std::uint64_t is_there = value.has_value() ? 1 : 0;
+  archive.values(is_there);
+  if constexpr (Archive::kReads) {
+    if (is_there != 0) value.emplace();
+  }
+  if (value) pass(archive, *value);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, Activation>& facts) {
+  pass_all(archive, facts.sensors);
+  pass_optional(archive, facts.drive);
+  pass_optional(archive, facts.body);
 }
 
 template <typename Archive>
@@ -139,16 +200,12 @@ std::vector<PluginInfo> read_infos(AlignedByteReader& reader) {
   return infos;
 }
 
-void write_sensors(AlignedByteWriter& writer, std::span<const SensorInfo> sensors) {
-  Saver saver(writer);
-  pass_all(saver, sensors);
+void write_activation(AlignedByteWriter& writer, const Activation& facts) {
+  save(writer, facts);
 }
 
-std::vector<SensorInfo> read_sensors(AlignedByteReader& reader) {
-  std::vector<SensorInfo> sensors;
-  Loader loader(reader);
-  pass_all(loader, sensors);
-  return sensors;
+Activation read_activation(AlignedByteReader& reader) {
+  return loaded<Activation>(reader);
 }
 
 void write_where(AlignedByteWriter& writer, const Where& where) {

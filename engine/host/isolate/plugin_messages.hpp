@@ -44,8 +44,9 @@ StartReply read_started(AlignedByteReader& reader);
 void write_infos(AlignedByteWriter& writer, std::span<const PluginInfo> infos);
 std::vector<PluginInfo> read_infos(AlignedByteReader& reader);
 
-void write_sensors(AlignedByteWriter& writer, std::span<const SensorInfo> sensors);
-std::vector<SensorInfo> read_sensors(AlignedByteReader& reader);
+/// The request kActivate.
+void write_activation(AlignedByteWriter& writer, const Activation& facts);
+Activation read_activation(AlignedByteReader& reader);
 
 void write_where(AlignedByteWriter& writer, const Where& where);
 Where read_where(AlignedByteReader& reader);

@@ -74,7 +74,7 @@ class Server {
         get_parameter(reader.get<std::uint64_t>(), writer);
         return {};
       case Request::kActivate:
-        plugin_->activate(read_sensors(reader));
+        plugin_->activate(read_activation(reader));
         return {};
       case Request::kReset:
         plugin_->reset();

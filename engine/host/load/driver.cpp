@@ -14,6 +14,7 @@
 #include "base/origin.hpp"
 #include "base/text.hpp"
 #include "base/unit_quaternion.hpp"
+#include "host/c_activation.hpp"
 #include "host/c_sensor.hpp"
 #include "host/load/error_text.hpp"
 #include "host/load/info_text.hpp"
@@ -44,6 +45,7 @@ SensorInfo sensor_of(const hw_sensor_info_t* info) {
   SensorInfo sensor;
   sensor.name = text_of(info->name);
   copy_sensor_facts(*info, sensor);
+  take_intrinsics(*info, sensor);
   return sensor;
 }
 
@@ -57,6 +59,8 @@ RobotInfo robot_of(const hw_robot_info_t* info) {
                   .period_ns = info->period_ns,
                   .lock_step = (info->flags & HW_ROBOT_LOCK_STEP) != 0,
                   .sensors = {}};
+  if (HW_HAS(info, hw_robot_info_t, drive) && info->drive != nullptr) robot.drive = drive_of(*info->drive);
+  if (HW_HAS(info, hw_robot_info_t, body) && info->body != nullptr) robot.body = body_of(*info->body);
   std::set<std::uint32_t> ids;
   for (std::uint32_t i = 0; i < info->n_sensors; ++i) {
     robot.sensors.push_back(sensor_of(info->sensors[i]));

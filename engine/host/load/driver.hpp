@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +28,9 @@ struct RobotInfo {
   std::string name;            ///< safe to print
   std::int64_t period_ns = 0;  ///< from frame to frame; 0 where it is not regular
   bool lock_step = false;      ///< time is the driver's own: every frame is answered before the next is read
-  std::vector<SensorInfo> sensors;
+  std::vector<SensorInfo> sensors{};
+  std::optional<DriveInfo> drive{};  ///< unset: not known
+  std::optional<BodyInfo> body{};    ///< unset: not known
 };
 
 /// One instance of a driver, run in this process. Not copyable, not movable: the driver holds its address. All functions but

@@ -9,7 +9,7 @@ namespace hallway::run {
 LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
                          const nlohmann::ordered_json& manifest)
     : recorder_(output, {.manifest = manifest,
-                         .sensors = source.sensors(),
+                         .activation = source.activation(),
                          .period_ns = manifest.value("period_ns", std::int64_t{0}),
                          .has_identities = source.has_identities()}),
       source_(source),

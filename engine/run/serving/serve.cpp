@@ -275,7 +275,9 @@ link::Description describe_robot(const Source& source, const ServePlan& plan, co
   return {.lock_step = plan.lock_step,
           .period_ns = plan.manifest.value("period_ns", std::int64_t{0}),
           .name = name,
-          .sensors = source.sensors()};
+          .sensors = source.sensors(),
+          .drive = source.facts().drive,
+          .body = source.facts().body};
 }
 
 ServeResult serve(Source& source, link::RobotEnd& robot, const ServePlan& plan, const RunHooks& hooks) {

@@ -14,6 +14,7 @@
 #include "host/samples/sample_kind.hpp"
 #include "log/json_text.hpp"
 #include "log/run_log.hpp"
+#include "record/robot_parts_json.hpp"
 #include "record/sensor_json.hpp"
 
 namespace hallway::run {
@@ -53,6 +54,8 @@ class Collector {
       run_.facts.has_identities = json.value("has_identities", false);
       run_.facts.sensors = record::read_sensors(json.at("sensors"));
       if (run_.facts.sensors.empty()) bad("a log without sensors");
+      run_.facts.drive = record::read_drive_in(json);
+      run_.facts.body = record::read_body_in(json);
       described_ = true;
     } catch (const nlohmann::json::exception& failure) {
       bad("the activation: " + printable(failure.what()));

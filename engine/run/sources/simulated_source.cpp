@@ -17,6 +17,7 @@
 #include "record/plane_observations.hpp"
 #include "run/sources/abi_pose.hpp"
 #include "sense/describe.hpp"
+#include "sim/describe.hpp"
 
 namespace hallway::run {
 
@@ -163,8 +164,11 @@ SimulatedSource::SimulatedSource(const sim::Simulator& simulator) : simulator_(s
     std::visit([this](const auto& spec) { add_sensor(spec); }, sensor);
   for (const sim::EventSpec& event : scenario.events)
     facts_.events.push_back({event.t_ns, std::string(event_kind_name(event.kind)), text_of(event)});
-  if (simulator.driven_world() != nullptr)
+  if (simulator.driven_world() != nullptr) {
     robot_.emplace(*simulator.driven_world(), scenario, simulator.path());
+    facts_.drive = sim::describe(scenario.robot.driven->drive);
+    facts_.body = sim::describe_body(*simulator.driven_world());
+  }
 }
 
 void SimulatedSource::move_to(std::uint32_t iteration) {
@@ -227,7 +231,11 @@ void SimulatedSource::add_sensor(const sense::BumpSensorSpec& spec) {
 }
 
 void SimulatedSource::add_sensor(const sense::EncoderSensorSpec& spec) {
-  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  host::SensorInfo& info =
+      facts_.sensors.emplace_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  if (const sim::DrivenWorld* world = simulator_.driven_world())
+    info.intrinsics = host::EncoderIntrinsics{
+        sim::describe_wheels(simulator_.scenario().robot.driven->drive, *world, spec.nominal_m_per_tick())};
   first_true_plane_.emplace_back();
 }
 

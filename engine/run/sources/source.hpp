@@ -68,6 +68,8 @@ class SourceFrame {
 /// What is known of a source beside its frames.
 struct SourceFacts {
   std::vector<host::SensorInfo> sensors{};  ///< of distinct ids
+  std::optional<host::DriveInfo> drive{};   ///< where the robot's is known
+  std::optional<host::BodyInfo> body{};     ///< likewise
   bool has_identities = false;              ///< whether frames have identities
   bool has_tracks = false;                  ///< whether a sensor follows its points in any frame
   std::optional<std::vector<log::Landmark>> true_landmarks{};  ///< world, where that is known
@@ -110,6 +112,8 @@ class Source {
 
   const SourceFacts& facts() const { return facts_; }
   const std::vector<host::SensorInfo>& sensors() const { return facts_.sensors; }
+  /// What plugins are given once.
+  host::Activation activation() const { return {facts_.sensors, facts_.drive, facts_.body}; }
   /// Whether any sensor gives samples of a kind.
   bool gives(std::uint32_t kind) const;
   bool has_identities() const { return facts_.has_identities; }

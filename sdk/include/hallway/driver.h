@@ -43,6 +43,8 @@ typedef struct hw_robot_info_t {
   const hw_sensor_info_t* const* sensors;  ///< n_sensors pointers; ids are distinct
   uint32_t n_sensors;                      ///< number of sensors
   uint32_t reserved;                       ///< 0
+  const hw_drive_info_t* drive;            ///< null where it is not known. Since 1.4.
+  const hw_body_info_t* body;              ///< null where it is not known. Since 1.4.
 } hw_robot_info_t;
 
 /// What read() found.

@@ -12,7 +12,9 @@
 // Ownership. What a call is given lives until the call returns; what a host is given it copies before it
 // returns; nothing is freed on the other side of the border.
 
+#include "body.h"
 #include "bump.h"
+#include "drive.h"
 #include "driver.h"
 #include "encoder.h"
 #include "entry.h"

@@ -18,6 +18,7 @@
 //     };
 //     HALLWAY_PLUGINS(Mapper);
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -224,6 +226,64 @@ inline double largest_noise_m(const hw_sensor_info_t& sensor) {
     if (std::isfinite(noise) && !(noise <= largest)) largest = noise;
   }
   return largest;
+}
+
+/// A body's outline and heights, kept beyond the activation; see hw_body_info_t.
+struct Body {
+  std::vector<std::array<double, 2>> corners;  ///< x and y, counter-clockwise; empty for a circle
+  double radius_m = std::nan("");
+  double bottom_m = std::nan("");
+  double top_m = std::nan("");
+};
+
+/// A contact zone, kept beyond the activation; see hw_bump_zone_info_t.
+struct BumpZone {
+  std::string name;
+  double middle_rad = std::nan("");
+  double width_rad = std::nan("");
+  double bottom_m = std::nan("");
+  double top_m = std::nan("");
+};
+
+/// A copy of what is known of the robot's drive, for use after activate(); nothing where it is not known.
+inline std::optional<hw_drive_info_t> copy_drive(const hw_activation_t& activation) {
+  const hw_drive_info_t* drive = hw_drive_of(&activation);
+  if (drive == nullptr) return std::nullopt;
+  hw_drive_info_t copy = *drive;
+  copy.size = sizeof copy;
+  return copy;
+}
+
+/// Likewise of its body.
+inline std::optional<Body> copy_body(const hw_activation_t& activation) {
+  const hw_body_info_t* body = hw_body_of(&activation);
+  if (body == nullptr) return std::nullopt;
+  Body copy{{}, body->radius_m, body->bottom_m, body->top_m};
+  for (std::uint32_t i = 0; i < body->n_corners; ++i) {
+    const double* corner = hw_body_corner(body, i);
+    copy.corners.push_back({corner[0], corner[1]});
+  }
+  return copy;
+}
+
+/// What is known of the wheels of a sensor of HW_SAMPLE_ENCODER, in the order of its readings; empty where nothing is.
+inline std::vector<hw_encoder_wheel_t> copy_wheels(const hw_sensor_info_t& sensor) {
+  std::vector<hw_encoder_wheel_t> wheels;
+  const hw_encoder_info_t* encoder = hw_encoder_info_of(&sensor);
+  for (std::uint64_t i = 0; encoder != nullptr && i < encoder->count; ++i)
+    wheels.push_back(*hw_encoder_wheel_at(encoder, i));
+  return wheels;
+}
+
+/// What is known of the zones of a sensor of HW_SAMPLE_BUMP, by their numbers; empty where nothing is.
+inline std::vector<BumpZone> copy_bump_zones(const hw_sensor_info_t& sensor) {
+  std::vector<BumpZone> zones;
+  const hw_bump_info_t* bump = hw_bump_info_of(&sensor);
+  for (std::uint64_t i = 0; bump != nullptr && i < bump->count; ++i) {
+    const hw_bump_zone_info_t& zone = *hw_bump_zone_info_at(bump, i);
+    zones.push_back({zone.name, zone.middle_rad, zone.width_rad, zone.bottom_m, zone.top_m});
+  }
+  return zones;
 }
 
 /// What a plugin does with the file or folder that a parameter names.

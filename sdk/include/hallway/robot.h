@@ -3,8 +3,14 @@
 
 #include <stdint.h>
 
+#include "body.h"
+#include "drive.h"
 #include "growth.h"
 #include "pose.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /// What is known of one sensor. A number that is not known is NaN.
 typedef struct hw_sensor_info_t {
@@ -19,6 +25,9 @@ typedef struct hw_sensor_info_t {
   double min_range_m;       ///< nearest distance that is measured
   double max_range_m;       ///< farthest distance that is measured
   double noise_m[3];        ///< standard deviation along x, y, z of the sensor's frame
+  /// By kind what else is known, a struct whose first member is `size`: hw_encoder_info_t (encoder.h), hw_bump_info_t (bump.h); null for
+  /// other kinds and where nothing is known. Since 1.4.
+  const void* intrinsics;
 } hw_sensor_info_t;
 
 /// The facts that are given once, at activation. They live until activate() returns.
@@ -26,4 +35,25 @@ typedef struct hw_activation_t {
   uint32_t size;                           ///< sizeof(hw_activation_t) of the writer
   uint32_t n_sensors;                      ///< number of sensors
   const hw_sensor_info_t* const* sensors;  ///< n_sensors pointers; ids are distinct
+  const hw_drive_info_t* drive;            ///< null where it is not known; use hw_drive_of(). Since 1.4.
+  const hw_body_info_t* body;              ///< null where it is not known; use hw_body_of(). Since 1.4.
 } hw_activation_t;
+
+/// The robot's drive; null where it is not known or the host is older than 1.4. [any]
+static inline const hw_drive_info_t* hw_drive_of(const hw_activation_t* activation) {
+  return HW_HAS(activation, hw_activation_t, drive) ? activation->drive : HW_CAST(const hw_drive_info_t*, 0);
+}
+
+/// The robot's body; null where it is not known or the host is older than 1.4. [any]
+static inline const hw_body_info_t* hw_body_of(const hw_activation_t* activation) {
+  return HW_HAS(activation, hw_activation_t, body) ? activation->body : HW_CAST(const hw_body_info_t*, 0);
+}
+
+/// What else is known of a sensor, by its kind; null where nothing is or the writer is older than 1.4. [any]
+static inline const void* hw_intrinsics_of(const hw_sensor_info_t* sensor) {
+  return HW_HAS(sensor, hw_sensor_info_t, intrinsics) ? sensor->intrinsics : HW_CAST(const void*, 0);
+}
+
+#ifdef __cplusplus
+}
+#endif

@@ -34,11 +34,17 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
   void activate(const hw_activation_t& activation) override {
     if (first_ == 9) throw std::runtime_error("nine is refused");
     activation_has_grown_ = has_grown(&activation);
+#if HW_ABI_MINOR >= 4
+    read_robot(activation);
+#endif
     for (std::uint32_t i = 0; i < activation.n_sensors; ++i) {
       const hw_sensor_info_t& sensor = *activation.sensors[i];
       sensor_sum_ = 100 * sensor_sum_ + sensor.id;
       last_noise_ = sensor.noise_m[2];
       sensor_has_grown_ = has_grown(&sensor);
+#if HW_ABI_MINOR >= 4
+      read_intrinsics(sensor);
+#endif
     }
   }
 
@@ -73,6 +79,10 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
         {"x_sum", x_sum},
         {"first", static_cast<double>(first_)},
         {"second", second_},
+        {"speed", speed_},
+        {"corner", corner_},
+        {"wheel", wheel_},
+        {"grown_parts", parts_have_grown_},
         {"grown_structs", host_has_grown_ + activation_has_grown_ + sensor_has_grown_ + has_grown(&frame) +
                               sample_has_grown + points_have_grown}};
     host().put_counters(counters);
@@ -98,6 +108,25 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
   }
 
  private:
+#if HW_ABI_MINOR >= 4
+  void read_robot(const hw_activation_t& activation) {
+    if (const hw_drive_info_t* drive = hw_drive_of(&activation)) {
+      speed_ = drive->max_speed_m_s;
+      parts_have_grown_ += has_grown(drive);
+    }
+    if (const hw_body_info_t* body = hw_body_of(&activation)) {
+      corner_ = hw_body_corner(body, body->n_corners - 1)[1];
+      parts_have_grown_ += has_grown(body);
+    }
+  }
+
+  void read_intrinsics(const hw_sensor_info_t& sensor) {
+    const hw_encoder_info_t* encoder = hw_encoder_info_of(&sensor);
+    if (encoder == nullptr) return;
+    wheel_ = hw_encoder_wheel_at(encoder, encoder->count - 1)->m_per_tick;
+    parts_have_grown_ += has_grown(encoder);
+  }
+#endif
 #if HW_ABI_MINOR >= 1
   /// Of the first reading's only point.
   void put_plane() const {
@@ -116,6 +145,7 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
   double second_ = 2;
   double host_has_grown_ = 0, activation_has_grown_ = 0, sensor_has_grown_ = 0;
   double sensor_sum_ = 0, last_noise_ = 0;
+  double speed_ = 0, corner_ = 0, wheel_ = 0, parts_have_grown_ = 0;
 };
 
 }  // namespace

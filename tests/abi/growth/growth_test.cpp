@@ -78,6 +78,26 @@ TEST_P(Growth, AMemberIsSeenOnlyWhereBothSidesHaveIt) {
   EXPECT_EQ(counters_of_a_frame().at("grown_structs"), both ? 6 : 0);
 }
 
+TEST_P(Growth, DriveBodyAndIntrinsicsAreReadWhereTheyAreKnown) {
+  Activation robot = three_sensors();
+  SensorInfo& wheels = robot.sensors.emplace_back();
+  wheels.id = 14;
+  wheels.kind = HW_SAMPLE_ENCODER;
+  wheels.noise_m[2] = 1.0;
+  wheels.intrinsics = EncoderIntrinsics{{{.m_per_tick = 0.5}, {.m_per_tick = 0.75}}};
+  robot.drive = DriveInfo{.kind = HW_DRIVE_TRACKED, .max_speed_m_s = 0.25};
+  robot.body = BodyInfo{.corners = {{0, 0}, {2, 0}, {1, 3}}};
+  plugin_.activate(robot);
+  std::map<std::string, double> counters;
+  for (const Counter& counter : process_three_samples().counters()) counters[counter.name] = counter.value;
+  const bool known = GetParam().is_later;
+  EXPECT_EQ(counters.at("sensor_sum"), 11121314);
+  EXPECT_EQ(counters.at("speed"), known ? 0.25 : 0);
+  EXPECT_EQ(counters.at("corner"), known ? 3 : 0);
+  EXPECT_EQ(counters.at("wheel"), known ? 0.75 : 0);
+  EXPECT_EQ(counters.at("grown_parts"), GetParam().has_grown && kHostHasGrown ? 3 : 0);
+}
+
 TEST_P(Growth, OutputsOfAFrameArrive) {
   plugin_.activate(three_sensors());
   const Outputs& outputs = process_three_samples();

@@ -47,6 +47,7 @@ const std::vector<Defect> kDefects{
     {"crashes_for_far_points", {"frame-far-points"}},
     {"crashes_for_gaps", {"frame-gaps"}},
     {"crashes_for_line", {"frame-line"}},
+    {"crashes_for_many_corners", {"activate-any-body"}},
     {"crashes_for_many_points", {"frame-many-points"}},
     {"crashes_for_nan", {"frame-not-finite"}},
     {"crashes_for_no_points", {"frame-no-points", "input-not-overrun"}},
@@ -85,6 +86,8 @@ const std::vector<Defect> kDefects{
     {"flushes_to_zero", {"keeps-rounding"}},
     {"fractional_epoch", {"outputs-map-epoch"}},
     {"grown_activation", {"grown-activation"}},
+    {"grown_body", {"grown-body"}},
+    {"grown_drive", {"grown-drive"}},
     {"grown_error_overrun", {"grown-error"}},
     {"grown_error_refused", {"grown-error"}},
     {"grown_frame", {"grown-frame"}},
@@ -101,6 +104,8 @@ const std::vector<Defect> kDefects{
     {"infinite_speed", {"outputs-valid"}},
     {"joins_to_younger", {"outputs-map-epoch"}},
     {"keeps_activation", {"activation-not-kept"}},
+    {"keeps_body", {"activation-not-kept"}},
+    {"keeps_drive", {"activation-not-kept"}},
     {"keeps_input", {"input-not-kept"}, Others::kMayFailToo},
     {"kind_twice", {"plugin-kinds"}},
     {"leaks_on_activate", {"use-memory"}},
@@ -116,6 +121,8 @@ const std::vector<Defect> kDefects{
     {"nan_for_no_points", {"frame-no-points"}},
     {"nan_pose", {"outputs-valid"}},
     {"nan_sideways", {"outputs-valid"}},
+    {"needs_body", {"activate-unknown-robot", "older-activation"}},
+    {"needs_drive", {"activate-unknown-robot", "older-activation"}},
     {"needs_log", {"host-no-extensions"}},
     {"nan_plane", {"outputs-valid"}},
     {"normal_away", {"outputs-valid"}},
@@ -148,16 +155,21 @@ const std::vector<Defect> kDefects{
     {"reads_folder", {"same-folder"}},
     {"reads_host_name", {"same-host-name"}},
     {"reads_locale", {"same-locale"}},
+    {"reads_new_members", {"older-activation"}},
     {"reads_on", {"input-not-overrun"}},
     {"reads_process_id", {"same-processes"}},
     {"reads_reserved_host", {"reserved-members"}},
     {"reads_reserved_sensor", {"reserved-members"}},
     {"reads_thread", {"same-threads", "same-at-once"}},
     {"refined_to_nan", {"report-refined"}},
+    {"refuses_intrinsics", {"activate-unknown-intrinsics", "activate-unknown-kind"}},
     {"refuses_large_ids", {"activate-any-id"}},
     {"refuses_mounts", {"activate-any-mount"}},
     {"refuses_nan_facts", {"activate-unknown-facts"}},
+    {"refuses_nan_speed", {"activate-unknown-robot"}},
+    {"refuses_round_body", {"activate-unknown-robot", "activate-any-body"}},
     {"refuses_silently", {"activate-no-sensors", "errors-reasons", "grown-error"}},
+    {"refuses_unknown_drive", {"activate-any-drive"}},
     {"refuses_unknown_kind", {"activate-unknown-kind"}},
     {"remembers_after_deactivate", {"deactivate-forgets"}},
     {"remembers_after_reset", {"reset-forgets"}},
@@ -245,7 +257,8 @@ INSTANTIATE_TEST_SUITE_P(Each, Defects, testing::ValuesIn(kDefects),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(Suite, EveryTestHasADefectThatItFinds) {
-  std::set<std::string> found{"entry-alone"};  // by another file, below
+  std::set<std::string> found{"entry-alone",
+                              "grown-intrinsics"};  // by other files: below, and samples_test.cpp
   for (const Defect& defect : kDefects) found.insert(defect.fails.begin(), defect.fails.end());
   for (const conformance::Test& test : all_tests()) EXPECT_TRUE(found.contains(test.name)) << test.name;
 }

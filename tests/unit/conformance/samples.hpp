@@ -45,4 +45,18 @@ inline void expect_defects_found(const std::string& plugin, std::size_t n_arrays
   }
 }
 
+/// Expects that defects in reading a sensor's intrinsics are found.
+inline void expect_intrinsic_defects_found(const std::string& plugin) {
+  const std::map<std::string, std::string> defects{
+      {"grown_intrinsics", "grown-intrinsics"},    {"ignores_stride", "stride"},
+      {"keeps_intrinsics", "activation-not-kept"}, {"needs_intrinsics", "activate-unknown-intrinsics"},
+      {"reads_new_members", "older-activation"},   {"reads_on_intrinsics", "input-not-overrun"}};
+  for (const auto& [defect, test] : defects) {
+    const DefectivePlugin file(defect, "defective_samples");
+    SuiteSetup setup = setup_of_samples(file, plugin);
+    setup.only = {test};
+    EXPECT_FALSE(run_suite(setup).at(0).good()) << defect << " of " << plugin;
+  }
+}
+
 }  // namespace hallway::conformance::test

@@ -42,6 +42,11 @@ TEST(Samples, DefectsOfPluginsOfContactZonesAndEncodersAreFound) {
   expect_defects_found("encoder", 1);
 }
 
+TEST(Samples, DefectsInReadingIntrinsicsAreFound) {
+  expect_intrinsic_defects_found("bump");
+  expect_intrinsic_defects_found("encoder");
+}
+
 TEST(Samples, SlamPlaneIsGivenPlanes) {
   const DefectivePlugin none("defective_samples", "defective_samples");
   SuiteSetup setup = none.setup();

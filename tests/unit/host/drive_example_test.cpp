@@ -14,8 +14,11 @@ namespace {
 
 class DriveExample : public testing::Test {
  protected:
-  DriveExample() {
-    plugin_.activate(std::vector<SensorInfo>{{.id = 3, .kind = HW_SAMPLE_BUMP, .name = "bump"}});
+  void SetUp() override { plugin_.activate(robot()); }
+
+  /// What the plugin is activated with.
+  virtual Activation robot() const {
+    return std::vector<SensorInfo>{{.id = 3, .kind = HW_SAMPLE_BUMP, .name = "bump"}};
   }
 
   /// What it commands for a frame of that time in which the zones to the left and right are pressed or not.
@@ -53,6 +56,22 @@ TEST_F(DriveExample, TurnsAwayFromTheSideThatItTouches) {
   EXPECT_LT(drive(0, true, false).angular_rad_s, 0) << "to the right";
   EXPECT_GT(drive(1, false, true).angular_rad_s, 0) << "to the left";
   EXPECT_NE(drive(2, true, true).angular_rad_s, 0) << "to some side";
+}
+
+/// A robot that is slow.
+class SlowDriveExample : public DriveExample {
+  Activation robot() const override {
+    Activation slow = DriveExample::robot();
+    slow.drive = DriveInfo{.max_speed_m_s = 0.125, .max_angular_rad_s = 0.25};
+    return slow;
+  }
+};
+
+TEST_F(SlowDriveExample, IsToldNoMoreThanItsDriveCanDo) {
+  EXPECT_EQ(drive(0, false, false).linear_m_s, 0.125);
+  const DriveCommand away = drive(1, true, false);
+  EXPECT_EQ(away.linear_m_s, -0.0625);
+  EXPECT_EQ(away.angular_rad_s, -0.25);
 }
 
 }  // namespace

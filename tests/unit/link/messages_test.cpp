@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "support/errors.hpp"
+#include "support/known_robot.hpp"
 #include "unit/link/datagrams.hpp"
 
 namespace hallway::link {
@@ -131,9 +133,81 @@ TEST(Description, IsReadBackToTheLastBitInEveryVersion) {
   EXPECT_FALSE(read_description(write_description(description(false), 1), 1).lock_step);
 }
 
+Description known_description() {
+  Description robot = description(true);
+  const host::Activation known = hallway::test::known_robot();
+  robot.sensors = known.sensors;
+  robot.drive = known.drive;
+  robot.body = known.body;
+  return robot;
+}
+
+host::Activation robot_in(const Description& description) {
+  return {description.sensors, description.drive, description.body};
+}
+
+TEST(Description, DriveBodyAndIntrinsicsAreReadBackWhereTheVersionHasThem) {
+  const Description robot = known_description();
+  const Description back = read_description(write_description(robot, kNewestVersion), kNewestVersion);
+  expect_same(back, robot);
+  hallway::test::expect_same_robot(robot_in(back), robot_in(robot));
+  const Description first = read_description(write_description(robot, kFirstVersion), kFirstVersion);
+  expect_same(first, robot);
+  EXPECT_FALSE(first.drive || first.body);
+  Description only_body = robot;
+  only_body.drive.reset();
+  only_body.body = host::BodyInfo{};
+  const Description other = read_description(write_description(only_body, kNewestVersion), kNewestVersion);
+  hallway::test::expect_same_robot(robot_in(other), robot_in(only_body));
+}
+
+/// Version 2 as those read it who knew nothing of drive and body: each struct is as long as it says.
+TEST(Description, IsReadAsFarAsItWasKnownBefore) {
+  const Bytes message = write_description(known_description(), kNewestVersion);
+  AlignedByteReader reader(message);
+  const auto skip = [&](std::uint32_t known_bytes) {
+    AlignedByteReader ahead = reader;
+    const auto size = ahead.get<std::uint32_t>();
+    EXPECT_GT(size, known_bytes);
+    EXPECT_EQ(size % 8, 0u);
+    reader.take_raw(size);
+    return reader.get_text();
+  };
+  EXPECT_EQ(skip(24), "office");
+  EXPECT_EQ(skip(128), "wheels");
+  EXPECT_EQ(skip(128), "bumper");
+  const Bytes before = write_description(description(true), kNewestVersion);
+  EXPECT_EQ(load<std::uint32_t>(before.data()), 24u) << "of an unknown robot nothing is added";
+}
+
+TEST(Description, ALaterOnesPartsArePassedOver) {
+  Bytes message = write_description(known_description(), kNewestVersion);
+  const auto size = load<std::uint32_t>(message.data());
+  message.insert(message.begin() + size, 16, std::byte{0x5a});
+  store(message.data(), size + 16);
+  ASSERT_EQ(load<std::uint32_t>(message.data() + 24), 3u) << "there are a drive and a body";
+  store(message.data() + 24, 0xffff'ffffu);  // and what a later robot may have
+  hallway::test::expect_same_robot(robot_in(read_description(message, kNewestVersion)),
+                                   robot_in(known_description()));
+  store(message.data() + 28, 4711u);  // the kind of its drive
+  EXPECT_EQ(read_description(message, kNewestVersion).drive->kind, std::uint32_t{HW_DRIVE_UNKNOWN});
+}
+
+TEST(Description, PartsWithoutSenseAreRefused) {
+  Description robot = known_description();
+  robot.drive->max_speed_m_s = -1;
+  EXPECT_TRUE(hallway::test::error_of([&] { write_description(robot, kNewestVersion); }));
+  robot = known_description();
+  std::reverse(robot.body->corners.begin(), robot.body->corners.end());
+  EXPECT_TRUE(hallway::test::error_of([&] { write_description(robot, kNewestVersion); }));
+  robot = known_description();
+  std::get<host::BumpIntrinsics>(robot.sensors[1].intrinsics).zones[0].name = "a\nb";
+  EXPECT_TRUE(hallway::test::error_of([&] { write_description(robot, kNewestVersion); }));
+}
+
 TEST(Description, EveryTruncationIsRefusedAndNoChangedByteCrashes) {
   for (const std::uint8_t version : {kFirstVersion, kNewestVersion}) {
-    const Bytes whole = write_description(description(true), version);
+    const Bytes whole = write_description(known_description(), version);
     for (std::size_t size = 0; size < whole.size(); ++size) {
       const std::span<const std::byte> cut(whole.data(), size);
       EXPECT_TRUE(hallway::test::error_of([&] { read_description(cut, version); })) << size;
@@ -178,11 +252,12 @@ TEST(Description, OfVersion2HasTheBytesOfTheSpecification) {
 }
 
 /// A description of version 2 whose struct at `offset` says that it has `more` bytes more, which stand behind it.
-Bytes grown(const Bytes& message, std::size_t offset, std::uint32_t more) {
+Bytes grown(const Bytes& message, std::size_t offset, std::uint32_t more,
+            std::byte filled = std::byte{0x5a}) {
   std::uint32_t size = 0;
   std::memcpy(&size, message.data() + offset, sizeof size);
   Bytes bytes = message;
-  bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(offset + size), more, std::byte{0x5a});
+  bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(offset + size), more, filled);
   size += more;
   std::memcpy(bytes.data() + offset, &size, sizeof size);
   return bytes;
@@ -193,9 +268,10 @@ TEST(Description, OfALaterRobotIsReadAsFarAsItIsKnown) {
   const Bytes message = write_description(robot, kNewestVersion);
   // The robot's struct, its name ("office": length and eight bytes), the sensor's struct.
   const std::size_t sensor = 24 + 16;
-  expect_same(read_description(grown(message, 0, 16), kNewestVersion), robot);
+  const std::byte none{0};  // a robot's flags are there first: nothing is known of drive and body
+  expect_same(read_description(grown(message, 0, 16, none), kNewestVersion), robot);
   expect_same(read_description(grown(message, sensor, 64), kNewestVersion), robot);
-  expect_same(read_description(grown(grown(message, sensor, 8), 0, 8), kNewestVersion), robot);
+  expect_same(read_description(grown(grown(message, sensor, 8), 0, 8, none), kNewestVersion), robot);
   for (const std::uint32_t size : {0u, 8u, 23u, 28u, 0xffff'fff8u}) {
     Bytes lies = message;
     std::memcpy(lies.data(), &size, sizeof size);

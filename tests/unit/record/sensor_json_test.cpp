@@ -8,7 +8,9 @@
 
 #include "base/error.hpp"
 #include "host/samples/point_kind.hpp"
+#include "record/robot_parts_json.hpp"
 #include "support/errors.hpp"
+#include "support/known_robot.hpp"
 
 namespace hallway::record {
 namespace {
@@ -28,6 +30,48 @@ TEST(SensorJson, KeepsEveryBitAndWhatIsUnknown) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(back.T_body_sensor.position[i], sensor.T_body_sensor.position[i]);
   for (int i = 0; i < 4; ++i)
     EXPECT_EQ(back.T_body_sensor.orientation[i], sensor.T_body_sensor.orientation[i]);
+}
+
+nlohmann::ordered_json parsed_again(const nlohmann::ordered_json& json) {
+  return nlohmann::ordered_json::parse(json.dump());
+}
+
+TEST(SensorJson, DriveBodyAndIntrinsicsKeepEveryBit) {
+  const host::Activation robot = test::known_robot();
+  nlohmann::ordered_json json{{"drive", print_drive(*robot.drive)}, {"body", print_body(*robot.body)}};
+  host::Activation back{{}, read_drive_in(parsed_again(json)), read_body_in(parsed_again(json))};
+  for (const host::SensorInfo& sensor : robot.sensors)
+    back.sensors.push_back(read_sensor(parsed_again(print_sensor(sensor))));
+  test::expect_same_robot(back, robot);
+  json = {{"drive", print_drive({})}, {"body", print_body({})}};
+  test::expect_same_robot({{}, read_drive_in(parsed_again(json)), read_body_in(parsed_again(json))},
+                          {{}, host::DriveInfo{}, host::BodyInfo{}});
+  EXPECT_FALSE(read_drive_in({{"sensors", {}}}));
+  EXPECT_FALSE(read_body_in({{"sensors", {}}}));
+}
+
+TEST(SensorJson, LaterDrivesAreReadAsFarAsTheyAreKnown) {
+  const auto drive = read_drive_in(
+      nlohmann::ordered_json::parse(R"({"drive": {"kind": "legs", "max_speed_m_s": 2, "n_legs": 6}})"));
+  ASSERT_TRUE(drive);
+  EXPECT_EQ(drive->kind, std::uint32_t{HW_DRIVE_UNKNOWN});
+  EXPECT_EQ(drive->max_speed_m_s, 2.0);
+  EXPECT_TRUE(std::isnan(drive->wheel_base_m));
+}
+
+TEST(SensorJson, WrongPartsAreBadInput) {
+  for (const char* text :
+       {R"({"drive": 3})", R"({"drive": {"kind": "tracked", "max_speed_m_s": -1}})",
+        R"({"body": {"corners_m": [[0, 0], [1, 0]]}})", R"({"body": {"corners_m": [[0], [1, 0], [1, 1]]}})",
+        R"({"body": {"radius_m": "wide"}})"}) {
+    const auto error = test::error_of([&] {
+      const auto json = nlohmann::ordered_json::parse(text);
+      read_drive_in(json);
+      read_body_in(json);
+    });
+    ASSERT_TRUE(error) << text;
+    EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  }
 }
 
 TEST(SensorJson, WrongMemberIsBadInput) {

@@ -4,6 +4,12 @@
 #include <gtest/gtest.h>
 #include <hallway/sample.h>
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "host/robot_parts.hpp"
+
 namespace hallway::sense {
 namespace {
 
@@ -47,6 +53,36 @@ TEST(Describe, ASensorOfPlanes) {
   const host::SensorInfo faces = describe(spec, 0);
   EXPECT_EQ(faces.kind, kPlanes);
   EXPECT_EQ(faces.noise_m[2], 0.01);
+}
+
+/// Whether a contact at that angle presses the zone.
+bool presses(const BumpSensor& sensor, double angle_rad) {
+  const Vec3 out(std::cos(angle_rad), std::sin(angle_rad), 0.0);
+  const BumpContact contact{.point = 0.2 * out, .normal = -out, .gap_m = 0.0, .T_world_body = {}};
+  return sensor.truth({&contact, 1}).pressed.at(0);
+}
+
+TEST(Describe, TheZonesOfABumperAreThoseThatArePressed) {
+  const std::pair<double, double> sectors[] = {
+      {-0.5, 0.75}, {3.0, 4.0}, {6.0, 0.25}, {1.0, 1.0}, {-7.0, -6.5}};
+  for (const auto& [from, to] : sectors) {
+    BumpSensorSpec spec{.name = "bumper", .zones = {{.name = "zone", .from_rad = from, .to_rad = to}}};
+    const host::SensorInfo info = describe(spec, 3);
+    EXPECT_EQ(host::problem_of_intrinsics(info), "");
+    const host::BumpZoneInfo& zone = std::get<host::BumpIntrinsics>(info.intrinsics).zones.at(0);
+    EXPECT_EQ(zone.name, "zone");
+    EXPECT_TRUE(std::isnan(zone.bottom_m) && std::isnan(zone.top_m)) << "it has no ends";
+    const BumpSensor sensor(spec, 1);
+    for (int i = 0; i < 1000; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / 1000;
+      const double aside = std::abs(std::remainder(angle - zone.middle_rad, 2.0 * std::numbers::pi));
+      EXPECT_EQ(presses(sensor, angle), aside < 0.5 * zone.width_rad) << from << " " << to << " " << angle;
+    }
+  }
+  const BumpSensorSpec low{.name = "bumper", .zones = {{"low", 0.0, 1.0, 0.05, 0.3}}};
+  const host::SensorInfo info = describe(low, 3);
+  EXPECT_EQ(std::get<host::BumpIntrinsics>(info.intrinsics).zones.at(0).bottom_m, 0.05);
+  EXPECT_EQ(std::get<host::BumpIntrinsics>(info.intrinsics).zones.at(0).top_m, 0.3);
 }
 
 }  // namespace

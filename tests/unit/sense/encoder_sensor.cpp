@@ -17,7 +17,7 @@ EncoderSensorSpec plain_encoder() {
 
 TEST(EncoderSensor, ManySmallStepsDoNotDrift) {
   const EncoderSensor encoder(plain_encoder(), 1, 1);
-  const double tick = encoder.nominal_m_per_tick();
+  const double tick = plain_encoder().nominal_m_per_tick();
   std::int64_t last = 0;
   constexpr std::int64_t kSteps = 10'000'000;
   for (std::int64_t k = 1; k <= kSteps; ++k) {
@@ -34,8 +34,8 @@ TEST(EncoderSensor, IsWithinATickOfTheWay) {
   EncoderSensorSpec spec = plain_encoder();
   spec.radius_error = {0.01, -0.02};
   const EncoderSensor encoder(spec, 2, 1);
-  EXPECT_DOUBLE_EQ(encoder.m_per_tick()[0], 1.01 * encoder.nominal_m_per_tick());
-  EXPECT_DOUBLE_EQ(encoder.m_per_tick()[1], 0.98 * encoder.nominal_m_per_tick());
+  EXPECT_DOUBLE_EQ(encoder.m_per_tick()[0], 1.01 * spec.nominal_m_per_tick());
+  EXPECT_DOUBLE_EQ(encoder.m_per_tick()[1], 0.98 * spec.nominal_m_per_tick());
   const std::vector<std::int64_t> there = encoder.read(std::vector{1.234, -1.234}).ticks;
   for (const double way : {-50.0, -1e-9, 0.0, 3e-5, 0.7, 1e4}) {
     const std::vector<double> ways{way, -way};
@@ -59,7 +59,7 @@ TEST(EncoderSensor, RadiusErrorsHaveTheirStatistics) {
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const EncoderSensor encoder(spec, 1, seed);
-    const double error = encoder.m_per_tick()[0] / encoder.nominal_m_per_tick() - 1.02;
+    const double error = encoder.m_per_tick()[0] / spec.nominal_m_per_tick() - 1.02;
     sum += error;
     squares += error * error;
   }

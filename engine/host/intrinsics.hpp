@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hallway::host {
+
+// What else is known of a sensor, by its kind; see hw_sensor_info_t.intrinsics. A number that is not known is NaN.
+
+/// A wheel with an encoder; see hw_encoder_wheel_t.
+struct EncoderWheel {
+  double m_per_tick = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 3> position{};
+  std::array<double, 3> direction{1.0, 0.0, 0.0};
+};
+
+/// Of a sensor of wheel encoders; see hw_encoder_info_t.
+struct EncoderIntrinsics {
+  std::vector<EncoderWheel> wheels{};
+};
+
+/// A contact zone; see hw_bump_zone_info_t.
+struct BumpZoneInfo {
+  std::string name{};
+  double middle_rad = std::numeric_limits<double>::quiet_NaN();
+  double width_rad = std::numeric_limits<double>::quiet_NaN();
+  double bottom_m = std::numeric_limits<double>::quiet_NaN();
+  double top_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of a sensor of contact zones; see hw_bump_info_t.
+struct BumpIntrinsics {
+  std::vector<BumpZoneInfo> zones{};
+};
+
+/// Of any sensor; std::monostate: nothing is known.
+using Intrinsics = std::variant<std::monostate, BumpIntrinsics, EncoderIntrinsics>;
+
+/// Most zones or wheels of a sensor.
+inline constexpr std::size_t kMaxIntrinsicParts = 256;
+
+}  // namespace hallway::host

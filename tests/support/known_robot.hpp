@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+#include <hallway/sample.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "host/activation.hpp"
+
+namespace hallway::test {
+
+/// A robot of which all is known, each number another one, with encoders, a bumper, and a sensor of points.
+inline host::Activation known_robot() {
+  host::Activation robot;
+  robot.sensors = {{.id = 4, .kind = HW_SAMPLE_ENCODER, .name = "wheels"},
+                   {.id = 7, .kind = HW_SAMPLE_BUMP, .name = "bumper"},
+                   {.id = 9, .kind = HW_SAMPLE_POINTS, .name = "eyes"}};
+  robot.sensors[0].intrinsics = host::EncoderIntrinsics{
+      {{1.0 / 3.0, {0.1, 0.2, -0.3}, {1.0, 0.0, 0.0}}, {2.5e-4, {0.1, -0.2, -0.3}, {0.6, 0.8, 0.0}}}};
+  robot.sensors[1].intrinsics =
+      host::BumpIntrinsics{{{"front", 0.25, 1.5, 0.05, 0.3}, {"hinten links", -2.5, 0.1, NAN, NAN}}};
+  host::DriveInfo& drive = robot.drive.emplace();
+  drive.kind = HW_DRIVE_OMNIDIRECTIONAL;
+  double next = 1.0 / 7.0;
+  for (const host::DriveNumber& number : host::drive_numbers()) drive.*number.host = next += 0.5;
+  robot.body = host::BodyInfo{.corners = {{0.3, -0.2}, {0.3, 0.2}, {-0.1, 0.25}, {-0.3, 0.0}, {-0.1, -0.25}},
+                              .bottom_m = -0.05,
+                              .top_m = 0.45};
+  robot.body->radius_m = host::outer_radius_m(*robot.body);
+  return robot;
+}
+
+inline bool same_number(double a, double b) {
+  return std::isnan(a) ? std::isnan(b) : a == b;
+}
+
+inline void expect_same_drive(const host::DriveInfo& a, const host::DriveInfo& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  for (const host::DriveNumber& number : host::drive_numbers())
+    EXPECT_TRUE(same_number(a.*number.host, b.*number.host)) << number.key;
+}
+
+inline void expect_same_body(const host::BodyInfo& a, const host::BodyInfo& b) {
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_TRUE(same_number(a.radius_m, b.radius_m));
+  EXPECT_TRUE(same_number(a.bottom_m, b.bottom_m));
+  EXPECT_TRUE(same_number(a.top_m, b.top_m));
+}
+
+inline void expect_same_intrinsics(const host::Intrinsics& a, const host::Intrinsics& b) {
+  ASSERT_EQ(a.index(), b.index());
+  if (const auto* encoder = std::get_if<host::EncoderIntrinsics>(&a)) {
+    const auto& wheels = std::get<host::EncoderIntrinsics>(b).wheels;
+    ASSERT_EQ(encoder->wheels.size(), wheels.size());
+    for (std::size_t i = 0; i < wheels.size(); ++i)
+      EXPECT_EQ(std::memcmp(&encoder->wheels[i], &wheels[i], sizeof wheels[i]), 0) << i;
+  }
+  if (const auto* bump = std::get_if<host::BumpIntrinsics>(&a)) {
+    const auto& zones = std::get<host::BumpIntrinsics>(b).zones;
+    ASSERT_EQ(bump->zones.size(), zones.size());
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+      const host::BumpZoneInfo &p = bump->zones[i], &q = zones[i];
+      EXPECT_EQ(p.name, q.name);
+      EXPECT_TRUE(same_number(p.middle_rad, q.middle_rad) && same_number(p.width_rad, q.width_rad)) << i;
+      EXPECT_TRUE(same_number(p.bottom_m, q.bottom_m) && same_number(p.top_m, q.top_m)) << i;
+    }
+  }
+}
+
+/// Expects the same drive, body and intrinsics.
+inline void expect_same_robot(const host::Activation& a, const host::Activation& b) {
+  ASSERT_EQ(a.drive.has_value(), b.drive.has_value());
+  ASSERT_EQ(a.body.has_value(), b.body.has_value());
+  if (a.drive) expect_same_drive(*a.drive, *b.drive);
+  if (a.body) expect_same_body(*a.body, *b.body);
+  ASSERT_EQ(a.sensors.size(), b.sensors.size());
+  for (std::size_t i = 0; i < a.sensors.size(); ++i)
+    expect_same_intrinsics(a.sensors[i].intrinsics, b.sensors[i].intrinsics);
+}
+
+}  // namespace hallway::test
