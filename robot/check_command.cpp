@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <functional>
+#include <utility>
 
 #include "base/text.hpp"
 #include "console.hpp"
 #include "host/isolate/isolated_plugin.hpp"
 #include "host/load/plugin_info.hpp"
 #include "host/samples/sample_kind.hpp"
+#include "record/robot_parts_json.hpp"
 #include "robot/command.hpp"
 #include "robot/session.hpp"
 
@@ -40,7 +43,9 @@ void check_driver(Findings& findings, const Config& config, const Surroundings& 
     host::Driver driver(host::find_driver(config.driver.name, surroundings.driver_folders), surroundings.log);
     findings.driver = driver.info().id + " " + driver.info().version;
     driver.open(config.driver.settings, config.folder());
-    findings.robot = driver.describe();
+    host::RobotInfo robot = driver.describe();
+    override_parts(config.parts, robot);
+    findings.robot = std::move(robot);
     findings.timing = timing_of(config, *findings.robot);
   });
 }
@@ -50,10 +55,10 @@ void check_plugin(Findings& findings, const host::StageSpec& spec, const Surroun
   note_problem(findings, [&] {
     const auto isolation = surroundings.isolation.value_or(host::Isolation{});
     if (findings.robot) {
-      const host::RobotInfo& robot = *findings.robot;
-      host::Pipeline pipeline({spec}, surroundings.plugin_folders,
-                              host::Activation{robot.sensors, robot.drive, robot.body}, surroundings.log,
-                              isolation);
+      host::Pipeline pipeline(
+          {spec}, surroundings.plugin_folders,
+          host::Activation{findings.robot->sensors, findings.robot->drive, findings.robot->body},
+          surroundings.log, isolation);
       findings.plugins.push_back(pipeline.stage(0).info().id + " " + pipeline.stage(0).info().version);
       return;
     }
@@ -75,6 +80,25 @@ std::string time_text(const Timing& timing, const host::RobotInfo& robot) {
                      milliseconds(timing.watchdog));
 }
 
+/// Its kind and the numbers that are known, a line each.
+std::string drive_text(const host::DriveInfo& drive) {
+  std::string text(host::kDriveNames.at(drive.kind));
+  for (const host::DriveNumber& number : host::drive_numbers()) {
+    if (!std::isnan(drive.*number.host))
+      text += fmt::format("\n{:13}{} = {:g}", "", number.key, drive.*number.host);
+  }
+  return text;
+}
+
+std::string body_text(const host::BodyInfo& body) {
+  const auto number = [](double value) {
+    return std::isnan(value) ? std::string("not known") : fmt::format("{:g} m", value);
+  };
+  return fmt::format("{}, radius {}, from {} to {}",
+                     body.corners.empty() ? "round" : fmt::format("{} corners", body.corners.size()),
+                     number(host::outer_radius_m(body)), number(body.bottom_m), number(body.top_m));
+}
+
 std::string table_of(const Findings& findings) {
   std::string text;
   const cli::Rows row{text, 10};
@@ -86,6 +110,8 @@ std::string table_of(const Findings& findings) {
       row("sensor", fmt::format("{}: {} ({})", sensor.id, sensor.name, host::sample_kind_name(sensor.kind)));
     }
   }
+  if (findings.robot && findings.robot->drive) row("drive", drive_text(*findings.robot->drive));
+  if (findings.robot && findings.robot->body) row("body", body_text(*findings.robot->body));
   for (const std::string& plugin : findings.plugins) row("plugin", plugin);
   return text;
 }
@@ -100,12 +126,16 @@ Json document_of(const Findings& findings, int status) {
           {{"id", sensor.id}, {"name", sensor.name}, {"kind", host::sample_kind_name(sensor.kind)}});
     }
   }
+  const bool has_drive = findings.robot && findings.robot->drive;
+  const bool has_body = findings.robot && findings.robot->body;
   return {{"schema", "hallway.robot_check/1"},
           {"status", status},
           {"driver", findings.driver},
           {"robot", findings.robot ? Json(findings.robot->name) : Json()},
           {"lock_step", findings.robot ? Json(findings.robot->lock_step) : Json()},
           {"sensors", sensors},
+          {"drive", has_drive ? record::print_drive(*findings.robot->drive) : Json()},
+          {"body", has_body ? record::print_body(*findings.robot->body) : Json()},
           {"plugins", findings.plugins},
           {"warnings", findings.timing.warnings},
           {"problems", problems}};

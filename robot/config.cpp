@@ -22,7 +22,7 @@ constexpr Range kCommandTimeout_s{0.0, 1e6};
 constexpr std::int64_t kMaxBacklog = 10'000;
 constexpr std::int64_t kMaxWatchdog_ms = 60'000;
 
-const std::vector<std::string> kTopKeys{"schema", "driver", "plugin", "limits", "robot"};
+const std::vector<std::string> kTopKeys{"schema", "driver", "plugin", "limits", "drive", "body", "robot"};
 const std::vector<std::string> kRobotKeys{"watchdog_ms",    "rate_hz", "backlog",
                                           "report_every_s", "record",  "command_timeout_s"};
 
@@ -43,6 +43,9 @@ class ConfigReader {
     if (config_.pipeline.empty()) throw top.error("plugin", "is missing; a robot needs a [[plugin]]");
     TableReader limits = reader("limits", top.table("limits"), top.line("limits"), host::kPluginLimitKeys);
     config_.limits = host::read_plugin_limits(limits, config_.limits);
+    TableReader drive = reader("drive", top.table("drive"), top.line("drive"), drive_part_keys());
+    TableReader body = reader("body", top.table("body"), top.line("body"), kBodyPartKeys);
+    config_.parts = read_robot_parts(drive, body);
     read_robot(top);
     return std::move(config_);
   }
@@ -94,6 +97,8 @@ std::vector<std::string> settable_keys(TomlTable& root, std::string_view wanted)
   std::vector<std::string> keys{"driver", "plugin"};
   for (const std::string& key : kRobotKeys) keys.push_back("robot." + key);
   for (const std::string& key : host::kPluginLimitKeys) keys.push_back("limits." + key);
+  for (const std::string& key : drive_part_keys()) keys.push_back("drive." + key);
+  for (const std::string& key : kBodyPartKeys) keys.push_back("body." + key);
   if (const TomlTable* driver = table_in(root, "driver")) {
     for (const std::string& key : keys_of(*driver)) keys.push_back("driver." + key);
   }
@@ -114,7 +119,9 @@ void replace_driver(TomlTable& root, const std::string& name) {
 /// True if `key` is one of a table of settings.
 bool set_in_table(TomlTable& root, std::string_view table, std::string_view key, const TomlNode& value) {
   const bool known = (table == "driver" && !key.empty()) || (table == "robot" && holds(kRobotKeys, key)) ||
-                     (table == "limits" && holds(host::kPluginLimitKeys, key));
+                     (table == "limits" && holds(host::kPluginLimitKeys, key)) ||
+                     (table == "drive" && holds(drive_part_keys(), key)) ||
+                     (table == "body" && holds(kBodyPartKeys, key));
   if (!known) return false;
   if (TomlTable* found = table_in(root, table)) assign(*found, key, value);
   return true;

@@ -13,6 +13,7 @@
 #include "host/load/driver.hpp"
 #include "host/pipeline.hpp"
 #include "host/plugin_limits.hpp"
+#include "robot/robot_parts.hpp"
 
 namespace hallway::robot {
 
@@ -35,6 +36,7 @@ struct Config {
   double report_every_s = 0.0;     ///< how often the map is asked for and given to the robot; 0: never
   double command_timeout_s = 0.0;  ///< how long a command holds when no new one comes; 0: until the next
   bool record = true;              ///< whether a log is written
+  RobotParts parts{};              ///< of the drive and the body, above what the driver says
   std::vector<Setting> settings;   ///< every effective setting, in the order of the file
 
   /// A short name for titles: the file's, without folder and extension.
@@ -44,7 +46,7 @@ struct Config {
 };
 
 /// Reads a robot's configuration (format: docs/formats.md) and sets `overrides` above it: `driver` and `plugin`, wherever they stand, replace the
-/// driver (its settings stay if it is the same one) and leave one plugin; then come `driver.KEY`, `robot.KEY`, `limits.KEY` and `PLUGIN.parameter`.
+/// driver (its settings stay if it is the same one) and leave one plugin; then come `driver.KEY`, `drive.KEY`, `body.KEY`, `robot.KEY`, `limits.KEY` and `PLUGIN.parameter`.
 /// Nothing is loaded.
 /// Throws Error{kIo} if the file cannot be read; Error{kBadInput} with file, line and key for what is wrong in it; Error{kUsage} for an
 /// override whose key is unknown or whose value is wrong.

@@ -39,6 +39,7 @@ class Session {
         driver_(host::find_driver(config.driver.name, surroundings.driver_folders), surroundings.log) {
     driver_.open(config.driver.settings, config.folder());
     robot_ = driver_.describe();
+    override_parts(config.parts, robot_);
     timing_ = timing_of(config, robot_);
     pipeline_.emplace(config.pipeline, surroundings.plugin_folders,
                       host::Activation{robot_.sensors, robot_.drive, robot_.body}, surroundings.log,

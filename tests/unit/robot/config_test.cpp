@@ -81,6 +81,51 @@ TEST(Config, TheCommandLineStandsAboveTheFile) {
   EXPECT_EQ(config.pipeline.at(0).parameters.at(0).value, "0.2");
 }
 
+const std::string kParts =
+    "[drive]\nkind = 'ackermann'\nmax_speed_m_s = 0.75\nlatency_s = 0\n[body]\nlength_m = 0.5\nwidth_m = "
+    "0.25\ntop_m = 0.5\n";
+
+TEST(Config, DriveAndBodyOverrideTheDriversNumberByNumber) {
+  host::RobotInfo robot;
+  robot.drive = host::DriveInfo{.kind = HW_DRIVE_TRACKED, .max_speed_m_s = 2.0, .wheel_base_m = 0.3};
+  robot.body = host::BodyInfo{.radius_m = 0.9, .bottom_m = 0.125};
+  const Config config = load(kWhole + kParts, {{"drive.max_angular_rad_s", "1.5"}});
+  override_parts(config.parts, robot);
+  EXPECT_EQ(robot.drive->kind, std::uint32_t{HW_DRIVE_ACKERMANN});
+  EXPECT_EQ(robot.drive->max_speed_m_s, 0.75);
+  EXPECT_EQ(robot.drive->latency_s, 0.0);
+  EXPECT_EQ(robot.drive->max_angular_rad_s, 1.5);
+  EXPECT_EQ(robot.drive->wheel_base_m, 0.3) << "the driver's";
+  EXPECT_EQ(robot.body->corners, (std::vector<std::array<double, 2>>{
+                                     {0.25, 0.125}, {-0.25, 0.125}, {-0.25, -0.125}, {0.25, -0.125}}));
+  EXPECT_EQ(robot.body->bottom_m, 0.125) << "the driver's";
+  EXPECT_EQ(robot.body->top_m, 0.5);
+}
+
+TEST(Config, DriveAndBodyAreKnownWhereTheDriverSaysNothing) {
+  host::RobotInfo robot;
+  override_parts(load(kWhole).parts, robot);
+  EXPECT_FALSE(robot.drive || robot.body);
+  override_parts(load(kWhole + "[drive]\nmax_speed_m_s = 1\n").parts, robot);
+  ASSERT_TRUE(robot.drive);
+  EXPECT_FALSE(robot.body);
+  EXPECT_EQ(robot.drive->kind, std::uint32_t{HW_DRIVE_UNKNOWN});
+  override_parts(load(kWhole + "[body]\nradius_m = 0.25\n").parts, robot);
+  ASSERT_TRUE(robot.body);
+  EXPECT_EQ(robot.body->radius_m, 0.25);
+}
+
+TEST(Config, ABodyThatDoesNotFitTheDriversIsRefused) {
+  host::RobotInfo robot;
+  robot.body = host::BodyInfo{.radius_m = 0.9, .bottom_m = 0.75};
+  const Config config = load(kWhole + kParts);
+  const auto error = test::error_of([&] { override_parts(config.parts, robot); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+  EXPECT_TRUE(error->where().file.ends_with("robot.toml")) << error->what();
+  EXPECT_NE(std::string(error->what()).find("body.top_m"), std::string::npos) << error->what();
+}
+
 TEST(Config, AnotherDriverHasNoSettingsOfTheFirst) {
   EXPECT_TRUE(load(kWhole, {{"driver", "replay"}}).driver.settings.empty());
   EXPECT_EQ(load(kWhole, {{"driver.log", "x"}, {"driver", "replay"}}).driver.settings.size(), 1u);
@@ -136,6 +181,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"DriverIsText", "driver = 'd'\n", 1, "driver", "must be a table"},
         Wrong{"DriverWithoutName", "[driver]\nport = 1\n", 1, "driver.name", "is missing"},
         Wrong{"SettingIsList", kDriver + "port = [1]\n", 3, "driver.port", "not a list"},
+        Wrong{"UnknownDrive", kBoth + "[drive]\nkind = 'legs'\n", 6, "drive.kind", "differential"},
+        Wrong{"NegativeSpeed", kBoth + "[drive]\nmax_speed_m_s = -1\n", 6, "drive.max_speed_m_s", ""},
+        Wrong{"UnknownLimitOfDrive", kBoth + "[drive]\nmax_sped_m_s = 1\n", 6, "drive.max_sped_m_s",
+              "did you mean \"max_speed_m_s\"?"},
+        Wrong{"RoundBox", kBoth + "[body]\nradius_m = 1\nlength_m = 1\n", 6, "body.radius_m", "round"},
+        Wrong{"BoxWithoutWidth", kBoth + "[body]\nlength_m = 1\n", 5, "body.width_m", "is missing"},
         Wrong{"UnknownTable", kBoth + "[limit]\n", 5, "limit", "did you mean \"limits\"?"},
         Wrong{"UnknownLimit", kBoth + "[limits]\nmemory_mib = 1\n", 6, "limits.memory_mib", "unknown key"},
         Wrong{"UnknownPolicy", kBoth + "[limits]\non_failure = 'stp'\n", 6, "limits.on_failure", "stop"},
