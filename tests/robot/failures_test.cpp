@@ -114,6 +114,31 @@ TEST(Check, SaysThatAllIsWell) {
   for (const Note& note : world.notes()) EXPECT_EQ(note.what, "closed") << "nothing is read or written";
 }
 
+TEST(Check, PrintsTheDriveThatTheConfigurationOverrides) {
+  const RobotWorld world("speed = 0.5", drives(), "[drive]\nlatency_s = 0.25\n[body]\nradius_m = 0.125\n");
+  const Ended ended = hallway_robot({"check", world.config()});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  for (const char* line :
+       {"drive      tracked\n", "max_speed_m_s = 0.5\n", "latency_s = 0.25\n", "radius 0.125 m"})
+    EXPECT_TRUE(holds(ended.out, line)) << ended.out;
+  const Ended other = hallway_robot({"check", world.config(), "--set", "drive.max_speed_m_s=0.375"});
+  EXPECT_TRUE(holds(other.out, "max_speed_m_s = 0.375\n")) << other.out;
+}
+
+TEST(Check, ADriveWithoutSenseIsTheDriversFault) {
+  const RobotWorld world("speed = -1", drives());
+  const Ended ended = hallway_robot({"check", world.config()});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_TRUE(holds(ended.err, "describe(): gave a drive whose max_speed_m_s is below 0")) << ended.err;
+}
+
+TEST(Check, ADriverFromBeforeRobotsHadDrivesIsRead) {
+  const RobotWorld world("old = true", drives());
+  const Ended ended = hallway_robot({"check", world.config()});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_FALSE(holds(ended.out, "\n  drive ")) << ended.out;
+}
+
 TEST(Check, SaysAllThatIsWrong) {
   const RobotWorld world("frmes = 10", drives("slow_sm = 1"), "[[plugin]]\nname = \"no_such_plugin\"\n");
   const Ended ended = hallway_robot({"check", world.config()});

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <hallway/driver.hpp>
@@ -46,7 +48,9 @@ class Fake final : public hallway::sdk::Driver {
         "gap         frame before which three are missing [none]\n"
         "stall       frame before which there is none for stall_ms [none]\n"
         "stall_ms    how long [500]\n"
-        "nan         frame that has a point that is none [none]\n");
+        "nan         frame that has a point that is none [none]\n"
+        "speed       greatest of its drive, which is tracked [its drive is not known]\n"
+        "old         it was built before robots had drives: what is there is none [false]\n");
     return &kInfo;
   }
 
@@ -67,6 +71,8 @@ class Fake final : public hallway::sdk::Driver {
     stall_ = number(settings, "stall", -1);
     stall_ns_ = number(settings, "stall_ms", 500) * kMillisecond_ns;
     nan_ = number(settings, "nan", -1);
+    speed_ = settings.text("speed");
+    old_ = settings.text("old") == "true";
     const std::string log = settings.text("log");
     if (!log.empty()) log_ = std::fopen(log.c_str(), "we");
   }
@@ -89,6 +95,16 @@ class Fake final : public hallway::sdk::Driver {
     robot_.period_ns = period_ns_;
     robot_.sensors = &sensor_pointer_;
     robot_.n_sensors = 1;
+    if (!speed_.empty()) {
+      drive_.size = sizeof drive_;
+      drive_.kind = HW_DRIVE_TRACKED;
+      drive_.max_speed_m_s = std::strtod(speed_.c_str(), nullptr);
+      robot_.drive = &drive_;
+    }
+    if (old_) {
+      robot_.size = offsetof(hw_robot_info_t, drive);
+      robot_.drive = reinterpret_cast<const hw_drive_info_t*>(std::uintptr_t{8});  // behind its end
+    }
     return robot_;
   }
 
@@ -167,6 +183,9 @@ class Fake final : public hallway::sdk::Driver {
   bool lock_step_ = false;
   hw_sensor_info_t sensor_{};
   const hw_sensor_info_t* sensor_pointer_ = &sensor_;
+  std::string speed_;
+  bool old_ = false;
+  hw_drive_info_t drive_{};
   hw_robot_info_t robot_{};
   std::vector<hw_point3_t> points_;
   hw_points_t payload_{};
