@@ -13,6 +13,7 @@
 #include "command.hpp"
 #include "compiled_map.hpp"
 #include "console.hpp"
+#include "map/robot_file.hpp"
 #include "output_file.hpp"
 #include "renderer_option.hpp"
 #include "run/pictures/pictures.hpp"
@@ -126,7 +127,16 @@ void warn_of_area(const Drawing& drawing, const world::CompiledWorld& world) {
                 ground.min().y(), ground.max().x(), ground.max().y());
 }
 
+std::string draw_robot(const RenderOptions& options, const Drawing& drawing, const map::Document& document) {
+  if (drawing.show.map.anything())
+    refuse("--show {} is of a map with a world, not of a robot file", options.show.front());
+  return run::draw_robot_picture(map::read_robot(document), fs::path(options.input).stem().string(),
+                                 drawing.spec, drawing.show.things, drawing.options);
+}
+
 std::string draw_map(const RenderOptions& options, const Drawing& drawing) {
+  if (const map::Document document = load_map(options.input); map::is_robot_file(document))
+    return draw_robot(options, drawing, document);
   MapRequest request{.file = options.input, .strict = options.strict};
   if (drawing.show.map.pvs_from_m) request.level = pvs::Level::kFull;
   CompiledMap compiled = compile_map(request);

@@ -21,6 +21,15 @@ const TomlTable* table_of(const TomlTable& parent, std::string_view key) {
   return node != nullptr ? std::get_if<TomlTable>(&node->value) : nullptr;
 }
 
+/// False for a key that is for drives of another kind, which would be refused.
+bool fits_kind(std::string_view key, const TomlTable& drive) {
+  const TomlNode* node = find(drive, "kind");
+  const auto* kind = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
+  if (kind == nullptr) return true;
+  return (key != "turn_slip" || *kind == "tracked") &&
+         (key != "max_lateral_m_s" || *kind == "omnidirectional");
+}
+
 /// Fills tables with what a robot file says.
 class Defaults {
  public:
@@ -69,7 +78,9 @@ class Defaults {
 
   /// Keys such as `left_slip_mean` are of the table `left_slip`.
   void fill_drive(TomlTable& drive) const {
+    const bool has_own_kind = find(drive, "kind") != nullptr;
     for (const map::RobotKey& key : robot_.drive) {
+      if (has_own_kind && !fits_kind(key.key, drive)) continue;
       TomlNode value = scenario_value(map::entity_key("hw_drive", key.key), key.value);
       const auto table = std::ranges::find_if(
           kDisturbances, [&](const std::string& name) { return key.key.starts_with(name + "_"); });
@@ -153,6 +164,20 @@ std::vector<std::string> sensor_names(const map::RobotFile& robot) {
 
 void take_robot_file(TomlTable& root, const map::RobotFile& robot) {
   Defaults(robot).fill(root);
+}
+
+std::vector<SensorSpec> sensors_of(const map::RobotFile& robot) {
+  TomlTable root;
+  take_robot_file(root, robot);
+  std::vector<SensorSpec> sensors;
+  std::vector<Setting> unused;
+  if (robot.sensors.empty()) return sensors;
+  const std::vector<sense::BumpZone> zones = bump_zones_of(robot);
+  for (const TomlEntry& entry : *table_of(root, "sensor")) {
+    const auto& table = std::get<TomlTable>(entry.node.value);
+    sensors.push_back(read_sensor(entry.key, {robot.file, table, entry.node.line, unused, zones}, 0));
+  }
+  return sensors;
 }
 
 std::vector<sense::BumpZone> bump_zones_of(const map::RobotFile& robot) {

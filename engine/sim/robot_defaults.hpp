@@ -10,7 +10,7 @@
 #include "base/toml_node.hpp"
 #include "map/robot_file.hpp"
 #include "sense/bump_sensor.hpp"
-#include "sim/setting.hpp"
+#include "sim/scenario.hpp"
 
 namespace hallway::sim {
 
@@ -33,8 +33,11 @@ std::vector<std::string> sensor_names(const map::RobotFile& robot);
 /// Puts what a robot file says into a scenario, key by key where that says nothing. The sensors of the file come first, in its order.
 ///
 /// A body of the scenario, a cylinder or a box, takes the place of one of another form; its `bottom_m` and `top_m` may be the file's. A body of the file
-/// that is neither has no keys. Of a sensor whose kind the scenario changes, only keys of the new kind are taken.
+/// that is neither has no keys. Of a sensor or a drive whose kind the scenario says, only keys that this kind has are taken.
 void take_robot_file(TomlTable& root, const map::RobotFile& robot);
+
+/// The sensors of the file, in its order.
+std::vector<SensorSpec> sensors_of(const map::RobotFile& robot);
 
 /// The file's zones for bumpers. A zone that reaches to the end of the body has no end there: a contact at the very edge is in it.
 std::vector<sense::BumpZone> bump_zones_of(const map::RobotFile& robot);

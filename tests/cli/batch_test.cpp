@@ -145,6 +145,21 @@ TEST_F(Batch, ResumeSeesAMapOfAnotherNameAndAPluginThatTheScenarioNames) {
   EXPECT_EQ(taken_over(file), 1);
 }
 
+TEST_F(Batch, ResumeSeesTheRobotFileOfAScenario) {
+  const std::string robot =
+      "{\n\"classname\" \"worldspawn\"\n\"_hallway_robot\" \"1\"\n}\n{\n\"classname\" \"hw_body\"\n"
+      "\"radius_m\" \"0.1\"\n\"bottom_m\" \"-0.1\"\n\"top_m\" \"0.1\"\n}\n";
+  world_.folder().write("robot.map", robot);
+  world_.folder().write("small.toml",
+                        replaced(small_scenario(), "[robot]\n", "[robot]\nfile = \"robot.map\"\n"));
+  const std::string file = plan("steps = 20\n");
+  ASSERT_EQ(batch(file).status, 0);
+  EXPECT_EQ(taken_over(file), 1);
+  world_.folder().write("robot.map", robot + "// changed\n");
+  EXPECT_EQ(taken_over(file), 0);
+  EXPECT_EQ(taken_over(file), 1);
+}
+
 TEST_F(Batch, APluginThatEndedWhileItWasLoadedIsTriedAgain) {
   world_.folder().write(
       "small.toml",

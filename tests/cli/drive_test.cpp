@@ -186,5 +186,85 @@ TEST(DriveRuns, WhoDrivesIsClear) {
   told("wanderer", {"--set", "robot.start=nowhere"}, "nowhere");
 }
 
+// ---- Robot files ----------------------------------------------------------------------------------------------------
+
+const std::string kRobotBegin =
+    "{\n\"classname\" \"worldspawn\"\n\"_scale\" \"0.01\"\n\"_hallway_robot\" \"1\"\n}\n";
+const std::string kRobotBody =
+    "{\n\"classname\" \"hw_body\"\n\"radius_m\" \"0.2\"\n\"bottom_m\" \"0.03\"\n\"top_m\" \"0.5\"\n}\n";
+const std::string kRobotDrive =
+    "{\n\"classname\" \"hw_drive\"\n\"wheel_base_m\" \"0.32\"\n\"max_speed_m_s\" \"0.5\"\n\"latency_s\" "
+    "\"0.03\"\n"
+    "\"left_slip_mean\" \"0.02\"\n\"left_slip_sigma\" \"0.02\"\n\"step_m\" \"0.02\"\n}\n";
+const std::string kRobotSensors =
+    "{\n\"classname\" \"hw_sensor\"\n\"name\" \"bumper\"\n\"kind\" \"bump\"\n\"zones\" \"8\"\n\"depth\" "
+    "\"1\"\n}\n"
+    "{\n\"classname\" \"hw_sensor\"\n\"name\" \"wheels\"\n\"kind\" \"encoders\"\n\"rate_hz\" \"25\"\n}\n"
+    "{\n\"classname\" \"hw_sensor\"\n\"name\" \"eyes\"\n\"origin\" \"10 0 40\"\n\"max_range_m\" \"9\"\n"
+    "\"noise_m\" \"0.01\"\n\"pitch_deg\" \"3\"\n}\n";
+const std::string kSameRobot =
+    "radius_m = 0.2\nbottom_m = 0.03\ntop_m = 0.5\nstep_m = 0.02\n"
+    "[robot.drive]\nkind = 'differential'\nwheel_base_m = 0.32\nmax_speed_m_s = 0.5\nlatency_s = 0.03\n"
+    "left_slip = { mean = 0.02, sigma = 0.02 }\n"
+    "[sensor.bumper]\nkind = 'bump'\nzones = 8\ndepth = true\n"
+    "[sensor.wheels]\nkind = 'encoders'\nrate_hz = 25\n"
+    "[sensor.eyes]\nkind = 'points'\nposition_m = [0.1, 0, 0.4]\nmax_range_m = 9\nnoise_m = 0.01\npitch_deg "
+    "= 3\n";
+
+/// A robot in the office that its plugin drives.
+std::string scenario_of(const std::string& robot) {
+  return "map = \"" + (source_folder() / "maps/office.map").string() +
+         "\"\nseed = 3\nsteps = 300\n[robot]\nstart = 'free'\n" + robot + "[[plugin]]\nname = 'wanderer'\n";
+}
+
+Ended run_in(const TempFolder& folder, const std::string& scenario, const std::string& out) {
+  return hallway({"run", scenario, "--quiet", "--force", "--out", folder / out});
+}
+
+TEST(DriveRuns, ARobotFileIsTheSameKeysWrittenOut) {
+  const TempFolder folder, other;
+  folder.write("robot.map", kRobotBegin + kRobotBody + kRobotDrive + kRobotSensors);
+  const Ended named = run_in(folder, folder.write("s.toml", scenario_of("file = 'robot.map'\n")), "a");
+  ASSERT_EQ(named.status, 0) << named.err;
+  const Ended written = run_in(folder, other.write("s.toml", scenario_of(kSameRobot)), "b");
+  ASSERT_EQ(written.status, 0) << written.err;
+  std::size_t bytes = 0;
+  for (const char* file : {"truth.tum", "truth_poses.csv", "drive.csv", "contacts.csv", "commands.csv",
+                           "observations_eyes.csv"}) {
+    const std::string text = read_file(folder / "a" / file);
+    EXPECT_EQ(text, read_file(folder / "b" / file)) << file;
+    bytes += text.size();
+  }
+  EXPECT_GT(bytes, 10'000u);
+  EXPECT_EQ(drive_of(folder / "a"), drive_of(folder / "b"));
+  const auto frames = [&](const char* run) {
+    std::string all;
+    for (const char* frame : {"0", "150", "299"})
+      all += hallway({"log", "frame", folder / run / "run.mcap", frame}).out;
+    return all;
+  };
+  EXPECT_EQ(frames("a"), frames("b"));
+  EXPECT_NE(frames("a").find("bump"), std::string::npos);
+}
+
+TEST(DriveRuns, TheFolderOfARunWithARobotFileStandsForItself) {
+  const TempFolder folder;
+  const std::string robot = folder.write("robot.map", kRobotBegin + kRobotBody + kRobotDrive + kRobotSensors);
+  const std::string scenario = folder.write("s.toml", scenario_of("file = 'robot.map'\n"));
+  ASSERT_EQ(run_in(folder, scenario, "a").status, 0);
+  EXPECT_EQ(read_file(folder / "a/robot.map"), read_file(robot));
+  const auto manifest = nlohmann::json::parse(read_file(folder / "a/run.json"));
+  EXPECT_EQ(manifest.at("inputs").at(2).at("file"), "robot.map");
+  const fs::path name = folder / "picture.png", copy = folder / "a/scenario.toml";
+  fs::remove(robot);
+  EXPECT_EQ(run_in(folder, scenario, "b").status, 3) << "the robot file is gone";
+  EXPECT_EQ(run_in(folder, copy, "b").status, 0);
+  for (const char* file : {"truth.tum", "drive.csv"})
+    EXPECT_EQ(read_file(folder / "a" / file), read_file(folder / "b" / file)) << file;
+  EXPECT_EQ(
+      hallway({"render", folder / "a", "--iteration", "100", "--out", name, "--size", "200x100"}).status, 0);
+  EXPECT_EQ(hallway({"replay", folder / "a/run.mcap", "--quiet", "--out", folder / "c"}).status, 0);
+}
+
 }  // namespace
 }  // namespace hallway::test

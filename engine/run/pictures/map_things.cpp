@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
-#include <variant>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "map/entities.hpp"
 #include "map/path.hpp"
 #include "render/colour.hpp"
+#include "run/pictures/sensor_outline.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::run {
@@ -91,44 +90,8 @@ void add_starts(render::Picture& picture, const map::Document& document) {
   }
 }
 
-/// What all kinds of sensors have.
-struct FieldOfView {
-  std::string name;
-  Pose T_body_sensor;
-  double horizontal = 0.0, vertical = 0.0;  ///< full angles, rad
-  double range_m = 0.0;
-};
-
-/// Nothing for a sensor that does not look: a bumper, encoders.
-std::optional<FieldOfView> field_of(const sim::SensorSpec& sensor) {
-  if (const auto* points = std::get_if<sense::PointSensorSpec>(&sensor))
-    return FieldOfView{points->name, points->T_body_sensor, points->horizontal_fov, points->vertical_fov,
-                       points->max_range_m};
-  const auto* planes = std::get_if<sense::PlaneSensorSpec>(&sensor);
-  if (planes == nullptr) return std::nullopt;
-  return FieldOfView{planes->name, planes->T_body_sensor, planes->view.horizontal_fov, planes->vertical_fov,
-                     planes->view.max_range_m};
-}
-
-render::Polyline outline_of(const FieldOfView& field, const Pose& T_world_body) {
-  constexpr double kLongest_m = 2.0, kDegrees = 180.0 / std::numbers::pi;
-  constexpr int kPieces = 24;
-  const Pose T_world_sensor = T_world_body * field.T_body_sensor;
-  const double reach = std::min(field.range_m, kLongest_m);
-  std::vector<Vec3> points{T_world_sensor.t};
-  for (int i = 0; i <= kPieces; ++i) {
-    const double left = field.horizontal * (static_cast<double>(i) / kPieces - 0.5);
-    points.push_back(T_world_sensor * Vec3(reach * Vec3(std::cos(left), std::sin(left), 0.0)));
-  }
-  points.push_back(T_world_sensor.t);
-  return {.points = std::move(points),
-          .colour = render::palette::kSensor,
-          .width_px = 1.6,
-          .label = fmt::format("sensor {}: {:.4g} x {:.4g} deg, to {:.4g} m", field.name,
-                               field.horizontal * kDegrees, field.vertical * kDegrees, field.range_m)};
-}
-
-void add_sensors(render::Picture& picture, const map::Document& document) {
+void add_map_sensors(render::Picture& picture, const map::Document& document) {
+  constexpr double kLongest_m = 2.0;
   const std::optional<Pose> T_world_body = first_pose(document);
   if (!T_world_body) return;
   const auto sensors = unless_wrong([&] {
@@ -137,7 +100,8 @@ void add_sensors(render::Picture& picture, const map::Document& document) {
     return scenario.sensors;
   });
   for (const sim::SensorSpec& sensor : sensors)
-    if (const auto field = field_of(sensor)) picture.polylines.push_back(outline_of(*field, *T_world_body));
+    if (const auto field = field_of(sensor))
+      picture.polylines.push_back(outline_of(*field, *T_world_body, kLongest_m));
 }
 
 void add_lights(render::Picture& picture, const world::CompiledWorld& world) {
@@ -178,7 +142,7 @@ void add_map_things(render::Picture& picture, const map::Document& document,
                     const world::CompiledWorld& world, const MapThings& things) {
   if (things.rooms) add_rooms(picture, document, world);
   if (things.paths) add_paths(picture, document);
-  if (things.sensors) add_sensors(picture, document);
+  if (things.sensors) add_map_sensors(picture, document);
   if (things.lights) add_lights(picture, world);
   if (things.start) add_starts(picture, document);
 }

@@ -18,6 +18,7 @@
 #include "run/pictures/landmark_layers.hpp"
 #include "run/pictures/picture_frame.hpp"
 #include "run/pictures/plane_layers.hpp"
+#include "run/pictures/robot_things.hpp"
 
 namespace hallway::run {
 namespace {
@@ -326,6 +327,15 @@ std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& 
   const render::Plan plan = plan_for(subject.world, spec, map_view);
   return draw_png(compose_map_picture(subject, map_view, plan.faces), spec,
                   view_of_plan(spec, plan, options.renderer), options);
+}
+
+std::string draw_robot_picture(const map::RobotFile& robot, const std::string& title,
+                               const sim::PictureSpec& spec, const MapThings& things,
+                               const DrawOptions& options) {
+  render::Picture picture = compose_robot_picture(robot, things);
+  picture.title = printable(title);
+  return draw_png(picture, spec, view_of_plan(spec, {render::Faces::kAll, spec.cut_z_m}, options.renderer),
+                  options);
 }
 
 }  // namespace hallway::run

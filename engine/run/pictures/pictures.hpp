@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "map/robot_file.hpp"
 #include "render/image.hpp"
 #include "render/map_surfaces.hpp"
 #include "render/picture.hpp"
@@ -71,6 +72,11 @@ std::string draw_run_picture(const Record& record, const sim::PictureSpec& spec,
 /// The same for a map alone.
 std::string draw_map_picture(const MapSubject& subject, const sim::PictureSpec& spec,
                              const MapView& map_view = {}, const DrawOptions& options = {});
+
+/// The same for a robot file.
+std::string draw_robot_picture(const map::RobotFile& robot, const std::string& title,
+                               const sim::PictureSpec& spec, const MapThings& things = {},
+                               const DrawOptions& options = {});
 
 /// A run of points in which planes were found, in four panels as the figures of thesis chapter 5: the mapped walls over the true ones; the points that
 /// one frame saw; the planes found in them over the walls; the map by itself, with its submaps' links and its walls' numbers. The frame is the first of
