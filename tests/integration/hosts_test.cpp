@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "log/byte_io.hpp"
+#include "log/drive_tables.hpp"
 #include "log/mcap_reader.hpp"
 #include "support/data.hpp"
 #include "support/long_mode.hpp"
@@ -29,8 +30,8 @@ std::string content(const fs::path& file) {
   return fs::exists(file) ? read_file(file) : "(not there)";
 }
 
-/// What plugins answered, by channel: iteration, time and bytes of each message.
-std::map<std::string, std::string> answers(const fs::path& folder) {
+/// Iteration, time and bytes of each message of a log, by channel, of channels that begin like this.
+std::map<std::string, std::string> messages_of(const fs::path& folder, const std::string& begin) {
   const log::FileInput input(folder / "run.mcap");
   log::McapReader reader(input);
   std::map<std::string, std::string> channels;
@@ -38,7 +39,7 @@ std::map<std::string, std::string> answers(const fs::path& folder) {
     const auto* message = std::get_if<log::McapMessage>(item);
     if (message == nullptr) continue;
     const std::string& topic = reader.channels().at(message->channel_id).topic;
-    if (!topic.starts_with("/hallway/output/")) continue;
+    if (!topic.starts_with(begin)) continue;
     channels[topic] += std::to_string(message->sequence) + " " + std::to_string(message->log_time_ns) + " " +
                        std::string(message->data) + "\n";
   }
@@ -78,8 +79,8 @@ std::map<std::string, std::string> parameters_of(const fs::path& folder) {
 void expect_same_answers(const fs::path& a, const fs::path& b) {
   for (const char* table : kTables)
     EXPECT_TRUE(content(a / table) == content(b / table)) << table << " in " << b;
-  const auto here = answers(a);
-  const auto there = answers(b);
+  const auto here = messages_of(a, "/hallway/output/");
+  const auto there = messages_of(b, "/hallway/output/");
   EXPECT_GE(here.size(), 2u) << "a pose or a command, and the map";
   EXPECT_EQ(here.size(), there.size()) << b;
   for (const auto& [topic, messages] : here) {
@@ -93,14 +94,36 @@ void expect_same_answers(const fs::path& a, const fs::path& b) {
   EXPECT_EQ(hash, manifest_of(b).at("plugins").at(0).at("hash")) << "the same file in both";
 }
 
+void expect_same_frames(const fs::path& a, const fs::path& b) {
+  const auto frames = messages_of(a, "/hallway/frame");
+  EXPECT_EQ(frames.size(), 1u);
+  EXPECT_TRUE(frames == messages_of(b, "/hallway/frame")) << "what plugins were given in " << b;
+}
+
+/// What is true, and what a robot that obeys did.
+void expect_same_truth(const fs::path& a, const fs::path& b, bool with_drive) {
+  EXPECT_TRUE(content(a / "truth.tum") == content(b / "truth.tum")) << b;
+  EXPECT_TRUE(content(a / "truth_poses.csv") == content(b / "truth_poses.csv")) << b;
+  if (!with_drive) return;
+  for (const char* table : {"drive.csv", "contacts.csv"})
+    EXPECT_TRUE(content(a / table) == content(b / table)) << table << " in " << b;
+}
+
 /// A rig of several sensors, with slam_point.
 constexpr const char* kTwoCameras = "two_cameras";
 constexpr const char* kWanderer = "wanderer";  // which drives
+/// The fixture `drives` with drives of two other kinds: one that goes sideways, one that steers.
+constexpr const char* kSideways = "sideways";
+constexpr const char* kSteered = "steered";
+
+bool obeys(const std::string& each) {
+  return each == kWanderer || each == kSideways || each == kSteered;
+}
 
 /// Where a plugin sees what it needs.
 fs::path scenario_of(const std::string& each) {
   if (each == kTwoCameras) return source_folder() / "maps/two_cameras.toml";
-  if (each == kWanderer) return source_folder() / "maps/office_drive.toml";
+  if (obeys(each)) return source_folder() / "maps/office_drive.toml";
   return source_folder() / (each == "slam_plane" ? "maps/many_planes.toml" : "maps/office.toml");
 }
 
@@ -116,14 +139,32 @@ class Hosts : public testing::TestWithParam<std::string> {
     static std::map<std::string, TempFolder> folders;
     return folders[GetParam()] / name;
   }
-  static std::string plugin() { return GetParam() == kTwoCameras ? "slam_point" : GetParam(); }
+  static std::string plugin() {
+    if (GetParam() == kTwoCameras) return "slam_point";
+    return GetParam() == kSideways || GetParam() == kSteered ? FIXTURES "/drives.so" : GetParam();
+  }
+  static std::string plugin_with_parameters() {
+    return plugin() + (GetParam() == kSideways ? ":sideways_m_s=0.2" : "");
+  }
+  static std::vector<std::string> settings() {
+    if (GetParam() == kSideways) return {"--set", "robot.drive.kind=omnidirectional"};
+    if (GetParam() == kSteered) return {"--set", "robot.drive.kind=ackermann"};
+    return {};
+  }
   static std::string steps() { return std::to_string(sized(150, GetParam() == kTwoCameras ? 1010 : 2020)); }
 
   void run(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{
-        "run",    scenario_of(GetParam()), "--quiet", "--plugin", plugin(), "--steps", steps(), "--out",
-        out(name)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::vector<std::string> arguments{"run",
+                                       scenario_of(GetParam()),
+                                       "--quiet",
+                                       "--plugin",
+                                       plugin_with_parameters(),
+                                       "--steps",
+                                       steps(),
+                                       "--out",
+                                       out(name)};
+    for (const std::vector<std::string>& added : {settings(), more})
+      arguments.insert(arguments.end(), added.begin(), added.end());
     const Ended ended = hallway(arguments);
     ASSERT_EQ(ended.status, 0) << ended.err;
   }
@@ -159,8 +200,12 @@ class Hosts : public testing::TestWithParam<std::string> {
   void rehearse(const std::string& name, double loss) const {
     if (fs::exists(out(name))) return;
     const std::string share = std::to_string(loss);
-    Served served({"--lockstep", scenario_of(GetParam()), "--steps", steps(), "--out", out(name + "_served"),
-                   "--loss", share, "--loss-seed", "3"});
+    std::vector<std::string> arguments{
+        "--lockstep", scenario_of(GetParam()), "--steps", steps(), "--out", out(name + "_served"), "--loss",
+        share,        "--loss-seed",           "3"};
+    const std::vector<std::string> added = settings();
+    arguments.insert(arguments.end(), added.begin(), added.end());
+    Served served(arguments);
     ASSERT_NE(served.address(), "") << served.stop().err;
     robot(name, "name = \"udp\"\naddress = \"" + served.address() + "\"\nlockstep = true\nloss = " + share +
                     "\nseed = 5\n");
@@ -171,24 +216,34 @@ class Hosts : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Hosts, Replay) {
-  ASSERT_EQ(
-      hallway({"replay", out("run") / "run.mcap", "--plugin", plugin(), "--quiet", "--out", out("replay")})
-          .status,
-      0);
+  ASSERT_EQ(hallway({"replay", out("run") / "run.mcap", "--plugin", plugin_with_parameters(), "--quiet",
+                     "--out", out("replay")})
+                .status,
+            0);
   expect_same_answers(out("run"), out("replay"));
+  expect_same_frames(out("run"), out("replay"));
+  expect_same_truth(out("run"), out("replay"), false);
+  if (!obeys(GetParam())) return;
+  EXPECT_GT(Json::parse(read_file(out("run") / "metrics.json")).at("drive").at("distance_m"), 2.0);
+  bool sideways = false;
+  for (const log::ObeyedCommand& command : log::read_obeyed_commands(out("run") / "drive.csv"))
+    sideways = sideways || command.lateral_m_s != 0.0;
+  EXPECT_EQ(sideways, GetParam() == kSideways);
+  EXPECT_EQ(manifest_of(out("replay")).at("replayed_commands").at("different"), 0);
 }
 
 TEST_P(Hosts, ARobotThatReplaysALog) {
   robot_replays();
   expect_same_answers(out("run"), out("robot"));
+  expect_same_frames(out("run"), out("robot"));
 }
 
 TEST_P(Hosts, TheReplayOfARobotsLog) {
   robot_replays();
-  ASSERT_EQ(
-      hallway({"replay", out("robot") / "run.mcap", "--plugin", plugin(), "--quiet", "--out", out("again")})
-          .status,
-      0);
+  ASSERT_EQ(hallway({"replay", out("robot") / "run.mcap", "--plugin", plugin_with_parameters(), "--quiet",
+                     "--out", out("again")})
+                .status,
+            0);
   expect_same_answers(out("run"), out("again"));
 }
 
@@ -197,7 +252,8 @@ TEST_P(Hosts, ARobotAtTheOtherEndOfANetwork) {
   expect_same_answers(out("run"), out("far"));
   EXPECT_EQ(content(out("run") / "commands.csv"), content(out("far_served") / "commands.csv"))
       << "what the robot was told";
-  EXPECT_EQ(content(out("run") / "truth.tum"), content(out("far_served") / "truth.tum"));
+  expect_same_truth(out("run"), out("far_served"), true);
+  for (const char* end : {"far", "far_served"}) expect_same_frames(out("run"), out(end));
 }
 
 /// What came back is scored where it is served: the path as a run that saw the same.
@@ -226,8 +282,8 @@ TEST_P(Hosts, ANetworkThatLosesOneInAHundred) {
   rehearse("lossy", 0.01);
   expect_same_answers(out("run"), out("lossy"));
   EXPECT_EQ(content(out("run") / "commands.csv"), content(out("lossy_served") / "commands.csv"));
-  for (const char* table : {"truth.tum", "drive.csv", "contacts.csv"})  // a robot that obeys: the closed loop
-    EXPECT_EQ(content(out("run") / table), content(out("lossy_served") / table)) << table;
+  expect_same_truth(out("run"), out("lossy_served"), true);
+  for (const char* end : {"lossy", "lossy_served"}) expect_same_frames(out("run"), out(end));
 }
 
 TEST_P(Hosts, InOneProcess) {
@@ -242,9 +298,9 @@ TEST_P(Hosts, FourThreads) {
   EXPECT_TRUE(content(out("run") / "run.mcap") == content(out("threads") / "run.mcap")) << "the whole log";
 }
 
-/// Every plugin that belongs to the program, one that drives, and a rig. Each plugin that is added joins.
+/// Every plugin that belongs to the program, one that drives robots of three kinds, and a rig. Each plugin that is added joins.
 std::vector<std::string> pipelines() {
-  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras};
+  std::vector<std::string> all{FIXTURES "/drives.so", kTwoCameras, kSideways, kSteered};
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(PLUGINS, problem)) {
     if (entry.path().extension() == ".so") all.push_back(entry.path().stem());
