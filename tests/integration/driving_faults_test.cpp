@@ -307,7 +307,7 @@ TEST_P(KilledRobots, AreGivenUpAndStand) {
   for (const bool lock_step : {true, false}) {
     const std::string name = lock_step ? "lock_step" : "real_time";
     SCOPED_TRACE(name);
-    std::vector<std::string> arguments{file_,     "--out", out(name + "_served"), "--give-up", "1",
+    std::vector<std::string> arguments{file_,     "--out", out(name + "_served"), "--give-up", "2",
                                        "--steps", "100000"};
     if (lock_step) arguments.emplace_back("--lockstep");
     Served served(arguments);
