@@ -25,9 +25,11 @@ host::BumpZoneInfo zone_info(const BumpZone& zone) {
   constexpr double turn = 2.0 * std::numbers::pi;
   double width = std::fmod(zone.to_rad - zone.from_rad, turn);
   if (width <= 0.0) width += turn;
+  const bool is_sector = zone.region.empty();
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   return {.name = zone.name,
-          .middle_rad = std::remainder(zone.from_rad + 0.5 * width, turn),
-          .width_rad = width,
+          .middle_rad = is_sector ? std::remainder(zone.from_rad + 0.5 * width, turn) : kUnknown,
+          .width_rad = is_sector ? width : kUnknown,
           .bottom_m = height_or_unknown(zone.bottom_m, BumpZone{}.bottom_m),
           .top_m = height_or_unknown(zone.top_m, BumpZone{}.top_m)};
 }

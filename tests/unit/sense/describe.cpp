@@ -85,5 +85,15 @@ TEST(Describe, TheZonesOfABumperAreThoseThatArePressed) {
   EXPECT_EQ(std::get<host::BumpIntrinsics>(info.intrinsics).zones.at(0).top_m, 0.3);
 }
 
+TEST(Describe, AZoneThatIsNoSectorHasNoDirection) {
+  BumpSensorSpec spec{.name = "bumper", .zones = {{.name = "edge", .bottom_m = 0.05, .top_m = 0.3}}};
+  spec.zones[0].region = {{Vec3::UnitX(), 0.1}};
+  const host::SensorInfo info = describe(spec, 3);
+  EXPECT_EQ(host::problem_of_intrinsics(info), "");
+  const host::BumpZoneInfo& zone = std::get<host::BumpIntrinsics>(info.intrinsics).zones.at(0);
+  EXPECT_TRUE(std::isnan(zone.middle_rad) && std::isnan(zone.width_rad));
+  EXPECT_EQ(zone.top_m, 0.3);
+}
+
 }  // namespace
 }  // namespace hallway::sense
