@@ -202,7 +202,7 @@ int render(const RenderOptions& options) {
 void add_render_command(Command& app) {
   Command& command = app.command("render", "Draw a map, or the map that a run estimated, as a PNG picture");
   RenderOptions& options = command.runs(&render);
-  command.argument("input", &options.input, "A .map file, or the folder of a run")
+  command.argument("input", &options.input, "A .map file, of a robot too, or the folder of a run")
       .required()
       .value("MAP|RUN");
   add_shared(command, Shared::kView, &options.view)

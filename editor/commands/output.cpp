@@ -240,8 +240,9 @@ constexpr std::array kOutputCommands{
         .summary = "add another map's brushes and entities to this one",
         .details =
             "They keep their size in metres. Brushes of the other map's world become a group; names that are "
-            "taken get a number behind. Keys of its world are not taken over, and of its robot's start only "
-            "where this map has none. What it subtracts is subtracted from whatever is there.",
+            "taken get a number behind. Keys of its world are not taken over, and its robot start without a "
+            "name only where this map has none; starts with names are. What it subtracts is subtracted from "
+            "whatever is there.",
         .arguments = kImport,
         .example = "import kitchen.map at 4,0",
         .run = &import_map},

@@ -226,6 +226,21 @@ std::string draw_png(const render::Picture& picture, const sim::PictureSpec& spe
   return render::encode_png(render::draw(picture, view, spec.width_px, spec.height_px));
 }
 
+/// The ground of a picture of something small, whose usual frame would be wider, with a rim.
+Eigen::AlignedBox2d area_of(const render::Picture& picture) {
+  constexpr double kRim = 0.08;
+  Eigen::AlignedBox2d area;
+  const auto extend = [&](const Vec3& point) { area.extend(Vec2(point.head<2>())); };
+  for (const render::Surface& surface : picture.surfaces)
+    std::ranges::for_each(surface.polygon.vertices, extend);
+  for (const render::Polyline& line : picture.polylines) std::ranges::for_each(line.points, extend);
+  for (const render::Label& label : picture.labels) extend(label.position);
+  for (const render::Segments& lines : picture.segments)
+    for (const auto& pair : lines.pairs) std::ranges::for_each(pair, extend);
+  const Vec2 rim = Vec2::Constant(kRim * area.sizes().maxCoeff());
+  return {area.min() - rim, area.max() + rim};
+}
+
 std::string map_subtitle(const world::CompiledWorld& world, const MapView& view) {
   const auto& enclosure = world.partition.enclosure;
   if (view.pvs_from_m) return "potentially visible set";
@@ -334,8 +349,10 @@ std::string draw_robot_picture(const map::RobotFile& robot, const std::string& t
                                const DrawOptions& options) {
   render::Picture picture = compose_robot_picture(robot, things);
   picture.title = printable(title);
+  DrawOptions framed = options;
+  if (!framed.area) framed.area = area_of(picture);
   return draw_png(picture, spec, view_of_plan(spec, {render::Faces::kAll, spec.cut_z_m}, options.renderer),
-                  options);
+                  framed);
 }
 
 }  // namespace hallway::run

@@ -278,8 +278,8 @@ TEST(RobotFile, TheExamplesAreSoundAndCanonical) {
     EXPECT_EQ(print(document), read_file(file));
     EXPECT_TRUE(check(document).empty());
     const RobotFile robot = load_robot_file(file);
-    EXPECT_EQ(robot.zones.size(), 2u);
-    EXPECT_EQ(robot.sensors.size(), 1u);
+    EXPECT_EQ(robot.zones.size(), robot.body.is_cylinder() ? 4u : 2u);
+    EXPECT_EQ(robot.sensors.size(), 3u);
     EXPECT_EQ(robot.body.is_cylinder(), std::string(name) == "cart");
   }
 }
