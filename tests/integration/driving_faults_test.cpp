@@ -51,7 +51,6 @@ std::string room_map() {
 std::string scenario() {
   return "map = \"room.map\"\nseed = 3\nsteps = " + std::to_string(kSteps) + R"(
 period_s = 0.1
-call_timeout_s = 1
 memory_limit_mib = 512
 [robot]
 radius_m = 0.2
@@ -80,6 +79,8 @@ struct FaultyRuns : testing::TestWithParam<Fault> {
 
   fs::path out(const std::string& name) const { return folder_ / name; }
   static bool fails() { return *GetParam().verdict != '\0'; }
+  /// Short where it is to be over.
+  static double call_timeout_s() { return GetParam().verdict == std::string("timeout") ? 2.0 : 60.0; }
   static int status() { return fails() ? 5 : 0; }
 
   Ended run(const std::string& name, const std::string& policy, std::vector<std::string> more = {}) const {
@@ -87,6 +88,7 @@ struct FaultyRuns : testing::TestWithParam<Fault> {
         "run",      file_,
         "--plugin", fails_driving() + ":how=" + GetParam().how + ",at=" + std::to_string(kAt),
         "--set",    "on_failure=" + policy,
+        "--set",    "call_timeout_s=" + std::to_string(call_timeout_s()),
         "--out",    out(name)};
     if (!fails()) more.insert(more.end(), {"--set", "robot.command_timeout_s=0.2"});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -97,7 +99,7 @@ struct FaultyRuns : testing::TestWithParam<Fault> {
 
   /// A robot program's configuration.
   std::string config(const std::string& name, const std::string& address, bool lock_step,
-                     const std::string& policy, double call_timeout_s = 1.0) const {
+                     const std::string& policy, double call_timeout_s) const {
     return folder_.write(
         name + ".toml", "[driver]\nname = \"udp\"\naddress = \"" + address +
                             "\"\nlockstep = " + (lock_step ? "true" : "false") + "\n[[plugin]]\nname = \"" +
@@ -113,8 +115,9 @@ struct FaultyRuns : testing::TestWithParam<Fault> {
     if (lock_step) arguments.emplace_back("--lockstep");
     Served served(arguments);
     EXPECT_NE(served.address(), "");
-    const Ended robot = hallway_robot(
-        {"run", config(name, served.address(), lock_step, policy), "--quiet", "--out", out(name + "_robot")});
+    const Ended robot =
+        hallway_robot({"run", config(name, served.address(), lock_step, policy, call_timeout_s()), "--quiet",
+                       "--out", out(name + "_robot")});
     EXPECT_EQ(robot.status, status()) << robot.err;
     return served.wait();
   }

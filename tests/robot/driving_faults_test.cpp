@@ -21,6 +21,7 @@ struct DrivingFault {
 class FaultyDrivers : public testing::TestWithParam<DrivingFault> {
  protected:
   static bool fails() { return *GetParam().verdict != '\0'; }
+  static bool hangs() { return GetParam().verdict == std::string("timeout"); }
 
   static RobotWorld world(bool lock_step, const std::string& policy) {
     const std::string driver = "frames = " + std::to_string(kFrames) +
@@ -29,7 +30,8 @@ class FaultyDrivers : public testing::TestWithParam<DrivingFault> {
                                std::string(GetParam().how) + "\", at = " + std::to_string(kAt) + "}";
     return {driver, plugin,
             "[robot]\ncommand_timeout_s = 0.1\n" + std::string(lock_step ? "" : "watchdog_ms = 400\n") +
-                "[limits]\ncall_timeout_s = 1\nmemory_limit_mib = 512\non_failure = \"" + policy + "\"\n"};
+                "[limits]\ncall_timeout_s = " + (hangs() ? "2" : "60") +
+                "\nmemory_limit_mib = 512\non_failure = \"" + policy + "\"\n"};
   }
 
   static void expect_verdict(const nlohmann::ordered_json& manifest) {
