@@ -177,12 +177,14 @@ class Server {
   /// Frames.
   std::uint32_t made() const { return result_.frames + result_.frames_alone; }
 
+  bool was_answered(std::uint32_t frame) const { return frame < answered_.size() && answered_[frame]; }
+
   std::int64_t period_ns() const { return plan_.manifest.value("period_ns", std::int64_t{0}); }
 
   /// A robot that obeys takes the newest command that has come since the last call; a command to an older frame than one before it is not taken.
   void obey() {
     if (!source_.is_closed_loop()) return;
-    if (robot_.over() && !fresh_.command) fresh_.failed = !answered_.contains(made() - 1);
+    if (robot_.over() && !fresh_.command) fresh_.failed = !was_answered(made() - 1);
     source_.obey(std::exchange(fresh_, {}));
     if (folder_) folder_->add_drive(source_);
   }
