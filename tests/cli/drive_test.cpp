@@ -190,7 +190,7 @@ TEST(DriveRuns, WhoDrivesIsClear) {
 
 const std::string kRobotBegin =
     "{\n\"classname\" \"worldspawn\"\n\"_scale\" \"0.01\"\n\"_hallway_robot\" \"1\"\n}\n";
-const std::string kRobotBody =
+const std::string kRobotFileBody =
     "{\n\"classname\" \"hw_body\"\n\"radius_m\" \"0.2\"\n\"bottom_m\" \"0.03\"\n\"top_m\" \"0.5\"\n}\n";
 const std::string kRobotDrive =
     "{\n\"classname\" \"hw_drive\"\n\"wheel_base_m\" \"0.32\"\n\"max_speed_m_s\" \"0.5\"\n\"latency_s\" "
@@ -223,7 +223,7 @@ Ended run_in(const TempFolder& folder, const std::string& scenario, const std::s
 
 TEST(DriveRuns, ARobotFileIsTheSameKeysWrittenOut) {
   const TempFolder folder, other;
-  folder.write("robot.map", kRobotBegin + kRobotBody + kRobotDrive + kRobotSensors);
+  folder.write("robot.map", kRobotBegin + kRobotFileBody + kRobotDrive + kRobotSensors);
   const Ended named = run_in(folder, folder.write("s.toml", scenario_of("file = 'robot.map'\n")), "a");
   ASSERT_EQ(named.status, 0) << named.err;
   const Ended written = run_in(folder, other.write("s.toml", scenario_of(kSameRobot)), "b");
@@ -249,7 +249,8 @@ TEST(DriveRuns, ARobotFileIsTheSameKeysWrittenOut) {
 
 TEST(DriveRuns, TheFolderOfARunWithARobotFileStandsForItself) {
   const TempFolder folder;
-  const std::string robot = folder.write("robot.map", kRobotBegin + kRobotBody + kRobotDrive + kRobotSensors);
+  const std::string robot =
+      folder.write("robot.map", kRobotBegin + kRobotFileBody + kRobotDrive + kRobotSensors);
   const std::string scenario = folder.write("s.toml", scenario_of("file = 'robot.map'\n"));
   ASSERT_EQ(run_in(folder, scenario, "a").status, 0);
   EXPECT_EQ(read_file(folder / "a/robot.map"), read_file(robot));
