@@ -48,11 +48,13 @@ bool is_observations(const fs::path& file, const fs::path& name) {
                                      file.extension() == name.extension());
 }
 
-/// The file that is meant: in a folder the observations or, where it has none, the MCAP log.
+/// The file that is meant: in a folder the observations or, where it has none, the MCAP log. In one that a run has left unfinished it is the log, which can be
+/// read up to its end; the tables may lack what was not yet written.
 fs::path log_file(const std::string& log) {
   std::error_code code;
   const fs::path path = log;
   if (!fs::is_directory(path, code)) return path;
+  if (!run::is_run_folder(path) && fs::exists(path / run::files::kLog, code)) return path / run::files::kLog;
   for (const char* name : {run::files::kObservations, run::files::kObservedPlanes, run::files::kLog}) {
     if (fs::exists(path / name, code)) return path / name;
   }

@@ -165,8 +165,7 @@ std::vector<std::int64_t> DrivenRobot::slice_ends() const {
     if (events_[i].kind == EventKind::kWheelsBlocked) cut(events_[i].t_ns + events_[i].duration_ns);
   }
   std::ranges::sort(ends);
-  const auto same = std::ranges::unique(ends);
-  ends.erase(same.begin(), same.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
 }
 
