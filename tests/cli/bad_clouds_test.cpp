@@ -17,7 +17,6 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kHeader = "x,y,z\n";
 
@@ -75,13 +74,14 @@ std::vector<std::pair<std::string, int>> of_one_plane() {
 }
 
 /// What `hallway planes` says, with files and a picture in `out` if that is not empty.
-Json planes_of(const std::string& cloud, const std::string& plugin, const fs::path& out) {
+nlohmann::ordered_json planes_of(const std::string& cloud, const std::string& plugin, const fs::path& out) {
   std::vector<std::string> arguments{"planes", cloud, "--plugin", plugin, "--json"};
   if (!out.empty()) arguments.insert(arguments.end(), {"--out", out});
   const Ended ended = hallway(arguments);
   EXPECT_EQ(ended.status, 0) << plugin << " " << cloud << ended.err << ended.out;
   EXPECT_TRUE(out.empty() || fs::exists(out / "planes.png")) << plugin << " " << cloud;
-  return ended.status == 0 ? Json::parse(ended.out) : Json{{"planes", Json::array()}};
+  return ended.status == 0 ? nlohmann::ordered_json::parse(ended.out)
+                           : nlohmann::ordered_json{{"planes", nlohmann::ordered_json::array()}};
 }
 
 class BadClouds : public testing::Test {
@@ -107,7 +107,7 @@ TEST_F(BadClouds, WithoutAPlaneHaveNone) {
 }
 
 TEST_F(BadClouds, AreCountedByWhatIsNotFinite) {
-  const Json found = planes_of(csv("not_finite", kNoPoints), "em", {});
+  const nlohmann::ordered_json found = planes_of(csv("not_finite", kNoPoints), "em", {});
   EXPECT_EQ(found.at("rows"), 3);
   EXPECT_EQ(found.at("points"), 0);
   EXPECT_EQ(found.at("not_finite"), 3);
@@ -115,7 +115,7 @@ TEST_F(BadClouds, AreCountedByWhatIsNotFinite) {
 
 TEST_F(BadClouds, OfAnySizeAndPlaceHaveTheirPlane) {
   for (const auto& [rows, points] : of_one_plane()) {
-    const Json found = planes_of(csv("plane", rows), "em", {});
+    const nlohmann::ordered_json found = planes_of(csv("plane", rows), "em", {});
     ASSERT_EQ(found.at("planes").size(), 1u) << rows.substr(0, 200);
     EXPECT_EQ(found.at("planes").at(0).at("points"), points) << rows.substr(0, 200);
   }
@@ -128,7 +128,7 @@ TEST_F(BadClouds, AlignWithNothingAndLeaveNoFile) {
     for (const auto& [a, b] : {std::pair(good, bad), std::pair(bad, good), std::pair(bad, bad)}) {
       const Ended ended = align(a, b);
       EXPECT_EQ(ended.status, 1) << a << " " << b << ended.err;
-      EXPECT_FALSE(Json::parse(ended.out).at("converged").get<bool>()) << a << " " << b;
+      EXPECT_FALSE(nlohmann::ordered_json::parse(ended.out).at("converged").get<bool>()) << a << " " << b;
       EXPECT_FALSE(fs::exists(folder_ / "moved.ply"));
       EXPECT_FALSE(fs::exists(folder_ / "both.png"));
     }

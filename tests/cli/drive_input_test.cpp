@@ -174,7 +174,7 @@ TEST(RobotFiles, ThatAreWrongAreRefusedByLine) {
       {"radius of nothing",
        kRobotWorld +
            robot_entity("hw_body", "\"radius_m\" \"-1\"\n\"bottom_m\" \"0.05\"\n\"top_m\" \"0.4\"\n"),
-       "8: entity 1 (hw_body): key `radius_m` is -1"},
+       "8: entity 1 (hw_body): key `radius_m`: -1 is out of range"},
       {"two drives", kRobotWorld + kRobotBody + robot_entity("hw_drive", "") + robot_entity("hw_drive", ""),
        "15: entity 3 (hw_drive): a second `hw_drive`; the first is at line 12"},
       {"unknown drive", kRobotWorld + kRobotBody + robot_entity("hw_drive", "\"kind\" \"hover\"\n"),
