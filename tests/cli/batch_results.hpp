@@ -11,14 +11,12 @@
 
 namespace hallway::test {
 
-using Json = nlohmann::ordered_json;
-
-inline Json read_json(const std::filesystem::path& path) {
-  return Json::parse(read_file(path));
+inline nlohmann::ordered_json read_json(const std::filesystem::path& path) {
+  return nlohmann::ordered_json::parse(read_file(path));
 }
 
 /// Metrics without those that a clock gives.
-inline Json without_times(Json metrics) {
+inline nlohmann::ordered_json without_times(nlohmann::ordered_json metrics) {
   for (const char* key : {"iteration_ms", "iteration_cpu_ms"}) metrics.erase(key);
   return metrics;
 }
@@ -37,8 +35,8 @@ inline std::vector<std::vector<std::string>> read_csv(const std::filesystem::pat
 }
 
 /// The result of a run by its name; null where there is none.
-inline Json cell_of(const Json& results, const std::string& name) {
-  for (const Json& cell : results.at("cells")) {
+inline nlohmann::ordered_json cell_of(const nlohmann::ordered_json& results, const std::string& name) {
+  for (const nlohmann::ordered_json& cell : results.at("cells")) {
     if (cell.at("name") == name) return cell;
   }
   return {};

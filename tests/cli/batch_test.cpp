@@ -17,6 +17,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 /// A small world with a plugin of its own and plans.
 class Batch : public testing::Test {

@@ -13,6 +13,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 Ended compare(const SmallWorld& world, const std::string& input, std::vector<std::string> more,
               const std::string& out = "compared") {
@@ -127,7 +128,8 @@ TEST(Compare, WhatCannotRunLeavesAnEarlierComparisonAsItIs) {
   ASSERT_EQ(world.run({"--steps", "5"}, "run").status, 0);
   EXPECT_EQ(compare(world, world.scenario(), {"--plugin", "slam_point", "--force"}, "run").status, 3);
   const std::string cell = world.out("compared") + "/cells/small";
-  EXPECT_EQ(compare(world, cell, {"--plugin", "slam_point", "--force"}).status, 2) << "what it reads would go";
+  EXPECT_EQ(compare(world, cell, {"--plugin", "slam_point", "--force"}).status, 2)
+      << "what it reads would go";
 }
 
 /// In each run one plugin is alone, and yet it is not known whose parameter was meant.

@@ -14,6 +14,8 @@
 namespace hallway::test {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// Poses along x, 1 m and 1 s apart.
 std::string straight(int poses, double offset_m = 0.0, double factor = 1.0) {
   std::string text;

@@ -10,6 +10,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 /// A study of two seeds and few iterations.
 Ended tiny(const std::string& name, const fs::path& out, const std::vector<std::string>& more = {}) {

@@ -12,6 +12,7 @@ namespace hallway::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kTables[] = {"trajectory.tum", "landmarks.csv", "submaps.csv", "landmarks.ply",
                                    "commands.csv"};
