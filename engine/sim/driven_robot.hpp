@@ -12,6 +12,7 @@
 #include "drive/command_table.hpp"
 #include "drive/drive.hpp"
 #include "drive/follower.hpp"
+#include "log/drive_tables.hpp"
 #include "map/path.hpp"
 #include "sim/driven_world.hpp"
 #include "sim/motion.hpp"
@@ -26,17 +27,7 @@ struct DriveAnswer {
   bool failed = false;                      ///< they failed at this frame or before it
 };
 
-/// Why a command is in force.
-enum class CommandCause {
-  kNone,      ///< none came yet
-  kPlugin,    ///< a plugin's answer
-  kPath,      ///< the follower of a path
-  kCommands,  ///< a table of commands
-  kHeld,      ///< no new one came: the last one goes on
-  kWatchdog,  ///< the plugins failed: the last one goes on
-  kTimeout,   ///< zero, since no command came for too long
-  kFailure,   ///< zero, since the watchdog ran out
-};
+using log::CommandCause;
 
 /// The command in force from a frame on.
 struct CommandInForce {

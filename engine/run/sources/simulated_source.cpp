@@ -36,28 +36,6 @@ std::string changes_of(const drive::Clamps& clamps) {
   return names;
 }
 
-log::CommandCause cause_of(sim::CommandCause cause) {
-  switch (cause) {
-    case sim::CommandCause::kNone:
-      return log::CommandCause::kNone;
-    case sim::CommandCause::kPlugin:
-      return log::CommandCause::kPlugin;
-    case sim::CommandCause::kPath:
-      return log::CommandCause::kPath;
-    case sim::CommandCause::kCommands:
-      return log::CommandCause::kCommands;
-    case sim::CommandCause::kHeld:
-      return log::CommandCause::kHeld;
-    case sim::CommandCause::kWatchdog:
-      return log::CommandCause::kWatchdog;
-    case sim::CommandCause::kTimeout:
-      return log::CommandCause::kTimeout;
-    case sim::CommandCause::kFailure:
-      return log::CommandCause::kFailure;
-  }
-  return log::CommandCause::kNone;
-}
-
 const char* kind_of(contact::TouchKind kind) {
   static constexpr std::array kNames{"wall", "ledge", "step", "slope"};  // in the order of TouchKind
   return kNames.at(static_cast<std::size_t>(kind));
@@ -196,7 +174,7 @@ void SimulatedSource::obey(const sim::DriveAnswer& answer) {
                              .angular_rad_s = command.angular_rad_s,
                              .lateral_m_s = command.lateral_m_s,
                              .acts_from_ns = now.obeyed.acts_from_ns,
-                             .cause = cause_of(now.cause),
+                             .cause = now.cause,
                              .changes = changes_of(now.obeyed.clamps)});
 }
 
