@@ -31,7 +31,7 @@ class Wanderer final : public hallway::sdk::Plugin {
   void reset() override {
     state_ = State::kAhead;
     random_ = 1;
-    t_ns_ = until_ns_ = on_ns_ = bent_ns_ = 0;
+    t_ns_ = until_ns_ = left_ns_ = on_ns_ = bent_ns_ = 0;
     tries_ = 0;
     bumps_ = 0.0;
     away_ = sign_ = 1.0;
@@ -45,7 +45,9 @@ class Wanderer final : public hallway::sdk::Plugin {
     const bool touches = look(frame, ahead);
     if (touches && state_ == State::kAhead) leave(ahead);
     if (t_ns_ >= until_ns_ && state_ == State::kTurn) go_on();
-    if (t_ns_ >= until_ns_ && state_ == State::kLeave) turn();
+    const bool is_stuck =
+        touches && ahead * away_ > 0.0 && t_ns_ >= left_ns_ + ns(leave_s_);  // on both sides
+    if ((t_ns_ >= until_ns_ || is_stuck) && state_ == State::kLeave) turn();
     command();
     const hw_counter_t counters[] = {{"bumps", bumps_}};
     host().put_counters(counters);
@@ -80,6 +82,7 @@ class Wanderer final : public hallway::sdk::Plugin {
     away_ = in_vain ? -away_ : (ahead > 0.0 ? -1.0 : 1.0);
     sign_ = next() < 0.5 ? -1.0 : 1.0;
     state_ = State::kLeave;
+    left_ns_ = t_ns_;
     until_ns_ = t_ns_ + ns(leave_s_ * (1 << tries_));
     ++bumps_;
   }
@@ -124,7 +127,7 @@ class Wanderer final : public hallway::sdk::Plugin {
   double speed_m_s_ = 0.5, turn_rad_s_ = 1.2, bend_rad_s_ = 0.4, leave_s_ = 0.5, longest_turn_s_ = 2.4;
   State state_ = State::kAhead;
   std::uint64_t random_ = 1;
-  std::int64_t t_ns_ = 0, until_ns_ = 0, on_ns_ = 0, bent_ns_ = 0;
+  std::int64_t t_ns_ = 0, until_ns_ = 0, left_ns_ = 0, on_ns_ = 0, bent_ns_ = 0;
   int tries_ = 0;
   double bumps_ = 0.0;
   double away_ = 1.0, sign_ = 1.0, bend_ = 0.0;
