@@ -19,6 +19,10 @@ class BruteForceBackend final : public QueryBackend {
     return nearest;
   }
 
+  void first_hits(std::span<const SightLine> lines, std::span<std::optional<Hit>> hits) const override {
+    for (std::size_t i = 0; i < lines.size(); ++i) hits[i] = first_hit(lines[i]);
+  }
+
   bool occluded(const Vec3& from, const Vec3& to) const override {
     const auto line = sight_line_between(from, to);
     if (!line) return false;

@@ -136,6 +136,7 @@ std::optional<Span> clip(const SightLine& line, const Box& box) {
 }
 
 constexpr std::size_t kPacket = 8;  ///< rays that Embree traces together: as wide as AVX
+alignas(32) constexpr std::array<int, kPacket> kAllValid{-1, -1, -1, -1, -1, -1, -1, -1};
 
 /// True for rays whose ends lie side by side as seen from their common start: tracing them together then pays.
 bool run_together(const RTCRay8& rays) {
@@ -169,16 +170,24 @@ class EmbreeBackend final : public QueryBackend {
   }
 
   std::optional<Hit> first_hit(const SightLine& line) const override {
-    const auto span = part_in_reach(line);
-    if (!span) return std::nullopt;
-    const double length = std::max(span->end - span->begin, blocks_.least_length_m());
-    const FloatSegment segment = segment_on(line, *span);
-    FirstHitQuery query(*this, line, segment, span->begin, length);
-    RTCRayHit ray{};
-    ray.ray = float_ray(segment);
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree_first_hit(scene_.get(), query, ray);
-    return query.nearest;
+    SearchedRay searched;
+    return begin_search(line, searched) ? search(searched) : std::nullopt;
+  }
+
+  void first_hits(std::span<const SightLine> lines, std::span<std::optional<Hit>> hits) const override {
+    std::array<SearchedRay, kPacket> packet;
+    std::array<std::size_t, kPacket> place{};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      hits[i].reset();
+      if (!begin_search(lines[i], packet[n])) continue;
+      place[n++] = i;
+      if (n < kPacket) continue;
+      search_packet(packet);
+      for (std::size_t k = 0; k < kPacket; ++k) hits[place[k]] = packet[k].nearest;
+      n = 0;
+    }
+    for (std::size_t k = 0; k < n; ++k) hits[place[k]] = search(packet[k]);
   }
 
   bool occluded(const Vec3& from, const Vec3& to) const override {
@@ -217,21 +226,57 @@ class EmbreeBackend final : public QueryBackend {
     const FloatSegment* segments;
   };
 
-  struct FirstHitQuery : EmbreeQuery {
-    FirstHitQuery(const EmbreeBackend& asked_backend, const SightLine& asked_line,
-                  const FloatSegment& float_segment, double ray_begin, double ray_length)
-        : backend(asked_backend),
-          line(asked_line),
-          segment(float_segment),
-          begin(ray_begin),
-          length(ray_length) {}
-    const EmbreeBackend& backend;
-    const SightLine& line;
-    const FloatSegment& segment;
-    double begin;   ///< distance along the line at which Embree's ray starts
-    double length;  ///< of Embree's ray, metres
+  /// A ray whose first hit is searched for.
+  struct SearchedRay {
+    const SightLine* line = nullptr;
+    FloatSegment segment{};
+    double begin = 0.0;   ///< distance along the line at which Embree's ray starts
+    double length = 0.0;  ///< of Embree's ray, metres
     std::optional<Hit> nearest{};
   };
+
+  struct FirstHitQuery : EmbreeQuery {
+    FirstHitQuery(const EmbreeBackend& asked_backend, SearchedRay* searched_rays)
+        : backend(asked_backend), rays(searched_rays) {}
+    const EmbreeBackend& backend;
+    SearchedRay* rays;  ///< by RTCRay::time
+  };
+
+  /// False for a line that meets nothing.
+  bool begin_search(const SightLine& line, SearchedRay& searched) const {
+    const auto span = part_in_reach(line);
+    if (!span) return false;
+    searched.line = &line;
+    searched.segment = segment_on(line, *span);
+    searched.begin = span->begin;
+    searched.length = std::max(span->end - span->begin, blocks_.least_length_m());
+    searched.nearest.reset();
+    return true;
+  }
+
+  std::optional<Hit> search(SearchedRay& searched) const {
+    FirstHitQuery query(*this, &searched);
+    RTCRayHit ray{};
+    ray.ray = float_ray(searched.segment);
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    embree_first_hit(scene_.get(), query, ray);
+    return searched.nearest;
+  }
+
+  void search_packet(std::array<SearchedRay, kPacket>& packet) const {
+    RTCRayHit8 rays;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      set_ray(rays.ray, i, packet[i].segment);
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (!run_together(rays.ray)) {
+      for (SearchedRay& searched : packet) search(searched);
+      return;
+    }
+    FirstHitQuery query(*this, packet.data());
+    embree_first_hit(scene_.get(), query, kAllValid.data(), rays);
+  }
 
   void build() {
     const RTCDevice embree = device();
@@ -312,7 +357,6 @@ class EmbreeBackend final : public QueryBackend {
         occluded_points[i] = trace(eye, points[i], segments[i]) ? 1 : 0;
       return;
     }
-    alignas(32) static constexpr std::array<int, kPacket> kAllValid{-1, -1, -1, -1, -1, -1, -1, -1};
     OcclusionQuery query(eye, points.data(), segments.data());
     embree_occluded(scene_.get(), query, kAllValid.data(), rays);
     for (std::size_t i = 0; i < kPacket; ++i) occluded_points[i] = rays.tfar[i] < 0.0f ? 1 : 0;
@@ -348,26 +392,38 @@ class EmbreeBackend final : public QueryBackend {
   }
 
   static void take_first_hit(const RTCIntersectFunctionNArguments* arguments) {
-    auto& query = static_cast<FirstHitQuery&>(*arguments->context);
-    const EmbreeBackend& self = query.backend;
-    const TriangleBlock& block = self.blocks_[arguments->primID];
+    const auto& query = static_cast<const FirstHitQuery&>(*arguments->context);
+    RTCRayN* const rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      SearchedRay& ray = query.rays[static_cast<std::size_t>(RTCRayN_time(rays, arguments->N, i))];
+      if (!query.backend.search_block(arguments->primID, ray)) continue;
+      // From here on only boxes that are entered no later than this hit are of interest.
+      const float at = round_up((ray.nearest->distance - ray.begin) / ray.length);
+      float& end = RTCRayN_tfar(rays, arguments->N, i);
+      end = std::min(end, std::max(0.0f, at));
+    }
+  }
+
+  /// Whether a block of triangles has a nearer hit.
+  bool search_block(std::uint32_t index, SearchedRay& ray) const {
+    const TriangleBlock& block = blocks_[index];
     bool nearer = false;
-    for (std::uint32_t open = self.certify_(block, query.segment).open; open != 0; open &= open - 1) {
+    const Verdict verdict = certify_(block, ray.segment);
+    for (std::uint32_t open = verdict.open; open != 0; open &= open - 1) {
       const std::uint32_t triangle = block.triangle[static_cast<std::size_t>(std::countr_zero(open))];
-      const auto distance = self.triangles_.hit(triangle, query.line);
+      const bool is_sure = (verdict.hit & open & (~open + 1)) != 0;
+      const auto distance = is_sure ? std::optional(triangles_.distance_of_hit(triangle, *ray.line))
+                                    : triangles_.hit(triangle, *ray.line);
       if (!distance) continue;
-      if (query.nearest &&
-          std::pair(*distance, triangle) > std::pair(query.nearest->distance, query.nearest->triangle)) {
+      if (ray.nearest &&
+          std::pair(*distance, triangle) > std::pair(ray.nearest->distance, ray.nearest->triangle)) {
         continue;
       }
-      query.nearest = Hit{*distance, triangle};
+      ray.nearest = Hit{*distance, triangle};
       nearer = true;
     }
-    if (!nearer) return;
-    // From here on only boxes that are entered no later than this hit are of interest.
-    const float at = round_up((query.nearest->distance - query.begin) / query.length);
-    float& end = RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0);
-    end = std::min(end, std::max(0.0f, at));
+    return nearer;
   }
 
   static void take_any_hit(const RTCOccludedFunctionNArguments* arguments) {

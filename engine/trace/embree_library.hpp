@@ -30,6 +30,14 @@ inline void embree_first_hit(RTCScene scene, EmbreeQuery& query, RTCRayHit& ray)
   rtcIntersect1(scene, &ray, &arguments);
 }
 
+/// The same for eight rays; `valid` is -1 for each that counts, and aligned to 32 bytes.
+inline void embree_first_hit(RTCScene scene, EmbreeQuery& query, const int* valid, RTCRayHit8& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &query;
+  rtcIntersect8(valid, scene, &rays, &arguments);
+}
+
 /// Sets `tfar` below 0 if the ray meets anything.
 inline void embree_occluded(RTCScene scene, EmbreeQuery& query, RTCRay& ray) {
   RTCOccludedArguments arguments;
@@ -56,6 +64,11 @@ struct EmbreeQuery : RTCIntersectContext {
 /// Finds the first thing that the ray meets.
 inline void embree_first_hit(RTCScene scene, EmbreeQuery& query, RTCRayHit& ray) {
   rtcIntersect1(scene, &query, &ray);
+}
+
+/// The same for eight rays; `valid` is -1 for each that counts, and aligned to 32 bytes.
+inline void embree_first_hit(RTCScene scene, EmbreeQuery& query, const int* valid, RTCRayHit8& rays) {
+  rtcIntersect8(valid, scene, &query, &rays);
 }
 
 /// Sets `tfar` below 0 if the ray meets anything.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,6 +18,8 @@ namespace hallway::trace {
 /// Queries are const and may run on any number of threads at once.
 class QueryBackend {
  public:
+  static constexpr std::size_t kMostLines = 64;  ///< of a call of first_hits()
+
   QueryBackend() = default;
   virtual ~QueryBackend() = default;
   QueryBackend(const QueryBackend&) = delete;
@@ -24,6 +27,8 @@ class QueryBackend {
 
   /// The least hit by (distance, triangle).
   virtual std::optional<Hit> first_hit(const SightLine& line) const = 0;
+  /// The same for many lines, at most kMostLines; `hits` has their length.
+  virtual void first_hits(std::span<const SightLine> lines, std::span<std::optional<Hit>> hits) const = 0;
   /// Whether there is any hit on sight_line_between() the two.
   virtual bool occluded(const Vec3& from, const Vec3& to) const = 0;
   /// The same for many lines from one point; `occluded` has the length of `points`.

@@ -28,6 +28,12 @@ class TriangleSet {
   /// lies in the triangle's box grown by box_slack_m(): a search by boxes cannot lose a hit.
   std::optional<double> hit(std::uint32_t triangle, const SightLine& line) const;
 
+  /// The distance that hit() gives, where it is known to give one: for less than half the work.
+  double distance_of_hit(std::uint32_t triangle, const SightLine& line) const {
+    const Triangle& t = triangles_[triangle];
+    return t.normal.dot(t.a - line.origin) / t.normal.dot(line.direction);
+  }
+
   std::array<Vec3, 3> corners(std::uint32_t triangle) const {
     return {triangles_[triangle].a, triangles_[triangle].b, triangles_[triangle].c};
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "support/long_mode.hpp"
 #include "trace/scene.hpp"
 #include "unit/trace/shapes.hpp"
@@ -97,6 +98,39 @@ TEST_P(Agreement, OnRandomRays) {
   }
   EXPECT_GT(hits_, rays / 4);
   EXPECT_LT(hits_, rays);
+}
+
+/// Rays as a scanner has them, beside each other and from places that follow each other, with some among them that hit nothing by definition.
+TEST_P(Agreement, OnManyRaysAtOnce) {
+  const int fans = test::sized(150, 3000);
+  for (int fan = 0; fan < fans; ++fan) {
+    const Vec3 origin = anywhere(), step = draw_.direction() * draw_.uniform(0.0, 0.002) * size();
+    Vec3 direction = fan % 3 == 0 ? Vec3(any_edge_point() - origin) : draw_.direction();
+    const Vec3 turn = draw_.direction() * (fan % 2 == 0 ? 0.01 : 1.0);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0, n = draw_.index(150); i < n; ++i, direction += turn) {
+      rays.push_back({origin + static_cast<double>(i) * step, direction, 4.0 * size()});
+      if (draw_.index(10) == 0) rays.back().max_distance = -1.0;
+      if (draw_.index(10) == 0) rays.back().direction.setZero();
+      if (draw_.index(10) == 0) rays.back().origin += Vec3(9.0, 0.0, 0.0) * size();
+    }
+    std::vector<std::optional<Hit>> got(rays.size(), Hit{-1.0, 0});
+    embree_->first_hits(rays, got);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto expected = oracle_->first_hit(rays[i]);
+      ASSERT_EQ(got[i].has_value(), expected.has_value()) << "fan " << fan << ", ray " << i;
+      hits_ += expected ? 1 : 0;
+      if (!expected) continue;
+      ASSERT_EQ(got[i]->triangle, expected->triangle) << "fan " << fan << ", ray " << i;
+      ASSERT_EQ(got[i]->distance, expected->distance) << "fan " << fan << ", ray " << i;
+    }
+  }
+  EXPECT_GT(hits_, 5 * fans);
+  std::vector<std::optional<Hit>> few(1);
+  EXPECT_THROW(embree_->first_hits(std::vector<Ray>(2), few), Error);
+  std::vector<Ray> bad(1);
+  bad[0].direction.x() = std::nan("");
+  EXPECT_THROW(embree_->first_hits(bad, few), Error);
 }
 
 TEST_P(Agreement, OnRaysThroughEdgesAndVertices) {
