@@ -58,4 +58,29 @@ PlanarTwist History::twist_at(std::int64_t t_ns) const {
   return part == nullptr ? PlanarTwist{} : part->ramp.at(share_of(*part, t_ns));
 }
 
+PartMotion History::motion_at(std::int64_t t_ns, double after_s, bool is_after) const {
+  if (t_ns < begin_ns() || t_ns > end_ns_)
+    throw Error(ErrorCode::kInternal, "the history of the body does not have this time");
+  // The moment is compared in seconds after t_ns, as joints_in() gives it to callers.
+  const auto begins_later = [&](double moment_s, const Part& part) {
+    const double begin_s = static_cast<double>(part.begin_ns - t_ns) * 1e-9;
+    return is_after ? moment_s < begin_s : moment_s <= begin_s;
+  };
+  const auto later = std::upper_bound(parts_.begin(), parts_.end(), after_s, begins_later);
+  if (later == parts_.begin()) return {.pose = parts_.empty() ? last_ : parts_.front().from};
+  const Part& part = *(later - 1);
+  return motion_in(part, static_cast<double>(t_ns - part.begin_ns) * 1e-9 + after_s);
+}
+
+std::vector<std::int64_t> History::joints_in(std::int64_t begin_ns, std::int64_t end_ns) const {
+  std::vector<std::int64_t> joints;
+  auto part = std::upper_bound(parts_.begin(), parts_.end(), begin_ns,
+                               [](std::int64_t t, const Part& p) { return t < p.begin_ns; });
+  for (; part != parts_.end() && part->begin_ns <= end_ns; ++part) {
+    if (part != parts_.begin() && (joints.empty() || joints.back() < part->begin_ns))
+      joints.push_back(part->begin_ns);
+  }
+  return joints;
+}
+
 }  // namespace hallway::contact

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "contact/part.hpp"
 
@@ -29,6 +30,10 @@ class History {
   Pose pose_at(std::int64_t t_ns) const;
   /// The twist at a time, in the body's frame; of two parts that meet there, of the later one. Throws as pose_at() does.
   PlanarTwist twist_at(std::int64_t t_ns) const;
+  /// How the body moves `after_s` seconds after a time, before or after what jumps there. Throws as pose_at() does.
+  PartMotion motion_at(std::int64_t t_ns, double after_s, bool is_after) const;
+  /// The times in (begin, end] at which one part meets the next, ascending; each once.
+  std::vector<std::int64_t> joints_in(std::int64_t begin_ns, std::int64_t end_ns) const;
 
  private:
   const Part* part_at(std::int64_t t_ns) const;

@@ -37,6 +37,25 @@ Pose pose_in(const Part& part, double share) {
   return pose;
 }
 
+PartMotion motion_in(const Part& part, double after_s) {
+  const double seconds = seconds_of(part.ramp);
+  if (seconds == 0.0) return {.pose = part.to};
+  const double share = std::clamp(after_s / seconds, 0.0, 1.0);
+  const PlanarTwist twist = part.ramp.at(share);
+  const PlanarTwist change = (part.ramp.to - part.ramp.from) * (1.0 / seconds);
+  PartMotion now{.pose = pose_in(part, share)};
+  const Quat planar = (part.from * displacement(part.ramp, share).level()).q;
+  const double w = twist.angular_rad_s;
+  now.velocity = planar * Vec3(twist.forward_m_s, twist.lateral_m_s, 0.0) + part.shift / seconds;
+  now.acceleration = planar * Vec3(change.forward_m_s - w * twist.lateral_m_s,
+                                   change.lateral_m_s + w * twist.forward_m_s, 0.0);
+  const Quat tilted = rotation_by(share * part.turn);
+  const Vec3 axis = tilted * (part.from.q * Vec3::UnitZ()), tilting = part.turn / seconds;
+  now.angular_velocity = tilting + w * axis;
+  now.angular_acceleration = w * tilting.cross(axis) + change.angular_rad_s * axis;
+  return now;
+}
+
 double bend(const Part& part, double radius) {
   const double seconds = seconds_of(part.ramp);
   const PlanarTwist change = part.ramp.to - part.ramp.from;

@@ -31,6 +31,19 @@ Part make_drop(std::int64_t begin_ns, const Pose& from, const Pose& to);
 /// The pose at a share of a part's duration, in [0, 1]; exactly `from` at 0 and `to` at 1.
 Pose pose_in(const Part& part, double share);
 
+/// How a body moves at one moment of a part. World frame, SI units.
+struct PartMotion {
+  Pose pose{};  ///< T_world_body
+  Vec3 velocity = Vec3::Zero();
+  Vec3 acceleration = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  Vec3 angular_acceleration = Vec3::Zero();
+};
+
+/// The derivatives of pose_in() by time; of a drop, which takes no time, rest at its end.
+/// @param after_s  since the part's beginning, within its duration
+PartMotion motion_in(const Part& part, double after_s);
+
 /// A bound of how far points of a body leave the chord between where they are at 0 and at 1, at the same share; metres. Between two shares of
 /// difference d it is d^2 of that.
 /// @param radius  greatest distance of the body's points from its origin

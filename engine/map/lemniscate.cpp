@@ -74,4 +74,40 @@ Pose Lemniscate::at(double distance_m) const {
                     Vec3(direction.x(), direction.y(), slope));
 }
 
+CurvePoint Lemniscate::without_slope(double distance_m) const {
+  double distance = std::fmod(distance_m, spec_.length_m);
+  if (distance < 0.0) distance += spec_.length_m;
+  const double u = in_space_.parameter_at(distance);
+  const PlanPoint plan = plan_at(ground_.parameter_at(u * ground_.total()));
+  const double a = ground_length_ / ground_.total();
+  const Eigen::Rotation2Dd turn(spec_.heading + kPi / 4.0);
+  const Vec2 position = turn * (a * plan.position);
+  const Vec2 ahead = turn * plan.derivative.normalized();
+  // The lemniscate's curvature is three times the distance from the crossing, over a^2; it turns left on its first loop, where x is positive.
+  const double plan_curvature = std::copysign(3.0 * plan.position.norm(), plan.position.x()) / a;
+  const double climb = std::sin(kPi * u);
+  // By u, the part of the ground plan's length: first and second derivative.
+  const Vec3 first(ground_length_ * ahead.x(), ground_length_ * ahead.y(),
+                   spec_.rise_m * kPi * std::sin(2.0 * kPi * u));
+  const double turning = ground_length_ * ground_length_ * plan_curvature;
+  const Vec3 second(-turning * ahead.y(), turning * ahead.x(),
+                    spec_.rise_m * 2.0 * kPi * kPi * std::cos(2.0 * kPi * u));
+  const Vec3 tangent = first.normalized();
+  return {.position = spec_.crossing + Vec3(position.x(), position.y(), spec_.rise_m * climb * climb),
+          .tangent = tangent,
+          .curvature = (second - tangent * tangent.dot(second)) / first.squaredNorm()};
+}
+
+CurvePoint Lemniscate::point(double distance_m) const {
+  CurvePoint point = without_slope(distance_m);
+  constexpr double kWeights[]{4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+  const double step = spec_.length_m / 2000.0;
+  for (int i = 1; i <= 4; ++i) {
+    point.curvature_slope +=
+        kWeights[i - 1] / step *
+        (without_slope(distance_m + i * step).curvature - without_slope(distance_m - i * step).curvature);
+  }
+  return point;
+}
+
 }  // namespace hallway::map

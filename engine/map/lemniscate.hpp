@@ -3,6 +3,7 @@
 
 #include "geometry/se3.hpp"
 #include "map/arc_length.hpp"
+#include "map/curve_point.hpp"
 
 namespace hallway::map {
 
@@ -26,8 +27,12 @@ class Lemniscate {
   bool closed() const { return true; }
   /// T_world_body; the distance is taken modulo the length. Arc length is right to 1e-9 of the length.
   Pose at(double distance_m) const;
+  /// The same point with derivatives: exact, but for the slope of the curvature, which is a difference of eighth order, right to 1e-9 of its greatest value.
+  CurvePoint point(double distance_m) const;
 
  private:
+  CurvePoint without_slope(double distance_m) const;
+
   LemniscateSpec spec_;
   double ground_length_;  ///< length of the ground plan, metres
   ArcLength ground_;      ///< of the ground plan with a = 1, over its angle parameter

@@ -2,6 +2,7 @@
 #include "map/path.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -119,6 +120,27 @@ bool Path::closed() const {
 
 Pose Path::at(double distance_m) const {
   return std::visit([&](const auto& curve) { return curve.at(distance_m); }, curve_);
+}
+
+CurvePoint Path::point(double distance_m, CurveSide side) const {
+  if (const auto* polyline = std::get_if<RoundedPolyline>(&curve_)) return polyline->point(distance_m, side);
+  return std::get<Lemniscate>(curve_).point(distance_m);
+}
+
+std::vector<double> Path::jumps_in(double from_m, double to_m) const {
+  std::vector<double> found;
+  const auto* polyline = std::get_if<RoundedPolyline>(&curve_);
+  if (polyline == nullptr) return found;
+  const std::vector<double> jumps = polyline->jumps_m();
+  const double round = polyline->closed() ? std::floor(from_m / length_m()) : 0.0;
+  for (double begin_m = round * length_m(); begin_m <= to_m; begin_m += length_m()) {
+    for (const double jump_m : jumps) {
+      const double at_m = begin_m + jump_m;
+      if (at_m > from_m && at_m <= to_m && (found.empty() || found.back() < at_m)) found.push_back(at_m);
+    }
+    if (!polyline->closed()) break;
+  }
+  return found;
 }
 
 std::vector<std::string> path_names(const Document& document) {

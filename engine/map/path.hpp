@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/se3.hpp"
+#include "map/curve_point.hpp"
 #include "map/document.hpp"
 #include "map/lemniscate.hpp"
 #include "map/rounded_polyline.hpp"
@@ -26,6 +27,10 @@ class Path {
   /// T_world_body after `distance_m` metres: x forward along the path including its incline, y level. Beyond the ends a
   /// closed path goes on round, an open one stands at its end. O(log of the number of pieces).
   Pose at(double distance_m) const;
+  /// The same point with derivatives by the distance, of one side where they jump. Beyond the ends of an open path those of its end.
+  CurvePoint point(double distance_m, CurveSide side) const;
+  /// The distances in (from, to] at which a derivative jumps, ascending: where corners' arcs begin and end; of an open path its ends too.
+  std::vector<double> jumps_in(double from_m, double to_m) const;
 
  private:
   std::variant<RoundedPolyline, Lemniscate> curve_;

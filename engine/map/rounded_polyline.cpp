@@ -109,12 +109,43 @@ void RoundedPolyline::append(Piece piece) {
   pieces_.push_back(piece);
 }
 
+double RoundedPolyline::on_path(double distance_m) const {
+  if (!closed_) return std::clamp(distance_m, 0.0, length_m_);
+  const double distance = std::fmod(distance_m, length_m_);
+  return distance < 0.0 ? distance + length_m_ : distance;
+}
+
+std::vector<double> RoundedPolyline::jumps_m() const {
+  std::vector<double> jumps;
+  for (const Piece& piece : pieces_) jumps.push_back(piece.begin_m);
+  jumps.push_back(length_m_);
+  jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
+  return jumps;
+}
+
+CurvePoint RoundedPolyline::point(double distance_m, CurveSide side) const {
+  const double distance = on_path(distance_m);
+  const auto is_later = [side](double value, const Piece& piece) {
+    return side == CurveSide::kAfter ? value < piece.begin_m : value <= piece.begin_m;
+  };
+  auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance, is_later);
+  // Before the first piece of a closed path is its last one.
+  const bool wraps = after == pieces_.begin();
+  const Piece& piece = wraps ? (closed_ ? pieces_.back() : pieces_.front()) : *std::prev(after);
+  const double along = wraps ? (closed_ ? piece.length_m : 0.0) : distance - piece.begin_m;
+  if (piece.radius_m == 0.0)
+    return {.position = piece.start + along * piece.direction, .tangent = piece.direction};
+  const double angle = along / piece.radius_m;
+  const double s = std::sin(angle), c = std::cos(angle);
+  const Vec3 tangent = c * piece.direction + s * piece.inward;
+  return {.position = piece.start + piece.radius_m * (s * piece.direction + (1.0 - c) * piece.inward),
+          .tangent = tangent,
+          .curvature = (c * piece.inward - s * piece.direction) / piece.radius_m,
+          .curvature_slope = -tangent / (piece.radius_m * piece.radius_m)};
+}
+
 Pose RoundedPolyline::at(double distance_m) const {
-  double distance = std::clamp(distance_m, 0.0, length_m_);
-  if (closed_) {
-    distance = std::fmod(distance_m, length_m_);
-    if (distance < 0.0) distance += length_m_;
-  }
+  const double distance = on_path(distance_m);
   const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
                                       [](double value, const Piece& piece) { return value < piece.begin_m; });
   const Piece& piece = *std::prev(after);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/se3.hpp"
+#include "map/curve_point.hpp"
 
 namespace hallway::map {
 
@@ -32,6 +33,10 @@ class RoundedPolyline {
   bool closed() const { return closed_; }
   /// T_world_body. Distance 0 is the first waypoint; where a closed path has a corner there, the end of that corner's arc.
   Pose at(double distance_m) const;
+  /// The same point with derivatives. Where an arc begins or ends the curvature jumps.
+  CurvePoint point(double distance_m, CurveSide side) const;
+  /// Where it does, ascending, within [0, length]; of an open path with both ends.
+  std::vector<double> jumps_m() const;
 
  private:
   /// A straight line, or an arc where `radius_m` is positive.
@@ -45,6 +50,7 @@ class RoundedPolyline {
   };
 
   void append(Piece piece);
+  double on_path(double distance_m) const;
 
   std::vector<Piece> pieces_;
   double length_m_ = 0.0;

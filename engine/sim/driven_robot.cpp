@@ -95,7 +95,7 @@ void DrivenRobot::give(std::int64_t t_ns, const drive::Command& command, Command
 }
 
 CommandInForce DrivenRobot::follow() {
-  give(now_ns(), follower_->next(pose_at_time(now_ns())).command, CommandCause::kPath);
+  give(now_ns(), follower_->next(pose_at(now_ns())).command, CommandCause::kPath);
   return last_;
 }
 
@@ -245,8 +245,8 @@ void DrivenRobot::note_contacts(const std::vector<contact::Touch>& touches, bool
     const auto later =
         std::upper_bound(contacts_.begin(), contacts_.end(), t_ns,
                          [](std::int64_t t, const PastContact& past) { return t < past.t_ns; });
-    contacts_.insert(
-        later, {t_ns, {touch.point, touch.normal, touch.gap_m, pose_at_time(t_ns), patch_of(touch, t_ns)}});
+    contacts_.insert(later,
+                     {t_ns, {touch.point, touch.normal, touch.gap_m, pose_at(t_ns), patch_of(touch, t_ns)}});
   }
 }
 
@@ -265,8 +265,30 @@ std::vector<sense::BumpContact> DrivenRobot::contacts_in(std::int64_t after_ns, 
   return contacts;
 }
 
-Pose DrivenRobot::pose_at_time(std::int64_t t_ns) const {
+Pose DrivenRobot::pose_at(std::int64_t t_ns) const {
   return robot_.history().pose_at(t_ns) * world_.T_floor_body();
+}
+
+sense::Kinematics DrivenRobot::kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const {
+  const contact::PartMotion floor = robot_.history().motion_at(t_ns, after_s, side == sense::Side::kAfter);
+  const Pose& T_floor_body = world_.T_floor_body();
+  // Of the floor's frame in world axes; then at the body's origin, in the body's axes.
+  const Vec3 arm = floor.pose.q * T_floor_body.t;
+  const Vec3 &rate = floor.angular_velocity, &slope = floor.angular_acceleration;
+  sense::Kinematics now;
+  now.T_world_body = floor.pose * T_floor_body;
+  now.velocity = floor.velocity + rate.cross(arm);
+  now.acceleration = floor.acceleration + slope.cross(arm) + rate.cross(rate.cross(arm));
+  now.angular_velocity = now.T_world_body.q.conjugate() * rate;
+  now.angular_acceleration = now.T_world_body.q.conjugate() * slope;
+  return now;
+}
+
+std::vector<double> DrivenRobot::breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const {
+  std::vector<double> breaks;
+  for (const std::int64_t t_ns : robot_.history().joints_in(begin_ns, end_ns))
+    breaks.push_back(static_cast<double>(t_ns - begin_ns) * 1e-9);
+  return breaks;
 }
 
 bool DrivenRobot::is_moving() const {

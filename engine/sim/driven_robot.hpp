@@ -70,7 +70,10 @@ class DrivenRobot final : public Motion {
   const contact::Advance& advance();
 
   /// The true pose T_world_body at a time up to the present frame's, as far back as sensors of the scenario need it. Throws Error{kInternal} beyond.
-  Pose pose_at_time(std::int64_t t_ns) const override;
+  Pose pose_at(std::int64_t t_ns) const override;
+  /// Exact: the history's parts are closed forms. Where one part meets the next, e.g. at a contact, and every 2 cm on a floor that is no plane, velocities jump.
+  sense::Kinematics kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const override;
+  std::vector<double> breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const override;
   /// Contacts of the body with walls; of a wheel at a ledge, a step or a slope at the wheel, without a gap.
   std::vector<sense::BumpContact> contacts_in(std::int64_t after_ns, std::int64_t until_ns) const override;
   std::vector<double> wheel_travel_at(std::int64_t t_ns) const override { return wheels_.at(t_ns); }

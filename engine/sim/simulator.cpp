@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -130,18 +131,6 @@ void check_robot_starts(const map::Document& document, const world::CompiledWorl
     }
   }
 }
-
-/// Of a robot that its path moves: it meets nothing, and has no wheels.
-class PathMotion final : public Motion {
- public:
-  explicit PathMotion(const Simulator& simulator) : simulator_(simulator) {}
-  Pose pose_at_time(std::int64_t t_ns) const override { return simulator_.pose_at_time(t_ns); }
-  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const override { return {}; }
-  std::vector<double> wheel_travel_at(std::int64_t) const override { return {}; }
-
- private:
-  const Simulator& simulator_;
-};
 
 std::string place_text(const Vec3& place) {
   const auto rounded = [](double value) { return format_double(std::round(value * 100.0) / 100.0 + 0.0); };
@@ -328,15 +317,17 @@ Pose Simulator::pose_at(std::uint32_t index) const {
   return pose_after(step_length_m_ * index);
 }
 
+PathMotion Simulator::path_motion() const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  return {path_, step_length_m_, scenario_.period_ns, stop_m_.value_or(kNever)};
+}
+
 Pose Simulator::pose_at_time(std::int64_t t_ns) const {
-  const std::int64_t index = t_ns / scenario_.period_ns, rest_ns = t_ns % scenario_.period_ns;
-  const double periods =
-      static_cast<double>(index) + static_cast<double>(rest_ns) / static_cast<double>(scenario_.period_ns);
-  return pose_after(step_length_m_ * periods);
+  return path_motion().pose_at(t_ns);
 }
 
 Frame Simulator::step(std::uint32_t index) const {
-  Frame frame = step(index, PathMotion(*this));
+  Frame frame = step(index, path_motion());
   frame.T_world_body = pose_at(index);
   return frame;
 }
@@ -347,7 +338,7 @@ Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
   Frame frame;
   frame.step = index;
   frame.t_ns = scenario_.period_ns * std::int64_t{index};
-  frame.T_world_body = motion.pose_at_time(frame.t_ns);
+  frame.T_world_body = motion.pose_at(frame.t_ns);
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const std::uint64_t first = index == 0 ? 0 : clocks_[i].arrived_by(frame.t_ns - scenario_.period_ns);
     const std::uint64_t end = clocks_[i].arrived_by(frame.t_ns);
@@ -363,7 +354,7 @@ Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
 /// False where the sensor gives no reading.
 bool Simulator::read(std::size_t sensor, const Motion& motion, Reading& reading) const {
   const auto sequence = static_cast<std::uint32_t>(reading.sequence);
-  const Pose T_world_body = reading.T_world_body = motion.pose_at_time(reading.t_ns);
+  const Pose T_world_body = reading.T_world_body = motion.pose_at(reading.t_ns);
   if (const auto* bump = std::get_if<sense::BumpSensor>(&sensors_[sensor])) {
     const std::int64_t last_ns = reading.sequence == 0 ? -1 : clocks_[sensor].time_of(reading.sequence - 1);
     const std::vector<sense::BumpContact> contacts = motion.contacts_in(last_ns, reading.t_ns);

@@ -22,6 +22,7 @@
 #include "sim/driven_world.hpp"
 #include "sim/models.hpp"
 #include "sim/motion.hpp"
+#include "sim/path_motion.hpp"
 #include "sim/scenario.hpp"
 #include "trace/scene.hpp"
 #include "world/compiled_world.hpp"
@@ -79,6 +80,8 @@ class Simulator {
   Pose pose_at(std::uint32_t index) const;
   /// The true pose at a time from 0; at the time of a frame the same to the last bit.
   Pose pose_at_time(std::int64_t t_ns) const;
+  /// How its path moves the robot; refers to this simulator.
+  PathMotion path_motion() const;
 
   /// What a user should know but a run can stand: brushes left out, a path that runs into something, where the robot then
   /// stops. In a fixed order.

@@ -159,7 +159,7 @@ void SimulatedSource::move_to(std::uint32_t iteration) {
       rows.push_back(
           {touch.t_ns, kind_of(touch.kind), to_array(touch.point), to_array(touch.normal), touch.speed_m_s});
     for (const contact::FallEvent& fall : advance.falls)
-      rows.push_back({fall.t_ns, "fall", to_array(robot_->pose_at_time(fall.t_ns).t), {0.0, 0.0, 1.0}, 0.0});
+      rows.push_back({fall.t_ns, "fall", to_array(robot_->pose_at(fall.t_ns).t), {0.0, 0.0, 1.0}, 0.0});
     std::ranges::stable_sort(rows, {}, &log::ContactRow::t_ns);
     for (log::ContactRow& row : rows) notes_.contacts.push_back(std::move(row));
   }
@@ -219,7 +219,7 @@ void SimulatedSource::add_sensor(const sense::EncoderSensorSpec& spec) {
 
 void SimulatedSource::add_walls() {
   if (facts_.true_planes) return;
-  const Pose start = robot_ ? robot_->pose_at_time(0) : simulator_.pose_at(0);
+  const Pose start = robot_ ? robot_->pose_at(0) : simulator_.pose_at(0);
   const double height_m = (start * pose_of(facts_.sensors.front().T_body_sensor)).t.z();
   add_true_planes(true_planes_of(simulator_.walls_at(height_m)));
 }

@@ -75,7 +75,7 @@ TEST_P(ToldDrive, SaysWhetherItTurnsOnTheSpot) {
   info.kind = describe(told.spec()).kind;
   told.robot->obey({.command = drive::Command{.angular_rad_s = 1.0}});
   for (int i = 0; i < 10; ++i) told.robot->advance();
-  const Pose after = told.robot->pose_at_time(1'000'000'000);
+  const Pose after = told.robot->pose_at(1'000'000'000);
   EXPECT_EQ(hw_turns_on_the_spot(&info) != 0, std::abs(2.0 * std::atan2(after.q.z(), after.q.w())) > 0.1);
 }
 

@@ -46,7 +46,7 @@ struct DriveWorld {
         std::make_unique<DrivenRobot>(*simulator->driven_world(), simulator->scenario(), simulator->path());
   }
 
-  Pose pose() const { return robot->pose_at_time(std::int64_t{robot->frame()} * 100'000'000); }
+  Pose pose() const { return robot->pose_at(std::int64_t{robot->frame()} * 100'000'000); }
 
   TempFolder folder;
   std::unique_ptr<Simulator> simulator;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "sim/path_motion.hpp"
+
+#include <algorithm>
+
+#include "geometry/look_along_rates.hpp"
+
+namespace hallway::sim {
+
+PathMotion::PathMotion(const map::Path& path, double step_length_m, std::int64_t period_ns, double stop_m)
+    : path_(path),
+      step_length_m_(step_length_m),
+      period_ns_(period_ns),
+      speed_m_s_(step_length_m / (static_cast<double>(period_ns) * 1e-9)),
+      stop_m_(path.closed() ? stop_m : std::min(stop_m, path.length_m())) {}
+
+/// Of the path, as if nothing stopped it.
+double PathMotion::way_at(std::int64_t t_ns) const {
+  const std::int64_t index = t_ns / period_ns_, rest_ns = t_ns % period_ns_;
+  return step_length_m_ *
+         (static_cast<double>(index) + static_cast<double>(rest_ns) / static_cast<double>(period_ns_));
+}
+
+Pose PathMotion::pose_at(std::int64_t t_ns) const {
+  return path_.at(std::min(way_at(t_ns), stop_m_));
+}
+
+sense::Kinematics PathMotion::kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const {
+  const bool is_after = side == sense::Side::kAfter;
+  const double way_m = way_at(t_ns) + speed_m_s_ * after_s;
+  const bool stands = speed_m_s_ == 0.0 || (is_after ? way_m >= stop_m_ : way_m > stop_m_);
+  sense::Kinematics now;
+  if (stands) {
+    now.T_world_body = path_.at(std::min(way_m, stop_m_));
+    return now;
+  }
+  const map::CurvePoint point =
+      path_.point(way_m, is_after ? map::CurveSide::kAfter : map::CurveSide::kBefore);
+  const double v = speed_m_s_;
+  now.T_world_body = look_along(point.position, point.tangent);
+  now.velocity = v * point.tangent;
+  now.acceleration = v * v * point.curvature;
+  const LookingRates rates = look_along_rates(point.tangent, point.curvature, point.curvature_slope);
+  now.angular_velocity = v * rates.rate;
+  now.angular_acceleration = v * v * rates.slope;
+  return now;
+}
+
+std::vector<double> PathMotion::breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const {
+  std::vector<double> breaks;
+  if (speed_m_s_ == 0.0) return breaks;
+  const double begin_m = way_at(begin_ns), end_m = way_at(end_ns);
+  for (const double jump_m : path_.jumps_in(begin_m, std::min(end_m, stop_m_)))
+    breaks.push_back((jump_m - begin_m) / speed_m_s_);
+  if (stop_m_ > begin_m && stop_m_ <= end_m) {
+    const double stop_s = (stop_m_ - begin_m) / speed_m_s_;
+    if (breaks.empty() || breaks.back() < stop_s) breaks.push_back(stop_s);
+  }
+  return breaks;
+}
+
+}  // namespace hallway::sim
