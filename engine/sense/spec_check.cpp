@@ -31,6 +31,17 @@ void SpecCheck::not_negative(const char* member, double value) const {
   fail(member, "is " + format_double(value) + "; it must be a finite number that is not negative");
 }
 
+void SpecCheck::positive(const char* member, double value) const {
+  if (value > 0.0 && std::isfinite(value)) return;
+  fail(member, "is " + format_double(value) + "; it must be a finite number above 0");
+}
+
+void SpecCheck::within(const char* member, double value, double low, double high) const {
+  if (value >= low && value <= high) return;
+  fail(member, "is " + format_double(value) + "; it must be from " + format_double(low) + " to " +
+                   format_double(high));
+}
+
 void SpecCheck::ranges(double min_range_m, double max_range_m) const {
   not_negative("min_range_m", min_range_m);
   not_negative("max_range_m", max_range_m);

@@ -19,14 +19,18 @@ class SpecCheck {
   void angle(const char* member, double radians) const;
   /// Finite, not below 0.
   void not_negative(const char* member, double value) const;
+  /// Finite, above 0.
+  void positive(const char* member, double value) const;
+  /// In [low, high].
+  void within(const char* member, double value, double low, double high) const;
   /// Both not negative, and in their order.
   void ranges(double min_range_m, double max_range_m) const;
   /// A finite position and a unit quaternion.
   void mount(const Pose& T_body_sensor) const;
-
- private:
+  /// Throws for a member that breaks a rule of its own. @param problem  "must be ..."
   [[noreturn]] void fail(const std::string& member, const std::string& problem) const;
 
+ private:
   const std::string& sensor_;
 };
 
