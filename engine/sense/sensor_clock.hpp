@@ -19,9 +19,9 @@ struct SensorClockSpec {
 ///
 ///     stamp(k, t) = round(t + offset + 1e-6 drift_ppm t + clamp(jitter_s z_k, -cut, +cut))
 ///
-/// where t is the robot's time and z_k a standard normal deviate keyed by (seed, sensor's name, k). `cut` is the smaller of 4 jitter_s and half the
-/// time between two stamps of an interval (less 1 ns). So stamps of times that are at least an interval apart never decrease with k, and the jitter of an
-/// interval that is short against it is narrower than declared. An interval of at most 1 ns has no jitter.
+/// where t is the robot's time and z_k a standard normal deviate keyed by (seed, sensor's name, k). `cut` is the smaller of 4 jitter_s and half of what is
+/// between the stamps of readings that are an interval apart, less 1 ns. So stamps of times that are at least an interval apart never decrease with k; and where
+/// jitter_s is not small against the interval, the jitter is narrower than declared. An interval of at most 1 ns has no jitter.
 ///
 /// A pure function of its arguments; O(1). Exact to 1e-5 ns before rounding, at all times. Stamps beyond 64 bits are the greatest or least number of
 /// nanoseconds. Stamps may be negative where the offset is.

@@ -118,6 +118,36 @@ TEST(ImuSensor, WhiteNoiseHasItsAllanDeviation) {
   EXPECT_NEAR(product / kReadings / sigmas, 0.0, 3.0 / std::sqrt(kReadings));
 }
 
+TEST(ImuSensor, AxesAreIndependent) {
+  ImuSensorSpec spec = perfect_imu();
+  spec.gyro.noise = spec.accelerometer.noise = spec.gyro.walk = spec.accelerometer.walk =
+      std::sqrt(kInterval_s);
+  const ImuSensor imu(spec, kInterval_s, 2);
+  const motions::Standing still(Quat::Identity());
+  using Six = Eigen::Matrix<double, 6, 1>;
+  constexpr std::uint64_t kPairs = 20'000;
+  Eigen::Matrix<double, 12, 12> products = Eigen::Matrix<double, 12, 12>::Zero();
+  Six last_bias = Six::Zero();
+  for (std::uint64_t k = 1; k <= kPairs; ++k) {
+    const ImuTruth truth = imu.truth(still, k, 0, kInterval_ns);
+    const ImuReading reading = imu.read(truth, k, kInterval_ns);
+    Six bias, white;
+    bias << truth.angular_bias, truth.force_bias;
+    white << reading.angular_rad_s - truth.means.angular_rad_s, reading.force_m_s2 - truth.means.force_m_s2;
+    Eigen::Matrix<double, 12, 1> all;  // of variance 1, and of variance interval^2 for the steps of the walks
+    all << white - bias, (bias - last_bias) / kInterval_s;
+    last_bias = bias;
+    products += all * all.transpose();
+  }
+  products /= static_cast<double>(kPairs);
+  // 78 comparisons: 4 standard errors.
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j <= i; ++j)
+      EXPECT_NEAR(products(i, j), i == j ? 1.0 : 0.0, 4.0 * std::sqrt((i == j ? 2.0 : 1.0) / kPairs))
+          << i << j;
+  }
+}
+
 TEST(ImuSensor, BiasWalkHasItsAllanDeviation) {
   ImuSensorSpec spec = yaw_gyro();
   constexpr double kWalk = 1e-3;

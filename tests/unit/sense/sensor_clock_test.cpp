@@ -27,6 +27,15 @@ TEST(SensorClock, HasItsOffsetAndDrift) {
   EXPECT_EQ(clock.stamp(3, 1'000'000'000'000), 1'000'000'000'000 + 40'000'000 - 2'500'000'000);
 }
 
+TEST(SensorClock, DriftsExactlyLateInARun) {
+  // Exact in binary: 1.5 / 1024 ppm are 1.46484375 ns a second.
+  const SensorClock clock("imu", {.drift_ppm = 1.5 / 1024.0}, kInterval_ns, 1);
+  const std::int64_t late_ns = 1'024'000'000'000'000'000 + 123;
+  EXPECT_EQ(clock.stamp(0, late_ns), late_ns + 1'500'000'000);
+  const SensorClock slow("imu", {.drift_ppm = -50'000.0}, kInterval_ns, 1);
+  EXPECT_EQ(slow.stamp(0, 8'000'000'000'000'000'020), 7'600'000'000'000'000'019);
+}
+
 TEST(SensorClock, HasTheDeclaredStatistics) {
   constexpr double kJitter_ns = 20'000.0;
   const SensorClock clock("imu", {.offset_s = 0.25, .drift_ppm = -30.0, .jitter_s = 1e-9 * kJitter_ns},
