@@ -153,7 +153,7 @@ MotionSum integrate_motion(const Trajectory& trajectory, std::int64_t begin_ns, 
   for (const double named : trajectory.breaks_in(begin_ns, end_ns)) {
     const double at = std::clamp(named, from, interval.duration_s());
     sum += interval.smooth_part(from, at);
-    sum += interval.jump_at(at);
+    sum += interval.jump_at(named);
     from = at;
   }
   return sum + interval.smooth_part(from, interval.duration_s());

@@ -28,7 +28,10 @@ Quat halfway(const Quat& before, const Quat& after);
 ///
 /// Between breaks by Gauss-Legendre quadrature with seven nodes and its Kronrod extension to fifteen (Piessens et al., QUADPACK, 1983). A panel is halved while
 /// the two differ by more than 1e-10 of (1 + the largest number there), so the fifteen nodes are good to some 1e-14 of that. A smooth interval of a usual IMU
-/// takes fifteen evaluations. Differences at a break below 1e-12 of (1 + the number) count as rounding and are no jump.
+/// takes fifteen evaluations. A break that is not named is found by halving panels, at the cost of accuracy: some 1e-8 of the jump.
+///
+/// At a break the trajectory is asked with the number of seconds that breaks_in() gave, to the bit. Differences there below 1e-12 of (1 + the number) count
+/// as rounding and are no jump.
 ///
 /// Throws Error{kBadInput} that names the sensor and the interval: if the motion is not finite there, or if it changes too fast to be summed up in 2^18
 /// panels. An empty interval gives 0. A pure function.

@@ -45,7 +45,8 @@ struct OdometryTruth {
 /// error of second order in the interval's length that the covariance does not contain.
 Pose motion_of(const PlanarStep& step);
 
-/// The covariance of that increment (OdometryReading::covariance). Linear in the errors: right while the rotation's standard deviation is small against 1 rad.
+/// The covariance of that increment (OdometryReading::covariance). Linear in the errors: right while they are small. Errors that
+/// vary by 3 % of the way beside a resolution of 1/1000 of it have normalised squared errors 2 % above their number.
 /// Rotation or way that is not known has infinite variance.
 std::array<double, 21> covariance_of(const PlanarStep& step, const OffPlane& off_plane);
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "support/long_mode.hpp"
 #include "test_motions.hpp"
 
 namespace hallway::sense {
@@ -103,16 +104,16 @@ TEST(MouseOdometry, ThreeMiceGiveTheLeastSquares) {
 }
 
 TEST(MouseOdometry, CovarianceIsThatOfTheErrors) {
-  constexpr int kTrials = 30'000;
+  const int trials = test::sized(30'000, 1'000'000);
   for (const int errors : {0, 1, 2}) {
     MouseOdometrySpec spec = two_mice();
     spec.counts_per_m = 31496.06299;
-    if (errors == 1) spec.scale_sigma = 0.03;
+    if (errors == 1) spec.scale_sigma = 0.01;  // at 0.03 what is not linear in the errors adds 2 %
     if (errors == 2) spec.noise = 1e-3;
     std::mt19937_64 engine(5);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     double sum = 0.0, squares = 0.0;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < trials; ++trial) {
       const MouseOdometry mice(spec, static_cast<std::uint64_t>(trial));
       const motions::Circle circle(0.5 + 0.2 * uniform(engine), 1.0 + uniform(engine));
       MouseState state = mice.start();
@@ -133,7 +134,7 @@ TEST(MouseOdometry, CovarianceIsThatOfTheErrors) {
       sum += nees;
       squares += nees * nees;
     }
-    const double mean = sum / kTrials, error = std::sqrt((squares / kTrials - mean * mean) / kTrials);
+    const double mean = sum / trials, error = std::sqrt((squares / trials - mean * mean) / trials);
     EXPECT_NEAR(mean, 3.0, 3.0 * error) << errors;
     RecordProperty("nees_" + std::to_string(errors), std::to_string(mean) + " +- " + std::to_string(error));
   }

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "drive/wheels.hpp"
+#include "support/long_mode.hpp"
 
 namespace hallway::sense {
 namespace {
@@ -90,12 +91,12 @@ TEST(WheelOdometry, TracksTurnByTheirShare) {
 /// Drives increments that the model describes, each with other wheels, and compares errors with covariances.
 /// @return the mean of the normalised squared errors, and its standard error
 std::array<double, 2> mean_nees(const WheelOdometrySpec& spec, bool holds_sideways, double way_scale) {
-  constexpr int kIncrements = 60'000;
+  const int increments = test::sized(60'000, 1'000'000);
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   double sum = 0.0, squares = 0.0;
-  for (int trial = 0; trial < kIncrements; ++trial) {
+  for (int trial = 0; trial < increments; ++trial) {
     const WheelOdometry odometry(spec, static_cast<std::uint64_t>(trial));
     Vec3 twist = way_scale * Vec3(0.05 + 0.02 * uniform(engine),
                                   holds_sideways ? 0.0 : 0.02 * uniform(engine), 0.15 * uniform(engine));
@@ -116,8 +117,8 @@ std::array<double, 2> mean_nees(const WheelOdometrySpec& spec, bool holds_sidewa
     sum += nees;
     squares += nees * nees;
   }
-  const double mean = sum / kIncrements;
-  return {mean, std::sqrt((squares / kIncrements - mean * mean) / kIncrements)};
+  const double mean = sum / increments;
+  return {mean, std::sqrt((squares / increments - mean * mean) / increments)};
 }
 
 TEST(WheelOdometry, CovarianceIsThatOfTheErrors) {
