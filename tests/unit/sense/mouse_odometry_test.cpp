@@ -140,6 +140,22 @@ TEST(MouseOdometry, CovarianceIsThatOfTheErrors) {
   }
 }
 
+TEST(MouseOdometry, EachMouseHasItsOwnScale) {
+  MouseOdometrySpec spec = two_mice();
+  spec.scale_sigma = 0.02;
+  constexpr std::uint64_t kSeeds = 20'000;
+  double sum = 0.0, squares = 0.0, products = 0.0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const std::vector<double> errors = MouseOdometry(spec, seed).scale_errors();
+    sum += errors[1] / 0.02;
+    squares += errors[1] * errors[1] / 4e-4;
+    products += errors[0] * errors[1] / 4e-4;
+  }
+  EXPECT_NEAR(sum / kSeeds, 0.0, 3.0 / std::sqrt(kSeeds));
+  EXPECT_NEAR(squares / kSeeds, 1.0, 3.0 * std::sqrt(2.0 / kSeeds));
+  EXPECT_NEAR(products / kSeeds, 0.0, 3.0 / std::sqrt(kSeeds));
+}
+
 TEST(MouseOdometry, NoiseGrowsWithTheRootOfTheWay) {
   MouseOdometrySpec spec = one_mouse();
   spec.noise = 2e-3;
