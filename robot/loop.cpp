@@ -19,6 +19,7 @@ hw_pose_output_t pose_of(const host::PoseOutput& pose) {
   output.status = pose.valid ? HW_POSE_VALID : HW_POSE_LOST;
   output.T_map_body = pose.T_map_body;
   output.covariance = pose.covariance ? pose.covariance->data() : nullptr;
+  output.t_ns = pose.t_ns;
   return output;
 }
 

@@ -188,6 +188,26 @@ void takes_pixels(const Subject& subject) {
   });
 }
 
+/// Each of the three arrays alone, and all of them.
+void takes_point_data(const Subject& subject) {
+  constexpr std::int64_t kSweep_ns = 40'000'000;
+  for (const unsigned arrays : {1u, 2u, 4u, 7u}) {
+    try_walk(subject, false, [&](Frame& frame) {
+      Reading& reading = points_in(frame);
+      reading.duration_ns = kSweep_ns;
+      for (std::size_t i = 0; i < reading.points.size(); ++i) {
+        const auto share = static_cast<double>(i) / static_cast<double>(reading.points.size());
+        if ((arrays & 1u) != 0)
+          reading.t_offset_ns.push_back(static_cast<std::int64_t>(share * static_cast<double>(kSweep_ns)));
+        if ((arrays & 2u) != 0)
+          reading.intensity.push_back(i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                                 : static_cast<float>(i));
+        if ((arrays & 4u) != 0) reading.ring.push_back(static_cast<std::uint32_t>(i % 4));
+      }
+    });
+  }
+}
+
 void takes_equal_times(const Subject& subject) {
   try_walk(subject, false, [](Frame& frame) { frame.t_ns = 1'000'000'000; });
 }
@@ -248,6 +268,7 @@ constexpr Test kFrameTests[] = {
      skips_unknown_kinds},
     {"frame-tracks", "Points may come with the ids under which the sensor follows them.", takes_tracks},
     {"frame-pixels", "Points may come with their places in an image.", takes_pixels},
+    {"frame-point-times", "Points may come with times, intensities and rings.", takes_point_data},
     {"frame-equal-times", "Frames may have the same time.", takes_equal_times},
     {"frame-any-time", "The host's clock may begin anywhere, also before 0.", takes_any_time},
     {"frame-gaps", "Sequence numbers with gaps are answered, or refused with a reason.", survives_gaps},

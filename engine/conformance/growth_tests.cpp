@@ -42,6 +42,13 @@ void takes_larger_payloads(const Subject& subject) {
   compare(subject, "a larger payload of a sample (hw_points_t, ...) changes the answer",
           {.payload_growth = kGrowth});
 }
+void takes_older_payloads(const Subject& subject) {
+  constexpr std::uint32_t kMost = 4;  // arrays that hw_points_t did not have once
+  for (std::uint32_t n = 1; n <= kMost; ++n) {
+    compare(subject, "a payload of an older version changes the answer",
+            {.without_arrays = n, .tight = true});
+  }
+}
 void honours_the_stride(const Subject& subject) {
   compare(subject, "a larger stride changes the answer", {.stride_growth = 16});
 }
@@ -97,6 +104,10 @@ constexpr Test kGrowthTests[] = {
     {"grown-points",
      "The payload of a sample (hw_points_t, ...) of a later version, which is larger, is read as today's.",
      takes_larger_payloads},
+    {"older-points",
+     "Members that the payload of a sample (hw_points_t, ...) did not have in older versions are not read "
+     "where they are not there.",
+     takes_older_payloads},
     {"grown-activation", "A hw_activation_t of a later version, which is larger, is read as today's.",
      takes_a_larger_activation},
     {"grown-sensor", "A hw_sensor_info_t of a later version, which is larger, is read as today's.",

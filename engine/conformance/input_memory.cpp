@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <new>
+#include <string_view>
 
 #include "base/bytes.hpp"
 
@@ -19,6 +20,22 @@ constexpr std::uint32_t kUnknownPayloadBytes = 64;
 
 std::byte* at(void* data, std::size_t offset) {
   return static_cast<std::byte*>(data) + offset;
+}
+
+/// How many bytes the struct of a payload has where it was written before its last `n` arrays that came later.
+std::size_t older_size(const host::SampleKind& kind, std::uint32_t n) {
+  std::size_t size = kind.size;
+  for (std::size_t i = kind.arrays.size(); i > 0 && n > 0; --i, --n) {
+    if (kind.arrays[i - 1].size_without == 0) break;
+    size = kind.arrays[i - 1].size_without;
+  }
+  return size;
+}
+
+/// How many bytes hw_sensor_info_t had in a version.
+std::size_t sensor_size(std::uint32_t minor) {
+  if (minor < 4) return offsetof(hw_sensor_info_t, intrinsics);
+  return minor < 5 ? offsetof(hw_sensor_info_t, rate_hz) : sizeof(hw_sensor_info_t);
 }
 
 }  // namespace
@@ -67,8 +84,9 @@ const void* InputMemory::put_payload(const host::SampleKind& kind, const void* p
                                      const InputShape& shape) {
   host::Payload copy;
   copy.assign(kind, payload);
+  const std::size_t older = older_size(kind, shape.without_arrays);
   for (const host::PayloadArray& array : kind.arrays) {
-    if (!host::has_array(copy.get(), array)) continue;
+    if (array.data >= older || !host::has_array(copy.get(), array)) continue;
     const auto count = load<std::uint64_t>(copy.get() + array.count);
     const auto* from = load<const std::byte*>(copy.get() + array.data);
     const std::uint64_t from_stride = host::stride_of(copy.get(), array);
@@ -81,10 +99,13 @@ const void* InputMemory::put_payload(const host::SampleKind& kind, const void* p
     for (std::uint64_t i = 0; i < count; ++i)
       std::memcpy(at(first, i * stride), from + i * from_stride, array.element_bytes);
   }
-  const auto size = static_cast<std::uint32_t>(kind.size) + shape.payload_growth;
+  for (const host::PayloadMember& member : kind.members) {
+    if (member.name == std::string_view(host::kReserved)) store(copy.get() + member.offset, shape.reserved);
+  }
+  const auto size = static_cast<std::uint32_t>(older) + shape.payload_growth;
   store(copy.get(), size);
   blocks_.push_back(std::make_unique<Block>(size, shape.tight));
-  return std::memcpy(blocks_.back()->data(), copy.get(), kind.size);
+  return std::memcpy(blocks_.back()->data(), copy.get(), older);
 }
 
 const void* InputMemory::put_points(const Reading& reading, const InputShape& shape) {
@@ -99,6 +120,9 @@ const void* InputMemory::put_points(const Reading& reading, const InputShape& sh
     points.height = reading.height;
     points.pixel = reading.pixels.data();
   }
+  if (!reading.t_offset_ns.empty()) points.t_offset_ns = reading.t_offset_ns.data();
+  if (!reading.intensity.empty()) points.intensity = reading.intensity.data();
+  if (!reading.ring.empty()) points.ring = reading.ring.data();
   return put_payload(host::kPointSamples, &points, shape);
 }
 
@@ -109,7 +133,8 @@ const hw_sample_t* InputMemory::put_reading(const Reading& reading, const Frame&
   sample.flags = reading.flags | (reading.track.empty() ? 0 : HW_SAMPLE_TRACKED);
   sample.sensor_id = reading.sensor;
   sample.sequence = reading.sequence;
-  sample.t_begin_ns = sample.t_end_ns = frame.t_ns;
+  sample.t_end_ns = frame.t_ns - reading.age_ns;
+  sample.t_begin_ns = sample.t_end_ns - reading.duration_ns;
   if (reading.payload != nullptr) {
     sample.payload = put_payload(reading.payload->kind(), reading.payload->get(), shape);
   } else if (reading.kind == host::kPointSamples.kind) {
@@ -169,6 +194,9 @@ const void* InputMemory::put_intrinsics(const hw_sensor_info_t& sensor, const In
     }
     return placed;
   }
+  if (const hw_range_scan_info_t* scan = hw_range_scan_info_of(&sensor))
+    return &put(*scan, shape.intrinsics_growth, shape);
+  if (const hw_imu_info_t* imu = hw_imu_info_of(&sensor)) return &put(*imu, shape.intrinsics_growth, shape);
   blocks_.push_back(std::make_unique<Block>(kUnknownPayloadBytes, shape.tight));
   return std::memcpy(blocks_.back()->data(), &kUnknownPayloadBytes, sizeof kUnknownPayloadBytes);
 }
@@ -177,8 +205,8 @@ const hw_sensor_info_t* InputMemory::put_sensor(hw_sensor_info_t sensor, const I
   sensor.size = sizeof sensor;
   sensor.name = put_text(sensor.name, shape);
   sensor.reserved = shape.reserved;
-  if (shape.first_version) return &put_beginning(sensor, offsetof(hw_sensor_info_t, intrinsics), shape);
-  sensor.intrinsics = put_intrinsics(sensor, shape);
+  if (shape.minor >= 4) sensor.intrinsics = put_intrinsics(sensor, shape);
+  if (shape.minor < HW_ABI_MINOR) return &put_beginning(sensor, sensor_size(shape.minor), shape);
   return &put(sensor, shape.sensor_growth, shape);
 }
 
@@ -195,7 +223,7 @@ const hw_activation_t& InputMemory::put_activation(const std::vector<hw_sensor_i
   hw_activation_t activation{};
   activation.n_sensors = static_cast<std::uint32_t>(pointers.size());
   activation.sensors = pointers.empty() ? nullptr : put_list(pointers, shape);
-  if (shape.first_version) return put_beginning(activation, offsetof(hw_activation_t, drive), shape);
+  if (shape.minor < 4) return put_beginning(activation, offsetof(hw_activation_t, drive), shape);
   if (robot.drive) activation.drive = &put(*robot.drive, shape.drive_growth, shape);
   if (robot.body) activation.body = put_body(*robot.body, shape);
   return put(activation, shape.activation_growth, shape);

@@ -42,11 +42,13 @@ struct InputShape {
   std::uint32_t sensor_growth = 0;      ///< hw_sensor_info_t
   std::uint32_t drive_growth = 0;       ///< hw_drive_info_t
   std::uint32_t body_growth = 0;        ///< hw_body_info_t
-  std::uint32_t intrinsics_growth = 0;  ///< hw_encoder_info_t, hw_bump_info_t
-  bool first_version = false;           ///< hw_activation_t and hw_sensor_info_t end as in version 1.0
-  std::uint32_t stride_growth = 0;      ///< from one element of a sample to the next, where there is a stride
-  std::uint32_t reserved = 0;           ///< what members called `reserved` are
-  bool tight = false;                   ///< see Block
+  std::uint32_t intrinsics_growth = 0;  ///< hw_encoder_info_t, hw_bump_info_t, ...
+  std::uint32_t minor = HW_ABI_MINOR;   ///< hw_activation_t and hw_sensor_info_t end as in that version
+  std::uint32_t without_arrays =
+      0;  ///< payloads end before so many of their last arrays that older versions did not have
+  std::uint32_t stride_growth = 0;  ///< from one element of a sample to the next, where there is a stride
+  std::uint32_t reserved = 0;       ///< what members called `reserved` are
+  bool tight = false;               ///< see Block
 };
 
 /// One reading: of points; of any kind that the table has, with a payload; or of an unknown kind, which gets a payload that means nothing.
@@ -55,12 +57,17 @@ struct Reading {
   std::uint32_t flags = 0;
   std::uint32_t sensor = 0;
   std::uint64_t sequence = 0;
+  std::int64_t age_ns = 0;       ///< from the end of the measurement to the frame's time
+  std::int64_t duration_ns = 0;  ///< of the measurement
   std::shared_ptr<const host::Payload>
       payload{};                      ///< null: it is of points, which follow, or of an unknown kind
   std::vector<hw_point3_t> points{};  ///< sensor frame, metres
   std::vector<std::uint64_t> track{};
   std::uint32_t width = 0, height = 0;  ///< of the image whose pixels the points are
   std::vector<std::uint32_t> pixels{};
+  std::vector<std::int64_t> t_offset_ns{};
+  std::vector<float> intensity{};
+  std::vector<std::uint32_t> ring{};
 };
 
 /// A frame as values.

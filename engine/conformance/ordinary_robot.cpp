@@ -62,8 +62,21 @@ RobotFacts ordinary_robot() {
 const void* ordinary_intrinsics(std::uint32_t kind) {
   static const hw_encoder_info_t kEncoder = make_wheels();
   static const hw_bump_info_t kBump = make_zones();
-  if (kind == HW_SAMPLE_ENCODER) return &kEncoder;
-  return kind == HW_SAMPLE_BUMP ? &kBump : nullptr;
+  static const hw_range_scan_info_t kScan{
+      sizeof kScan, static_cast<std::uint32_t>(kWalkElements / 2), 2, 1, 0.003, 0.04};
+  static const hw_imu_info_t kImu{sizeof kImu, 0, 9.81, 1e-3, 1e-5, 1e-2, 1e-4, 10.0, 100.0};
+  switch (kind) {
+    case HW_SAMPLE_ENCODER:
+      return &kEncoder;
+    case HW_SAMPLE_BUMP:
+      return &kBump;
+    case HW_SAMPLE_RANGE_SCAN:
+      return &kScan;
+    case HW_SAMPLE_IMU:
+      return &kImu;
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace hallway::conformance

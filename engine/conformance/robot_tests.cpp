@@ -22,9 +22,9 @@ void work_on(const Subject& subject, const RobotFacts& robot, const InputShape& 
   for (std::uint64_t step = 0; step < 2; ++step) plugin.step(step).demand_valid();
 }
 
-/// The same with other intrinsics for its sensors.
+/// The same with other facts of its sensors.
 template <typename Change>
-void work_with_intrinsics(const Subject& subject, Change change) {
+void change_sensors(const Subject& subject, Change change) {
   Instance plugin(subject);
   std::vector<hw_sensor_info_t> sensors = plugin.ordinary().sensors();
   for (hw_sensor_info_t& sensor : sensors) change(sensor);
@@ -93,7 +93,7 @@ void takes_any_body(const Subject& subject) {
 }
 
 void takes_unknown_intrinsics(const Subject& subject) {
-  work_with_intrinsics(subject, [](hw_sensor_info_t& sensor) { sensor.intrinsics = nullptr; });
+  change_sensors(subject, [](hw_sensor_info_t& sensor) { sensor.intrinsics = nullptr; });
   const hw_bump_zone_info_t zone{"", kNotKnown, kNotKnown, kNotKnown, kNotKnown};
   const hw_encoder_wheel_t wheel{
       kNotKnown, {kNotKnown, kNotKnown, kNotKnown}, {kNotKnown, kNotKnown, kNotKnown}};
@@ -102,18 +102,34 @@ void takes_unknown_intrinsics(const Subject& subject) {
   for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{kWalkElements}}) {
     const hw_bump_info_t bump{sizeof bump, sizeof zone, count, zones.data()};
     const hw_encoder_info_t encoder{sizeof encoder, sizeof wheel, count, wheels.data()};
-    work_with_intrinsics(subject, [&](hw_sensor_info_t& sensor) {
+    const hw_range_scan_info_t scan{sizeof scan, 0, 0, 0, kNotKnown, kNotKnown};
+    const hw_imu_info_t imu{sizeof imu, 0,         kNotKnown, kNotKnown, kNotKnown,
+                            kNotKnown,  kNotKnown, kNotKnown, kNotKnown};
+    change_sensors(subject, [&](hw_sensor_info_t& sensor) {
       sensor.intrinsics = &sensor;  // of a kind that has none yet: any struct that begins with its size
       if (sensor.kind == HW_SAMPLE_BUMP) sensor.intrinsics = &bump;
       if (sensor.kind == HW_SAMPLE_ENCODER) sensor.intrinsics = &encoder;
+      if (sensor.kind == HW_SAMPLE_RANGE_SCAN) sensor.intrinsics = &scan;
+      if (sensor.kind == HW_SAMPLE_IMU) sensor.intrinsics = &imu;
     });
   }
 }
 
-/// Nothing is behind what version 1.0 had: it is not there, or memory that nobody may touch.
-void works_on_a_first_host(const Subject& subject) {
-  work_on(subject, {}, {.first_version = true});
-  work_on(subject, {}, {.first_version = true, .tight = true});
+void takes_any_rate(const Subject& subject) {
+  for (const double number : {kNotKnown, 0.0, 1e-3, 1e6}) {
+    change_sensors(subject, [&](hw_sensor_info_t& sensor) {
+      sensor.rate_hz = sensor.latency_s = number;
+      for (double& noise : sensor.noise_per_m) noise = number;
+    });
+  }
+}
+
+/// Nothing is behind what an older version had: it is not there, or memory that nobody may touch.
+void works_on_an_older_host(const Subject& subject) {
+  for (const std::uint32_t minor : {0u, 4u}) {
+    work_on(subject, {}, {.minor = minor});
+    work_on(subject, {}, {.minor = minor, .tight = true});
+  }
 }
 
 constexpr Test kRobotTests[] = {
@@ -126,11 +142,12 @@ constexpr Test kRobotTests[] = {
      "Intrinsics of a sensor that nothing is known of, or that the plugin does not know, are no reason to "
      "fail.",
      takes_unknown_intrinsics},
+    {"activate-any-rate", "A sensor may have any rate, latency and growth of noise, or none that is known.",
+     takes_any_rate},
     {"older-activation",
-     "Members that hw_activation_t and hw_sensor_info_t did not have in version 1.0 are not read where they "
-     "are not "
-     "there.",
-     works_on_a_first_host},
+     "Members that hw_activation_t and hw_sensor_info_t did not have in older versions are not read where "
+     "they are not there.",
+     works_on_an_older_host},
 };
 
 }  // namespace

@@ -70,6 +70,7 @@ std::span<const Test> parameter_2_tests();
 std::span<const Test> activation_tests();
 std::span<const Test> robot_tests();
 std::span<const Test> frame_tests();
+std::span<const Test> sample_tests();
 std::span<const Test> input_tests();
 std::span<const Test> growth_tests();
 std::span<const Test> output_tests();

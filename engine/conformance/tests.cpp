@@ -10,8 +10,8 @@ const std::vector<Test>& all_tests() {
     std::vector<Test> all;
     for (const std::span<const Test> group :
          {entry_tests(), life_cycle_tests(), parameter_tests(), parameter_2_tests(), activation_tests(),
-          robot_tests(), frame_tests(), input_tests(), growth_tests(), output_tests(), report_tests(),
-          result_tests(), error_tests(), host_tests(), manners_tests()}) {
+          robot_tests(), frame_tests(), sample_tests(), input_tests(), growth_tests(), output_tests(),
+          report_tests(), result_tests(), error_tests(), host_tests(), manners_tests()}) {
       all.insert(all.end(), group.begin(), group.end());
     }
     return all;

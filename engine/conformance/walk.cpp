@@ -84,13 +84,16 @@ std::vector<hw_sensor_info_t> Walk::sensors(std::uint32_t first_id) const {
     for (double& noise : sensor.noise_m) noise = 0.01;
     sensor.size = sizeof sensor;
     sensor.intrinsics = ordinary_intrinsics(kind->kind);
+    sensor.rate_hz = 20.0;
+    sensor.latency_s = 0.0;
+    for (double& noise : sensor.noise_per_m) noise = 0.001;
     sensors.push_back(sensor);
   }
   return sensors;
 }
 
 Reading Walk::reading(const host::SampleKind& kind, std::uint64_t step, std::size_t elements) const {
-  Reading reading{.kind = kind.kind, .sequence = step};
+  Reading reading{.kind = kind.kind, .sequence = step, .duration_ns = kind.example_ns};
   if (&kind == &host::kPointSamples) {
     reading.points = walk_points(seed_, step, elements);
     return reading;
@@ -117,10 +120,14 @@ std::string Walk::kinds() const {
   return text;
 }
 
-Reading& points_in(Frame& frame) {
-  const auto found = std::ranges::find(frame.readings, host::kPointSamples.kind, &Reading::kind);
-  if (found == frame.readings.end()) throw Skipped("the plugin takes no points");
+Reading& reading_of(Frame& frame, const host::SampleKind& kind) {
+  const auto found = std::ranges::find(frame.readings, kind.kind, &Reading::kind);
+  if (found == frame.readings.end()) throw Skipped("the plugin takes no " + std::string(kind.name));
   return *found;
+}
+
+Reading& points_in(Frame& frame) {
+  return reading_of(frame, host::kPointSamples);
 }
 
 }  // namespace hallway::conformance

@@ -49,6 +49,9 @@ class Walk {
   std::uint64_t seed_ = 1;
 };
 
+/// The reading of a kind in a frame. Throws Skipped where the plugin takes none.
+Reading& reading_of(Frame& frame, const host::SampleKind& kind);
+
 /// The reading of points in a frame. Throws Skipped where the plugin takes none.
 Reading& points_in(Frame& frame);
 

@@ -61,6 +61,22 @@ BumpIntrinsics bump_of(const hw_bump_info_t& info) {
   return bump;
 }
 
+RangeScanIntrinsics range_scan_of(const hw_range_scan_info_t& info) {
+  expect(HW_HAS(&info, hw_range_scan_info_t, scan_s), "intrinsics of a wrong size");
+  return {.width = info.width,
+          .height = info.height,
+          .layers = info.layers,
+          .beam_rad = info.beam_rad,
+          .scan_s = info.scan_s};
+}
+
+ImuIntrinsics imu_of(const hw_imu_info_t& info) {
+  expect(HW_HAS(&info, hw_imu_info_t, max_force_m_s2), "intrinsics of a wrong size");
+  ImuIntrinsics imu;
+  for (const ImuNumber& number : imu_numbers()) imu.*number.host = info.*number.abi;
+  return imu;
+}
+
 hw_encoder_wheel_t c_wheel(const EncoderWheel& from) {
   hw_encoder_wheel_t wheel{};
   wheel.m_per_tick = from.m_per_tick;
@@ -86,6 +102,9 @@ CActivation::CActivation(Activation facts) : facts_(std::move(facts)) {
     info.name = sensor.name.c_str();
     copy_sensor_facts(sensor, info);
     info.intrinsics = intrinsics(sensor);
+    info.rate_hz = sensor.rate_hz;
+    info.latency_s = sensor.latency_s;
+    std::ranges::copy(sensor.noise_per_m, info.noise_per_m);
   }
   for (const hw_sensor_info_t& sensor : sensors_) pointers_.push_back(&sensor);
   activation_.size = sizeof activation_;
@@ -121,6 +140,22 @@ const void* CActivation::intrinsics(const SensorInfo& sensor) {
     info.stride = sizeof(hw_bump_zone_info_t);
     info.count = zones.size();
     info.zones = zones.data();
+    return &info;
+  }
+  if (const auto* scan = std::get_if<RangeScanIntrinsics>(&sensor.intrinsics)) {
+    hw_range_scan_info_t& info = scans_.emplace_back();
+    info.size = sizeof info;
+    info.width = scan->width;
+    info.height = scan->height;
+    info.layers = scan->layers;
+    info.beam_rad = scan->beam_rad;
+    info.scan_s = scan->scan_s;
+    return &info;
+  }
+  if (const auto* imu = std::get_if<ImuIntrinsics>(&sensor.intrinsics)) {
+    hw_imu_info_t& info = imus_.emplace_back();
+    info.size = sizeof info;
+    for (const ImuNumber& number : imu_numbers()) info.*number.abi = imu->*number.host;
     return &info;
   }
   return nullptr;
@@ -166,10 +201,16 @@ BodyInfo body_of(const hw_body_info_t& info) {
   return body;
 }
 
-void take_intrinsics(const hw_sensor_info_t& info, SensorInfo& sensor) {
+void take_later_facts(const hw_sensor_info_t& info, SensorInfo& sensor) {
+  sensor.rate_hz = hw_rate_hz_of(&info);
+  sensor.latency_s = hw_latency_s_of(&info);
+  for (std::uint32_t axis = 0; axis < 3; ++axis) sensor.noise_per_m[axis] = hw_noise_per_m_of(&info, axis);
   if (const hw_encoder_info_t* encoder = hw_encoder_info_of(&info)) sensor.intrinsics = encoder_of(*encoder);
   if (const hw_bump_info_t* bump = hw_bump_info_of(&info)) sensor.intrinsics = bump_of(*bump);
-  expect_none(problem_of_intrinsics(sensor));
+  if (const hw_range_scan_info_t* scan = hw_range_scan_info_of(&info))
+    sensor.intrinsics = range_scan_of(*scan);
+  if (const hw_imu_info_t* imu = hw_imu_info_of(&info)) sensor.intrinsics = imu_of(*imu);
+  expect_none(problem_of(sensor));
 }
 
 }  // namespace hallway::host

@@ -32,17 +32,19 @@ class CActivation {
   std::deque<hw_encoder_info_t> encoders_;
   std::deque<std::vector<hw_bump_zone_info_t>> zones_;
   std::deque<hw_bump_info_t> bumps_;
+  std::deque<hw_range_scan_info_t> scans_;
+  std::deque<hw_imu_info_t> imus_;
   hw_drive_info_t drive_{};
   std::vector<double> corners_;
   hw_body_info_t body_{};
   hw_activation_t activation_{};
 };
 
-/// What a drive, a body, and a sensor's intrinsics that came through the ABI say. Throws Error{kIo} with a text for a struct of a wrong size and for what
+/// What a drive, a body, and a sensor's rates and intrinsics that came through the ABI say. Throws Error{kIo} with a text for a struct of a wrong size and for what
 /// problem_of() names; a kind of drive that is not known here is taken for HW_DRIVE_UNKNOWN.
 DriveInfo drive_of(const hw_drive_info_t& info);
 BodyInfo body_of(const hw_body_info_t& info);
 /// @param sensor  gets them; has its kind already
-void take_intrinsics(const hw_sensor_info_t& info, SensorInfo& sensor);
+void take_later_facts(const hw_sensor_info_t& info, SensorInfo& sensor);
 
 }  // namespace hallway::host

@@ -9,7 +9,7 @@
 
 namespace hallway::host {
 
-/// Copies what every form of a sensor's facts has, but for its name and its intrinsics: SensorInfo, that of the ABI, that of a datagram.
+/// Copies what every form of a sensor's facts has, but for its name, its intrinsics and what came with version 1.5: SensorInfo, that of the ABI, that of a datagram.
 template <typename From, typename To>
 void copy_sensor_facts(const From& from, To& to) {
   to.id = from.id;

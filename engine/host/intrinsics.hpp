@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <variant>
@@ -38,8 +39,29 @@ struct BumpIntrinsics {
   std::vector<BumpZoneInfo> zones{};
 };
 
+/// Of a sensor of rays; see hw_range_scan_info_t. 0: not known.
+struct RangeScanIntrinsics {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t layers = 0;
+  double beam_rad = std::numeric_limits<double>::quiet_NaN();
+  double scan_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of a sensor of angular velocities and specific forces; see hw_imu_info_t.
+struct ImuIntrinsics {
+  double gravity_m_s2 = std::numeric_limits<double>::quiet_NaN();
+  double angular_noise = std::numeric_limits<double>::quiet_NaN();
+  double angular_walk = std::numeric_limits<double>::quiet_NaN();
+  double force_noise = std::numeric_limits<double>::quiet_NaN();
+  double force_walk = std::numeric_limits<double>::quiet_NaN();
+  double max_angular_rad_s = std::numeric_limits<double>::quiet_NaN();
+  double max_force_m_s2 = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Of any sensor; std::monostate: nothing is known.
-using Intrinsics = std::variant<std::monostate, BumpIntrinsics, EncoderIntrinsics>;
+using Intrinsics =
+    std::variant<std::monostate, BumpIntrinsics, EncoderIntrinsics, RangeScanIntrinsics, ImuIntrinsics>;
 
 /// Most zones or wheels of a sensor.
 inline constexpr std::size_t kMaxIntrinsicParts = 256;

@@ -24,6 +24,16 @@ constexpr std::array kDriveNumbers{
     HALLWAY_DRIVE_NUMBER(dead_band_m_s),         HALLWAY_DRIVE_NUMBER(dead_band_rad_s)};
 #undef HALLWAY_DRIVE_NUMBER
 
+#define HALLWAY_IMU_NUMBER(member)                          \
+  ImuNumber {                                               \
+#member, &ImuIntrinsics::member, &hw_imu_info_t::member \
+  }
+constexpr std::array kImuNumbers{HALLWAY_IMU_NUMBER(gravity_m_s2),  HALLWAY_IMU_NUMBER(angular_noise),
+                                 HALLWAY_IMU_NUMBER(angular_walk),  HALLWAY_IMU_NUMBER(force_noise),
+                                 HALLWAY_IMU_NUMBER(force_walk),    HALLWAY_IMU_NUMBER(max_angular_rad_s),
+                                 HALLWAY_IMU_NUMBER(max_force_m_s2)};
+#undef HALLWAY_IMU_NUMBER
+
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kTurnTolerance = 1e-9;
 
@@ -86,10 +96,30 @@ std::string problem_of(const BumpIntrinsics& bump) {
   return {};
 }
 
+std::string problem_of(const RangeScanIntrinsics& scan) {
+  if ((scan.width == 0) != (scan.height == 0))
+    return "a scan with rows and no columns, or columns and no rows";
+  if (!is_size(scan.beam_rad)) return "a beam whose divergence is below 0 or not finite";
+  if (!is_size(scan.scan_s)) return "a scan whose time is below 0 or not finite";
+  return {};
+}
+
+std::string problem_of(const ImuIntrinsics& imu) {
+  for (const ImuNumber& number : kImuNumbers) {
+    if (!is_size(imu.*number.host))
+      return std::string(number.key) + " is below 0 or not finite; NaN is for what is not known";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::span<const DriveNumber> drive_numbers() {
   return kDriveNumbers;
+}
+
+std::span<const ImuNumber> imu_numbers() {
+  return kImuNumbers;
 }
 
 std::optional<std::uint32_t> drive_kind(std::string_view name) {
@@ -134,7 +164,18 @@ std::string problem_of_intrinsics(const SensorInfo& sensor) {
   if (const auto* encoder = std::get_if<EncoderIntrinsics>(&sensor.intrinsics))
     return sensor.kind == HW_SAMPLE_ENCODER ? problem_of(*encoder)
                                             : "wheels of a sensor that has no encoders";
+  if (const auto* scan = std::get_if<RangeScanIntrinsics>(&sensor.intrinsics))
+    return sensor.kind == HW_SAMPLE_RANGE_SCAN ? problem_of(*scan) : "scans of a sensor that has no rays";
+  if (const auto* imu = std::get_if<ImuIntrinsics>(&sensor.intrinsics))
+    return sensor.kind == HW_SAMPLE_IMU ? problem_of(*imu) : "noise of an IMU of a sensor that is none";
   return {};
+}
+
+std::string problem_of(const SensorInfo& sensor) {
+  if (!is_size(sensor.rate_hz)) return "a rate below 0 or not finite";
+  if (!is_size(sensor.latency_s)) return "a latency below 0 or not finite";
+  if (!std::ranges::all_of(sensor.noise_per_m, is_size)) return "noise per metre below 0 or not finite";
+  return problem_of_intrinsics(sensor);
 }
 
 }  // namespace hallway::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <hallway/imu.h>
 #include <hallway/robot.h>
 
 #include <array>
@@ -52,6 +53,16 @@ struct DriveNumber {
 /// All of them, in the order of hw_drive_info_t.
 std::span<const DriveNumber> drive_numbers();
 
+/// A number of ImuIntrinsics.
+struct ImuNumber {
+  std::string_view key;  ///< its name in files
+  double ImuIntrinsics::*host;
+  double hw_imu_info_t::*abi;
+};
+
+/// All of them, in the order of hw_imu_info_t.
+std::span<const ImuNumber> imu_numbers();
+
 /// The number HW_DRIVE_… of a name; empty if there is none.
 std::optional<std::uint32_t> drive_kind(std::string_view name);
 
@@ -75,5 +86,7 @@ std::string problem_of(const DriveInfo& drive);
 std::string problem_of(const BodyInfo& body);
 /// Likewise of a sensor's intrinsics: they fit its kind, directions have unit length.
 std::string problem_of_intrinsics(const SensorInfo& sensor);
+/// Likewise of a sensor's rate, latency, growth of noise, and intrinsics.
+std::string problem_of(const SensorInfo& sensor);
 
 }  // namespace hallway::host

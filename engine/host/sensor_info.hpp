@@ -23,6 +23,10 @@ struct SensorInfo {
   double noise_m[3] = {kUnknown, kUnknown,
                        kUnknown};  ///< standard deviation along x, y, z of the sensor's frame
   Intrinsics intrinsics{};         ///< fits the kind
+  double rate_hz = kUnknown;       ///< readings a second; 0: one for each frame
+  double latency_s = kUnknown;     ///< from the end of a measurement to its frame
+  double noise_per_m[3] = {kUnknown, kUnknown,
+                           kUnknown};  ///< what noise_m grows by for each metre of distance
 
   static constexpr double kUnknown = __builtin_nan("");
 };

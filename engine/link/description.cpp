@@ -79,8 +79,8 @@ void check_mount(const host::SensorInfo& sensor) {
     bad(fmt::format("the mount of sensor {} is no pose", sensor.id));
 }
 
-void check_intrinsics(const host::SensorInfo& sensor) {
-  const std::string problem = host::problem_of_intrinsics(sensor);
+void check_later_facts(const host::SensorInfo& sensor) {
+  const std::string problem = host::problem_of(sensor);
   if (!problem.empty()) bad(fmt::format("sensor {}: {}", sensor.id, problem));
   if (const auto* bump = std::get_if<host::BumpIntrinsics>(&sensor.intrinsics)) {
     for (const host::BumpZoneInfo& zone : bump->zones) check_name(zone.name);
@@ -107,7 +107,7 @@ void check(const Description& description) {
   for (const host::SensorInfo& sensor : description.sensors) {
     check_name(sensor.name);
     check_mount(sensor);
-    check_intrinsics(sensor);
+    check_later_facts(sensor);
     if (!ids.insert(sensor.id).second) bad(fmt::format("two sensors have the id {}", sensor.id));
   }
 }
@@ -147,7 +147,7 @@ Description read_parts(std::span<const std::byte> message) {
     host::SensorInfo& sensor = description.sensors.emplace_back();
     const auto taken = take_struct<typename Version::Sensor, Version::kSized>(reader);
     host::copy_sensor_facts(taken.head, sensor);
-    read_intrinsics(taken.rest, sensor);
+    read_sensor_parts(taken.rest, sensor);
     sensor.name = reader.get_text();
   }
   reader.expect_end();
@@ -177,7 +177,7 @@ void put_parts(const Description& description, AlignedByteWriter& writer) {
   for (const host::SensorInfo& sensor : description.sensors) {
     typename Version::Sensor bytes;
     host::copy_sensor_facts(sensor, bytes);
-    put_struct<Version>(writer, bytes, intrinsics_bytes(sensor.intrinsics));
+    put_struct<Version>(writer, bytes, sensor_parts_bytes(sensor));
     writer.put_text(sensor.name);
   }
 }

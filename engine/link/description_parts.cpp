@@ -3,6 +3,8 @@
 
 #include <hallway/sample.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/bytes.hpp"
@@ -28,10 +30,26 @@ struct BodyHead {
   double top_m = 0;
 };
 
-/// The kind is that of the samples.
+/// The kind is that of the samples; 0: there are none.
 struct IntrinsicsHead {
   std::uint32_t kind = 0;
+  std::uint32_t bytes = 0;  ///< with this head, to where the pace begins; 0: there is no pace
+};
+
+/// Rate, latency and growth of noise.
+struct Pace {
+  double rate_hz = 0;
+  double latency_s = 0;
+  double noise_per_m[3]{};
+};
+
+struct ScanNumbers {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t layers = 0;
   std::uint32_t reserved = 0;
+  double beam_rad = 0;
+  double scan_s = 0;
 };
 
 struct ZoneNumbers {
@@ -48,6 +66,82 @@ Bytes written(Put put) {
   put(writer);
   bytes.resize((writer.size() + 7) / 8 * 8);
   return bytes;
+}
+
+bool knows_pace(const host::SensorInfo& sensor) {
+  return !std::isnan(sensor.rate_hz) || !std::isnan(sensor.latency_s) ||
+         !std::ranges::all_of(sensor.noise_per_m, [](double noise) { return std::isnan(noise); });
+}
+
+Bytes intrinsics_bytes(const host::Intrinsics& intrinsics) {
+  if (const auto* bump = std::get_if<host::BumpIntrinsics>(&intrinsics)) {
+    return written([&](AlignedByteWriter& writer) {
+      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_BUMP});
+      writer.put(std::uint64_t{bump->zones.size()});
+      for (const host::BumpZoneInfo& zone : bump->zones) {
+        writer.put(ZoneNumbers{zone.middle_rad, zone.width_rad, zone.bottom_m, zone.top_m});
+        writer.put_text(zone.name);
+      }
+    });
+  }
+  if (const auto* encoder = std::get_if<host::EncoderIntrinsics>(&intrinsics)) {
+    return written([&](AlignedByteWriter& writer) {
+      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_ENCODER});
+      writer.put_list(encoder->wheels);
+    });
+  }
+  if (const auto* scan = std::get_if<host::RangeScanIntrinsics>(&intrinsics)) {
+    return written([&](AlignedByteWriter& writer) {
+      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_RANGE_SCAN});
+      writer.put(ScanNumbers{.width = scan->width,
+                             .height = scan->height,
+                             .layers = scan->layers,
+                             .beam_rad = scan->beam_rad,
+                             .scan_s = scan->scan_s});
+    });
+  }
+  if (const auto* imu = std::get_if<host::ImuIntrinsics>(&intrinsics)) {
+    return written([&](AlignedByteWriter& writer) {
+      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_IMU});
+      for (const host::ImuNumber& number : host::imu_numbers()) writer.put(imu->*number.host);
+    });
+  }
+  return {};
+}
+
+bool is_known(std::uint32_t kind) {
+  return kind == 0 || kind == HW_SAMPLE_BUMP || kind == HW_SAMPLE_ENCODER || kind == HW_SAMPLE_RANGE_SCAN ||
+         kind == HW_SAMPLE_IMU;
+}
+
+void read_zones(AlignedByteReader& reader, host::BumpIntrinsics& bump) {
+  const std::size_t count = reader.get_count(sizeof(ZoneNumbers) + sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto numbers = reader.get<ZoneNumbers>();
+    bump.zones.push_back({.name = reader.get_text(),
+                          .middle_rad = numbers.middle_rad,
+                          .width_rad = numbers.width_rad,
+                          .bottom_m = numbers.bottom_m,
+                          .top_m = numbers.top_m});
+  }
+}
+
+void read_intrinsics(std::uint32_t kind, AlignedByteReader& reader, host::Intrinsics& intrinsics) {
+  if (kind == HW_SAMPLE_BUMP) {
+    read_zones(reader, intrinsics.emplace<host::BumpIntrinsics>());
+  } else if (kind == HW_SAMPLE_ENCODER) {
+    intrinsics = host::EncoderIntrinsics{.wheels = reader.copy_list<host::EncoderWheel>()};
+  } else if (kind == HW_SAMPLE_RANGE_SCAN) {
+    const auto numbers = reader.get<ScanNumbers>();
+    intrinsics = host::RangeScanIntrinsics{.width = numbers.width,
+                                           .height = numbers.height,
+                                           .layers = numbers.layers,
+                                           .beam_rad = numbers.beam_rad,
+                                           .scan_s = numbers.scan_s};
+  } else if (kind == HW_SAMPLE_IMU) {
+    auto& imu = intrinsics.emplace<host::ImuIntrinsics>();
+    for (const host::ImuNumber& number : host::imu_numbers()) imu.*number.host = reader.get<double>();
+  }
 }
 
 }  // namespace
@@ -88,45 +182,36 @@ void read_robot_parts(std::span<const std::byte> bytes, Description& description
   }
 }
 
-Bytes intrinsics_bytes(const host::Intrinsics& intrinsics) {
-  if (const auto* bump = std::get_if<host::BumpIntrinsics>(&intrinsics)) {
-    return written([&](AlignedByteWriter& writer) {
-      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_BUMP});
-      writer.put(std::uint64_t{bump->zones.size()});
-      for (const host::BumpZoneInfo& zone : bump->zones) {
-        writer.put(ZoneNumbers{zone.middle_rad, zone.width_rad, zone.bottom_m, zone.top_m});
-        writer.put_text(zone.name);
-      }
-    });
-  }
-  if (const auto* encoder = std::get_if<host::EncoderIntrinsics>(&intrinsics)) {
-    return written([&](AlignedByteWriter& writer) {
-      writer.put(IntrinsicsHead{.kind = HW_SAMPLE_ENCODER});
-      writer.put_list(encoder->wheels);
-    });
-  }
-  return {};
+Bytes sensor_parts_bytes(const host::SensorInfo& sensor) {
+  Bytes bytes = intrinsics_bytes(sensor.intrinsics);
+  if (!knows_pace(sensor)) return bytes;
+  if (bytes.empty()) bytes = written([](AlignedByteWriter& writer) { writer.put(IntrinsicsHead{}); });
+  const std::size_t at = bytes.size();
+  store(bytes.data() + offsetof(IntrinsicsHead, bytes), static_cast<std::uint32_t>(at));
+  Pace pace{.rate_hz = sensor.rate_hz, .latency_s = sensor.latency_s};
+  std::ranges::copy(sensor.noise_per_m, pace.noise_per_m);
+  bytes.resize(at + sizeof pace);
+  store(bytes.data() + at, pace);
+  return bytes;
 }
 
-void read_intrinsics(std::span<const std::byte> bytes, host::SensorInfo& sensor) {
+void read_sensor_parts(std::span<const std::byte> bytes, host::SensorInfo& sensor) {
   if (bytes.empty()) return;
   AlignedByteReader reader(bytes);
   const auto head = reader.get<IntrinsicsHead>();
-  if (head.kind == HW_SAMPLE_BUMP) {
-    host::BumpIntrinsics bump;
-    const std::size_t count = reader.get_count(sizeof(ZoneNumbers) + sizeof(std::uint64_t));
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto numbers = reader.get<ZoneNumbers>();
-      bump.zones.push_back({.name = reader.get_text(),
-                            .middle_rad = numbers.middle_rad,
-                            .width_rad = numbers.width_rad,
-                            .bottom_m = numbers.bottom_m,
-                            .top_m = numbers.top_m});
-    }
-    sensor.intrinsics = std::move(bump);
-  } else if (head.kind == HW_SAMPLE_ENCODER) {
-    sensor.intrinsics = host::EncoderIntrinsics{.wheels = reader.copy_list<host::EncoderWheel>()};
+  const bool has_pace =
+      head.bytes >= sizeof head && head.bytes % 8 == 0 && lies_within(head.bytes, sizeof(Pace), bytes.size());
+  if (head.bytes != 0 && !has_pace && is_known(head.kind))
+    throw BadBytes{"a sensor's rate outside of its bytes"};
+  if (has_pace) {
+    const auto pace = load<Pace>(bytes.data() + head.bytes);
+    sensor.rate_hz = pace.rate_hz;
+    sensor.latency_s = pace.latency_s;
+    std::ranges::copy(pace.noise_per_m, sensor.noise_per_m);
+    reader = AlignedByteReader(bytes.first(head.bytes));
+    reader.get<IntrinsicsHead>();
   }
+  read_intrinsics(head.kind, reader, sensor.intrinsics);
 }
 
 }  // namespace hallway::link

@@ -15,9 +15,9 @@ Bytes robot_parts_bytes(const Description& description);
 /// Reads them. Throws BadBytes for less than is said; what is behind them is passed over.
 void read_robot_parts(std::span<const std::byte> bytes, Description& description);
 
-/// What else is known of a sensor; nothing where nothing is.
-Bytes intrinsics_bytes(const host::Intrinsics& intrinsics);
+/// Intrinsics, rate, latency and growth of noise of a sensor; nothing where nothing is known.
+Bytes sensor_parts_bytes(const host::SensorInfo& sensor);
 /// Likewise. Intrinsics of a kind that is not known here are passed over.
-void read_intrinsics(std::span<const std::byte> bytes, host::SensorInfo& sensor);
+void read_sensor_parts(std::span<const std::byte> bytes, host::SensorInfo& sensor);
 
 }  // namespace hallway::link

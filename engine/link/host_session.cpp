@@ -140,7 +140,7 @@ std::optional<std::uint64_t> HostSession::next(Bytes& frame) {
 
 void HostSession::answer(Answer answer, Clock::time_point now) {
   answer.number = answers_++;
-  write_answer(answer, payload_);
+  write_answer(answer, payload_, version_);
   send({.type = Type::kAnswer, .sequence = answer.sequence}, payload_, now);
   if (!inbox_ || answer.status == HW_ANSWER_END) return;
   last_answer_ = datagram_;

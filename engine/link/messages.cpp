@@ -11,7 +11,7 @@
 namespace hallway::link {
 namespace {
 
-enum AnswerFlag : std::uint32_t { kHasCommand = 1, kHasPose = 2, kPoseValid = 4 };
+enum AnswerFlag : std::uint32_t { kHasCommand = 1, kHasPose = 2, kPoseValid = 4, kHasPoseTime = 8 };
 
 /// An answer as it stands in a datagram.
 struct AnswerBytes {
@@ -27,9 +27,18 @@ struct AnswerBytes {
 };
 static_assert(sizeof(AnswerBytes) == 104);
 
+/// The time that the pose of an answer is of; empty where it is none.
+std::optional<std::int64_t> pose_time(const Datagram& datagram, const AnswerBytes& bytes) {
+  if (datagram.header.version == kFirstVersion || (bytes.flags & kHasPoseTime) == 0) return 0;
+  if (datagram.payload.size() < sizeof bytes + sizeof(std::int64_t)) return std::nullopt;
+  const auto t_ns = load<std::int64_t>(datagram.payload.data() + sizeof bytes);
+  if (t_ns < 0 || t_ns > bytes.t_ns) return std::nullopt;
+  return t_ns;
+}
+
 }  // namespace
 
-void write_answer(const Answer& answer, Bytes& payload) {
+void write_answer(const Answer& answer, Bytes& payload, std::uint8_t version) {
   AnswerBytes bytes;
   bytes.status = answer.status;
   bytes.number = answer.number;
@@ -46,8 +55,12 @@ void write_answer(const Answer& answer, Bytes& payload) {
     std::copy_n(answer.pose->T_map_body.position, 3, bytes.position.begin());
     std::copy_n(answer.pose->T_map_body.orientation, 4, bytes.orientation.begin());
   }
-  payload.resize(sizeof bytes);
+  const bool has_pose_time =
+      version != kFirstVersion && answer.pose && answer.pose->valid && answer.pose->t_ns != 0;
+  if (has_pose_time) bytes.flags |= kHasPoseTime;
+  payload.resize(sizeof bytes + (has_pose_time ? sizeof(std::int64_t) : 0));
   store(payload.data(), bytes);
+  if (has_pose_time) store(payload.data() + sizeof bytes, answer.pose->t_ns);
 }
 
 std::optional<Answer> read_answer(const Datagram& datagram) {
@@ -59,7 +72,8 @@ std::optional<Answer> read_answer(const Datagram& datagram) {
   const bool sound = bytes.status <= HW_ANSWER_END && std::isfinite(bytes.linear_m_s) &&
                      std::isfinite(bytes.angular_rad_s) && std::isfinite(bytes.lateral_m_s) &&
                      is_pose(bytes.position, bytes.orientation);
-  if (!sound) return std::nullopt;
+  const std::optional<std::int64_t> pose_t_ns = pose_time(datagram, bytes);
+  if (!sound || !pose_t_ns) return std::nullopt;
   Answer answer{.number = bytes.number,
                 .status = bytes.status,
                 .sequence = datagram.header.sequence,
@@ -69,6 +83,7 @@ std::optional<Answer> read_answer(const Datagram& datagram) {
   if ((bytes.flags & kHasPose) != 0) {
     answer.pose.emplace();
     answer.pose->valid = (bytes.flags & kPoseValid) != 0;
+    if (answer.pose->valid) answer.pose->t_ns = *pose_t_ns;
     std::copy_n(bytes.position.begin(), 3, answer.pose->T_map_body.position);
     std::copy_n(bytes.orientation.begin(), 4, answer.pose->T_map_body.orientation);
   }

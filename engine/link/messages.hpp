@@ -22,8 +22,9 @@ struct Answer {
   std::optional<host::PoseOutput> pose{};
 };
 
-/// Payload of an answer, 104 bytes. The frame's sequence stands in the header.
-void write_answer(const Answer& answer, Bytes& payload);
+/// Payload of an answer, 104 bytes; from version 2 on 112 where its pose is of another time than its frame's. The frame's sequence stands in the header.
+/// @param version  of the session
+void write_answer(const Answer& answer, Bytes& payload, std::uint8_t version);
 /// Reads it; empty if it is not as long as it must be, has an unknown status, or numbers that are not finite or no rotation. From version 2 on it may be
 /// longer, with members that are not known here.
 std::optional<Answer> read_answer(const Datagram& datagram);

@@ -65,7 +65,8 @@ struct PoseAnswer {
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z
   std::optional<PoseCovariance> covariance{};             ///< where it was told
   std::optional<std::uint64_t>
-      map_epoch{};  ///< where it was told: which connected part of the map the pose is in
+      map_epoch{};        ///< where it was told: which connected part of the map the pose is in
+  std::int64_t t_ns = 0;  ///< the time that it is of, above 0; 0: the frame's
 };
 
 /// A drive command that a plugin put.

@@ -136,6 +136,7 @@ PoseMessage pose_answer(const Json& json) {
   if (!is_unit_quaternion(message.pose.orientation, kUnitFileTolerance))
     bad("a quaternion that is not of unit length");
   if (json.contains("covariance")) message.pose.covariance = numbers<21>(json["covariance"]);
+  if (json.contains("t_ns")) message.pose.t_ns = static_cast<std::int64_t>(whole(json["t_ns"], INT64_MAX));
   return message;
 }
 

@@ -184,6 +184,7 @@ void RunLogWriter::add_pose(const FrameStamp& stamp, const PoseAnswer& pose) {
   if (pose.valid) json["T_map_body"] = pose_json(pose.position_m, pose.orientation);
   if (pose.valid && pose.covariance) json["covariance"] = numbers(*pose.covariance);
   if (pose.map_epoch) json["map_epoch"] = *pose.map_epoch;
+  if (pose.valid && pose.t_ns != 0) json["t_ns"] = pose.t_ns;
   add(topics::kPose, stamp, text_of(json));
 }
 

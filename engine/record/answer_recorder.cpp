@@ -47,6 +47,7 @@ log::PoseAnswer pose_answer(const host::Outputs& outputs) {
                          .orientation = std::to_array(pose.T_map_body.orientation)};
   if (pose.covariance) answer.covariance = log::upper_triangle(*pose.covariance);
   answer.map_epoch = outputs.map_epoch();
+  answer.t_ns = pose.t_ns;
   return answer;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "log/pose_covariances.hpp"
+#include "log/pose_times.hpp"
 #include "log/timing.hpp"
 #include "log/tum.hpp"
 #include "record/files.hpp"
@@ -42,6 +43,10 @@ void AnswerTables::add(const AnsweredFrame& frame, const host::Outputs& outputs,
 
 void AnswerTables::add_pose(std::uint32_t iteration, std::int64_t t_ns, const host::PoseOutput& pose) {
   log::add_row(trajectory_.next_row(), stamped_pose(t_ns, pose.T_map_body));
+  if (pose.t_ns != 0) {
+    if (!pose_times_) pose_times_.emplace(folder_ / files::kPoseTimes, ',', log::kPoseTimeColumns);
+    log::add_row(pose_times_->next_row(), log::IterationPoseTime{.iteration = iteration, .t_ns = pose.t_ns});
+  }
   if (!pose.covariance) return;
   if (!covariances_)
     covariances_.emplace(folder_ / files::kPoseCovariances, ',', log::kPoseCovarianceColumns);
@@ -60,6 +65,7 @@ void AnswerTables::close() {
   trajectory_.close();
   times_.close();
   if (covariances_) covariances_->close();
+  if (pose_times_) pose_times_->close();
   if (commands_) commands_->close();
   if (planes_) planes_->close();
 }

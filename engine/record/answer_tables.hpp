@@ -24,7 +24,7 @@ struct AnsweredFrame {
 };
 
 /// Writes what a pipeline answers, frame by frame, into the tables of a run folder: trajectory.tum, timing.csv and, from the first covariance,
-/// the first command and the first planes on, pose_covariances.csv, commands.csv and planes.csv. Memory does not grow with the run. All functions throw Error{kIo}.
+/// the first command and the first planes on, pose_covariances.csv, commands.csv and planes.csv; from the first pose of another time than its frame's on, pose_times.csv. Memory does not grow with the run. All functions throw Error{kIo}.
 class AnswerTables {
  public:
   explicit AnswerTables(const std::filesystem::path& folder);
@@ -42,6 +42,7 @@ class AnswerTables {
   log::RowFile trajectory_;
   log::RowFile times_;
   std::optional<log::RowFile> covariances_;
+  std::optional<log::RowFile> pose_times_;
   std::optional<log::CommandFile> commands_;
   std::optional<log::RowFile> planes_;
 };

@@ -21,6 +21,7 @@ inline constexpr const char* kTrueTrajectory = "truth.tum";
 inline constexpr const char* kTrajectory = "trajectory.tum";
 inline constexpr const char* kMapEpochs = "map_epochs.csv";
 inline constexpr const char* kPoseCovariances = "pose_covariances.csv";
+inline constexpr const char* kPoseTimes = "pose_times.csv";
 inline constexpr const char* kCommands = "commands.csv";
 inline constexpr const char* kObeyedCommands = "drive.csv";
 inline constexpr const char* kContacts = "contacts.csv";

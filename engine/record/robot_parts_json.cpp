@@ -91,6 +91,19 @@ Json print_intrinsics(const host::Intrinsics& intrinsics) {
                         {"direction", vector_json(wheel.direction)}});
     return {{"wheels", std::move(wheels)}};
   }
+  if (const auto* scan = std::get_if<host::RangeScanIntrinsics>(&intrinsics)) {
+    return {{"width", scan->width},
+            {"height", scan->height},
+            {"layers", scan->layers},
+            {"beam_rad", number_json(scan->beam_rad)},
+            {"scan_s", number_json(scan->scan_s)}};
+  }
+  if (const auto* imu = std::get_if<host::ImuIntrinsics>(&intrinsics)) {
+    Json json = Json::object();
+    for (const host::ImuNumber& number : host::imu_numbers())
+      json[std::string(number.key)] = number_json(imu->*number.host);
+    return json;
+  }
   return nullptr;
 }
 
@@ -136,6 +149,16 @@ void read_intrinsics(const Json& json, host::SensorInfo& sensor) {
         encoder.wheels.push_back({.m_per_tick = number_in(wheel, "m_per_tick"),
                                   .position = vector_in(wheel, "position_m"),
                                   .direction = vector_in(wheel, "direction")});
+    } else if (json.contains("beam_rad")) {
+      sensor.intrinsics = host::RangeScanIntrinsics{.width = json.at("width").get<std::uint32_t>(),
+                                                    .height = json.at("height").get<std::uint32_t>(),
+                                                    .layers = json.at("layers").get<std::uint32_t>(),
+                                                    .beam_rad = number_in(json, "beam_rad"),
+                                                    .scan_s = number_in(json, "scan_s")};
+    } else if (json.contains("gravity_m_s2")) {
+      host::ImuIntrinsics& imu = sensor.intrinsics.emplace<host::ImuIntrinsics>();
+      for (const host::ImuNumber& number : host::imu_numbers())
+        imu.*number.host = number_in(json, number.key);
     }
     require_sound_part(host::problem_of_intrinsics(sensor), "intrinsics");
   });

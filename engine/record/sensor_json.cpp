@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -60,6 +61,11 @@ Json print_sensor(const host::SensorInfo& sensor) {
             {"noise_m", {known(sensor.noise_m[0]), known(sensor.noise_m[1]), known(sensor.noise_m[2])}}};
   if (Json intrinsics = print_intrinsics(sensor.intrinsics); !intrinsics.is_null())
     json["intrinsics"] = std::move(intrinsics);
+  if (!std::isnan(sensor.rate_hz)) json["rate_hz"] = sensor.rate_hz;
+  if (!std::isnan(sensor.latency_s)) json["latency_s"] = sensor.latency_s;
+  if (!std::ranges::all_of(sensor.noise_per_m, [](double noise) { return std::isnan(noise); }))
+    json["noise_per_m"] = {known(sensor.noise_per_m[0]), known(sensor.noise_per_m[1]),
+                           known(sensor.noise_per_m[2])};
   return json;
 }
 
@@ -89,6 +95,12 @@ host::SensorInfo read_sensor(const Json& json) {
       sensor.noise_m[axis] = number_or_unknown(json.at("noise_m").at(axis));
     }
     if (json.contains("intrinsics")) read_intrinsics(json["intrinsics"], sensor);
+    if (json.contains("rate_hz")) sensor.rate_hz = number_or_unknown(json["rate_hz"]);
+    if (json.contains("latency_s")) sensor.latency_s = number_or_unknown(json["latency_s"]);
+    for (std::size_t axis = 0; axis < 3 && json.contains("noise_per_m"); ++axis)
+      sensor.noise_per_m[axis] = number_or_unknown(json["noise_per_m"].at(axis));
+    if (const std::string problem = host::problem_of(sensor); !problem.empty())
+      throw Error(ErrorCode::kBadInput, problem, {.file = "run.json", .element = "sensor"});
     return sensor;
   });
 }

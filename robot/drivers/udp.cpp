@@ -167,7 +167,10 @@ link_::Answer answer_of(const hw_answer_t& from) {
   if (from.pose != nullptr) {
     answer.pose.emplace();
     answer.pose->valid = from.pose->status == HW_POSE_VALID;
-    if (answer.pose->valid) answer.pose->T_map_body = from.pose->T_map_body;
+    if (answer.pose->valid) {
+      answer.pose->T_map_body = from.pose->T_map_body;
+      answer.pose->t_ns = hw_pose_time_ns(from.pose);
+    }
   }
   return answer;
 }

@@ -14,6 +14,7 @@
 SIZE(hw_version_t, 8);
 AT(hw_version_t, abi_major, 0);
 AT(hw_version_t, abi_minor, 4);
+static_assert(HW_SAMPLE_RANGE_SCAN == 4 && HW_SAMPLE_ODOMETRY == 7 && HW_SAMPLE_IMU == 10, "kinds of 1.5");
 
 SIZE(hw_error_t, 1008);
 AT(hw_error_t, size, 0);
@@ -84,7 +85,7 @@ AT(hw_point3_t, x, 0);
 AT(hw_point3_t, y, 8);
 AT(hw_point3_t, z, 16);
 
-SIZE(hw_points_t, 48);
+SIZE(hw_points_t, 72);
 AT(hw_points_t, size, 0);
 AT(hw_points_t, stride, 4);
 AT(hw_points_t, count, 8);
@@ -93,6 +94,62 @@ AT(hw_points_t, track, 24);
 AT(hw_points_t, width, 32);
 AT(hw_points_t, height, 36);
 AT(hw_points_t, pixel, 40);
+AT(hw_points_t, t_offset_ns, 48);
+AT(hw_points_t, intensity, 56);
+AT(hw_points_t, ring, 64);
+
+SIZE(hw_ray_t, 24);
+AT(hw_ray_t, azimuth_rad, 0);
+AT(hw_ray_t, elevation_rad, 8);
+AT(hw_ray_t, range_m, 16);
+
+SIZE(hw_range_scan_t, 64);
+AT(hw_range_scan_t, size, 0);
+AT(hw_range_scan_t, stride, 4);
+AT(hw_range_scan_t, count, 8);
+AT(hw_range_scan_t, rays, 16);
+AT(hw_range_scan_t, width, 24);
+AT(hw_range_scan_t, height, 28);
+AT(hw_range_scan_t, layers, 32);
+AT(hw_range_scan_t, reserved, 36);
+AT(hw_range_scan_t, t_offset_ns, 40);
+AT(hw_range_scan_t, intensity, 48);
+AT(hw_range_scan_t, ring, 56);
+
+SIZE(hw_range_scan_info_t, 32);
+AT(hw_range_scan_info_t, size, 0);
+AT(hw_range_scan_info_t, width, 4);
+AT(hw_range_scan_info_t, height, 8);
+AT(hw_range_scan_info_t, layers, 12);
+AT(hw_range_scan_info_t, beam_rad, 16);
+AT(hw_range_scan_info_t, scan_s, 24);
+
+SIZE(hw_odometry_t, 280);
+AT(hw_odometry_t, size, 0);
+AT(hw_odometry_t, reserved, 4);
+AT(hw_odometry_t, T_odom_sensor, 8);
+AT(hw_odometry_t, linear_m_s, 64);
+AT(hw_odometry_t, angular_rad_s, 88);
+AT(hw_odometry_t, covariance, 112);
+
+SIZE(hw_imu_t, 152);
+AT(hw_imu_t, size, 0);
+AT(hw_imu_t, reserved, 4);
+AT(hw_imu_t, angular_rad_s, 8);
+AT(hw_imu_t, force_m_s2, 32);
+AT(hw_imu_t, angular_covariance, 56);
+AT(hw_imu_t, force_covariance, 104);
+
+SIZE(hw_imu_info_t, 64);
+AT(hw_imu_info_t, size, 0);
+AT(hw_imu_info_t, reserved, 4);
+AT(hw_imu_info_t, gravity_m_s2, 8);
+AT(hw_imu_info_t, angular_noise, 16);
+AT(hw_imu_info_t, angular_walk, 24);
+AT(hw_imu_info_t, force_noise, 32);
+AT(hw_imu_info_t, force_walk, 40);
+AT(hw_imu_info_t, max_angular_rad_s, 48);
+AT(hw_imu_info_t, max_force_m_s2, 56);
 
 SIZE(hw_frame_t, 32);
 AT(hw_frame_t, size, 0);
@@ -108,11 +165,12 @@ AT(hw_output_t, flags, 8);
 AT(hw_output_t, reserved, 12);
 AT(hw_output_t, payload, 16);
 
-SIZE(hw_pose_output_t, 72);
+SIZE(hw_pose_output_t, 80);
 AT(hw_pose_output_t, size, 0);
 AT(hw_pose_output_t, status, 4);
 AT(hw_pose_output_t, T_map_body, 8);
 AT(hw_pose_output_t, covariance, 64);
+AT(hw_pose_output_t, t_ns, 72);
 
 SIZE(hw_drive_command_t, 32);
 AT(hw_drive_command_t, size, 0);
@@ -214,7 +272,7 @@ AT(hw_counters_t, stride, 4);
 AT(hw_counters_t, count, 8);
 AT(hw_counters_t, counters, 16);
 
-SIZE(hw_sensor_info_t, 144);
+SIZE(hw_sensor_info_t, 184);
 AT(hw_sensor_info_t, size, 0);
 AT(hw_sensor_info_t, id, 4);
 AT(hw_sensor_info_t, kind, 8);
@@ -227,6 +285,9 @@ AT(hw_sensor_info_t, min_range_m, 96);
 AT(hw_sensor_info_t, max_range_m, 104);
 AT(hw_sensor_info_t, noise_m, 112);
 AT(hw_sensor_info_t, intrinsics, 136);
+AT(hw_sensor_info_t, rate_hz, 144);
+AT(hw_sensor_info_t, latency_s, 152);
+AT(hw_sensor_info_t, noise_per_m, 160);
 
 SIZE(hw_activation_t, 32);
 AT(hw_activation_t, size, 0);

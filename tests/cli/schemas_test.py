@@ -40,9 +40,6 @@ NO_DOCUMENTS = {  # names in the sources that are none of a JSON document
 
 NOT_SEEN = {  # members that no command of schemas_commands.toml brings about
     "edit-1.schema.json#/$defs/report/properties/copied": "the console alone has a clipboard",
-    "log_frame-1.schema.json#/$defs/points/properties/width": "points of runs are no pixels",
-    "log_frame-1.schema.json#/$defs/points/properties/height": "points of runs are no pixels",
-    "log_frame-1.schema.json#/$defs/points/properties/pixel": "points of runs are no pixels",
     "planes-1.schema.json#/properties/score/anyOf/0/properties/fault_list/items/properties/gap": "labels have no rectangles",
 }
 

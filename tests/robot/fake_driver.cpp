@@ -161,7 +161,17 @@ class Fake final : public hallway::sdk::Driver {
       points_.push_back({5.0 + 0.7 * (i % 5), -3.0 + 0.4 * i, 0.5 * std::sin(i)});
     }
     if (given_ == nan_) points_.front().x = NAN;
-    payload_ = {sizeof payload_, sizeof(hw_point3_t), points_.size(), points_.data(), nullptr, 0, 0, nullptr};
+    payload_ = {sizeof payload_,
+                sizeof(hw_point3_t),
+                points_.size(),
+                points_.data(),
+                nullptr,
+                0,
+                0,
+                nullptr,
+                nullptr,
+                nullptr,
+                nullptr};
     const std::int64_t t_ns = given_ * period_ns_;
     const auto sequence = static_cast<std::uint64_t>(given_ + (gap_ >= 0 && given_ >= gap_ ? 3 : 0));
     sample_ = {sizeof sample_, HW_SAMPLE_POINTS, 0, 0, sequence, t_ns, t_ns, &payload_};

@@ -89,7 +89,7 @@ hw_drive_command_t command_for(std::uint64_t sequence) {
 
 void answer(Driver& driver, const hw_frame_t& frame) {
   const hw_drive_command_t command = command_for(frame.sequence);
-  const hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {1, 0, 0, 0}}, nullptr};
+  const hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {1, 0, 0, 0}}, nullptr, 0};
   hw_answer_t answer{};
   answer.size = sizeof answer;
   answer.status = HW_ANSWER_DONE;

@@ -183,7 +183,7 @@ class Run {
     const bool late = frame.sequence == 3;
     const hw_drive_command_t command{sizeof command, 0, late ? 0 : 0.25 + k, late ? 0 : -0.5, 0};
     const hw_pose_output_t pose{
-        sizeof pose, late ? HW_POSE_LOST : HW_POSE_VALID, {{k, 2 * k, 0.5}, {0.6, 0, 0, 0.8}}, nullptr};
+        sizeof pose, late ? HW_POSE_LOST : HW_POSE_VALID, {{k, 2 * k, 0.5}, {0.6, 0, 0, 0.8}}, nullptr, 0};
     const hw_landmark_t list[2] = {{7, {k, 0.1, -1}, 3, HW_LANDMARK_MAPPED},
                                    {(1ull << 40) + frame.sequence, {0, 0, 4}, 1, HW_LANDMARK_DYNAMIC}};
     const hw_landmarks_t landmarks{sizeof landmarks, sizeof(hw_landmark_t), 2, list, nullptr};

@@ -10,7 +10,7 @@
 namespace hallway::test {
 namespace {
 
-void check_made_up(void* payload, std::uint64_t) {
+void check_made_up(void* payload, const host::CheckedSample&) {
   const auto& made_up = *static_cast<const MadeUp*>(payload);
   if (made_up.marks == nullptr) return;
   for (const std::uint32_t mark : std::span(made_up.marks, made_up.n_marks))

@@ -84,6 +84,19 @@ void pass(Archive& archive, Passed<Archive, EncoderIntrinsics>& encoder) {
   archive.lists(encoder.wheels);
 }
 
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, RangeScanIntrinsics>& scan) {
+  archive.template value_as<std::uint64_t>(scan.width);
+  archive.template value_as<std::uint64_t>(scan.height);
+  archive.template value_as<std::uint64_t>(scan.layers);
+  archive.values(scan.beam_rad, scan.scan_s);
+}
+
+template <typename Archive>
+void pass(Archive& archive, Passed<Archive, ImuIntrinsics>& imu) {
+  for (const ImuNumber& number : imu_numbers()) archive.values(imu.*number.host);
+}
+
 /// Which of the alternatives it is, and that.
 template <typename Archive, typename Choice>
 void pass_choice(Archive& archive, Choice& choice) {
@@ -92,10 +105,14 @@ void pass_choice(Archive& archive, Choice& choice) {
   if constexpr (Archive::kReads) {
     if (index == 1) choice = BumpIntrinsics{};
     if (index == 2) choice = EncoderIntrinsics{};
-    if (index > 2) throw BadBytes{"intrinsics of an unknown kind"};
+    if (index == 3) choice = RangeScanIntrinsics{};
+    if (index == 4) choice = ImuIntrinsics{};
+    if (index > 4) throw BadBytes{"intrinsics of an unknown kind"};
   }
   if (auto* bump = std::get_if<BumpIntrinsics>(&choice)) pass(archive, *bump);
   if (auto* encoder = std::get_if<EncoderIntrinsics>(&choice)) pass(archive, *encoder);
+  if (auto* scan = std::get_if<RangeScanIntrinsics>(&choice)) pass(archive, *scan);
+  if (auto* imu = std::get_if<ImuIntrinsics>(&choice)) pass(archive, *imu);
 }
 
 template <typename Archive>
@@ -103,7 +120,8 @@ void pass(Archive& archive, Passed<Archive, SensorInfo>& sensor) {
   archive.values(sensor.id, sensor.kind);
   archive.lists(sensor.name);
   archive.values(sensor.T_body_sensor, sensor.horizontal_fov, sensor.vertical_fov, sensor.min_range_m,
-                 sensor.max_range_m, sensor.noise_m[0], sensor.noise_m[1], sensor.noise_m[2]);
+                 sensor.max_range_m, sensor.noise_m[0], sensor.noise_m[1], sensor.noise_m[2], sensor.rate_hz,
+                 sensor.latency_s, sensor.noise_per_m[0], sensor.noise_per_m[1], sensor.noise_per_m[2]);
   pass_choice(archive, sensor.intrinsics);
 }
 

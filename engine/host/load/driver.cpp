@@ -45,7 +45,7 @@ SensorInfo sensor_of(const hw_sensor_info_t* info) {
   SensorInfo sensor;
   sensor.name = text_of(info->name);
   copy_sensor_facts(*info, sensor);
-  take_intrinsics(*info, sensor);
+  take_later_facts(*info, sensor);
   return sensor;
 }
 

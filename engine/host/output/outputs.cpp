@@ -155,7 +155,10 @@ hw_status_t OutputCollector::copy_pose(const hw_pose_output_t& pose) {
   copy.T_map_body.orientation[0] = 1.0;
   if (pose.status == HW_POSE_VALID) {
     if (const char* problem = pose_problem(pose.T_map_body)) throw Malformed{problem};
-    copy = {true, pose.T_map_body};
+    copy = {.valid = true, .T_map_body = pose.T_map_body, .t_ns = hw_pose_time_ns(&pose)};
+    demand(copy.t_ns >= 0, "a time below 0");
+    demand(copy.t_ns == 0 || (frame_ != nullptr && copy.t_ns <= frame_->t_ns),
+           frame_ == nullptr ? "a time, and this call has no frame" : "a time after the frame's");
     if (HW_HAS(&pose, hw_pose_output_t, covariance) && pose.covariance != nullptr) {
       std::ranges::copy_n(pose.covariance, 36, copy.covariance.emplace().begin());
       if (const char* problem = covariance_problem(*copy.covariance)) throw Malformed{problem};

@@ -23,6 +23,8 @@ struct PoseOutput {
   hw_pose_t T_map_body{};  ///< finite, unit quaternion
   /// As hw_pose_output_t says; finite, symmetric, no negative variance. Nothing if not told or lost.
   std::optional<std::array<double, 36>> covariance{};
+  /// The time that it is of, not later than the frame's; 0: the frame's, or lost.
+  std::int64_t t_ns = 0;
 };
 
 /// xx, xy, xz, yy, yz, zz; six zeros where nothing is known.

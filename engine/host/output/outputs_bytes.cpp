@@ -32,6 +32,7 @@ void read_pose(AlignedByteReader& reader, OutputCollector& collector) {
   auto pose = sized<hw_pose_output_t>();
   pose.status = state == kValid ? HW_POSE_VALID : HW_POSE_LOST;
   pose.T_map_body = reader.get<hw_pose_t>();
+  pose.t_ns = reader.get<std::int64_t>();
   const auto told = reader.get<std::uint64_t>();
   if (told > 1) throw BadBytes{"more than one covariance"};
   std::array<double, 36> covariance{};
@@ -170,6 +171,7 @@ void write_outputs(AlignedByteWriter& writer, const Outputs& outputs, std::uint3
   writer.put<std::uint64_t>(!pose ? kNoPose : pose->valid ? kValid : kLost);
   if (pose) {
     writer.put(pose->T_map_body);
+    writer.put(pose->t_ns);
     writer.put<std::uint64_t>(pose->covariance ? 1u : 0u);
     if (pose->covariance) writer.put(*pose->covariance);
   }

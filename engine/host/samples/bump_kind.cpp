@@ -28,7 +28,7 @@ void check_zone(const hw_bump_zone_t& zone) {
          "a zone that is not pressed, with a direction or a depth");
 }
 
-void check_bump_payload(void* payload, std::uint64_t) {
+void check_bump_payload(void* payload, const CheckedSample&) {
   const auto& bump = *static_cast<const hw_bump_t*>(payload);
   for (std::uint64_t i = 0; i < bump.count; ++i) {
     check_zone(*hw_bump_zone_at(&bump, i));

@@ -12,6 +12,13 @@
 
 namespace hallway::host {
 
+/// Lists of what points and rays may have beside their place; a list that stays empty is left out.
+struct RayLists {
+  std::vector<std::int64_t>& t_offset_ns;  ///< after the sample's begin, not after its end
+  std::vector<float>& intensity;           ///< from 0 on, NaN where there is no return
+  std::vector<std::uint32_t>& ring;        ///< that measured it
+};
+
 /// Builds frames in memory that is used again for the next one.
 class FrameBuilder {
  public:

@@ -25,7 +25,7 @@ struct Head {
   std::uint32_t version = kFrameBytesVersion;
   std::uint64_t total = 0;
   std::uint32_t abi_major = HW_ABI_MAJOR;
-  std::uint32_t abi_minor = HW_ABI_MINOR;
+  std::uint32_t abi_minor = kFirstFrameMinor;
 };
 static_assert(sizeof(Head) == 24);
 
@@ -64,12 +64,27 @@ void check_samples(const hw_frame_t& frame) {
 }
 
 /// Has a payload refer to a sample by its place among those that are carried, and checks its values. Throws Malformed.
+/// @param sample    whose payload it is
 /// @param place     of the sample that it was found in; HW_NO_SAMPLE where that one is not carried
-/// @param elements  of that sample
-void settle(Payload& payload, std::uint32_t place, std::uint64_t elements) {
+/// @param found_in  that sample; null where it is not carried
+void settle(Payload& payload, const hw_sample_t& sample, std::uint32_t place, const hw_sample_t* found_in) {
   payload.own_checked_arrays();
   if (payload.found_in() != HW_NO_SAMPLE) payload.refer_to(place);
-  if (payload.kind().check != nullptr) payload.kind().check(payload.get(), elements);
+  if (payload.kind().check == nullptr) return;
+  payload.kind().check(payload.get(),
+                       {.found_in_elements = found_in == nullptr ? 0 : count_elements(*found_in).value_or(0),
+                        // The difference of two times may be more than they can be.
+                        .duration_ns = static_cast<std::uint64_t>(sample.t_end_ns) -
+                                       static_cast<std::uint64_t>(sample.t_begin_ns)});
+}
+
+/// The minor version of the ABI that has all that a payload has.
+std::uint32_t minor_of(const Payload& payload) {
+  std::uint32_t minor = payload.kind().abi_minor;
+  for (const PayloadArray& array : payload.kind().arrays) {
+    if (has_array(payload.get(), array)) minor = std::max(minor, array.abi_minor);
+  }
+  return minor;
 }
 
 void put_payload(AlignedByteWriter& to, const Payload& payload) {
@@ -136,7 +151,7 @@ void FrameWriter::take_samples(const hw_frame_t& frame) {
     const std::uint32_t told = payload.found_in();
     const std::uint32_t place = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
     try {
-      settle(payload, place, place == HW_NO_SAMPLE ? 0 : *count_elements(*samples_[place].given));
+      settle(payload, *samples_[i].given, place, place == HW_NO_SAMPLE ? nullptr : samples_[place].given);
     } catch (const Malformed& malformed) {
       demand_frame(false, "with {}: {}", payload.kind().name, malformed.text);
     }
@@ -147,6 +162,8 @@ void FrameWriter::take_samples(const hw_frame_t& frame) {
 void FrameWriter::put_frame(AlignedByteWriter& to) const {
   Head head;
   head.total = size_;
+  for (std::uint32_t i = 0; i < n_samples_; ++i)
+    head.abi_minor = std::max(head.abi_minor, minor_of(samples_[i].payload));
   to.put(head);
   hw_frame_t copy = known_part(*frame_);
   copy.n_samples = n_samples_;
@@ -254,7 +271,7 @@ void FrameReader::check_payload(Sample& sample) {
     damaged(sample.offset, name, fmt::format("{} of sample {} of {}", name, told, places_.size()));
   const std::uint32_t place = told == HW_NO_SAMPLE ? HW_NO_SAMPLE : places_[told];
   try {
-    settle(sample.payload, place, place == HW_NO_SAMPLE ? 0 : *count_elements(*samples_[place]));
+    settle(sample.payload, sample.sample, place, place == HW_NO_SAMPLE ? nullptr : samples_[place]);
   } catch (const Malformed& malformed) {
     damaged(sample.offset, name, malformed.text);
   }

@@ -19,7 +19,7 @@ namespace hallway::host {
 //
 //     0   4 bytes "HWFB", u32 version of this layout (1)
 //     8   u64 number of all bytes, a multiple of 8
-//     16  u32 major, u32 minor version of the writer's ABI
+//     16  u32 major version of the writer's ABI, u32 minor version of the one that has all that the frame has, at least 4
 //     24  hw_frame_t           samples → table of n_samples offsets (u64), one for each sample
 //         then for each sample, in order:
 //         hw_sample_t          payload → the struct of its kind, as large as what it has demands (PayloadArray::size_without), and behind it

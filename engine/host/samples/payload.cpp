@@ -21,8 +21,10 @@ void Payload::assign(const SampleKind& kind, const void* payload) {
 
 std::size_t Payload::used_size() const {
   std::size_t size = load<std::uint32_t>(get());
-  for (const PayloadArray& array : kind_->arrays) {
-    if (array.size_without != 0 && !has_array(get(), array)) size = std::min(size, array.size_without);
+  for (std::size_t i = kind_->arrays.size(); i > 0; --i) {
+    const PayloadArray& array = kind_->arrays[i - 1];
+    if (array.size_without == 0 || has_array(get(), array)) break;
+    size = std::min(size, array.size_without);
   }
   return size;
 }

@@ -25,7 +25,7 @@ inline bool has_array(const std::byte* payload, const PayloadArray& array) {
 class Payload {
  public:
   /// Of a payload's struct.
-  static constexpr std::size_t kMaxSize = 256;
+  static constexpr std::size_t kMaxSize = 512;
 
   /// Begins with zeros, as many as the struct of `kind` has bytes. @return the struct, to be filled
   std::byte* begin(const SampleKind& kind);

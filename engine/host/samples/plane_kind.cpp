@@ -19,7 +19,7 @@ std::span<hw_plane_t> plane_span(hw_planes_t& planes) {
   return {static_cast<hw_plane_t*>(const_cast<void*>(planes.planes)), planes.count};
 }
 
-void check_plane_payload(void* payload, std::uint64_t elements) {
+void check_plane_payload(void* payload, const CheckedSample& sample) {
   auto& planes = *static_cast<hw_planes_t*>(payload);
   demand(planes.sample != HW_NO_SAMPLE || planes.n_members == 0, "planes of no sample with members");
   const std::span<hw_plane_t> list = plane_span(planes);
@@ -28,7 +28,7 @@ void check_plane_payload(void* payload, std::uint64_t elements) {
       {.planes = list,
        .hull_points = {static_cast<const hw_point3_t*>(planes.hull_points), planes.n_hull_points},
        .members = {planes.members, planes.n_members}},
-      elements);
+      sample.found_in_elements);
 }
 
 /// Planes keep how many points they were made from.

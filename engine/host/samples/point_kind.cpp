@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "host/samples/payload.hpp"
+#include "host/samples/ray_data.hpp"
 #include "host/samples/sample_kind.hpp"
 #include "host/samples/strided.hpp"
 
@@ -18,8 +19,10 @@ namespace {
 /// More pixels than an image may have.
 constexpr std::uint32_t kMaxPixels = 1u << 28;
 
-void check_point_payload(void* payload, std::uint64_t) {
+void check_point_payload(void* payload, const CheckedSample& sample) {
   auto& points = *static_cast<hw_points_t*>(payload);
+  check_times(points.t_offset_ns, points.count, sample);
+  check_intensities(points.intensity, points.count);
   if (points.pixel == nullptr) {
     points.width = points.height = 0;
     return;
@@ -71,7 +74,37 @@ constexpr PayloadArray kPointArrays[] = {{.name = "points",
                                           .optional = true,
                                           .size_without = offsetof(hw_points_t, width),
                                           .checked = true,
-                                          .members = kPixel}};
+                                          .members = kPixel},
+                                         // Without these three they are those of ABI 1.4.
+                                         {.name = "t_offset_ns",
+                                          .one = "time",
+                                          .data = offsetof(hw_points_t, t_offset_ns),
+                                          .count = offsetof(hw_points_t, count),
+                                          .element_bytes = sizeof(std::int64_t),
+                                          .optional = true,
+                                          .size_without = offsetof(hw_points_t, t_offset_ns),
+                                          .checked = true,
+                                          .members = kTimeOffset,
+                                          .abi_minor = 5},
+                                         {.name = "intensity",
+                                          .one = "intensity",
+                                          .data = offsetof(hw_points_t, intensity),
+                                          .count = offsetof(hw_points_t, count),
+                                          .element_bytes = sizeof(float),
+                                          .optional = true,
+                                          .size_without = offsetof(hw_points_t, intensity),
+                                          .checked = true,
+                                          .members = kIntensity,
+                                          .abi_minor = 5},
+                                         {.name = "ring",
+                                          .one = "ring",
+                                          .data = offsetof(hw_points_t, ring),
+                                          .count = offsetof(hw_points_t, count),
+                                          .element_bytes = sizeof(std::uint32_t),
+                                          .optional = true,
+                                          .size_without = offsetof(hw_points_t, ring),
+                                          .members = kRing,
+                                          .abi_minor = 5}};
 
 }  // namespace
 
@@ -99,6 +132,13 @@ std::vector<std::uint32_t>& add_pixels(FrameBuilder& builder, std::uint32_t widt
   points.width = width;
   points.height = height;
   return builder.last().list<std::uint32_t>(offsetof(hw_points_t, pixel));
+}
+
+RayLists add_point_data(FrameBuilder& builder) {
+  Reading& reading = builder.last();
+  return {reading.list<std::int64_t>(offsetof(hw_points_t, t_offset_ns)),
+          reading.list<float>(offsetof(hw_points_t, intensity)),
+          reading.list<std::uint32_t>(offsetof(hw_points_t, ring))};
 }
 
 }  // namespace hallway::host

@@ -23,4 +23,8 @@ std::vector<hw_point3_t>& add_points(FrameBuilder& builder, std::uint32_t sensor
 /// @return the empty list to be filled with the pixel (row * width + column) of each of them; valid until the next begin()
 std::vector<std::uint32_t>& add_pixels(FrameBuilder& builder, std::uint32_t width, std::uint32_t height);
 
+/// What the points added last have beside their places, as FrameBuilder::set_reading() has told their sample's times.
+/// @return empty lists; each stays empty or is filled with an entry for each point; valid until the next begin()
+RayLists add_point_data(FrameBuilder& builder);
+
 }  // namespace hallway::host

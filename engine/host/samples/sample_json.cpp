@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -18,10 +20,6 @@
 namespace hallway::host {
 namespace {
 
-constexpr std::size_t number_bytes(NumberType type) {
-  return type == NumberType::kU32 ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
-}
-
 constexpr std::size_t member_bytes(const PayloadMember& member) {
   return number_bytes(member.type) * member.n * std::max<std::size_t>(member.lists, 1);
 }
@@ -31,9 +29,21 @@ void append_whole(std::string& out, Whole value) {
   fmt::format_to(std::back_inserter(out), "{}", value);
 }
 
+void append_shortest(std::string& out, double value) {
+  append_double(out, value);
+}
+
+/// The shortest decimal that reads back as the same float.
+void append_shortest(std::string& out, float value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  out.append(buffer.data(), result.ptr);
+}
+
 /// What JSON has no number for has a text: "inf", "-inf"; or is null: NaN.
-void append_real(std::string& out, double value) {
-  if (std::isfinite(value)) return append_double(out, value);
+template <typename Real>
+void append_real(std::string& out, Real value) {
+  if (std::isfinite(value)) return append_shortest(out, value);
   out += std::isnan(value) ? "null" : value > 0 ? R"("inf")" : R"("-inf")";
 }
 
@@ -54,6 +64,8 @@ void append_number(std::string& out, const std::byte* at, const PayloadMember& m
       return append_whole_or_none(out, load<std::uint64_t>(at), member.may_be_none);
     case NumberType::kI64:
       return append_whole_or_none(out, load<std::int64_t>(at), member.may_be_none);
+    case NumberType::kF32:
+      return append_real(out, load<float>(at));
     case NumberType::kF64:
       return append_real(out, load<double>(at));
   }
@@ -118,6 +130,7 @@ void append_payload(std::string& out, const SampleKind& kind, const void* given)
   const std::size_t size = payload.used_size();
   ObjectText object(out);
   for (const PayloadMember& member : kind.members) {
+    if (member.name == std::string_view(kReserved)) continue;
     if (member.offset + member_bytes(member) <= size) append_value(object.member(member.name), base, member);
   }
   for (const PayloadArray& array : kind.arrays) {

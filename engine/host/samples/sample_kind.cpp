@@ -15,8 +15,9 @@ namespace hallway::host {
 namespace {
 
 std::vector<const SampleKind*>& table() {
-  static std::vector<const SampleKind*> kinds{&kPointSamples, &kPlaneSamples, &kBumpSamples,
-                                              &kEncoderSamples};
+  static std::vector<const SampleKind*> kinds{&kPointSamples,   &kPlaneSamples,     &kBumpSamples,
+                                              &kEncoderSamples, &kRangeScanSamples, &kOdometrySamples,
+                                              &kImuSamples};
   return kinds;
 }
 
@@ -45,7 +46,7 @@ const SampleKind* find_sample_kind(std::string_view name) {
 
 AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
   if (find_sample_kind(kind.kind) != nullptr || find_sample_kind(kind.name) != nullptr ||
-      kind.size > Payload::kMaxSize || kind.arrays.empty() ||
+      kind.size > Payload::kMaxSize ||
       (kind.found_in != kNoMember && (kind.detach == nullptr || kind.carried)) ||
       (kind.track != kNoMember &&
        std::ranges::find(kind.arrays, kind.track, &PayloadArray::data) == kind.arrays.end())) {
@@ -55,16 +56,17 @@ AddedSampleKind::AddedSampleKind(const SampleKind& kind) {
 }
 
 std::string sample_kind_name(std::uint32_t kind) {
-  static constexpr std::array kReserved = {"points",  "planes",   "segments", "range_scan", "bump",
-                                           "encoder", "odometry", "image",    "depth"};
-  static_assert(kReserved.size() == HW_SAMPLE_DEPTH);
+  static constexpr std::array kNames = {"points",  "planes",   "segments", "range_scan", "bump",
+                                        "encoder", "odometry", "image",    "depth",      "imu"};
+  static_assert(kNames.size() == HW_SAMPLE_IMU);
   if (const SampleKind* known = find_sample_kind(kind)) return known->name;
-  return kind >= 1 && kind <= kReserved.size() ? kReserved[kind - 1] : fmt::format("kind {}", kind);
+  return kind >= 1 && kind <= kNames.size() ? kNames[kind - 1] : fmt::format("kind {}", kind);
 }
 
 std::optional<std::uint64_t> count_elements(const hw_sample_t& sample) {
   const SampleKind* kind = find_sample_kind(sample.kind);
   if (kind == nullptr) return std::nullopt;
+  if (kind->arrays.empty()) return 0;
   return load<std::uint64_t>(static_cast<const std::byte*>(sample.payload) + kind->arrays.front().count);
 }
 

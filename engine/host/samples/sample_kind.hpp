@@ -18,12 +18,24 @@ namespace hallway::host {
 /// Of a member that a payload does not have.
 inline constexpr std::size_t kNoMember = SIZE_MAX;
 
+/// The minor version of the ABI that the bytes of every frame name at least; see frame_bytes.hpp.
+inline constexpr std::uint32_t kFirstFrameMinor = 4;
+
+/// PayloadMember::name of a member that is 0 and not read.
+inline constexpr const char* kReserved = "reserved";
+
 /// Of the numbers of a member.
-enum class NumberType : std::uint8_t { kU32, kU64, kI64, kF64 };
+enum class NumberType : std::uint8_t { kU32, kU64, kI64, kF32, kF64 };
+
+/// How many bytes a number takes.
+constexpr std::size_t number_bytes(NumberType type) {
+  return type == NumberType::kU32 || type == NumberType::kF32 ? 4 : 8;
+}
 
 /// Numbers in a payload's struct, or in an element of one of its arrays, as sample_json.hpp shows them.
 struct PayloadMember {
-  const char* name;  ///< in JSON; "": the element is this member alone, without a name
+  /// In JSON; "": the element is this member alone, without a name. kReserved: a member that says nothing is not shown.
+  const char* name;
   NumberType type;
   std::size_t offset;        ///< in the struct or the element, in bytes
   std::size_t n = 1;         ///< numbers that follow each other; more than one are a list
@@ -42,13 +54,21 @@ struct PayloadArray {
   std::size_t element_bytes = 0;  ///< of an element, as these headers know it; packed ones are not larger
   std::size_t n_finite =
       0;  ///< with how many doubles an element begins that a sensor must give as finite numbers
-  bool optional = false;         ///< null where the sample does not have it, whatever the count
-  std::size_t size_without = 0;  ///< of a payload without this array: its struct ends here; 0: as with it
-  bool checked = false;          ///< SampleKind::check looks at the elements: a reader copies them before
-  std::span<const PayloadMember> members{};  ///< of an element: all of it, in the order of its bytes
+  bool optional = false;  ///< null where the sample does not have it, whatever the count
+  std::size_t size_without =
+      0;  ///< of a payload without this array and those behind it: its struct ends here; 0: as with it
+  bool checked = false;  ///< SampleKind::check looks at the elements: a reader copies them before
+  std::span<const PayloadMember> members{};    ///< of an element: all of it, in the order of its bytes
+  std::uint32_t abi_minor = kFirstFrameMinor;  ///< of the ABI that brought it
 };
 
 class Payload;
+
+/// What a check is told of the sample whose payload it gets.
+struct CheckedSample {
+  std::uint64_t found_in_elements = 0;  ///< of the sample that it was found in
+  std::uint64_t duration_ns = 0;        ///< from its begin to its end
+};
 
 /// Which example of a kind is made.
 struct ExampleOf {
@@ -65,16 +85,15 @@ struct SampleKind {
   std::size_t
       size;  ///< of the payload's struct as these headers know it; its first member is its own `size`, u32
   std::size_t min_size;  ///< in the version that brought it
-  std::span<const PayloadArray>
-      arrays;  ///< in the order of their bytes; the first one are the sample's elements
+  /// In the order of their bytes; the first one are the sample's elements. None: a reading is one set of numbers and has no elements.
+  std::span<const PayloadArray> arrays{};
   /// u32, the index in the frame of the sample that this one was found in, or HW_NO_SAMPLE; kNoMember: it is of no other sample.
   std::size_t found_in = kNoMember;
   /// The array of the sensor's own numbers for what it follows, a u64 for each element (its PayloadArray::data); kNoMember: no sensor follows elements.
   std::size_t track = kNoMember;
   /// What the ABI demands of the values. Gets a payload in the caller's own memory, the arrays that are `checked` among them, and may bring what
   /// says nothing into one form. Throws Malformed. Null: it demands nothing.
-  /// @param elements  of the sample that it was found in
-  void (*check)(void* payload, std::uint64_t elements) = nullptr;
+  void (*check)(void* payload, const CheckedSample& sample) = nullptr;
   /// Takes out of such a payload what refers to elements of the sample that it was found in. Not null where found_in is a member.
   void (*detach)(void* payload) = nullptr;
   /// None of its samples may be missed: those of a frame that a host drops go into the next frame (carried_samples.hpp). Not with found_in.
@@ -83,6 +102,8 @@ struct SampleKind {
   std::span<const PayloadMember> members{};
   /// Fills the arrays of a payload that make_example() (example.hpp) has begun, so that `check` accepts it. Null: any small numbers are valid.
   void (*example)(Payload& payload, const ExampleOf& of) = nullptr;
+  std::int64_t example_ns = 0;                 ///< how long the measurement of such an example takes
+  std::uint32_t abi_minor = kFirstFrameMinor;  ///< of the ABI that brought it
 };
 
 /// The rows of the kinds that the SDK has.
@@ -90,6 +111,9 @@ extern const SampleKind kPointSamples;
 extern const SampleKind kPlaneSamples;
 extern const SampleKind kBumpSamples;
 extern const SampleKind kEncoderSamples;
+extern const SampleKind kRangeScanSamples;
+extern const SampleKind kOdometrySamples;
+extern const SampleKind kImuSamples;
 
 /// The row of a kind; null for one that is not known.
 const SampleKind* find_sample_kind(std::uint32_t kind);
@@ -108,7 +132,7 @@ class AddedSampleKind {
 /// A stable name ("points", "planes", …), also of numbers that are reserved; of others "kind N".
 std::string sample_kind_name(std::uint32_t kind);
 
-/// How many elements a sample has; nothing for kinds that are not known.
+/// How many elements a sample has, 0 of a kind that has none; nothing for kinds that are not known.
 std::optional<std::uint64_t> count_elements(const hw_sample_t& sample);
 
 /// Whether a sensor says of elements which they were in earlier samples: HW_SAMPLE_TRACKED is set and the array is there.

@@ -63,7 +63,8 @@ class Folder {
       const hw_pose_t& pose = answer.pose->T_map_body;
       recorder_.writer().add_pose(stamp, {.valid = answer.pose->valid,
                                           .position_m = std::to_array(pose.position),
-                                          .orientation = std::to_array(pose.orientation)});
+                                          .orientation = std::to_array(pose.orientation),
+                                          .t_ns = answer.pose->t_ns});
     }
     if (answer.command)
       recorder_.writer().add_command(

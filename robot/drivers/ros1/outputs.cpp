@@ -92,9 +92,10 @@ ros::Publisher Outputs::advertise(ros::NodeHandle& handle, const std::string& to
 void Outputs::publish(const hw_answer_t& answer, const std::vector<hw_counter_t>& driver,
                       bool master_answers) {
   const ros::Time stamp = stamp_of(answer.t_ns);
+  const std::int64_t pose_t_ns = answer.pose != nullptr ? hw_pose_time_ns(answer.pose) : 0;
   if (answer.command != nullptr) publish_command(*answer.command);
   if (answer.pose != nullptr && answer.pose->status == HW_POSE_VALID)
-    publish_pose(answer.pose->T_map_body, stamp);
+    publish_pose(answer.pose->T_map_body, pose_t_ns != 0 ? stamp_of(pose_t_ns) : stamp);
   if (answer.landmarks != nullptr) publish_map(*answer.landmarks, stamp);
   publish_diagnostics(answer, driver, master_answers);
 }

@@ -106,6 +106,8 @@ class Ros1 final : public sdk::Driver {
       info.min_range_m = sensor.min_range_m;
       info.max_range_m = sensor.max_range_m;
       std::copy(std::begin(sensor.noise_m), std::end(sensor.noise_m), std::begin(info.noise_m));
+      info.rate_hz = info.latency_s = SensorSettings::kUnknown;
+      std::fill(std::begin(info.noise_per_m), std::end(info.noise_per_m), SensorSettings::kUnknown);
       sensor_infos_.push_back(info);
     }
     for (const hw_sensor_info_t& info : sensor_infos_) sensors_.push_back(&info);

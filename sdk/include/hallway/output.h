@@ -40,10 +40,10 @@ typedef struct hw_output_t {
 /// hw_pose_output_t.status.
 enum {
   HW_POSE_LOST = 0,  ///< the frame does not determine the pose; T_map_body is not read
-  HW_POSE_VALID = 1  ///< T_map_body is the pose at this frame
+  HW_POSE_VALID = 1  ///< T_map_body is the pose
 };
 
-/// Payload of HW_OUTPUT_POSE: where the body is at the time of this frame. The map's frame is the plugin's
+/// Payload of HW_OUTPUT_POSE: where the body is at the time of this frame, or at `t_ns`. The map's frame is the plugin's
 /// choice; usually the body frame of the first frame.
 typedef struct hw_pose_output_t {
   uint32_t size;         ///< sizeof(hw_pose_output_t) of the writer
@@ -53,7 +53,14 @@ typedef struct hw_pose_output_t {
   /// metres), then of its rotation (a rotation vector in the map's frame, radians: true rotation = exp(error) * rotation).
   /// Finite, symmetric, no negative variance. Since 1.2.
   const double* covariance;
+  /// The time that the pose is of, on the clock of hw_frame_t.t_ns: above 0 and not later than the frame's. 0: the frame's. In report() 0. Since 1.5.
+  int64_t t_ns;
 } hw_pose_output_t;
+
+/// The time that a pose is of; 0: the frame's, also where it was written before 1.5. [any]
+static inline int64_t hw_pose_time_ns(const hw_pose_output_t* pose) {
+  return HW_HAS(pose, hw_pose_output_t, t_ns) ? pose->t_ns : 0;
+}
 
 /// Payload of HW_OUTPUT_DRIVE_COMMAND: how the robot shall move from now on, until the next command. A host that has no
 /// robot to drive takes it down and does nothing with it.

@@ -83,11 +83,14 @@ class Host {
   const hw_host_t& c_host() const { return *host_; }
 
   /// Answers where the body is: T_map_body. @param covariance  36 numbers as hw_pose_output_t says; null: not told
-  void put_pose(const hw_pose_t& T_map_body, const double* covariance = nullptr) const {
+  /// @param t_ns  the time that the pose is of, not later than the frame's; 0: the frame's
+  void put_pose(const hw_pose_t& T_map_body, const double* covariance = nullptr,
+                std::int64_t t_ns = 0) const {
     hw_pose_output_t payload{};
     payload.status = HW_POSE_VALID;
     payload.T_map_body = T_map_body;
     payload.covariance = covariance;
+    payload.t_ns = t_ns;
     put(HW_OUTPUT_POSE, payload);
   }
 
@@ -284,6 +287,85 @@ inline std::vector<BumpZone> copy_bump_zones(const hw_sensor_info_t& sensor) {
     zones.push_back({zone.name, zone.middle_rad, zone.width_rad, zone.bottom_m, zone.top_m});
   }
   return zones;
+}
+
+/// What is known of the scans of a sensor of HW_SAMPLE_RANGE_SCAN, for use after activate(); nothing where nothing is.
+inline std::optional<hw_range_scan_info_t> copy_range_scan_info(const hw_sensor_info_t& sensor) {
+  const hw_range_scan_info_t* scan = hw_range_scan_info_of(&sensor);
+  if (scan == nullptr) return std::nullopt;
+  hw_range_scan_info_t copy = *scan;
+  copy.size = sizeof copy;
+  return copy;
+}
+
+/// Likewise of the noise and limits of a sensor of HW_SAMPLE_IMU.
+inline std::optional<hw_imu_info_t> copy_imu_info(const hw_sensor_info_t& sensor) {
+  const hw_imu_info_t* imu = hw_imu_info_of(&sensor);
+  if (imu == nullptr) return std::nullopt;
+  hw_imu_info_t copy = *imu;
+  copy.size = sizeof copy;
+  return copy;
+}
+
+/// The rays of a sample of HW_SAMPLE_RANGE_SCAN; refers to the sample.
+class RangeScan {
+ public:
+  explicit RangeScan(const hw_sample_t& sample)
+      : sample_(&sample), scan_(static_cast<const hw_range_scan_t*>(sample.payload)) {}
+
+  /// The C form.
+  const hw_range_scan_t& c_scan() const { return *scan_; }
+  /// Number of rays, in all layers.
+  std::size_t size() const { return scan_->count; }
+  const hw_ray_t& operator[](std::size_t i) const { return *hw_ray_at(scan_, i); }
+
+  /// Whether its rays stand in rows and columns.
+  bool is_organised() const { return scan_->width != 0; }
+  std::uint32_t width() const { return scan_->width; }
+  std::uint32_t height() const { return scan_->height; }
+  std::uint32_t layers() const { return scan_->layers; }
+  /// Index of a ray of an organised scan.
+  std::size_t at(std::uint32_t row, std::uint32_t column, std::uint32_t layer = 0) const {
+    return (std::size_t{layer} * scan_->height + row) * scan_->width + column;
+  }
+
+  /// What ray `i` met, sensor frame, metres; nothing where it met nothing or gave no answer.
+  std::optional<hw_point3_t> point(std::size_t i) const {
+    const hw_ray_t& ray = (*this)[i];
+    if (!hw_ray_has_return(&ray)) return std::nullopt;
+    return hw_ray_point(&ray);
+  }
+  /// When ray `i` was measured; the begin of the sample where it is not told.
+  std::int64_t time_ns(std::size_t i) const { return hw_ray_time_ns(sample_, scan_, i); }
+  /// Strength of the return of ray `i`; NaN where it is not told or there is none.
+  float intensity(std::size_t i) const {
+    return scan_->intensity != nullptr ? scan_->intensity[i] : std::nanf("");
+  }
+  /// Number of the ring that measured ray `i`; nothing where it is not told.
+  std::optional<std::uint32_t> ring(std::size_t i) const {
+    if (scan_->ring == nullptr) return std::nullopt;
+    return scan_->ring[i];
+  }
+
+ private:
+  const hw_sample_t* sample_;
+  const hw_range_scan_t* scan_;
+};
+
+/// The scan that a sample is; nothing where it is of another kind. Refers to the sample.
+inline std::optional<RangeScan> range_scan_in(const hw_sample_t& sample) {
+  if (sample.kind != HW_SAMPLE_RANGE_SCAN) return std::nullopt;
+  return RangeScan(sample);
+}
+
+/// The odometry that a sample is; null where it is of another kind.
+inline const hw_odometry_t* odometry_in(const hw_sample_t& sample) {
+  return sample.kind == HW_SAMPLE_ODOMETRY ? static_cast<const hw_odometry_t*>(sample.payload) : nullptr;
+}
+
+/// The reading of an IMU that a sample is; null where it is of another kind.
+inline const hw_imu_t* imu_in(const hw_sample_t& sample) {
+  return sample.kind == HW_SAMPLE_IMU ? static_cast<const hw_imu_t*>(sample.payload) : nullptr;
 }
 
 /// What a plugin does with the file or folder that a parameter names.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 
 #include "body.h"
@@ -25,9 +26,12 @@ typedef struct hw_sensor_info_t {
   double min_range_m;       ///< nearest distance that is measured
   double max_range_m;       ///< farthest distance that is measured
   double noise_m[3];        ///< standard deviation along x, y, z of the sensor's frame
-  /// By kind what else is known, a struct whose first member is `size`: hw_encoder_info_t (encoder.h), hw_bump_info_t (bump.h); null for
-  /// other kinds and where nothing is known. Since 1.4.
+  /// By kind what else is known, a struct whose first member is `size`: hw_encoder_info_t (encoder.h), hw_bump_info_t (bump.h), hw_range_scan_info_t
+  /// (range_scan.h), hw_imu_info_t (imu.h); null for other kinds and where nothing is known. Since 1.4.
   const void* intrinsics;
+  double rate_hz;         ///< readings a second; 0: one for each frame. Since 1.5.
+  double latency_s;       ///< from the end of a measurement to its frame. Since 1.5.
+  double noise_per_m[3];  ///< what noise_m grows by for each metre of distance. Since 1.5.
 } hw_sensor_info_t;
 
 /// The facts that are given once, at activation. They live until activate() returns.
@@ -52,6 +56,21 @@ static inline const hw_body_info_t* hw_body_of(const hw_activation_t* activation
 /// What else is known of a sensor, by its kind; null where nothing is or the writer is older than 1.4. [any]
 static inline const void* hw_intrinsics_of(const hw_sensor_info_t* sensor) {
   return HW_HAS(sensor, hw_sensor_info_t, intrinsics) ? sensor->intrinsics : HW_CAST(const void*, 0);
+}
+
+/// Readings of a sensor in a second, 0: one for each frame; NaN where it is not known or the writer is older than 1.5. [any]
+static inline double hw_rate_hz_of(const hw_sensor_info_t* sensor) {
+  return HW_HAS(sensor, hw_sensor_info_t, rate_hz) ? sensor->rate_hz : HW_CAST(double, NAN);
+}
+
+/// From the end of a sensor's measurement to its frame, seconds; NaN where it is not known or the writer is older than 1.5. [any]
+static inline double hw_latency_s_of(const hw_sensor_info_t* sensor) {
+  return HW_HAS(sensor, hw_sensor_info_t, latency_s) ? sensor->latency_s : HW_CAST(double, NAN);
+}
+
+/// What a sensor's noise along an axis, below 3, grows by for each metre of distance; NaN where it is not known or the writer is older than 1.5. [any]
+static inline double hw_noise_per_m_of(const hw_sensor_info_t* sensor, uint32_t axis) {
+  return HW_HAS(sensor, hw_sensor_info_t, noise_per_m) ? sensor->noise_per_m[axis] : HW_CAST(double, NAN);
 }
 
 #ifdef __cplusplus

@@ -14,12 +14,13 @@ enum {
   HW_SAMPLE_POINTS = 1,      ///< hw_points_t
   HW_SAMPLE_PLANES = 2,      ///< hw_planes_t (planes.h); since 1.1
   HW_SAMPLE_SEGMENTS = 3,    ///< reserved
-  HW_SAMPLE_RANGE_SCAN = 4,  ///< reserved
+  HW_SAMPLE_RANGE_SCAN = 4,  ///< hw_range_scan_t (range_scan.h); since 1.5
   HW_SAMPLE_BUMP = 5,        ///< hw_bump_t (bump.h); since 1.4
   HW_SAMPLE_ENCODER = 6,     ///< hw_encoder_t (encoder.h); since 1.4
-  HW_SAMPLE_ODOMETRY = 7,    ///< reserved
+  HW_SAMPLE_ODOMETRY = 7,    ///< hw_odometry_t (odometry.h); since 1.5
   HW_SAMPLE_IMAGE = 8,       ///< reserved
-  HW_SAMPLE_DEPTH = 9        ///< reserved
+  HW_SAMPLE_DEPTH = 9,       ///< reserved
+  HW_SAMPLE_IMU = 10         ///< hw_imu_t (imu.h); since 1.5
 };
 
 /// Flag of a sample: hw_points_t.track is given.
@@ -59,12 +60,32 @@ typedef struct hw_points_t {
   uint32_t width;
   uint32_t height;
   const uint32_t* pixel;
+  const int64_t*
+      t_offset_ns;  ///< null, or per point when it was measured, after hw_sample_t.t_begin_ns; not after t_end_ns. Since 1.5.
+  const float*
+      intensity;  ///< null, or per point the strength of the return, from 0 on, in the sensor's unit; NaN: not known. Since 1.5.
+  const uint32_t* ring;  ///< null, or per point the number of the ring that measured it. Since 1.5.
 } hw_points_t;
 
 /// Point `i` of a reading, i < count. [any]
 static inline const hw_point3_t* hw_point_at(const hw_points_t* points, uint64_t i) {
   const void* at = HW_CAST(const char*, points->points) + i * points->stride;
   return HW_CAST(const hw_point3_t*, at);
+}
+
+/// When each point was measured, after hw_sample_t.t_begin_ns; null where it is not told or the writer is older than 1.5. [any]
+static inline const int64_t* hw_point_times_of(const hw_points_t* points) {
+  return HW_HAS(points, hw_points_t, t_offset_ns) ? points->t_offset_ns : HW_CAST(const int64_t*, 0);
+}
+
+/// The strength of each point's return; null where it is not told or the writer is older than 1.5. [any]
+static inline const float* hw_point_intensities_of(const hw_points_t* points) {
+  return HW_HAS(points, hw_points_t, intensity) ? points->intensity : HW_CAST(const float*, 0);
+}
+
+/// The ring that measured each point; null where it is not told or the writer is older than 1.5. [any]
+static inline const uint32_t* hw_point_rings_of(const hw_points_t* points) {
+  return HW_HAS(points, hw_points_t, ring) ? points->ring : HW_CAST(const uint32_t*, 0);
 }
 
 /// All that happened in one step. Everything it points to lives until the call that it is given to returns.

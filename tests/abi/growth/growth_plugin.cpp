@@ -19,7 +19,12 @@ double has_grown([[maybe_unused]] const T* p) {
 class GrowthPlugin final : public hallway::sdk::Plugin {
  public:
   static const hw_plugin_info_t* info() {
+#if HW_ABI_MINOR >= 5
+    static constexpr std::uint32_t kInputs[] = {HW_SAMPLE_POINTS, HW_SAMPLE_RANGE_SCAN, HW_SAMPLE_ODOMETRY,
+                                                HW_SAMPLE_IMU};
+#else
     static constexpr std::uint32_t kInputs[] = {HW_SAMPLE_POINTS};
+#endif
     static constexpr std::uint32_t kOutputs[] = {HW_OUTPUT_POSE};
     static constexpr hw_plugin_info_t kInfo = hallway::sdk::plugin_info(
         "growth", "Growth", "1", "Hallway", "Tells what it read.", kInputs, kOutputs);
@@ -45,6 +50,11 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
 #if HW_ABI_MINOR >= 4
       read_intrinsics(sensor);
 #endif
+#if HW_ABI_MINOR >= 5
+      const double rate_hz = hw_rate_hz_of(&sensor);
+      if (rate_hz == rate_hz) rate_ = rate_hz + hw_noise_per_m_of(&sensor, 2);
+      if (const hw_imu_info_t* imu = hw_imu_info_of(&sensor)) gravity_ = imu->gravity_m_s2;
+#endif
     }
   }
 
@@ -55,10 +65,20 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
     std::vector<std::uint64_t> ids;
     for (std::uint32_t k = 0; k < frame.n_samples; ++k) {
       const hw_sample_t& sample = *frame.samples[k];
+      if (sample.kind != HW_SAMPLE_POINTS) {
+#if HW_ABI_MINOR >= 5
+        read_later_kinds(sample);
+#endif
+        continue;
+      }
       const auto& points = *static_cast<const hw_points_t*>(sample.payload);
       sample_sum = 100 * sample_sum + sample.sensor_id;
       sample_has_grown = has_grown(&sample);
       points_have_grown = has_grown(&points);
+#if HW_ABI_MINOR >= 5
+      if (hw_point_rings_of(&points) != nullptr && points.count > 0)
+        ring_ = hw_point_rings_of(&points)[points.count - 1];
+#endif
       ids.assign(points.count, k);
       for (std::uint64_t i = 0; i < points.count; ++i) x_sum += hw_point_at(&points, i)->x;
       host().put_associations(k, ids);
@@ -66,7 +86,11 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
 #if HW_ABI_MINOR >= 1
     put_plane();
 #endif
+#if HW_ABI_MINOR >= 5
+    host().put_pose({{x_sum, 0, 0}, { 1, 0, 0, 0 }}, nullptr, frame.t_ns - 1);
+#else
     host().put_pose({{x_sum, 0, 0}, {1, 0, 0, 0}});
+#endif
 #if HW_ABI_MINOR >= 4
     host().put_drive_command(0.5, -x_sum, 0.25);
 #else
@@ -83,6 +107,13 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
         {"corner", corner_},
         {"wheel", wheel_},
         {"grown_parts", parts_have_grown_},
+        {"rate", rate_},
+        {"gravity", gravity_},
+        {"ring", ring_},
+        {"range", range_},
+        {"turn", turn_},
+        {"way", way_},
+        {"grown_payloads", payloads_have_grown_},
         {"grown_structs", host_has_grown_ + activation_has_grown_ + sensor_has_grown_ + has_grown(&frame) +
                               sample_has_grown + points_have_grown}};
     host().put_counters(counters);
@@ -127,6 +158,22 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
     parts_have_grown_ += has_grown(encoder);
   }
 #endif
+#if HW_ABI_MINOR >= 5
+  void read_later_kinds(const hw_sample_t& sample) {
+    if (const auto scan = hallway::sdk::range_scan_in(sample)) {
+      range_ = (*scan)[scan->size() - 1].range_m;
+      payloads_have_grown_ += has_grown(&scan->c_scan());
+    }
+    if (const hw_imu_t* imu = hallway::sdk::imu_in(sample)) {
+      turn_ = imu->angular_rad_s[2];
+      payloads_have_grown_ += has_grown(imu);
+    }
+    if (const hw_odometry_t* odometry = hallway::sdk::odometry_in(sample)) {
+      way_ = odometry->T_odom_sensor.position[0] + odometry->covariance[20];
+      payloads_have_grown_ += has_grown(odometry);
+    }
+  }
+#endif
 #if HW_ABI_MINOR >= 1
   /// Of the first reading's only point.
   void put_plane() const {
@@ -146,6 +193,7 @@ class GrowthPlugin final : public hallway::sdk::Plugin {
   double host_has_grown_ = 0, activation_has_grown_ = 0, sensor_has_grown_ = 0;
   double sensor_sum_ = 0, last_noise_ = 0;
   double speed_ = 0, corner_ = 0, wheel_ = 0, parts_have_grown_ = 0;
+  double rate_ = 0, gravity_ = 0, ring_ = 0, range_ = 0, turn_ = 0, way_ = 0, payloads_have_grown_ = 0;
 };
 
 }  // namespace

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "host/plugin.hpp"
+#include "host/samples/imu_kind.hpp"
+#include "host/samples/odometry_kind.hpp"
 #include "host/samples/point_kind.hpp"
+#include "host/samples/range_scan_kind.hpp"
 #include "support/errors.hpp"
 
 namespace hallway::host {
@@ -98,11 +101,43 @@ TEST_P(Growth, DriveBodyAndIntrinsicsAreReadWhereTheyAreKnown) {
   EXPECT_EQ(counters.at("grown_parts"), GetParam().has_grown && kHostHasGrown ? 3 : 0);
 }
 
+TEST_P(Growth, RatesAndLaterKindsAreReadWhereTheyAreKnown) {
+  Activation robot = three_sensors();
+  robot.sensors[0].rate_hz = 10.0;
+  robot.sensors[0].noise_per_m[2] = 0.5;
+  SensorInfo& imu = robot.sensors.emplace_back();
+  imu.id = 14;
+  imu.kind = HW_SAMPLE_IMU;
+  imu.noise_m[2] = 1.0;
+  imu.intrinsics = ImuIntrinsics{.gravity_m_s2 = 9.75};
+  plugin_.activate(robot);
+  builder_.begin(5, 1000);
+  add_points(builder_, 11) = {{1, 0, 0}, {2, 0, 0}};
+  add_point_data(builder_).ring = {3, 4};
+  add_range_scan(builder_, 15).rays = {{0, 0, 1}, {0, 0, 2.5}};
+  add_odometry(builder_, 16).T_odom_sensor.position[0] = 0.25;
+  builder_.last().payload<hw_odometry_t>().covariance[20] = 0.5;
+  add_imu(builder_, 14).angular_rad_s[2] = -0.75;
+  std::map<std::string, double> counters;
+  for (const Counter& counter : plugin_.process(builder_.finish()).counters())
+    counters[counter.name] = counter.value;
+  const bool known = GetParam().is_later;
+  EXPECT_EQ(counters.at("x_sum"), 3);
+  EXPECT_EQ(counters.at("rate"), known ? 10.5 : 0);
+  EXPECT_EQ(counters.at("gravity"), known ? 9.75 : 0);
+  EXPECT_EQ(counters.at("ring"), known ? 4 : 0);
+  EXPECT_EQ(counters.at("range"), known ? 2.5 : 0);
+  EXPECT_EQ(counters.at("way"), known ? 0.75 : 0);
+  EXPECT_EQ(counters.at("turn"), known ? -0.75 : 0);
+  EXPECT_EQ(counters.at("grown_payloads"), GetParam().has_grown && kHostHasGrown ? 3 : 0);
+}
+
 TEST_P(Growth, OutputsOfAFrameArrive) {
   plugin_.activate(three_sensors());
   const Outputs& outputs = process_three_samples();
   ASSERT_TRUE(outputs.pose());
   EXPECT_EQ(outputs.pose()->T_map_body.position[0], 14);
+  EXPECT_EQ(outputs.pose()->t_ns, GetParam().is_later ? 999 : 0);
   EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -14, GetParam().is_later ? 0.25 : 0.0}));
   const auto ids = outputs.associations(2);
   ASSERT_TRUE(ids);

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "base/helper.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 void expect_reasons(const std::map<std::string, std::string>& skipped, const std::string& also) {
   for (const auto& [test, reason] : skipped) {
     const bool uncounted = reserves_addresses() && test.ends_with("-memory");
-    EXPECT_TRUE(reason == "the plugin takes no points" || test.starts_with("params-") ||
+    EXPECT_TRUE(reason.starts_with("the plugin takes no ") || test.starts_with("params-") ||
                 reason.starts_with(also) || uncounted)
         << test << ": " << reason;
   }
@@ -45,6 +46,43 @@ TEST(Samples, DefectsOfPluginsOfContactZonesAndEncodersAreFound) {
 TEST(Samples, DefectsInReadingIntrinsicsAreFound) {
   expect_intrinsic_defects_found("bump");
   expect_intrinsic_defects_found("encoder");
+}
+
+TEST(Samples, PluginsOfRaysOdometryAndImusAreGivenThem) {
+  const DefectivePlugin none("defective_samples", "defective_samples");
+  const std::map<std::string, std::vector<std::string>> own{
+      {"range_scan", {"scan-no-returns", "scan-no-order", "scan-layers"}},
+      {"odometry", {"odometry-unknown"}},
+      {"imu", {"imu-missing-axes", "carried-samples"}}};
+  for (const auto& [plugin, tests] : own) {
+    const auto skipped = expect_good(setup_of_samples(none, plugin));
+    expect_reasons(skipped, "the plugin refuses no sensors");
+    for (const std::string& test : tests) EXPECT_FALSE(skipped.contains(test)) << test;
+  }
+}
+
+TEST(Samples, DefectsOfPluginsOfRaysAreFound) {
+  expect_defects_found("range_scan", 4);
+  expect_intrinsic_defects_found("range_scan", false);
+  expect_found("range_scan", {{"fails_for_no_returns", "scan-no-returns"},
+                              {"fails_for_no_order", "scan-no-order"},
+                              {"fails_for_layers", "scan-layers"},
+                              {"fails_for_reserved", "reserved-members"}});
+}
+
+TEST(Samples, DefectsOfPluginsOfOdometryAreFound) {
+  expect_defects_found("odometry", 1, false);
+  expect_found("odometry", {{"fails_for_unknown", "odometry-unknown"},
+                            {"fails_for_unmeasured", "odometry-unknown"},
+                            {"fails_for_reserved", "reserved-members"}});
+}
+
+TEST(Samples, DefectsOfPluginsOfImusAreFound) {
+  expect_defects_found("imu", 1, false);
+  expect_intrinsic_defects_found("imu", false);
+  expect_found("imu", {{"fails_for_missing_axes", "imu-missing-axes"},
+                       {"fails_for_several", "carried-samples"},
+                       {"fails_for_reserved", "reserved-members"}});
 }
 
 TEST(Samples, SlamPlaneIsGivenPlanes) {

@@ -95,7 +95,8 @@ TEST(CarriedSamples, AFrameIsAsItWasWhereThereIsNothingToCarry) {
 
 TEST(CarriedSamples, WhatWasFoundInASampleRefersToItStill) {
   const std::vector<hw_point3_t> points{{1, 0, 0}, {1, 1, 0}, {1, 0, 1}};
-  hw_points_t cloud{sizeof cloud, sizeof(hw_point3_t), 3, points.data(), nullptr, 0, 0, nullptr};
+  hw_points_t cloud{
+      sizeof cloud, sizeof(hw_point3_t), 3, points.data(), nullptr, 0, 0, nullptr, nullptr, nullptr, nullptr};
   hw_planes_t planes{};
   planes.size = sizeof planes;
   planes.stride = sizeof(hw_plane_t);

@@ -37,8 +37,17 @@ const hw_points_t& points_of(const hw_sample_t& sample) {
 struct OneReading {
   std::vector<hw_point3_t> points{{1, 2, 3}, {4, 5, 6}};
   std::vector<std::uint64_t> track{11, 12};
-  hw_points_t payload{
-      sizeof(hw_points_t), sizeof(hw_point3_t), 2, points.data(), track.data(), 0, 0, nullptr};
+  hw_points_t payload{sizeof(hw_points_t),
+                      sizeof(hw_point3_t),
+                      2,
+                      points.data(),
+                      track.data(),
+                      0,
+                      0,
+                      nullptr,
+                      nullptr,
+                      nullptr,
+                      nullptr};
   hw_sample_t sample{sizeof(hw_sample_t), HW_SAMPLE_POINTS, HW_SAMPLE_TRACKED, 9, 4, 10, 20, &payload};
   const hw_sample_t* samples[1] = {&sample};
   hw_frame_t frame{sizeof(hw_frame_t), 1, 4, 20, samples};
@@ -171,13 +180,14 @@ TEST(FrameBytes, AWiderStrideIsReadAndWrittenAsWhatIsKnown) {
 TEST(FrameBytes, MembersOfALaterVersionArePassedOver) {
   const OneReading one;
   Bytes bytes = bytes_of(one.frame);
-  // hw_points_t with today's members for pixels, of which there are none, and 8 bytes more.
-  bytes.insert(bytes.begin() + kPoints, 16, std::byte{});
-  bytes.insert(bytes.begin() + kPoints + 16, 8, std::byte{0x55});
-  overwrite(bytes, 8, kAll + 24);
+  // hw_points_t with today's members from those for pixels on, of which there are none, and 8 bytes more.
+  constexpr std::size_t kOfToday = sizeof(hw_points_t) - offsetof(hw_points_t, width);
+  bytes.insert(bytes.begin() + kPoints, kOfToday, std::byte{});
+  bytes.insert(bytes.begin() + kPoints + kOfToday, 8, std::byte{0x55});
+  overwrite(bytes, 8, kAll + kOfToday + 8);
   overwrite(bytes, kPayload, sizeof(hw_points_t) + 8, 4);
-  overwrite(bytes, kPayload + offsetof(hw_points_t, points), kPoints + 24);
-  overwrite(bytes, kPayload + offsetof(hw_points_t, track), kTrack + 24);
+  overwrite(bytes, kPayload + offsetof(hw_points_t, points), kPoints + kOfToday + 8);
+  overwrite(bytes, kPayload + offsetof(hw_points_t, track), kTrack + kOfToday + 8);
   FrameReader reader;
   const hw_points_t& points = points_of(*reader.read(bytes).samples[0]);
   EXPECT_EQ(points.size, sizeof(hw_points_t));

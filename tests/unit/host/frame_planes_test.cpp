@@ -48,8 +48,17 @@ struct Readings {
   std::vector<hw_plane_t> planes{square(7, 1), square(9, 2)};
   std::vector<hw_point3_t> hull{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}};
   std::vector<std::uint32_t> members{0, 1, 2};
-  hw_points_t points_payload{
-      sizeof(hw_points_t), sizeof(hw_point3_t), 3, points.data(), nullptr, 0, 0, nullptr};
+  hw_points_t points_payload{sizeof(hw_points_t),
+                             sizeof(hw_point3_t),
+                             3,
+                             points.data(),
+                             nullptr,
+                             0,
+                             0,
+                             nullptr,
+                             nullptr,
+                             nullptr,
+                             nullptr};
   hw_planes_t planes_payload{
       sizeof(hw_planes_t), sizeof(hw_plane_t), 2, planes.data(), 1, sizeof(hw_point3_t), 3, hull.data(), 3,
       members.data()};

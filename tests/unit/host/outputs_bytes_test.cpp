@@ -22,11 +22,12 @@ void put(OutputCollector& collector, std::uint32_t kind, const void* payload) {
 }
 
 /// One of everything that there is, for a frame of three points.
-void put_everything(OutputCollector& collector) {
+/// @param frame_t_ns  the frame's time, above 0
+void put_everything(OutputCollector& collector, std::int64_t frame_t_ns) {
   double covariance[36]{};
   for (int i = 0; i < 6; ++i) covariance[7 * i] = i + 0.5;
   covariance[1] = covariance[6] = -0.25;
-  hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}, covariance};
+  hw_pose_output_t pose{sizeof pose, HW_POSE_VALID, {{1, 2, 3}, {0.6, 0.8, 0, 0}}, covariance, frame_t_ns};
   put(collector, HW_OUTPUT_POSE, &pose);
   const hw_drive_command_t command{sizeof command, 0, 0.5, -0.25, 0.125};
   put(collector, HW_OUTPUT_DRIVE_COMMAND, &command);
@@ -71,10 +72,10 @@ void put_everything(OutputCollector& collector) {
 
 class OutputsBytes : public testing::Test {
  protected:
-  OutputsBytes() : frame_(frame_of(builder_, 0, {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}})) {
+  OutputsBytes() : frame_(frame_of(builder_, 1, {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}})) {
     OutputCollector collector;
     collector.begin(&frame_, indices_);
-    put_everything(collector);
+    put_everything(collector, frame_.t_ns);
     EXPECT_EQ(collector.finish(), "");
     room_.resize(4096);
     AlignedByteWriter writer(std::as_writable_bytes(std::span(room_)));
@@ -107,6 +108,7 @@ TEST_F(OutputsBytes, ReadBackAsTheyWere) {
   ASSERT_EQ(read(std::as_bytes(std::span(room_))), "");
   const Outputs& outputs = reader_.outputs();
   EXPECT_EQ(outputs.pose()->T_map_body.orientation[1], 0.8);
+  EXPECT_EQ(outputs.pose()->t_ns, frame_.t_ns);
   EXPECT_EQ(outputs.drive_command(), (DriveCommand{0.5, -0.25, 0.125}));
   ASSERT_EQ(outputs.landmarks().size(), 2u);
   EXPECT_EQ(outputs.landmarks()[1].position[2], 6);
@@ -182,7 +184,7 @@ TEST_F(OutputsBytes, ChangedAnywhereTheyDoNoHarm) {
 
 TEST_F(OutputsBytes, WithoutRoomNothingIsWrittenBeyondIt) {
   reader_.begin(&frame_, indices_);
-  put_everything(reader_);
+  put_everything(reader_, frame_.t_ns);
   reader_.finish();
   std::vector<std::uint64_t> room(20, 4711);
   AlignedByteWriter writer(std::as_writable_bytes(std::span(room).first(10)));

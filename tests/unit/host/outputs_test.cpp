@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "host/samples/point_kind.hpp"
@@ -56,6 +60,55 @@ TEST(Outputs, ALostPoseIsTheIdentityWhateverStandsInIt) {
   EXPECT_FALSE(collector.outputs().pose()->valid);
   EXPECT_EQ(collector.outputs().pose()->T_map_body.position[0], 0);
   EXPECT_EQ(collector.outputs().pose()->T_map_body.orientation[0], 1);
+}
+
+/// What is wrong with a pose that says which time it is of, at a frame of that time; without one in report().
+std::string fault_of_time(std::int64_t t_ns, std::optional<std::int64_t> frame_t_ns) {
+  FrameBuilder builder;
+  builder.begin(0, frame_t_ns.value_or(0));
+  OutputCollector collector;
+  collector.begin(frame_t_ns ? &builder.finish() : nullptr, {});
+  hw_pose_output_t pose{};
+  pose.status = HW_POSE_VALID;
+  pose.T_map_body.orientation[0] = 1;
+  pose.t_ns = t_ns;
+  put(collector, HW_OUTPUT_POSE, pose);
+  const std::string fault = collector.finish();
+  if (fault.empty()) {
+    EXPECT_EQ(collector.outputs().pose()->t_ns, t_ns);
+  }
+  return fault;
+}
+
+TEST(Outputs, APoseMayBeOfATimeUpToTheFrames) {
+  EXPECT_EQ(fault_of_time(0, 100), "");
+  EXPECT_EQ(fault_of_time(1, 100), "");
+  EXPECT_EQ(fault_of_time(100, 100), "");
+  EXPECT_EQ(fault_of_time(101, 100), "pose: a time after the frame's");
+  EXPECT_EQ(fault_of_time(-1, 100), "pose: a time below 0");
+  EXPECT_EQ(fault_of_time(INT64_MIN, 100), "pose: a time below 0");
+  EXPECT_EQ(fault_of_time(0, -100), "") << "the frame's own, before 0";
+  EXPECT_EQ(fault_of_time(1, -100), "pose: a time after the frame's");
+  EXPECT_EQ(fault_of_time(0, std::nullopt), "");
+  EXPECT_EQ(fault_of_time(1, std::nullopt), "pose: a time, and this call has no frame");
+}
+
+TEST(Outputs, APoseFromBeforeTimesIsOfItsFrame) {
+  FrameBuilder builder;
+  builder.begin(0, 100);
+  OutputCollector collector;
+  collector.begin(&builder.finish(), {});
+  hw_pose_output_t pose{};
+  pose.size = offsetof(hw_pose_output_t, t_ns);
+  pose.status = HW_POSE_VALID;
+  pose.T_map_body.orientation[0] = 1;
+  pose.t_ns = -7;
+  hw_output_t output{};
+  output.size = sizeof output;
+  output.kind = HW_OUTPUT_POSE;
+  output.payload = &pose;
+  EXPECT_EQ(collector.put(&output), HW_OK);
+  EXPECT_EQ(collector.outputs().pose()->t_ns, 0);
 }
 
 TEST(Outputs, ADriveCommandAnswersAFrame) {

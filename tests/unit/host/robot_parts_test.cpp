@@ -34,7 +34,8 @@ Activation read_back(const hw_activation_t& c) {
   for (std::uint32_t i = 0; i < c.n_sensors; ++i) {
     SensorInfo& sensor = back.sensors.emplace_back();
     sensor.kind = c.sensors[i]->kind;
-    take_intrinsics(*c.sensors[i], sensor);
+    sensor.name = c.sensors[i]->name;
+    take_later_facts(*c.sensors[i], sensor);
   }
   if (c.drive != nullptr) back.drive = drive_of(*c.drive);
   if (c.body != nullptr) back.body = body_of(*c.body);
@@ -55,6 +56,39 @@ TEST(RobotParts, WhatIsNotKnownIsNull) {
   EXPECT_EQ(facts.get().drive, nullptr);
   EXPECT_EQ(facts.get().body, nullptr);
   EXPECT_EQ(facts.get().sensors[0]->intrinsics, nullptr);
+  EXPECT_TRUE(std::isnan(facts.get().sensors[0]->rate_hz));
+}
+
+TEST(RobotParts, WhatAnOlderSensorDoesNotHaveIsNotKnown) {
+  const CActivation facts(test::known_robot());
+  hw_sensor_info_t sensor = *facts.get().sensors[3];
+  sensor.size = offsetof(hw_sensor_info_t, rate_hz);
+  EXPECT_TRUE(std::isnan(hw_rate_hz_of(&sensor)));
+  EXPECT_TRUE(std::isnan(hw_latency_s_of(&sensor)));
+  EXPECT_TRUE(std::isnan(hw_noise_per_m_of(&sensor, 2)));
+  ASSERT_NE(hw_range_scan_info_of(&sensor), nullptr);
+  EXPECT_EQ(hw_range_scan_info_of(&sensor)->width, 1800u);
+  EXPECT_EQ(hw_imu_info_of(&sensor), nullptr) << "it is none";
+  sensor.size = offsetof(hw_sensor_info_t, intrinsics);
+  EXPECT_EQ(hw_range_scan_info_of(&sensor), nullptr);
+}
+
+TEST(RobotParts, RatesWithoutSenseAreNamed) {
+  for (const double value : {-0.1, kInfinity, -kInfinity}) {
+    SensorInfo sensor = point_sensor("eyes");
+    sensor.rate_hz = value;
+    EXPECT_EQ(problem_of(sensor), "a rate below 0 or not finite");
+    sensor = point_sensor("eyes");
+    sensor.latency_s = value;
+    EXPECT_EQ(problem_of(sensor), "a latency below 0 or not finite");
+    sensor = point_sensor("eyes");
+    sensor.noise_per_m[1] = value;
+    EXPECT_EQ(problem_of(sensor), "noise per metre below 0 or not finite");
+    const CActivation facts(Activation{std::vector<SensorInfo>{sensor}});
+    SensorInfo back;
+    EXPECT_EQ(refusal_of([&] { take_later_facts(*facts.get().sensors[0], back); }),
+              "noise per metre below 0 or not finite");
+  }
 }
 
 TEST(RobotParts, TheRadiusOfAPolygonIsThatOfItsFarthestCorner) {
@@ -85,14 +119,14 @@ TEST(RobotParts, StructsOfAWrongSizeAreRefused) {
   hw_body_info_t body = *facts.get().body;
   body.size -= 8;
   EXPECT_EQ(refusal_of([&] { body_of(body); }), "a body of a wrong size");
-  for (const std::uint32_t i : {0u, 1u}) {
+  for (const std::uint32_t i : {0u, 1u, 3u, 4u}) {
     hw_sensor_info_t sensor = *facts.get().sensors[i];
     const std::uint32_t small[] = {16, 0};
     sensor.intrinsics = small;
     SensorInfo info{.kind = sensor.kind, .name = {}};
-    EXPECT_EQ(refusal_of([&] { take_intrinsics(sensor, info); }), "intrinsics of a wrong size");
+    EXPECT_EQ(refusal_of([&] { take_later_facts(sensor, info); }), "intrinsics of a wrong size");
     sensor.size = offsetof(hw_sensor_info_t, intrinsics);
-    EXPECT_EQ(refusal_of([&] { take_intrinsics(sensor, info); }), "")
+    EXPECT_EQ(refusal_of([&] { take_later_facts(sensor, info); }), "")
         << "it was written before there were any";
   }
 }
@@ -103,7 +137,7 @@ TEST(RobotParts, ListsWithoutSenseAreRefused) {
   hw_sensor_info_t sensor = *facts.get().sensors[0];
   sensor.intrinsics = &encoder;
   SensorInfo info{.kind = sensor.kind, .name = {}};
-  const auto refusal = [&] { return refusal_of([&] { take_intrinsics(sensor, info); }); };
+  const auto refusal = [&] { return refusal_of([&] { take_later_facts(sensor, info); }); };
   EXPECT_EQ(refusal(), "");
   encoder.stride = 48;
   EXPECT_EQ(refusal(), "intrinsics with a wrong stride");
@@ -171,6 +205,22 @@ TEST(RobotParts, IntrinsicsWithoutSenseAreNamed) {
   EXPECT_NE(zone({.width_rad = 0.0}), "");
   EXPECT_NE(zone({.width_rad = 6.3}), "");
   EXPECT_NE(zone({.bottom_m = 1.0, .top_m = 0.0}), "");
+  const auto scan = [&](const RangeScanIntrinsics& of) { return problem(HW_SAMPLE_RANGE_SCAN, of); };
+  EXPECT_EQ(scan({}), "");
+  EXPECT_EQ(scan({.width = 1, .height = 1, .beam_rad = 0.0, .scan_s = 0.0}), "");
+  EXPECT_NE(scan({.width = 1}), "");
+  EXPECT_NE(scan({.beam_rad = -0.1}), "");
+  EXPECT_NE(scan({.scan_s = kInfinity}), "");
+  for (const ImuNumber& number : imu_numbers()) {
+    for (const double value : {-0.1, kInfinity}) {
+      ImuIntrinsics imu;
+      imu.*number.host = value;
+      EXPECT_NE(problem(HW_SAMPLE_IMU, imu).find(number.key), std::string::npos) << value;
+    }
+  }
+  EXPECT_EQ(problem(HW_SAMPLE_IMU, ImuIntrinsics{}), "");
+  EXPECT_NE(problem(HW_SAMPLE_POINTS, ImuIntrinsics{}), "");
+  EXPECT_NE(problem(HW_SAMPLE_IMU, RangeScanIntrinsics{}), "");
   EXPECT_NE(problem(HW_SAMPLE_POINTS, EncoderIntrinsics{}), "");
   EXPECT_NE(problem(HW_SAMPLE_ENCODER, BumpIntrinsics{}), "");
 }
@@ -203,6 +253,13 @@ TEST(RobotParts, APluginIsToldTheSameInAProcessOfItsOwn) {
     EXPECT_EQ(expected.at("wheel_4_12"), 0.8);
     EXPECT_EQ(expected.at("zone_7_5"), 12.0) << "letters of its name";
     EXPECT_FALSE(expected.contains("zone_7_8")) << "it is not known";
+    EXPECT_EQ(expected.at("scan_12_0"), 1800.0);
+    EXPECT_EQ(expected.at("scan_12_4"), 1.0 / 9.0);
+    EXPECT_EQ(expected.at("imu_13_6"), std::get<ImuIntrinsics>(robot.sensors[4].intrinsics).max_force_m_s2);
+    EXPECT_EQ(expected.at("pace_7_0"), 250.0);
+    EXPECT_EQ(expected.at("pace_9_3"), 0.002);
+    EXPECT_EQ(expected.at("pace_13_0"), 0.0);
+    EXPECT_FALSE(expected.contains("pace_4_0")) << "it is not known";
     if (!robot.drive) continue;
     EXPECT_EQ(expected.at("drive_0"), HW_DRIVE_OMNIDIRECTIONAL);
     EXPECT_EQ(expected.at("drive_14"), robot.drive->dead_band_rad_s);

@@ -38,7 +38,17 @@ std::string sample_head(const char* kind, const char* flags = "") {
 /// A reading of two points whose every part can be changed.
 struct Points {
   std::vector<hw_point3_t> points{{1, -0.0, 0.1}, {1e300, 5e-324, -3}};
-  hw_points_t payload{sizeof(hw_points_t), sizeof(hw_point3_t), 2, points.data(), nullptr, 0, 0, nullptr};
+  hw_points_t payload{sizeof(hw_points_t),
+                      sizeof(hw_point3_t),
+                      2,
+                      points.data(),
+                      nullptr,
+                      0,
+                      0,
+                      nullptr,
+                      nullptr,
+                      nullptr,
+                      nullptr};
   hw_sample_t sample{sizeof(hw_sample_t), HW_SAMPLE_POINTS, 0, 9, 4, -10, 20, &payload};
 };
 
@@ -223,8 +233,7 @@ class Cover {
   }
   void add(std::span<const PayloadMember> members) {
     for (const PayloadMember& member : members) {
-      const std::size_t number = member.type == NumberType::kU32 ? 4 : 8;
-      add(member.offset, number * member.n * (member.lists == 0 ? 1 : member.lists));
+      add(member.offset, number_bytes(member.type) * member.n * (member.lists == 0 ? 1 : member.lists));
     }
   }
   void expect_whole(const std::string& what) const {

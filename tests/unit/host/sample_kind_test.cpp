@@ -30,8 +30,17 @@ struct TwoKinds {
   std::vector<std::uint32_t> marks{2, 0, 2};
   std::vector<hw_point3_t> points{{1, 2, 3}};
   MadeUp made_up{.n_rays = 3, .rays = rays.data(), .n_marks = 3, .marks = marks.data(), .temperature = 21.5};
-  hw_points_t points_payload{
-      sizeof(hw_points_t), sizeof(hw_point3_t), 1, points.data(), nullptr, 0, 0, nullptr};
+  hw_points_t points_payload{sizeof(hw_points_t),
+                             sizeof(hw_point3_t),
+                             1,
+                             points.data(),
+                             nullptr,
+                             0,
+                             0,
+                             nullptr,
+                             nullptr,
+                             nullptr,
+                             nullptr};
   hw_sample_t first{sizeof(hw_sample_t), test::kMadeUpSample, 0, 3, 0, 10, 20, &made_up};
   hw_sample_t second{sizeof(hw_sample_t), HW_SAMPLE_POINTS, 0, 4, 0, 20, 20, &points_payload};
   const hw_sample_t* samples[2] = {&first, &second};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -17,10 +18,11 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::optional<Answer> through(const Answer& answer) {
+std::optional<Answer> through(const Answer& answer, std::uint8_t version = kFirstVersion) {
   Bytes payload;
-  write_answer(answer, payload);
-  const Bytes bytes = datagram_of({.type = Type::kAnswer, .sequence = answer.sequence}, payload);
+  write_answer(answer, payload, version);
+  const Bytes bytes =
+      datagram_of({.type = Type::kAnswer, .sequence = answer.sequence, .version = version}, payload);
   return read_answer(std::get<Datagram>(read_datagram(bytes)));
 }
 
@@ -49,7 +51,8 @@ TEST(Answer, IsReadBack) {
 
 TEST(Answer, OfALaterHostIsReadAsFarAsItIsKnown) {
   Bytes payload;
-  write_answer({.number = 5, .sequence = 77, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload);
+  write_answer({.number = 5, .sequence = 77, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload,
+               kNewestVersion);
   payload.resize(payload.size() + 16, std::byte{0x5a});
   const auto read = [&](std::uint8_t version) {
     const Bytes bytes = datagram_of({.type = Type::kAnswer, .sequence = 77, .version = version}, payload);
@@ -62,10 +65,33 @@ TEST(Answer, OfALaterHostIsReadAsFarAsItIsKnown) {
   EXPECT_EQ(*answer->command, (host::DriveCommand{0.25, 0.5, -0.125}));
 }
 
+TEST(Answer, TellsTheTimeOfAPoseWhereTheVersionHasIt) {
+  Answer answer{.number = 5, .t_ns = 100};
+  answer.pose = host::PoseOutput{.valid = true, .T_map_body = {{1, 2, 3}, {1, 0, 0, 0}}};
+  const auto time_through = [&](std::int64_t t_ns, std::uint8_t version) -> std::optional<std::int64_t> {
+    answer.pose->t_ns = t_ns;
+    const auto back = through(answer, version);
+    if (!back) return std::nullopt;
+    return back->pose->t_ns;
+  };
+  EXPECT_EQ(time_through(70, kNewestVersion), 70);
+  EXPECT_EQ(time_through(100, kNewestVersion), 100);
+  EXPECT_EQ(time_through(70, kFirstVersion), 0);
+  EXPECT_EQ(time_through(101, kNewestVersion), std::nullopt) << "after the frame's";
+  EXPECT_EQ(time_through(-1, kNewestVersion), std::nullopt);
+  Bytes payload;
+  answer.pose->t_ns = 0;
+  write_answer(answer, payload, kNewestVersion);
+  EXPECT_EQ(payload.size(), 104u) << "of the frame's own time the bytes are those of before";
+  store(payload.data() + 4, load<std::uint32_t>(payload.data() + 4) | 8u);  // it says that there is one
+  const Bytes bytes = datagram_of({.type = Type::kAnswer, .version = kNewestVersion}, payload);
+  EXPECT_FALSE(read_answer(std::get<Datagram>(read_datagram(bytes))));
+}
+
 TEST(Answer, SidewaysSpeedIsItsLastNumber) {
   Bytes payload, before;
-  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload);
-  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5}}, before);
+  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5, -0.125}}, payload, kNewestVersion);
+  write_answer({.number = 5, .command = host::DriveCommand{0.25, 0.5}}, before, kNewestVersion);
   ASSERT_EQ(payload.size(), 104u);
   EXPECT_EQ(load<double>(payload.data() + 96), -0.125);
   EXPECT_EQ(load<std::uint64_t>(before.data() + 96), 0u) << "as hosts before it wrote";
@@ -154,6 +180,7 @@ TEST(Description, DriveBodyAndIntrinsicsAreReadBackWhereTheVersionHasThem) {
   const Description first = read_description(write_description(robot, kFirstVersion), kFirstVersion);
   expect_same(first, robot);
   EXPECT_FALSE(first.drive || first.body);
+  for (const host::SensorInfo& sensor : first.sensors) EXPECT_TRUE(std::isnan(sensor.rate_hz));
   Description only_body = robot;
   only_body.drive.reset();
   only_body.body = host::BodyInfo{};
@@ -178,6 +205,60 @@ TEST(Description, IsReadAsFarAsItWasKnownBefore) {
   EXPECT_EQ(skip(128), "bumper");
   const Bytes before = write_description(description(true), kNewestVersion);
   EXPECT_EQ(load<std::uint32_t>(before.data()), 24u) << "of an unknown robot nothing is added";
+}
+
+/// The bytes of the first sensor of a description of an unknown robot behind those that its first readers knew.
+std::vector<std::uint64_t> sensor_parts(const host::SensorInfo& sensor) {
+  Description robot = description(true);
+  robot.sensors = {sensor};
+  const Bytes message = write_description(robot, kNewestVersion);
+  const std::size_t at = 24 + 16;  // behind the robot and its name
+  std::vector<std::uint64_t> words((load<std::uint32_t>(message.data() + at) - 128) / 8);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] = load<std::uint64_t>(message.data() + at + 128 + 8 * i);
+  return words;
+}
+
+TEST(Description, OfASensorOfWhichNoMoreIsKnownHasTheBytesOfBefore) {
+  host::SensorInfo sensor{.id = 4, .kind = HW_SAMPLE_ENCODER, .name = "wheels"};
+  EXPECT_TRUE(sensor_parts(sensor).empty());
+  sensor.intrinsics = host::EncoderIntrinsics{{{}}};
+  const std::vector<std::uint64_t> before = sensor_parts(sensor);
+  ASSERT_EQ(before.size(), 2u + 7u);
+  EXPECT_EQ(before[0], HW_SAMPLE_ENCODER) << "and no bytes to the rate";
+  EXPECT_EQ(before[1], 1u) << "wheel";
+}
+
+TEST(Description, RatesStandBehindTheIntrinsicsWhichSayWhere) {
+  host::SensorInfo sensor{.id = 4, .kind = HW_SAMPLE_ENCODER, .name = "wheels"};
+  sensor.rate_hz = 0.5;
+  std::vector<std::uint64_t> words = sensor_parts(sensor);
+  ASSERT_EQ(words.size(), 1u + 5u);
+  EXPECT_EQ(words[0], std::uint64_t{8} << 32) << "no intrinsics, 8 bytes to the rate";
+  EXPECT_EQ(std::bit_cast<double>(words[1]), 0.5);
+  sensor.intrinsics = host::EncoderIntrinsics{{{}}};
+  words = sensor_parts(sensor);
+  ASSERT_EQ(words.size(), 2u + 7u + 5u);
+  EXPECT_EQ(words[0], HW_SAMPLE_ENCODER | std::uint64_t{72} << 32);
+  EXPECT_EQ(std::bit_cast<double>(words[9]), 0.5);
+}
+
+TEST(Description, ARateOutsideOfItsSensorIsRefused) {
+  Description robot = description(true);
+  robot.sensors[0].rate_hz = 0.5;
+  const Bytes message = write_description(robot, kNewestVersion);
+  const std::size_t head = 24 + 16 + 128;
+  for (const std::uint32_t to_rate : {1u, 4u, 12u, 16u, 0xffff'fff8u}) {
+    Bytes lies = message;
+    store(lies.data() + head + 4, to_rate);
+    EXPECT_TRUE(hallway::test::error_of([&] { read_description(lies, kNewestVersion); })) << to_rate;
+  }
+  Bytes later = message;
+  store(later.data() + head, 4711u);  // intrinsics of a kind of tomorrow
+  EXPECT_EQ(read_description(later, kNewestVersion).sensors[0].rate_hz, 0.5);
+  Description slow = robot;
+  slow.sensors[0].rate_hz = -1;
+  EXPECT_TRUE(hallway::test::error_of([&] { write_description(slow, kNewestVersion); }));
 }
 
 TEST(Description, ALaterOnesPartsArePassedOver) {

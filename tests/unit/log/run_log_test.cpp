@@ -82,6 +82,20 @@ TEST(RunLog, AnswersReadBackToTheSameBits) {
   }
 }
 
+TEST(RunLog, APoseOfAnotherTimeThanItsFrameSaysWhich) {
+  PoseAnswer pose{.valid = true};
+  StringOutput out;
+  RunLogWriter writer(out, "test", "{}");
+  writer.add_pose({3, 10}, pose);
+  pose.t_ns = INT64_MAX;
+  writer.add_pose({4, 20}, pose);
+  writer.finish();
+  const std::vector<AnswerMessage> answers = answers_of(out.text());
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(std::get<PoseMessage>(answers[0]).pose.t_ns, 0);
+  EXPECT_EQ(std::get<PoseMessage>(answers[1]).pose.t_ns, INT64_MAX);
+}
+
 TEST(RunLog, PlaneLandmarksAndSubmapsReadBackToTheSameBits) {
   const MapAnswer map{
       .planes = {{.id = 7,

@@ -50,6 +50,31 @@ TEST(SensorJson, DriveBodyAndIntrinsicsKeepEveryBit) {
   EXPECT_FALSE(read_body_in({{"sensors", {}}}));
 }
 
+TEST(SensorJson, OfASensorOfWhichNoMoreIsKnownIsAsItWas) {
+  EXPECT_EQ(print_sensor(host::point_sensor("eyes")).dump(),
+            R"({"name":"eyes","kind":"points","T_body_sensor":{"position_m":[0.0,0.0,0.0],)"
+            R"("orientation_wxyz":[1.0,0.0,0.0,0.0]},"horizontal_fov_rad":null,"vertical_fov_rad":null,)"
+            R"("min_range_m":null,"max_range_m":null,"noise_m":[null,null,null]})");
+}
+
+TEST(SensorJson, RatesAndIntrinsicsWithoutSenseAreBadInput) {
+  const host::Activation robot = test::known_robot();
+  const auto refused = [](nlohmann::ordered_json json, const char* key, const nlohmann::ordered_json& value) {
+    json[nlohmann::ordered_json::json_pointer(key)] = value;
+    const auto error = test::error_of([&] { read_sensor(json); });
+    return error && error->code() == ErrorCode::kBadInput;
+  };
+  const nlohmann::ordered_json lidar = print_sensor(robot.sensors[3]), imu = print_sensor(robot.sensors[4]);
+  EXPECT_FALSE(refused(lidar, "/rate_hz", nullptr));
+  EXPECT_TRUE(refused(lidar, "/rate_hz", -1));
+  EXPECT_TRUE(refused(lidar, "/latency_s", "late"));
+  EXPECT_TRUE(refused(lidar, "/noise_per_m", {0.1}));
+  EXPECT_TRUE(refused(lidar, "/intrinsics/width", 0));
+  EXPECT_TRUE(refused(lidar, "/intrinsics/scan_s", -0.1));
+  EXPECT_FALSE(refused(imu, "/intrinsics/force_walk", nullptr));
+  EXPECT_TRUE(refused(imu, "/intrinsics/force_walk", -1));
+}
+
 TEST(SensorJson, LaterDrivesAreReadAsFarAsTheyAreKnown) {
   const auto drive = read_drive_in(
       nlohmann::ordered_json::parse(R"({"drive": {"kind": "legs", "max_speed_m_s": 2, "n_legs": 6}})"));

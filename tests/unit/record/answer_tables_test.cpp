@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "record/answer_tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "host/samples/frame_builder.hpp"
+#include "support/temp_folder.hpp"
+
+namespace hallway::record {
+namespace {
+
+/// Adds the answer to a frame: a pose of that time.
+void add_pose(AnswerTables& tables, std::uint32_t iteration, std::int64_t t_ns, std::int64_t pose_t_ns) {
+  host::FrameBuilder builder;
+  builder.begin(iteration, t_ns);
+  host::OutputCollector collector;
+  collector.begin(&builder.finish(), {});
+  hw_pose_output_t pose{};
+  pose.size = sizeof pose;
+  pose.status = HW_POSE_VALID;
+  pose.T_map_body.orientation[0] = 1;
+  pose.t_ns = pose_t_ns;
+  const hw_output_t output{sizeof output, HW_OUTPUT_POSE, 0, 0, &pose};
+  ASSERT_EQ(collector.put(&output), HW_OK);
+  tables.add({.iteration = iteration, .t_ns = t_ns}, collector.outputs(), {});
+}
+
+TEST(AnswerTables, TimesOfPosesStandInATableThatIsThereForThem) {
+  for (const bool told : {false, true}) {
+    const test::TempFolder folder;
+    AnswerTables tables(folder.path());
+    add_pose(tables, 3, 100, 0);
+    add_pose(tables, 4, 200, told ? 170 : 0);
+    add_pose(tables, 5, INT64_MAX, told ? INT64_MAX : 0);
+    tables.close();
+    const std::filesystem::path file = folder / "pose_times.csv";
+    EXPECT_EQ(std::filesystem::exists(file) ? read_file(file) : "",
+              told ? "iteration,t_ns\n4,170\n5,9223372036854775807\n" : "");
+  }
+}
+
+}  // namespace
+}  // namespace hallway::record
