@@ -65,7 +65,7 @@ check: deps-check
 
 ## libFuzzer on everything that reads foreign bytes, FUZZ_SECONDS each; what it finds is kept in build/fuzz/finds
 FUZZ_SECONDS ?= 600
-FUZZ_TARGETS := map_reader mesh_protocol mesh_scene edit_command edit_journal mcap_reader udp_datagrams frame_bytes cloud_reader landmark_tables drive_commands robot_reader
+FUZZ_TARGETS := map_reader mesh_protocol mesh_scene edit_command edit_journal mcap_reader udp_datagrams frame_bytes cloud_reader landmark_tables kitti_odometry euroc pcd_imu_folder drive_commands robot_reader
 fuzz: deps-fuzz
 	cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
 	  -DHALLWAY_FUZZ=ON -DHALLWAY_SANITIZE=address,undefined,fuzzer-no-link -DHALLWAY_BENCH=OFF
