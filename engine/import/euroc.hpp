@@ -48,7 +48,7 @@ struct EurocState {
   std::optional<EurocMotion> motion;
 };
 
-/// A sequence, all of it: 56 bytes for each sample and 144 for each state. Its tables may have 2 GiB, which are about 15 million samples.
+/// A sequence, all of it: 56 bytes for each sample and 160 for each state. Its tables may have 2 GiB, which are about 15 million samples.
 struct EurocSequence {
   std::string body_comment{};
   EurocImuSensor sensor;

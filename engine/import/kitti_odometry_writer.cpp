@@ -52,6 +52,7 @@ void KittiOdometryWriter::add(std::int64_t t_ns, const LidarCloud& cloud,
   if (frames_ == kMaxKittiFrames)
     refuse_cloud(fmt::format("a sequence has at most {} clouds", kMaxKittiFrames));
   if (t_ns <= last_ns_) refuse_cloud(fmt::format("the time {} ns is not after {} ns", t_ns, last_ns_));
+  if (t_ns >= kTimesEnd_ns) refuse_cloud(fmt::format("the time {} ns is not below 9e9 s", t_ns));
   if (frames_ > 0 && T_world_velodyne.has_value() != has_poses_)
     refuse_cloud("a sequence has the poses of all its clouds, or of none");
   if (T_world_velodyne && !is_sound(*T_world_velodyne))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "import/point_collector.hpp"
 
 namespace hallway::import {
 namespace {
@@ -24,6 +25,8 @@ void check_cloud(const LidarCloud& cloud, const std::string& file) {
   check_length(cloud.intensity.size(), "intensities");
   check_length(cloud.ring.size(), "rings");
   check_length(cloud.t_offset_ns.size(), "times");
+  if (cloud.points.size() > kMaxFramePoints)
+    refuse_cloud(file, fmt::format("{} points, and a frame holds {}", cloud.points.size(), kMaxFramePoints));
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     for (const double x : cloud.points[i]) {
       if (std::abs(x) <= kMaxImport_m) continue;

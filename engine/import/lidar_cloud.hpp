@@ -27,7 +27,7 @@ struct LidarCloud {
 };
 
 /// Checks a cloud before it is written. Throws Error{kBadInput} with the file and the number of the first point that is not finite or lies beyond
-/// kMaxImport_m, and where a list has another length than `points`.
+/// kMaxImport_m, where a list has another length than `points`, and for more than kMaxFramePoints.
 void check_cloud(const LidarCloud& cloud, const std::string& file);
 
 /// Reads a PCD file, in each form that read_pcd() reads. Besides x, y and z, of any type, these fields:

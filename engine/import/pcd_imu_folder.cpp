@@ -137,6 +137,8 @@ void PcdImuFolderWriter::add(const ImuSample& sample) {
 void PcdImuFolderWriter::add(const TimedPose& T_world_body) {
   const fs::path file = files_->folder / "truth.tum";
   Files::check_later(T_world_body.t_ns, files_->truth_last_ns, file);
+  if (T_world_body.t_ns >= kTimesEnd_ns)
+    refuse_folder(file, fmt::format("the time {} ns is not below 9e9 s", T_world_body.t_ns));
   if (!is_sound(T_world_body.T_world_body))
     refuse_folder(file, fmt::format("the pose at {} ns is not finite, or no rotation", T_world_body.t_ns));
   if (!files_->truth) files_->truth = std::make_unique<log::RowFile>(file, ' ', "# t x y z qx qy qz qw");

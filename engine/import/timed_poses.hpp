@@ -11,6 +11,9 @@
 
 namespace hallway::import {
 
+/// The end of the times that files in seconds may have, so that other units are refused (parse_seconds()).
+inline constexpr std::int64_t kTimesEnd_ns = 9'000'000'000'000'000'000;
+
 /// Seconds with nine decimals, exactly the time. @param t_ns  not below 0
 std::string format_seconds(std::int64_t t_ns);
 

@@ -231,6 +231,8 @@ TEST_F(KittiOdometry, TheWriterRefusesWhatIsNoSequence) {
     expect_error([&] { writer.add(t_ns, cloud, pose); }, ErrorCode::kBadInput, words);
   };
   refuses(5, {}, Pose{}, "000001.bin: the time 5 ns is not after 5 ns");
+  refuses(9'000'000'000'000'000'000, {}, Pose{},
+          "000001.bin: the time 9000000000000000000 ns is not below 9e9 s");
   refuses(6, {}, std::nullopt, "a sequence has the poses of all its clouds, or of none");
   refuses(6, {}, Pose{Quat(1, 0, 0, 1), Vec3::Zero()}, "the pose is not finite, or no rotation");
   refuses(6, {}, Pose{Quat::Identity(), Vec3(0, std::nan(""), 0)}, "the pose is not finite, or no rotation");

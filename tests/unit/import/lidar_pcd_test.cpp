@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "import/lidar_cloud.hpp"
+#include "import/point_collector.hpp"
 #include "unit/import/cloud_bytes.hpp"
 #include "unit/import/rig_scene.hpp"
 
@@ -111,6 +112,7 @@ TEST(LidarPcd, ACloudThatCannotBeWrittenIsRefused) {
   };
   refused({.points = {{1, 2, 3}, {1, kNan, 3}}}, "a.pcd: point 1 is not finite, or lies beyond 1e+09 m");
   refused({.points = {{1, 2, 1e10}}}, "a.pcd: point 0 is not finite");
+  refused({.points = PointList(kMaxFramePoints + 1)}, "a.pcd: 5592235 points, and a frame holds 5592234");
   refused({.points = {{1, 2, 3}}, .ring = {1, 2}}, "a.pcd: 2 rings for 1 points");
 }
 

@@ -200,6 +200,11 @@ TEST_F(PcdImu, TheWriterRefusesWhatIsNoRecording) {
       ErrorCode::kBadInput, "the sample at 1 ns has a number");
   expect_error(
       [&] {
+        writer.add(TimedPose{9'000'000'000'000'000'000, {}});
+      },
+      ErrorCode::kBadInput, "truth.tum: the time 9000000000000000000 ns is not below 9e9 s");
+  expect_error(
+      [&] {
         writer.add(TimedPose{1, wrong});
       },
       ErrorCode::kBadInput, "truth.tum: the pose at 1 ns is not finite");
