@@ -14,14 +14,14 @@
 #include "run/feed/manifest.hpp"
 
 namespace hallway::cli {
-namespace {
 
-using eval::Metrics;
-
-/// "1 submap", "2 submaps".
 std::string counted(std::uint64_t count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
+
+namespace {
+
+using eval::Metrics;
 
 std::string metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f} m", *value) : std::string("unknown");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Report {
   std::string name;                   ///< of the scenario or log
   std::vector<std::string> warnings;  ///< already shown on standard error
 };
+
+/// "1 submap", "2 submaps".
+std::string counted(std::uint64_t count, const char* thing);
 
 /// Rows of what a robot that a drive moves did.
 void add_drive(const Rows& row, const sim::DriveCounts& drive);
