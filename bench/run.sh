@@ -20,6 +20,16 @@ echo
 echo
 "$build/bin/bench_visibility"
 echo
+lidar_maps=("$here/../maps/office.toml")
+building=${HALLWAY_DATA:-$here/../../shared/data}/models/buildings/willowgarage/meshes/willowgarage_visual.dae
+if [[ -f $building ]]; then
+  mkdir -p "$out/lidar"
+  "$build/bin/hallway" import "$building" --copy --out "$out/lidar/willowgarage.map" > "$out/lidar/import.log" 2>&1
+  printf 'map = "willowgarage.map"\nsteps = 10\n[robot]\n[sensor.eyes]\nkind = "points"\n' > "$out/lidar/willowgarage.toml"
+  lidar_maps+=("$out/lidar/willowgarage.toml")
+fi
+"$build/bin/bench_lidar" "${lidar_maps[@]}"
+echo
 "$build/bin/bench_slam_point_speed"
 echo
 "$build/bin/bench_slam_plane_pairs"

@@ -9,6 +9,7 @@ namespace hallway::cli {
 /// Each adds its command to the program.
 void add_run_command(Command& app);
 void add_robot_command(Command& app);
+void add_sensors_command(Command& app);
 void add_scenario_command(Command& app);
 void add_replay_command(Command& app);
 void add_serve_command(Command& app);

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     add_bench_em_command(app);
     add_scenario_command(app);
     add_robot_command(app);
+    add_sensors_command(app);
     add_import_command(app);
     add_align_command(app);
     add_compile_command(app);

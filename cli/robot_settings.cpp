@@ -147,7 +147,7 @@ std::string_view unit_of(std::string_view key) {
                                                {"_hz", "Hz"},
                                                {"_m", "m"},
                                                {"_s", "s"}}};
-  if (key.ends_with("_per_m")) return {};
+  if (key.find("_per_") != std::string_view::npos) return {};
   const auto found =
       std::ranges::find_if(kUnits, [&](const Unit& unit) { return key.ends_with(unit.first); });
   return found == kUnits.end() ? std::string_view() : found->second;

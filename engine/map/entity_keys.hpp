@@ -49,6 +49,7 @@ class EntityKeys {
 
   /// An Error about this entity, at the line of `key` if it has that key.
   Error error(std::string message, std::string_view key = {}) const;
+  const Entity& entity() const { return entity_; }
   /// Index of the entity in the document.
   int index() const;
 

@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "map/key_specs.hpp"
+#include "map/sensor_schema.hpp"
 
 namespace hallway::map {
 namespace {
@@ -19,42 +21,13 @@ constexpr double kShortest_m = 1e-3;
 constexpr double kFarthest_m = 1e5;
 constexpr double kLargestAngle_deg = 3600.0;
 constexpr double kFullTurn_deg = 360.0;
-constexpr double kLargestNoise_m = 1e3;
-constexpr double kLargestNoisePerM = 1.0;
-constexpr double kLargestNoise_deg = 90.0;
-constexpr double kFarthestMount_m = 1e3;
 constexpr double kFastest_m_s = 1e3;
-constexpr double kFastestSensor_hz = 1e4;
-constexpr double kLongestDelay_s = 3600.0;
 constexpr double kFarthestOfRobot_m = 100.0;
 
-constexpr KeySpec number(std::string_view name, double low, double high, std::string_view fallback) {
-  return {.name = name, .kind = KeyKind::kNumber, .low = low, .high = high, .fallback = fallback};
-}
-
-constexpr KeySpec required_number(std::string_view name, double low, double high) {
-  return {.name = name, .kind = KeyKind::kNumber, .required = true, .low = low, .high = high};
-}
-
-constexpr KeySpec field_of_view(std::string_view name, std::string_view fallback) {
-  KeySpec key = number(name, 0.0, kFullTurn_deg, fallback);
-  key.above_low = true;
-  return key;
-}
-
-constexpr KeySpec numbers(std::string_view name, KeyKind kind, double low, double high,
-                          std::string_view fallback) {
-  return {.name = name, .kind = kind, .low = low, .high = high, .fallback = fallback};
-}
-
-constexpr KeySpec required(std::string_view name, KeyKind kind) {
-  return {.name = name, .kind = kind, .required = true};
-}
-
-constexpr KeySpec of_variant(std::string_view variant, KeySpec key) {
-  key.variant = variant;
-  return key;
-}
+using key_specs::number;
+using key_specs::of_variant;
+using key_specs::required;
+using key_specs::required_number;
 
 constexpr KeySpec kOrigin = required("origin", KeyKind::kPoint);
 constexpr KeySpec kAngle = number("angle", -kLargestAngle_deg, kLargestAngle_deg, "0");
@@ -95,40 +68,6 @@ constexpr std::array kCloud{required("name", KeyKind::kName),
                                     .fallback = "independent",
                                     .choices = "independent group"},
                             KeySpec{.name = "groups", .kind = KeyKind::kWhole, .fallback = "4"}};
-// What a scenario's sensor may be too.
-constexpr std::string_view kSeeing = "points planes";
-constexpr std::array kSensor{
-    required("name", KeyKind::kName),
-    KeySpec{.name = "kind",
-            .kind = KeyKind::kChoice,
-            .fallback = "points",
-            .choices = "points planes bump encoders"},
-    of_variant(kSeeing, field_of_view("horizontal_fov_deg", "90")),
-    of_variant(kSeeing, field_of_view("vertical_fov_deg", "60")),
-    of_variant(kSeeing, number("min_range_m", 0.0, kLongest_m, "0")),
-    of_variant(kSeeing, number("max_range_m", 0.0, kLongest_m, "100")),
-    of_variant(kSeeing, numbers("noise_m", KeyKind::kNumbers, 0.0, kLargestNoise_m, "0")),
-    of_variant("points", numbers("noise_per_m", KeyKind::kNumbers, 0.0, kLargestNoisePerM, "0")),
-    of_variant(kSeeing,
-               numbers("position_m", KeyKind::kVector, -kFarthestMount_m, kFarthestMount_m, "0 0 0")),
-    of_variant(kSeeing, number("yaw_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
-    number("rate_hz", 0.0, kFastestSensor_hz, "0"),
-    number("phase_s", 0.0, kLongestDelay_s, "0"),
-    number("latency_s", 0.0, kLongestDelay_s, "0"),
-    of_variant("points", number("pitch_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
-    of_variant("points", number("roll_deg", -kFullTurn_deg, kFullTurn_deg, "0")),
-    of_variant("planes", {.name = "bounded_sides", .kind = KeyKind::kFlag, .fallback = "0"}),
-    of_variant("planes", {.name = "occlusion", .kind = KeyKind::kFlag, .fallback = "1"}),
-    of_variant("planes", number("min_length_m", 0.0, kLongest_m, "0.05")),
-    of_variant("planes", number("noise_angle_deg", 0.0, kLargestNoise_deg, "0")),
-    of_variant("planes", number("noise_end_m", 0.0, kLargestNoise_m, "0")),
-    of_variant("bump", {.name = "zones", .kind = KeyKind::kWhole, .low = 1.0, .high = 64.0}),
-    of_variant("bump", {.name = "depth", .kind = KeyKind::kFlag, .fallback = "0"}),
-    of_variant("bump", number("skin_m", 1e-4, 1.0, "0.005")),
-    of_variant("bump", number("missed_rate", 0.0, 1.0, "0")),
-    of_variant("bump", number("false_rate", 0.0, 1.0, "0")),
-    of_variant("encoders", number("ticks_per_revolution", 1.0, 1e9, "1024")),
-    of_variant("encoders", number("radius_error_sigma", 0.0, 0.1, "0"))};
 constexpr std::array kBody{number("radius_m", kShortest_m, kFarthestOfRobot_m, ""),
                            number("bottom_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, ""),
                            number("top_m", -kFarthestOfRobot_m, kFarthestOfRobot_m, "")};
@@ -207,7 +146,7 @@ constexpr std::array kSchema{
     EntitySpec{.classname = "hw_path", .selector = "shape", .keys = kPath},
     point("hw_waypoint", kWaypoint),
     point("hw_landmark_cloud", kCloud),
-    EntitySpec{.classname = "hw_sensor", .selector = "kind", .keys = kSensor},
+    EntitySpec{.classname = "hw_sensor", .selector = "kind", .keys = kSensorKeys},
     EntitySpec{.classname = "hw_body", .shape = EntityShape::kBrushes, .brushless = true, .keys = kBody},
     EntitySpec{
         .classname = "hw_bump_zone", .shape = EntityShape::kBrushes, .brushless = true, .keys = kBumpZone},
@@ -224,6 +163,12 @@ std::span<const EntitySpec> entity_schema() {
 
 const KeySpec* EntitySpec::key(std::string_view name) const {
   const auto found = std::ranges::find(keys, name, &KeySpec::name);
+  return found == keys.end() ? nullptr : &*found;
+}
+
+const KeySpec* EntitySpec::key(std::string_view name, std::string_view variant) const {
+  const auto found = std::ranges::find_if(
+      keys, [&](const KeySpec& key) { return key.name == name && belongs(key, variant); });
   return found == keys.end() ? nullptr : &*found;
 }
 

@@ -37,6 +37,7 @@ struct KeySpec {
   std::string_view fallback{};  ///< what counts where the key is absent; empty where that is nothing
   std::string_view choices{};   ///< of a kChoice, between blanks
   std::string_view variant{};   ///< variants of the class that have the key, between blanks; empty for all
+  std::string_view about{};     ///< of a sensor: what it means, for people
 };
 
 /// Where the entities of a class have their place.
@@ -54,6 +55,8 @@ struct EntitySpec {
 
   /// The key of that name, or null; where variants have their own, the first.
   const KeySpec* key(std::string_view name) const;
+  /// The key of that name that a variant has, or null.
+  const KeySpec* key(std::string_view name, std::string_view variant) const;
 };
 
 /// All classes, as docs/formats.md and maps/trenchbroom/hallway.fgd have them; in a fixed order.

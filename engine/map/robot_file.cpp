@@ -61,8 +61,8 @@ RobotSensor read_sensor(const Document& document, const Entity& entity) {
   const EntityKeys keys(document, entity);
   RobotSensor sensor{keys.text("name"), known_keys(entity), entity.line};
   std::erase_if(sensor.keys, [](const RobotKey& key) { return key.key == "name"; });
-  const bool has_mount =
-      belongs(sensor_key("position_m"), variant_of(*find_entity_spec("hw_sensor"), entity));
+  const EntitySpec& spec = *find_entity_spec("hw_sensor");
+  const bool has_mount = spec.key("position_m", variant_of(spec, entity)) != nullptr;
   if (!keys.has("origin") || !has_mount) return sensor;
   const Vec3 mount_m = keys.origin_m();
   if (keys.has("position_m")) {

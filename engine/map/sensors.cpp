@@ -12,15 +12,20 @@ namespace {
 
 constexpr std::string_view kClass = "hw_sensor";
 
+std::string_view kind_of(const EntityKeys& keys) {
+  return variant_of(*find_entity_spec(kClass), keys.entity());
+}
+
 double number_of(const EntityKeys& keys, std::string_view name) {
-  const KeySpec& key = sensor_key(name);
+  const KeySpec& key = sensor_key(kind_of(keys), name);
   return keys.number_or(name, parse_double(key.fallback).value_or(0.0), key.low, key.high);
 }
 
 void check_keys(const EntityKeys& keys) {
   keys.refuse_unknown();
+  const std::string_view kind = kind_of(keys);
   for (const KeySpec& key : find_entity_spec(kClass)->keys) {
-    if (key.required || keys.has(key.name)) keys.check_value(key);
+    if (belongs(key, kind) && (key.required || keys.has(key.name))) keys.check_value(key);
   }
   check_sensor(keys);
 }
@@ -35,8 +40,23 @@ bool is_sensor_name(std::string_view name) {
   return !name.empty() && name.size() <= kMostBytes && std::all_of(name.begin(), name.end(), plain);
 }
 
-const KeySpec& sensor_key(std::string_view name) {
-  return entity_key(kClass, name);
+const KeySpec& sensor_key(std::string_view kind, std::string_view name) {
+  const KeySpec* key = find_entity_spec(kClass)->key(name, kind);
+  if (key != nullptr) return *key;
+  throw Error(ErrorCode::kInternal,
+              "sensors of the kind " + std::string(kind) + " have no key " + std::string(name));
+}
+
+std::vector<std::string> sensor_key_names(std::string_view kind) {
+  std::vector<std::string> names;
+  for (const KeySpec& key : find_entity_spec(kClass)->keys) {
+    if (key.name != "name" && belongs(key, kind)) names.emplace_back(key.name);
+  }
+  return names;
+}
+
+std::span<const SensorKind> sensor_kinds() {
+  return kSensorKinds;
 }
 
 void check_sensor(const EntityKeys& keys) {
@@ -45,6 +65,7 @@ void check_sensor(const EntityKeys& keys) {
                          "` is no sensor's name: 1 to 64 of the characters a-z, A-Z, 0-9, _ and -",
                      "name");
   }
+  if (find_entity_spec(kClass)->key("min_range_m", kind_of(keys)) == nullptr) return;
   const double nearest_m = number_of(keys, "min_range_m");
   const double farthest_m = number_of(keys, "max_range_m");
   if (nearest_m <= farthest_m) return;

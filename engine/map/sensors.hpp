@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "map/document.hpp"
 #include "map/entity_keys.hpp"
 #include "map/entity_schema.hpp"
+#include "map/sensor_schema.hpp"
 
 namespace hallway::map {
 
@@ -17,9 +20,15 @@ inline constexpr std::size_t kMaxSensors = 64;
 /// Whether a sensor may have that name: 1 to 64 of the characters a-z, A-Z, 0-9, _ and -.
 bool is_sensor_name(std::string_view name);
 
-/// What a key of the class `hw_sensor` may be, which is also what the key of that name in a scenario's sensor may be. Throws
+/// What a key of an `hw_sensor` of a kind may be, which is also what the key of that name in a scenario's sensor may be. Throws
 /// Error{kInternal} if there is no such key.
-const KeySpec& sensor_key(std::string_view name);
+const KeySpec& sensor_key(std::string_view kind, std::string_view name);
+
+/// The names of the keys that sensors of a kind have, but for the key `name`; in the order of the schema.
+std::vector<std::string> sensor_key_names(std::string_view kind);
+
+/// The kinds of sensors, in a fixed order.
+std::span<const SensorKind> sensor_kinds();
 
 /// Throws Error{kBadInput} if what the keys of an `hw_sensor` say together, or its name, makes no sensor: for one whose keys fit the
 /// schema each for itself.

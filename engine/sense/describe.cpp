@@ -3,6 +3,7 @@
 
 #include <hallway/sample.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -32,6 +33,13 @@ host::BumpZoneInfo zone_info(const BumpZone& zone) {
           .width_rad = is_sector ? width : kUnknown,
           .bottom_m = height_or_unknown(zone.bottom_m, BumpZone{}.bottom_m),
           .top_m = height_or_unknown(zone.top_m, BumpZone{}.top_m)};
+}
+
+/// With when it measures.
+host::SensorInfo timed(host::SensorInfo info, const SensorTiming& timing) {
+  info.rate_hz = timing.rate_hz;
+  info.latency_s = timing.latency_s;
+  return info;
 }
 
 }  // namespace
@@ -69,6 +77,54 @@ host::SensorInfo describe(const BumpSensorSpec& spec, std::uint32_t id) {
 
 host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id) {
   return {.id = id, .kind = HW_SAMPLE_ENCODER, .name = spec.name};
+}
+
+host::SensorInfo describe(const LidarSpec& spec, std::uint32_t id, double scan_s) {
+  host::SensorInfo info = timed({.id = id,
+                                 .kind = HW_SAMPLE_RANGE_SCAN,
+                                 .name = spec.name,
+                                 .T_body_sensor = abi_pose(spec.T_body_sensor),
+                                 .min_range_m = spec.min_range_m,
+                                 .max_range_m = spec.max_range_m},
+                                spec.timing);
+  info.noise_m[0] = spec.response.noise_m;
+  info.noise_per_m[0] = spec.response.noise_per_m;
+  info.intrinsics = host::RangeScanIntrinsics{.width = spec.pattern.width,
+                                              .height = spec.pattern.height,
+                                              .layers = spec.returns,
+                                              .beam_rad = spec.beam.divergence_rad,
+                                              .scan_s = scan_s};
+  return info;
+}
+
+host::SensorInfo describe(const ImuSensorSpec& spec, std::uint32_t id) {
+  host::SensorInfo info = timed(
+      {.id = id, .kind = HW_SAMPLE_IMU, .name = spec.name, .T_body_sensor = abi_pose(spec.T_body_sensor)},
+      spec.timing);
+  const bool has_force = std::ranges::find(spec.accelerometer.axes, true) != spec.accelerometer.axes.end();
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const auto limit = [](double value) { return std::isfinite(value) ? value : kUnknown; };
+  info.intrinsics =
+      host::ImuIntrinsics{.gravity_m_s2 = spec.gravity_m_s2,
+                          .angular_noise = spec.gyro.noise,
+                          .angular_walk = spec.gyro.walk,
+                          .force_noise = has_force ? spec.accelerometer.noise : kUnknown,
+                          .force_walk = has_force ? spec.accelerometer.walk : kUnknown,
+                          .max_angular_rad_s = limit(spec.gyro.limit),
+                          .max_force_m_s2 = has_force ? limit(spec.accelerometer.limit) : kUnknown};
+  return info;
+}
+
+host::SensorInfo describe(const WheelOdometrySpec& spec, std::uint32_t id) {
+  return timed({.id = id, .kind = HW_SAMPLE_ODOMETRY, .name = spec.name}, spec.timing);
+}
+
+host::SensorInfo describe(const MouseOdometrySpec& spec, std::uint32_t id) {
+  return timed({.id = id,
+                .kind = HW_SAMPLE_ODOMETRY,
+                .name = spec.name,
+                .T_body_sensor = abi_pose(spec.T_body_sensor)},
+               spec.timing);
 }
 
 }  // namespace hallway::sense

@@ -6,8 +6,12 @@
 #include "host/sensor_info.hpp"
 #include "sense/bump_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
+#include "sense/imu_sensor.hpp"
+#include "sense/lidar_sensor.hpp"
+#include "sense/mouse_odometry.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/wheel_odometry.hpp"
 
 namespace hallway::sense {
 
@@ -18,5 +22,10 @@ host::SensorInfo describe(const PlaneSensorSpec& spec, std::uint32_t id);
 
 host::SensorInfo describe(const BumpSensorSpec& spec, std::uint32_t id);
 host::SensorInfo describe(const EncoderSensorSpec& spec, std::uint32_t id);
+/// @param scan_s  how long a scan takes
+host::SensorInfo describe(const LidarSpec& spec, std::uint32_t id, double scan_s);
+host::SensorInfo describe(const ImuSensorSpec& spec, std::uint32_t id);
+host::SensorInfo describe(const WheelOdometrySpec& spec, std::uint32_t id);
+host::SensorInfo describe(const MouseOdometrySpec& spec, std::uint32_t id);
 
 }  // namespace hallway::sense

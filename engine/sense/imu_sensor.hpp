@@ -10,7 +10,6 @@
 #include "base/random.hpp"
 #include "sense/imu_means.hpp"
 #include "sense/random_walk.hpp"
-#include "sense/sensor_clock.hpp"
 #include "sense/timing.hpp"
 
 namespace hallway::sense {
@@ -36,7 +35,6 @@ struct ImuSensorSpec {
   ImuTriadSpec gyro{};            ///< rad/s
   ImuTriadSpec accelerometer{};   ///< m/s^2
   SensorTiming timing{};
-  SensorClockSpec clock{};
 };
 
 /// What plugins are given. The sensor's frame; NaN for an axis that there is not.

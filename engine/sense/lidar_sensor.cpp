@@ -52,7 +52,7 @@ LidarSensor::LidarSensor(LidarSpec spec, const trace::Scene& scene, const Surfac
                                        : beside(ray, half * kAside.at(probe)[0], half * kAside.at(probe)[1]));
   }
   find_moments(scan_ns);
-  if (body) find_own_body(*body);
+  if (body && spec_.own_body) find_own_body(*body);
 }
 
 void LidarSensor::check() const {

@@ -10,7 +10,6 @@
 #include "base/random.hpp"
 #include "sense/odometry.hpp"
 #include "sense/odometry_track.hpp"
-#include "sense/sensor_clock.hpp"
 #include "sense/timing.hpp"
 
 namespace hallway::sense {
@@ -35,7 +34,6 @@ struct MouseOdometrySpec {
       0.003;  ///< greatest height above the floor at which a mouse counts; what lifts it is for the caller
   OffPlane off_plane{};
   SensorTiming timing{};
-  SensorClockSpec clock{};
 };
 
 /// What the mice have counted since the start.

@@ -24,11 +24,16 @@ class OdometryTrack {
   using Step = std::function<void(State& state, std::uint64_t k)>;
 
   /// @param start  the state of reading 0
+  /// @param step   of at(k)
   OdometryTrack(State start, Step step)
       : step_(std::move(step)), checkpoints_{start}, last_(std::move(start)) {}
+  /// Where each call brings its own step.
+  explicit OdometryTrack(State start) : OdometryTrack(std::move(start), {}) {}
 
   /// The state of reading `k`.
-  State at(std::uint64_t k) const {
+  State at(std::uint64_t k) const { return at(k, step_); }
+  /// The same with a step of the caller's, which is the same function in every call.
+  State at(std::uint64_t k, const Step& step) const {
     const std::scoped_lock lock(mutex_);
     std::uint64_t from = last_k_;
     State state = last_;
@@ -38,7 +43,7 @@ class OdometryTrack {
       state = checkpoints_[static_cast<std::size_t>(checkpoint)];
     }
     while (from < k) {
-      step_(state, from + 1);
+      step(state, from + 1);
       ++from;
       if (from % kSpacing == 0 && from / kSpacing == checkpoints_.size()) checkpoints_.push_back(state);
     }

@@ -39,6 +39,10 @@ RayPattern spinning_pattern(const SpinSpec& spec) {
   if (spec.elevations_rad.size() > kMostRays / spec.columns)
     refuse_pattern(std::to_string(spec.elevations_rad.size()) + " rings of " + std::to_string(spec.columns) +
                    " columns are more than " + std::to_string(kMostRays) + " rays");
+  // A sweep that leaves a turn about 0 is moved by a whole one.
+  const double middle = spec.from_rad + 0.5 * (spec.columns - 1) * spec.step_rad;
+  const double last = spec.from_rad + (spec.columns - 1) * spec.step_rad;
+  const double shift = is_azimuth(last) ? 0.0 : -kTurn * std::round(middle / kTurn);
   RayPattern pattern;
   pattern.width = spec.columns;
   pattern.height = static_cast<std::uint32_t>(spec.elevations_rad.size());
@@ -48,7 +52,7 @@ RayPattern spinning_pattern(const SpinSpec& spec) {
     if (!is_elevation(elevation)) refuse_pattern("an elevation is not within a quarter turn of 0");
     for (std::uint32_t column = 0; column < spec.columns; ++column) {
       const double turned = column * spec.step_rad;
-      pattern.rays.push_back({spec.from_rad + turned, elevation, std::abs(turned) / kTurn, ring});
+      pattern.rays.push_back({spec.from_rad + shift + turned, elevation, std::abs(turned) / kTurn, ring});
     }
   }
   check_pattern(pattern);

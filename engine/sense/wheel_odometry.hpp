@@ -9,7 +9,6 @@
 #include "sense/encoder_sensor.hpp"
 #include "sense/odometry.hpp"
 #include "sense/odometry_track.hpp"
-#include "sense/sensor_clock.hpp"
 #include "sense/timing.hpp"
 
 namespace hallway::sense {
@@ -44,7 +43,6 @@ struct WheelOdometrySpec {
       0.0;  ///< of the body's sideways motion, per square root of a metre of way, from 0 [m / sqrt(m)]
   OffPlane off_plane{};
   SensorTiming timing{};
-  SensorClockSpec clock{};
 };
 
 /// Turns ticks into motion: ways of rims by the nominal radius, the twist by least squares over the wheels (each rim's speed, and no sideways motion of wheels that

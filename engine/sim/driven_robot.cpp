@@ -20,11 +20,13 @@ constexpr double kPathPoint_m = 0.02;        // from point to point of a path th
 
 /// How far back in time readings are taken.
 std::int64_t history_of(const Scenario& scenario) {
-  double latency_s = 0.0;
-  for (const SensorSpec& sensor : scenario.sensors)
-    latency_s =
-        std::max(latency_s, std::visit([](const auto& spec) { return spec.timing.latency_s; }, sensor));
-  return std::llround(latency_s * 1e9) + 2 * scenario.period_ns;
+  std::int64_t kept_ns = 0;
+  for (const SensorSpec& sensor : scenario.sensors) {
+    const sense::SensorTiming timing = std::visit([](const auto& spec) { return spec.timing; }, sensor);
+    const std::int64_t latency_ns = std::llround(timing.latency_s * 1e9);
+    kept_ns = std::max(kept_ns, latency_ns + sense::interval_ns(timing, scenario.period_ns));
+  }
+  return kept_ns + 2 * scenario.period_ns;
 }
 
 double wanted_speed(const Scenario& scenario, const map::Path& path) {

@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "base/toml_reader.hpp"
 #include "host/plugin_table.hpp"
+#include "map/sensors.hpp"
 #include "sim/drive_keys.hpp"
 #include "sim/schema.hpp"
 
@@ -53,9 +54,8 @@ std::vector<std::string> settable_keys(TomlTable& scenario, SensorNames sensors,
   for (const std::string& disturbance : kDisturbances)
     for (const std::string& key : kDisturbanceKeys) keys.push_back("robot.drive." + disturbance + "." + key);
   for (const std::string& name : names_of_sensors(scenario, sensors)) {
-    for (const std::vector<std::string>& known :
-         {kPointSensorKeys, kPlaneSensorKeys, kFaceSensorKeys, kBumpSensorKeys, kEncoderSensorKeys}) {
-      for (const std::string& key : known) keys.push_back("sensor." + name + "." + key);
+    for (const map::KeySpec& key : map::kSensorKeys) {
+      if (key.name != "name") keys.push_back("sensor." + name + "." + std::string(key.name));
     }
     keys.push_back("sensor." + name + "." + kMounted);
   }
@@ -100,9 +100,8 @@ bool set_drive(TomlTable& scenario, std::span<const std::string_view> key, TomlN
 bool set_sensor(TomlTable& scenario, SensorNames sensors, std::string_view name, std::string_view key,
                 TomlNode value) {
   if (!holds(names_of_sensors(scenario, sensors), name)) return false;
-  const bool is_known = key == kMounted || holds(kPointSensorKeys, key) || holds(kPlaneSensorKeys, key) ||
-                        holds(kFaceSensorKeys, key) || holds(kBumpSensorKeys, key) ||
-                        holds(kEncoderSensorKeys, key);
+  const bool is_known =
+      key == kMounted || (key != "name" && map::find_entity_spec("hw_sensor")->key(key) != nullptr);
   if (!is_known) return false;
   TomlTable* all = table_in(scenario, "sensor");
   TomlTable* table = all != nullptr ? table_in(*all, name) : nullptr;

@@ -2,6 +2,7 @@
 #include "sim/path_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/look_along_rates.hpp"
 
@@ -28,7 +29,9 @@ Pose PathMotion::pose_at(std::int64_t t_ns) const {
 sense::Kinematics PathMotion::kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const {
   const bool is_after = side == sense::Side::kAfter;
   const double way_m = way_at(t_ns) + speed_m_s_ * after_s;
-  const bool stands = speed_m_s_ == 0.0 || (is_after ? way_m >= stop_m_ : way_m > stop_m_);
+  // breaks_in() gives the moment of the stop as a difference, rounded.
+  const bool at_stop = std::isfinite(stop_m_) && std::abs(way_m - stop_m_) <= 1e-9 * std::max(1.0, stop_m_);
+  const bool stands = speed_m_s_ == 0.0 || (at_stop ? is_after : way_m > stop_m_);
   sense::Kinematics now;
   if (stands) {
     now.T_world_body = path_.at(std::min(way_m, stop_m_));

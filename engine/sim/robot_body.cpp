@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <variant>
 
 #include "geom/box.hpp"
@@ -88,6 +89,23 @@ std::vector<Vec2> outline_of(const RobotSpec& robot) {
   if (box == nullptr) return {};
   const double x = box->half_length_m, y = box->half_width_m;
   return {{x, y}, {-x, y}, {-x, -y}, {x, -y}};
+}
+
+std::optional<sense::OwnBody> own_body_of(const RobotSpec& robot) {
+  if (!has_body(robot)) return std::nullopt;
+  sense::OwnBody body;
+  std::tie(body.bottom_m, body.top_m) = height_of(robot);
+  if (!robot.hull.empty()) {
+    std::vector<Vec2> outline;
+    for (const Vec3& corner : robot.hull) outline.emplace_back(corner.x(), corner.y());
+    body.corners = convex_hull(std::move(outline));
+  } else if (const auto* box = std::get_if<bsp::UprightBox>(&*robot.body)) {
+    const double l = box->half_length_m, w = box->half_width_m;
+    body.corners = {{-l, -w}, {l, -w}, {l, w}, {-l, w}};
+  } else {
+    body.radius_m = std::get<bsp::Cylinder>(*robot.body).radius_m;
+  }
+  return body;
 }
 
 }  // namespace hallway::sim

@@ -7,6 +7,7 @@
 
 #include "contact/shape.hpp"
 #include "map/robot_shape.hpp"
+#include "sense/own_body.hpp"
 #include "sim/scenario.hpp"
 
 namespace hallway::sim {
@@ -33,5 +34,8 @@ contact::BodyShape shape_of(const RobotSpec& robot, double low);
 double gyration_of(const RobotSpec& robot);
 /// Seen from above, counter-clockwise; empty for a cylinder.
 std::vector<Vec2> outline_of(const RobotSpec& robot);
+
+/// The body as the robot's own sensors see it; none of a robot that is a point.
+std::optional<sense::OwnBody> own_body_of(const RobotSpec& robot);
 
 }  // namespace hallway::sim

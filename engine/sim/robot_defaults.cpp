@@ -103,10 +103,11 @@ class Defaults {
   void fill_sensor(TomlTable& sensor, const map::RobotSensor& from) const {
     const auto own = std::ranges::find(from.keys, "kind", &map::RobotKey::key);
     if (own != from.keys.end()) give(sensor, "kind", {.value = own->value}, own->line);
-    const std::vector<std::string>& known = sensor_keys(sensor);
+    const map::EntitySpec& spec = *map::find_entity_spec("hw_sensor");
+    const std::string kind = sensor_kind(sensor);
     for (const map::RobotKey& key : from.keys) {
-      if (std::ranges::find(known, key.key) != known.end())
-        give(sensor, key.key, scenario_value(map::entity_key("hw_sensor", key.key), key.value), key.line);
+      if (spec.key(key.key, kind) != nullptr)
+        give(sensor, key.key, scenario_value(*spec.key(key.key, kind), key.value), key.line);
     }
   }
 
@@ -175,7 +176,7 @@ std::vector<SensorSpec> sensors_of(const map::RobotFile& robot) {
   const std::vector<sense::BumpZone> zones = bump_zones_of(robot);
   for (const TomlEntry& entry : *table_of(root, "sensor")) {
     const auto& table = std::get<TomlTable>(entry.node.value);
-    sensors.push_back(read_sensor(entry.key, {robot.file, table, entry.node.line, unused, zones}, 0));
+    sensors.push_back(read_sensor(entry.key, {robot.file, table, entry.node.line, unused, zones}, 0).spec);
   }
   return sensors;
 }

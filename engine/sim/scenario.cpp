@@ -207,7 +207,7 @@ class ScenarioReader {
         std::ranges::find(robot_file_->sensors, name, &map::RobotSensor::name) != robot_file_->sensors.end();
     const auto kind = of_file ? std::optional<std::size_t>(0) : std::nullopt;
     if (is_mounted(name, table(scenario_.settings))) {
-      scenario_.sensors.push_back(read_sensor(name, table(scenario_.settings), kind));
+      add_sensor(scenario_, name, read_sensor(name, table(scenario_.settings), kind));
       return;
     }
     std::vector<Setting> unused;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,8 +18,12 @@
 #include "map/document.hpp"
 #include "sense/bump_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
+#include "sense/imu_sensor.hpp"
+#include "sense/lidar_sensor.hpp"
+#include "sense/mouse_odometry.hpp"
 #include "sense/plane_sensor.hpp"
 #include "sense/point_sensor.hpp"
+#include "sense/wheel_odometry.hpp"
 #include "sim/driven_spec.hpp"
 #include "sim/event.hpp"
 #include "sim/setting.hpp"
@@ -88,9 +93,15 @@ struct PictureSpec {
   PictureSpec at(std::uint32_t shown_iteration) const;
 };
 
-/// What a sensor is, of one kind or another.
-using SensorSpec = std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec, sense::BumpSensorSpec,
-                                sense::EncoderSensorSpec>;
+/// Encoders of the wheels of the drive, or, of a robot that a path moves, of two wheels that it would have.
+struct EncoderSpec : sense::EncoderSensorSpec {
+  double wheel_base_m = 0.3;  ///< on a path: between left and right wheel
+};
+
+/// What a sensor is, of one kind or another. Mounts are as plugins are told.
+using SensorSpec =
+    std::variant<sense::PointSensorSpec, sense::PlaneSensorSpec, sense::BumpSensorSpec, EncoderSpec,
+                 sense::LidarSpec, sense::ImuSensorSpec, sense::WheelOdometrySpec, sense::MouseOdometrySpec>;
 
 /// Keys of an `hw_landmark_cloud` of the map that a scenario sets in its place.
 struct CloudSpec {
@@ -115,9 +126,11 @@ struct Scenario {
       sensors;  ///< those of the robot file first, in its order; then in the order of the scenario
   bool takes_map_sensors = true;  ///< neither the scenario nor its robot file has any: those of the map count
   std::vector<sense::BumpZone> bump_zones{};  ///< of the robot file, for bumpers that say no number of zones
-  std::vector<CloudSpec> clouds;              ///< in the order of the file
-  std::vector<EventSpec> events;              ///< by time, those of one time in the order of the file
-  std::vector<host::StageSpec> pipeline;      ///< in the order of the file
+  /// By sensor where it is mounted otherwise in truth: the true sensor's pose in the frame of the one that is told.
+  std::map<std::string, Pose> mount_errors{};
+  std::vector<CloudSpec> clouds;          ///< in the order of the file
+  std::vector<EventSpec> events;          ///< by time, those of one time in the order of the file
+  std::vector<host::StageSpec> pipeline;  ///< in the order of the file
   std::vector<PictureSpec> pictures;
   std::vector<Setting> settings;  ///< every effective setting, defaults included, in a fixed order
 

@@ -13,38 +13,6 @@ inline const std::vector<std::string> kTopKeys{
 inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
                                                  "length_m", "width_m",   "bottom_m",   "top_m",
                                                  "start",    "drive",     "file"};
-/// By kind of sensor, in the order of map::entity_schema()'s kinds.
-inline const std::vector<std::string> kPointSensorKeys{
-    "kind",        "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m", "noise_m",
-    "noise_per_m", "position_m",         "yaw_deg",          "pitch_deg",   "roll_deg",    "rate_hz",
-    "phase_s",     "latency_s"};
-inline const std::vector<std::string> kPlaneSensorKeys{
-    "kind",          "horizontal_fov_deg", "vertical_fov_deg", "min_range_m", "max_range_m",
-    "bounded_sides", "occlusion",          "min_length_m",     "noise_m",     "noise_angle_deg",
-    "noise_end_m",   "position_m",         "yaw_deg",          "rate_hz",     "phase_s",
-    "latency_s"};
-/// Of scenarios alone.
-inline const std::vector<std::string> kFaceSensorKeys{"kind",
-                                                      "horizontal_fov_deg",
-                                                      "vertical_fov_deg",
-                                                      "min_range_m",
-                                                      "max_range_m",
-                                                      "occlusion",
-                                                      "min_length_m",
-                                                      "noise_m",
-                                                      "noise_angle_deg",
-                                                      "noise_end_m",
-                                                      "position_m",
-                                                      "yaw_deg",
-                                                      "pitch_deg",
-                                                      "roll_deg",
-                                                      "rate_hz",
-                                                      "phase_s",
-                                                      "latency_s"};
-inline const std::vector<std::string> kBumpSensorKeys{
-    "kind", "zones", "depth", "skin_m", "missed_rate", "false_rate", "rate_hz", "phase_s", "latency_s"};
-inline const std::vector<std::string> kEncoderSensorKeys{
-    "kind", "ticks_per_revolution", "radius_error_sigma", "rate_hz", "phase_s", "latency_s"};
 /// Of sensors of all kinds, in scenarios alone.
 inline constexpr const char* kMounted = "mounted";
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",

@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "map/document.hpp"
@@ -23,8 +25,14 @@ struct SensorTable {
   std::span<const sense::BumpZone> zones{};  ///< of a bumper that says no number of zones; none: its default
 };
 
-/// The keys that a sensor of the table's kind has; those of points where it names none, and those of points and planes where that is none.
-std::vector<std::string> sensor_keys(const TomlTable& table);
+/// A sensor, and where it is in truth.
+struct MountedSpec {
+  SensorSpec spec{};
+  std::optional<Pose> mount_error{};  ///< none: where it is told to be
+};
+
+/// The kind that a sensor's table names; "points" where it names none.
+std::string sensor_kind(const TomlTable& table);
 
 /// The value of a map's key as a scenario would have it, with line 0.
 TomlNode scenario_value(const map::KeySpec& key, const std::string& value);
@@ -35,8 +43,21 @@ bool is_mounted(const std::string& name, const SensorTable& where);
 /// What a sensor's table says. Ranges and defaults are those of a map's sensors (map::sensor_key()).
 /// @param kind  counts where the table has no `kind`; none: it must have one
 /// Throws Error for a value that is wrong, and for a key that sensors of its kind do not have, as TableReader does.
-SensorSpec read_sensor(const std::string& name, const SensorTable& where,
-                       const std::optional<std::size_t>& kind = std::nullopt);
+MountedSpec read_sensor(const std::string& name, const SensorTable& where,
+                        const std::optional<std::size_t>& kind = std::nullopt);
+
+/// Appends it to a scenario's sensors.
+void add_sensor(Scenario& scenario, const std::string& name, MountedSpec sensor);
+
+/// Values of keys for a class of hardware, as a map has them.
+struct SensorPreset {
+  std::string_view kind;  ///< of the sensor
+  std::string_view name;
+  std::span<const std::pair<std::string_view, std::string_view>> values;
+};
+
+/// In a fixed order.
+std::span<const SensorPreset> sensor_presets();
 
 /// Gives a scenario that has no sensors those of its map (entities `hw_sensor`, in the order of the file), and notes their settings.
 /// Throws Error{kBadInput} with the map's file and line for one that is wrong.

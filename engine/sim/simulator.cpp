@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/text.hpp"
@@ -23,6 +24,7 @@
 #include "sense/occluders.hpp"
 #include "sim/clouds.hpp"
 #include "sim/obstacle.hpp"
+#include "sim/robot_body.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::sim {
@@ -132,6 +134,21 @@ void check_robot_starts(const map::Document& document, const world::CompiledWorl
   }
 }
 
+/// Encoders and odometers have the wheels of the drive.
+void take_drive(Scenario& scenario) {
+  if (!scenario.robot.driven) return;
+  const drive::DriveSpec& drive = scenario.robot.driven->drive;
+  const auto n = drive::wheel_count(drive.kind);
+  for (SensorSpec& spec : scenario.sensors) {
+    if (auto* encoders = std::get_if<EncoderSpec>(&spec)) encoders->wheel_radius_m = drive.wheel_radius_m;
+    auto* odometer = std::get_if<sense::WheelOdometrySpec>(&spec);
+    if (odometer == nullptr) continue;
+    odometer->encoder.wheel_radius_m = drive.wheel_radius_m;
+    odometer->wheels = n == 4 ? sense::mecanum_odometry_wheels(drive.wheel_base_m, drive.axle_distance_m)
+                              : sense::two_odometry_wheels(drive.wheel_base_m);
+  }
+}
+
 std::string place_text(const Vec3& place) {
   const auto rounded = [](double value) { return format_double(std::round(value * 100.0) / 100.0 + 0.0); };
   return "(" + rounded(place.x()) + ", " + rounded(place.y()) + ", " + rounded(place.z()) + ")";
@@ -154,8 +171,8 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       landmarks_(find_landmarks(with_clouds(document_, scenario), world_, models_)),
       landmark_index_(make_index(landmarks_.places, world_)) {
   take_map_sensors(scenario_, document_);
-  make_sensors();
-  find_times_off();
+  take_drive(scenario_);
+  rig_ = std::make_unique<const Rig>(scenario_, sensed_world());
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
   check_robot_starts(document_, world_);
@@ -168,73 +185,23 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   }
   if (!driven_world_) {
     stop_at_obstacle();
-    check_poses();
+    rig_->check_ways(path_motion(), scenario_.period_ns * (std::int64_t{scenario_.steps} - 1));
   }
   report_silent_sensors();
 }
 
-/// A frame is as large as what arrives in it.
-void Simulator::check_rate(const SensorSpec& spec) const {
-  constexpr double kMostInAFrame = 10'000.0;
-  std::visit(
-      [this](const auto& sensor) {
-        const double in_a_frame = sensor.timing.rate_hz * scenario_.period_s();
-        if (in_a_frame <= kMostInAFrame) return;
-        throw Error(ErrorCode::kBadInput,
-                    "a frame would hold " + format_double(std::round(in_a_frame)) + " readings, more than " +
-                        format_double(kMostInAFrame),
-                    Where{printable(scenario_.file), 0, "sensor `" + printable(sensor.name) + "`"});
-      },
-      spec);
-}
-
-void Simulator::make_sensors() {
-  sensors_.reserve(scenario_.sensors.size());
-  for (SensorSpec& spec : scenario_.sensors) {
-    check_rate(spec);
-    clocks_.push_back(std::visit(
-        [this](const auto& sensor) { return sense::ReadingClock(sensor.timing, scenario_.period_ns); },
-        spec));
-    plans_.emplace_back();
-    face_plans_.emplace_back();
-    if (auto* encoders = std::get_if<sense::EncoderSensorSpec>(&spec); encoders != nullptr && driven_world_)
-      encoders->wheel_radius_m = scenario_.robot.driven->drive.wheel_radius_m;
-    make_sensor(spec);
-  }
-}
-
-void Simulator::make_sensor(const SensorSpec& spec) {
-  const auto demand_drive = [&](const std::string& name) {
-    if (!driven_world_)
-      throw Error(ErrorCode::kBadInput, "needs a [robot.drive], whose body or wheels it senses",
-                  Where{printable(scenario_.file), 0, "sensor `" + printable(name) + "`"});
-  };
-  if (const auto* bump = std::get_if<sense::BumpSensorSpec>(&spec)) {
-    demand_drive(bump->name);
-    sensors_.emplace_back(std::in_place_type<sense::BumpSensor>, *bump, scenario_.seed);
-  } else if (const auto* encoders = std::get_if<sense::EncoderSensorSpec>(&spec)) {
-    demand_drive(encoders->name);
-    sensors_.emplace_back(std::in_place_type<sense::EncoderSensor>, *encoders,
-                          drive::wheel_count(scenario_.robot.driven->drive.kind), scenario_.seed);
-  } else if (const auto* points = std::get_if<sense::PointSensorSpec>(&spec)) {
-    sensors_.emplace_back(std::in_place_type<sense::PointSensor>, *points, landmark_index_, scene_,
-                          scenario_.seed);
-  } else {
-    make_plane_sensor(std::get<sense::PlaneSensorSpec>(spec));
-  }
-}
-
-void Simulator::make_plane_sensor(const sense::PlaneSensorSpec& spec) {
-  if (spec.shape == sense::PlaneShape::faces) {
-    const auto wanted = [&](std::size_t polygon) { return is_seen(world_, polygon); };
-    face_plans_.back() =
-        std::make_unique<const sense::FacePlan>(sense::make_face_plan(world_.partition.surface, wanted));
-    sensors_.emplace_back(std::in_place_type<sense::FaceSensor>, spec, *face_plans_.back(), scenario_.seed);
-    return;
-  }
-  const double height_m = (start() * spec.T_body_sensor).t.z();
-  plans_.back() = std::make_unique<const sense::WallPlan>(walls_at(height_m));
-  sensors_.emplace_back(std::in_place_type<sense::PlaneSensor>, spec, *plans_.back(), scenario_.seed);
+/// What sensors take from the world.
+SensedWorld Simulator::sensed_world() const {
+  const auto wanted = [this](std::size_t polygon) { return is_seen(world_, polygon); };
+  return {
+      .scene = scene_,
+      .landmarks = landmark_index_,
+      .moving = landmarks_.moving,
+      .walls = [this](double height_m) { return walls_at(height_m); },
+      .faces = [this, wanted] { return sense::make_face_plan(world_.partition.surface, wanted); },
+      .triangles = [this] { return sense::make_occluders(world_.partition.surface, triangles_of(models_)); },
+      .T_world_start = start(),
+      .threads = threads_};
 }
 
 sense::WallPlan Simulator::walls_at(double height_m) const {
@@ -242,45 +209,11 @@ sense::WallPlan Simulator::walls_at(double height_m) const {
   return sense::make_wall_plan(world_.partition.surface, wanted, height_m, triangles_of(models_));
 }
 
-/// Sensors of walls demand a level way; before the run, for it is long.
-void Simulator::check_poses() const {
-  const std::int64_t end_ns = scenario_.period_ns * (std::int64_t{scenario_.steps} - 1);
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[i]);
-    const std::uint64_t n = planes != nullptr ? clocks_[i].arrived_by(end_ns) : 0;
-    for (std::uint64_t k = 0; k < n; ++k)
-      planes->check_pose(pose_at_time(clocks_[i].time_of(k)), static_cast<std::uint32_t>(k));
-  }
-}
-
-void Simulator::find_times_off() {
-  switches_.resize(scenario_.sensors.size());
-  const auto name_of = [](const SensorSpec& sensor) {
-    return std::visit([](const auto& spec) { return spec.name; }, sensor);
-  };
-  for (const EventSpec& event : scenario_.events) {
-    if (event.kind != EventKind::kSensorOff && event.kind != EventKind::kSensorOn) continue;
-    const auto sensor = std::ranges::find(scenario_.sensors, event.sensor, name_of);
-    if (sensor == scenario_.sensors.end())
-      throw Error(
-          ErrorCode::kBadInput, "there is no sensor `" + printable(event.sensor) + "`",
-          Where{printable(scenario_.file), event.line, "a " + std::string(event_kind_name(event.kind))});
-    auto& times = switches_[static_cast<std::size_t>(sensor - scenario_.sensors.begin())];
-    const bool is_off = times.size() % 2 == 1;
-    if (is_off != (event.kind == EventKind::kSensorOff)) times.push_back(event.t_ns);
-  }
-}
-
-bool Simulator::is_off(std::size_t sensor, std::int64_t t_ns) const {
-  const auto later = std::ranges::upper_bound(switches_[sensor], t_ns);
-  return (later - switches_[sensor].begin()) % 2 == 1;
-}
-
 /// Of a sensor whose first reading arrives after the last frame.
 void Simulator::report_silent_sensors() {
   const std::int64_t end_ns = scenario_.period_ns * (std::int64_t{scenario_.steps} - 1);
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    if (clocks_[i].arrived_by(end_ns) > 0) continue;
+  for (std::size_t i = 0; i < rig_->size(); ++i) {
+    if (rig_->clock(i).arrived_by(end_ns) > 0) continue;
     const std::string& name =
         std::visit([](const auto& spec) -> const std::string& { return spec.name; }, scenario_.sensors[i]);
     problems_.emplace_back(ErrorCode::kBadInput, "no reading arrives by the last frame",
@@ -339,47 +272,8 @@ Frame Simulator::step(std::uint32_t index, const Motion& motion) const {
   frame.step = index;
   frame.t_ns = scenario_.period_ns * std::int64_t{index};
   frame.T_world_body = motion.pose_at(frame.t_ns);
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    const std::uint64_t first = index == 0 ? 0 : clocks_[i].arrived_by(frame.t_ns - scenario_.period_ns);
-    const std::uint64_t end = clocks_[i].arrived_by(frame.t_ns);
-    for (std::uint64_t k = first; k < end; ++k) {
-      if (is_off(i, clocks_[i].time_of(k))) continue;
-      frame.readings.push_back({.sensor = i, .sequence = k, .t_ns = clocks_[i].time_of(k)});
-      if (!read(i, motion, frame.readings.back())) frame.readings.pop_back();
-    }
-  }
+  rig_->read(index == 0 ? -1 : frame.t_ns - scenario_.period_ns, frame.t_ns, motion, frame.readings);
   return frame;
-}
-
-/// False where the sensor gives no reading.
-bool Simulator::read(std::size_t sensor, const Motion& motion, Reading& reading) const {
-  const auto sequence = static_cast<std::uint32_t>(reading.sequence);
-  const Pose T_world_body = reading.T_world_body = motion.pose_at(reading.t_ns);
-  if (const auto* bump = std::get_if<sense::BumpSensor>(&sensors_[sensor])) {
-    const std::int64_t last_ns = reading.sequence == 0 ? -1 : clocks_[sensor].time_of(reading.sequence - 1);
-    const std::vector<sense::BumpContact> contacts = motion.contacts_in(last_ns, reading.t_ns);
-    reading.bump = bump->read(contacts, sequence);
-    reading.bump_truth = bump->truth(contacts);
-    return true;
-  }
-  if (const auto* encoders = std::get_if<sense::EncoderSensor>(&sensors_[sensor])) {
-    const std::vector<double> travel_m = motion.wheel_travel_at(reading.t_ns);
-    reading.encoders = encoders->read(travel_m);
-    reading.encoder_truth = encoders->truth(travel_m);
-    return true;
-  }
-  if (const auto* planes = std::get_if<sense::PlaneSensor>(&sensors_[sensor])) {
-    if (driven_world_ && !planes->sees_from(T_world_body)) return false;
-    planes->observe(T_world_body, sequence, reading.planes);
-  } else if (const auto* faces = std::get_if<sense::FaceSensor>(&sensors_[sensor])) {
-    faces->observe(T_world_body, sequence, reading.planes);
-  } else {
-    std::vector<sense::LandmarkPlace> moved;
-    landmarks_.moving.places_at(static_cast<double>(reading.t_ns) / 1e9, moved);
-    std::get<sense::PointSensor>(sensors_[sensor])
-        .observe(T_world_body, sequence, moved, threads_, reading.observations);
-  }
-  return true;
 }
 
 }  // namespace hallway::sim

@@ -23,25 +23,13 @@
 #include "sim/models.hpp"
 #include "sim/motion.hpp"
 #include "sim/path_motion.hpp"
+#include "sim/reading.hpp"
+#include "sim/rig.hpp"
 #include "sim/scenario.hpp"
 #include "trace/scene.hpp"
 #include "world/compiled_world.hpp"
 
 namespace hallway::sim {
-
-/// What one sensor saw at one moment.
-struct Reading {
-  std::size_t sensor = 0;                               ///< index in Scenario::sensors
-  std::uint64_t sequence = 0;                           ///< counts the sensor's readings
-  std::int64_t t_ns = 0;                                ///< when it was taken
-  std::vector<sense::PointObservation> observations{};  ///< of a sensor of points
-  std::vector<PlaneObservation> planes{};               ///< of a sensor of planes
-  sense::BumpReading bump{};                            ///< of a bumper
-  sense::BumpTruth bump_truth{};
-  sense::EncoderReading encoders{};  ///< of encoders
-  sense::EncoderTruth encoder_truth{};
-  Pose T_world_body{};  ///< the truth at its time
-};
 
 /// One moment of a run.
 struct Frame {
@@ -103,29 +91,22 @@ class Simulator {
   const sense::MovingLandmarks& moving_landmarks() const { return landmarks_.moving; }
   /// The walls that a sensor of planes sees; the index is the wall's number. Null for a sensor of another kind.
   /// @param sensor  index in Scenario::sensors
-  const sense::WallPlan* walls(std::size_t sensor) const { return plans_[sensor].get(); }
+  const sense::WallPlan* walls(std::size_t sensor) const { return rig_->walls(sensor); }
   /// The faces that a sensor of faces sees; the index is the face's number. Null for a sensor of another kind.
-  const sense::FacePlan* faces(std::size_t sensor) const { return face_plans_[sensor].get(); }
+  const sense::FacePlan* faces(std::size_t sensor) const { return rig_->faces(sensor); }
+  /// A sensor of the kind lidar.
+  /// @param sensor  index in Scenario::sensors
+  const sense::LidarSensor& lidar(std::size_t sensor) const { return *rig_->lidar(sensor); }
   /// The walls at a height, metres, as a sensor of planes there sees them. O(n log n) in the surface.
   sense::WallPlan walls_at(double height_m) const;
   /// Metres of path from frame to frame.
   double step_length_m() const { return step_length_m_; }
 
  private:
-  using Sensor = std::variant<sense::PointSensor, sense::PlaneSensor, sense::FaceSensor, sense::BumpSensor,
-                              sense::EncoderSensor>;
-
-  void check_rate(const SensorSpec& spec) const;
-  void make_sensors();
   void stop_at_obstacle();
-  void check_poses() const;
   void report_silent_sensors();
-  void find_times_off();
-  bool is_off(std::size_t sensor, std::int64_t t_ns) const;
   Pose pose_after(double distance_m) const;
-  bool read(std::size_t sensor, const Motion& motion, Reading& reading) const;
-  void make_sensor(const SensorSpec& spec);
-  void make_plane_sensor(const sense::PlaneSensorSpec& spec);
+  SensedWorld sensed_world() const;
   Pose start() const { return driven_world_ ? driven_world_->start() : path_.at(0.0); }
 
   Scenario scenario_;
@@ -140,11 +121,7 @@ class Simulator {
   trace::Scene scene_;
   Landmarks landmarks_;
   sense::LandmarkIndex landmark_index_;
-  std::vector<std::unique_ptr<const sense::WallPlan>> plans_;       ///< by sensor
-  std::vector<std::unique_ptr<const sense::FacePlan>> face_plans_;  ///< by sensor
-  std::vector<Sensor> sensors_;
-  std::vector<sense::ReadingClock> clocks_;          ///< by sensor
-  std::vector<std::vector<std::int64_t>> switches_;  ///< by sensor: when it goes off, on, off, …
+  std::unique_ptr<const Rig> rig_;
   std::vector<Error> problems_;
 };
 

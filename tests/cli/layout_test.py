@@ -34,7 +34,7 @@ MEANS_A_KIND = {
     "engine/host/samples/range_scan_kind.cpp": "the row of rays", "engine/host/samples/odometry_kind.cpp": "the row of odometry",
     "engine/host/samples/imu_kind.cpp": "the row of IMUs",
     "engine/host/robot_parts.cpp": "checks the intrinsics of kinds", "engine/link/description_parts.cpp": "the intrinsics of kinds on the wire",
-    "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/plane_truth.cpp": "planes in points",
+    "engine/run/scoring/iteration_maker.cpp": "whose associations are scored", "engine/run/scoring/truth_of.hpp": "the noise of landmarks and planes", "engine/run/scoring/plane_truth.cpp": "planes in points",
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "shows points",
     "engine/run/pictures/history.cpp": "draws points and planes",
     "engine/run/feed/observation_tables.cpp": "writes tables of points and of planes", "engine/run/feed/found_table.hpp": "writes a table of planes",

@@ -23,7 +23,7 @@ class IcpOffice : public testing::Test {
     return scenario;
   }
 
-  Seen seen(std::uint32_t step) const { return simulator_.step(step).readings.front().observations; }
+  Seen seen(std::uint32_t step) const { return simulator_.step(step).readings.front().observations(); }
   /// Where the sensor is, seen from where it was at first.
   Pose truth(std::uint32_t step) const {
     const Pose& mount = std::get<sense::PointSensorSpec>(scenario_.sensors.front()).T_body_sensor;

@@ -35,7 +35,7 @@ TEST(Office, EveryObservationHasAFreeLineOfSight) {
   for (std::uint32_t step = 0; step < office.scenario.steps; step += stride) {
     const sim::Frame frame = office.simulator.step(step);
     const Vec3 eye = office.viewpoint(frame);
-    for (const sense::PointObservation& seen : frame.readings.front().observations) {
+    for (const sense::PointObservation& seen : frame.readings.front().observations()) {
       ASSERT_FALSE(office.oracle.occluded(office.simulator.landmarks()[seen.landmark], eye))
           << "landmark " << seen.landmark << " at step " << step;
       ++checked;
@@ -59,7 +59,7 @@ TEST(Office, WallsHideMostOfWhatIsInTheFieldOfView) {
                           std::abs(std::atan2(p.z(), p.x())) <= 0.5 * sensor.vertical_fov;
       in_view += inside ? 1 : 0;
     }
-    seen += frame.readings.front().observations.size();
+    seen += frame.readings.front().observations().size();
   }
   EXPECT_GT(in_view, 2 * seen) << "the walls hide too little for the test above to mean anything";
   EXPECT_GT(seen, 0u);
@@ -68,7 +68,7 @@ TEST(Office, WallsHideMostOfWhatIsInTheFieldOfView) {
 TEST(Office, RobotSeesEnoughToKnowWhereItIs) {
   const Office office;
   for (std::uint32_t step = 0; step < office.scenario.steps; ++step) {
-    EXPECT_GE(office.simulator.step(step).readings.front().observations.size(), 10u) << "step " << step;
+    EXPECT_GE(office.simulator.step(step).readings.front().observations().size(), 10u) << "step " << step;
   }
 }
 

@@ -39,7 +39,11 @@ class GivesMadeUp final : public hallway::sdk::Driver {
   Reading read(std::int64_t) override {
     if (given_ == kFrames) return {HW_READ_END, nullptr};
     const auto t_ns = static_cast<std::int64_t>(given_ * 1000);
-    points_ = {sizeof points_, sizeof point_, 1, &point_, nullptr, 0, 0, nullptr};
+    points_ = {};
+    points_.size = sizeof points_;
+    points_.stride = sizeof point_;
+    points_.count = 1;
+    points_.points = &point_;
     seen_ = {sizeof seen_, HW_SAMPLE_POINTS, 0, 0, given_, t_ns, t_ns, &points_};
     smelt_ = {sizeof smelt_, hallway::test::kMadeUpSample, 0, 1, given_, t_ns, t_ns, &made_up_};
     frame_ = {sizeof frame_, 2, given_, t_ns, samples_};

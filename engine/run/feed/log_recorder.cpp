@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "run/feed/log_recorder.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "geom/arrays.hpp"
+#include "host/samples/sample_kind.hpp"
 
 namespace hallway::run {
 LogRecorder::LogRecorder(log::ByteOutput& output, const Source& source,
@@ -26,6 +28,18 @@ void LogRecorder::add_view(bool has_answers) {
   if (source_.true_landmarks()) view_->set_true_landmarks(*source_.true_landmarks());
 }
 
+namespace {
+
+/// Whether elements of a sample may be seen landmarks or planes. A reading without any element still says that it saw none.
+bool names_landmarks(const SourceFrame& frame, std::uint32_t k) {
+  const host::SampleKind* kind = host::find_sample_kind(frame.sample(k).kind);
+  if (kind != nullptr && kind->arrays.empty()) return false;
+  const auto ids = frame.identities_of(k);
+  return ids.empty() || !std::ranges::all_of(ids, [](log::LandmarkId id) { return id == log::kNoLandmark; });
+}
+
+}  // namespace
+
 void LogRecorder::record_input(const SourceFrame& frame) {
   const auto bytes = frame.bytes();
   recorder_.record_frame({static_cast<std::uint32_t>(frame.samples().sequence), frame.t_ns()},
@@ -33,8 +47,9 @@ void LogRecorder::record_input(const SourceFrame& frame) {
   log::RunLogWriter& writer = recorder_.writer();
   const log::FrameStamp& stamp = recorder_.stamp();
   if (view_) view_->add_frame(stamp, frame.samples());
-  for (std::uint32_t k = 0; source_.has_identities() && k < frame.n_samples(); ++k)
-    writer.add_identities(stamp, k, frame.identities_of(k));
+  for (std::uint32_t k = 0; source_.has_identities() && k < frame.n_samples(); ++k) {
+    if (names_landmarks(frame, k)) writer.add_identities(stamp, k, frame.identities_of(k));
+  }
   for (const log::SampleTruth& truth : frame.sample_truths) writer.add_sample_truth(stamp, truth);
   if (!frame.T_world_body) return;
   const Pose& pose = *frame.T_world_body;

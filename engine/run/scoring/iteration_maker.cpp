@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "run/scoring/iteration_maker.hpp"
 
+#include <algorithm>
+
+#include "geom/arrays.hpp"
 #include "record/answer_tables.hpp"
 #include "run/sources/abi_pose.hpp"
 
 namespace hallway::run {
+
+namespace {
+
+/// Where the body truly was when a sample ended at that time; empty where none did or that is not known.
+std::optional<Pose> truth_at(const SourceFrame& frame, std::int64_t t_ns) {
+  for (std::uint32_t k = 0; k < frame.n_samples(); ++k) {
+    if (frame.sample(k).t_end_ns != t_ns) continue;
+    const auto truth = std::ranges::find(frame.sample_truths, k, &log::SampleTruth::sample);
+    if (truth == frame.sample_truths.end() || !truth->position_m) continue;
+    const auto& [w, x, y, z] = truth->orientation;
+    return Pose{Quat(w, x, y, z), to_vec3(*truth->position_m)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 IterationMaker::IterationMaker(const Source& source)
     : sensor_poses_(source.sensors()),
@@ -44,8 +63,13 @@ eval::Iteration IterationMaker::make(const FrameAnswer& answer) {
                             .identities = identities_,
                             .points = points_};
   if (answer.outputs == nullptr) return iteration;
-  if (const auto& pose = answer.outputs->pose(); pose && pose->valid)
+  if (const auto& pose = answer.outputs->pose(); pose && pose->valid) {
     iteration.T_map_body = pose_of(pose->T_map_body);
+    if (pose->t_ns != 0 && pose->t_ns != frame.t_ns()) {
+      iteration.T_world_body = truth_at(frame, pose->t_ns);
+      iteration.t_s = static_cast<double>(pose->t_ns) * 1e-9;
+    }
+  }
   iteration.wall_ms = record::milliseconds(answer.time.wall_ns);
   iteration.cpu_ms = record::milliseconds(answer.time.cpu_ns);
   return iteration;

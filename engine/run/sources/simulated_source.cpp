@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 #include <variant>
 
@@ -12,11 +14,13 @@
 #include "geom/arrays.hpp"
 #include "host/samples/bump_kind.hpp"
 #include "host/samples/encoder_kind.hpp"
+#include "host/samples/imu_kind.hpp"
+#include "host/samples/odometry_kind.hpp"
 #include "host/samples/plane_kind.hpp"
 #include "host/samples/point_kind.hpp"
+#include "host/samples/range_scan_kind.hpp"
 #include "record/plane_observations.hpp"
 #include "run/sources/abi_pose.hpp"
-#include "sense/describe.hpp"
 #include "sim/describe.hpp"
 
 namespace hallway::run {
@@ -101,6 +105,50 @@ bool are_the_same(std::span<const log::TruePlane> a, std::span<const log::TruePl
   });
 }
 
+/// Values of a reading's truth by their names in the log.
+using TruthValues = std::map<std::string, std::vector<double>>;
+
+void add_values(const sense::BumpTruth& bump, TruthValues& values) {
+  values.emplace("pressed", std::vector<double>(bump.pressed.begin(), bump.pressed.end()));
+  std::vector<double> counts, places;
+  for (const auto& points : bump.points) {
+    counts.push_back(static_cast<double>(points.size()));
+    for (const Vec3& point : points) places.insert(places.end(), {point.x(), point.y(), point.z()});
+  }
+  values.emplace("points", std::move(counts));
+  values.emplace("points_m", std::move(places));
+}
+
+void add_values(const sense::EncoderTruth& encoders, TruthValues& values) {
+  values.emplace("travel_m", encoders.travel_m);
+  values.emplace("m_per_tick", encoders.m_per_tick);
+}
+
+/// The true ranges follow from the scenario: they are not written.
+void add_values(const sense::LidarTruth&, TruthValues&) {}
+
+void add_values(const sense::ImuTruth& imu, TruthValues& values) {
+  const auto add = [&](const char* name, const Vec3& numbers) {
+    std::vector<double> finite;
+    for (const double number : numbers) finite.push_back(std::isfinite(number) ? number : 0.0);
+    values.emplace(name, std::move(finite));
+  };
+  add("angular_rad_s", imu.means.angular_rad_s);
+  add("force_m_s2", imu.means.force_m_s2);
+  add("angular_bias_rad_s", imu.angular_bias);
+  add("force_bias_m_s2", imu.force_bias);
+}
+
+/// That of odometry is the robot's pose.
+void add_values(const std::monostate&, TruthValues&) {}
+
+void fill_odometry(const sense::OdometryReading& reading, hw_odometry_t& into) {
+  into.T_odom_sensor = abi_pose_of(reading.T_odom_sensor);
+  std::ranges::copy(reading.linear_m_s, into.linear_m_s);
+  std::ranges::copy(reading.angular_rad_s, into.angular_rad_s);
+  std::ranges::copy(reading.covariance, into.covariance);
+}
+
 /// What is true of a reading and not of the whole frame.
 void add_truth(const sim::Reading& reading, const sim::Frame& step, SourceFrame& frame) {
   log::SampleTruth truth{.sample = static_cast<std::uint32_t>(&reading - step.readings.data())};
@@ -108,20 +156,14 @@ void add_truth(const sim::Reading& reading, const sim::Frame& step, SourceFrame&
     truth.position_m = to_array(reading.T_world_body.t);
     truth.orientation = to_array(reading.T_world_body.q);
   }
-  if (const auto& pressed = reading.bump_truth.pressed; !pressed.empty()) {
-    truth.values.emplace("pressed", std::vector<double>(pressed.begin(), pressed.end()));
-    std::vector<double> counts, places;
-    for (const auto& points : reading.bump_truth.points) {
-      counts.push_back(static_cast<double>(points.size()));
-      for (const Vec3& point : points) places.insert(places.end(), {point.x(), point.y(), point.z()});
-    }
-    truth.values.emplace("points", std::move(counts));
-    truth.values.emplace("points_m", std::move(places));
-  }
-  if (const sense::EncoderTruth& encoders = reading.encoder_truth; !encoders.travel_m.empty()) {
-    truth.values.emplace("travel_m", encoders.travel_m);
-    truth.values.emplace("m_per_tick", encoders.m_per_tick);
-  }
+  std::visit(
+      [&](const auto& sensed) {
+        if constexpr (requires { sensed.truth; }) add_values(sensed.truth, truth.values);
+      },
+      reading.sensed);
+  if (reading.stamp_ns != reading.t_ns || reading.stamp_begin_ns != reading.t_begin_ns)
+    truth.values.emplace("t_s", std::vector{static_cast<double>(reading.t_begin_ns) * 1e-9,
+                                            static_cast<double>(reading.t_ns) * 1e-9});
   if (truth.position_m || !truth.values.empty()) frame.sample_truths.push_back(std::move(truth));
 }
 
@@ -203,17 +245,26 @@ void SimulatedSource::add_sensor(const sense::PlaneSensorSpec& spec) {
       add_true_planes(walls != nullptr ? true_planes_of(*walls) : true_planes_of(*simulator_.faces(index))));
 }
 
-void SimulatedSource::add_sensor(const sense::BumpSensorSpec& spec) {
-  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+void SimulatedSource::add_sensor(const sim::EncoderSpec& spec) {
+  host::SensorInfo& info =
+      facts_.sensors.emplace_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+  if (const sim::DrivenWorld* world = simulator_.driven_world()) {
+    info.intrinsics = host::EncoderIntrinsics{
+        sim::describe_wheels(simulator_.scenario().robot.driven->drive, *world, spec.nominal_m_per_tick())};
+  } else {
+    host::EncoderIntrinsics wheels;
+    for (const sense::OdometryWheel& wheel : sense::two_odometry_wheels(spec.wheel_base_m))
+      wheels.wheels.push_back({.m_per_tick = spec.nominal_m_per_tick(),
+                               .position = {wheel.position_m.x(), wheel.position_m.y(), 0.0}});
+    info.intrinsics = std::move(wheels);
+  }
   first_true_plane_.emplace_back();
 }
 
-void SimulatedSource::add_sensor(const sense::EncoderSensorSpec& spec) {
-  host::SensorInfo& info =
-      facts_.sensors.emplace_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
-  if (const sim::DrivenWorld* world = simulator_.driven_world())
-    info.intrinsics = host::EncoderIntrinsics{
-        sim::describe_wheels(simulator_.scenario().robot.driven->drive, *world, spec.nominal_m_per_tick())};
+void SimulatedSource::add_sensor(const sense::LidarSpec& spec) {
+  const std::int64_t scan_ns = sense::interval_ns(spec.timing, simulator_.scenario().period_ns);
+  facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size()),
+                                           static_cast<double>(scan_ns) * 1e-9));
   first_true_plane_.emplace_back();
 }
 
@@ -245,7 +296,7 @@ std::uint64_t SimulatedSource::add_true_planes(std::vector<log::TruePlane> plane
 void SimulatedSource::add_reading(const sense::PointSensorSpec&, const sim::Reading& reading,
                                   SourceFrame& frame, host::FrameBuilder& builder) const {
   std::vector<hw_point3_t>& points = host::add_points(builder, facts_.sensors[reading.sensor].id);
-  for (const sense::PointObservation& seen : reading.observations) {
+  for (const sense::PointObservation& seen : reading.observations()) {
     points.push_back({seen.point.x(), seen.point.y(), seen.point.z()});
     frame.identities.push_back(seen.landmark);
   }
@@ -254,7 +305,7 @@ void SimulatedSource::add_reading(const sense::PointSensorSpec&, const sim::Read
 void SimulatedSource::add_reading(const sense::PlaneSensorSpec&, const sim::Reading& reading,
                                   SourceFrame& frame, host::FrameBuilder& builder) const {
   const host::PlaneReading planes = host::add_planes(builder, facts_.sensors[reading.sensor].id);
-  for (const PlaneObservation& seen : reading.planes) {
+  for (const PlaneObservation& seen : reading.planes()) {
     record::add_plane(planes, observation_of(seen, planes.planes.size()));
     frame.identities.push_back(first_true_plane_[reading.sensor].value() + seen.true_plane);
   }
@@ -263,7 +314,7 @@ void SimulatedSource::add_reading(const sense::PlaneSensorSpec&, const sim::Read
 void SimulatedSource::add_reading(const sense::BumpSensorSpec& spec, const sim::Reading& reading,
                                   SourceFrame& frame, host::FrameBuilder& builder) const {
   std::vector<hw_bump_zone_t>& zones = host::add_bump(builder, facts_.sensors[reading.sensor].id);
-  for (const sense::ZoneReading& zone : reading.bump.zones) {
+  for (const sense::ZoneReading& zone : std::get<sim::BumpSensed>(reading.sensed).reading.zones) {
     const bool has_depth = zone.pressed && spec.depth;
     zones.push_back({.direction = {zone.direction.x(), zone.direction.y(), zone.direction.z()},
                      .depth_m = has_depth ? zone.depth_m : std::numeric_limits<double>::quiet_NaN(),
@@ -273,13 +324,55 @@ void SimulatedSource::add_reading(const sense::BumpSensorSpec& spec, const sim::
   }
 }
 
-void SimulatedSource::add_reading(const sense::EncoderSensorSpec&, const sim::Reading& reading,
-                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+void SimulatedSource::add_reading(const sim::EncoderSpec&, const sim::Reading& reading, SourceFrame& frame,
+                                  host::FrameBuilder& builder) const {
   std::vector<hw_wheel_ticks_t>& wheels = host::add_encoder(builder, facts_.sensors[reading.sensor].id);
-  for (const std::int64_t ticks : reading.encoders.ticks) {
+  for (const std::int64_t ticks : std::get<sim::EncoderSensed>(reading.sensed).reading.ticks) {
     wheels.push_back({ticks});
     frame.identities.push_back(log::kNoLandmark);
   }
+}
+
+void SimulatedSource::add_reading(const sense::LidarSpec& spec, const sim::Reading& reading,
+                                  SourceFrame& frame, host::FrameBuilder& builder) const {
+  const auto& scan = std::get<sim::LidarSensed>(reading.sensed).reading;
+  const sense::RayPattern& pattern = spec.pattern;
+  const host::RangeScanReading into =
+      host::add_range_scan(builder, facts_.sensors[reading.sensor].id,
+                           {.width = pattern.width, .height = pattern.height, .layers = spec.returns});
+  const std::vector<std::int64_t>& offsets_ns = simulator_.lidar(reading.sensor).offsets_ns();
+  for (std::size_t layer = 0, k = 0; layer < spec.returns; ++layer) {
+    for (std::size_t i = 0; i < pattern.rays.size(); ++i, ++k) {
+      const sense::PatternRay& ray = pattern.rays[i];
+      into.rays.push_back({ray.azimuth_rad, ray.elevation_rad, scan.range_m[k]});
+      into.data.t_offset_ns.push_back(offsets_ns[i]);
+      into.data.intensity.push_back(scan.intensity[k]);
+      into.data.ring.push_back(ray.ring);
+    }
+  }
+  frame.identities.insert(frame.identities.end(), scan.range_m.size(), log::kNoLandmark);
+}
+
+void SimulatedSource::add_reading(const sense::ImuSensorSpec&, const sim::Reading& reading, SourceFrame&,
+                                  host::FrameBuilder& builder) const {
+  const sense::ImuReading& imu = std::get<sim::ImuSensed>(reading.sensed).reading;
+  hw_imu_t& into = host::add_imu(builder, facts_.sensors[reading.sensor].id);
+  std::ranges::copy(imu.angular_rad_s, into.angular_rad_s);
+  std::ranges::copy(imu.force_m_s2, into.force_m_s2);
+  std::ranges::copy(imu.angular_covariance, into.angular_covariance);
+  std::ranges::copy(imu.force_covariance, into.force_covariance);
+}
+
+void SimulatedSource::add_reading(const sense::WheelOdometrySpec&, const sim::Reading& reading, SourceFrame&,
+                                  host::FrameBuilder& builder) const {
+  fill_odometry(std::get<sim::OdometrySensed>(reading.sensed).reading,
+                host::add_odometry(builder, facts_.sensors[reading.sensor].id));
+}
+
+void SimulatedSource::add_reading(const sense::MouseOdometrySpec&, const sim::Reading& reading, SourceFrame&,
+                                  host::FrameBuilder& builder) const {
+  fill_odometry(std::get<sim::OdometrySensed>(reading.sensed).reading,
+                host::add_odometry(builder, facts_.sensors[reading.sensor].id));
 }
 
 void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
@@ -290,7 +383,7 @@ void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
   for (const sim::Reading& reading : step.readings) {
     std::visit([&](const auto& spec) { add_reading(spec, reading, frame, builder); },
                simulator_.scenario().sensors[reading.sensor]);
-    builder.set_reading(reading.sequence, reading.t_ns, reading.t_ns);
+    builder.set_reading(reading.sequence, reading.stamp_begin_ns, reading.stamp_ns);
     add_truth(reading, step, frame);
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "run/sources/source.hpp"
+#include "sense/describe.hpp"
 #include "sim/driven_robot.hpp"
 #include "sim/simulator.hpp"
 
@@ -33,8 +34,14 @@ class SimulatedSource : public Source {
   void move_to(std::uint32_t iteration);
   void add_sensor(const sense::PointSensorSpec& spec);
   void add_sensor(const sense::PlaneSensorSpec& spec);
-  void add_sensor(const sense::BumpSensorSpec& spec);
-  void add_sensor(const sense::EncoderSensorSpec& spec);
+  void add_sensor(const sim::EncoderSpec& spec);
+  void add_sensor(const sense::LidarSpec& spec);
+  /// Of a sensor whose facts are all in its specification, and which sees no planes.
+  template <typename Spec>
+  void add_sensor(const Spec& spec) {
+    facts_.sensors.push_back(sense::describe(spec, static_cast<std::uint32_t>(facts_.sensors.size())));
+    first_true_plane_.emplace_back();
+  }
   std::uint64_t add_true_planes(std::vector<log::TruePlane> planes);
   void add_reading(const sense::PointSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
@@ -43,7 +50,15 @@ class SimulatedSource : public Source {
 
   void add_reading(const sense::BumpSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
-  void add_reading(const sense::EncoderSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+  void add_reading(const sim::EncoderSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::LidarSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::ImuSensorSpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::WheelOdometrySpec& spec, const sim::Reading& reading, SourceFrame& frame,
+                   host::FrameBuilder& builder) const;
+  void add_reading(const sense::MouseOdometrySpec& spec, const sim::Reading& reading, SourceFrame& frame,
                    host::FrameBuilder& builder) const;
 
   const sim::Simulator& simulator_;

@@ -176,7 +176,7 @@ TEST(Check, Sensors) {
                                 {"roll_deg", "1"}})),
             "");
   EXPECT_EQ(findings_of(sensor({{"noise_m", "0.1"}})), "");
-  const Pairs wrong{{"kind", "lidar"},
+  const Pairs wrong{{"kind", "radar"},
                     {"horizontal_fov_deg", "0"},
                     {"vertical_fov_deg", "0"},
                     {"horizontal_fov_deg", "360.5"},

@@ -131,7 +131,7 @@ TEST(Sensors, WrongOnesAreErrorsWithTheirLine) {
   expect_error(sensors, with("max_range_m", "-1"), 4, "must be at least 0 and at most 1e+06");
   expect_error(sensors, with("min_range_m", "101"), 4, "`min_range_m` 101 is above `max_range_m` 100");
   expect_error(sensors, with("rang_m", "1"), 4, "unknown key `rang_m`");
-  expect_error(sensors, with("kind", "lidar"), 4, "unknown kind `lidar`");
+  expect_error(sensors, with("kind", "radar"), 4, "unknown kind `radar`");
 }
 
 TEST(Sensors, SixtyFourAreTheMost) {

@@ -39,6 +39,14 @@ TEST(RayPattern, ClockwiseColumnsComeInTheirOrderToo) {
   EXPECT_NEAR(pattern.rays[90].share, 0.25, 1e-15);
 }
 
+TEST(RayPattern, ASweepThatLeavesATurnIsMovedByOne) {
+  const RayPattern pattern =
+      spinning_pattern({.from_rad = -180.0 * kDegree, .step_rad = -0.2 * kDegree, .columns = 1800});
+  EXPECT_NEAR(pattern.rays[0].azimuth_rad, 180 * kDegree, 1e-12);
+  EXPECT_NEAR(pattern.rays[900].azimuth_rad, 0.0, 1e-12);
+  EXPECT_NEAR(pattern.rays[1799].azimuth_rad, -179.8 * kDegree, 1e-12);
+}
+
 TEST(RayPattern, ElevationsReachBothEnds) {
   const std::vector<double> elevations = equal_elevations(-0.3, 0.1, 5);
   ASSERT_EQ(elevations.size(), 5u);

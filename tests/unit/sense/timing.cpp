@@ -51,5 +51,25 @@ TEST(ReadingClock, AReadingThatArrivesWithAFrameIsInIt) {
   EXPECT_EQ(clock.arrived_by(100'000'000), 2u);
 }
 
+/// What takes time arrives when it has ended, at any rate.
+TEST(ReadingClock, ReadingsThatTakeTimeArriveAtTheirEnd) {
+  constexpr std::int64_t kFrame_ns = 100'000'000;
+  for (const double rate_hz : {1e-12, 1e-3, 0.0, 3.0, 7.3, 200.0, 1e4}) {
+    const SensorTiming timing{.rate_hz = rate_hz, .phase_s = 0.013, .latency_s = 0.021};
+    const std::int64_t interval = interval_ns(timing, kFrame_ns);
+    EXPECT_GT(interval, 0) << rate_hz;
+    for (const ReadingSpan& span : {ReadingSpan{.duration_ns = interval}, ReadingSpan{.to_next = true}}) {
+      const ReadingClock clock(timing, kFrame_ns, span);
+      std::uint64_t arrived = 0;
+      for (std::int64_t t_ns = 0; t_ns < 40 * kFrame_ns; t_ns += kFrame_ns) {
+        while (clock.end_of(arrived) + 21'000'000 <= t_ns) ++arrived;
+        ASSERT_EQ(clock.arrived_by(t_ns), arrived) << rate_hz << " Hz at " << t_ns;
+      }
+      if (rate_hz == 0.0) continue;
+      EXPECT_GE(clock.end_of(UINT64_MAX - 1), clock.end_of(0)) << rate_hz;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hallway::sense

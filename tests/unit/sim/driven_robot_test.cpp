@@ -64,12 +64,14 @@ TEST(SimulatedDrive, AWallStopsItAndPressesTheZonesInFront) {
     const Frame seen = world.simulator->step(frame, *world.robot);
     for (const Reading& reading : seen.readings) {
       if (reading.sensor != 0) continue;
-      ASSERT_EQ(reading.bump.zones.size(), 4u);
-      pressed = reading.bump.zones[0].pressed || reading.bump.zones[3].pressed;
+      ASSERT_EQ(std::get<BumpSensed>(reading.sensed).reading.zones.size(), 4u);
+      pressed = std::get<BumpSensed>(reading.sensed).reading.zones[0].pressed ||
+                std::get<BumpSensed>(reading.sensed).reading.zones[3].pressed;
       if (pressed) {
         EXPECT_GT(seen.T_world_body.t.x(), kWall_m - kRadius_m - 0.08);
       }
-      EXPECT_FALSE(reading.bump.zones[1].pressed || reading.bump.zones[2].pressed)
+      EXPECT_FALSE(std::get<BumpSensed>(reading.sensed).reading.zones[1].pressed ||
+                   std::get<BumpSensed>(reading.sensed).reading.zones[2].pressed)
           << "there is nothing behind it";
     }
     EXPECT_LT(seen.T_world_body.t.x() + kRadius_m, kWall_m);
@@ -94,9 +96,11 @@ TEST(SimulatedDrive, EncodersCountTheWaysOfTheWheels) {
     const std::vector<double> ways = world.robot->wheel_travel_at(seen.t_ns);
     for (const Reading& reading : seen.readings) {
       if (reading.sensor != 1) continue;
-      ASSERT_EQ(reading.encoders.ticks.size(), 2u);
+      ASSERT_EQ(std::get<EncoderSensed>(reading.sensed).reading.ticks.size(), 2u);
       for (std::size_t wheel = 0; wheel < 2; ++wheel)
-        EXPECT_NEAR(static_cast<double>(reading.encoders.ticks[wheel]) * tick_m, ways[wheel], tick_m);
+        EXPECT_NEAR(
+            static_cast<double>(std::get<EncoderSensed>(reading.sensed).reading.ticks[wheel]) * tick_m,
+            ways[wheel], tick_m);
     }
     world.robot->obey({.command = drive::Command{.forward_m_s = 0.3, .angular_rad_s = 0.5}});
     world.robot->advance();

@@ -43,8 +43,7 @@ TEST(Event, AKidnappedRobotIsElsewhereAtThatTimeAndNeverBetween) {
   drive_on(world, 20);
   EXPECT_NEAR(world.pose().t.x(), 0.875, 1e-9);
   drive_on(world, 1);
-  const Pose before = world.robot->pose_at(2'024'999'999),
-             after = world.robot->pose_at(2'025'000'000);
+  const Pose before = world.robot->pose_at(2'024'999'999), after = world.robot->pose_at(2'025'000'000);
   EXPECT_NEAR(before.t.x(), 0.875 + 0.0125, 1e-6);
   EXPECT_EQ(after.t, Vec3(-3, 1, 0)) << "it is put down on the floor";
   EXPECT_NEAR((after.q * Vec3::UnitX()).y(), 1.0, 1e-12);
@@ -124,7 +123,7 @@ TEST(Event, ASensorGivesNoReadingsWhileItIsOff) {
     for (const Reading& reading : seen.readings) {
       EXPECT_EQ(reading.sequence, frame) << "what is not read shows as a gap";
       if (reading.sensor == 1 && frame == 30) {
-        EXPECT_GT(reading.encoders.ticks[0], 1000);
+        EXPECT_GT(std::get<EncoderSensed>(reading.sensed).reading.ticks[0], 1000);
       }
     }
     drive_on(world, 1);

@@ -2,14 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <variant>
 
+#include "base/text.hpp"
 #include "map/entity_schema.hpp"
+#include "map/sensors.hpp"
 #include "sim/drive_keys.hpp"
 #include "sim/scenario.hpp"
 #include "sim/schema.hpp"
+#include "support/errors.hpp"
 #include "support/temp_folder.hpp"
 #include "unit/sim/small_world.hpp"
 
@@ -32,16 +36,51 @@ Names keys_of_class(std::string_view classname, std::string_view variant) {
   return names;
 }
 
-TEST(KeyTables, TheSensorsOfMapsAndOfScenariosHaveTheSameKeys) {
-  const auto with_name = [](const std::vector<std::string>& keys) {
-    Names names(keys.begin(), keys.end());
-    names.insert("name");
-    return names;
-  };
-  EXPECT_EQ(keys_of_class("hw_sensor", "points"), with_name(kPointSensorKeys));
-  EXPECT_EQ(keys_of_class("hw_sensor", "planes"), with_name(kPlaneSensorKeys));
-  EXPECT_EQ(keys_of_class("hw_sensor", "bump"), with_name(kBumpSensorKeys));
-  EXPECT_EQ(keys_of_class("hw_sensor", "encoders"), with_name(kEncoderSensorKeys));
+/// The key as a line of a scenario, with the default that maps have.
+std::string line_of(const map::KeySpec& key) {
+  std::string value(key.fallback);
+  if (key.kind == map::KeyKind::kChoice) value = "\"" + value + "\"";
+  if (key.kind == map::KeyKind::kFlag) value = value == "1" ? "true" : "false";
+  return std::string(key.name) + " = " + value + "\n";
+}
+
+/// A sensor of each kind, and each of its keys: its default is what counts without it, and a number out of range is refused by name.
+TEST(KeyTables, EachKeyOfEachKindOfSensorIsReadWithItsRangeAndDefault) {
+  int refused = 0;
+  for (const map::SensorKind& kind : map::sensor_kinds()) {
+    const std::string table = "[sensor.s]\nkind = \"" + std::string(kind.name) + "\"\n";
+    const std::string drive = kind.name == "bump" ? "[robot.drive]\nkind = \"differential\"\n" : "";
+    const auto bare = scenario_with(drive + table).settings;
+    for (const std::string& name : map::sensor_key_names(kind.name)) {
+      SCOPED_TRACE(std::string(kind.name) + ": " + name);
+      const map::KeySpec& key = map::sensor_key(kind.name, name);
+      if (name == "kind") continue;
+      const std::string full = "sensor.s." + name;
+      if (!key.fallback.empty() && key.kind != map::KeyKind::kVector) {
+        const auto settings = scenario_with(drive + table + line_of(key)).settings;
+        const auto of = [&](const std::vector<Setting>& all) {
+          const auto found = std::ranges::find(all, full, &Setting::key);
+          return found == all.end() ? std::string() : found->value;
+        };
+        EXPECT_NE(of(settings), "") << "it is read";
+        if (of(bare) != "") {
+          EXPECT_EQ(of(settings), of(bare));
+        }
+      }
+      if (key.kind != map::KeyKind::kNumber && key.kind != map::KeyKind::kWhole) continue;
+      for (const double value : {key.low - 1.0, 2.0 * key.high + 1.0}) {
+        const std::string line =
+            name + " = " +
+            (key.kind == map::KeyKind::kWhole ? std::to_string(std::llround(value)) : format_double(value)) +
+            "\n";
+        const auto error = test::error_of([&] { scenario_with(drive + table + line); });
+        ASSERT_TRUE(error) << line;
+        EXPECT_NE(std::string(error->what()).find(full), std::string::npos) << error->what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 150);
 }
 
 TEST(KeyTables, TheDrivesOfRobotFilesAndOfScenariosHaveTheSameKeys) {
@@ -59,14 +98,6 @@ TEST(KeyTables, TheDrivesOfRobotFilesAndOfScenariosHaveTheSameKeys) {
   for (const std::string& key : of_robot)
     EXPECT_NE(std::ranges::find(kDrivenKeys, key), kDrivenKeys.end()) << key;
   for (const std::string& key : names) EXPECT_TRUE(of_file.contains(key)) << key;
-}
-
-/// The key as a line of a scenario, with the default that maps have.
-std::string line_of(const map::KeySpec& key) {
-  std::string value(key.fallback);
-  if (key.kind == map::KeyKind::kChoice) value = "\"" + value + "\"";
-  if (key.kind == map::KeyKind::kFlag) value = value == "1" ? "true" : "false";
-  return std::string(key.name) + " = " + value + "\n";
 }
 
 TEST(KeyTables, ADriveHasTheDefaultsOfRobotFiles) {
@@ -105,7 +136,7 @@ TEST(KeyTables, BumpersAndEncodersHaveTheDefaultsOfRobotFiles) {
   EXPECT_EQ(bump.skin_m, sense::BumpSensorSpec{}.skin_m);
   EXPECT_EQ(bump.missed_rate, sense::BumpSensorSpec{}.missed_rate);
   EXPECT_EQ(bump.false_rate, sense::BumpSensorSpec{}.false_rate);
-  const auto encoders = std::get<sense::EncoderSensorSpec>(written("encoders"));
+  const auto encoders = std::get<EncoderSpec>(written("encoders"));
   EXPECT_EQ(encoders.ticks_per_revolution, sense::EncoderSensorSpec{}.ticks_per_revolution);
   EXPECT_EQ(encoders.radius_error_sigma, sense::EncoderSensorSpec{}.radius_error_sigma);
 }

@@ -34,7 +34,7 @@ class Drive {
       std::vector<Sight>& sights = steps_.emplace_back();
       const auto& sensor = std::get<sense::PlaneSensorSpec>(simulator_.scenario().sensors.at(0));
       const Pose T_world_sensor = frame.T_world_body * sensor.T_body_sensor;
-      for (const PlaneObservation& plane : frame.readings.at(0).planes)
+      for (const PlaneObservation& plane : frame.readings.at(0).planes())
         sights.push_back(sight_of(plane, T_world_sensor));
     }
   }

@@ -85,9 +85,9 @@ TEST(PlaneSensors, SeeTheMapsWallsWhereTheyAre) {
   std::size_t seen = 0;
   for (std::uint32_t i = 0; i < 40; ++i) {
     const Frame frame = simulator.step(i);
-    EXPECT_TRUE(frame.readings[0].observations.empty());
+    EXPECT_TRUE(std::holds_alternative<std::vector<PlaneObservation>>(frame.readings[0].sensed));
     const Pose T_world_sensor = frame.T_world_body * spec_of(simulator).T_body_sensor;
-    for (const PlaneObservation& plane : frame.readings[0].planes) {
+    for (const PlaneObservation& plane : frame.readings[0].planes()) {
       const sense::Wall& wall = simulator.walls(0)->walls.at(plane.true_plane);
       for (const Vec3& corner : plane.corners) {
         const Vec3 place = T_world_sensor * corner;

@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"IsNoTable", with("[sensor]\nkind = 'points'\n"), 9, "sensor.kind", "[sensor.NAME]"},
         Wrong{"StrangeName", with("[sensor.'a b']\nkind = 'points'\n"), 8, "sensor.a b", "name"},
         Wrong{"KindMissing", with("[sensor.a]\n"), 8, "sensor.a.kind", "is missing"},
-        Wrong{"KindUnknown", with("[sensor.a]\nkind = 'lidar'\n"), 9, "sensor.a.kind", "none of: points"},
+        Wrong{"KindUnknown", with("[sensor.a]\nkind = 'radar'\n"), 9, "sensor.a.kind", "none of: points"},
         Wrong{"MisspeltKey", sensor("nois_m = 1"), 10, "sensor.a.nois_m", "did you mean \"noise_m\"?"},
         Wrong{"ViewZero", sensor("horizontal_fov_deg = 0"), 10, "sensor.a.horizontal_fov_deg", "above 0"},
         Wrong{"ViewBeyondCircle", sensor("vertical_fov_deg = 360.5"), 10, "sensor.a.vertical_fov_deg",

@@ -23,7 +23,7 @@ TEST_P(ShippedScenario, AlwaysSeesSomething) {
   const Simulator simulator(load(), 2, trace::Backend::kEmbree);
   const std::uint32_t stride = simulator.scenario().steps / 200 + 1;
   for (std::uint32_t i = 0; i < simulator.scenario().steps; i += stride) {
-    EXPECT_GE(simulator.step(i).readings.at(0).observations.size(), 10u) << "step " << i;
+    EXPECT_GE(simulator.step(i).readings.at(0).observations().size(), 10u) << "step " << i;
   }
 }
 

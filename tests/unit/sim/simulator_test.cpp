@@ -50,7 +50,7 @@ std::string bytes_of(const Frame& frame) {
   add(frame.T_world_body.q.coeffs().data(), 4 * sizeof(double));
   for (const Reading& reading : frame.readings) {
     add(&reading.sensor, sizeof(reading.sensor));
-    for (const sense::PointObservation& seen : reading.observations) {
+    for (const sense::PointObservation& seen : reading.observations()) {
       add(&seen.landmark, sizeof(seen.landmark));
       add(seen.point.data(), 3 * sizeof(double));
     }
@@ -78,7 +78,7 @@ TEST(Simulator, SeesMovingLandmarksWhereTheyAre) {
     simulator.moving_landmarks().places_at(static_cast<double>(frame.t_ns) / 1e9, places);
     ASSERT_FALSE(places.empty());
     std::set<std::uint32_t> seen;
-    for (const auto& observation : frame.readings.front().observations) {
+    for (const auto& observation : frame.readings.front().observations()) {
       EXPECT_TRUE(seen.insert(observation.landmark).second) << observation.landmark;
       Vec3 place = simulator.landmarks()[observation.landmark];
       for (const auto& at : places) {
@@ -160,7 +160,7 @@ TEST(Simulator, SeesLandmarksWhereTheyAre) {
   for (std::uint32_t i = 0; i < 40; ++i) {
     const Frame frame = simulator.step(i);
     ASSERT_EQ(frame.readings.size(), 1u);
-    for (const sense::PointObservation& observation : frame.readings[0].observations) {
+    for (const sense::PointObservation& observation : frame.readings[0].observations()) {
       ASSERT_LT(observation.landmark, simulator.landmarks().size());
       const Vec3 truth = simulator.landmarks()[observation.landmark];
       EXPECT_LT((frame.T_world_body * observation.point - truth).norm(), 6 * std::sqrt(3.0) * 0.02);
@@ -181,7 +181,7 @@ TEST(Simulator, MountsEachSensorOnTheRobot) {
       EXPECT_EQ(frame.readings[k].sensor, k);
       const Pose T_world_sensor =
           frame.T_world_body * std::get<sense::PointSensorSpec>(world.scenario().sensors[k]).T_body_sensor;
-      for (const sense::PointObservation& observation : frame.readings[k].observations) {
+      for (const sense::PointObservation& observation : frame.readings[k].observations()) {
         const Vec3 truth = simulator.landmarks()[observation.landmark];
         EXPECT_LT((T_world_sensor * observation.point - truth).norm(), 0.25);
         EXPECT_GT((T_world_sensor.inverse() * truth).x(), 0.0);
@@ -466,7 +466,7 @@ TEST(Simulator, AReadingIsTakenAtItsOwnTime) {
   EXPECT_EQ(second.readings[1].sequence, 2u);
   const auto seen = [](const Reading& reading) {
     std::set<std::uint32_t> landmarks;
-    for (const auto& observation : reading.observations) landmarks.insert(observation.landmark);
+    for (const auto& observation : reading.observations()) landmarks.insert(observation.landmark);
     return landmarks;
   };
   EXPECT_EQ(seen(second.readings[1]), seen(a.step(1).readings.at(0)));
