@@ -46,7 +46,7 @@ constexpr Row kRows[] = {
      "empty map); the exit status is 5 in any case"},
     {Shared::kOutFolder, "--out", "DIR", "Folder to write"},
     {Shared::kOutFile, "--out", "FILE", "File to write"},
-    {Shared::kOutLog, "--out", "FILE|DIR", "File to write if it ends in .mcap, else a folder for CSV files"},
+    {Shared::kOutLog, "--out", "FILE|DIR", "File to write if it ends in .mcap or --to is tum, else a folder"},
     {Shared::kForce, "--force", "", "Replace earlier output"},
     {Shared::kSeed, "--seed", "N", "Seed of all random numbers", 0, kMostSeed},
     {Shared::kSteps, "--steps", "N", "Number of frames", 1, 99'999'999},

@@ -16,7 +16,9 @@
 #include "log_foxglove.hpp"
 #include "log_import.hpp"
 #include "log_input.hpp"
+#include "log_layouts.hpp"
 #include "log_output.hpp"
+#include "log_tables.hpp"
 #include "output_file.hpp"
 #include "record/output_folder.hpp"
 #include "record/sensor_json.hpp"
@@ -34,6 +36,7 @@ struct ConvertOptions {
   LogChoice choice;
   std::string from;  ///< kind of the log; empty: what it looks like
   ImportChoice import;
+  LayoutChoice layout;
   std::string out;
   bool foxglove = false;
   bool force = false;
@@ -129,6 +132,23 @@ void write_folder(OpenedLog& opened, const ConvertOptions& options) {
   folder.commit();
 }
 
+void write_tum(OpenedLog& opened, const ConvertOptions& options) {
+  NewFile file(options.out, options.force);
+  write_true_trajectory(opened, options.layout, file.output(), options.json);
+  file.commit();
+}
+
+/// A folder without run.json: it is not one that --force replaces.
+void write_new_folder(OpenedLog& opened, Layout layout, const ConvertOptions& options) {
+  record::OutputFolder folder(options.out, options.force);
+  if (layout == Layout::kTables) {
+    write_tables(opened, options.layout.sensor, folder.working_path(), options.json);
+  } else {
+    write_layout(opened, layout, options.layout, folder.working_path(), options.json);
+  }
+  folder.commit();
+}
+
 std::optional<import::Kind> kind_of(const ConvertOptions& options) {
   if (options.from.empty()) return import::tell_kind(options.choice.log);
   return import::kind_named(options.from);
@@ -161,17 +181,21 @@ void add_missing(OpenedLog& opened) {
 }
 
 Converted convert_input(const ConvertOptions& options) {
-  const bool to_mcap = fs::path(options.out).extension() == ".mcap";
-  if (options.foxglove && !to_mcap) refuse("--foxglove is for an .mcap file");
+  const Layout layout = chosen_layout(options.layout, options.out);
+  if (options.foxglove && layout != Layout::kMcap) refuse("--foxglove is for an .mcap file");
   check_replaces_no_input(options.out, inputs_of(options));
   if (options.foxglove && !kind_of(options)) {
     if (const auto log = recorded_log(options.choice.log)) return copy_with_view(options, *log);
   }
   OpenedLog opened = open_input(options);
-  if (to_mcap) {
+  if (layout == Layout::kMcap) {
     write_mcap(opened, options);
-  } else {
+  } else if (layout == Layout::kReplay) {
     write_folder(opened, options);
+  } else if (layout == Layout::kTum) {
+    write_tum(opened, options);
+  } else {
+    write_new_folder(opened, layout, options);
   }
   add_missing(opened);
   return {opened.source->iterations(), opened.warnings};
@@ -196,8 +220,8 @@ int convert(const ConvertOptions& options) {
 
 void add_log_convert_command(Command& group) {
   Command& command = group.command("convert",
-                                   "Turn an MCAP log into the CSV files of replay, and those or a "
-                                   "recording of other programs into an MCAP log");
+                                   "Turn an MCAP log into the CSV files of replay or a layout of other "
+                                   "programs, and those or a recording of other programs into an MCAP log");
   ConvertOptions& options = command.runs(&convert);
   command
       .argument("log", &options.choice.log,
@@ -205,17 +229,20 @@ void add_log_convert_command(Command& group) {
                 "(.ply, .pcd) or one "
                 "of them, a TUM RGB-D folder, the folder of Victoria Park, a table of stereo tracks or of "
                 "ranges and "
-                "bearings, a ROS 1 .bag")
+                "bearings, a ROS 1 .bag, a sequence of KITTI odometry, a EuRoC folder, a folder of PCD files "
+                "with an imu.csv")
       .required()
       .value("LOG");
   command.option("--from", &options.from, "What it is [what it looks like]")
       .value("KIND")
-      .choices({"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"});
+      .choices({"csv", "mcap", "clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag",
+                "kitti", "euroc", "pcd-imu"});
   add_shared(command, Shared::kOutLog, &options.out).required();
   add_shared(command, Shared::kTruePoses, &options.choice.true_poses).fallback("those of the log");
   add_shared(command, Shared::kTrueLandmarks, &options.choice.true_landmarks).fallback("those of the log");
   add_shared(command, Shared::kPeriod, &options.choice.period_s).fallback("the run's, else 0.1");
   add_shared(command, Shared::kFoxglove, &options.foxglove);
+  add_layout_options(command, options.layout);
   add_import_options(command, options.import);
   add_shared(command, Shared::kForce, &options.force);
   add_shared(command, Shared::kJson, &options.json);
@@ -224,7 +251,8 @@ void add_log_convert_command(Command& group) {
       "Examples: hallway log convert out/office/run.mcap --out office_csv\n"
       "          hallway log convert obs.csv --truth-poses poses.csv --period 0.05 --out mine.mcap\n"
       "          hallway log convert out/office/run.mcap --foxglove --out office_view.mcap\n"
-      "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap");
+      "          hallway log convert rgbd_dataset_freiburg1_desk --stride 8 --out desk.mcap\n"
+      "          hallway log convert out/office_rig --to kitti --sensor lidar --deskew --out office_kitti");
 }
 
 }  // namespace hallway::cli

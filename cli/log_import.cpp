@@ -14,6 +14,7 @@
 #include "import/landmark_tables.hpp"
 #include "import/tum_folder.hpp"
 #include "import/victoria_park.hpp"
+#include "log_rig.hpp"
 
 namespace hallway::cli {
 namespace {
@@ -70,6 +71,8 @@ class ImportedSource : public run::Source {
     }
     frame.T_world_body = frame_.T_world_body;
     frame.orientation_known = frame_.orientation_known;
+    if (iteration < counted_) return;  // read again
+    counted_ = iteration + 1;
     not_finite_ += frame_.not_finite;
     if (frame_.not_finite > 0) ++frames_not_finite_;
     if (!frame_.T_world_body) ++frames_without_truth_;
@@ -78,17 +81,11 @@ class ImportedSource : public run::Source {
   std::unique_ptr<import::Recording> recording_;
   std::uint32_t iterations_;
   import::Frame frame_;
+  std::uint32_t counted_ = 0;  ///< frames before this one
   std::uint64_t not_finite_ = 0;
   std::uint64_t frames_not_finite_ = 0;
   std::uint64_t frames_without_truth_ = 0;
 };
-
-/// The folder's name, or the file's without its end.
-std::string name_of(const fs::path& path) {
-  std::error_code code;
-  const fs::path whole = fs::absolute(path, code).lexically_normal();
-  return whole.has_filename() ? whole.stem().string() : whole.parent_path().filename().string();
-}
 
 std::optional<import::Camera> camera_of(const ImportChoice& choice) {
   if (choice.camera.empty()) return std::nullopt;
@@ -127,6 +124,9 @@ std::unique_ptr<import::Recording> open(Kind kind, const LogChoice& log, const I
     case Kind::kRangeBearing:
       return import::open_range_bearing(log.log, table_options(log));
     case Kind::kBag:
+    case Kind::kKitti:
+    case Kind::kEuroc:
+    case Kind::kPcdImu:
       break;
   }
   import::BagOptions options{.topic = choice.topic, .truth_topic = choice.truth_topic, .stride = stride};
@@ -154,8 +154,8 @@ void add_import_options(Command& command, ImportChoice& choice) {
       .numbers(4);
   command
       .option("--truth-within", &choice.truth_within_s,
-              "Largest time in seconds from a frame to its true pose [tum 0.02, bag 0.1, "
-              "victoria-park 0.2]")
+              "Largest time in seconds from a frame to its true pose [tum 0.02, bag, euroc "
+              "and pcd-imu 0.1, victoria-park 0.2]")
       .value("S")
       .range(0.0, 1e6);
   command.option("--topic", &choice.topic, "Of a bag: PointCloud2 or LaserScan [the one there is]")
@@ -174,10 +174,14 @@ void check_import_options(std::optional<Kind> kind, const LogChoice& log, const 
       {"--stride", choice.stride.has_value(), {Kind::kClouds, Kind::kTum, Kind::kBag}},
       {"--times", !choice.times.empty(), {Kind::kClouds, Kind::kTum}},
       {"--camera", !choice.camera.empty(), {Kind::kTum}},
-      {"--truth-within", choice.truth_within_s.has_value(), {Kind::kTum, Kind::kVictoriaPark, Kind::kBag}},
+      {"--truth-within",
+       choice.truth_within_s.has_value(),
+       {Kind::kTum, Kind::kVictoriaPark, Kind::kBag, Kind::kEuroc, Kind::kPcdImu}},
       {"--topic", !choice.topic.empty(), {Kind::kBag}},
       {"--truth-topic", !choice.truth_topic.empty(), {Kind::kBag}},
-      {"--period", kind && log.period_s, {Kind::kClouds, Kind::kStereoTracks, Kind::kRangeBearing}},
+      {"--period",
+       kind && log.period_s,
+       {Kind::kClouds, Kind::kStereoTracks, Kind::kRangeBearing, Kind::kEuroc}},
       {"--truth-poses", kind && !log.true_poses.empty(), {Kind::kStereoTracks, Kind::kRangeBearing}},
       {"--truth-landmarks", kind && !log.true_landmarks.empty(), {Kind::kRangeBearing}},
   };
@@ -188,10 +192,17 @@ void check_import_options(std::optional<Kind> kind, const LogChoice& log, const 
   }
 }
 
+std::string recording_name(const fs::path& path) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(path, code).lexically_normal();
+  return whole.has_filename() ? whole.stem().string() : whole.parent_path().filename().string();
+}
+
 OpenedLog open_recording(Kind kind, const LogChoice& log, const ImportChoice& choice) {
+  if (import::is_rig(kind)) return open_rig(kind, log, choice);
   std::unique_ptr<import::Recording> recording = open(kind, log, choice);
   OpenedLog opened;
-  opened.name = name_of(log.log);
+  opened.name = recording_name(log.log);
   opened.period_ns = recording->period_ns();
   auto source = std::make_unique<ImportedSource>(std::move(recording), log.steps);
   opened.missing = [counts = source.get()] { return counts->missing(); };

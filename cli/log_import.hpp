@@ -27,6 +27,9 @@ void add_import_options(Command& command, ImportChoice& choice);
 /// Throws Error{kUsage} for options that do not belong to the kind, or to logs of our own where there is none.
 void check_import_options(std::optional<import::Kind> kind, const LogChoice& log, const ImportChoice& choice);
 
+/// What a recording is called: the folder's name, or the file's without its end.
+std::string recording_name(const std::filesystem::path& path);
+
 /// Opens a recording of other programs. Throws Error{kUsage, kBadInput, kIo}.
 OpenedLog open_recording(import::Kind kind, const LogChoice& log, const ImportChoice& choice);
 

@@ -115,17 +115,6 @@ std::int64_t period_of(const LogChoice& choice, const std::optional<Json>& manif
   return static_cast<std::int64_t>(kDefaultPeriod_s * 1e9);
 }
 
-/// A name from a log, fit for a folder's: it may come from anywhere.
-std::string plain_name(std::string name) {
-  for (char& c : name) {
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    if (!plain) c = '_';
-  }
-  constexpr std::size_t kMaxName = 100;
-  return name.empty() ? "log" : name.substr(0, kMaxName);
-}
-
 OpenedLog open_csv(const LogChoice& choice, const fs::path& path) {
   const Files files = find_files(choice, path);
   OpenedLog opened;
@@ -187,6 +176,16 @@ OpenedLog open_mcap(const LogChoice& choice, const fs::path& path, std::string c
 }
 
 }  // namespace
+
+std::string plain_name(std::string name) {
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    if (!plain) c = '_';
+  }
+  constexpr std::size_t kMaxName = 100;
+  return name.empty() ? "log" : name.substr(0, kMaxName);
+}
 
 OpenedLog open_log(const LogChoice& choice) {
   const fs::path path = log_file(choice.log);

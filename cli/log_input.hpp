@@ -46,6 +46,9 @@ OpenedLog open_log(const LogChoice& choice);
 /// Throws Error{kUsage} where options are given that an MCAP log has no use for.
 void check_no_csv_options(const LogChoice& choice);
 
+/// A name from a log, which may come from anywhere, made fit for that of a file or folder: letters, digits, `_` and `-`.
+std::string plain_name(std::string name);
+
 /// The MCAP file that a path names: itself, or the log of a run folder.
 std::filesystem::path mcap_file(const std::string& path);
 

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "import/cloud_folder.hpp"
 #include "import/point_table.hpp"
+#include "import/words.hpp"
 #include "log/byte_io.hpp"
 
 namespace hallway::import {
@@ -17,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// In the order of Kind.
-constexpr std::array kKindNames{"clouds", "tum", "victoria-park", "stereo-tracks", "range-bearing", "bag"};
+constexpr std::array kKindNames{"clouds", "tum",   "victoria-park", "stereo-tracks", "range-bearing",
+                                "bag",    "kitti", "euroc",         "pcd-imu"};
 
 std::optional<Kind> kind_of_file(const fs::path& path) {
   constexpr std::uint64_t kFirstBytes = 1024;
@@ -46,14 +48,18 @@ std::optional<Kind> kind_of_folder(const fs::path& folder) {
   if (holds("observations.csv")) {
     return holds("scans.csv") ? std::optional(Kind::kVictoriaPark) : std::nullopt;
   }
+  if (holds("mav0") || holds("imu0")) return Kind::kEuroc;
+  if (holds("sequences") || (holds("velodyne") && holds("times.txt"))) return Kind::kKitti;
   std::error_code code;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
-    if (is_cloud_file(entry->path())) return Kind::kClouds;
+    if (!is_cloud_file(entry->path())) continue;
+    const bool pcd = lower_case(entry->path().extension().string()) == ".pcd";
+    return pcd && holds("imu.csv") ? Kind::kPcdImu : Kind::kClouds;
   }
   throw Error(code ? ErrorCode::kIo : ErrorCode::kBadInput,
               code ? "cannot read the folder: " + code.message()
                    : "holds no log (run.mcap, observations.csv) and no known recording (.ply or .pcd files, "
-                     "depth.txt, associations.txt, scans.csv)",
+                     "depth.txt, associations.txt, scans.csv, mav0, sequences, velodyne)",
               {.file = printable(folder.string(), 4096)});
 }
 

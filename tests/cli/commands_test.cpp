@@ -62,6 +62,8 @@ Ended call(const std::string& command, const Strings& more) {
 const std::set<std::string> kDifferent{
     "--from",    // `log convert`: a kind of recording; `log cut`: a time
     "--points",  // `map export`: the points; `bench-em`: how many
+    "--sensor",  // `log frame`: whose samples, by id or name; `log convert`: which one is written
+    "--to",      // `log convert`: a layout; `log cut`: a time
 };
 
 TEST(Commands, OptionsOfOneNameAreTheSameEverywhere) {

@@ -38,6 +38,8 @@ MEANS_A_KIND = {
     "engine/run/sources/log_source.cpp": "reads tables of points and of planes", "engine/foxglove/view.cpp": "shows points",
     "engine/run/pictures/history.cpp": "draws points and planes",
     "engine/run/feed/observation_tables.cpp": "writes tables of points and of planes", "engine/run/feed/found_table.hpp": "writes a table of planes",
+    "engine/import/imu_rigs.cpp": "what a rig has", "engine/import/kitti_rig.cpp": "likewise", "engine/import/scan_cloud.cpp": "makes clouds of rays and of points",
+    "cli/log_clouds.cpp": "which sensors have clouds", "cli/log_layouts.cpp": "which have an IMU's samples", "cli/log_tables.cpp": "a table for each kind",
 }
 KIND = re.compile(r"\bHW_SAMPLE_(?!TRACKED\b)[A-Z]")
 
