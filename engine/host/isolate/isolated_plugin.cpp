@@ -146,6 +146,7 @@ void IsolatedPlugin::Pending::remember(const hw_frame_t& sent, std::span<const s
   }
   frame = {};
   frame.n_samples = sent.n_samples;
+  frame.t_ns = sent.t_ns;  // no pose is of a later time
   frame.samples = pointers.data();
 }
 

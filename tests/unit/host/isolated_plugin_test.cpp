@@ -103,6 +103,18 @@ TEST(IsolatedPlugin, GivesTheSameBitsAsInThisProcess) {
   expect_same(here->process(frame), there->process(frame));
 }
 
+TEST(IsolatedPlugin, APoseMayBeOfAnEarlierTimeThanItsFrame) {
+  const std::string looks_back = kFixtures + "/looks_back.so";
+  const auto here = in_process(looks_back), there = isolated(looks_back);
+  FrameBuilder builder;
+  for (Stage* stage : {here.get(), there.get()}) stage->activate(point_sensors());
+  for (const std::uint64_t step : {0u, 7u, 8u}) {
+    const hw_frame_t& frame = frame_of(builder, step, seen_at(step));
+    const std::int64_t expected_ns = step == 0 ? 0 : frame.t_ns - 1;
+    for (Stage* stage : {here.get(), there.get()}) EXPECT_EQ(stage->process(frame).pose()->t_ns, expected_ns);
+  }
+}
+
 TEST(IsolatedPlugin, TakesManyFramesBeforeItAnswers) {
   const auto here = in_process(kSlamPoint);
   const auto there = isolated(kSlamPoint);
