@@ -78,12 +78,13 @@ def mount_of(sensor):
 
 
 def first_hits(triangles, origins, directions):
-    """Distance of the first hit of each ray; infinite where there is none. Rays of one origin that follow each other are traced together."""
+    """Distance of the first hit of each ray, infinite where there is none, and the cosine to its normal. Rays of one origin that follow each other are traced together."""
     a, e1, e2 = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     normals = np.cross(e1, e2)
     usable = np.linalg.norm(normals, axis=1) > 0
     a, e1, e2, normals = a[usable], e1[usable], e2[usable], normals[usable]
-    ranges = np.empty(len(origins))
+    ranges, cosines = np.empty(len(origins)), np.empty(len(origins))
+    areas = np.linalg.norm(normals, axis=1)
     begin = 0
     while begin < len(origins):
         end = begin + 1
@@ -97,9 +98,12 @@ def first_hits(triangles, origins, directions):
         u, v = -(np.cross(to, e2) @ rays) * side, (np.cross(to, e1) @ rays) * side
         depth = (normals * to).sum(1)[:, None] * side
         hit = (facing > 0) & (u >= 0) & (v >= 0) & (u + v <= facing) & (depth >= 0)
-        ranges[begin:end] = np.where(hit, depth / np.where(facing > 0, facing, 1), math.inf).min(axis=0)
+        distances = np.where(hit, depth / np.where(facing > 0, facing, 1), math.inf)
+        first = distances.argmin(axis=0)
+        columns = np.arange(end - begin)
+        ranges[begin:end], cosines[begin:end] = distances[first, columns], facing[first, columns] / areas[first]
         begin = end
-    return ranges
+    return ranges, cosines
 
 
 def grazes(triangles, origin, direction, up_to):
@@ -215,7 +219,7 @@ def main(folder, frames, wanted_rays, tolerance_m):
             origins[k], directions[k] = p + r @ arm, r @ turn @ d
             measured.append(float(ray["range_m"]))
             said["most_skew_m"] = max(said["most_skew_m"], float(np.linalg.norm(p + r @ (arm + 5 * turn @ d) - begin_p - begin_r @ (arm + 5 * turn @ d))))
-        ranges = first_hits(triangles, origins, directions)
+        ranges, cosines = first_hits(triangles, origins, directions)
         ranges[ranges > sensor.get("max_range_m", 100)] = math.inf
         for k, (mine, theirs) in enumerate(zip(ranges, measured)):
             said["rays"] += 1
@@ -223,7 +227,7 @@ def main(folder, frames, wanted_rays, tolerance_m):
                 said["free"] += 1
                 continue
             difference = abs(mine - theirs)
-            if difference <= tolerance_m:
+            if difference * cosines[k] <= tolerance_m:  # across the surface: what a corner is off grows along a slanted ray
                 said["worst_range_m"] = max(said["worst_range_m"], difference)
                 continue
             said["different"] += 1

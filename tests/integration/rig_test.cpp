@@ -93,7 +93,7 @@ TEST_F(Rig, RangesAndInertialReadingsAreThoseOfAnIndependentComputation) {
 /// A lidar on a robot that stands at free places, in a map of Quake and in a building that is a mesh.
 class StandingRig : public Rig {
  protected:
-  /// @param tolerance_m  of a range: of brushes 1e-6; models are read in single precision
+  /// @param tolerance_m  across a surface: of brushes 1e-6; models are read in single precision
   void expect_ranges(const fs::path& map, double tolerance_m) {
     folder_.write("stand.csv", "t_ns,forward_m_s,angular_rad_s\n0,0,0\n");
     const std::string scan = long_mode() ? "columns = 16384\nstep_deg = 0.02\nrings = 16\n"
@@ -129,7 +129,7 @@ TEST_F(StandingRig, RangesInAModel) {
   HALLWAY_DATA_OR_SKIP(building, "models/buildings/willowgarage/meshes/willowgarage_visual.dae");
   const fs::path map = folder_ / "willowgarage.map";
   ASSERT_EQ(hallway({"import", building, "--copy", "--out", map}).status, 0);
-  expect_ranges(map, 2e-5);
+  expect_ranges(map, 5e-6);
 }
 
 }  // namespace
