@@ -143,6 +143,21 @@ void add_errors(const Rows& row, const Metrics& metrics) {
   }
 }
 
+void add_scores(const Rows& row, const Metrics& metrics, std::uint64_t submaps) {
+  if (metrics.iterations == 0) {
+    row("scored", "nothing: no frame went to a plugin");
+    return;
+  }
+  add_path(row, metrics);
+  if (metrics.planes) add_planes(row, metrics, submaps);
+  if (!metrics.planes || metrics.landmarks_mapped > 0) {
+    add_associations(row, metrics);
+    add_landmarks(row, metrics, submaps);
+    add_errors(row, metrics);
+  }
+  add_relative(row, metrics);
+}
+
 /// The frames of a replay do not depend on its commands.
 std::string comparison_text(const run::CommandComparison& commands) {
   const std::string compared = counted(commands.compared(), "frame") + " with one in the log";
@@ -168,17 +183,12 @@ struct Outcome {
 std::string table_of(const Outcome& outcome) {
   const run::RunResult& result = outcome.result;
   const Metrics& metrics = result.metrics;
-  std::string text = fmt::format("{}: {}{}\n", outcome.report.name, fmt::join(outcome.plugins, " + "),
-                                 result.stopped ? " (stopped early)" : "");
+  std::string text = fmt::format(
+      "{}: {}{}\n", outcome.report.name,
+      outcome.plugins.empty() ? "no plugin" : fmt::format("{}", fmt::join(outcome.plugins, " + ")),
+      result.stopped ? " (stopped early)" : "");
   const Rows row{text, 28};
-  add_path(row, metrics);
-  if (metrics.planes) add_planes(row, metrics, result.submaps);
-  if (!metrics.planes || metrics.landmarks_mapped > 0) {
-    add_associations(row, metrics);
-    add_landmarks(row, metrics, result.submaps);
-    add_errors(row, metrics);
-  }
-  add_relative(row, metrics);
+  add_scores(row, metrics, result.submaps);
   if (result.drive) add_drive(row, *result.drive);
   if (result.commands) row("commands, open loop", comparison_text(*result.commands));
   add_times(row, "iteration, wall clock", metrics.iteration_ms);

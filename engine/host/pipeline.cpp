@@ -31,7 +31,6 @@ Pipeline::Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::p
 
 Pipeline Pipeline::unstarted(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders,
                              Activation activation, LogSink log, std::optional<Isolation> isolation) {
-  if (stages.empty()) throw Error(ErrorCode::kBadInput, "the pipeline has no plugin");
   Pipeline pipeline;
   pipeline.specs_ = std::move(stages);
   pipeline.folders_ = std::move(folders);
@@ -128,7 +127,7 @@ bool Pipeline::takes_what_others_find() const {
 }
 
 std::size_t Pipeline::capacity() const {
-  if (in_turn_) return 1;
+  if (in_turn_ || stages_.empty()) return 1;
   std::size_t least = stages_.front()->capacity();
   for (const auto& plugin : stages_) least = std::min(least, plugin->capacity());
   return least;
@@ -190,9 +189,9 @@ const Outputs& Pipeline::collect() {
   if (called_.empty()) throw Error(ErrorCode::kInternal, "collect() without a frame");
   const std::vector<bool> called = std::move(called_.front());
   called_.pop_front();
-  const Outputs* outputs = nullptr;
+  const Outputs* outputs = &no_outputs_;
   for (std::size_t i = 0; i < stages_.size(); ++i) outputs = called[i] ? &collect(i) : &no_outputs_;
-  was_called_ = called.back();
+  was_called_ = !called.empty() && called.back();
   return *outputs;
 }
 
@@ -202,6 +201,7 @@ const Outputs& Pipeline::process(const hw_frame_t& frame, std::span<const std::b
 }
 
 const Outputs& Pipeline::report(bool refine) {
+  if (stages_.empty()) return no_outputs_;
   const Outputs& outputs = stages_.back()->report(refine);
   last_call_ = stages_.back()->last_call();
   return outputs;

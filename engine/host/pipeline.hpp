@@ -41,11 +41,12 @@ struct StageFacts {
 };
 
 /// Plugins in order, each fed with the samples of the kinds it needs: those of the frame, and the planes that plugins before it found in
-/// them. One is called for the frames that have any such sample. The last one's outputs are the pipeline's. After a PluginFailure only restart(), close() and the destructor may be used.
+/// them. One is called for the frames that have any such sample. The last one's outputs are the pipeline's. A pipeline without plugins is called for no
+/// frame and gives no outputs. After a PluginFailure only restart(), close() and the destructor may be used.
 class Pipeline {
  public:
   /// Finds, makes, sets and activates the plugins. Before any of them is activated, checks that each kind of
-  /// sample that one needs is given by a sensor or by a plugin before it (check_kinds()). Throws what find_plugin(), Plugin and IsolatedPlugin throw, and Error{kBadInput} if `stages` is empty.
+  /// sample that one needs is given by a sensor or by a plugin before it (check_kinds()). Throws what find_plugin(), Plugin and IsolatedPlugin throw.
   /// @param isolation  unset: the plugins run in this process. Set: each has a process of its own, and what the kernel
   ///                   does not keep them from is logged once, as a warning
   Pipeline(std::vector<StageSpec> stages, std::vector<std::filesystem::path> folders, Activation activation,

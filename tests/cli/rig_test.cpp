@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "log/mcap_reader.hpp"
 #include "log/observations.hpp"
 #include "support/data.hpp"
 #include "support/process.hpp"
@@ -115,6 +116,92 @@ TEST_F(Rig, SensorsAreSetOnTheCommandLine) {
     EXPECT_EQ(refused.status, 2) << wrong << ": " << refused.err;
     EXPECT_NE(refused.err.find("sensor.behind.rate_hz"), std::string::npos) << refused.err;
   }
+}
+
+/// maps/office_rig.toml, without its plugin.
+std::string rig_without_plugin() {
+  std::string text = read_file(maps() / "office_rig.toml");
+  text.erase(text.find("[[plugin]]"));
+  const std::string map = "map = \"office.map\"";
+  return text.replace(text.find(map), map.size(), "map = \"" + (maps() / "office.map").string() + "\"");
+}
+
+/// All messages of a log, in order, but for the plugins' answers: topic, iteration, time and bytes.
+std::vector<std::string> inputs_of(const fs::path& file) {
+  const log::FileInput input(file);
+  log::McapReader reader(input);
+  std::vector<std::string> messages;
+  while (const log::McapItem* item = reader.next()) {
+    const auto* message = std::get_if<log::McapMessage>(item);
+    if (message == nullptr) continue;
+    const std::string& topic = reader.channels().at(message->channel_id).topic;
+    if (topic.starts_with("/hallway/output/")) continue;
+    messages.push_back(topic + " " + std::to_string(message->sequence) + " " +
+                       std::to_string(message->log_time_ns) + " " + std::string(message->data));
+  }
+  EXPECT_FALSE(reader.damage());
+  return messages;
+}
+
+TEST(RigWithoutAPlugin, IsRecordedAsWithOne) {
+  TempFolder folder;
+  folder.write("bare.toml", rig_without_plugin());
+  const fs::path bare = folder.path() / "bare", with = folder.path() / "with";
+  const Ended ended = hallway({"run", folder.path() / "bare.toml", "--steps", "12", "--out", bare, "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  ASSERT_EQ(hallway({"run", folder.path() / "bare.toml", "--steps", "12", "--plugin", "slam_point", "--out",
+                     with, "--quiet"})
+                .status,
+            0);
+  const std::vector<std::string> recorded = inputs_of(bare / "run.mcap");
+  EXPECT_GT(recorded.size(), 400u) << "frames, truth of frames and of samples";
+  EXPECT_TRUE(recorded == inputs_of(with / "run.mcap"));
+  for (const char* file : {"truth.tum", "truth_poses.csv", "truth_landmarks.csv", "observations_eyes.csv"})
+    EXPECT_TRUE(read_file(bare / file) == read_file(with / file)) << file;
+
+  const Json manifest = json_of(bare / "run.json"), metrics = json_of(bare / "metrics.json");
+  EXPECT_EQ(manifest.at("iterations"), 12);
+  EXPECT_TRUE(manifest.at("plugins").empty());
+  EXPECT_EQ(metrics.at("iterations"), 0);
+  EXPECT_TRUE(metrics.at("verdict").is_null());
+  EXPECT_TRUE(metrics.at("coverage").at("poses").is_null());
+  const Json document = Json::parse(ended.out);
+  EXPECT_TRUE(document.at("plugins").empty());
+  EXPECT_EQ(document.at("metrics").at("iterations"), 0);
+  const Json info = Json::parse(hallway({"log", "info", bare, "--json"}).out);
+  EXPECT_EQ(info.dump().find("/hallway/output/"), std::string::npos) << "nobody answered";
+
+  const Ended words = hallway({"run", folder.path() / "bare.toml", "--steps", "3", "--out", bare, "--force"});
+  EXPECT_NE(words.out.find("scored"), std::string::npos) << words.out;
+  EXPECT_NE(words.out.find("nothing: no frame went to a plugin"), std::string::npos) << words.out;
+  const Ended replayed = hallway({"replay", with, "--out", folder.path() / "again", "--quiet"});
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+  const Ended unnamed = hallway({"replay", bare, "--out", folder.path() / "none"});
+  EXPECT_EQ(unnamed.status, 2) << unnamed.err;
+  EXPECT_NE(unnamed.err.find("--plugin is needed"), std::string::npos) << unnamed.err;
+}
+
+TEST(RigWithoutAPlugin, IsDrivenByCommandsAndNotByAPlugin) {
+  TempFolder folder;
+  const std::string drive = "[robot.drive]\nkind = \"differential\"\n";
+  std::string text = rig_without_plugin();
+  text.replace(text.find("loop_steps = 1010\n"), 18, "");
+  text.replace(text.find("path = \"round\"\n"), 15, "@\n");
+  const auto scenario = [&](const std::string& robot) {
+    std::string all = text;
+    return all.replace(all.find("@"), 1, robot) + drive;
+  };
+  folder.write("commands.csv", "t_ns,forward_m_s,angular_rad_s\n0,0.5,0.2\n");
+  folder.write("driven.toml", scenario("commands = \"commands.csv\""));
+  folder.write("nobody.toml", scenario("driven_by = \"plugin\""));
+  const Ended ended = hallway(
+      {"run", folder.path() / "driven.toml", "--steps", "12", "--out", folder.path() / "driven", "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_GT(Json::parse(ended.out).at("metrics").at("drive").at("distance_m").get<double>(), 0.1);
+  const Ended nobody =
+      hallway({"run", folder.path() / "nobody.toml", "--steps", "12", "--out", folder.path() / "nobody"});
+  EXPECT_EQ(nobody.status, 3) << nobody.err;
+  EXPECT_NE(nobody.err.find("a plugin is to drive the robot"), std::string::npos) << nobody.err;
 }
 
 }  // namespace

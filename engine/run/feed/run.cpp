@@ -129,9 +129,10 @@ nlohmann::ordered_json complete_manifest(const RunPlan& plan, const Source& sour
 /// Shows in Foxglove what plugins log and how they fail, where the plan wants that.
 class EventView {
  public:
-  EventView(const RunPlan& plan, const FrameFeed& feed, LogRecorder& recorder)
+  /// @param has_answers  whether there are plugins that answer
+  EventView(const RunPlan& plan, const FrameFeed& feed, LogRecorder& recorder, bool has_answers)
       : log_(plan.foxglove.get()), feed_(feed), recorder_(recorder) {
-    if (log_ != nullptr) recorder.add_view(true);
+    if (log_ != nullptr) recorder.add_view(has_answers);
   }
 
   /// What is new since the last call, at the time of the last frame.
@@ -240,7 +241,8 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   InputTables inputs(folder, plan, source);
   Tally tally(source, maps_planes(pipeline), folder);
   FrameFeed feed(source, pipeline, plan);
-  EventView events(plan, feed, recorder);
+  const bool has_plugins = !pipeline.specs().empty();
+  EventView events(plan, feed, recorder, has_plugins);
   RunResult result;
   while (feed.has_next() && !(result.stopped && feed.under_way() == 0)) {
     const auto give = [&](const SourceFrame& frame) {
@@ -276,7 +278,7 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   const std::vector<eval::JoinedEpoch> joined = joined_epochs_of(online_outputs, epochs.first());
   const host::Outputs* refined_outputs = feed.report(true);
   const record::FinalMap refined = refined_outputs != nullptr ? record::copy_map(refined_outputs) : online;
-  recorder.record_map(refined);
+  if (has_plugins) recorder.record_map(refined);
   tables.close();
   epochs.write(folder, online.joined_epochs);
   found.close();

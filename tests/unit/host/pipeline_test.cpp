@@ -60,10 +60,18 @@ TEST(Pipeline, WithoutSensorsNothingIsProduced) {
   EXPECT_NE(error->message().find("the sensors give: nothing"), std::string::npos) << error->message();
 }
 
-TEST(Pipeline, WithoutPluginsIsAnError) {
-  const auto error = problem_of({}, point_sensors());
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ErrorCode::kBadInput);
+TEST(Pipeline, WithoutPluginsIsCalledForNoFrame) {
+  FrameBuilder builder;
+  Pipeline pipeline(std::vector<StageSpec>{}, {}, point_sensors());
+  EXPECT_TRUE(pipeline.started());
+  EXPECT_EQ(pipeline.capacity(), 1u);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    EXPECT_FALSE(pipeline.process(frame_of(builder, i, {{1, 2, 3}})).pose());
+    EXPECT_FALSE(pipeline.was_called());
+  }
+  EXPECT_TRUE(pipeline.report(true).landmarks().empty());
+  EXPECT_NO_THROW(pipeline.restart());
+  EXPECT_NO_THROW(pipeline.close());
 }
 
 TEST(Pipeline, AnUnknownParameterIsNamedWhereItStands) {
