@@ -42,9 +42,9 @@ constexpr Range kPeriod_s{1e-6, 60.0};
 
 const std::vector<std::string> kViews{"top", "perspective", "panels",
                                       "camera"};  // in the order of PictureView
-const std::vector<std::string> kLayers{
-    "map",  "truth", "estimate", "landmarks", "errors", "submaps", "frustum", "walls",
-    "body", "trail", "contacts", "command",   "seen",   "events"};  // in the order of PictureLayer
+const std::vector<std::string> kLayers{"map",     "truth",  "estimate", "landmarks", "errors",   "submaps",
+                                       "frustum", "walls",  "body",     "trail",     "contacts", "command",
+                                       "seen",    "events", "deskewed"};  // in the order of PictureLayer
 
 /// Reads one scenario, table by table.
 class ScenarioReader {
@@ -343,7 +343,7 @@ std::vector<PictureLayer> default_picture_layers() {
   std::vector<PictureLayer> layers;
   for (std::size_t i = 0; i < kLayers.size(); ++i) {
     const auto layer = static_cast<PictureLayer>(i);
-    if (layer != PictureLayer::kSubmaps) layers.push_back(layer);
+    if (layer != PictureLayer::kSubmaps && layer != PictureLayer::kDeskewed) layers.push_back(layer);
   }
   return layers;
 }

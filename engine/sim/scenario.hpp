@@ -65,13 +65,15 @@ enum class PictureLayer {
   kContacts,
   kCommand,
   kSeen,
-  kEvents
+  kEvents,
+  kDeskewed
 };
 
 /// The names of the layers, in the order of PictureLayer.
 const std::vector<std::string>& picture_layer_names();
 
-/// What a picture shows where nothing else is said: all but the submaps, whose lines to each of their landmarks cover all else.
+/// What a picture shows where nothing else is said: all but the submaps, whose lines to each of their landmarks cover all
+/// else, and scans deskewed, which are shown as measured.
 std::vector<PictureLayer> default_picture_layers();
 
 /// A picture that is wanted of a run.

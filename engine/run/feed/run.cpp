@@ -304,12 +304,14 @@ RunResult execute(Source& source, host::Pipeline& pipeline, const RunPlan& plan,
   if (commands.compared() > 0) result.commands = commands;
   nlohmann::ordered_json manifest = complete_manifest(plan, source, result, feed.done());
   record::write_json(folder / files::kRun, manifest);
+  const bool shows_pictures = plan.foxglove != nullptr;
+  if (!shows_pictures) recorder.finish();  // a whole log is read by its index
   events.add_pictures(draw_pictures(output, plan, result));
   if (!result.missing_pictures.empty()) {
     manifest["missing_pictures"] = to_json(result.missing_pictures);
     record::write_json(folder / files::kRun, manifest);
   }
-  recorder.finish();
+  if (shows_pictures) recorder.finish();
   output.commit();
   return result;
 }

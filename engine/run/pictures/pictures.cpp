@@ -19,6 +19,7 @@
 #include "run/pictures/picture_frame.hpp"
 #include "run/pictures/plane_layers.hpp"
 #include "run/pictures/robot_things.hpp"
+#include "run/pictures/scan_layers.hpp"
 
 namespace hallway::run {
 namespace {
@@ -175,6 +176,9 @@ void add_landmark_dots(render::Picture& picture, const Record& record) {
   if (!dots.positions.empty()) picture.markers.push_back(std::move(dots));
 }
 
+/// How long lines without an end are drawn in a world without extent.
+constexpr double kReach_m = 100.0;
+
 /// What a picture of a moment shows over the map.
 void add_instant(render::Picture& picture, const Record& record, const sim::PictureSpec& spec,
                  const Instant& now) {
@@ -182,11 +186,19 @@ void add_instant(render::Picture& picture, const Record& record, const sim::Pict
   const bool from_robot = spec.view == sim::PictureView::kCamera;  // it does not see itself
   picture.subtitle = instant_text(record, now);
   if (spec.shows(kTruth)) add_landmark_dots(picture, record);
+  const bool deskews = spec.shows(kDeskewed);
+  Scans scans;
+  if (spec.shows(kSeen) || deskews || spec.shows(kFrustum)) scans = read_scans(record, now);
+  const Box frame = frame_of(record, picture.surfaces);
+  const double reach_m = frame.isEmpty() ? kReach_m : frame.diagonal().norm();
   if (spec.shows(kFrustum) && !from_robot) {
     for (const Json& sensor : sensors_of(record)) add_frustum(picture, record, sensor, Pose(), now);
+    add_sectors(picture, scans, reach_m);
   }
   add_paths(picture, record, spec, path_place(record), now);
   if (spec.shows(kSeen)) add_seen(picture, record, now);
+  if (spec.shows(kSeen) || deskews)
+    add_scans(picture, scans, deskews ? ScanPlacement::kDeskewed : ScanPlacement::kAsMeasured, reach_m);
   if (spec.shows(kCommand) && !from_robot) add_command(picture, record, now);
   if (spec.shows(kBody) && !from_robot) add_body(picture, record, now);
   if (spec.shows(kContacts)) add_contacts(picture, record, now);

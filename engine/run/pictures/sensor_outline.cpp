@@ -12,11 +12,32 @@
 #include "render/colour.hpp"
 
 namespace hallway::run {
+namespace {
+
+/// Of a lidar: x of its frame is turned to the middle of what it looks at.
+FieldOfView field_of(const sense::LidarSpec& lidar) {
+  const auto [right, left] =
+      std::ranges::minmax_element(lidar.pattern.rays, {}, &sense::PatternRay::azimuth_rad);
+  const auto [low, high] =
+      std::ranges::minmax_element(lidar.pattern.rays, {}, &sense::PatternRay::elevation_rad);
+  const double span = left->azimuth_rad - right->azimuth_rad;
+  const double step = span / (std::max(lidar.pattern.width, 2u) - 1.0);
+  const bool whole = span + 1.5 * step > 2.0 * std::numbers::pi;
+  const double middle = (left->azimuth_rad + right->azimuth_rad) / 2.0;
+  const Pose turned{Quat(Eigen::AngleAxisd(middle, Vec3::UnitZ())), Vec3::Zero()};
+  return {lidar.name, lidar.T_body_sensor * turned, whole ? 2.0 * std::numbers::pi : span,
+          high->elevation_rad - low->elevation_rad, lidar.max_range_m};
+}
+
+}  // namespace
 
 std::optional<FieldOfView> field_of(const sim::SensorSpec& sensor) {
   if (const auto* points = std::get_if<sense::PointSensorSpec>(&sensor))
     return FieldOfView{points->name, points->T_body_sensor, points->horizontal_fov, points->vertical_fov,
                        points->max_range_m};
+  if (const auto* lidar = std::get_if<sense::LidarSpec>(&sensor);
+      lidar != nullptr && !lidar->pattern.rays.empty())
+    return field_of(*lidar);
   const auto* planes = std::get_if<sense::PlaneSensorSpec>(&sensor);
   if (planes == nullptr) return std::nullopt;
   return FieldOfView{planes->name, planes->T_body_sensor, planes->view.horizontal_fov, planes->vertical_fov,

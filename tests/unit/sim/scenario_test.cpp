@@ -176,14 +176,15 @@ TEST(ScenarioPictures, MayBeOfIterations) {
   EXPECT_EQ(many.at(12'345'678).file, "b.x_12345678.png");
 }
 
-TEST(LoadScenario, APictureShowsAllButTheSubmapsUnlessToldOtherwise) {
+TEST(LoadScenario, APictureShowsTheUsualLayersUnlessToldOtherwise) {
   const PictureSpec picture = load(test::scenario_text("[[picture]]\nfile = 'a.png'\n")).pictures.at(0);
   EXPECT_EQ(picture.view, PictureView::kTop);
-  EXPECT_EQ(picture.show.size(), picture_layer_names().size() - 1);
+  EXPECT_EQ(picture.show.size(), picture_layer_names().size() - 2);
   EXPECT_FALSE(picture.iteration);
   EXPECT_EQ(picture.every, 0u);
   EXPECT_TRUE(picture.shows(PictureLayer::kFrustum));
   EXPECT_FALSE(picture.shows(PictureLayer::kSubmaps));
+  EXPECT_FALSE(picture.shows(PictureLayer::kDeskewed));
 }
 
 TEST(LoadScenario, TakesItsSchema) {
