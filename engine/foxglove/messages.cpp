@@ -7,16 +7,18 @@
 #include <hallway/ext/log.h>
 
 #include <array>
-#include <bit>
 #include <set>
 
 #include "base/error.hpp"
 #include "foxglove/CompressedImage.pb.h"
 #include "foxglove/FrameTransform.pb.h"
+#include "foxglove/LaserScan.pb.h"
 #include "foxglove/Log.pb.h"
 #include "foxglove/PointCloud.pb.h"
 #include "foxglove/PoseInFrame.pb.h"
+#include "foxglove/PosesInFrame.pb.h"
 #include "foxglove/SceneUpdate.pb.h"
+#include "foxglove/imu_json.hpp"
 
 namespace hallway::foxglove {
 namespace {
@@ -25,12 +27,13 @@ namespace pb = ::google::protobuf;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-/// In the order of Schema.
+/// In the order of Schema, of those in Protobuf.
 const pb::Descriptor& descriptor_of(Schema schema) {
   static constexpr std::array kDescriptors{
       ::foxglove::PointCloud::descriptor,  ::foxglove::FrameTransform::descriptor,
       ::foxglove::PoseInFrame::descriptor, ::foxglove::SceneUpdate::descriptor,
-      ::foxglove::Log::descriptor,         ::foxglove::CompressedImage::descriptor};
+      ::foxglove::Log::descriptor,         ::foxglove::CompressedImage::descriptor,
+      ::foxglove::LaserScan::descriptor,   ::foxglove::PosesInFrame::descriptor};
   return *kDescriptors.at(static_cast<std::size_t>(schema))();
 }
 
@@ -85,17 +88,18 @@ void set(::foxglove::Color& colour, const Colour& value) {
   colour.set_a(1.0);
 }
 
-void add_field(::foxglove::PointCloud& cloud, const char* name) {
-  ::foxglove::PackedElementField& field = *cloud.add_fields();
-  field.set_name(name);
-  field.set_offset(cloud.point_stride());
-  field.set_type(::foxglove::PackedElementField::FLOAT32);
-  cloud.set_point_stride(cloud.point_stride() + static_cast<std::uint32_t>(sizeof(float)));
-}
-
-void append(std::string& bytes, double value) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-  for (unsigned i = 0; i < sizeof bits; ++i) bytes += static_cast<char>(bits >> (8 * i) & 0xff);
+::foxglove::PackedElementField::NumericType type_of(CloudField::Type type) {
+  switch (type) {
+    case CloudField::Type::kUint16:
+      return ::foxglove::PackedElementField::UINT16;
+    case CloudField::Type::kUint32:
+      return ::foxglove::PackedElementField::UINT32;
+    case CloudField::Type::kFloat32:
+      return ::foxglove::PackedElementField::FLOAT32;
+    case CloudField::Type::kFloat64:
+      return ::foxglove::PackedElementField::FLOAT64;
+  }
+  throw Error(ErrorCode::kInternal, "a number of no type");
 }
 
 void set(::foxglove::LinePrimitive& line, const Line& value) {
@@ -133,29 +137,51 @@ void set(::foxglove::SpherePrimitive& sphere, const Ball& value) {
 }  // namespace
 
 std::string schema_name(Schema schema) {
-  return descriptor_of(schema).full_name();
+  return schema == Schema::kImu ? kImuSchemaName : descriptor_of(schema).full_name();
 }
 
-std::string schema_descriptors(Schema schema) {
+std::string schema_encoding(Schema schema) {
+  return schema == Schema::kImu ? "jsonschema" : "protobuf";
+}
+
+std::string message_encoding(Schema schema) {
+  return schema == Schema::kImu ? "json" : "protobuf";
+}
+
+std::string schema_data(Schema schema) {
+  if (schema == Schema::kImu) return imu_schema();
   pb::FileDescriptorSet files;
   std::set<std::string> added;
   add_file(*descriptor_of(schema).file(), added, files);
   return bytes_of(files);
 }
 
-std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const hw_points_t& points) {
-  ::foxglove::PointCloud cloud;
-  set(*cloud.mutable_timestamp(), t_ns);
-  cloud.set_frame_id(frame);
-  set(*cloud.mutable_pose(), Pose());
-  for (const char* name : {"x", "y", "z"}) add_field(cloud, name);
-  std::string& data = *cloud.mutable_data();
-  data.reserve(points.count * cloud.point_stride());
-  for (std::uint64_t i = 0; i < points.count; ++i) {
-    const hw_point3_t& point = *hw_point_at(&points, i);
-    for (const double value : {point.x, point.y, point.z}) append(data, value);
+std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const Cloud& cloud) {
+  ::foxglove::PointCloud message;
+  set(*message.mutable_timestamp(), t_ns);
+  message.set_frame_id(frame);
+  set(*message.mutable_pose(), Pose());
+  for (const CloudField& field : cloud.fields) {
+    ::foxglove::PackedElementField& packed = *message.add_fields();
+    packed.set_name(field.name);
+    packed.set_offset(field.offset);
+    packed.set_type(type_of(field.type));
   }
-  return bytes_of(cloud);
+  message.set_point_stride(cloud.stride);
+  message.set_data(cloud.data);
+  return bytes_of(message);
+}
+
+std::string print_laser_scan(std::int64_t t_ns, const std::string& frame, const LevelScan& scan) {
+  ::foxglove::LaserScan message;
+  set(*message.mutable_timestamp(), t_ns);
+  message.set_frame_id(frame);
+  set(*message.mutable_pose(), Pose());
+  message.set_start_angle(scan.start_rad);
+  message.set_end_angle(scan.end_rad);
+  message.mutable_ranges()->Assign(scan.ranges.begin(), scan.ranges.end());
+  message.mutable_intensities()->Assign(scan.intensities.begin(), scan.intensities.end());
+  return bytes_of(message);
 }
 
 std::string print_transform(std::int64_t t_ns, const std::string& parent, const std::string& child,
@@ -175,6 +201,14 @@ std::string print_pose(std::int64_t t_ns, const std::string& frame, const Pose& 
   pose.set_frame_id(frame);
   set(*pose.mutable_pose(), T_frame_body);
   return bytes_of(pose);
+}
+
+std::string print_poses(std::int64_t t_ns, const std::string& frame, std::span<const Pose> poses) {
+  ::foxglove::PosesInFrame message;
+  set(*message.mutable_timestamp(), t_ns);
+  message.set_frame_id(frame);
+  for (const Pose& pose : poses) set(*message.add_poses(), pose);
+  return bytes_of(message);
 }
 
 std::string print_scene(std::int64_t t_ns, const Entity& entity) {

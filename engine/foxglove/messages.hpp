@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <hallway/sample.h>
-
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "foxglove/clouds.hpp"
 #include "geometry/se3.hpp"
 
 namespace hallway::foxglove {
 
-// Messages in the well-known schemas of Foxglove (third_party/foxglove), as Protobuf bytes. The same values give the same
+// Messages in the well-known schemas of Foxglove (third_party/foxglove), as Protobuf bytes; of an IMU as JSON (imu_json.hpp). The same values give the same
 // bytes. Times are nanoseconds, not below 0; lengths are metres; texts are UTF-8.
 
 /// The schemas that are written.
@@ -23,14 +23,21 @@ enum class Schema : std::uint8_t {
   kSceneUpdate,
   kLog,
   kCompressedImage,
+  kLaserScan,
+  kPosesInFrame,
+  kImu,
 };
 
 /// The schema's name: "foxglove.PointCloud", ….
 std::string schema_name(Schema schema);
 
-/// What an MCAP schema record of the encoding "protobuf" holds: a serialized google.protobuf.FileDescriptorSet of the
-/// schema's file and all that it imports, each after those that it imports itself.
-std::string schema_descriptors(Schema schema);
+/// The encodings that MCAP records name: of the schema ("protobuf" or "jsonschema"), and of its messages ("protobuf" or "json").
+std::string schema_encoding(Schema schema);
+std::string message_encoding(Schema schema);
+
+/// What an MCAP schema record holds. Of the encoding "protobuf" a serialized google.protobuf.FileDescriptorSet of the schema's file and all that it
+/// imports, each after those that it imports itself; of "jsonschema" the JSON Schema.
+std::string schema_data(Schema schema);
 
 /// An opaque colour, each part from 0 to 1.
 struct Colour {
@@ -72,13 +79,17 @@ struct LogLine {
   std::string text{};       ///< safe to print
 };
 
-/// foxglove.PointCloud: x, y, z in single precision.
-std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const hw_points_t& points);
+/// foxglove.PointCloud.
+std::string print_point_cloud(std::int64_t t_ns, const std::string& frame, const Cloud& cloud);
+/// foxglove.LaserScan.
+std::string print_laser_scan(std::int64_t t_ns, const std::string& frame, const LevelScan& scan);
 /// foxglove.FrameTransform: where `child` stands in `parent`.
 std::string print_transform(std::int64_t t_ns, const std::string& parent, const std::string& child,
                             const Pose& T_parent_child);
 /// foxglove.PoseInFrame.
 std::string print_pose(std::int64_t t_ns, const std::string& frame, const Pose& T_frame_body);
+/// foxglove.PosesInFrame.
+std::string print_poses(std::int64_t t_ns, const std::string& frame, std::span<const Pose> poses);
 /// foxglove.SceneUpdate of one entity.
 std::string print_scene(std::int64_t t_ns, const Entity& entity);
 /// foxglove.Log.

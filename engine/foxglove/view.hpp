@@ -10,6 +10,7 @@
 
 #include "foxglove/messages.hpp"
 #include "foxglove/path_line.hpp"
+#include "foxglove/pose_list.hpp"
 #include "host/stage.hpp"
 #include "log/mcap_writer.hpp"
 #include "log/run_log.hpp"
@@ -29,7 +30,7 @@ struct ViewOptions {
 
 /// Shows a run in Foxglove: beside what stands in a log already, the same once more in messages of the well-known schemas
 /// (docs/formats.md). Each function is called after the message of the run's own channel was written. Same calls, same bytes;
-/// all times are those of the frames. A message that is too large for a log is left out, and the log channel says so. All functions throw
+/// all times are those of the frames, but for an IMU's readings. A message that is too large for a log is left out, and the log channel says so. All functions throw
 /// Error{kIo}.
 class View {
  public:
@@ -41,7 +42,7 @@ class View {
   /// Where the true landmarks are; before the first frame.
   void set_true_landmarks(std::span<const log::Landmark> landmarks);
 
-  /// What the sensors saw. Samples that are no points are passed over.
+  /// What the sensors saw: points, rays, odometry and readings of IMUs. Samples of other kinds are passed over.
   void add_frame(const log::FrameStamp& stamp, const hw_frame_t& frame);
   void add_true_pose(const log::FrameStamp& stamp, const log::IterationPose& pose);
   void add_pose(const log::FrameStamp& stamp, const log::PoseAnswer& pose);
@@ -64,6 +65,14 @@ class View {
 
  private:
   void begin();
+  void add_sample(const log::FrameStamp& stamp, const hw_sample_t& sample);
+  void add_scan(const log::FrameStamp& stamp, const hw_sample_t& sample);
+  void add_imu(const log::FrameStamp& stamp, const hw_sample_t& sample);
+  void put_odometry(const log::FrameStamp& stamp, std::uint32_t sensor, const Pose& T_odom_sensor);
+  void place_odometry(const log::FrameStamp& stamp, const Pose& T_world_body);
+  void place_sensor(const log::FrameStamp& stamp, std::uint32_t sensor);
+  Pose mount_of(std::uint32_t sensor) const;
+  void put_poses(const char* topic, const log::FrameStamp& stamp, const char* frame, PoseList& list);
   void put(const std::string& topic, Schema schema, const log::FrameStamp& stamp, std::string_view bytes);
   void put_scene(const char* topic, const log::FrameStamp& stamp, const Entity& entity);
   void put_log(const LogLine& line);
@@ -88,6 +97,11 @@ class View {
   std::uint32_t contacts_ = 0;
   std::map<std::uint32_t, Pose> T_body_sensor_;  ///< by the sensor's id
   std::set<std::uint32_t> placed_sensors_;
+  std::map<std::uint32_t, const hw_sample_t*> scans_;       ///< the last of this frame, by the sensor's id
+  std::map<std::uint32_t, std::int64_t> scan_shown_at_ns_;  ///< the last one that was shown
+  std::map<std::uint32_t, Pose> T_odom_sensor_;             ///< the last of this frame, by the sensor's id
+  std::set<std::uint32_t> placed_odometry_;                 ///< with a place from the truth
+  std::set<std::uint32_t> assumed_odometry_;                ///< with a place
 
   /// The last true pose whose orientation is known.
   struct TruePose {
@@ -100,6 +114,8 @@ class View {
   MapPlace map_place_ = MapPlace::kNone;
   PathLine true_path_;
   PathLine path_;
+  PoseList true_poses_;
+  PoseList poses_;
 };
 
 }  // namespace hallway::foxglove

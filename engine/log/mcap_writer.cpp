@@ -72,7 +72,10 @@ void McapWriter::add(const McapMessage& message) {
 bool McapWriter::ends_before(const McapMessage& message) const {
   if (chunk_.messages == 0) return false;
   if (chunk_.records.size() >= kMaxChunkFactor * options_.chunk_bytes) return true;
-  if (message.log_time_ns == chunk_.last_time_ns) return false;
+  // What is a little late belongs to the moment before it: a frame and its truth stay together.
+  const bool is_late = message.log_time_ns <= chunk_.end_time_ns &&
+                       chunk_.end_time_ns - message.log_time_ns < options_.chunk_time_ns;
+  if (message.log_time_ns == chunk_.last_time_ns || is_late) return false;
   const auto [low, high] = std::minmax(message.log_time_ns, chunk_.start_time_ns);
   return chunk_.records.size() >= options_.chunk_bytes || high - low >= options_.chunk_time_ns;
 }

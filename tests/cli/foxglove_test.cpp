@@ -8,6 +8,7 @@
 
 #include "cli/small_world.hpp"
 #include "log/mcap_reader.hpp"
+#include "support/data.hpp"
 #include "support/fixture.hpp"
 
 namespace hallway::test {
@@ -77,11 +78,12 @@ TEST_F(FoxgloveLog, TheRunsOwnChannelsStayAsTheyAre) {
   EXPECT_TRUE(own == messages(shown() / "run.mcap", "/hallway/"));
   EXPECT_TRUE(messages(plain() / "run.mcap", "/foxglove/").empty());
   EXPECT_EQ(topics_of(messages(shown() / "run.mcap", "/foxglove/")),
-            (std::vector<std::string>{"/foxglove/landmarks", "/foxglove/path", "/foxglove/pictures/top.png",
-                                      "/foxglove/points", "/foxglove/pose", "/foxglove/submaps",
-                                      "/foxglove/tf/body", "/foxglove/tf/body_truth", "/foxglove/tf/map",
-                                      "/foxglove/tf/sensor_0", "/foxglove/truth/landmarks",
-                                      "/foxglove/truth/path", "/foxglove/truth/pose"}));
+            (std::vector<std::string>{
+                "/foxglove/landmark_cloud", "/foxglove/landmarks", "/foxglove/path", "/foxglove/path_poses",
+                "/foxglove/pictures/top.png", "/foxglove/points", "/foxglove/pose", "/foxglove/submaps",
+                "/foxglove/tf/body", "/foxglove/tf/body_truth", "/foxglove/tf/map", "/foxglove/tf/sensor_0",
+                "/foxglove/truth/landmark_cloud", "/foxglove/truth/landmarks", "/foxglove/truth/path",
+                "/foxglove/truth/path_poses", "/foxglove/truth/pose"}));
   expect_same_files(plain(), shown(), kAnswers);
 }
 
@@ -137,9 +139,10 @@ TEST_F(FoxgloveLog, ObservationsAloneAreShownWithTheirTruth) {
                                plain() / "truth_poses.csv", "--foxglove", "--out", path("seen.mcap")});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const Topics view = messages(path("seen.mcap"), "/foxglove/");
-  EXPECT_EQ(topics_of(view), (std::vector<std::string>{"/foxglove/points", "/foxglove/tf/body",
-                                                       "/foxglove/tf/body_truth", "/foxglove/tf/sensor_0",
-                                                       "/foxglove/truth/path", "/foxglove/truth/pose"}));
+  EXPECT_EQ(topics_of(view),
+            (std::vector<std::string>{"/foxglove/points", "/foxglove/tf/body", "/foxglove/tf/body_truth",
+                                      "/foxglove/tf/sensor_0", "/foxglove/truth/path",
+                                      "/foxglove/truth/path_poses", "/foxglove/truth/pose"}));
   EXPECT_EQ(view.at("/foxglove/points").size(), 60u);
 }
 
@@ -182,6 +185,50 @@ TEST_F(FoxgloveLog, WhatCannotBeShownIsRefused) {
   EXPECT_NE(none.err.find("none.mcap"), std::string::npos) << none.err;
   EXPECT_EQ(convert(path("missing.mcap"), {"--out", path("a.mcap")}).status, 3);
   EXPECT_FALSE(fs::exists(path("a.mcap"))) << "nothing half-written";
+}
+
+/// maps/office_rig.toml without its plugin, with a level lidar more.
+std::string rig() {
+  const fs::path maps = source_folder() / "maps";
+  std::string text = read_file(maps / "office_rig.toml");
+  text.erase(text.find("[[plugin]]"));
+  const std::string map = "map = \"office.map\"";
+  text.replace(text.find(map), map.size(), "map = \"" + (maps / "office.map").string() + "\"");
+  return text + "[sensor.level]\nkind = \"lidar\"\npreset = \"lidar2d_270\"\n";
+}
+
+TEST(FoxgloveLogOfARig, ShowsItsSensesInLessThanTwiceTheSize) {
+  TempFolder folder;
+  const std::string scenario = folder.write("rig.toml", rig());
+  const auto record = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", scenario, "--steps", "30", "--quiet", "--out", folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = hallway(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+  };
+  record("plain", {});
+  record("shown", {"--foxglove"});
+  const fs::path plain = fs::path(folder / "plain") / "run.mcap",
+                 shown = fs::path(folder / "shown") / "run.mcap";
+  EXPECT_TRUE(messages(plain, "/hallway/") == messages(shown, "/hallway/"));
+  EXPECT_LT(fs::file_size(shown), 2 * fs::file_size(plain));
+  const Topics view = messages(shown, "/foxglove/");
+  EXPECT_EQ(
+      topics_of(view),
+      (std::vector<std::string>{
+          "/foxglove/imu/sensor_2", "/foxglove/odometry/sensor_4", "/foxglove/points",
+          "/foxglove/rays/sensor_1", "/foxglove/scan/sensor_5", "/foxglove/tf/body",
+          "/foxglove/tf/body_truth", "/foxglove/tf/odom_4", "/foxglove/tf/sensor_0", "/foxglove/tf/sensor_1",
+          "/foxglove/tf/sensor_5", "/foxglove/truth/landmark_cloud", "/foxglove/truth/landmarks",
+          "/foxglove/truth/path", "/foxglove/truth/path_poses", "/foxglove/truth/pose"}));
+  EXPECT_EQ(view.at("/foxglove/imu/sensor_2").size(), 580u) << "each reading";
+  EXPECT_EQ(view.at("/foxglove/rays/sensor_1").size(), 15u) << "five a second";
+  EXPECT_EQ(view.at("/foxglove/odometry/sensor_4").size(), 30u);
+  EXPECT_EQ(view.at("/foxglove/tf/body").size(), 1u) << "without answers it is where it truly is";
+  ASSERT_EQ(
+      hallway({"log", "convert", folder / "plain", "--foxglove", "--out", folder / "converted.mcap"}).status,
+      0);
+  EXPECT_TRUE(read_file(folder / "converted.mcap") == read_file(shown));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ hw_points_t reading(const std::vector<double>& numbers, std::uint32_t doubles_pe
 TEST(FoxgloveMessages, ACloudHasThePointsInSinglePrecision) {
   const std::vector<double> numbers{0.1, -2.5, 1e-3,      99,
                                     4,   5,    1.0 / 3.0, 99};  // the fourth is not of a point
-  const auto cloud = parse<::foxglove::PointCloud>(print_point_cloud(kTime_ns, "eyes", reading(numbers, 4)));
+  const auto cloud =
+      parse<::foxglove::PointCloud>(print_point_cloud(kTime_ns, "eyes", cloud_of(reading(numbers, 4))));
   expect_time(cloud.timestamp());
   EXPECT_EQ(cloud.frame_id(), "eyes");
   EXPECT_EQ(cloud.point_stride(), 12u);
@@ -79,7 +80,7 @@ TEST(FoxgloveMessages, ACloudHasThePointsInSinglePrecision) {
 }
 
 TEST(FoxgloveMessages, AnEmptyCloudIsACloud) {
-  const auto cloud = parse<::foxglove::PointCloud>(print_point_cloud(0, "eyes", reading({}, 3)));
+  const auto cloud = parse<::foxglove::PointCloud>(print_point_cloud(0, "eyes", cloud_of(reading({}, 3))));
   EXPECT_EQ(cloud.fields_size(), 3);
   EXPECT_TRUE(cloud.data().empty());
 }
@@ -153,7 +154,7 @@ TEST(FoxgloveMessages, APictureIsItsFile) {
 TEST(FoxgloveMessages, TheSameValuesGiveTheSameBytes) {
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(print_transform(kTime_ns, "a", "b", kPose), print_transform(kTime_ns, "a", "b", kPose));
-    EXPECT_EQ(schema_descriptors(Schema::kSceneUpdate), schema_descriptors(Schema::kSceneUpdate));
+    EXPECT_EQ(schema_data(Schema::kSceneUpdate), schema_data(Schema::kSceneUpdate));
   }
 }
 
@@ -164,25 +165,29 @@ struct KnownSchema {
 
 std::vector<KnownSchema> known_schemas() {
   const Entity entity{.frame = "map", .id = "i", .lines = {{}}, .balls = {{}}};
-  return {{Schema::kPointCloud, print_point_cloud(1, "f", reading({1, 2, 3}, 3))},
+  return {{Schema::kPointCloud, print_point_cloud(1, "f", cloud_of(reading({1, 2, 3}, 3)))},
           {Schema::kFrameTransform, print_transform(1, "a", "b", kPose)},
           {Schema::kPoseInFrame, print_pose(1, "a", kPose)},
           {Schema::kSceneUpdate, print_scene(1, entity)},
           {Schema::kLog, print_log(1, {HW_LOG_INFO, "n", "t"})},
-          {Schema::kCompressedImage, print_picture(1, "png")}};
+          {Schema::kCompressedImage, print_picture(1, "png")},
+          {Schema::kLaserScan,
+           print_laser_scan(1, "f",
+                            {.start_rad = -1.0, .end_rad = 1.0, .ranges = {1, 2}, .intensities = {3, 4}})},
+          {Schema::kPosesInFrame, print_poses(1, "a", std::vector{kPose, kPose})}};
 }
 
 /// Nothing that is linked into this program helps: the pool knows only what stands in the record.
 TEST(FoxgloveMessages, ASchemaRecordIsEnoughToReadItsMessages) {
-  const std::vector<std::string> names{"foxglove.PointCloud",  "foxglove.FrameTransform",
-                                       "foxglove.PoseInFrame", "foxglove.SceneUpdate",
-                                       "foxglove.Log",         "foxglove.CompressedImage"};
+  const std::vector<std::string> names{
+      "foxglove.PointCloud", "foxglove.FrameTransform",  "foxglove.PoseInFrame", "foxglove.SceneUpdate",
+      "foxglove.Log",        "foxglove.CompressedImage", "foxglove.LaserScan",   "foxglove.PosesInFrame"};
   const auto known = known_schemas();
   ASSERT_EQ(known.size(), names.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
     EXPECT_EQ(schema_name(known[i].schema), names[i]);
     pb::FileDescriptorSet files;
-    ASSERT_TRUE(files.ParseFromString(schema_descriptors(known[i].schema)));
+    ASSERT_TRUE(files.ParseFromString(schema_data(known[i].schema)));
     pb::DescriptorPool pool;
     for (const pb::FileDescriptorProto& file : files.file()) {
       ASSERT_NE(pool.BuildFile(file), nullptr) << file.name() << " stands before what it imports";

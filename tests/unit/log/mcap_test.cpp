@@ -94,6 +94,24 @@ TEST(Mcap, AChunkSpansASecondAtMostAndKeepsAMomentTogether) {
   EXPECT_EQ(each_second.chunks(), 3u) << "3 s of log time";
 }
 
+TEST(Mcap, AMessageThatIsALittleLateEndsNoChunk) {
+  StringOutput out;
+  McapWriter writer(out, {}, {.chunk_bytes = 30, .chunk_time_ns = 1'000'000'000});
+  writer.add(McapChannel{.id = 1, .schema_id = 0, .topic = "a", .encoding = "", .metadata = {}});
+  const std::string data(100, 'x');
+  constexpr std::uint64_t kTenth_ns = 100'000'000;
+  for (std::uint64_t moment = 1; moment <= 5; ++moment) {
+    for (const std::uint64_t before : {std::uint64_t{0}, kTenth_ns / 2, kTenth_ns / 4, std::uint64_t{0}})
+      writer.add(McapMessage{.channel_id = 1, .log_time_ns = moment * kTenth_ns - before, .data = data});
+  }
+  writer.finish();
+  const MemoryInput input(out.text());
+  McapReader reader(input);
+  while (reader.next() != nullptr) continue;
+  EXPECT_FALSE(reader.damage());
+  EXPECT_EQ(reader.chunks(), 5u) << "one for each moment, with what is late in it";
+}
+
 TEST(Mcap, WhatIsNoMcapFileIsAnErrorAndNotDamage) {
   for (const std::string text : {"", "\x89", "iteration,x,y,z\n0,1,2,3\n", "\x89MCAP1\r\n"}) {
     const auto error = hallway::test::error_of([&] { read_back(text); });
