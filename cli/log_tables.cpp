@@ -5,6 +5,7 @@
 #include <hallway/hallway.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -98,9 +99,18 @@ void add_points(log::RowFile& file, const TableReading& reading) {
   }
 }
 
+/// Of each beam, -1 where nothing is in range; null where the log does not have them.
+const std::vector<double>* true_ranges_of(const TableReading& reading, std::uint64_t beams) {
+  if (reading.truth == nullptr) return nullptr;
+  const auto found = reading.truth->values.find("range_m");
+  const bool has_all = found != reading.truth->values.end() && beams > 0 && found->second.size() == beams;
+  return has_all ? &found->second : nullptr;
+}
+
 void add_scan(log::RowFile& file, const TableReading& reading) {
   const auto& scan = reading.payload<hw_range_scan_t>();
   const std::uint64_t in_layer = scan.layers > 0 ? scan.count / scan.layers : scan.count;
+  const std::vector<double>* true_ranges = true_ranges_of(reading, in_layer);
   for (std::uint64_t i = 0; i < scan.count; ++i) {
     const hw_ray_t& ray = *hw_ray_at(&scan, i);
     Cells row(file.next_row());
@@ -109,6 +119,12 @@ void add_scan(log::RowFile& file, const TableReading& reading) {
     row.number(ray.azimuth_rad).number(ray.elevation_rad).number(ray.range_m);
     row.number(scan.intensity != nullptr ? scan.intensity[i] : std::nanf(""));
     row.whole(in_layer > 0 ? i / in_layer : 0);
+    if (true_ranges == nullptr) {
+      row.none();
+    } else {
+      const double range_m = (*true_ranges)[i % in_layer];
+      row.number(range_m < 0.0 ? std::numeric_limits<double>::infinity() : range_m);
+    }
   }
 }
 
@@ -194,7 +210,7 @@ const std::map<std::uint32_t, ElementTable>& element_tables() {
         "x3_m,y3_m,z3_m,rms_m,true_plane",
         add_planes}},
       {HW_SAMPLE_RANGE_SCAN,
-       {"sequence,t_ns,ring,azimuth_rad,elevation_rad,range_m,intensity,layer", add_scan}},
+       {"sequence,t_ns,ring,azimuth_rad,elevation_rad,range_m,intensity,layer,true_range_m", add_scan}},
       {HW_SAMPLE_BUMP, {"sequence,t_ns,zone,pressed,depth_m,dx,dy,dz", add_bump}},
       {HW_SAMPLE_ENCODER, {"sequence,t_ns,wheel,ticks", add_ticks}},
       {HW_SAMPLE_ODOMETRY,

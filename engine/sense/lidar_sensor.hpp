@@ -31,7 +31,7 @@ struct BeamWidth {
 
 /// A scanner of ranges: 2-D or 3-D lidar. Its frame: x forward, y left, z up.
 struct LidarSpec {
-  std::string name{};  ///< keys the sensor's random numbers; unique on a robot
+  std::string name{};    ///< keys the sensor's random numbers; unique on a robot
   Pose T_body_sensor{};  ///< in truth
   RayPattern pattern{};
   double min_range_m = 0.0;    ///< what is nearer gives no answer
@@ -41,6 +41,7 @@ struct LidarSpec {
   std::uint32_t returns = 1;  ///< 1: of a beam with two, that with the more hits, or the nearer; 2: both
   bool skew = true;           ///< each ray is measured at its own time; false: all of them when the scan ends
   bool own_body = true;       ///< the robot's body is met where it stands in a beam
+  bool true_ranges = false;   ///< LidarTruth::range_m is wanted in logs
   SensorTiming timing{};      ///< phase: begin of the first scan
 };
 

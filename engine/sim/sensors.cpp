@@ -312,6 +312,7 @@ sense::LidarSpec read_lidar(const std::string& name, SensorReader& sensor) {
   spec.returns = sensor.whole("returns");
   spec.skew = sensor.flag("skew");
   spec.own_body = sensor.flag("own_body");
+  spec.true_ranges = sensor.flag("true_ranges");
   spec.T_body_sensor.t = sensor.position();
   spec.T_body_sensor.q = sensor.orientation();
   spec.timing = sensor.timing();

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "log/mcap_reader.hpp"
 #include "log/observations.hpp"
@@ -202,6 +204,69 @@ TEST(RigWithoutAPlugin, IsDrivenByCommandsAndNotByAPlugin) {
       hallway({"run", folder.path() / "nobody.toml", "--steps", "12", "--out", folder.path() / "nobody"});
   EXPECT_EQ(nobody.status, 3) << nobody.err;
   EXPECT_NE(nobody.err.find("a plugin is to drive the robot"), std::string::npos) << nobody.err;
+}
+
+/// The cells of a line of a table.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+TEST(RigWithTrueRanges, HasTheRangesWithoutNoiseInItsLog) {
+  TempFolder folder;
+  const std::string lidar = "preset = \"lidar16\"\n";
+  std::string text = rig_without_plugin();
+  folder.write("known.toml",
+               text.insert(text.find(lidar) + lidar.size(), "true_ranges = true\nmax_range_m = 9\n"));
+  std::string same = text;
+  folder.write("same.toml", same.erase(same.find("true_ranges = true\n"), 19));
+  for (const char* name : {"known", "same"}) {
+    const Ended ended = hallway({"run", folder.path() / (std::string(name) + ".toml"), "--steps", "3",
+                                 "--out", folder.path() / name, "--quiet"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    ASSERT_EQ(hallway({"log", "convert", folder.path() / name, "--to", "tables", "--out",
+                       folder.path() / (std::string(name) + "_tables")})
+                  .status,
+              0);
+  }
+  std::istringstream known(read_file(folder.path() / "known_tables" / "lidar.csv"));
+  std::istringstream plain(read_file(folder.path() / "same_tables" / "lidar.csv"));
+  std::string line, other;
+  std::getline(known, line);
+  std::getline(plain, other);
+  EXPECT_EQ(line, other) << "the columns";
+  std::size_t hits = 0, unknown = 0, free = 0;
+  double squares = 0.0;
+  while (std::getline(known, line) && std::getline(plain, other)) {
+    const std::vector<std::string> cells = cells_of(line);
+    ASSERT_EQ(cells.size(), 9u);
+    ASSERT_EQ(line.substr(0, line.rfind(',') + 1), other) << "nothing else changes";
+    const std::string &range = cells[5], &truth = cells[8];
+    ASSERT_FALSE(truth.empty());
+    if (range.empty()) {
+      ++unknown;
+    } else if (range == "inf") {
+      ++free;
+      EXPECT_TRUE(truth == "inf" || std::stod(truth) > 8.8) << line;
+    } else {
+      ASSERT_NE(truth, "inf") << line;
+      const double error = std::stod(range) - std::stod(truth);
+      EXPECT_LT(std::abs(error), 0.15) << line;
+      squares += error * error;
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 10'000u);
+  EXPECT_GT(unknown, 100u) << "drop-outs have a true range";
+  EXPECT_GT(free, 100u);
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(hits)), 0.02, 0.002) << "the noise of lidar16";
 }
 
 }  // namespace

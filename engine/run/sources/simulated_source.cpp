@@ -124,8 +124,12 @@ void add_values(const sense::EncoderTruth& encoders, TruthValues& values) {
   values.emplace("m_per_tick", encoders.m_per_tick);
 }
 
-/// The true ranges follow from the scenario: they are not written.
-void add_values(const sense::LidarTruth&, TruthValues&) {}
+/// Of each beam, where the scenario wants that: -1 where nothing is in range.
+void add_values(const sense::LidarTruth& lidar, TruthValues& values) {
+  std::vector<double> ranges;
+  for (const double range_m : lidar.range_m) ranges.push_back(std::isfinite(range_m) ? range_m : -1.0);
+  values.emplace("range_m", std::move(ranges));
+}
 
 void add_values(const sense::ImuTruth& imu, TruthValues& values) {
   const auto add = [&](const char* name, const Vec3& numbers) {
@@ -150,15 +154,20 @@ void fill_odometry(const sense::OdometryReading& reading, hw_odometry_t& into) {
 }
 
 /// What is true of a reading and not of the whole frame.
-void add_truth(const sim::Reading& reading, const sim::Frame& step, SourceFrame& frame) {
+/// @param sensor  that it is of
+void add_truth(const sim::Reading& reading, const sim::SensorSpec& sensor, const sim::Frame& step,
+               SourceFrame& frame) {
   log::SampleTruth truth{.sample = static_cast<std::uint32_t>(&reading - step.readings.data())};
   if (reading.t_ns != step.t_ns) {
     truth.position_m = to_array(reading.T_world_body.t);
     truth.orientation = to_array(reading.T_world_body.q);
   }
+  const auto* lidar = std::get_if<sense::LidarSpec>(&sensor);
+  const bool has_values = lidar == nullptr || lidar->true_ranges;
   std::visit(
       [&](const auto& sensed) {
-        if constexpr (requires { sensed.truth; }) add_values(sensed.truth, truth.values);
+        if constexpr (requires { sensed.truth; })
+          if (has_values) add_values(sensed.truth, truth.values);
       },
       reading.sensed);
   if (reading.stamp_ns != reading.t_ns || reading.stamp_begin_ns != reading.t_begin_ns)
@@ -384,7 +393,7 @@ void SimulatedSource::fill(std::uint32_t iteration, SourceFrame& frame) {
     std::visit([&](const auto& spec) { add_reading(spec, reading, frame, builder); },
                simulator_.scenario().sensors[reading.sensor]);
     builder.set_reading(reading.sequence, reading.stamp_begin_ns, reading.stamp_ns);
-    add_truth(reading, step, frame);
+    add_truth(reading, simulator_.scenario().sensors[reading.sensor], step, frame);
   }
 }
 
