@@ -57,43 +57,44 @@ Lemniscate::Lemniscate(const LemniscateSpec& spec)
       ground_(plan_speed, 0.0, 2.0 * kPi, kCells),
       in_space_(curve_in_space(ground_length_, spec.rise_m)) {}
 
-Pose Lemniscate::at(double distance_m) const {
+Lemniscate::Spot Lemniscate::spot_at(double distance_m) const {
   double distance = std::fmod(distance_m, spec_.length_m);
   if (distance < 0.0) distance += spec_.length_m;
-  const double u = in_space_.parameter_at(distance);
-  const PlanPoint plan = plan_at(ground_.parameter_at(u * ground_.total()));
-  const double a = ground_length_ / ground_.total();
+  Spot spot;
+  spot.u = in_space_.parameter_at(distance);
+  const PlanPoint plan = plan_at(ground_.parameter_at(spot.u * ground_.total()));
+  spot.scale = ground_length_ / ground_.total();
   // The plan leaves the crossing at -45 degrees.
   const Eigen::Rotation2Dd turn(spec_.heading + kPi / 4.0);
-  const Vec2 position = turn * (a * plan.position);
-  const Vec2 direction = turn * (ground_length_ * plan.derivative.normalized());
-  const double climb = std::sin(kPi * u);
-  const double height = spec_.rise_m * climb * climb;
-  const double slope = spec_.rise_m * kPi * std::sin(2.0 * kPi * u);
-  return look_along(spec_.crossing + Vec3(position.x(), position.y(), height),
-                    Vec3(direction.x(), direction.y(), slope));
+  const Vec2 level = turn * (spot.scale * plan.position);
+  const double climb = std::sin(kPi * spot.u);
+  spot.position = spec_.crossing + Vec3(level.x(), level.y(), spec_.rise_m * climb * climb);
+  spot.plan_position = plan.position;
+  spot.plan_ahead = plan.derivative.normalized();
+  spot.turn = turn;
+  spot.slope = spec_.rise_m * kPi * std::sin(2.0 * kPi * spot.u);
+  return spot;
+}
+
+Pose Lemniscate::at(double distance_m) const {
+  const Spot spot = spot_at(distance_m);
+  const Vec2 direction = spot.turn * (ground_length_ * spot.plan_ahead);
+  return look_along(spot.position, Vec3(direction.x(), direction.y(), spot.slope));
 }
 
 CurvePoint Lemniscate::without_slope(double distance_m) const {
-  double distance = std::fmod(distance_m, spec_.length_m);
-  if (distance < 0.0) distance += spec_.length_m;
-  const double u = in_space_.parameter_at(distance);
-  const PlanPoint plan = plan_at(ground_.parameter_at(u * ground_.total()));
-  const double a = ground_length_ / ground_.total();
-  const Eigen::Rotation2Dd turn(spec_.heading + kPi / 4.0);
-  const Vec2 position = turn * (a * plan.position);
-  const Vec2 ahead = turn * plan.derivative.normalized();
+  const Spot spot = spot_at(distance_m);
+  const Vec2 ahead = spot.turn * spot.plan_ahead;
   // The lemniscate's curvature is three times the distance from the crossing, over a^2; it turns left on its first loop, where x is positive.
-  const double plan_curvature = std::copysign(3.0 * plan.position.norm(), plan.position.x()) / a;
-  const double climb = std::sin(kPi * u);
+  const double plan_curvature =
+      std::copysign(3.0 * spot.plan_position.norm(), spot.plan_position.x()) / spot.scale;
   // By u, the part of the ground plan's length: first and second derivative.
-  const Vec3 first(ground_length_ * ahead.x(), ground_length_ * ahead.y(),
-                   spec_.rise_m * kPi * std::sin(2.0 * kPi * u));
+  const Vec3 first(ground_length_ * ahead.x(), ground_length_ * ahead.y(), spot.slope);
   const double turning = ground_length_ * ground_length_ * plan_curvature;
   const Vec3 second(-turning * ahead.y(), turning * ahead.x(),
-                    spec_.rise_m * 2.0 * kPi * kPi * std::cos(2.0 * kPi * u));
+                    spec_.rise_m * 2.0 * kPi * kPi * std::cos(2.0 * kPi * spot.u));
   const Vec3 tangent = first.normalized();
-  return {.position = spec_.crossing + Vec3(position.x(), position.y(), spec_.rise_m * climb * climb),
+  return {.position = spot.position,
           .tangent = tangent,
           .curvature = (second - tangent * tangent.dot(second)) / first.squaredNorm()};
 }

@@ -31,6 +31,18 @@ class Lemniscate {
   CurvePoint point(double distance_m) const;
 
  private:
+  /// What pose and derivatives at a distance share.
+  struct Spot {
+    double u = 0.0;      ///< part of the ground plan's length
+    double scale = 0.0;  ///< of the plan, metres
+    double slope = 0.0;  ///< of the height, by u
+    Vec3 position = Vec3::Zero();
+    Vec2 plan_position = Vec2::Zero();  ///< before it is scaled and turned
+    Vec2 plan_ahead = Vec2::UnitX();    ///< unit
+    Eigen::Rotation2Dd turn{0.0};
+  };
+
+  Spot spot_at(double distance_m) const;
   CurvePoint without_slope(double distance_m) const;
 
   LemniscateSpec spec_;

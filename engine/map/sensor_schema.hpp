@@ -165,7 +165,7 @@ inline constexpr std::array kSensorKeys = [] {
       of_variant("lidar", number("from_deg", -kTurn_deg, kTurn_deg, "-180"), "azimuth of the first column"),
       of_variant("lidar", number_above("step_deg", 0.0, 180.0, "0.2"), "from column to column"),
       of_variant("lidar", flag("clockwise", "0"), "whether it turns to the right"),
-      of_variant("lidar", flag("skew", "1"), "each beam at its own time; 0: all at the end of the scan"),
+      of_variant("lidar", flag("skew", "1"), "whether each beam is measured at its own time; else all at the end of the scan"),
       of_variant("lidar", number("dropout", 0.0, 1.0, "0"), "share of beams without an answer"),
       of_variant("lidar", number("dropout_at_max", 0.0, 1.0, "0"),
                  "a further share, at max_range_m; it grows with the square of the distance"),
