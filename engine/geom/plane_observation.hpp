@@ -11,9 +11,11 @@ namespace hallway {
 
 /// The visible part of a plane in one frame, as a sensor or a plane finder gives it. Sensor frame; metres, or the unit of a cloud.
 struct PlaneObservation {
+  static constexpr std::uint32_t kNoPlane = ~std::uint32_t{0};
+
   std::uint64_t id = 0;  ///< that a finder gave it
-  std::uint32_t true_plane =
-      0;          ///< of a simulated sensor, index of its true plane: for scoring, never for a plugin
+  /// Of a simulated sensor, index of its true plane, or kNoPlane for a false observation: for scoring, never for a plugin.
+  std::uint32_t true_plane = 0;
   Plane plane{};  ///< normal towards the sensor: offset <= 0
   Vec3 centroid = Vec3::Zero();
   /// Counter-clockwise seen from where the normal points; of an upright rectangle left and right at the bottom, right and left at the

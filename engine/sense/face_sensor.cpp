@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "sense/false_plane.hpp"
 #include "sense/spec_check.hpp"
 
 namespace hallway::sense {
@@ -68,6 +69,7 @@ std::array<Vec2, 4> rectangle_around(const Convex& polygon) {
 FaceSensor::FaceSensor(PlaneSensorSpec spec, const FacePlan& plan, std::uint64_t seed)
     : spec_(std::move(spec)),
       view_(view_of(spec_), plan),
+      detection_(spec_.detection, spec_.name, seed),
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
@@ -80,19 +82,31 @@ void FaceSensor::observe(const Pose& T_world_body, std::uint32_t step,
   check_pose(T_world_body, step);
   std::vector<VisibleFace> pieces;
   view_.find(T_world_body * spec_.T_body_sensor, pieces);
-  using Placed = std::tuple<std::uint64_t, std::uint32_t, PlaneObservation>;  // in the random order
   std::vector<Placed> all;
   for (const VisibleFace& piece : pieces) {
+    if (detection_.misses(step, piece.face)) continue;
     auto seen = make_seen(piece, step);
     if (!seen) continue;
     const auto bits = order_.bits(step, piece.face);
     all.emplace_back(std::uint64_t{bits[0]} << 32 | bits[1], piece.face, std::move(*seen));
   }
+  add_clutter(step, all);
   std::sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) {
     return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
   });
   out.clear();
   for (Placed& placed : all) out.push_back(std::move(std::get<2>(placed)));
+}
+
+void FaceSensor::add_clutter(std::uint32_t step, std::vector<Placed>& all) const {
+  const WallViewSpec& view = spec_.view;
+  const FalsePlaneSpec spec{
+      .view = FieldOfView(view.horizontal_fov, spec_.vertical_fov, view.min_range_m, view.max_range_m),
+      .depths = true,
+      .min_length_m = view.min_length_m};
+  const std::uint32_t n = detection_.false_count(step);
+  for (std::uint32_t i = 0; i < n; ++i)
+    all.emplace_back(detection_.place(step, i), ~std::uint32_t{0} - i, false_face(detection_, spec, step, i));
 }
 
 std::optional<PlaneObservation> FaceSensor::make_seen(const VisibleFace& piece, std::uint32_t step) const {

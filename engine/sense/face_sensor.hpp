@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "base/random.hpp"
@@ -24,7 +25,8 @@ class FaceSensor {
   /// or more, or ranges that are distances (`bounded_sides`).
   FaceSensor(PlaneSensorSpec spec, const FacePlan& plan, std::uint64_t seed);
 
-  /// Replaces `out` by what is seen in a step; PlaneObservation::true_plane is an index in FacePlan::faces.
+  /// Replaces `out` by what is seen in a step; PlaneObservation::true_plane is an index in FacePlan::faces. Of what is
+  /// seen, `detection.dropout` is lost; clutter is what false_face() makes.
   ///
   /// @param T_world_body  the robot's true pose; throws as check_pose() does
   void observe(const Pose& T_world_body, std::uint32_t step, std::vector<PlaneObservation>& out) const;
@@ -35,10 +37,15 @@ class FaceSensor {
   const PlaneSensorSpec& spec() const { return spec_; }
 
  private:
+  /// An observation with its place in the random order, and what decides between equal places.
+  using Placed = std::tuple<std::uint64_t, std::uint32_t, PlaneObservation>;
+
+  void add_clutter(std::uint32_t step, std::vector<Placed>& all) const;
   std::optional<PlaneObservation> make_seen(const VisibleFace& piece, std::uint32_t step) const;
 
   PlaneSensorSpec spec_;
   FaceView view_;
+  Detection detection_;
   Random noise_;
   Random order_;
 };

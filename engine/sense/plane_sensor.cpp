@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
+#include "sense/false_plane.hpp"
 #include "sense/spec_check.hpp"
 
 namespace hallway::sense {
@@ -18,6 +20,11 @@ constexpr std::uint64_t kDeviates = 4;
 
 Vec3 at_height(const Vec2& point, double z) {
   return {point.x(), point.y(), z};
+}
+
+/// Of its random numbers.
+std::uint64_t key_of(const VisibleWall& piece) {
+  return std::uint64_t{piece.wall} << 24 | piece.part;
 }
 
 bool is_level(const Pose& T_world_sensor) {
@@ -37,6 +44,7 @@ const PlaneSensorSpec& checked(const PlaneSensorSpec& spec) {
   check.not_negative("noise_angle", spec.noise_angle);
   check.not_negative("noise_end_m", spec.noise_end_m);
   check.mount(spec.T_body_sensor);
+  check_detection(check, spec.detection);
   return spec;
 }
 
@@ -44,6 +52,7 @@ PlaneSensor::PlaneSensor(PlaneSensorSpec spec, const WallPlan& plan, std::uint64
     : spec_(std::move(spec)),
       plan_(plan),
       view_(checked(spec_).view, plan),
+      detection_(spec_.detection, spec_.name, seed),
       noise_(seed, stream_id("sensor.noise." + spec_.name)),
       order_(seed, stream_id("sensor.order." + spec_.name)) {}
 
@@ -74,8 +83,10 @@ void PlaneSensor::observe(const Pose& T_world_body, std::uint32_t step,
   std::vector<Seen> all;
   all.reserve(pieces.size());
   for (const VisibleWall& piece : pieces) {
+    if (detection_.misses(step, key_of(piece))) continue;
     if (const auto seen = make_seen(piece, step)) all.push_back(*seen);
   }
+  add_clutter(step, all);
   std::sort(all.begin(), all.end(),
             [](const Seen& a, const Seen& b) { return std::tie(a.place, a.key) < std::tie(b.place, b.key); });
   out.clear();
@@ -83,8 +94,23 @@ void PlaneSensor::observe(const Pose& T_world_body, std::uint32_t step,
   for (const Seen& seen : all) out.push_back(seen.observation);
 }
 
+void PlaneSensor::add_clutter(std::uint32_t step, std::vector<Seen>& all) const {
+  constexpr double kAnyHeight = 1.0;
+  const WallViewSpec& view = spec_.view;
+  const FalsePlaneSpec spec{
+      .view = FieldOfView(view.horizontal_fov, kAnyHeight, view.min_range_m, view.max_range_m),
+      .depths = !view.bounded_sides && view.horizontal_fov < std::numbers::pi,
+      .min_length_m = view.min_length_m};
+  const std::uint32_t n = detection_.false_count(step);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    all.push_back({.place = detection_.place(step, i),
+                   .key = ~std::uint64_t{0} - i,
+                   .observation = false_wall(detection_, spec, step, i)});
+  }
+}
+
 std::optional<PlaneSensor::Seen> PlaneSensor::make_seen(const VisibleWall& piece, std::uint32_t step) const {
-  const std::uint64_t key = std::uint64_t{piece.wall} << 24 | piece.part;
+  const std::uint64_t key = key_of(piece);
   const auto deviate = [&](std::uint64_t which, double sigma) {
     return sigma * noise_.normal(step, kDeviates * key + which);
   };

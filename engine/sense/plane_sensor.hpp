@@ -10,6 +10,7 @@
 #include "base/random.hpp"
 #include "geom/plane_observation.hpp"
 #include "geometry/se3.hpp"
+#include "sense/detection.hpp"
 #include "sense/timing.hpp"
 #include "sense/wall_plan.hpp"
 #include "sense/wall_view.hpp"
@@ -35,6 +36,7 @@ struct PlaneSensorSpec {
   double noise_m = 0.0;
   double noise_angle = 0.0;
   double noise_end_m = 0.0;
+  DetectionSpec detection{};
   SensorTiming timing{};
 };
 
@@ -49,6 +51,8 @@ const PlaneSensorSpec& checked(const PlaneSensorSpec& spec);
 /// What is seen depends on where walls truly are, never on the noise; but a plane that its noise would leave no length, or carry to
 /// the other side of the sensor, is not given. A frame's planes stand in a random order, new in every step, so that order tells
 /// nothing about identity. All random numbers are keyed by (seed, sensor's name, step, wall, part of the wall).
+///
+/// Of what is seen, `detection.dropout` is lost, each piece for itself. Clutter is what false_wall() makes.
 class PlaneSensor {
  public:
   /// Keeps a reference to `plan`, which must outlive the sensor. Throws as checked() does.
@@ -77,11 +81,13 @@ class PlaneSensor {
     PlaneObservation observation;
   };
 
+  void add_clutter(std::uint32_t step, std::vector<Seen>& all) const;
   std::optional<Seen> make_seen(const VisibleWall& piece, std::uint32_t step) const;
 
   PlaneSensorSpec spec_;
   const WallPlan& plan_;
   WallView view_;
+  Detection detection_;
   Random noise_;
   Random order_;
 };

@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "geometry/se3.hpp"
+#include "sense/detection.hpp"
 #include "sense/moving_landmarks.hpp"
 #include "sense/point_visibility.hpp"
 #include "sense/timing.hpp"
@@ -28,12 +29,15 @@ struct PointSensorSpec {
   /// Standard deviation of a second, independent part of the noise, per metre of distance from the sensor: together
   /// sqrt(noise_m^2 + (noise_per_m distance)^2) along each axis.
   Vec3 noise_per_m = Vec3::Zero();
+  DetectionSpec detection{};
   SensorTiming timing{};
 };
 
 /// One seen point.
 struct PointObservation {
-  std::uint32_t landmark = 0;  ///< which point it truly is: for scoring, never for a plugin
+  static constexpr std::uint32_t kFalse = ~std::uint32_t{0};  ///< the landmark of clutter
+
+  std::uint32_t landmark = 0;  ///< which point it truly is, or kFalse: for scoring, never for a plugin
   Vec3 point = Vec3::Zero();   ///< where the sensor takes it to be: sensor frame, metres, with noise
 };
 
@@ -43,11 +47,14 @@ struct PointObservation {
 /// What is seen depends on where points truly are, never on the noise. A frame's observations stand in a
 /// random order, new in every step, so that order tells nothing about identity. All random numbers are keyed
 /// by (seed, sensor's name, step, landmark).
+///
+/// Of what is seen, `detection.dropout` is lost. Clutter is in a direction of direction_in() and at a distance uniform in the
+/// range; nothing hides it.
 class PointSensor {
  public:
   /// Keeps references to `landmarks` and `scene`, which must outlive the sensor. Throws Error{kBadInput} naming
   /// the sensor and the member if the name is empty, an angle is not in (0, 2 pi], the ranges are negative,
-  /// infinite, or minimum above maximum, a noise is negative, or a number is not finite.
+  /// infinite, or minimum above maximum, a noise is negative, the detection is out of range, or a number is not finite.
   PointSensor(PointSensorSpec spec, const LandmarkIndex& landmarks, const trace::Scene& scene,
               std::uint64_t seed);
 
@@ -75,11 +82,14 @@ class PointSensor {
     std::uint64_t place = 0;
     PointObservation observation;
   };
+  void add_clutter(std::uint32_t step, std::vector<Seen>& all) const;
 
   Seen make_seen(const VisiblePoint& visible, std::uint32_t step) const;
 
   PointSensorSpec spec_;
+  FieldOfView field_of_view_;
   PointVisibility visibility_;
+  Detection detection_;
   Random noise_;
   Random order_;
 };

@@ -51,6 +51,9 @@ class SensorReader {
                       .drift_ppm = number_if_told("clock_drift_ppm"),
                       .jitter_s = number_if_told("clock_jitter_s")}};
   }
+  sense::DetectionSpec detection() {
+    return {.dropout = number_if_told("dropout"), .clutter = number_if_told("clutter")};
+  }
   /// The true mount in the frame of the one that is told; none where they are the same.
   std::optional<Pose> mount_error() {
     if (!has("mount_error_m") && !has("mount_error_deg")) return std::nullopt;
@@ -135,6 +138,7 @@ sense::PointSensorSpec read_points(const std::string& name, SensorReader& sensor
   sensor.check_ranges(spec.min_range_m, spec.max_range_m);
   spec.noise_m = sensor.one_or_three("noise_m");
   spec.noise_per_m = sensor.one_or_three("noise_per_m");
+  spec.detection = sensor.detection();
   spec.T_body_sensor.t = sensor.position();
   spec.T_body_sensor.q = sensor.orientation();
   spec.timing = sensor.timing();
@@ -155,6 +159,7 @@ sense::PlaneSensorSpec read_view(const std::string& name, SensorReader& sensor) 
   spec.noise_m = sensor.number("noise_m");
   spec.noise_angle = sensor.angle("noise_angle_deg");
   spec.noise_end_m = sensor.number("noise_end_m");
+  spec.detection = sensor.detection();
   spec.timing = sensor.timing();
   spec.T_body_sensor.t = sensor.position();
   return spec;

@@ -307,7 +307,8 @@ void SimulatedSource::add_reading(const sense::PointSensorSpec&, const sim::Read
   std::vector<hw_point3_t>& points = host::add_points(builder, facts_.sensors[reading.sensor].id);
   for (const sense::PointObservation& seen : reading.observations()) {
     points.push_back({seen.point.x(), seen.point.y(), seen.point.z()});
-    frame.identities.push_back(seen.landmark);
+    frame.identities.push_back(seen.landmark == sense::PointObservation::kFalse ? log::kNoLandmark
+                                                                                : seen.landmark);
   }
 }
 
@@ -316,7 +317,9 @@ void SimulatedSource::add_reading(const sense::PlaneSensorSpec&, const sim::Read
   const host::PlaneReading planes = host::add_planes(builder, facts_.sensors[reading.sensor].id);
   for (const PlaneObservation& seen : reading.planes()) {
     record::add_plane(planes, observation_of(seen, planes.planes.size()));
-    frame.identities.push_back(first_true_plane_[reading.sensor].value() + seen.true_plane);
+    const bool is_false = seen.true_plane == PlaneObservation::kNoPlane;
+    frame.identities.push_back(is_false ? log::kNoLandmark
+                                        : first_true_plane_[reading.sensor].value() + seen.true_plane);
   }
 }
 
