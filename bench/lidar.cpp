@@ -97,7 +97,8 @@ void run(const std::string& file) {
       sense::make_occluders(simulator.compiled().partition.surface, sim::triangles_of(simulator.models()));
   const sense::Surfaces surfaces(mesh);
   const Reference reference(mesh);
-  const sim::PathMotion motion = simulator.path_motion();
+  const std::unique_ptr<const sim::Motion> path_motion = simulator.path_motion();
+  const sim::Motion& motion = *path_motion;
   constexpr std::int64_t kScan_ns = 100'000'000;
 
   sense::LidarSpec still = lidar16(), skewed = lidar16(), full = lidar16(), wide = lidar16();

@@ -2,24 +2,12 @@
 #include "map/arc_length.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "map/gauss_legendre.hpp"
+
 namespace hallway::map {
-namespace {
-
-struct Node {
-  double at;  ///< on [-1, 1], and its mirror image
-  double weight;
-};
-
-/// Gauss-Legendre, eight points (Abramowitz and Stegun, table 25.4).
-constexpr std::array<Node, 4> kNodes{
-    Node{0.1834346424956498, 0.3626837833783620}, Node{0.5255324099163290, 0.3137066458778873},
-    Node{0.7966664774136267, 0.2223810344533745}, Node{0.9602898564975363, 0.1012285362903763}};
-
-}  // namespace
 
 ArcLength::ArcLength(std::function<double(double)> speed, double begin, double end, int cells)
     : speed_(std::move(speed)), begin_(begin), cell_((end - begin) / cells) {
@@ -30,13 +18,7 @@ ArcLength::ArcLength(std::function<double(double)> speed, double begin, double e
 }
 
 double ArcLength::integral(double from, double to) const {
-  const double middle = 0.5 * (from + to);
-  const double half = 0.5 * (to - from);
-  double sum = 0.0;
-  for (const Node& node : kNodes) {
-    sum += node.weight * (speed_(middle - half * node.at) + speed_(middle + half * node.at));
-  }
-  return sum * half;
+  return gauss_legendre(speed_, from, to, 0.0);
 }
 
 double ArcLength::parameter_at(double length) const {

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "map/entity_keys.hpp"
+#include "map/polyline_corners.hpp"
 
 namespace hallway::map {
 namespace {
@@ -81,20 +82,22 @@ std::vector<Waypoint> waypoints_of(const Document& document, std::string_view na
   return waypoints;
 }
 
-Path waypoint_path(const Document& document, const EntityKeys& keys, std::string_view name) {
+Path waypoint_path(const Document& document, const EntityKeys& keys, std::string_view name,
+                   CornerShape corners) {
   keys.refuse_unknown();
   const bool closed = keys.flag_or("closed", false);
   const double radius = keys.number_or("corner_radius_m", kDefaultCornerRadius_m, kMinLength_m, kMaxLength_m);
   const std::vector<Waypoint> waypoints = waypoints_of(document, name);
   std::vector<Vec3> positions;
   for (const Waypoint& waypoint : waypoints) positions.push_back(waypoint.position);
-  if (const auto fault = RoundedPolyline::check(positions, closed, radius)) {
+  if (const auto fault = check_polyline(positions, closed, radius)) {
     if (fault->waypoint >= waypoints.size()) throw keys.error(fault->message);
     const Waypoint& at = waypoints[fault->waypoint];
     throw EntityKeys(document, *at.entity)
         .error("waypoint " + std::to_string(at.index) + " of path `" + printable(name, 60) +
                "`: " + fault->message);
   }
+  if (corners == CornerShape::kSmooth) return Path(SmoothPolyline(positions, closed, radius));
   return Path(RoundedPolyline(positions, closed, radius));
 }
 
@@ -123,22 +126,24 @@ Pose Path::at(double distance_m) const {
 }
 
 CurvePoint Path::point(double distance_m, CurveSide side) const {
-  if (const auto* polyline = std::get_if<RoundedPolyline>(&curve_)) return polyline->point(distance_m, side);
+  if (const auto* rounded = std::get_if<RoundedPolyline>(&curve_)) return rounded->point(distance_m, side);
+  if (const auto* smooth = std::get_if<SmoothPolyline>(&curve_)) return smooth->point(distance_m);
   return std::get<Lemniscate>(curve_).point(distance_m);
 }
 
 std::vector<double> Path::jumps_in(double from_m, double to_m) const {
   std::vector<double> found;
-  const auto* polyline = std::get_if<RoundedPolyline>(&curve_);
-  if (polyline == nullptr) return found;
-  const std::vector<double> jumps = polyline->jumps_m();
-  const double round = polyline->closed() ? std::floor(from_m / length_m()) : 0.0;
+  std::vector<double> jumps;
+  if (const auto* rounded = std::get_if<RoundedPolyline>(&curve_)) jumps = rounded->jumps_m();
+  if (const auto* smooth = std::get_if<SmoothPolyline>(&curve_)) jumps = smooth->jumps_m();
+  if (jumps.empty()) return found;
+  const double round = closed() ? std::floor(from_m / length_m()) : 0.0;
   for (double begin_m = round * length_m(); begin_m <= to_m; begin_m += length_m()) {
     for (const double jump_m : jumps) {
       const double at_m = begin_m + jump_m;
       if (at_m > from_m && at_m <= to_m && (found.empty() || found.back() < at_m)) found.push_back(at_m);
     }
-    if (!polyline->closed()) break;
+    if (!closed()) break;
   }
   return found;
 }
@@ -151,10 +156,10 @@ std::vector<std::string> path_names(const Document& document) {
   return names;
 }
 
-Path find_path(const Document& document, std::string_view name) {
+Path find_path(const Document& document, std::string_view name, CornerShape corners) {
   const EntityKeys keys(document, path_entity(document, name));
   const std::string shape = keys.has("shape") ? keys.text("shape") : "waypoints";
-  if (shape == "waypoints") return waypoint_path(document, keys, name);
+  if (shape == "waypoints") return waypoint_path(document, keys, name, corners);
   if (shape == "lemniscate") return lemniscate_path(keys);
   throw keys.error("unknown shape `" + printable(shape, 60) + "`" +
                        suggestion(shape, {"waypoints", "lemniscate"}) +

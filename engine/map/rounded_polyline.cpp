@@ -3,86 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/text.hpp"
+#include "map/polyline_corners.hpp"
 
 namespace hallway::map {
-namespace {
-
-constexpr double kNoTurn = 1e-12;   ///< radians; less is a straight line
-constexpr double kTurnBack = 0.01;  ///< radians short of a half turn
-constexpr double kVertical = 1e-3;  ///< share of a line's length that must be level, to have a heading
-constexpr double kSamePlace_m = 1e-9;
-
-/// The lines between waypoints and what the arcs at their ends take from them.
-struct Corners {
-  std::vector<Vec3> directions;  ///< of line i, from waypoint i to the next
-  std::vector<double> lengths;
-  std::vector<double> turns;  ///< at waypoint i, radians; 0 at the ends of an open path
-  std::vector<double> trims;  ///< what the arc at waypoint i takes from each of its lines, metres
-};
-
-std::size_t line_count(std::size_t waypoints, bool closed) {
-  return closed ? waypoints : waypoints - 1;
-}
-
-Corners measure(std::span<const Vec3> waypoints, bool closed, double radius) {
-  const std::size_t count = waypoints.size();
-  Corners corners;
-  for (std::size_t i = 0; i < line_count(count, closed); ++i) {
-    const Vec3 step = waypoints[(i + 1) % count] - waypoints[i];
-    corners.lengths.push_back(step.norm());
-    corners.directions.push_back(step / step.norm());
-  }
-  corners.turns.assign(count, 0.0);
-  corners.trims.assign(count, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!closed && (i == 0 || i + 1 == count)) continue;
-    const Vec3& before = corners.directions[(i + count - 1) % count];
-    const Vec3& after = corners.directions[i];
-    const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-    if (turn < kNoTurn) continue;
-    corners.turns[i] = turn;
-    corners.trims[i] = radius * std::tan(0.5 * turn);
-  }
-  return corners;
-}
-
-}  // namespace
-
-std::optional<RoundedPolyline::Fault> RoundedPolyline::check(std::span<const Vec3> waypoints, bool closed,
-                                                             double corner_radius_m) {
-  const std::size_t count = waypoints.size();
-  const std::size_t least = closed ? 3 : 2;
-  if (count < least) {
-    return Fault{0, "the path has " + std::to_string(count) + " waypoints; it needs at least " +
-                        std::to_string(least)};
-  }
-  for (std::size_t i = 0; i < line_count(count, closed); ++i) {
-    const Vec3 step = waypoints[(i + 1) % count] - waypoints[i];
-    if (step.norm() < kSamePlace_m) return Fault{i, "the next waypoint is at the same place"};
-    if (step.head<2>().norm() < kVertical * step.norm())
-      return Fault{i, "the way to the next waypoint is vertical"};
-  }
-  const Corners corners = measure(waypoints, closed, corner_radius_m);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (corners.turns[i] > std::numbers::pi - kTurnBack) return Fault{i, "the path turns straight back here"};
-  }
-  for (std::size_t i = 0; i < line_count(count, closed); ++i) {
-    const double needed = corners.trims[i] + corners.trims[(i + 1) % count];
-    constexpr double kRounding = 1e-9;
-    if (needed <= corners.lengths[i] * (1.0 + kRounding)) continue;
-    return Fault{i, "the corners here and at the next waypoint need " + format_double(needed) + " m of the " +
-                        format_double(corners.lengths[i]) + " m between them; corner_radius_m is too large"};
-  }
-  return std::nullopt;
-}
 
 RoundedPolyline::RoundedPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m)
     : closed_(closed) {
   const std::size_t count = waypoints.size();
-  const Corners corners = measure(waypoints, closed, corner_radius_m);
+  const PolylineCorners corners = measure_corners(waypoints, closed, corner_radius_m);
   for (std::size_t i = 0; i < corners.directions.size(); ++i) {
     const std::size_t next = (i + 1) % count;
     const Vec3& direction = corners.directions[i];
@@ -109,12 +38,6 @@ void RoundedPolyline::append(Piece piece) {
   pieces_.push_back(piece);
 }
 
-double RoundedPolyline::on_path(double distance_m) const {
-  if (!closed_) return std::clamp(distance_m, 0.0, length_m_);
-  const double distance = std::fmod(distance_m, length_m_);
-  return distance < 0.0 ? distance + length_m_ : distance;
-}
-
 std::vector<double> RoundedPolyline::jumps_m() const {
   std::vector<double> jumps;
   for (const Piece& piece : pieces_) jumps.push_back(piece.begin_m);
@@ -124,7 +47,7 @@ std::vector<double> RoundedPolyline::jumps_m() const {
 }
 
 CurvePoint RoundedPolyline::point(double distance_m, CurveSide side) const {
-  const double distance = on_path(distance_m);
+  const double distance = distance_within(distance_m, length_m_, closed_);
   const auto is_later = [side](double value, const Piece& piece) {
     return side == CurveSide::kAfter ? value < piece.begin_m : value <= piece.begin_m;
   };
@@ -145,7 +68,7 @@ CurvePoint RoundedPolyline::point(double distance_m, CurveSide side) const {
 }
 
 Pose RoundedPolyline::at(double distance_m) const {
-  const double distance = on_path(distance_m);
+  const double distance = distance_within(distance_m, length_m_, closed_);
   const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
                                       [](double value, const Piece& piece) { return value < piece.begin_m; });
   const Piece& piece = *std::prev(after);

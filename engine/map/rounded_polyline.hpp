@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "geometry/se3.hpp"
@@ -15,17 +12,7 @@ namespace hallway::map {
 /// Straight lines between waypoints whose corners are arcs of a circle, so that the direction never jumps.
 class RoundedPolyline {
  public:
-  /// A waypoint at which no path can be made, and why.
-  struct Fault {
-    std::size_t waypoint;
-    std::string message;
-  };
-
-  /// Says what is wrong with the waypoints, if anything: too few (2, or 3 if closed), two at one place, a turn straight
-  /// back, a vertical line, a corner whose arc needs more of its lines than there is.
-  static std::optional<Fault> check(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
-
-  /// @param waypoints        world, metres; must pass check()
+  /// @param waypoints        world, metres; must pass check_polyline()
   /// @param corner_radius_m  greater than 0
   RoundedPolyline(std::span<const Vec3> waypoints, bool closed, double corner_radius_m);
 
@@ -50,7 +37,6 @@ class RoundedPolyline {
   };
 
   void append(Piece piece);
-  double on_path(double distance_m) const;
 
   std::vector<Piece> pieces_;
   double length_m_ = 0.0;

@@ -7,6 +7,24 @@
 #include "geometry/look_along_rates.hpp"
 
 namespace hallway::sim {
+namespace {
+
+/// Of a body that looks along a path, at a steady speed.
+sense::Kinematics kinematics_on(const map::CurvePoint& point, const LookingRates& rates, double speed) {
+  sense::Kinematics now;
+  now.T_world_body = look_along(point.position, point.tangent);
+  now.velocity = speed * point.tangent;
+  now.acceleration = speed * speed * point.curvature;
+  now.angular_velocity = speed * rates.rate;
+  now.angular_acceleration = speed * speed * rates.slope;
+  return now;
+}
+
+double seconds(std::int64_t t_ns) {
+  return static_cast<double>(t_ns) * 1e-9;
+}
+
+}  // namespace
 
 PathMotion::PathMotion(const map::Path& path, double step_length_m, std::int64_t period_ns, double stop_m)
     : path_(path),
@@ -39,14 +57,8 @@ sense::Kinematics PathMotion::kinematics_at(std::int64_t t_ns, double after_s, s
   }
   const map::CurvePoint point =
       path_.point(way_m, is_after ? map::CurveSide::kAfter : map::CurveSide::kBefore);
-  const double v = speed_m_s_;
-  now.T_world_body = look_along(point.position, point.tangent);
-  now.velocity = v * point.tangent;
-  now.acceleration = v * v * point.curvature;
-  const LookingRates rates = look_along_rates(point.tangent, point.curvature, point.curvature_slope);
-  now.angular_velocity = v * rates.rate;
-  now.angular_acceleration = v * v * rates.slope;
-  return now;
+  return kinematics_on(point, look_along_rates(point.tangent, point.curvature, point.curvature_slope),
+                       speed_m_s_);
 }
 
 std::vector<double> PathMotion::breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const {
@@ -59,6 +71,35 @@ std::vector<double> PathMotion::breaks_in(std::int64_t begin_ns, std::int64_t en
     const double stop_s = (stop_m_ - begin_m) / speed_m_s_;
     if (breaks.empty() || breaks.back() < stop_s) breaks.push_back(stop_s);
   }
+  return breaks;
+}
+
+Pose SmoothPathMotion::pose_at(std::int64_t t_ns) const {
+  return path_.at(pace_.at(seconds(t_ns)).way_m);
+}
+
+sense::Kinematics SmoothPathMotion::kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const {
+  const SmoothPace::State now = pace_.at(seconds(t_ns) + after_s);
+  const map::CurvePoint point =
+      path_.point(now.way_m, side == sense::Side::kAfter ? map::CurveSide::kAfter : map::CurveSide::kBefore);
+  const LookingRates rates = look_along_rates(point.tangent, point.curvature, point.curvature_slope);
+  sense::Kinematics moved = kinematics_on(point, rates, now.speed_m_s);
+  moved.acceleration += now.acceleration_m_s2 * point.tangent;
+  moved.angular_acceleration += now.acceleration_m_s2 * rates.rate;
+  return moved;
+}
+
+std::vector<double> SmoothPathMotion::breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const {
+  const double begin_s = seconds(begin_ns), end_s = seconds(end_ns);
+  std::vector<double> breaks;
+  const auto add = [&](double t_s) {
+    if (t_s > begin_s && t_s <= end_s) breaks.push_back(t_s - begin_s);
+  };
+  for (const double joint_s : pace_.joints_s()) add(joint_s);
+  for (const double joint_m : path_.jumps_in(pace_.at(begin_s).way_m, pace_.at(end_s).way_m))
+    add(pace_.time_of(joint_m));
+  std::ranges::sort(breaks);
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   return breaks;
 }
 

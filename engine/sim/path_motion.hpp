@@ -7,6 +7,7 @@
 
 #include "map/path.hpp"
 #include "sim/motion.hpp"
+#include "sim/smooth_pace.hpp"
 
 namespace hallway::sim {
 
@@ -36,6 +37,23 @@ class PathMotion final : public Motion {
   std::int64_t period_ns_;
   double speed_m_s_;
   double stop_m_;  ///< where it stands at last; infinite: it goes on
+};
+
+/// A robot that its path moves by a SmoothPace. On a path whose curvature has a continuous slope no member of Kinematics jumps, ever.
+class SmoothPathMotion final : public Motion {
+ public:
+  /// Keeps a reference to the path.
+  SmoothPathMotion(const map::Path& path, const SmoothPace& pace) : path_(path), pace_(pace) {}
+
+  Pose pose_at(std::int64_t t_ns) const override;
+  sense::Kinematics kinematics_at(std::int64_t t_ns, double after_s, sense::Side side) const override;
+  std::vector<double> breaks_in(std::int64_t begin_ns, std::int64_t end_ns) const override;
+  std::vector<sense::BumpContact> contacts_in(std::int64_t, std::int64_t) const override { return {}; }
+  std::vector<double> wheel_travel_at(std::int64_t) const override { return {}; }
+
+ private:
+  const map::Path& path_;
+  SmoothPace pace_;
 };
 
 }  // namespace hallway::sim

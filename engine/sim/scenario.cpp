@@ -100,6 +100,7 @@ class ScenarioReader {
     if (robot.has("path")) scenario_.robot.path = robot.text("path");
     if (!robot.has("path") && !top.has("robot")) throw robot.error("path", "is missing");
     read_drive(robot);
+    if (robot.has("smooth")) read_smooth(robot);
     if (!robot.has("path")) {
       if (robot.has("speed_m_s") || robot.has("loop_steps"))
         throw robot.error("path", "is missing; a robot that moves needs one");
@@ -117,6 +118,13 @@ class ScenarioReader {
       throw robot.error("speed_m_s", "is missing; give it or `loop_steps`");
     }
     read_body(robot);
+  }
+
+  void read_smooth(TableReader& robot) {
+    scenario_.robot.smooth = robot.flag("smooth", false);
+    if (!scenario_.robot.smooth) return;
+    if (!robot.has("path")) throw robot.error("smooth", "needs `path`");
+    if (robot.has("drive")) throw robot.error("smooth", "is of a robot that its path moves, without a drive");
   }
 
   void read_start(TableReader& robot, bool has_path) {

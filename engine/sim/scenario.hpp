@@ -35,7 +35,9 @@ struct RobotSpec {
   std::string path;  ///< name of an `hw_path` entity; empty: it stays at the map's `hw_robot_start`
   std::optional<double> speed_m_s{};  ///< metres of path in a second
   std::optional<std::uint32_t>
-      loop_steps{};                 ///< steps for one round of a closed path, for the whole of an open one
+      loop_steps{};  ///< steps for one round of a closed path, for the whole of an open one
+  /// On a path of waypoints corners are map::SmoothPolyline's, and on any path the pace is a SmoothPace.
+  bool smooth = false;
   std::optional<bsp::Body> body{};  ///< what may not touch the world; unset: a point, or `hull`
   std::vector<Vec3>
       hull{};  ///< corners of a convex body of another form, in its frame; of robots with a drive

@@ -10,9 +10,9 @@ namespace hallway::sim {
 inline const std::vector<std::string> kTopKeys{
     "schema",     "map",   "seed",   "steps", "period_s", "call_timeout_s", "memory_limit_mib",
     "on_failure", "robot", "sensor", "cloud", "event",    "plugin",         "picture"};
-inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "radius_m",
-                                                 "length_m", "width_m",   "bottom_m",   "top_m",
-                                                 "start",    "drive",     "file"};
+inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "smooth",
+                                                 "radius_m", "length_m",  "width_m",    "bottom_m",
+                                                 "top_m",    "start",     "drive",      "file"};
 /// Of sensors of all kinds, in scenarios alone.
 inline constexpr const char* kMounted = "mounted";
 inline const std::vector<std::string> kCloudKeys{"per_100m", "sideways_m",   "height_m", "seed",

@@ -30,6 +30,8 @@
 namespace hallway::sim {
 namespace {
 
+constexpr double kNever_m = std::numeric_limits<double>::infinity();
+
 double find_step_length(const Scenario& scenario, const map::Path& path) {
   if (scenario.robot.loop_steps) return path.length_m() / *scenario.robot.loop_steps;
   return scenario.robot.speed_m_s.value_or(0.0) * scenario.period_s();
@@ -43,7 +45,9 @@ map::Path line_ahead(const Pose& pose) {
 /// The path of the scenario; without one, a piece of the straight line ahead of the robot start, on which it stays.
 /// @param driven  of a robot with a drive
 map::Path path_of(const map::Document& document, const RobotSpec& robot, const DrivenWorld* driven) {
-  if (!robot.path.empty()) return map::find_path(document, robot.path);
+  if (!robot.path.empty())
+    return map::find_path(document, robot.path,
+                          robot.smooth ? map::CornerShape::kSmooth : map::CornerShape::kArcs);
   if (driven != nullptr) return line_ahead(driven->start());
   const std::optional<map::RobotStart> start = map::find_robot_start(document, robot.start);
   if (!start) {
@@ -185,7 +189,7 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
   }
   if (!driven_world_) {
     stop_at_obstacle();
-    rig_->check_ways(path_motion(), scenario_.period_ns * (std::int64_t{scenario_.steps} - 1));
+    rig_->check_ways(*path_motion(), scenario_.period_ns * (std::int64_t{scenario_.steps} - 1));
   }
   report_silent_sensors();
 }
@@ -222,7 +226,9 @@ void Simulator::report_silent_sensors() {
 }
 
 void Simulator::stop_at_obstacle() {
-  const double way_m = std::min(path_.length_m(), step_length_m_ * (scenario_.steps - 1));
+  double way_m = std::min(path_.length_m(), step_length_m_ * (scenario_.steps - 1));
+  if (scenario_.robot.smooth)
+    way_m = std::min(way_m, smooth_pace().at(scenario_.period_s() * (scenario_.steps - 1)).way_m);
   const auto obstacle = find_obstacle(world_, scene_, path_, way_m, scenario_.robot.body);
   if (!obstacle) return;
   const std::string& path = scenario_.robot.path;
@@ -247,20 +253,27 @@ Pose Simulator::pose_after(double distance_m) const {
 }
 
 Pose Simulator::pose_at(std::uint32_t index) const {
+  if (scenario_.robot.smooth) return pose_at_time(scenario_.period_ns * std::int64_t{index});
   return pose_after(step_length_m_ * index);
 }
 
-PathMotion Simulator::path_motion() const {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  return {path_, step_length_m_, scenario_.period_ns, stop_m_.value_or(kNever)};
+SmoothPace Simulator::smooth_pace() const {
+  const double end_m = path_.closed() ? kNever_m : path_.length_m();
+  return SmoothPace(step_length_m_ / scenario_.period_s(), std::min(end_m, stop_m_.value_or(kNever_m)));
+}
+
+std::unique_ptr<const Motion> Simulator::path_motion() const {
+  if (scenario_.robot.smooth) return std::make_unique<const SmoothPathMotion>(path_, smooth_pace());
+  return std::make_unique<const PathMotion>(path_, step_length_m_, scenario_.period_ns,
+                                            stop_m_.value_or(kNever_m));
 }
 
 Pose Simulator::pose_at_time(std::int64_t t_ns) const {
-  return path_motion().pose_at(t_ns);
+  return path_motion()->pose_at(t_ns);
 }
 
 Frame Simulator::step(std::uint32_t index) const {
-  Frame frame = step(index, path_motion());
+  Frame frame = step(index, *path_motion());
   frame.T_world_body = pose_at(index);
   return frame;
 }

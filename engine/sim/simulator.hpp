@@ -69,7 +69,7 @@ class Simulator {
   /// The true pose at a time from 0; at the time of a frame the same to the last bit.
   Pose pose_at_time(std::int64_t t_ns) const;
   /// How its path moves the robot; refers to this simulator.
-  PathMotion path_motion() const;
+  std::unique_ptr<const Motion> path_motion() const;
 
   /// What a user should know but a run can stand: brushes left out, a path that runs into something, where the robot then
   /// stops. In a fixed order.
@@ -99,13 +99,14 @@ class Simulator {
   const sense::LidarSensor& lidar(std::size_t sensor) const { return *rig_->lidar(sensor); }
   /// The walls at a height, metres, as a sensor of planes there sees them. O(n log n) in the surface.
   sense::WallPlan walls_at(double height_m) const;
-  /// Metres of path from frame to frame.
+  /// Metres of path from frame to frame; of a smooth pace, at its full speed.
   double step_length_m() const { return step_length_m_; }
 
  private:
   void stop_at_obstacle();
   void report_silent_sensors();
   Pose pose_after(double distance_m) const;
+  SmoothPace smooth_pace() const;
   SensedWorld sensed_world() const;
   Pose start() const { return driven_world_ ? driven_world_->start() : path_.at(0.0); }
 

@@ -16,12 +16,24 @@ import numpy as np
 from body_oracle import read_map, rotations, world_of
 
 GRAZING_RAD = 1e-6
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+
+
+def share(u):
+    """From 0 to 1 with two derivatives that vanish at both ends."""
+    return u**3 * (10 - 15 * u + 6 * u**2)
+
+
+def mean_direction(turn, u):
+    """Of a smooth corner, over the first part u of its length: the integral of the direction over it, by u."""
+    angles = turn * share(u * (NODES + 1) / 2)
+    return u * (WEIGHTS / 2 * np.cos(angles)).sum(), u * (WEIGHTS / 2 * np.sin(angles)).sum()
 
 
 class Path:
-    """Straight lines with arcs at the corners, of an hw_path with waypoints; by distance."""
+    """Straight lines with arcs or smooth curves at the corners, of an hw_path with waypoints; by distance."""
 
-    def __init__(self, entities, name):
+    def __init__(self, entities, name, smooth):
         scale = float(entities[0][0].get("_scale", 1 / 32))
         keys = next(k for k, _ in entities if k.get("classname") == "hw_path" and k["name"] == name)
         points = sorted(((int(k["index"]), k["origin"]) for k, _ in entities if k.get("classname") == "hw_waypoint" and k["path"] == name))
@@ -34,13 +46,18 @@ class Path:
         for i in range(n) if closed else range(1, n - 1):
             turn[i] = math.atan2(np.linalg.norm(np.cross(ahead[i - 1], ahead[i])), ahead[i - 1] @ ahead[i])
         trim = [radius * math.tan(a / 2) for a in turn]
-        self.pieces, self.length = [], 0.0  # (begin, start, direction, inward, radius or 0)
+        self.pieces, self.length = [], 0.0  # (begin, start, direction, inward, radius or 0 or (length, turn))
         for i, line in enumerate(lines):
             j = (i + 1) % n
             self.add(np.linalg.norm(line) - trim[i] - trim[j], points[i] + ahead[i] * trim[i], ahead[i], np.zeros(3), 0.0)
             if turn[j] > 0:
                 inward = ahead[j] - ahead[i] * (ahead[i] @ ahead[j])
-                self.add(radius * turn[j], points[j] - ahead[i] * trim[j], ahead[i], inward / np.linalg.norm(inward), radius)
+                length, bend = radius * turn[j], radius
+                if smooth:
+                    x, y = mean_direction(turn[j], 1.0)
+                    length = 2 * trim[j] * math.cos(turn[j] / 2) / math.hypot(x, y)
+                    bend = length, turn[j]
+                self.add(length, points[j] - ahead[i] * trim[j], ahead[i], inward / np.linalg.norm(inward), bend)
         self.begins = np.array([p[0] for p in self.pieces])
 
     def add(self, length, start, direction, inward, radius):
@@ -54,7 +71,12 @@ class Path:
         """Position and rotation matrix; analytic in the distance, which may be complex."""
         begin, start, direction, inward, radius = self.pieces[piece]
         along = distance - begin
-        if radius == 0.0:
+        if isinstance(radius, tuple):
+            length, turn = radius
+            a, b = mean_direction(turn, along / length)
+            angle = turn * share(along / length)
+            position, x = start + length * (a * direction + b * inward), np.cos(angle) * direction + np.sin(angle) * inward
+        elif radius == 0.0:
             position, x = start + along * direction, direction + 0 * along
         else:
             s, c = np.sin(along / radius), np.cos(along / radius)
@@ -122,7 +144,24 @@ def grazes(triangles, origin, direction, up_to):
     return False
 
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+class Pace:
+    """The way over time: at a speed, or smoothly from rest to it; analytic in the time within a phase."""
+
+    def __init__(self, speed, smooth):
+        self.speed, self.ramp = speed, 1.875 * speed if smooth else 0.0
+
+    def way(self, t):
+        if t.real < self.ramp:
+            u = t / self.ramp
+            return self.speed * self.ramp * (2.5 * u**4 - 3 * u**5 + u**6)
+        return self.speed * (t - self.ramp / 2)
+
+    def time(self, way):
+        low, high = 0.0, way / self.speed + self.ramp
+        for _ in range(100):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.way(middle) < way else (low, middle)
+        return high
 
 
 class Rig:
@@ -138,44 +177,47 @@ class Rig:
             self.stands = row[1:4], rotations(row[None, [7, 4, 5, 6]])[0]
             return
         self.stands = None
-        self.path = Path(entities, robot["path"])
+        self.path = Path(entities, robot["path"], robot.get("smooth", False))
         period = self.scenario.get("period_s", 0.1)
-        self.speed = robot["speed_m_s"] if "speed_m_s" in robot else self.path.length / robot["loop_steps"] / period
+        speed = robot["speed_m_s"] if "speed_m_s" in robot else self.path.length / robot["loop_steps"] / period
+        self.pace = Pace(speed, robot.get("smooth", False))
 
     def at(self, t_ns):
         if self.stands:
             return self.stands
-        distance = self.speed * (t_ns * 1e-9) % self.path.length
+        distance = self.pace.way(t_ns * 1e-9) % self.path.length
         return self.path.frame(distance, self.path.piece(distance))
 
     def imu(self, sensor, begin_ns, end_ns):
         """Means of angular velocity and specific force, by parts: of first derivatives alone, which complex steps give."""
         arm, turn = mount_of(sensor)
         gravity = np.array([0, 0, -sensor.get("gravity_m_s2", 9.80665)])
-        d0, d1 = self.speed * begin_ns * 1e-9, self.speed * end_ns * 1e-9
+        t0, t1 = begin_ns * 1e-9, end_ns * 1e-9
+        d0, d1 = self.pace.way(t0), self.pace.way(t1)
         base = math.floor(d0 / self.path.length) * self.path.length
-        joints = [d0] + [base + r * self.path.length + b for r in range(2) for b in self.path.begins if d0 < base + r * self.path.length + b < d1] + [d1]
+        ways = [base + r * self.path.length + b for r in range(2) for b in self.path.begins]
+        joints = sorted([t0, t1] + [self.pace.time(d) for d in ways if d0 < d < d1] + [t for t in [self.pace.ramp] if t0 < t < t1])
 
-        def state(distance, piece):
+        def state(t, piece, wrap):
             step = 1e-30
-            p, r = self.path.frame(distance + 1j * step, piece)
-            rate = r.imag / step * self.speed
-            return r.real, rate, (p + r @ arm).imag / step * self.speed
+            p, r = self.path.frame(self.pace.way(t + 1j * step) - wrap, piece)
+            return r.real, r.imag / step, (p + r @ arm).imag / step
 
         angular, force = np.zeros(3), np.zeros(3)
         for begin, end in zip(joints, joints[1:]):
-            piece = self.path.piece((begin + end) / 2)
-            wrap = math.floor((begin + end) / 2 / self.path.length) * self.path.length
+            middle = self.pace.way((begin + end) / 2)
+            piece = self.path.piece(middle)
+            wrap = math.floor(middle / self.path.length) * self.path.length
             # Where an arc begins the sensor's velocity jumps, by its arm: an impulse, which the ends of the whole interval have.
             for edge, sign, is_end in ((end, 1, end == joints[-1]), (begin, -1, begin == joints[0])):
                 if is_end:
-                    r, _, v = state(edge - wrap, piece)
+                    r, _, v = state(edge, piece, wrap)
                     force += sign * (r.T @ v)
             half = (end - begin) / 2
             for node, weight in zip(NODES, WEIGHTS):
-                r, rate, v = state((begin + end) / 2 + half * node - wrap, piece)
+                r, rate, v = state((begin + end) / 2 + half * node, piece, wrap)
                 spin = r.T @ rate
-                seconds = half * weight / self.speed
+                seconds = half * weight
                 angular += seconds * np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
                 force -= seconds * (rate.T @ v + r.T @ gravity)
         duration = (end_ns - begin_ns) * 1e-9

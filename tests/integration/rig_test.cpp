@@ -90,6 +90,19 @@ TEST_F(Rig, RangesAndInertialReadingsAreThoseOfAnIndependentComputation) {
   EXPECT_LT(said.at("worst_force").get<double>(), 1e-9) << said;
 }
 
+TEST_F(Rig, ReadingsOnASmoothPathAreThoseOfAnIndependentComputation) {
+  const std::string lidar = "columns = 90\nstep_deg = 4\nrings = 4\n";
+  std::string scenario = office_rig(sized(200, 700), lidar);
+  scenario.insert(scenario.find("speed_m_s"), "smooth = true\n");
+  const RigJson said = look(run(scenario), sized(200, 700), sized(3, 7), sized(2000, 100'000));
+  EXPECT_EQ(said.at("unexplained"), 0) << said;
+  EXPECT_LT(said.at("worst_range_m").get<double>(), 1e-9) << said;
+  EXPECT_GE(said.at("imu_samples").get<int>(), sized(60, 600));
+  EXPECT_GT(said.at("most_angular").get<double>(), 0.5) << "corners are among them";
+  EXPECT_LT(said.at("worst_angular").get<double>(), 1e-9) << said;
+  EXPECT_LT(said.at("worst_force").get<double>(), 1e-9) << said;
+}
+
 /// A lidar on a robot that stands at free places, in a map of Quake and in a building that is a mesh.
 class StandingRig : public Rig {
  protected:

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "map/polyline_corners.hpp"
 #include "map/reader.hpp"
 #include "map_text.hpp"
 #include "support/errors.hpp"
@@ -195,7 +196,7 @@ TEST(RoundedPolyline, AWaypointOnAStraightLineIsPassed) {
 
 TEST(RoundedPolyline, FaultsOfWaypoints) {
   const auto fault = [](const std::vector<Vec3>& waypoints, bool closed, double radius) {
-    const auto found = RoundedPolyline::check(waypoints, closed, radius);
+    const auto found = check_polyline(waypoints, closed, radius);
     return found ? std::to_string(found->waypoint) + " " + found->message : std::string("none");
   };
   EXPECT_EQ(fault(kSquare, true, 5.0), "none");

@@ -125,6 +125,105 @@ TEST(PathMotion, AnObstacleStopsItAtOnce) {
   EXPECT_TRUE(PathMotion(path, 0.0, kPeriod_ns).breaks_in(0, 9'000'000'000).empty());
 }
 
+/// The greatest change of each member of kinematics_at() over a step, in [0, end).
+struct Changes {
+  double velocity = 0.0, acceleration = 0.0, rate = 0.0, slope = 0.0;
+};
+
+Changes changes(const Motion& motion, double end_s, double step_s) {
+  Changes most;
+  Kinematics now = motion.kinematics_at(0, 0.0, Side::kAfter);
+  for (double at = step_s; at < end_s; at += step_s) {
+    const Kinematics next = motion.kinematics_at(0, at, Side::kAfter);
+    most.velocity = std::max(most.velocity, (next.velocity - now.velocity).norm());
+    most.acceleration = std::max(most.acceleration, (next.acceleration - now.acceleration).norm());
+    most.rate = std::max(most.rate, (next.angular_velocity - now.angular_velocity).norm());
+    most.slope = std::max(most.slope, (next.angular_acceleration - now.angular_acceleration).norm());
+    now = next;
+  }
+  return most;
+}
+
+map::Path smooth_ramp(bool closed) {
+  const std::vector<Vec3> waypoints{{0, 0, 0}, {6, 0, 1}, {6, 5, 0}, {-1, 4, 0.5}};
+  return map::Path(map::SmoothPolyline(waypoints, closed, 0.8));
+}
+
+TEST(SmoothPathMotion, DerivativesAreThoseOfThePoses) {
+  const map::Path open = smooth_ramp(false), closed = smooth_ramp(true);
+  expect_exact(compare(SmoothPathMotion(closed, SmoothPace(1.5)), 0, 40'000'000'000, 0.01), 1e-8);
+  expect_exact(compare(SmoothPathMotion(open, SmoothPace(1.5, open.length_m())), 0, 15'000'000'000, 0.01),
+               1e-8);
+  const map::Path eight(
+      map::Lemniscate({.crossing = {1, 2, 3}, .heading = 0.4, .length_m = 20, .rise_m = 2}));
+  expect_exact(compare(SmoothPathMotion(eight, SmoothPace(1.5)), 0, 40'000'000'000, 0.02), 1e-8);
+}
+
+TEST(SmoothPathMotion, NothingJumps) {
+  const map::Path path = smooth_ramp(false);
+  const SmoothPathMotion motion(path, SmoothPace(1.5, path.length_m()));
+  const double end_s = SmoothPace(1.5, path.length_m()).joints_s().back() + 1.0;
+  const Changes coarse = changes(motion, end_s, 1e-3), fine = changes(motion, end_s, 1e-4);
+  EXPECT_LT(fine.velocity, 0.11 * coarse.velocity);
+  EXPECT_LT(fine.acceleration, 0.11 * coarse.acceleration);
+  EXPECT_LT(fine.rate, 0.11 * coarse.rate);
+  EXPECT_LT(fine.slope, 0.15 * coarse.slope);
+  // The same of arcs at constant speed, which jump.
+  const map::Path rounded = ramp_with_corners(false);
+  const PathMotion jumping(rounded, 0.15, kPeriod_ns);
+  EXPECT_GT(changes(jumping, 8.0, 1e-4).acceleration, 0.9 * changes(jumping, 8.0, 1e-3).acceleration);
+}
+
+TEST(SmoothPathMotion, BothSidesOfABreakAreTheSame) {
+  const map::Path path = smooth_ramp(true);
+  const SmoothPathMotion motion(path, SmoothPace(1.5));
+  const std::vector<double> breaks = motion.breaks_in(0, 40'000'000'000);
+  EXPECT_GT(breaks.size(), 10u);
+  EXPECT_TRUE(std::ranges::is_sorted(breaks));
+  for (const double at : breaks) {
+    const Kinematics before = motion.kinematics_at(0, at, Side::kBefore),
+                     after = motion.kinematics_at(0, at, Side::kAfter);
+    EXPECT_LT((before.acceleration - after.acceleration).norm(), 1e-9);
+    EXPECT_LT((before.angular_acceleration - after.angular_acceleration).norm(), 1e-9);
+  }
+}
+
+TEST(SmoothPace, GoesFromRestToRest) {
+  const SmoothPace pace(1.5, 20.0);
+  EXPECT_EQ(pace.at(-1.0).way_m, 0.0);
+  EXPECT_EQ(pace.at(0.0).speed_m_s, 0.0);
+  const double end_s = pace.joints_s().back();
+  EXPECT_NEAR(end_s, 20.0 / 1.5 + 1.875 * 1.5, 1e-12) << "each ramp loses half of its time";
+  EXPECT_EQ(pace.at(end_s + 1.0).way_m, 20.0);
+  EXPECT_EQ(pace.at(end_s + 1.0).speed_m_s, 0.0);
+  double fastest = 0.0, strongest = 0.0, before_m = 0.0;
+  for (double t_s = 0.0; t_s < end_s; t_s += 1e-3) {
+    const SmoothPace::State now = pace.at(t_s);
+    EXPECT_GE(now.way_m, before_m);
+    before_m = now.way_m;
+    fastest = std::max(fastest, now.speed_m_s);
+    strongest = std::max(strongest, std::abs(now.acceleration_m_s2));
+    EXPECT_NEAR(pace.at(pace.time_of(now.way_m)).way_m, now.way_m, 1e-12);
+  }
+  EXPECT_EQ(fastest, 1.5);
+  EXPECT_NEAR(strongest, SmoothPace::kAcceleration_m_s2, 1e-5);
+}
+
+TEST(SmoothPace, IsSlowerOnAShortWay) {
+  const SmoothPace pace(10.0, 3.0);
+  double fastest = 0.0, strongest = 0.0;
+  for (double t_s = 0.0; t_s < 20.0; t_s += 1e-3) {
+    fastest = std::max(fastest, pace.at(t_s).speed_m_s);
+    strongest = std::max(strongest, std::abs(pace.at(t_s).acceleration_m_s2));
+  }
+  EXPECT_NEAR(fastest * fastest, 3.0 / 1.875, 1e-5);
+  EXPECT_NEAR(strongest, 1.0, 1e-5);
+  EXPECT_EQ(pace.at(20.0).way_m, 3.0);
+  EXPECT_EQ(SmoothPace(1.0, 0.0).at(9.0).way_m, 0.0);
+  EXPECT_EQ(SmoothPace(0.0, 5.0).at(9.0).way_m, 0.0);
+  EXPECT_TRUE(SmoothPace(0.0, 5.0).joints_s().empty());
+}
+
 TEST(DrivenMotion, DerivativesAreThoseOfThePoses) {
   DriveWorld driven(driven_text("driven_by = 'plugin'\n",
                                 "kind = 'omnidirectional'\nmax_acceleration_m_s2 = 0.3\n",

@@ -104,6 +104,13 @@ INSTANTIATE_TEST_SUITE_P(
               "one of them"},
         Wrong{"SpeedNegative", robot("path = 'p'\nspeed_m_s = -1"), 5, "robot.speed_m_s", "out of range"},
         Wrong{"LoopStepsZero", robot("path = 'p'\nloop_steps = 0"), 5, "robot.loop_steps", "out of range"},
+        Wrong{"SmoothIsNumber", robot("path = 'p'\nspeed_m_s = 1\nsmooth = 1"), 6, "robot.smooth",
+              "must be true or false"},
+        Wrong{"SmoothWithoutPath", robot("smooth = true"), 4, "robot.smooth", "needs `path`"},
+        Wrong{"SmoothWithDrive",
+              robot("path = 'p'\nspeed_m_s = 1\nsmooth = true\ndriven_by = 'path'\nradius_m = 0.1\nbottom_m "
+                    "= 0\ntop_m = 1\ndrive = {kind = 'tracked'}"),
+              6, "robot.smooth", "without a drive"},
         Wrong{"MisspeltKey", robot("path = 'p'\nspeed_ms = 1"), 5, "robot.speed_ms",
               "did you mean \"speed_m_s\"?"}),
     name_of);

@@ -392,6 +392,30 @@ TEST(Simulator, StandsWhereThePathRunsIntoASolid) {
   EXPECT_GT(step_m * (world.scenario().steps - 1), 2.5) << "it never came to the wall";
 }
 
+TEST(Simulator, ASmoothRobotComesToRestBeforeASolid) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0, .smooth = true};
+  world.scenario().steps = 80;
+  const Simulator simulator(world.scenario(), 1, trace::Backend::kBruteForce);
+  ASSERT_EQ(simulator.problems().size(), 1u);
+  const Vec3 start = simulator.pose_at(0).t;
+  double fastest_m = 0.0;
+  for (std::uint32_t i = 1; i < 80; ++i) {
+    EXPECT_EQ(simulator.pose_at(i).t, simulator.pose_at_time(std::int64_t{i} * 100'000'000).t);
+    fastest_m = std::max(fastest_m, (simulator.pose_at(i).t - simulator.pose_at(i - 1).t).norm());
+  }
+  EXPECT_NEAR((simulator.pose_at(79).t - start).norm(), 1.999, 1e-9);
+  EXPECT_NEAR(fastest_m, 0.1, 0.001);
+  EXPECT_LT((simulator.pose_at(1).t - start).norm(), 1e-4) << "it begins at rest";
+}
+
+TEST(Simulator, ASmoothRobotDoesNotMindASolidThatItDoesNotReach) {
+  World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
+  world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0, .smooth = true};
+  world.scenario().steps = 25;
+  EXPECT_TRUE(Simulator(world.scenario(), 1, trace::Backend::kBruteForce).problems().empty());
+}
+
 TEST(Simulator, ABodyStopsAtItsRadius) {
   World world(test::scenario_text(), test::map_text(test::block(200, 250, -50, 201, 350, 50)));
   world.scenario().robot = {.path = "ahead", .speed_m_s = 1.0, .body = bsp::Cylinder{0.3, -0.2, 0.2}};
