@@ -38,6 +38,7 @@ constexpr std::array kWorld{number("_hallway", 1.0, 1.0, ""),
                             KeySpec{.name = "_hallway_robot", .kind = KeyKind::kFlag, .fallback = "0"},
                             number("_scale", 1e-6, 1e3, "0.03125"),
                             number("_points_per_m2", 0.0, kMostPoints, "0"),
+                            KeySpec{.name = "_materials", .kind = KeyKind::kText},
                             KeySpec{.name = "_point_seed", .kind = KeyKind::kSeed, .fallback = "0"}};
 constexpr std::array kGroup{kOwnPoints};
 constexpr std::array kOrdered{kOrder, kOwnPoints};

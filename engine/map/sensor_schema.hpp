@@ -25,9 +25,9 @@ inline constexpr std::array kSensorKinds{
                "models, edges that are not straight"},
     SensorKind{"bump", "what touches zones of the robot's body", "springs, force, wear"},
     SensorKind{"encoders", "how far the wheels turn, in ticks", "missed ticks, backlash, worn tyres"},
-    SensorKind{"lidar", "ranges of a 2-D or 3-D laser scanner, each at its own time",
-               "light, weather, mirrors, glass but for its drop-outs, crosstalk, quantisation of ranges, "
-               "what moves"},
+    SensorKind{
+        "lidar", "ranges of a 2-D or 3-D laser scanner, each at its own time",
+        "light, weather, mirrors, what is seen through glass, crosstalk, quantisation of ranges, what moves"},
     SensorKind{"imu", "angular velocity and specific force, as means of its intervals",
                "temperature, vibration, flicker noise apart from the walk, the Earth's rotation, bandwidth "
                "beyond the mean"},

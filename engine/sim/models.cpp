@@ -23,6 +23,8 @@ PlacedModels load_models(const map::Document& document, const std::filesystem::p
                              found->second.warnings.end());
     }
     placed.meshes.push_back(mesh::place(found->second, placement));
+    std::vector<std::string>& names = placed.materials.emplace_back();
+    for (const mesh::Material& material : found->second.materials) names.push_back(material.name);
   }
   std::sort(placed.files.begin(), placed.files.end());
   placed.files.erase(std::unique(placed.files.begin(), placed.files.end()), placed.files.end());

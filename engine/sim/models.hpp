@@ -15,9 +15,10 @@ namespace hallway::sim {
 /// The models that a map's `hw_mesh` entities place.
 struct PlacedModels {
   std::vector<mesh::Placement> placements;
-  std::vector<mesh::PlacedMesh> meshes;      ///< of each placement
-  std::vector<std::filesystem::path> files;  ///< all files that were read, sorted, none twice
-  std::vector<std::string> warnings;         ///< of the models, safe to print
+  std::vector<mesh::PlacedMesh> meshes;             ///< of each placement
+  std::vector<std::vector<std::string>> materials;  ///< of each placement: the names of its model's
+  std::vector<std::filesystem::path> files;         ///< all files that were read, sorted, none twice
+  std::vector<std::string> warnings;                ///< of the models, safe to print
 };
 
 /// Loads each model once and places it. Throws Error for a bad entity or a model that cannot be read (load_model()).

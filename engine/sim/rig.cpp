@@ -137,7 +137,7 @@ class Rig::Builder {
         Encoders{sense::EncoderSensor(spec, n, scenario_.seed), std::move(wheels), ways_on_path(n)});
   }
   Device device(const sense::LidarSpec& spec) {
-    if (!rig_.surfaces_) rig_.surfaces_ = std::make_unique<const sense::Surfaces>(rig_.world_.triangles());
+    if (!rig_.surfaces_) rig_.surfaces_ = std::make_unique<const sense::Surfaces>(rig_.world_.surfaces());
     return Device(std::in_place_type<sense::LidarSensor>, in_truth(spec), rig_.world_.scene, *rig_.surfaces_,
                   interval(spec.timing), scenario_.seed, own_body_of(scenario_.robot));
   }

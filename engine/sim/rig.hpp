@@ -39,9 +39,9 @@ struct SensedWorld {
   const sense::MovingLandmarks& moving;
   std::function<sense::WallPlan(double height_m)> walls;  ///< at a height above the world's origin
   std::function<sense::FacePlan()> faces;
-  std::function<trace::TriangleMesh()> triangles;  ///< of the scene
-  Pose T_world_start;                              ///< where the body is at time 0
-  unsigned threads;                                ///< for one reading, at least 1
+  std::function<sense::Surfaces()> surfaces;  ///< of the scene's triangles
+  Pose T_world_start;                         ///< where the body is at time 0
+  unsigned threads;                           ///< for one reading, at least 1
 };
 
 /// The sensors of a robot, with their mounts and clocks. What one of them reads depends on the scenario's seed, its own name and settings, and the robot's

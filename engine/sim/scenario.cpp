@@ -71,6 +71,9 @@ class ScenarioReader {
     read_robot(top);
     read_sensors(top);
     read_clouds(top);
+    if (top.has("material"))
+      scenario_.materials =
+          map::MaterialTable::read(top.table("material"), scenario_.file, scenario_.settings);
     read_events(top);
     scenario_.pipeline = host::read_plugin_tables(path_, root_, scenario_.settings);
     for_each_table(top, root_, "picture", kMaxPictures,

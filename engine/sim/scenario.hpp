@@ -16,6 +16,7 @@
 #include "host/plugin_limits.hpp"
 #include "host/plugin_table.hpp"
 #include "map/document.hpp"
+#include "map/materials.hpp"
 #include "sense/bump_sensor.hpp"
 #include "sense/encoder_sensor.hpp"
 #include "sense/imu_sensor.hpp"
@@ -133,6 +134,7 @@ struct Scenario {
   /// By sensor where it is mounted otherwise in truth: the true sensor's pose in the frame of the one that is told.
   std::map<std::string, Pose> mount_errors{};
   std::vector<CloudSpec> clouds;          ///< in the order of the file
+  map::MaterialTable materials{};         ///< of the scenario alone; those of the map are below it
   std::vector<EventSpec> events;          ///< by time, those of one time in the order of the file
   std::vector<host::StageSpec> pipeline;  ///< in the order of the file
   std::vector<PictureSpec> pictures;

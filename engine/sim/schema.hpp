@@ -8,8 +8,8 @@ namespace hallway::sim {
 
 /// The keys of a scenario's tables. What they mean stands in docs/formats.md.
 inline const std::vector<std::string> kTopKeys{
-    "schema",     "map",   "seed",   "steps", "period_s", "call_timeout_s", "memory_limit_mib",
-    "on_failure", "robot", "sensor", "cloud", "event",    "plugin",         "picture"};
+    "schema", "map",    "seed",  "steps",    "period_s", "call_timeout_s", "memory_limit_mib", "on_failure",
+    "robot",  "sensor", "cloud", "material", "event",    "plugin",         "picture"};
 inline const std::vector<std::string> kRobotKeys{"path",     "speed_m_s", "loop_steps", "smooth",
                                                  "radius_m", "length_m",  "width_m",    "bottom_m",
                                                  "top_m",    "start",     "drive",      "file"};

@@ -25,6 +25,7 @@
 #include "sim/clouds.hpp"
 #include "sim/obstacle.hpp"
 #include "sim/robot_body.hpp"
+#include "sim/scene_surfaces.hpp"
 #include "sim/sensors.hpp"
 
 namespace hallway::sim {
@@ -176,6 +177,8 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
       landmark_index_(make_index(landmarks_.places, world_)) {
   take_map_sensors(scenario_, document_);
   take_drive(scenario_);
+  scenario_.materials.add_below(
+      map::materials_of(document_, scenario.map_file.parent_path(), scenario_.settings));
   rig_ = std::make_unique<const Rig>(scenario_, sensed_world());
   report_brushes(document_, world_.brushes, problems_);
   for (const std::string& warning : models_.warnings) problems_.emplace_back(ErrorCode::kBadInput, warning);
@@ -197,15 +200,20 @@ Simulator::Simulator(const Scenario& scenario, unsigned threads, trace::Backend 
 /// What sensors take from the world.
 SensedWorld Simulator::sensed_world() const {
   const auto wanted = [this](std::size_t polygon) { return is_seen(world_, polygon); };
-  return {
-      .scene = scene_,
-      .landmarks = landmark_index_,
-      .moving = landmarks_.moving,
-      .walls = [this](double height_m) { return walls_at(height_m); },
-      .faces = [this, wanted] { return sense::make_face_plan(world_.partition.surface, wanted); },
-      .triangles = [this] { return sense::make_occluders(world_.partition.surface, triangles_of(models_)); },
-      .T_world_start = start(),
-      .threads = threads_};
+  return {.scene = scene_,
+          .landmarks = landmark_index_,
+          .moving = landmarks_.moving,
+          .walls = [this](double height_m) { return walls_at(height_m); },
+          .faces = [this, wanted] { return sense::make_face_plan(world_.partition.surface, wanted); },
+          .surfaces = [this] { return surfaces(); },
+          .T_world_start = start(),
+          .threads = threads_};
+}
+
+sense::Surfaces Simulator::surfaces() const {
+  const trace::TriangleMesh mesh = sense::make_occluders(world_.partition.surface, triangles_of(models_));
+  if (scenario_.materials.empty()) return sense::Surfaces(mesh);
+  return surfaces_of(mesh, label_scene(world_, models_), scenario_.materials);
 }
 
 sense::WallPlan Simulator::walls_at(double height_m) const {

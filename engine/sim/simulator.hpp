@@ -108,6 +108,7 @@ class Simulator {
   Pose pose_after(double distance_m) const;
   SmoothPace smooth_pace() const;
   SensedWorld sensed_world() const;
+  sense::Surfaces surfaces() const;
   Pose start() const { return driven_world_ ? driven_world_->start() : path_.at(0.0); }
 
   Scenario scenario_;

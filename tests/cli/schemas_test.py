@@ -32,6 +32,7 @@ NO_DOCUMENTS = {  # names in the sources that are none of a JSON document
     "journal/1": "the head of a text file",
     "log/1": "in the metadata of an MCAP log",
     "machine/1": "a profile, TOML",
+    "materials/1": "a table of materials, TOML",
     "robot/1": "a configuration, TOML",
     "scenario/1": "a scenario, TOML",
     "world/2": "the head of a binary cache",
